@@ -124,7 +124,8 @@ ImpulseProblem impulse_problem_of(const FrictionProblem& problem) {
   }
   for (std::size_t c = 0; c < J.size(); ++c) {
     const auto at = static_cast<Index>(c);
-    ImpulseConstraint& law = made.add(ImpulseLaw::coulomb, 3, tree[c], ImpulseConstraint::no_tree);
+    ImpulseConstraint& law =
+        made.add(ConstraintType::coulomb_cone, 3, tree[c], ImpulseConstraint::no_tree);
     law.mu = problem.mu[at];
     for (Index row = 0; row < 3; ++row) {
       law.b[static_cast<std::size_t>(row)] = problem.q[3 * at + row];

@@ -30,8 +30,9 @@ const char* name_of(ThirdRow row) {
 
 }  // namespace
 
-Ledger::Ledger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-               SceneCouplings* couplings, Integrator integrator, bool others_want_inner)
+EnergyBalance::EnergyBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
+                             SceneCouplings* couplings, Integrator integrator,
+                             bool others_want_inner)
     : input_(input),
       wrenches_(wrenches),
       couplings_(couplings),
@@ -42,17 +43,17 @@ Ledger::Ledger(const RobotInput& input, const std::vector<GivenWrench>& wrenches
   power_now_ = powers(start_, Side::after);
 }
 
-void Ledger::find_rows(Integrator integrator, bool others_want_inner) {
+void EnergyBalance::find_rows(Integrator integrator, bool others_want_inner) {
   const Model<double>& model = input_.model;
   const auto& joints = input_.coordinates.all();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!input_.state.has_tau[j]) continue;
     actuators_.push_back({&joints[j], is_rate(joints[j].type)});
     if (!actuators_.back().is_exact)
-      integrals_.push_back({LedgerKind::actuator, "actuator/" + joints[j].name});
+      integrals_.push_back({EnergyRowKind::actuator, "actuator/" + joints[j].name});
   }
   for (std::size_t i = 0; i < wrenches_.size(); ++i)
-    integrals_.push_back({LedgerKind::wrench, "wrench/" + std::to_string(i)});
+    integrals_.push_back({EnergyRowKind::wrench, "wrench/" + std::to_string(i)});
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (model.dofs(i) == 0) continue;
     const std::size_t iv = model.iv[i];  // the dofs of a joint are all alike
@@ -61,13 +62,13 @@ void Ledger::find_rows(Integrator integrator, bool others_want_inner) {
     if (model.coulomb_plus[iv] != 0 || model.coulomb_minus[iv] != 0) rubbing_.push_back(friction);
   }
   for (const Friction& f : damped_)
-    integrals_.push_back({LedgerKind::joint_damping, "joint/" + f.joint + "/damping"});
+    integrals_.push_back({EnergyRowKind::joint_damping, "joint/" + f.joint + "/damping"});
   for (const Friction& f : rubbing_)
-    integrals_.push_back({LedgerKind::joint_friction, "joint/" + f.joint + "/friction"});
+    integrals_.push_back({EnergyRowKind::joint_friction, "joint/" + f.joint + "/friction"});
   for (std::size_t c = 0; c < coupling_count(); ++c)
-    for (const auto& [kind, part] : {std::pair{LedgerKind::coupling_spring, "/spring"},
-                                     std::pair{LedgerKind::coupling_damper, "/damper"},
-                                     std::pair{LedgerKind::coupling_other, "/hand_on_damper"}})
+    for (const auto& [kind, part] : {std::pair{EnergyRowKind::coupling_spring, "/spring"},
+                                     std::pair{EnergyRowKind::coupling_damper, "/damper"},
+                                     std::pair{EnergyRowKind::coupling_other, "/hand_on_damper"}})
       integrals_.push_back({kind, "coupling/" + couplings_->spec(c).name + part});
   implicit_.assign(coupling_count(), 0);
 
@@ -82,7 +83,7 @@ void Ledger::find_rows(Integrator integrator, bool others_want_inner) {
   weights_ = {1.0 / 12, 5.0 / 12, 5.0 / 12, 1.0 / 12};
 }
 
-std::vector<double> Ledger::powers(const State<double>& x, Side side) const {
+std::vector<double> EnergyBalance::powers(const State<double>& x, Side side) const {
   std::vector<double> powers;
   for (const Actuator& actuator : actuators_)
     if (!actuator.is_exact)
@@ -114,11 +115,12 @@ std::vector<double> Ledger::powers(const State<double>& x, Side side) const {
   return powers;
 }
 
-std::span<const double> Ledger::inner_nodes() const {
+std::span<const double> EnergyBalance::inner_nodes() const {
   return nodes_;
 }
 
-void Ledger::add_step(double h, const std::vector<State<double>>& inner, const State<double>& end) {
+void EnergyBalance::add_step(double h, const std::vector<State<double>>& inner,
+                             const State<double>& end) {
   const auto add = [&](const std::vector<double>& power, double weight) {
     for (std::size_t i = 0; i < integrals_.size(); ++i) integrals_[i].work += weight * h * power[i];
   };
@@ -134,7 +136,7 @@ void Ledger::add_step(double h, const std::vector<State<double>>& inner, const S
 }
 
 // (pull h - m* (v' - v)) . (v + v')/2, less what spring and damper have already.
-void Ledger::add_implicit(double h, const State<double>& end) {
+void EnergyBalance::add_implicit(double h, const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count(); ++c) {
     if (couplings_->spec(c).third_row() == ThirdRow::none) continue;
     const double m_star = couplings_->m_star(c);
@@ -148,31 +150,31 @@ void Ledger::add_implicit(double h, const State<double>& end) {
   }
 }
 
-void Ledger::visit_memory(Memory& memory) {
+void EnergyBalance::serialize(StateArchive& memory) {
   for (State<double>* x : {&start_, &now_}) visit_state(memory, input_.model, *x);
-  for (LedgerRow& row : integrals_) memory.visit(row.work);
+  for (EnergyRow& row : integrals_) memory.visit(row.work);
   memory.visit_fixed(implicit_);
   // Found again: a fork's springs pull with another power.
   if (memory.reads()) power_now_ = powers(now_, Side::after);
 }
 
-double Ledger::elastic_energy(std::size_t c, const State<double>& x) const {
+double EnergyBalance::elastic_energy(std::size_t c, const State<double>& x) const {
   forward_kinematics(input_.model, x, k_);
   return 0.5 * couplings_->spec(c).spring.k * couplings_->ends(c, x, k_).offset.squaredNorm();
 }
 
-std::vector<LedgerRow> Ledger::hand() const {
-  std::vector<LedgerRow> rows;
+std::vector<EnergyRow> EnergyBalance::hand() const {
+  std::vector<EnergyRow> rows;
   const std::size_t first = integrals_.size() - 3 * coupling_count();
   for (std::size_t c = 0; c < coupling_count(); ++c)
-    rows.push_back({LedgerKind::coupling_other, couplings_->spec(c).name,
+    rows.push_back({EnergyRowKind::coupling_other, couplings_->spec(c).name,
                     integrals_[first + 3 * c].work + integrals_[first + 3 * c + 2].work});
   return rows;
 }
 
-std::vector<LedgerRow> Ledger::rows() const {
+std::vector<EnergyRow> EnergyBalance::rows() const {
   const Model<double>& model = input_.model;
-  std::vector<LedgerRow> rows{{LedgerKind::gravity, "gravity",
+  std::vector<EnergyRow> rows{{EnergyRowKind::gravity, "gravity",
                                potential_energy(model, start_) - potential_energy(model, now_)}};
   auto integral = integrals_.begin();
   for (const Actuator& actuator : actuators_) {
@@ -184,24 +186,25 @@ std::vector<LedgerRow> Ledger::rows() const {
     std::vector<double> way = coordinates_of(joint, now_);
     for (std::size_t c = 0; c < joint.nq; ++c) way[c] -= start_.q[joint.iq + c];
     rows.push_back(
-        {LedgerKind::actuator, "actuator/" + joint.name, dot(input_.state.tau, joint, way)});
+        {EnergyRowKind::actuator, "actuator/" + joint.name, dot(input_.state.tau, joint, way)});
   }
   const auto couplings = integrals_.end() - static_cast<std::ptrdiff_t>(3 * coupling_count());
   rows.insert(rows.end(), integral, couplings);
   for (std::size_t c = 0; c < coupling_count(); ++c) {
     const auto hand = couplings + static_cast<std::ptrdiff_t>(3 * c), damper = hand + 1;
     const double spring = hand->work - (elastic_energy(c, now_) - elastic_energy(c, start_));
-    rows.push_back({LedgerKind::coupling_spring, hand->name, spring});
+    rows.push_back({EnergyRowKind::coupling_spring, hand->name, spring});
     rows.push_back(*damper);
     const SceneCoupling& spec = couplings_->spec(c);
     if (const ThirdRow third = spec.third_row(); third != ThirdRow::none)
-      rows.push_back(
-          {third == ThirdRow::implicit ? LedgerKind::coupling_implicit : LedgerKind::coupling_other,
-           "coupling/" + spec.name + "/" + name_of(third), implicit_[c] - spring - damper->work});
+      rows.push_back({third == ThirdRow::implicit ? EnergyRowKind::coupling_implicit
+                                                  : EnergyRowKind::coupling_other,
+                      "coupling/" + spec.name + "/" + name_of(third),
+                      implicit_[c] - spring - damper->work});
   }
   double rest = kinetic_energy(model, now_) - kinetic_energy(model, start_);
-  for (const LedgerRow& row : rows) rest -= row.work;
-  rows.push_back({LedgerKind::numerical, kNumericalRow, rest});
+  for (const EnergyRow& row : rows) rest -= row.work;
+  rows.push_back({EnergyRowKind::numerical, kNumericalRow, rest});
   return rows;
 }
 
@@ -211,14 +214,14 @@ constexpr double kGrowth = 1.5, kShare = 0.25;
 constexpr double kBurst = 10, kBurstShare = 0.5, kBurstHeight = 1e3;  // of floor_'s 1e-6 m
 
 // What an ideal element does is in none of these.
-std::vector<LedgerRow> watched(const std::vector<LedgerRow>& rows) {
-  std::vector<LedgerRow> found;
-  for (const LedgerRow& row : rows) switch (row.kind) {
-      case LedgerKind::numerical:
-      case LedgerKind::coupling_implicit:
-      case LedgerKind::constraint_stabilisation:
-      case LedgerKind::contact_stabilisation:
-      case LedgerKind::limit_stabilisation:
+std::vector<EnergyRow> watched(const std::vector<EnergyRow>& rows) {
+  std::vector<EnergyRow> found;
+  for (const EnergyRow& row : rows) switch (row.kind) {
+      case EnergyRowKind::numerical:
+      case EnergyRowKind::coupling_implicit:
+      case EnergyRowKind::constraint_stabilisation:
+      case EnergyRowKind::contact_stabilisation:
+      case EnergyRowKind::limit_stabilisation:
         found.push_back(row);
         break;
       default:
@@ -227,24 +230,24 @@ std::vector<LedgerRow> watched(const std::vector<LedgerRow>& rows) {
   return found;
 }
 
-double work_of(const std::vector<LedgerRow>& rows, const std::string& name) {
-  for (const LedgerRow& row : rows)
+double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
+  for (const EnergyRow& row : rows)
     if (row.name == name) return row.work;
   return 0;
 }
 
 }  // namespace
 
-std::optional<Alarm> LedgerAlarm::look(double t, double kinetic,
-                                       const std::vector<LedgerRow>& rows) {
+std::optional<Alarm> EnergyAlarm::look(double t, double kinetic,
+                                       const std::vector<EnergyRow>& rows) {
   if (is_told_) return std::nullopt;
-  largest_kinetic_ = std::max(largest_kinetic_, kinetic);
-  const std::vector<LedgerRow> now = watched(rows);
+  max_kinetic_ = std::max(max_kinetic_, kinetic);
+  const std::vector<EnergyRow> now = watched(rows);
   long every = 1;
   for (Scale& scale : scales_) {
     if (count_ % every != 0) break;
     std::rotate(scale.marks.begin(), scale.marks.begin() + 1, scale.marks.end());
-    scale.marks.back() = {t, largest_kinetic_, now};
+    scale.marks.back() = {t, max_kinetic_, now};
     ++scale.count;
     std::optional<Alarm> alarm;
     if (scale.count >= 2 && every == 1) alarm = burst(scale);
@@ -259,20 +262,20 @@ std::optional<Alarm> LedgerAlarm::look(double t, double kinetic,
   return std::nullopt;
 }
 
-std::optional<Alarm> LedgerAlarm::burst(const Scale& scale) const {
+std::optional<Alarm> EnergyAlarm::burst(const Scale& scale) const {
   const Mark &before = scale.marks[kMarks - 2], &now = scale.marks.back();
-  const double had = std::max(before.largest_kinetic, kBurstHeight * floor_);
-  for (const LedgerRow& row : now.rows)
+  const double had = std::max(before.max_kinetic, kBurstHeight * floor_);
+  for (const EnergyRow& row : now.rows)
     if (row.work - work_of(before.rows, row.name) > kBurst * had &&
-        row.work > kBurstShare * now.largest_kinetic)
+        row.work > kBurstShare * now.max_kinetic)
       return Alarm{row.name, now.t, row.work, before.t};
   return std::nullopt;
 }
 
-std::optional<Alarm> LedgerAlarm::examine(const Scale& scale) const {
+std::optional<Alarm> EnergyAlarm::examine(const Scale& scale) const {
   const Mark &first = scale.marks.front(), &last = scale.marks.back();
-  const double least = std::max({floor_, first.largest_kinetic, kShare * last.largest_kinetic});
-  for (const LedgerRow& row : last.rows) {
+  const double least = std::max({floor_, first.max_kinetic, kShare * last.max_kinetic});
+  for (const EnergyRow& row : last.rows) {
     if (!(row.work > least)) continue;
     bool grows = true;
     double growth = 0;

@@ -31,11 +31,11 @@
 
 namespace twinarm {
 
-class Ledger {
+class EnergyBalance {
  public:
   // All must outlive it; `couplings` may be null.
-  Ledger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-         SceneCouplings* couplings, Integrator integrator, bool others_want_inner);
+  EnergyBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
+                SceneCouplings* couplings, Integrator integrator, bool others_want_inner);
 
   // Where within a step, as parts of it, the state is asked for besides its ends.
   std::span<const double> inner_nodes() const;
@@ -43,10 +43,10 @@ class Ledger {
   // A step of h from the state of the last call (or the start), by way of inner_nodes().
   void add_step(double h, const std::vector<State<double>>& inner, const State<double>& end);
   const State<double>& now() const { return now_; }
-  std::vector<LedgerRow> rows() const;  // `numerical` last
+  std::vector<EnergyRow> rows() const;  // `numerical` last
   // The sums so far; the rows of another run must be the same.
-  void visit_memory(Memory& memory);
-  std::vector<LedgerRow> hand() const;  // by the names of the couplings
+  void serialize(StateArchive& memory);
+  std::vector<EnergyRow> hand() const;  // by the names of the couplings
 
  private:
   struct Actuator {
@@ -70,7 +70,7 @@ class Ledger {
   std::vector<Friction> damped_, rubbing_;
   SceneCouplings* couplings_;
   // The last three of each coupling: k e . v_K (hand on spring), damper on link, hand on damper.
-  std::vector<LedgerRow> integrals_;
+  std::vector<EnergyRow> integrals_;
   std::vector<double> implicit_;         // work of each coupling's treatment
   std::vector<double> nodes_, weights_;  // inner nodes; weights of all, the ends included
   mutable Kinematics k_;
@@ -99,20 +99,20 @@ struct Alarm {
   double since = 0;  // its windows began then [s]
 };
 
-class LedgerAlarm {
+class EnergyAlarm {
  public:
   static constexpr long kWindow = 16;  // steps
 
-  explicit LedgerAlarm(double weight) : floor_(1e-6 * weight) {}
+  explicit EnergyAlarm(double weight) : floor_(1e-6 * weight) {}
   // After every kWindow steps; the first that alarms, once in all.
-  std::optional<Alarm> look(double t, double kinetic, const std::vector<LedgerRow>& rows);
+  std::optional<Alarm> look(double t, double kinetic, const std::vector<EnergyRow>& rows);
 
  private:
   static constexpr std::size_t kScales = 16, kMarks = 5;
   static constexpr long kCoarser = 2;
   struct Mark {
-    double t = 0, largest_kinetic = 0;
-    std::vector<LedgerRow> rows;
+    double t = 0, max_kinetic = 0;
+    std::vector<EnergyRow> rows;
   };
   struct Scale {
     std::array<Mark, kMarks> marks;  // the last one is the newest
@@ -121,7 +121,7 @@ class LedgerAlarm {
   std::optional<Alarm> burst(const Scale& finest) const;
   std::optional<Alarm> examine(const Scale& scale) const;
 
-  double floor_, largest_kinetic_ = 0;
+  double floor_, max_kinetic_ = 0;
   long count_ = 0;
   bool is_told_ = false;
   std::array<Scale, kScales> scales_;

@@ -2,9 +2,9 @@
 
 namespace twinarm {
 
-MomentumLedger::MomentumLedger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-                               SceneCouplings* couplings, Integrator integrator,
-                               bool locates_events, const Simulation& simulation)
+MomentumBalance::MomentumBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
+                                 SceneCouplings* couplings, Integrator integrator,
+                                 bool locates_events, const Simulation& simulation)
     : input_(input),
       wrenches_(wrenches),
       couplings_(couplings),
@@ -15,7 +15,7 @@ MomentumLedger::MomentumLedger(const RobotInput& input, const std::vector<GivenW
                 : Rule::integral),
       coupling_count_(couplings ? couplings->size() : 0),
       loop_count_(simulation.mechanism().dynamics.bilateral().loops().loops().size()),
-      moved_(bodies_that_forces_move(input.model)),
+      moved_(bodies_with_dofs(input.model)),
       stabilisation_(loop_count_),
       mimics_(input.model.mimics.size()),
       start_(simulation.state()),
@@ -28,7 +28,7 @@ MomentumLedger::MomentumLedger(const RobotInput& input, const std::vector<GivenW
 }
 
 // A free joint transmits nothing, unless something is given that acts along it.
-void MomentumLedger::find_trees() {
+void MomentumBalance::find_trees() {
   const Model<double>& model = input_.model;
   std::vector<char> acts(model.parent.size(), 0);
   const auto& joints = input_.coordinates.all();
@@ -47,18 +47,18 @@ void MomentumLedger::find_trees() {
   }
 }
 
-void MomentumLedger::visit_memory(Memory& memory) {
+void MomentumBalance::serialize(StateArchive& memory) {
   for (auto* sums : {&sums_, &stabilisation_})
-    for (Exchange& sum : *sums) sum.visit_memory(memory);
-  separation_.visit_memory(memory);
-  limit_separation_.visit_memory(memory);
+    for (EnergyMomentum& sum : *sums) sum.serialize(memory);
+  separation_.serialize(memory);
+  limit_separation_.serialize(memory);
   memory.visit_fixed(mimics_);
   for (State<double>* x : {&start_, &now_}) visit_state(memory, input_.model, *x);
 }
 
-void MomentumLedger::add_step(double h, std::span<const double> weights,
-                              const std::vector<State<double>>& inner, const Simulation& after,
-                              bool by_limits) {
+void MomentumBalance::add_step(double h, std::span<const double> weights,
+                               const std::vector<State<double>>& inner, const Simulation& after,
+                               bool by_limits) {
   using Side = SceneCouplings::Side;
   const State<double>& end = after.state();
   if (rule_ == Rule::at_start) {
@@ -79,7 +79,7 @@ void MomentumLedger::add_step(double h, std::span<const double> weights,
       add_given(weight * h, x);
       add_couplings(weight * h, x, side);
       if (trees_.empty() && loop_count_ == 0) return;
-      const Mechanism at = evaluate_at(after, x);
+      const IntegrationState at = evaluate_at(after, x);
       add_loops(weight * h, at, x.qd, 0);
       add_trees(weight * h, at);
     };
@@ -87,9 +87,9 @@ void MomentumLedger::add_step(double h, std::span<const double> weights,
     for (std::size_t s = 0; s < inner.size(); ++s) add(inner[s], weights[s + 1], Side::after);
     add(end, weights.back(), Side::before);
   }
-  const StepAccount& account = *after.mechanism().account;
+  const ConstraintWork& account = *after.mechanism().account;
   if (rule_ != Rule::located)
-    for (const StepAccount::Push& push : account.pushes())
+    for (const ConstraintWork::Push& push : account.pushes())
       for (std::size_t t = 0; t < trees_.size(); ++t)
         sums_[tree(t)] +=
             contents(trees_[t].bodies, push.to) - contents(trees_[t].bodies, push.from);
@@ -102,12 +102,13 @@ void MomentumLedger::add_step(double h, std::span<const double> weights,
   now_ = end;
 }
 
-Exchange MomentumLedger::contents(const std::vector<char>& of, const State<double>& x) const {
-  return contents_of(input_.model, of, x, w_);
+EnergyMomentum MomentumBalance::contents(const std::vector<char>& of,
+                                         const State<double>& x) const {
+  return energy_and_momentum_of(input_.model, of, x, w_);
 }
 
 // Leaves k_ at x.
-void MomentumLedger::add_given(double part, const State<double>& x) {
+void MomentumBalance::add_given(double part, const State<double>& x) {
   const Model<double>& model = input_.model;
   forward_kinematics(model, x, k_);
   const Vector3 g = to_eigen(model.gravity);
@@ -134,7 +135,7 @@ namespace {
 // A linear coupling pulls at a point, one of the world's orientation turns; one at a joint acts
 // between two bodies.
 void add_pull(double part, const SceneCoupling& spec, const Vector3& pull, const Kinematics& k,
-              Exchange& sum) {
+              EnergyMomentum& sum) {
   if (!spec.is_external()) return;
   if (spec.type == CouplingDescription::Type::linear)
     sum.add_wrench(part, k.position(spec.spring.body, spec.spring.p_L), pull, Vector3::Zero());
@@ -145,7 +146,8 @@ void add_pull(double part, const SceneCoupling& spec, const Vector3& pull, const
 }  // namespace
 
 // k_ is at x.
-void MomentumLedger::add_couplings(double part, const State<double>& x, SceneCouplings::Side side) {
+void MomentumBalance::add_couplings(double part, const State<double>& x,
+                                    SceneCouplings::Side side) {
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     if (spec.rate > 0 || spec.printed || spec.third_row() == SceneCoupling::ThirdRow::drive) {
@@ -161,7 +163,7 @@ void MomentumLedger::add_couplings(double part, const State<double>& x, SceneCou
 }
 
 // What the step took: the pull at its start, less m* times the change of the link's velocity.
-void MomentumLedger::add_pulls(double h, const State<double>& at, const State<double>& end) {
+void MomentumBalance::add_pulls(double h, const State<double>& at, const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     Vector3 impulse = h * couplings_->pull(c);
@@ -177,9 +179,9 @@ void MomentumLedger::add_pulls(double h, const State<double>& at, const State<do
 }
 
 // `qd` at the start; over a step of h velocities change by h qdd.
-void MomentumLedger::add_loops(double part, const Mechanism& at, const std::vector<double>& qd,
-                               double h) {
-  const BilateralForces& bilateral = at.dynamics.bilateral();
+void MomentumBalance::add_loops(double part, const IntegrationState& at,
+                                const std::vector<double>& qd, double h) {
+  const ConstraintForceSolver& bilateral = at.dynamics.bilateral();
   const LoopClosures& loops = bilateral.loops();
   if (loop_count_ == 0) return;
   std::vector<double> lambda(loops.rows(), 0);
@@ -199,7 +201,7 @@ void MomentumLedger::add_loops(double part, const Mechanism& at, const std::vect
 }
 
 // k_ has the poses of what `at` evaluated last.
-void MomentumLedger::add_trees(double part, const Mechanism& at) {
+void MomentumBalance::add_trees(double part, const IntegrationState& at) {
   const Model<double>& model = input_.model;
   const Workspace<double>& w = at.w;
   for (std::size_t t = 0; t < trees_.size(); ++t)
@@ -211,13 +213,14 @@ void MomentumLedger::add_trees(double part, const Mechanism& at) {
     }
 }
 
-void MomentumLedger::add_impacts(const Simulation& after) {
+void MomentumBalance::add_impacts(const Simulation& after) {
   if (trees_.empty() || !after.has_constrained_steps() || after.constraints().report().impacts == 0)
     return;
   State<double> then = now_;
   then.qd = after.constraints().velocities_after_impacts();
   for (std::size_t t = 0; t < trees_.size(); ++t) {
-    const Exchange change = contents(trees_[t].bodies, then) - contents(trees_[t].bodies, now_);
+    const EnergyMomentum change =
+        contents(trees_[t].bodies, then) - contents(trees_[t].bodies, now_);
     sums_[tree(t)].impulse += change.impulse;
     sums_[tree(t)].moment += change.moment;
   }

@@ -28,18 +28,18 @@
 namespace twinarm {
 
 struct MomentumRow {
-  LedgerKind kind = LedgerKind::earlier;
+  EnergyRowKind kind = EnergyRowKind::earlier;
   std::string name;
   Vector3 linear = Vector3::Zero();   // [N s]
   Vector3 angular = Vector3::Zero();  // [N m s]
 };
 
-class MomentumLedger {
+class MomentumBalance {
  public:
   // All must outlive it; `couplings` may be null. `simulation` keeps an account.
-  MomentumLedger(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
-                 SceneCouplings* couplings, Integrator integrator, bool locates_events,
-                 const Simulation& simulation);
+  MomentumBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
+                  SceneCouplings* couplings, Integrator integrator, bool locates_events,
+                  const Simulation& simulation);
 
   // Whether forces at inner states are of use, and with which weights, the ends included.
   bool wants_inner() const { return rule_ == Rule::integral; }
@@ -47,12 +47,12 @@ class MomentumLedger {
   // `by_limits`: SceneContacts::only_limits_were_passed().
   void add_step(double h, std::span<const double> weights, const std::vector<State<double>>& inner,
                 const Simulation& after, bool by_limits);
-  void visit_memory(Memory& memory);
+  void serialize(StateArchive& memory);
 
   // Of the energy ledger: `constraint/NAME`, `constraint/NAME/stabilisation`, `joint/NAME/mimic`,
   // `contact/stabilisation`; of joint limits `joint/NAME/limit/stabilisation`, of several limits
   // `joint/limits/stabilisation`. `contacts` may be null.
-  std::vector<LedgerRow> energy_rows(const Simulation& simulation,
+  std::vector<EnergyRow> energy_rows(const Simulation& simulation,
                                      const SceneContacts* contacts) const;
   // `numerical` last. `contacts` and `outside` may be null.
   std::vector<MomentumRow> rows(const Simulation& simulation, const SceneContacts* contacts,
@@ -75,12 +75,12 @@ class MomentumLedger {
   void add_given(double part, const State<double>& x);
   void add_couplings(double part, const State<double>& x, SceneCouplings::Side side);
   void add_pulls(double h, const State<double>& at, const State<double>& end);
-  void add_loops(double part, const Mechanism& at, const std::vector<double>& qd, double h);
-  void add_trees(double part, const Mechanism& at);
+  void add_loops(double part, const IntegrationState& at, const std::vector<double>& qd, double h);
+  void add_trees(double part, const IntegrationState& at);
   void add_impacts(const Simulation& after);
-  Exchange contents(const std::vector<char>& of, const State<double>& x) const;
-  void subtract_from_trees(const Exchange& e, int body, double sign,
-                           std::vector<Exchange>& of_trees) const;
+  EnergyMomentum contents(const std::vector<char>& of, const State<double>& x) const;
+  void subtract_from_trees(const EnergyMomentum& e, int body, double sign,
+                           std::vector<EnergyMomentum>& of_trees) const;
 
   const RobotInput& input_;
   const std::vector<GivenWrench>& wrenches_;
@@ -90,10 +90,11 @@ class MomentumLedger {
   std::size_t coupling_count_, loop_count_;
   std::vector<char> moved_;
   std::vector<Tree> trees_;
-  std::vector<Exchange> sums_;  // by the places above
-  std::vector<Exchange> stabilisation_;
+  std::vector<EnergyMomentum> sums_;  // by the places above
+  std::vector<EnergyMomentum> stabilisation_;
   std::vector<double> mimics_;
-  Exchange separation_, limit_separation_;  // of contacts; in steps where only limits were passed
+  EnergyMomentum separation_,
+      limit_separation_;  // of contacts; in steps where only limits were passed
   State<double> start_, now_;
   Kinematics k_, k_end_;
   mutable Workspace<double> w_;

@@ -105,7 +105,7 @@ std::string command_line(const CompareOptions& options) {
 
 int run_compare(const CompareOptions& options) {
   constexpr int kFellShort = 1;
-  FaultList faults;
+  DiagnosticList faults;
   const CaseSelection selection = select_cases(options.cases, options.group, faults);
   const std::vector<Lane> lanes = read_lanes(options.integrators, options.steps, faults);
   std::filesystem::path page;

@@ -74,19 +74,20 @@ void add_options(CLI::App& command, CouplingGainsOptions& options) {
   add_json_option(command, options.json);
 }
 
-void check_positive(const std::string& option, double value, FaultList& faults) {
+void check_positive(const std::string& option, double value, DiagnosticList& faults) {
   if (value > 0 && std::isfinite(value)) return;
   faults.add(
       {"", 0, option, "must be positive, is " + number_text(value), "", "option.not-positive"});
 }
-void check_not_negative(const std::string& option, double value, FaultList& faults) {
+void check_not_negative(const std::string& option, double value, DiagnosticList& faults) {
   if (value >= 0 && std::isfinite(value)) return;
   faults.add(
       {"", 0, option, "must not be negative, is " + number_text(value), "", "option.negative"});
 }
 
 // "joint1=1,joint2=-0.5"
-std::vector<std::pair<std::string, double>> read_along(const std::string& text, FaultList& faults) {
+std::vector<std::pair<std::string, double>> read_along(const std::string& text,
+                                                       DiagnosticList& faults) {
   std::vector<std::pair<std::string, double>> parts;
   std::istringstream all(text);
   for (std::string one; std::getline(all, one, ',');) {
@@ -105,7 +106,7 @@ std::vector<std::pair<std::string, double>> read_along(const std::string& text, 
 
 // A scene that has couplings, and its step; `scene` in place of a file.
 SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<double>& step,
-                               const std::string& integrator, FaultList& faults,
+                               const std::string& integrator, DiagnosticList& faults,
                                std::optional<Value> scene = {}) {
   if (robot.model.extension() != ".toml" && !scene)
     faults.add({robot.model.string(), 0, "", "is no scene, and only a scene has couplings",
@@ -129,7 +130,7 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
 
 // The tree that such a scene file would have, of one robot and one coupling; its values are checked
 // where scenes are read.
-Value scene_of_options(const CouplingPredictOptions& options, FaultList& faults) {
+Value scene_of_options(const CouplingPredictOptions& options, DiagnosticList& faults) {
   Value robot, coupling, scene;
   robot.put("name", Value::of("robot"));
   robot.put("model", Value::of(std::filesystem::absolute(options.robot.model).string()));
@@ -153,7 +154,7 @@ Value scene_of_options(const CouplingPredictOptions& options, FaultList& faults)
 }
 
 int run_coupling_predict(const CouplingPredictOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   check_positive("--turn", options.turn, faults);
   check_positive("--time", options.time, faults);
   if (options.wall) check_positive("--wall", *options.wall, faults);
@@ -182,7 +183,7 @@ struct GivenGains {
   MujocoImpedance impedance;
 };
 
-GivenGains read_given_gains(const CouplingGainsOptions& options, FaultList& faults) {
+GivenGains read_given_gains(const CouplingGainsOptions& options, DiagnosticList& faults) {
   GivenGains asked;
   if (options.frequency.has_value() != options.damping_ratio.has_value()) {
     faults.add({"", 0, "--frequency, --damping-ratio", "go together", "give both, or neither",
@@ -216,7 +217,7 @@ GivenGains read_given_gains(const CouplingGainsOptions& options, FaultList& faul
 
 // Without a scene: an inertia, and gains in one of four ways.
 Equivalents bare_equivalents(const CouplingGainsOptions& options, const GivenGains& asked,
-                             FaultList& faults) {
+                             DiagnosticList& faults) {
   const int ways = (options.stiffness ? 1 : 0) + (asked.response ? 1 : 0) + (asked.solref ? 1 : 0);
   if (!options.inertia)
     faults.add({"", 0, "--inertia", "is needed where there is no scene",
@@ -238,7 +239,7 @@ Equivalents bare_equivalents(const CouplingGainsOptions& options, const GivenGai
 }
 
 int run_coupling_gains(const CouplingGainsOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   const GivenGains asked = read_given_gains(options, faults);
   std::vector<Equivalents> all;
   double step = 0.001;

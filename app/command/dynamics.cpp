@@ -140,7 +140,7 @@ void add_options(CLI::App& command, DynamicsOptions& options) {
 }
 
 // The number of the state that is furthest from 1: where results overflow it mostly is behind it.
-std::string largest_input(const RobotInput& input) {
+std::string max_input(const RobotInput& input) {
   std::string name = "gravity";
   double largest = to_eigen(input.model.gravity).lpNorm<Eigen::Infinity>();
   const auto look = [&](const std::string& of, double value) {
@@ -180,7 +180,7 @@ void check_finite(const std::string& file, const RobotInput& input, const Dynami
   if (names.empty()) return;
   const std::string first = d.first_bad.empty() ? "" : "; the first is " + d.first_bad;
   throw InputError({{file, 0, "", "not finite in this state: " + names + first,
-                     "the largest number that was given is " + largest_input(input) +
+                     "the largest number that was given is " + max_input(input) +
                          ": give numbers whose squares and products stay below 1e308",
                      "state.not-finite"}});
 }

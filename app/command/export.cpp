@@ -177,7 +177,7 @@ void add_options(CLI::App& command, ExportOptions& options) {
 
 // Throws InputError with all faults of the options.
 int export_page(const ExportOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   if (options.csv)
     faults.add({"", 0, "--csv", "prints on stdout, and a page is asked for", "give one of them",
                 "option.conflict"});

@@ -63,7 +63,7 @@ void add_options(CLI::App& command, HandOptions& options) {
   add_json_option(command, options.json);
 }
 
-MappingSpec mapping_of(const HandOptions& options, FaultList& faults) {
+MappingSpec mapping_of(const HandOptions& options, DiagnosticList& faults) {
   MappingSpec spec;
   const auto found = std::ranges::find(kMappingNames, options.mapping);
   if (found == kMappingNames.end())
@@ -76,21 +76,21 @@ MappingSpec mapping_of(const HandOptions& options, FaultList& faults) {
   return spec;
 }
 
-void gather(const TickView& view, double step, LiveSummary& summary) {
+void gather(const TickResult& view, double step, LiveSummary& summary) {
   ++summary.ticks;
-  summary.held += view.mode == HandWatch::Mode::held ? 1 : 0;
-  summary.released += view.mode == HandWatch::Mode::released ? 1 : 0;
+  summary.held += view.mode == DeviceWatchdog::Mode::held ? 1 : 0;
+  summary.released += view.mode == DeviceWatchdog::Mode::released ? 1 : 0;
   for (std::size_t j = 0; j < summary.joints.size(); ++j) {
     const double error = std::abs(view.error[j]);
-    summary.largest_error[j] = std::max(summary.largest_error[j], error);
+    summary.max_error[j] = std::max(summary.max_error[j], error);
     summary.sum_error[j] += error;
   }
   for (std::size_t j = 0; j < 3; ++j)
-    summary.largest_torque[j] = std::max(summary.largest_torque[j], std::abs(view.felt[j]));
+    summary.max_torque[j] = std::max(summary.max_torque[j], std::abs(view.felt[j]));
   summary.duration = view.hand.t + step;
 }
 
-SceneModel scene_of(const HandOptions& options, FaultList& faults) {
+SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
   if (options.scene.extension() != ".toml")
     faults.add({options.scene.string(), 0, "scene", "it is no scene",
                 "give a TOML file with couplings whose target is \"device\"", "file.no-scene"});
@@ -114,8 +114,8 @@ void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummar
   std::atomic<bool> stop{false};
   Progress progress(options.json || isatty(STDERR_FILENO) == 0);
   progress.stage("hand", 1);
-  summary.servo = run_servo(run, plan, stop, [&](SpscRing<TickView>& ring) {
-    for (TickView view; ring.pop(view);) {
+  summary.servo = run_servo(run, plan, stop, [&](SpscRing<TickResult>& ring) {
+    for (TickResult view; ring.pop(view);) {
       gather(view, run.step(), summary);
       log.write(view.hand);
     }
@@ -136,7 +136,7 @@ int run_hand(const HandOptions& options) {
     fmt::print("{}", device_list());
     return 0;
   }
-  FaultList faults;
+  DiagnosticList faults;
   LiveOptions live;
   live.mapping = mapping_of(options, faults);
   live.step = options.step.value_or(0);
@@ -151,9 +151,9 @@ int run_hand(const HandOptions& options) {
   summary.scene = options.scene.string();
   summary.device = device->description();
   summary.mapping = options.mapping;
-  summary.felt = run.mapping().what_is_felt();
+  summary.felt = run.mapping().force_feedback_description();
   summary.joints = scene.couplings[run.leader()].driven.turned;
-  summary.largest_error.assign(summary.joints.size(), 0);
+  summary.max_error.assign(summary.joints.size(), 0);
   summary.sum_error.assign(summary.joints.size(), 0);
   summary.step = run.step();
   summary.real_time = !options.simulated;

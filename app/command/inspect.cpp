@@ -47,7 +47,7 @@ std::string title_of(const RobotInput& input, const Inspection& in, const std::s
 }
 
 // Options that have no meaning for what is inspected.
-void check_useless(const InspectOptions& options, bool is_recorded, FaultList& faults) {
+void check_useless(const InspectOptions& options, bool is_recorded, DiagnosticList& faults) {
   if (options.at && !is_recorded)
     faults.add({"", 0, "--at", "is for a recording", "give one, or --state", "option.useless"});
   if (options.step && is_recorded)
@@ -67,7 +67,7 @@ struct Reading {
 
 // Throws all faults of options and files together.
 Reading read_all(const InspectOptions& options, bool is_recorded) {
-  FaultList faults;
+  DiagnosticList faults;
   InspectView view;
   read_passes(options, view, faults);
   if (!options.html.empty()) check_place(options.html, faults);
@@ -119,7 +119,7 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
                         : file.empty() ? "at its start, no state file"
                                        : "state " + file);
   if (!options.html.empty()) {
-    const InspectedWords words{input.robot.robot.name, view.title, typed};
+    const InspectedJson words{input.robot.robot.name, view.title, typed};
     write_whole_file(options.html,
                      inspect_page(input, inspected.x, inspect_json(in, view, checks), words));
   }

@@ -124,9 +124,8 @@ class Lab {
         session_(build(first_order(options, gallery_)), gallery_,
                  static_cast<std::size_t>(options.remember) << 20),
         painter_(session_, audience_, gallery_,
-                 [this](ClientId client, LabPainter::Channel channel, Bytes bytes, bool binary) {
-                   server_->send(client, channel, std::move(bytes), binary);
-                 }),
+                 [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes,
+                        bool binary) { server_->send(client, channel, std::move(bytes), binary); }),
         routes_(session_, painter_, audience_, gallery_, std::string(web_bundle().lab),
                 std::string(web_bundle().missing)) {
     ServerOptions server;
@@ -192,16 +191,16 @@ class Lab {
       }
       painter_.look_again();
     } catch (const InputError& error) {
-      for (const Fault& fault : error.faults()) session_.note("error", to_string(fault));
+      for (const Diagnostic& fault : error.faults()) session_.note("error", to_string(fault));
     }
   }
 
   std::vector<GalleryScene> gallery_;
   bool is_private_;  // no other machine is let in
-  Audience audience_;
+  Clients audience_;
   std::unique_ptr<LabServer> server_;  // ends last: the others post to it
   LabSession session_;
-  LabPainter painter_;
+  MessageStreamer painter_;
   LabRoutes routes_;
 };
 

@@ -59,7 +59,7 @@ bool is_there(const std::filesystem::path& file) {
 
 // Before anything is computed: nothing is overwritten, and all can be written.
 void check_output(const char* option, const std::filesystem::path& file, const char* extension,
-                  bool force, FaultList& faults) {
+                  bool force, DiagnosticList& faults) {
   if (file.empty()) return;
   if (*extension && file.extension() != extension)
     faults.add({file.string(), 0, option, std::string("writes a file that ends in ") + extension,
@@ -79,7 +79,7 @@ bool is_part(const MapOptions& options) {
   return options.tiles != 0 || options.tile != -1;
 }
 
-void check_modes(const MapOptions& options, FaultList& faults) {
+void check_modes(const MapOptions& options, DiagnosticList& faults) {
   const bool part = is_part(options);
   if (part && (options.tiles < 1 || options.tile < 0 || options.tile >= options.tiles))
     faults.add({"", 0, "--tiles, --tile",
@@ -101,7 +101,7 @@ void check_modes(const MapOptions& options, FaultList& faults) {
                 "give --cell IX,IY --record FILE together", "map.cell-options"});
 }
 
-void check_outputs(const MapOptions& options, FaultList& faults) {
+void check_outputs(const MapOptions& options, DiagnosticList& faults) {
   check_output("--svg", options.svg, ".svg", options.force, faults);
   check_output("--png", options.png, ".png", options.force, faults);
   check_output("--csv", options.csv, ".csv", options.force, faults);
@@ -250,7 +250,7 @@ int compute(const MapOptions& options, const MapJob& job) {
 }
 
 int run_map(const MapOptions& given) {
-  FaultList faults;
+  DiagnosticList faults;
   check_modes(given, faults);
   check_outputs(given, faults);
   faults.check();

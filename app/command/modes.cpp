@@ -21,7 +21,7 @@ void add_options(CLI::App& command, ModesOptions& options) {
 }
 
 int run_modes(const ModesOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   SimulateOptions simulate;
   simulate.robot = options.robot;
   simulate.duration = 1;

@@ -77,7 +77,7 @@ struct RenderPlan {
   double rate = 30;  // pictures per second of the film
 };
 
-constexpr int kMostPixels = 8192;  // along a side
+constexpr int kMaxPixels = 8192;  // along a side
 
 bool parse_size(const std::string& text, RenderPlan& plan) {
   const auto cross = text.find('x');
@@ -85,7 +85,7 @@ bool parse_size(const std::string& text, RenderPlan& plan) {
   const auto width = parse_number(text.substr(0, cross));
   const auto height = parse_number(text.substr(cross + 1));
   const auto fits = [](const std::optional<double>& n) {
-    return n && *n >= 16 && *n <= kMostPixels && *n == std::floor(*n);
+    return n && *n >= 16 && *n <= kMaxPixels && *n == std::floor(*n);
   };
   if (!fits(width) || !fits(height)) return false;
   plan.picture.width = static_cast<int>(*width);
@@ -95,7 +95,7 @@ bool parse_size(const std::string& text, RenderPlan& plan) {
 
 template <class T>
 void choose_word(const char* option, const std::string& word, const std::vector<std::string>& names,
-                 const std::vector<T>& values, T& chosen, FaultList& faults) {
+                 const std::vector<T>& values, T& chosen, DiagnosticList& faults) {
   const auto found = std::ranges::find(names, word);
   if (found != names.end())
     chosen = values[static_cast<std::size_t>(found - names.begin())];
@@ -106,7 +106,7 @@ void choose_word(const char* option, const std::string& word, const std::vector<
 
 // A film under the name of a picture, or the other way about, is a slip.
 void check_kind(const char* option, const std::filesystem::path& file, const std::string& own,
-                FaultList& faults) {
+                DiagnosticList& faults) {
   static const std::vector<std::string> others{".png", ".jpg", ".jpeg", ".svg", ".pdf",
                                                ".gif", ".mp4", ".webm", ".avi", ".html"};
   const std::string kind = file.extension().string();
@@ -115,7 +115,7 @@ void check_kind(const char* option, const std::filesystem::path& file, const std
                 "let its name end in " + own, "file.ending"});
 }
 
-void check_outputs(const RenderOptions& options, RenderPlan& plan, FaultList& faults) {
+void check_outputs(const RenderOptions& options, RenderPlan& plan, DiagnosticList& faults) {
   int outputs = 0;
   for (const auto* file : {&options.png, &options.frames, &options.mp4, &options.gif})
     outputs += file->empty() ? 0 : 1;
@@ -141,12 +141,12 @@ void check_outputs(const RenderOptions& options, RenderPlan& plan, FaultList& fa
 }
 
 RenderPlan read_render_options(const RenderOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   RenderPlan plan;
   check_outputs(options, plan, faults);
   if (!parse_size(options.size, plan))
     faults.add({"", 0, "--size", "'" + options.size + "' is no size",
-                fmt::format("give WIDTHxHEIGHT, each from 16 to {} pixels", kMostPixels),
+                fmt::format("give WIDTHxHEIGHT, each from 16 to {} pixels", kMaxPixels),
                 "option.form"});
   choose_word<Quality>("--quality", options.quality, {"draft", "normal", "studio"},
                        {Quality::draft, Quality::normal, Quality::studio}, plan.picture.quality,

@@ -48,7 +48,7 @@ void write_branch(JsonWriter& json, const char* name, const Recording& recording
   json.object({{"name", name}, {"t", times}, {"values", [&] { json.object(write_values); }}});
 }
 
-void write_ledgers(JsonWriter& json, const ComparedLedgers& ledgers) {
+void write_ledgers(JsonWriter& json, const ComparedBalances& ledgers) {
   const auto write_rows = [&](const auto& rows) {
     return [&] {
       for (const auto& row : rows)

@@ -59,8 +59,8 @@ void add_options(CLI::App& command, StudyOptions& options) {
 
 // What a device does for as long as the synthetic hand would; kept as OUT/hand.csv, which can be
 // given as a trace from then on.
-std::unique_ptr<HandSource> hand_of_device(const StudyOptions& options,
-                                           const StudySettings& settings) {
+std::unique_ptr<OperatorMotion> hand_of_device(const StudyOptions& options,
+                                               const StudySettings& settings) {
   const std::unique_ptr<HandDevice> device = open_device(options.device);
   const bool real_time = !options.device.starts_with("virtual");
   make_folder(options.out);
@@ -79,7 +79,8 @@ bool is_device(const StudyOptions& options) {
   return !options.device.empty() && options.device != "synthetic" && options.device != "trace";
 }
 
-std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySettings& settings) {
+std::unique_ptr<OperatorMotion> make_hand(const StudyOptions& options,
+                                          const StudySettings& settings) {
   if (options.device == "trace" && options.trace.empty())
     throw InputError(
         {{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv", "option.missing"}});
@@ -99,7 +100,7 @@ std::unique_ptr<HandSource> make_hand(const StudyOptions& options, const StudySe
 }
 
 SceneHand scene_hand(const StudyOptions& options, const StudySettings& settings,
-                     const HandSource& hand) {
+                     const OperatorMotion& hand) {
   if (!options.trace.empty()) return traced_hand(hand, options.trace);
   if (is_device(options)) return traced_hand(hand, options.out / "hand.csv");
   return synthetic_hand(hand, options.seed.value_or(settings.seed));
@@ -125,8 +126,9 @@ void fill_search_table(const StudySettings& settings, StudyResults& results) {
   }
 }
 
-StudyResults compute(const StudyOptions& options, const StudyInputs& inputs, const HandSource& hand,
-                     const Calibration& calibration, Progress& progress) {
+StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
+                     const OperatorMotion& hand, const Calibration& calibration,
+                     Progress& progress) {
   StudyResults results;
   results.calibration = calibration;
   results.hand_description = hand.description();
@@ -195,9 +197,9 @@ int run_study(const StudyOptions& options) {
   }
   const std::filesystem::path calibration_file = assets / "study" / "calibration.json";
   StudyInputs inputs;
-  std::unique_ptr<HandSource> hand;
+  std::unique_ptr<OperatorMotion> hand;
   Calibration calibration;
-  FaultList faults;  // of all inputs, told together, before anything is made
+  DiagnosticList faults;  // of all inputs, told together, before anything is made
   const auto attempt = [&](const auto& load) {
     try {
       load();

@@ -64,7 +64,7 @@ const std::vector<std::string> kConditions{"torsional", "linear", "kinematic"};
 const std::vector<std::string> kTasks{"free", "pick-and-place"};
 
 std::vector<std::string> chosen(const std::string& text, const std::vector<std::string>& known,
-                                const char* option, FaultList& faults) {
+                                const char* option, DiagnosticList& faults) {
   std::vector<std::string> all;
   std::stringstream words(text);
   for (std::string word; std::getline(words, word, ',');) {
@@ -79,7 +79,7 @@ std::vector<std::string> chosen(const std::string& text, const std::vector<std::
   return all;
 }
 
-MappingKind mapping_kind(const std::string& name, FaultList& faults) {
+MappingKind mapping_kind(const std::string& name, DiagnosticList& faults) {
   if (name == "paper") return MappingKind::paper;
   if (name == "arm") return MappingKind::arm;
   faults.add({"", 0, "--mapping", "'" + name + "' is none for a trial", "give paper or arm",
@@ -192,7 +192,7 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
 }
 
 int run_trial(const TrialOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   const auto names = chosen(options.conditions, kConditions, "--conditions", faults);
   const auto tasks = chosen(options.tasks, kTasks, "--tasks", faults);
   MappingSpec mapping;

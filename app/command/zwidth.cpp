@@ -48,7 +48,7 @@ void add_options(CLI::App& command, ZwidthOptions& options) {
   add_json_option(command, options.json);
 }
 
-void check(const ZwidthOptions& options, FaultList& faults) {
+void check(const ZwidthOptions& options, DiagnosticList& faults) {
   const auto number = [&](const char* name, double value, bool positive) {
     if (std::isfinite(value) && (positive ? value > 0 : value >= 0)) return;
     faults.add({"", 0, name,
@@ -80,7 +80,7 @@ void check(const ZwidthOptions& options, FaultList& faults) {
 }
 
 int run_zwidth(const ZwidthOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   check(options, faults);
   faults.check();
   if (!options.svg.empty() || !options.png.empty()) require_gnuplot();

@@ -31,7 +31,7 @@ void for_each_name(F&& f) {
 }  // namespace
 
 CaseSelection select_cases(const std::vector<std::string>& names, const std::string& group,
-                           FaultList& faults) {
+                           DiagnosticList& faults) {
   std::vector<std::string> known, groups;
   for_each_name([&](const char* name, const char* of) {
     known.push_back(name);
@@ -65,7 +65,7 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
 }
 
 std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
-                             const std::vector<double>& steps, FaultList& faults) {
+                             const std::vector<double>& steps, DiagnosticList& faults) {
   std::vector<std::string> known;
   for (const IntegratorFacts& facts : all_integrators) known.push_back(facts.name);
   std::vector<Integrator> found;

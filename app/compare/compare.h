@@ -33,12 +33,12 @@ struct CaseSelection {
 // "E1" also stands for all that begin with "E1-", "E" for E1, E2 .., and a name may be a group's.
 // All names that nothing has are faults.
 CaseSelection select_cases(const std::vector<std::string>& names, const std::string& group,
-                           FaultList& faults);
+                           DiagnosticList& faults);
 
 // Every integrator with every step; rk4 and 1 ms where only one of them is given; dopri5 once, with
 // a tolerance of 1e-10. All that are no integrators or steps are faults.
 std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
-                             const std::vector<double>& steps, FaultList& faults);
+                             const std::vector<double>& steps, DiagnosticList& faults);
 std::string lane_name(const Lane& lane);  // "rk4 0.001"
 
 // A case is judged in its own lane; the others are beside it.

@@ -49,9 +49,9 @@ std::string one_table(const Equivalents& e, double step) {
                            cell(e.radius))});
   if (e.solref)
     table.add({"MuJoCo solref", fmt::format("{} {}", cell(e.solref->first), cell(e.solref->second)),
-               e.solref->first < shortest_timeconst(step)
+               e.solref->first < min_timeconst(step)
                    ? fmt::format("timeconst dampratio; its floor at this step: {} s",
-                                 cell(shortest_timeconst(step)))
+                                 cell(min_timeconst(step)))
                    : "timeconst [s], dampratio"});
   if (e.direct)
     table.add({"MuJoCo solref", fmt::format("{} {}", cell(e.direct->first), cell(e.direct->second)),
@@ -124,7 +124,7 @@ std::vector<Equivalents> scene_equivalents(SimulateInput& input,
     const SceneCoupling& spec = input.couplings->spec(c);
     if (!(coupling.gains.k > 0)) continue;  // no spring: a god object, a damper, half of a weld
     // A weld has an inertia of its own: the spring that swings as it does is softer.
-    const double inertia = posed.felt_inertia(c), d = spec.reference.impedance;
+    const double inertia = posed.apparent_inertia(c), d = spec.reference.impedance;
     const double part = inertia / (inertia + coupling.felt_mass);
     Equivalents found = equivalents_of({part * coupling.gains.k, part * coupling.gains.b}, inertia,
                                        coupling.felt_mass > 0 ? MujocoImpedance{d, d} : impedance);

@@ -16,7 +16,7 @@ namespace {
 std::string kind_of(const SceneCoupling& spec) {
   const char* law = facts_of(spec.law, spec.printed).name;
   if (spec.type == CouplingDescription::Type::linear) return law;
-  return std::string(law) + (spec.measure == Measure::world ? ", world" : ", joint");
+  return std::string(law) + (spec.measure == SpringSpace::world ? ", world" : ", joint");
 }
 
 // That a weld adds to its link, at its point; of its couple in place of an inertia.
@@ -59,7 +59,7 @@ MatrixXd PosedCouplings::jacobian(std::size_t c) const {
         spec.law == CouplingSpec::Type::matched ? input_.couplings->target(c, x_.t).k : k_;
     return point_jacobian(model_, k, body, k.position(body, spec.spring.p_L));
   }
-  if (spec.measure == Measure::world) return rotation_jacobian(model_, k_, body);
+  if (spec.measure == SpringSpace::world) return rotation_jacobian(model_, k_, body);
   MatrixXd row = MatrixXd::Zero(1, static_cast<Index>(model_.nv));
   row(0, static_cast<Index>(model_.iv[static_cast<std::size_t>(body)])) = 1;
   return row;
@@ -76,7 +76,7 @@ MatrixXd PosedCouplings::robot_inertia(const SceneCoupling& spec) const {
   return by_rows(rows);
 }
 
-double PosedCouplings::felt_inertia(std::size_t c) const {
+double PosedCouplings::apparent_inertia(std::size_t c) const {
   const MatrixXd J = jacobian(c) * P_;
   Eigen::Matrix3Xd rows = Eigen::Matrix3Xd::Zero(3, J.cols());
   rows.topRows(J.rows()) = J;
@@ -100,7 +100,7 @@ void PosedCouplings::add_arms(const SceneCoupling& spec, const Vector3& offset, 
         const double I =
             all_M_(static_cast<Index>(dof), static_cast<Index>(dof)) + r * r * felt_mass(spec);
         found.arms.push_back({model_.joint_name[body], r, R_K,
-                              largest_target_radius(I, r, k, spec.spring.b, h), k * r * R_K});
+                              max_target_radius(I, r, k, spec.spring.b, h), k * r * R_K});
       });
 }
 
@@ -111,8 +111,8 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   found.kind = kind_of(spec);
   found.is_linear = spec.type == CouplingDescription::Type::linear;
   const auto body = static_cast<std::size_t>(spec.spring.body);
-  found.is_length =
-      found.is_linear || (spec.measure == Measure::joint && is_translational(model_.joint[body]));
+  found.is_length = found.is_linear ||
+                    (spec.measure == SpringSpace::joint && is_translational(model_.joint[body]));
   found.gains = {spec.spring.k, spec.spring.b};
   const MatrixXd J = jacobian(c) * P_, square = J.transpose() * J;
   found.K = found.K_zero = spec.spring.k * square;
@@ -152,8 +152,8 @@ MatrixXd PosedCouplings::tangent(std::size_t c) {
   return by_rows(found.K);
 }
 
-StepPart step_part(const PredictedCoupling& c, double h) {
-  StepPart part{c.K, c.K_zero, c.B, c.treatment, 0};
+CoupledTerm step_part(const PredictedCoupling& c, double h) {
+  CoupledTerm part{c.K, c.K_zero, c.B, c.treatment, 0};
   if (c.rate > 0) part.hold_steps = static_cast<int>(std::lround(1 / (c.rate * h)));
   const StepLaw law = facts_of(c.law, c.printed).step_law;
   if (law != StepLaw::god_object) {

@@ -17,7 +17,7 @@ class PosedCouplings {
   // The same about zero offset, in O(n^2): without the geometric part, the modes and the arms.
   PredictedCoupling about_zero(std::size_t c);
   // What the coupling feels where it is felt least, all else free [kg or kg m^2].
-  double felt_inertia(std::size_t c) const;
+  double apparent_inertia(std::size_t c) const;
 
  private:
   Eigen::MatrixXd by_rows(const Eigen::MatrixXd& by_velocity) const {
@@ -39,6 +39,6 @@ class PosedCouplings {
 };
 
 // As an integrator steps it, in steps of h.
-StepPart step_part(const PredictedCoupling& coupling, double h);
+CoupledTerm step_part(const PredictedCoupling& coupling, double h);
 
 }  // namespace twinarm

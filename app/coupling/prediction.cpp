@@ -23,40 +23,40 @@ void name_rows(const Coordinates& coordinates, Predicted& found) {
 }
 
 // A force of the start of the step, its velocity a difference.
-std::optional<Scheme> scheme_as_printed(Integrator integrator) {
+std::optional<SteppingScheme> scheme_as_printed(Integrator integrator) {
   switch (integrator) {
     case Integrator::semi_implicit:
     case Integrator::semi_implicit_xv:
     case Integrator::implicit_euler:
-      return Scheme::semi_implicit_difference;
+      return SteppingScheme::semi_implicit_difference;
     case Integrator::euler:
-      return Scheme::euler_difference;
+      return SteppingScheme::euler_difference;
     case Integrator::dopri5:
       return {};
     default:
-      return Scheme::hold_difference;
+      return SteppingScheme::hold_difference;
   }
 }
 
 // The scheme of the table that steps all couplings alike, where one does.
-std::optional<Scheme> scheme_of_scene(const std::vector<PredictedCoupling>& couplings,
-                                      Integrator integrator) {
+std::optional<SteppingScheme> scheme_of_scene(const std::vector<PredictedCoupling>& couplings,
+                                              Integrator integrator) {
   const PredictedCoupling& first = couplings.front();
   for (const PredictedCoupling& c : couplings)
     if (c.treatment != first.treatment || c.printed != first.printed || c.rate > 0 ||
         c.is_own_treatment())
       return {};
   if (first.printed) return scheme_as_printed(integrator);
-  if (first.treatment == Treatment::implicit) return Scheme::implicit;
-  if (first.treatment == Treatment::semi_implicit) return Scheme::implicit_damper;
+  if (first.treatment == Discretization::implicit) return SteppingScheme::implicit;
+  if (first.treatment == Discretization::semi_implicit) return SteppingScheme::implicit_damper;
   switch (integrator) {
     case Integrator::euler:
-      return Scheme::euler;
+      return SteppingScheme::euler;
     case Integrator::semi_implicit:
     case Integrator::semi_implicit_xv:
-      return Scheme::semi_implicit;
+      return SteppingScheme::semi_implicit;
     case Integrator::rk4:
-      return Scheme::rk4;
+      return SteppingScheme::rk4;
     default:
       return {};
   }
@@ -96,32 +96,32 @@ void add_modes(const PredictTask& task, Predicted& found) {
 }
 
 void add_limits(const MatrixXd& joint_damping, Predicted& found) {
-  const std::optional<Scheme> own = scheme_of_scene(found.couplings, found.integrator);
-  for (const Scheme scheme : all_schemes) {
-    const auto factor = [&](Keep keep) {
-      return largest_stiffness_factor(found.M, found.K, found.B, scheme, found.step, keep);
+  const std::optional<SteppingScheme> own = scheme_of_scene(found.couplings, found.integrator);
+  for (const SteppingScheme scheme : all_schemes) {
+    const auto factor = [&](HoldConstant keep) {
+      return max_stiffness_factor(found.M, found.K, found.B, scheme, found.step, keep);
     };
-    found.limits.push_back({scheme, largest_stable_step(found.M, found.K, found.B, scheme),
-                            factor(Keep::damping_per_stiffness), factor(Keep::damping_ratio),
-                            own && *own == scheme});
+    found.limits.push_back({scheme, max_stable_step(found.M, found.K, found.B, scheme),
+                            factor(HoldConstant::damping_per_stiffness),
+                            factor(HoldConstant::damping_ratio), own && *own == scheme});
   }
-  std::vector<StepPart> parts;
+  std::vector<CoupledTerm> parts;
   for (const PredictedCoupling& c : found.couplings) parts.push_back(step_part(c, found.step));
   // Dampers of joints are implicit in the step of the semi-implicit integrators.
   const bool implicit = facts_of(found.integrator).implicit_force;
   const MatrixXd none = MatrixXd::Zero(found.K.rows(), found.K.cols());
-  parts.push_back(
-      {none, none, joint_damping, implicit ? Treatment::semi_implicit : Treatment::explicit_, 0});
-  found.largest_step = largest_stable_step(found.M, parts, found.integrator);
+  parts.push_back({none, none, joint_damping,
+                   implicit ? Discretization::semi_implicit : Discretization::explicit_, 0});
+  found.max_step = max_stable_step(found.M, parts, found.integrator);
   if (found.integrator != Integrator::dopri5)
-    found.growth = growth_per_step(found.M, parts, found.integrator, found.step);
+    found.growth = spectral_radius(found.M, parts, found.integrator, found.step);
 }
 
 // By rows.
 VectorXd parts_of_move(const PredictTask& task, const Predicted& found) {
   if (task.along.empty()) return VectorXd::Ones(found.M.rows());
   VectorXd parts = VectorXd::Zero(found.M.rows());
-  FaultList faults;
+  DiagnosticList faults;
   for (const auto& [name, part] : task.along) {
     const auto row = std::ranges::find(found.rows, name);
     if (row == found.rows.end())
@@ -136,8 +136,8 @@ VectorXd parts_of_move(const PredictTask& task, const Predicted& found) {
 
 // Dampers of joints brake the robot's own velocity, as absolute dampers do.
 void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& found) {
-  constexpr std::size_t kMostRows = 50;
-  if (found.rows.size() > kMostRows) return;
+  constexpr std::size_t kMaxRows = 50;
+  if (found.rows.size() > kMaxRows) return;
   MatrixXd absolute = friction, late = friction;
   for (const PredictedCoupling& c : found.couplings) {
     if (c.absolute_damper) absolute += c.B;
@@ -147,14 +147,14 @@ void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& fo
   for (std::size_t r = 0; r < found.rows.size(); ++r)
     distance[static_cast<Index>(r)] *= found.is_angle[r] ? task.distance : task.slide();
   const VectorXd v = distance / task.time;
-  const ChainErrors behind({found.M, found.K, found.B + friction, absolute});
+  const MultiJointTrackingError behind({found.M, found.K, found.B + friction, absolute});
   RowErrors errors;
   errors.distance = distance;
   errors.start = behind.after_start(v, task.time);
   errors.reversal = behind.after_reversal(v, task.time);
   for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
     errors.smooth[i] = behind.behind(kSmoothMoves[i], distance, task.time);
-  errors.lag = ChainErrors({found.M, found.K, found.B + friction, late}).lag(v);
+  errors.lag = MultiJointTrackingError({found.M, found.K, found.B + friction, late}).lag(v);
   found.errors = std::move(errors);
 }
 
@@ -186,12 +186,12 @@ std::string words_of_step(const Predicted& found) {
 void add_warnings(const SceneModel& scene, Predicted& found) {
   const auto warn = [&](std::string text) { found.warnings.push_back(std::move(text)); };
   constexpr double kGrows = 1e-9;
-  if (found.growth > 1 + kGrows && found.largest_step > 0)
+  if (found.growth > 1 + kGrows && found.max_step > 0)
     warn(
         fmt::format("the scene's step of {:g} s is beyond its limit of {:.4g} s: an error grows by "
                     "{:.3g} in each; take a shorter --step, a smaller stiffness, or treatment = "
                     "\"implicit\"",
-                    found.step, found.largest_step, found.growth));
+                    found.step, found.max_step, found.growth));
   else if (found.growth > 1 + kGrows)
     warn(
         fmt::format("as this scene is stepped no step is stable: an error grows by {:.6g} in each "
@@ -222,11 +222,11 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
                       "lags, steadily, as the column says",
                       c.name));
     for (const SpringArm& arm : c.arms)
-      if (c.treatment == Treatment::implicit && arm.target_radius > arm.largest_target_radius)
+      if (c.treatment == Discretization::implicit && arm.target_radius > arm.max_target_radius)
         warn(
             fmt::format("'{}', about '{}': its target lies {:.4g} m from the axis, beyond the "
                         "{:.4g} m that an implicit point spring holds in this step",
-                        c.name, arm.joint, arm.target_radius, arm.largest_target_radius));
+                        c.name, arm.joint, arm.target_radius, arm.max_target_radius));
   }
   if (!scene.constraints.empty()) warn("constraints are left out: they stiffen what they hold");
   if (scene.may_touch()) warn("contacts are left out");

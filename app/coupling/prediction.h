@@ -32,8 +32,8 @@ struct PredictTask {
 struct SpringArm {
   std::string joint;
   double radius = 0, target_radius = 0;  // of the link's point and of its target [m]
-  double largest_target_radius = 0;      // with the step of the scene [m]
-  double largest_torque = 0;             // k r R_K, at a right angle [N m]
+  double max_target_radius = 0;          // with the step of the scene [m]
+  double max_torque = 0;                 // k r R_K, at a right angle [N m]
 };
 
 struct PredictedCoupling : CouplingTraits {
@@ -51,12 +51,12 @@ struct PredictedCoupling : CouplingTraits {
   std::optional<double> with_wall;  // the wall through this coupling [N/m]
   // It has none of the three treatments.
   bool is_own_treatment() const {
-    return facts_of(law, printed).treatments == CouplingFacts::Treatments::own;
+    return facts_of(law, printed).treatments == CouplingFacts::Discretizations::own;
   }
 };
 
-inline constexpr std::array<TargetMove, 4> kSmoothMoves{TargetMove::cubic, TargetMove::quintic,
-                                                        TargetMove::cosine, TargetMove::bang_bang};
+inline constexpr std::array<MotionProfile, 4> kSmoothMoves{
+    MotionProfile::cubic, MotionProfile::quintic, MotionProfile::cosine, MotionProfile::bang_bang};
 
 // The errors behind a target that goes `distance` in `time` along a mode [rad or m].
 struct ModeErrors {
@@ -81,8 +81,8 @@ struct PredictedMode {
 };
 
 struct SchemeLimit {
-  Scheme scheme;
-  double largest_step = 0;           // [s]
+  SteppingScheme scheme;
+  double max_step = 0;               // [s]
   double by_ratio = 0, by_zeta = 0;  // factors of the stiffness at the scene's step
   bool is_the_scenes = false;
 };
@@ -97,7 +97,7 @@ struct Predicted {
   Integrator integrator = Integrator::semi_implicit;
   std::string stepped;              // how the scene steps them, in words
   double step = 0;                  // [s]
-  double largest_step = 0;          // of the scene as it is stepped
+  double max_step = 0;              // of the scene as it is stepped
   double growth = 1;                // of an error in a step; not for dopri5
   Eigen::VectorXd sag;              // by rows; not a number where nothing holds
   std::optional<RowErrors> errors;  // not of robots with very many joints

@@ -13,8 +13,8 @@ void write_coupling(JsonWriter& json, const PredictedCoupling& c) {
     json.object({{"joint", arm.joint},
                  {"radius", arm.radius},
                  {"target_radius", arm.target_radius},
-                 {"largest_target_radius", arm.largest_target_radius},
-                 {"largest_torque", arm.largest_torque}});
+                 {"largest_target_radius", arm.max_target_radius},
+                 {"largest_torque", arm.max_torque}});
   };
   json.object({{"name", c.name},
                {"kind", c.kind},
@@ -84,7 +84,7 @@ std::string predicted_json(const Predicted& found, const PredictTask& task) {
   });
   json.key("limits").list(found.limits, [&](const SchemeLimit& limit) {
     json.object({{"scheme", name_of(limit.scheme)},
-                 {"largest_step", limit.largest_step},
+                 {"largest_step", limit.max_step},
                  {"stiffness_factor_same_ratio", limit.by_ratio},
                  {"stiffness_factor_same_zeta", limit.by_zeta},
                  {"is_the_scenes", limit.is_the_scenes}});
@@ -92,7 +92,7 @@ std::string predicted_json(const Predicted& found, const PredictTask& task) {
   json.key("scene").object({{"stepped", found.stepped},
                             {"integrator", integrator_name(found.integrator)},
                             {"step", found.step},
-                            {"largest_step", found.largest_step},
+                            {"largest_step", found.max_step},
                             {"growth_per_step", found.growth},
                             {"stable", found.growth <= 1 + 1e-9}});
   write_by_rows(json.key("sag"), found, found.sag);

@@ -39,8 +39,8 @@ std::string couplings_part(const Predicted& found) {
 }
 
 std::string matrix_part(const char* title, const Eigen::MatrixXd& matrix, const Predicted& found) {
-  constexpr Index kMostRows = 9;
-  if (matrix.rows() > kMostRows) return fmt::format("{}: see --json\n", title);
+  constexpr Index kMaxRows = 9;
+  if (matrix.rows() > kMaxRows) return fmt::format("{}: see --json\n", title);
   std::vector<std::string> headings{title};
   for (const std::string& row : found.rows) headings.push_back(row);
   TextTable table(headings);
@@ -142,9 +142,8 @@ std::string joint_errors_part(const Predicted& found, const PredictTask& task) {
 std::string limits_part(const Predicted& found) {
   TextTable table({"stepped by", "largest step [ms]", "stiffness x, b/k kept", "x, z kept", ""});
   for (const SchemeLimit& limit : found.limits)
-    table.add({name_of(limit.scheme), limit_cell(limit.largest_step, 1e3),
-               limit_cell(limit.by_ratio), limit_cell(limit.by_zeta),
-               limit.is_the_scenes ? "<- this scene" : ""});
+    table.add({name_of(limit.scheme), limit_cell(limit.max_step, 1e3), limit_cell(limit.by_ratio),
+               limit_cell(limit.by_zeta), limit.is_the_scenes ? "<- this scene" : ""});
   std::string text =
       said(fmt::format("Limits of all couplings together: the largest stable step of each scheme, "
                        "and how many times stiffer all springs may be at {:g} ms, with b/k kept or "
@@ -152,13 +151,12 @@ std::string limits_part(const Predicted& found) {
                        1e3 * found.step)) +
       table.str();
   return text +
-         said(fmt::format("This scene ({}): largest step {}{}. Its step of {:g} ms {}.",
-                          found.stepped, limit_cell(found.largest_step, 1e3),
-                          std::isfinite(found.largest_step) && found.largest_step > 0 ? " ms" : "",
-                          1e3 * found.step,
-                          found.integrator == Integrator::dopri5
-                              ? "is the longest that its tolerance may choose"
-                          : found.growth > 1 + 1e-9 ? "is NOT stable"
+         said(fmt::format(
+             "This scene ({}): largest step {}{}. Its step of {:g} ms {}.", found.stepped,
+             limit_cell(found.max_step, 1e3),
+             std::isfinite(found.max_step) && found.max_step > 0 ? " ms" : "", 1e3 * found.step,
+             found.integrator == Integrator::dopri5 ? "is the longest that its tolerance may choose"
+             : found.growth > 1 + 1e-9              ? "is NOT stable"
                                                     : "is stable"));
 }
 
@@ -181,8 +179,8 @@ std::string loads_part(const Predicted& found) {
     for (const SpringArm& arm : c.arms) {
       any_arm = true;
       arms.add({c.name, arm.joint, cell(arm.radius), cell(arm.target_radius),
-                c.treatment == Treatment::implicit ? cell(arm.largest_target_radius) : "-",
-                cell(arm.largest_torque)});
+                c.treatment == Discretization::implicit ? cell(arm.max_target_radius) : "-",
+                cell(arm.max_torque)});
     }
     if (!c.with_wall) continue;
     any_wall = true;

@@ -62,7 +62,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
   }
 
   Value root;
-  FaultList faults;
+  DiagnosticList faults;
 
  private:
   bool number(double value) { return add(Value::of(value)); }
@@ -143,8 +143,8 @@ Value read_json(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw InputError({{file.string(), 0, "", "is a folder", "name a JSON file", "file.is-folder"}});
-  constexpr std::uintmax_t kMostJsonBytes = 4u << 20;
-  if (std::filesystem::file_size(file, error) > kMostJsonBytes && !error)
+  constexpr std::uintmax_t kMaxJsonBytes = 4u << 20;
+  if (std::filesystem::file_size(file, error) > kMaxJsonBytes && !error)
     throw InputError({{file.string(), 0, "", "has more than 4 MiB",
                        "name a state file: a few numbers for each joint", "file.too-large"}});
   return parse_json(read_whole_file(file), file.string());

@@ -131,8 +131,8 @@ std::vector<const Value*> TableReader::tables(const std::string& key) {
   const Value* value = find(key);
   std::vector<const Value*> found;
   if (!value) return found;
-  constexpr std::size_t kMostTables = 10000;  // each is compared with all others by name
-  if (value->items.size() > kMostTables) {
+  constexpr std::size_t kMaxTables = 10000;  // each is compared with all others by name
+  if (value->items.size() > kMaxTables) {
     fault(key, "has " + std::to_string(value->items.size()) + " tables", "give at most 10000",
           "scene.too-many");
     return found;
@@ -154,15 +154,15 @@ std::string TableReader::where(const std::string& key) const {
   return place_ ? place_->before + key + place_->after : where_ + ", " + key;
 }
 
-void TableReader::fault(const std::string& key, std::string rule, std::string remedy,
+void TableReader::fault(const std::string& key, std::string problem, std::string fix,
                         std::string_view code) {
   const Value* value = table_.find(key);
-  faults_.add({file_, value ? value->line : table_.line, where(key), std::move(rule),
-               std::move(remedy), code});
+  faults_.add({file_, value ? value->line : table_.line, where(key), std::move(problem),
+               std::move(fix), code});
 }
 
-void TableReader::missing(const std::string& key, std::string remedy) {
-  if (!find(key)) fault(key, "is missing", std::move(remedy), "scene.missing");
+void TableReader::missing(const std::string& key, std::string fix) {
+  if (!find(key)) fault(key, "is missing", std::move(fix), "scene.missing");
 }
 
 void TableReader::done() {

@@ -19,14 +19,15 @@ namespace twinarm {
 class TableReader {
  public:
   // All arguments must outlive it. `where` as faults name the table: "body 'ball'".
-  TableReader(const Value& table, std::string where, const std::string& file, FaultList& faults)
+  TableReader(const Value& table, std::string where, const std::string& file,
+              DiagnosticList& faults)
       : table_(table), where_(std::move(where)), file_(file), faults_(faults) {}
   // An object of JSON: faults name `where` alone, or BEFORE KEY AFTER: "wrenches[0].link",
   // "q of joint 'elbow'".
   struct Place {
     std::string where, before, after;
   };
-  TableReader(const Value& object, Place place, const std::string& file, FaultList& faults)
+  TableReader(const Value& object, Place place, const std::string& file, DiagnosticList& faults)
       : table_(object),
         where_(place.where),
         place_(std::move(place)),
@@ -61,8 +62,8 @@ class TableReader {
   std::string where(const std::string& key) const;
 
   // At the key where it stands, else at the table.
-  void fault(const std::string& key, std::string rule, std::string remedy, std::string_view code);
-  void missing(const std::string& key, std::string remedy);
+  void fault(const std::string& key, std::string problem, std::string fix, std::string_view code);
+  void missing(const std::string& key, std::string fix);
   bool is_full() const { return faults_.is_full(); }  // more faults are not kept
   void done();
 
@@ -73,7 +74,7 @@ class TableReader {
   std::string where_;
   std::optional<Place> place_;
   const std::string& file_;
-  FaultList& faults_;
+  DiagnosticList& faults_;
   std::vector<std::string> asked_;
 };
 

@@ -27,7 +27,7 @@ OmniAngles turned_by(double angle) {
   return turned;
 }
 
-std::shared_ptr<const HandSource> synthetic_hand_of(const std::string& seed) {
+std::shared_ptr<const OperatorMotion> synthetic_hand_of(const std::string& seed) {
   const auto number = seed.empty() ? std::optional<unsigned>(1) : whole_number<unsigned>(seed);
   if (!number)
     refuse_spec("synthetic:" + seed, "the seed is no whole number", "give one: synthetic:1");
@@ -36,27 +36,27 @@ std::shared_ptr<const HandSource> synthetic_hand_of(const std::string& seed) {
 
 }  // namespace
 
-const std::vector<ScriptedHand>& scripted_hands() {
-  static const std::vector<ScriptedHand> hands{
+const std::vector<ScriptedMotion>& scripted_hands() {
+  static const std::vector<ScriptedMotion> hands{
       {"paper", "", "the paper's automatic motion: three sweeps of a second each", true,
        [](const std::string&) { return std::make_shared<AutomaticMotion>(HandMapping{}); }},
       {"step", "", "rests 1 s, jumps by 0.3 rad in every joint, rests", true,
        [](const std::string&) {
-         return std::make_shared<StepHand>(kPosture, turned_by(kScriptTurn), 1.0, 5.0);
+         return std::make_shared<StepMotion>(kPosture, turned_by(kScriptTurn), 1.0, 5.0);
        }},
       {"chirp", "", "0.15 rad in every joint, from 0.1 to 5 Hz in 20 s", true,
        [](const std::string&) {
          OmniAngles amplitude{};
          amplitude.fill(kChirpTurn);
-         return std::make_shared<ChirpHand>(kPosture, amplitude, 0.1, 5.0, 20.0);
+         return std::make_shared<ChirpMotion>(kPosture, amplitude, 0.1, 5.0, 20.0);
        }},
       {"minimum-jerk", "", "rests 1 s, reaches 0.3 rad further in every joint in 1 s", true,
        [](const std::string&) {
-         return std::make_shared<ReachHand>(kPosture, turned_by(kScriptTurn), 1.0, 1.0);
+         return std::make_shared<ReachMotion>(kPosture, turned_by(kScriptTurn), 1.0, 1.0);
        }},
       {"synthetic", "[:SEED]", "random reaches with tremor; no person", true, synthetic_hand_of},
       {"trace", ":FILE", "a recorded hand, from a CSV file", false,
-       [](const std::string& file) -> std::shared_ptr<const HandSource> {
+       [](const std::string& file) -> std::shared_ptr<const OperatorMotion> {
          if (file.empty()) refuse_spec("trace", "no file is given", "give one: trace:hand.csv");
          if (is_hand_log(file)) return read_hand_log(file);
          auto trace = std::make_shared<RecordedTrace>(file);
@@ -103,14 +103,14 @@ std::string device_list() {
     text += fmt::format("  {:26} {}{}\n", kind.name + kind.argument, kind.help,
                         kind.has_motors ? "; forces can be felt" : "");
   text += "hands of virtual:HAND:\n";
-  for (const ScriptedHand& hand : scripted_hands())
+  for (const ScriptedMotion& hand : scripted_hands())
     text += fmt::format("  {:26} {}\n", hand.name + hand.argument, hand.help);
   return text;
 }
 
-std::shared_ptr<const HandSource> scripted_hand(const std::string& spec) {
+std::shared_ptr<const OperatorMotion> scripted_hand(const std::string& spec) {
   const auto [name, argument] = parted(spec);
-  const ScriptedHand& hand = entry_named(scripted_hands(), name, "hand");
+  const ScriptedMotion& hand = entry_named(scripted_hands(), name, "hand");
   if (hand.argument.empty() && !argument.empty())
     refuse_spec(spec, "this hand takes nothing after its name", "give " + name + " alone");
   return hand.make(argument);

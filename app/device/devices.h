@@ -28,12 +28,12 @@ const std::vector<DeviceKind>& device_kinds();
 const std::vector<DeviceKind>& device_kinds_of_files();  // not in their order
 
 // The hands that move a virtual device, as in virtual:NAME.
-struct ScriptedHand {
+struct ScriptedMotion {
   std::string name, argument, help;
   bool stays_inside = false;
-  std::function<std::shared_ptr<const HandSource>(const std::string&)> make;  // of the argument
+  std::function<std::shared_ptr<const OperatorMotion>(const std::string&)> make;  // of the argument
 };
-const std::vector<ScriptedHand>& scripted_hands();
+const std::vector<ScriptedMotion>& scripted_hands();
 
 // What `--device list` prints: one line for each kind, then the hands.
 std::string device_list();
@@ -49,12 +49,12 @@ std::unique_ptr<HandDevice> open_device(const std::string& spec,
 bool stays_inside(const std::string& spec);
 
 // The hand alone: "paper", "synthetic:7", "trace:hand.csv". Throws InputError.
-std::shared_ptr<const HandSource> scripted_hand(const std::string& spec);
+std::shared_ptr<const OperatorMotion> scripted_hand(const std::string& spec);
 
 // What these read from the text after a name, and how they refuse it.
-[[noreturn]] inline void refuse_spec(const std::string& spec, const std::string& rule,
-                                     const std::string& remedy) {
-  throw InputError({{"", 0, "--device " + spec, rule, remedy, "device.spec"}});
+[[noreturn]] inline void refuse_spec(const std::string& spec, const std::string& problem,
+                                     const std::string& fix) {
+  throw InputError({{"", 0, "--device " + spec, problem, fix, "device.spec"}});
 }
 
 template <class Number>

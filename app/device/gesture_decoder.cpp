@@ -29,7 +29,8 @@ void take_packets(std::vector<std::uint8_t>& pending, const std::uint8_t* bytes,
 
 }  // namespace
 
-void KeyDecoder::feed(const std::uint8_t* bytes, std::size_t count, double now, GestureHand& hand) {
+void KeyDecoder::feed(const std::uint8_t* bytes, std::size_t count, double now,
+                      DesktopInput& hand) {
   for (std::size_t n = 0; n < count; ++n) {
     const std::uint8_t byte = bytes[n];
     if (byte == 0x1b) {
@@ -47,7 +48,7 @@ void KeyDecoder::feed(const std::uint8_t* bytes, std::size_t count, double now, 
   pass(now, hand);
 }
 
-void KeyDecoder::arrow(std::uint8_t final_byte, double now, GestureHand& hand) {
+void KeyDecoder::arrow(std::uint8_t final_byte, double now, DesktopInput& hand) {
   switch (final_byte) {
     case 'A':
       return press(HandAxis::up, true, now, hand);
@@ -62,7 +63,7 @@ void KeyDecoder::arrow(std::uint8_t final_byte, double now, GestureHand& hand) {
   }
 }
 
-void KeyDecoder::letter(std::uint8_t byte, double now, GestureHand& hand) {
+void KeyDecoder::letter(std::uint8_t byte, double now, DesktopInput& hand) {
   struct Key {
     char letter;
     HandAxis axis;
@@ -86,20 +87,20 @@ void KeyDecoder::letter(std::uint8_t byte, double now, GestureHand& hand) {
       for (std::size_t direction = 0; direction < 2; ++direction) stop(axis, direction, hand);
 }
 
-void KeyDecoder::press(HandAxis axis, bool positive, double now, GestureHand& hand) {
+void KeyDecoder::press(HandAxis axis, bool positive, double now, DesktopInput& hand) {
   const std::size_t direction = positive ? 1 : 0;
   stop(axis_index(axis), 1 - direction, hand);
   if (until_[axis_index(axis)][direction] == 0) hand.key(axis, positive, true);
   until_[axis_index(axis)][direction] = now + hold_;
 }
 
-void KeyDecoder::stop(std::size_t axis, std::size_t direction, GestureHand& hand) {
+void KeyDecoder::stop(std::size_t axis, std::size_t direction, DesktopInput& hand) {
   if (until_[axis][direction] == 0) return;
   until_[axis][direction] = 0;
   hand.key(static_cast<HandAxis>(axis), direction == 1, false);
 }
 
-void KeyDecoder::pass(double now, GestureHand& hand) {
+void KeyDecoder::pass(double now, DesktopInput& hand) {
   for (std::size_t axis = 0; axis < 6; ++axis)
     for (std::size_t direction = 0; direction < 2; ++direction)
       if (now > until_[axis][direction]) stop(axis, direction, hand);
@@ -121,7 +122,7 @@ double JoystickDecoder::tilt(int code) const {
   return value_[static_cast<std::size_t>(code)];
 }
 
-void JoystickDecoder::tell_axes(GestureHand& hand) const {
+void JoystickDecoder::tell_axes(DesktopInput& hand) const {
   const double toward = has_right_stick_ ? tilt(ABS_RY) : tilt(ABS_RZ);
   const double yaw = has_right_stick_ ? tilt(ABS_RX) : tilt(ABS_Z);
   // Triggers rest at -1 each: only their difference counts.
@@ -131,7 +132,7 @@ void JoystickDecoder::tell_axes(GestureHand& hand) const {
 }
 
 void JoystickDecoder::feed(const std::uint8_t* bytes, std::size_t count, double /*now*/,
-                           GestureHand& hand) {
+                           DesktopInput& hand) {
   take_packets<sizeof(js_event)>(pending_, bytes, count, [&](const std::uint8_t* packet) {
     js_event event{};
     std::memcpy(&event, packet, sizeof event);
@@ -152,7 +153,7 @@ void JoystickDecoder::forget() {
 }
 
 void SpaceMouseDecoder::feed(const std::uint8_t* bytes, std::size_t count, double /*now*/,
-                             GestureHand& hand) {
+                             DesktopInput& hand) {
   take_packets<kSpaceMousePacket>(pending_, bytes, count, [&](const std::uint8_t* packet) {
     std::array<std::int32_t, 8> word{};
     std::memcpy(word.data(), packet, kSpaceMousePacket);

@@ -15,8 +15,8 @@ class GestureDecoder {
   virtual ~GestureDecoder() = default;
   // `now` [s]: any clock that goes on.
   virtual void feed(const std::uint8_t* bytes, std::size_t count, double now,
-                    GestureHand& hand) = 0;
-  virtual void pass(double /*now*/, GestureHand& /*hand*/) {}  // time goes by without bytes
+                    DesktopInput& hand) = 0;
+  virtual void pass(double /*now*/, DesktopInput& /*hand*/) {}  // time goes by without bytes
   virtual void forget() {}  // the device is gone: what it held is let go of
 };
 
@@ -28,15 +28,15 @@ class GestureDecoder {
 class KeyDecoder final : public GestureDecoder {
  public:
   explicit KeyDecoder(double hold = 0.2) : hold_(hold) {}
-  void feed(const std::uint8_t* bytes, std::size_t count, double now, GestureHand& hand) override;
-  void pass(double now, GestureHand& hand) override;
+  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& hand) override;
+  void pass(double now, DesktopInput& hand) override;
   void forget() override;
 
  private:
-  void letter(std::uint8_t byte, double now, GestureHand& hand);
-  void arrow(std::uint8_t final_byte, double now, GestureHand& hand);
-  void press(HandAxis axis, bool positive, double now, GestureHand& hand);
-  void stop(std::size_t axis, std::size_t direction, GestureHand& hand);
+  void letter(std::uint8_t byte, double now, DesktopInput& hand);
+  void arrow(std::uint8_t final_byte, double now, DesktopInput& hand);
+  void press(HandAxis axis, bool positive, double now, DesktopInput& hand);
+  void stop(std::size_t axis, std::size_t direction, DesktopInput& hand);
 
   double hold_;
   enum class Escape { none, begun, sequence } escape_ = Escape::none;
@@ -51,12 +51,12 @@ class JoystickDecoder final : public GestureDecoder {
  public:
   // What each axis is, as the kernel says (ABS_X..); empty: as most controllers have it.
   explicit JoystickDecoder(std::vector<std::uint8_t> axis_codes = {});
-  void feed(const std::uint8_t* bytes, std::size_t count, double now, GestureHand& hand) override;
+  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& hand) override;
   void forget() override;
 
  private:
   double tilt(int code) const;
-  void tell_axes(GestureHand& hand) const;
+  void tell_axes(DesktopInput& hand) const;
 
   std::vector<std::uint8_t> codes_;
   bool has_right_stick_;            // RX, RY; else Z and RZ are it
@@ -68,7 +68,7 @@ class JoystickDecoder final : public GestureDecoder {
 // (0 motion, 1 press, 2 release), then x, y, z, turns about them, and a period; or a button.
 class SpaceMouseDecoder final : public GestureDecoder {
  public:
-  void feed(const std::uint8_t* bytes, std::size_t count, double now, GestureHand& hand) override;
+  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& hand) override;
   void forget() override { pending_.clear(); }
 
  private:

@@ -29,7 +29,7 @@ constexpr int kGestureLook = 500;  // for a device that is gone [ms]
 
 GestureDevice::GestureDevice(GestureSource source, const VirtualOmniSettings& settings)
     : source_(std::move(source)),
-      hand_(std::make_shared<GestureHand>(settings.figures)),
+      hand_(std::make_shared<DesktopInput>(settings.figures)),
       omni_(hand_, settings),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       thread_([this] { run(); }) {}

@@ -33,7 +33,7 @@ class GestureDevice final : public HandDevice {
   ~GestureDevice() override;
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override { omni_.render(force); }
-  const OmniFigures& figures() const override { return omni_.figures(); }
+  const OmniParameters& figures() const override { return omni_.figures(); }
   std::string description() const override { return source_.description; }
   bool has_motors() const override { return false; }
 
@@ -42,7 +42,7 @@ class GestureDevice final : public HandDevice {
   bool read_some();
 
   GestureSource source_;
-  std::shared_ptr<GestureHand> hand_;
+  std::shared_ptr<DesktopInput> hand_;
   VirtualOmni omni_;
   std::atomic<bool> connected_{true};
   OwnedFd stop_;

@@ -11,13 +11,13 @@ namespace twinarm {
 namespace {
 
 // Reports that come faster or slower than this are not believed to be the server's rate [s].
-constexpr double kShortestReport = 0.5e-3, kLongestReport = 50e-3;
+constexpr double kMinReport = 0.5e-3, kLongestReport = 50e-3;
 constexpr double kFirstReport = 1.0 / 60;  // assumed before the second one has come
 constexpr double kReportShare = 1.0 / 8;   // of the newest interval in the running mean
 
 }  // namespace
 
-VrpnDevice::VrpnDevice(const VrpnAddress& address, const OmniFigures& figures,
+VrpnDevice::VrpnDevice(const VrpnAddress& address, const OmniParameters& figures,
                        const VrpnSettings& settings)
     : link_(std::make_unique<Link>(address, figures, settings)),
       figures_(figures),
@@ -35,8 +35,7 @@ DeviceState VrpnDevice::poll(double now) noexcept {
     const double interval = report.arrival - start_;
     const bool goes_on = seen_ > 0 && interval < silence_;
     if (goes_on)
-      interval_ +=
-          kReportShare * (std::clamp(interval, kShortestReport, kLongestReport) - interval_);
+      interval_ += kReportShare * (std::clamp(interval, kMinReport, kLongestReport) - interval_);
     from_ = goes_on ? at_ : report.theta;  // after a silence there is no way to go
     to_ = report.theta;
     start_ = report.arrival;

@@ -51,12 +51,12 @@ class VrpnDevice final : public HandDevice {
  public:
   // Waits for the first pose, at most twice `patience`. Throws InputError, with a remedy, where the
   // host is not known, refuses, is not a VRPN server, or has no such device.
-  VrpnDevice(const VrpnAddress& address, const OmniFigures& figures,
+  VrpnDevice(const VrpnAddress& address, const OmniParameters& figures,
              const VrpnSettings& settings = {});
   ~VrpnDevice() override;  // ends the force
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override;
-  const OmniFigures& figures() const override { return figures_; }
+  const OmniParameters& figures() const override { return figures_; }
   std::string description() const override { return description_; }
   bool has_motors() const override;  // the server takes forces for it
   VrpnCounts counts() const;
@@ -64,7 +64,7 @@ class VrpnDevice final : public HandDevice {
  private:
   class Link;
   std::unique_ptr<Link> link_;
-  OmniFigures figures_;
+  OmniParameters figures_;
   std::string description_;
   double silence_;
   // The way from one report to the next.

@@ -6,12 +6,12 @@ namespace {
 
 VrpnAddress vrpn_address(const std::string& text) {
   const auto at = text.rfind('@');
-  const std::string remedy = "give the device's name and its server: vrpn:Phantom0@localhost:3883";
+  const std::string fix = "give the device's name and its server: vrpn:Phantom0@localhost:3883";
   if (at == std::string::npos || at == 0 || at + 1 == text.size())
-    refuse_spec("vrpn:" + text, "this is not NAME@HOST[:PORT]", remedy);
+    refuse_spec("vrpn:" + text, "this is not NAME@HOST[:PORT]", fix);
   VrpnAddress address{text.substr(0, at), text.substr(at + 1)};
   if (address.device.size() > 99)
-    refuse_spec("vrpn:" + text, "the name is longer than VRPN's 99 letters", remedy);
+    refuse_spec("vrpn:" + text, "the name is longer than VRPN's 99 letters", fix);
   // A colon parts host and port, unless it is one of an IPv6 address without brackets.
   std::string& host = address.host;
   const auto colon = host.rfind(':');
@@ -20,12 +20,12 @@ VrpnAddress vrpn_address(const std::string& text) {
       (bracketed ? colon > host.find(']') : host.find(':') == colon)) {
     const auto port = whole_number<int>(host.substr(colon + 1));
     if (!port || *port < 1 || *port > 65535)
-      refuse_spec("vrpn:" + text, "the port is no number from 1 to 65535", remedy);
+      refuse_spec("vrpn:" + text, "the port is no number from 1 to 65535", fix);
     address.port = *port;
     host.resize(colon);
   }
   if (bracketed) host = host.substr(1, host.find(']') - 1);
-  if (host.empty()) refuse_spec("vrpn:" + text, "there is no host", remedy);
+  if (host.empty()) refuse_spec("vrpn:" + text, "there is no host", fix);
   return address;
 }
 

@@ -30,7 +30,7 @@ double unwrapped(double angle, double last) {
 
 }  // namespace
 
-VrpnDevice::Link::Link(VrpnAddress address, const OmniFigures& figures, VrpnSettings settings)
+VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& figures, VrpnSettings settings)
     : address_(std::move(address)),
       figures_(figures),
       settings_(std::move(settings)),
@@ -50,7 +50,7 @@ VrpnDevice::Link::Link(VrpnAddress address, const OmniFigures& figures, VrpnSett
   if (!first_trouble_) return;
   lock.unlock();
   thread_.join();
-  throw InputError({{"", 0, "--device vrpn:" + name_, first_trouble_->rule, first_trouble_->remedy,
+  throw InputError({{"", 0, "--device vrpn:" + name_, first_trouble_->problem, first_trouble_->fix,
                      "device.no-answer"}});
 }
 
@@ -105,7 +105,7 @@ void VrpnDevice::Link::say_once(unsigned kind, const std::string& text) {
 }
 
 void VrpnDevice::Link::tell_trouble(const Trouble& trouble) {
-  say_once(trouble.kind, trouble.rule + "; trying again (said once, counted)");
+  say_once(trouble.kind, trouble.problem + "; trying again (said once, counted)");
 }
 
 VrpnDevice::Link::Trouble VrpnDevice::Link::talk() {
@@ -155,23 +155,23 @@ std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::listen(int socket, Vr
                    "look at the server's own output"};
   const bool was_greeted = !stream.version().empty();
   const auto fault = stream.feed(bytes.data(), static_cast<std::size_t>(count));
-  if (!was_greeted && !stream.version().empty() && fault != VrpnStream::Fault::other_version)
+  if (!was_greeted && !stream.version().empty() && fault != VrpnStream::Diagnostic::other_version)
     ++connections_;
   take(stream);
   switch (fault) {
-    case VrpnStream::Fault::none:
+    case VrpnStream::Diagnostic::none:
       return std::nullopt;
-    case VrpnStream::Fault::not_vrpn:
+    case VrpnStream::Diagnostic::not_vrpn:
       return Trouble{Trouble::garbage, "what answers there is no VRPN server",
                      "give the port of a VRPN server, 3883 by default"};
-    case VrpnStream::Fault::other_version:
+    case VrpnStream::Diagnostic::other_version:
       return Trouble{Trouble::version,
                      fmt::format("the server speaks '{}', we speak 07", stream.version()),
                      "use a server of VRPN 7"};
-    case VrpnStream::Fault::bad_length:
+    case VrpnStream::Diagnostic::bad_length:
       return Trouble{Trouble::garbage, "the server sends a message of an impossible length",
                      "look at what listens on that port"};
-    case VrpnStream::Fault::goodbye:
+    case VrpnStream::Diagnostic::goodbye:
       break;
   }
   return Trouble{Trouble::lost, "the server has said goodbye", "start it again"};

@@ -31,10 +31,10 @@ struct VrpnForce {
 
 class VrpnDevice::Link {
  public:
-  Link(VrpnAddress address, const OmniFigures& figures, VrpnSettings settings);
+  Link(VrpnAddress address, const OmniParameters& figures, VrpnSettings settings);
   ~Link();
-  Newest<VrpnReport> reports{VrpnReport{}};  // written here
-  Newest<VrpnForce> forces{VrpnForce{}};     // read here
+  TripleBuffer<VrpnReport> reports{VrpnReport{}};  // written here
+  TripleBuffer<VrpnForce> forces{VrpnForce{}};     // read here
   bool takes_forces() const { return takes_forces_; }
   VrpnCounts counts() const;
 
@@ -42,7 +42,7 @@ class VrpnDevice::Link {
   struct Trouble {
     enum Kind { refused, silent, garbage, version, unknown, lost };
     Kind kind;
-    std::string rule, remedy;
+    std::string problem, fix;
   };
   void run();
   Trouble talk();
@@ -60,7 +60,7 @@ class VrpnDevice::Link {
   bool wait(double seconds) const;  // false: we are to stop
 
   VrpnAddress address_;
-  OmniFigures figures_;
+  OmniParameters figures_;
   VrpnSettings settings_;
   std::string name_;  // DEVICE@HOST:PORT
   std::optional<TcpPeer> peer_;

@@ -58,41 +58,41 @@ std::vector<std::string> VrpnStream::devices() const {
   return names;
 }
 
-VrpnStream::Fault VrpnStream::feed(const std::uint8_t* bytes, std::size_t count) {
+VrpnStream::Diagnostic VrpnStream::feed(const std::uint8_t* bytes, std::size_t count) {
   pending_.insert(pending_.end(), bytes, bytes + count);
   if (!greeted_) {
-    const Fault fault = read_cookie();
-    if (fault != Fault::none || !greeted_) return fault;
+    const Diagnostic fault = read_cookie();
+    if (fault != Diagnostic::none || !greeted_) return fault;
   }
   return read_messages();
 }
 
-VrpnStream::Fault VrpnStream::read_cookie() {
+VrpnStream::Diagnostic VrpnStream::read_cookie() {
   const char* text = reinterpret_cast<const char*>(pending_.data());
   // Told as soon as it is sure: a peer that says three wrong bytes and waits is not waited for.
   const std::size_t known = std::min(pending_.size(), std::strlen("vrpn: ver. "));
-  if (std::memcmp(text, kVrpnCookieText, known) != 0) return Fault::not_vrpn;
-  if (pending_.size() < kVrpnCookie) return Fault::none;
+  if (std::memcmp(text, kVrpnCookieText, known) != 0) return Diagnostic::not_vrpn;
+  if (pending_.size() < kVrpnCookie) return Diagnostic::none;
   version_.assign(text, kVrpnVersion);
-  if (std::memcmp(text, kVrpnCookieText, kVrpnMajor) != 0) return Fault::other_version;
+  if (std::memcmp(text, kVrpnCookieText, kVrpnMajor) != 0) return Diagnostic::other_version;
   greeted_ = true;
   pending_.erase(pending_.begin(), pending_.begin() + kVrpnCookie);
-  return Fault::none;
+  return Diagnostic::none;
 }
 
-VrpnStream::Fault VrpnStream::read_messages() {
+VrpnStream::Diagnostic VrpnStream::read_messages() {
   std::size_t at = 0;
-  Fault fault = Fault::none;
+  Diagnostic fault = Diagnostic::none;
   while (pending_.size() - at >= kVrpnHeader) {
     const std::uint8_t* header = pending_.data() + at;
     const std::uint32_t length = read_u32(header);
-    if (length < kVrpnHeader || length > kVrpnLongest) return Fault::bad_length;
+    if (length < kVrpnHeader || length > kVrpnLongest) return Diagnostic::bad_length;
     const std::size_t size = length - kVrpnHeader;
     if (pending_.size() - at < kVrpnHeader + padded(size)) break;
     const Message message{read_i32(header + 12), read_i32(header + 16), header + kVrpnHeader, size};
     at += kVrpnHeader + padded(size);
     if (message.type == -5) {
-      fault = Fault::goodbye;
+      fault = Diagnostic::goodbye;
       break;
     }
     take(message);

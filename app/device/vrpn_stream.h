@@ -27,11 +27,11 @@ using VrpnBytes = std::vector<std::uint8_t>;
 // What a server has said of one device.
 class VrpnStream {
  public:
-  enum class Fault { none, not_vrpn, other_version, bad_length, goodbye };
+  enum class Diagnostic { none, not_vrpn, other_version, bad_length, goodbye };
 
   explicit VrpnStream(std::string device) : device_(std::move(device)) {}
   // After a fault the connection is of no use. Malformed messages are counted and skipped.
-  Fault feed(const std::uint8_t* bytes, std::size_t count);
+  Diagnostic feed(const std::uint8_t* bytes, std::size_t count);
 
   bool has_device() const { return senders_.count_of(device_) > 0; }
   bool knows_type(const char* name) const { return types_.count_of(name) > 0; }
@@ -56,8 +56,8 @@ class VrpnStream {
     const std::uint8_t* payload;
     std::size_t size;
   };
-  Fault read_cookie();
-  Fault read_messages();
+  Diagnostic read_cookie();
+  Diagnostic read_messages();
   void take(const Message& message);
   void take_name(const Message& message, Names& names);
   void take_pose(const Message& message);

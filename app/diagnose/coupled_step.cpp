@@ -59,13 +59,13 @@ CoupledStep::CoupledStep(const SimulatePlan& plan)
 }
 
 // Forces of the same steps add up to one.
-std::vector<StepPart> CoupledStep::merged(const Pulls& pulls, double step) const {
-  std::vector<StepPart> parts;
+std::vector<CoupledTerm> CoupledStep::merged(const Pulls& pulls, double step) const {
+  std::vector<CoupledTerm> parts;
   for (const Pull& pull : pulls) {
-    StepPart part = pull.part;
+    CoupledTerm part = pull.part;
     if (part.hold_steps > 0 && step != step_)
       part.hold_steps = std::max(1, static_cast<int>(std::lround(part.hold_steps * step_ / step)));
-    const auto same = std::ranges::find_if(parts, [&](const StepPart& other) {
+    const auto same = std::ranges::find_if(parts, [&](const CoupledTerm& other) {
       return other.law == part.law && other.treatment == part.treatment &&
              other.hold_steps == part.hold_steps && part.law != StepLaw::god_object;
     });
@@ -81,15 +81,15 @@ std::vector<StepPart> CoupledStep::merged(const Pulls& pulls, double step) const
 }
 
 double CoupledStep::growth_of(const Pulls& pulls, Integrator integrator, double step) const {
-  std::vector<StepPart> parts = merged(pulls, step);
+  std::vector<CoupledTerm> parts = merged(pulls, step);
   if (!joint_damping_.isZero(0)) {
     // Dampers of joints are implicit in the step of the semi-implicit integrators.
     const MatrixXd none = MatrixXd::Zero(M_.rows(), M_.cols());
     const bool implicit = facts_of(integrator).implicit_force;
     parts.push_back({none, none, joint_damping_,
-                     implicit ? Treatment::semi_implicit : Treatment::explicit_, 0});
+                     implicit ? Discretization::semi_implicit : Discretization::explicit_, 0});
   }
-  return growth_per_step(M_, parts, integrator, step);
+  return spectral_radius(M_, parts, integrator, step);
 }
 
 bool CoupledStep::holds_with(const Pulls& pulls, double step) const {
@@ -145,7 +145,7 @@ bool CoupledStep::holds_implicitly(const std::vector<int>& which) const {
   Pulls others = pulls_;
   for (Pull& pull : others) {
     if (!is_one_of(which, pull.coupling)) continue;
-    pull.part.treatment = Treatment::implicit;
+    pull.part.treatment = Discretization::implicit;
     pull.part.law = StepLaw::spring_damper;
     pull.part.hold_steps = 0;
   }
@@ -162,8 +162,8 @@ CoupledStep::Lag CoupledStep::lag(const VectorXd& v) const {
     if (pull.absolute_damper) absolute += pull.part.B, late += pull.part.B;
     late += pull.delay * pull.part.K;
   }
-  return {ChainErrors({M_, K, B, absolute}).after_start(v, 1),
-          ChainErrors({M_, K, B, late}).lag(v)};
+  return {MultiJointTrackingError({M_, K, B, absolute}).after_start(v, 1),
+          MultiJointTrackingError({M_, K, B, late}).lag(v)};
 }
 
 }  // namespace twinarm

@@ -50,11 +50,11 @@ class CoupledStep {
     bool is_weld = false, absolute_damper = false;
     double k = 0, b = 0, time_constant = 0, delay = 0;
     Eigen::MatrixXd square;  // J^T J; empty where the gains leave it open
-    StepPart part;
+    CoupledTerm part;
   };
   using Pulls = std::vector<Pull>;
   static Pull with_gain(const Pull& pull, Gain gain, double value);
-  std::vector<StepPart> merged(const Pulls& pulls, double step) const;
+  std::vector<CoupledTerm> merged(const Pulls& pulls, double step) const;
   double growth_of(const Pulls& pulls, Integrator integrator, double step) const;
   bool holds_with(const Pulls& pulls, double step) const;
 

@@ -20,9 +20,9 @@ std::string short_text(double value) {
 
 using Works = std::map<std::string, double>;  // by row
 
-Works works_of(const std::vector<LedgerRow>& rows) {
+Works works_of(const std::vector<EnergyRow>& rows) {
   Works works;
-  for (const LedgerRow& row : rows) works[row.name] = row.work;
+  for (const EnergyRow& row : rows) works[row.name] = row.work;
   return works;
 }
 
@@ -50,7 +50,7 @@ std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const Ru
   const State<double>& x = simulation.state();
   for (std::size_t c = 0; couplings && c < couplings->size(); ++c) {
     const SceneCoupling& spec = couplings->spec(c);
-    if (spec.treatment != Treatment::implicit || !spec.is_external() ||
+    if (spec.treatment != Discretization::implicit || !spec.is_external() ||
         spec.type != CouplingDescription::Type::linear)
       continue;
     const TargetRadius radius =
@@ -113,16 +113,16 @@ void say_first_bad(PostMortem& found) {
         found.pass > 0 ? fmt::format("in pass {}", found.pass) : "an input of the passes"));
 }
 
-std::string beyond_limit(const Suspect& s) {
+std::string beyond_limit(const StabilityViolation& s) {
   return fmt::format("{}, w h = {} where at most {} holds ({})", s.name, short_text(s.product),
                      short_text(s.limit), s.scheme);
 }
 
 // The limits are about the start: what has moved since may be beyond one that was near then.
-bool is_near_its_limit(const Suspect& s) {
-  return s.step > 0.5 * s.largest_step;
+bool is_near_its_limit(const StabilityViolation& s) {
+  return s.step > 0.5 * s.max_step;
 }
-std::string near_limit(const Suspect& s, double h) {
+std::string near_limit(const StabilityViolation& s, double h) {
   return fmt::format(
       "nearest its limit of linear theory about the start: {}, w h = {} where at most {} holds "
       "({}): "
@@ -151,11 +151,11 @@ void say_suspects(PostMortem& found, double h, const std::optional<PassedRadius>
         "twice "
         "the point's radius");
   }
-  for (const Suspect& s : found.suspects) {
-    if (s.step <= s.largest_step) continue;
+  for (const StabilityViolation& s : found.suspects) {
+    if (s.step <= s.max_step) continue;
     any = true;
     found.words.push_back("behind it: " + beyond_limit(s));
-    found.words.push_back(s.remedy);
+    found.words.push_back(s.fix);
   }
   if (!any && !found.suspects.empty() && is_near_its_limit(found.suspects.front()))
     found.words.push_back(near_limit(found.suspects.front(), h));
@@ -172,11 +172,10 @@ std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
       "at t = {} s the ledger's row '{}' has come to {} J, more than the kinetic energy there was "
       "at {} s, and grows without bound: the run creates energy",
       short_text(alarm.t), alarm.row, short_text(alarm.work), short_text(alarm.since));
-  const std::vector<Suspect> suspects = find_suspects(prepared);
+  const std::vector<StabilityViolation> suspects = find_suspects(prepared);
   const double h = prepared.run.step;
-  if (!suspects.empty() && suspects.front().step > suspects.front().largest_step)
-    return words + "; behind it: " + beyond_limit(suspects.front()) + "; " +
-           suspects.front().remedy;
+  if (!suspects.empty() && suspects.front().step > suspects.front().max_step)
+    return words + "; behind it: " + beyond_limit(suspects.front()) + "; " + suspects.front().fix;
   if (!suspects.empty() && is_near_its_limit(suspects.front()))
     return words + "; " + near_limit(suspects.front(), h);
   return words + (prepared.run.is_adaptive()
@@ -201,7 +200,7 @@ void say_first_words(const SimulatePlan& prepared, SimulateResult& result) {
 }  // namespace
 
 void explain_at_once(const SimulatePlan& prepared, const RunView& run,
-                     const std::vector<LedgerRow>& before, SimulateResult& result) {
+                     const std::vector<EnergyRow>& before, SimulateResult& result) {
   PostMortem& found = *result.post_mortem;
   say_first_words(prepared, result);
   say_suspects(found, prepared.run.step, passed_radius(prepared, run));

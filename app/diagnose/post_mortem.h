@@ -22,13 +22,13 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
 // that is remembered elsewhere. `run` stands where it stopped; `before`: its ledger some time
 // earlier.
 void explain_at_once(const SimulatePlan& prepared, const RunView& run,
-                     const std::vector<LedgerRow>& before, SimulateResult& result);
+                     const std::vector<EnergyRow>& before, SimulateResult& result);
 
 // What an alarm says: the row, when, and what would hold.
 std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared);
 
 // Springs and dampers that this integrator takes at the start of a step, against their limits of
 // linear theory about the start (coupling/analysis/prediction.h); the worst first.
-std::vector<Suspect> find_suspects(const SimulatePlan& prepared);
+std::vector<StabilityViolation> find_suspects(const SimulatePlan& prepared);
 
 }  // namespace twinarm

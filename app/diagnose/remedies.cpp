@@ -26,7 +26,7 @@ double rounded_down(double value) {
 
 // The largest factor in (0, 1], a power of two, that holds; 0: none.
 template <class Good>
-double largest_half(Good good) {
+double max_half(Good good) {
   double factor = 1;
   for (int i = 0; i < 60; ++i, factor *= kHalf)
     if (good(factor)) return factor;
@@ -37,13 +37,13 @@ class RemedyFinder {
  public:
   RemedyFinder(const SimulatePlan& plan, const PostMortem& dead)
       : plan_(plan), scene_(plan.input.scene->description), step_(plan) {
-    std::vector<Suspect> suspects = dead.suspects;
+    std::vector<StabilityViolation> suspects = dead.suspects;
     if (suspects.empty()) suspects = find_suspects(plan);
-    for (const Suspect& s : suspects) blame(s);
+    for (const StabilityViolation& s : suspects) blame(s);
     if (guilty_.empty() && !step_.holds()) blame_all();
   }
 
-  std::vector<Remedy> find() {
+  std::vector<SuggestedFix> find() {
     if (!guilty_.empty()) {
       shorter_step();
       softer();
@@ -59,9 +59,9 @@ class RemedyFinder {
     return scene_.couplings[static_cast<std::size_t>(i)];
   }
 
-  void blame(const Suspect& s) {
-    if (s.step <= s.largest_step) return;
-    if (s.kind == Suspect::Kind::joint_damper)
+  void blame(const StabilityViolation& s) {
+    if (s.step <= s.max_step) return;
+    if (s.kind == StabilityViolation::Kind::joint_damper)
       damper_ = true;
     else
       guilty_.push_back(static_cast<int>(s.index));
@@ -72,7 +72,7 @@ class RemedyFinder {
     for (std::size_t i = 0; i < scene_.couplings.size(); ++i) {
       const CouplingDescription& c = scene_.couplings[i];
       const bool is_stepped = c.law != CouplingSpec::Type::god_object && !c.outside &&
-                              c.treatment != Treatment::implicit;
+                              c.treatment != Discretization::implicit;
       if (is_stepped) guilty_.push_back(static_cast<int>(i));
     }
   }
@@ -91,7 +91,7 @@ class RemedyFinder {
   void shorter_step() {
     const double h = step_.step();
     if (any_rate()) return faster();
-    const double factor = largest_half([&](double f) { return step_.holds_at_step(f * h); });
+    const double factor = max_half([&](double f) { return step_.holds_at_step(f * h); });
     if (!(factor > 0)) return;
     const double step = rounded_down(kHalf * factor * h);
     add(fmt::format("a step of {:g} ms", 1000 * step), {"step=" + number_text(step)});
@@ -115,7 +115,7 @@ class RemedyFinder {
 
   void softer() {
     const double factor =
-        kHalf * kHalf * largest_half([&](double f) { return step_.holds_with_softer(guilty_, f); });
+        kHalf * kHalf * max_half([&](double f) { return step_.holds_with_softer(guilty_, f); });
     if (!(factor > 0)) return;
     std::vector<std::string> changes;
     std::string words;
@@ -146,7 +146,7 @@ class RemedyFinder {
       const CouplingFacts& facts = facts_of(c.law, c.printed);
       const std::string path = "coupling[" + std::to_string(i) + "].";
       if (c.rate > 0) return;  // what is held is explicit
-      if (facts.treatments != CouplingFacts::Treatments::all)
+      if (facts.treatments != CouplingFacts::Discretizations::all)
         changes.push_back(path + "type=" + (facts.at_point ? "linear" : "torsional"));
       if (c.law == CouplingLaw::stable_pd) changes.push_back(path + "measure=joint");
       changes.push_back(path + "treatment=implicit");
@@ -177,12 +177,12 @@ class RemedyFinder {
   CoupledStep step_;
   std::vector<int> guilty_;  // couplings that are beyond their limits
   bool damper_ = false;
-  std::vector<Remedy> found_;
+  std::vector<SuggestedFix> found_;
 };
 
 }  // namespace
 
-std::vector<Remedy> remedies_of(const SimulatePlan& plan, const PostMortem& dead) {
+std::vector<SuggestedFix> remedies_of(const SimulatePlan& plan, const PostMortem& dead) {
   if (!plan.input.scene) {
     const double step = rounded_down(0.25 * plan.run.step);
     return {{fmt::format("a step of {:g} ms", 1000 * step), {"step=" + number_text(step)}}};
@@ -190,9 +190,9 @@ std::vector<Remedy> remedies_of(const SimulatePlan& plan, const PostMortem& dead
   return RemedyFinder(plan, dead).find();
 }
 
-void write_remedies(const std::vector<Remedy>& remedies, JsonWriter& json) {
-  json.list(remedies, [&](const Remedy& remedy) {
-    json.object({{"words", remedy.words}, {"changes", remedy.changes}});
+void write_remedies(const std::vector<SuggestedFix>& remedies, JsonWriter& json) {
+  json.list(remedies, [&](const SuggestedFix& fix) {
+    json.object({{"words", fix.words}, {"changes", fix.changes}});
   });
 }
 

@@ -13,16 +13,16 @@
 
 namespace twinarm {
 
-struct Remedy {
+struct SuggestedFix {
   std::string words;                 // "a step of 0.5 ms"
   std::vector<std::string> changes;  // PATH=VALUE, all together
 };
 
 // Best first; each makes a scene that builds. Empty where nothing in the scene is to blame that is
 // known of. `plan` is that of the run that stopped; `dead` may lack what explain() adds.
-std::vector<Remedy> remedies_of(const SimulatePlan& plan, const PostMortem& dead);
+std::vector<SuggestedFix> remedies_of(const SimulatePlan& plan, const PostMortem& dead);
 
 // The list `remedies` of docs/lab_protocol.md.
-void write_remedies(const std::vector<Remedy>& remedies, JsonWriter& json);
+void write_remedies(const std::vector<SuggestedFix>& remedies, JsonWriter& json);
 
 }  // namespace twinarm

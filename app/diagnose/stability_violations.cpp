@@ -24,7 +24,7 @@ constexpr double kRoom = 0.5;
 
 // The largest x in (0, 1] with good(x), good for all that are smaller; 0: none above 1e-12.
 template <class Good>
-double largest_part(Good good) {
+double max_part(Good good) {
   if (good(1.0)) return 1;
   double low = -12, high = 0;  // powers of ten
   if (!good(1e-12)) return 0;
@@ -38,28 +38,28 @@ double largest_part(Good good) {
 // A coupling with all its pulls, in the step that the run takes.
 struct SteppedCoupling {
   const SceneCoupling* spec = nullptr;
-  StepPart part;
-  std::vector<StepPart> beside;  // god objects that land the same robot
+  CoupledTerm part;
+  std::vector<CoupledTerm> beside;  // god objects that land the same robot
   std::string beside_names;
   Eigen::MatrixXd M;  // with the inertia that the law adds
   Integrator integrator = Integrator::semi_implicit;
   double h = 0, fastest = 0;  // step [s]; of its modes [rad/s], of a damper alone [1/s]
 
-  std::vector<StepPart> parts(const StepPart& its) const {
-    std::vector<StepPart> all = beside;
+  std::vector<CoupledTerm> parts(const CoupledTerm& its) const {
+    std::vector<CoupledTerm> all = beside;
     all.push_back(its);
     return all;
   }
-  bool holds(const StepPart& its) const {
+  bool holds(const CoupledTerm& its) const {
     constexpr double kGrowthRounding = 1e-9;
-    return growth_per_step(M, parts(its), integrator, h) <= 1 + kGrowthRounding;
+    return spectral_radius(M, parts(its), integrator, h) <= 1 + kGrowthRounding;
   }
   bool is_spring() const { return !part.K.isZero(0); }
   bool is_weld() const { return spec->law == CouplingSpec::Type::weld_like; }
   // With the stiffness, or where there is none the damping, times `factor`; a weld's time constant
   // divided by it.
-  StepPart scaled(double factor) const {
-    StepPart its = part;
+  CoupledTerm scaled(double factor) const {
+    CoupledTerm its = part;
     const double by = is_weld() ? factor * factor : factor;
     its.K *= by;
     its.K_zero *= by;
@@ -75,10 +75,10 @@ std::string method_of(const SteppedCoupling& c) {
     name = "stable PD";
   else if (spec.printed)
     name = std::string("as printed, ") + integrator_name(c.integrator);
-  else if (spec.treatment == Treatment::semi_implicit)
-    name = name_of(Scheme::implicit_damper);
-  else if (spec.treatment == Treatment::implicit)
-    name = name_of(Scheme::implicit);
+  else if (spec.treatment == Discretization::semi_implicit)
+    name = name_of(SteppingScheme::implicit_damper);
+  else if (spec.treatment == Discretization::implicit)
+    name = name_of(SteppingScheme::implicit);
   else if (spec.rate == 0)
     name = std::string("explicit, ") + integrator_name(c.integrator);
   if (spec.rate > 0) name += name.empty() ? "held force" : ", held force";
@@ -87,7 +87,7 @@ std::string method_of(const SteppedCoupling& c) {
 
 // A rate, a whole number of steps, that leaves room; or none.
 std::string rate_remedy(const SteppedCoupling& c, double largest) {
-  StepPart its = c.part;
+  CoupledTerm its = c.part;
   for (its.hold_steps = static_cast<int>(kRoom * largest / c.h); its.hold_steps > 0;
        --its.hold_steps)
     if (c.holds(its))
@@ -96,17 +96,17 @@ std::string rate_remedy(const SteppedCoupling& c, double largest) {
   return c.holds(its) ? "no rate, a force at every step, would hold" : "";
 }
 
-std::string gain_remedy(const SteppedCoupling& c, const Suspect& s) {
-  if (!(s.largest_gain > 0)) return "";
+std::string gain_remedy(const SteppedCoupling& c, const StabilityViolation& s) {
+  if (!(s.max_gain > 0)) return "";
   const bool is_linear = c.spec->type == CouplingDescription::Type::linear;
   const char *force = is_linear ? "N" : "N m", *per = is_linear ? "m" : "rad";
   if (c.is_weld())
     return fmt::format("a time constant of {} s would hold at this step",
-                       short_number_text(s.largest_gain / kRoom));
+                       short_number_text(s.max_gain / kRoom));
   if (!c.is_spring())
     return fmt::format("a damping of {} {} s/{} would hold at this step",
-                       short_number_text(kRoom * s.largest_gain), force, per);
-  const double part = kRoom * kRoom * s.largest_gain;
+                       short_number_text(kRoom * s.max_gain), force, per);
+  const double part = kRoom * kRoom * s.max_gain;
   std::string turn;
   if (c.spec->law == CouplingSpec::Type::bushing)
     turn = fmt::format(" with a turn_stiffness of {} N m/rad",
@@ -134,36 +134,35 @@ std::string joined(const std::vector<std::string>& all) {
   return text;
 }
 
-Suspect suspect_of(const SteppedCoupling& c) {
+StabilityViolation suspect_of(const SteppedCoupling& c) {
   const SceneCoupling& spec = *c.spec;
   const double steps = std::max(1, c.part.hold_steps);
-  Suspect s;
+  StabilityViolation s;
   s.index = spec.description;
   s.name = "coupling '" + spec.coupling + "'";
   s.scheme = method_of(c);
   s.step = steps * c.h;
-  s.largest_step = steps * largest_stable_step(c.M, c.parts(c.part), c.integrator);
+  s.max_step = steps * max_stable_step(c.M, c.parts(c.part), c.integrator);
   s.product = c.fastest * s.step;
-  s.limit = c.fastest * s.largest_step;
+  s.limit = c.fastest * s.max_step;
   s.gain = c.is_weld() ? "time constant" : c.is_spring() ? "stiffness" : "damping";
-  if (s.step <= s.largest_step) return s;
-  const double part = largest_part([&](double factor) { return c.holds(c.scaled(factor)); });
+  if (s.step <= s.max_step) return s;
+  const double part = max_part([&](double factor) { return c.holds(c.scaled(factor)); });
   if (part > 0)
-    s.largest_gain = c.is_weld()     ? spec.reference.time_constant / part
-                     : c.is_spring() ? part * spec.spring.k
-                                     : part * spec.spring.b;
+    s.max_gain = c.is_weld()     ? spec.reference.time_constant / part
+                 : c.is_spring() ? part * spec.spring.k
+                                 : part * spec.spring.b;
   const bool is_held = spec.rate > 0;
   std::string step_remedy;
-  if (is_held && s.largest_step > 0) step_remedy = rate_remedy(c, s.largest_step);
-  if (!is_held && s.largest_step > 0)
-    step_remedy =
-        fmt::format("a step of {} s would hold", short_number_text(kRoom * s.largest_step));
-  s.remedy = joined({step_remedy, gain_remedy(c, s), law_remedy(spec)});
+  if (is_held && s.max_step > 0) step_remedy = rate_remedy(c, s.max_step);
+  if (!is_held && s.max_step > 0)
+    step_remedy = fmt::format("a step of {} s would hold", short_number_text(kRoom * s.max_step));
+  s.fix = joined({step_remedy, gain_remedy(c, s), law_remedy(spec)});
   return s;
 }
 
 // God objects are no suspects: alone they land whatever the step. Others have less room beside one.
-void add_couplings(const SimulatePlan& prepared, std::vector<Suspect>& suspects) {
+void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>& suspects) {
   SceneCouplings& couplings = *prepared.input.couplings;
   PosedCouplings posed(prepared.input);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
@@ -212,7 +211,7 @@ double damping_limit(Integrator integrator) {
 }
 
 void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
-                 std::vector<Suspect>& suspects) {
+                 std::vector<StabilityViolation>& suspects) {
   const Model<double>& model = prepared.input.robot.model;
   const double limit = damping_limit(prepared.run.integrator), h = prepared.run.step;
   if (limit == kNever) return;
@@ -223,22 +222,22 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
     const double rate =
         model.damping[iv] * inverse(static_cast<Eigen::Index>(iv), static_cast<Eigen::Index>(iv));
     if (!(rate > 0)) continue;
-    Suspect s;
-    s.kind = Suspect::Kind::joint_damper;
+    StabilityViolation s;
+    s.kind = StabilityViolation::Kind::joint_damper;
     s.index = i;
     s.name = "damper of joint '" + model.joint_name[i] + "'";
     s.scheme = std::string("b/I for w; ") + integrator_name(prepared.run.integrator);
     s.step = h;
-    s.largest_step = limit / rate;
+    s.max_step = limit / rate;
     s.product = rate * h;
     s.limit = limit;
     s.gain = "damping";
-    if (h > s.largest_step) {
-      s.largest_gain = model.damping[iv] * s.largest_step / h;
-      s.remedy = fmt::format(
+    if (h > s.max_step) {
+      s.max_gain = model.damping[iv] * s.max_step / h;
+      s.fix = fmt::format(
           "a step of {} s would hold; a damping of {} N m s/rad or N s/m would hold at this step; "
           "the integrator semi-implicit takes dampers of joints implicitly",
-          short_number_text(kRoom * s.largest_step), short_number_text(kRoom * s.largest_gain));
+          short_number_text(kRoom * s.max_step), short_number_text(kRoom * s.max_gain));
     }
     suspects.push_back(std::move(s));
   }
@@ -246,15 +245,15 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
 
 }  // namespace
 
-std::vector<Suspect> find_suspects(const SimulatePlan& prepared) {
-  std::vector<Suspect> suspects;
+std::vector<StabilityViolation> find_suspects(const SimulatePlan& prepared) {
+  std::vector<StabilityViolation> suspects;
   const SimulateInput& input = prepared.input;
   const Model<double>& model = input.robot.model;
   if (prepared.run.is_adaptive() || model.nv == 0) return suspects;
   if (input.couplings) add_couplings(prepared, suspects);
   add_dampers(prepared, mass_matrix(model, input.robot.state.x), suspects);
-  std::ranges::stable_sort(suspects, [](const Suspect& a, const Suspect& b) {
-    return a.step * b.largest_step > b.step * a.largest_step;
+  std::ranges::stable_sort(suspects, [](const StabilityViolation& a, const StabilityViolation& b) {
+    return a.step * b.max_step > b.step * a.max_step;
   });
   return suspects;
 }

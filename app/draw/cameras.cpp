@@ -17,9 +17,9 @@ Vector3 towards_eye(const CameraWish& wish) {
   return {std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)};
 }
 
-[[noreturn]] void refuse(const std::string& text, const std::string& rule,
-                         const std::string& remedy) {
-  throw InputError({{"", 0, "--camera", "'" + text + "' " + rule, remedy, "option.form"}});
+[[noreturn]] void refuse(const std::string& text, const std::string& problem,
+                         const std::string& fix) {
+  throw InputError({{"", 0, "--camera", "'" + text + "' " + problem, fix, "option.form"}});
 }
 
 CameraWish parse_orbit(const std::string& text) {
@@ -47,8 +47,8 @@ void Extent::add(const Vector3& p_W) {
   high_ = high_.cwiseMax(p_W);
 }
 
-void Extent::add(const Cast& cast, const Moment& moment) {
-  const auto add_box_of = [&](const CastPart& part, const Pose& X_WL) {
+void Extent::add(const SceneMeshes& cast, const Snapshot& moment) {
+  const auto add_box_of = [&](const ScenePart& part, const Pose& X_WL) {
     const Pose X_WM = X_WL * part.X_LM;
     for (int corner = 0; corner < 8; ++corner) {
       Vector3 p;
@@ -56,11 +56,11 @@ void Extent::add(const Cast& cast, const Moment& moment) {
       add(X_WM * p);
     }
   };
-  for (const CastPart& part : cast.parts) add_box_of(part, moment.k.X_WL[part.body]);
-  for (const ShownTwin& twin : moment.twins)
-    for (const CastPart& part : cast.parts)
+  for (const ScenePart& part : cast.parts) add_box_of(part, moment.k.X_WL[part.body]);
+  for (const ShownTargetRobot& twin : moment.twins)
+    for (const ScenePart& part : cast.parts)
       if (part.robot == static_cast<int>(twin.robot)) add_box_of(part, twin.X_WL[part.body]);
-  for (const CastTie& tie : cast.ties) {
+  for (const DistanceConstraintLine& tie : cast.ties) {
     add(moment.k.X_WL[tie.a] * tie.p_La);
     add(moment.k.X_WL[tie.b] * tie.p_Lb);
   }
@@ -80,7 +80,7 @@ double Extent::radius() const {
   return empty() ? 1.0 : std::max(1e-3, 0.5 * (high_ - low_).norm());
 }
 
-double farthest_of_interest(const std::vector<Extent>& instants) {
+double max_of_interest(const std::vector<Extent>& instants) {
   constexpr double kTimes = 4;
   std::vector<double> reaches;
   for (const Extent& extent : instants)
@@ -148,9 +148,9 @@ Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect) 
   return camera;
 }
 
-double closeup(const Cast& cast, int body) {
+double closeup(const SceneMeshes& cast, int body) {
   double radius = 0;
-  for (const CastPart& part : cast.parts)
+  for (const ScenePart& part : cast.parts)
     if (part.body == static_cast<std::size_t>(body))
       radius = std::max(radius, 0.5 * (part.high_M - part.low_M).norm());
   return 3 * radius / std::tan(0.5 * Camera{}.field_of_view);

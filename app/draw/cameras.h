@@ -15,7 +15,7 @@ inline constexpr double kFrameMargin = 1.18;  // of the picture around what is s
 // Points that bound what was on stage, at one instant or many.
 class Extent {
  public:
-  void add(const Cast& cast, const Moment& moment);
+  void add(const SceneMeshes& cast, const Snapshot& moment);
   void add(const Extent& other);
   void add(const Vector3& p_W);
   double reach(const Vector3& p_W) const;  // of the farthest point from there [m]; of none 0
@@ -34,7 +34,7 @@ class Extent {
 // How far from the middle of the first instant bodies still count as part of the scene [m]: four
 // times as far as in three quarters of the run. A run that diverges throws them away in its last
 // moments, and would be seen from so far that nothing is left of it.
-double farthest_of_interest(const std::vector<Extent>& instants);
+double max_of_interest(const std::vector<Extent>& instants);
 
 struct CameraWish {
   double azimuth = -52, elevation = 22;  // of the eye about the target [degrees], x axis, horizon
@@ -50,7 +50,7 @@ CameraWish parse_camera(const std::string& text, const Model<double>& model);
 Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect);
 // The same, moved along: the body at `target_W`. closeup() is the distance at which a body fills
 // about a third of the picture's height.
-double closeup(const Cast& cast, int body);
+double closeup(const SceneMeshes& cast, int body);
 Camera follow(Camera camera, const Vector3& target_W);
 
 // 1, 2 or 5 times a power of ten, the nearest below.

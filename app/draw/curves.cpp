@@ -14,22 +14,22 @@ namespace {
 
 constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<CurveSample> sample_energy(const SceneModel*, const Moment& moment) {
+std::vector<CurveSample> sample_energy(const SceneModel*, const Snapshot& moment) {
   std::vector<CurveSample> all{{"potential", moment.potential, true}, {"kinetic", moment.kinetic}};
   if (!moment.pulls.empty()) all.push_back({"in springs", moment.elastic});
   all.push_back({"sum", moment.potential + moment.kinetic + moment.elastic, true});
   return all;
 }
 
-template <ShownPull::Kind kind>
-std::vector<CurveSample> sample_pulls(const SceneModel*, const Moment& moment) {
+template <ShownCouplingForce::Kind kind>
+std::vector<CurveSample> sample_pulls(const SceneModel*, const Snapshot& moment) {
   std::vector<CurveSample> all;
-  for (const ShownPull& pull : moment.pulls)
+  for (const ShownCouplingForce& pull : moment.pulls)
     if (pull.kind == kind) all.push_back({pull.name, pull.pull_W.norm()});
   return all;
 }
 
-std::vector<CurveSample> sample_contacts(const SceneModel*, const Moment& moment) {
+std::vector<CurveSample> sample_contacts(const SceneModel*, const Snapshot& moment) {
   double normal = 0, friction = 0;
   for (const ShownContact& contact : moment.contacts) {
     const double along = contact.force_W.dot(contact.n_W);
@@ -40,11 +40,11 @@ std::vector<CurveSample> sample_contacts(const SceneModel*, const Moment& moment
 }
 
 // Of each joint the angle between where the hand has led it and where the robot is.
-std::vector<CurveSample> sample_lag(const SceneModel* scene, const Moment& moment) {
+std::vector<CurveSample> sample_lag(const SceneModel* scene, const Snapshot& moment) {
   std::vector<CurveSample> all;
   if (!scene) return all;
   const Model<double>& model = scene->model;
-  for (const ShownTwin& twin : moment.twins) {
+  for (const ShownTargetRobot& twin : moment.twins) {
     const auto [first, last] = scene->bodies_of_robot(twin.robot);
     for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
       if (model.joint[i] == JointType::fixed || model.joint[i] == JointType::prismatic) continue;
@@ -75,7 +75,7 @@ void take_off_lowest(Plot& plot) {
 }  // namespace
 
 const std::vector<CurveKind>& all_curves() {
-  using Kind = ShownPull::Kind;
+  using Kind = ShownCouplingForce::Kind;
   static const std::vector<CurveKind> all{
       {"energy", "energy [J]", sample_energy},
       {"forces", "spring-dampers [N]", sample_pulls<Kind::force>},
@@ -89,7 +89,7 @@ std::vector<const CurveKind*> parse_curves(const std::string& text) {
   std::vector<std::string> known;
   for (const CurveKind& kind : all_curves()) known.emplace_back(kind.name);
   std::vector<const CurveKind*> chosen;
-  FaultList faults;
+  DiagnosticList faults;
   for (const std::string& word : split(text)) {
     if (word == "none" || word.empty()) continue;
     const auto found = std::ranges::find(known, word);
@@ -108,7 +108,7 @@ CurveTrace::CurveTrace(const std::vector<const CurveKind*>& kinds)
   for (std::size_t p = 0; p < plots_.size(); ++p) plots_[p].title = kinds[p]->title;
 }
 
-void CurveTrace::add(const SceneModel* scene, const Moment& moment) {
+void CurveTrace::add(const SceneModel* scene, const Snapshot& moment) {
   for (std::size_t p = 0; p < plots_.size(); ++p) {
     Plot& plot = plots_[p];
     if (!plot.t.empty() && !(moment.x.t > plot.t.back())) continue;

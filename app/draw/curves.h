@@ -19,7 +19,7 @@ struct CurveSample {
 struct CurveKind {
   const char* name;   // of --plot
   const char* title;  // with the unit
-  std::vector<CurveSample> (*sample)(const SceneModel* scene, const Moment& moment);
+  std::vector<CurveSample> (*sample)(const SceneModel* scene, const Snapshot& moment);
 };
 
 const std::vector<CurveKind>& all_curves();
@@ -31,7 +31,7 @@ std::vector<const CurveKind*> parse_curves(const std::string& text);
 class CurveTrace {
  public:
   explicit CurveTrace(const std::vector<const CurveKind*>& kinds);
-  void add(const SceneModel* scene, const Moment& moment);
+  void add(const SceneModel* scene, const Snapshot& moment);
   std::vector<Plot> plots() const;  // one for each kind, each with a range of its own
 
  private:

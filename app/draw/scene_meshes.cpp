@@ -29,17 +29,17 @@ Color color_of(const VisualPart& visual, ShapeLook& look, std::size_t body) {
 
 class CastMaker {
  public:
-  CastMaker(Cast& cast, DrawList& list) : cast_(cast), list_(list) {}
+  CastMaker(SceneMeshes& cast, DrawList& list) : cast_(cast), list_(list) {}
 
   void add(std::size_t body, int robot, const ShapeLook& look, const Pose& X_LG, Color color) {
     if (look.is_hollow) color.a = palette::kHollow;
-    CastPart part{.body = body,
-                  .robot = robot,
-                  .mesh = look.mesh,
-                  .X_LM = X_LG * look.X_GM,
-                  .scale = look.scale,
-                  .color = color,
-                  .texture = look.texture};
+    ScenePart part{.body = body,
+                   .robot = robot,
+                   .mesh = look.mesh,
+                   .X_LM = X_LG * look.X_GM,
+                   .scale = look.scale,
+                   .color = color,
+                   .texture = look.texture};
     const Eigen::AlignedBox3d box = bounding_box(*list_.meshes[look.mesh]);
     if (!box.isEmpty()) {
       part.low_M = box.min().cwiseProduct(look.scale);
@@ -70,9 +70,9 @@ class CastMaker {
             visual.geometry, list_,
             visual.texture.empty() ? KeepPlaces::where_textured : KeepPlaces::always, cast_.notes));
     } catch (const InputError& error) {
-      const Fault& fault = error.faults().front();
+      const Diagnostic& fault = error.faults().front();
       cast_.notes.push_back(fmt::format("link '{}' is drawn by its collision shapes: {}: {}",
-                                        link.name, fault.file, fault.rule));
+                                        link.name, fault.file, fault.problem));
       looks.clear();
       add_collisions(link, body, robot);
       return;
@@ -96,9 +96,9 @@ class CastMaker {
              looks_of(part.geometry, list_, KeepPlaces::where_textured, cast_.notes))
           add(body, robot, look, part.X_LG(), palette::body(body));
       } catch (const InputError& error) {
-        const Fault& fault = error.faults().front();
+        const Diagnostic& fault = error.faults().front();
         cast_.notes.push_back(fmt::format("of link '{}' a collision shape is missing: {}: {}",
-                                          link.name, fault.file, fault.rule));
+                                          link.name, fault.file, fault.problem));
       }
   }
 
@@ -107,20 +107,20 @@ class CastMaker {
     if (is_new) try {
         place->second = list_.register_texture(std::make_shared<const Image>(read_image(file)));
       } catch (const InputError& error) {
-        const Fault& fault = error.faults().front();
+        const Diagnostic& fault = error.faults().front();
         cast_.notes.push_back(
-            fmt::format("the texture '{}' is left out: {}", file.string(), fault.rule));
+            fmt::format("the texture '{}' is left out: {}", file.string(), fault.problem));
       }
     return place->second;
   }
 
-  Cast& cast_;
+  SceneMeshes& cast_;
   DrawList& list_;
   std::map<std::filesystem::path, std::optional<TextureId>> textures_;
 };
 
 void add_body(const SceneGeometry& geometry, const BodyDescription& body, std::size_t& free_bodies,
-              CastMaker& maker, Cast& cast, DrawList& list) {
+              CastMaker& maker, SceneMeshes& cast, DrawList& list) {
   const auto index = static_cast<std::size_t>(geometry.body);
   Color color = body.fixed ? palette::kObstacle : palette::kDriven;
   if (body.is_free()) color = palette::body(free_bodies++);
@@ -140,8 +140,8 @@ void add_body(const SceneGeometry& geometry, const BodyDescription& body, std::s
 
 }  // namespace
 
-Cast cast_of(const SceneModel& scene, DrawList& list) {
-  Cast cast;
+SceneMeshes cast_of(const SceneModel& scene, DrawList& list) {
+  SceneMeshes cast;
   CastMaker maker(cast, list);
   const SceneDescription& description = scene.description;
   for (std::size_t r = 0; r < description.robots.size(); ++r)
@@ -161,8 +161,8 @@ Cast cast_of(const SceneModel& scene, DrawList& list) {
   return cast;
 }
 
-Cast cast_of(const RobotDescription& robot, const Model<double>& model, DrawList& list) {
-  Cast cast;
+SceneMeshes cast_of(const RobotDescription& robot, const Model<double>& model, DrawList& list) {
+  SceneMeshes cast;
   CastMaker maker(cast, list);
   for (const LinkDescription& link : robot.links) {
     const int body = model.find_body(link.name);

@@ -10,7 +10,7 @@
 
 namespace twinarm {
 
-struct CastPart {
+struct ScenePart {
   std::size_t body = 0;  // of the model; 0: the world
   int robot = -1;        // index; -1: a body of the scene
   MeshId mesh = 0;
@@ -22,28 +22,28 @@ struct CastPart {
 };
 
 // Solid where normal . x <= offset; drawn as a plate as large as the scene, or as the ground.
-struct CastPlane {
+struct ScenePlane {
   std::size_t body = 0;
   Vector3 normal_L = Vector3::UnitZ();
   double offset = 0;
   Color color;
 };
 
-struct CastTie {  // of a distance constraint: a string or a rod between two points
+struct DistanceConstraintLine {  // of a distance constraint: a string or a rod between two points
   std::size_t a = 0, b = 0;
   Vector3 p_La = Vector3::Zero(), p_Lb = Vector3::Zero();
 };
 
-struct Cast {
-  std::vector<CastPart> parts;
-  std::vector<CastPlane> planes;
-  std::vector<CastTie> ties;
+struct SceneMeshes {
+  std::vector<ScenePart> parts;
+  std::vector<ScenePlane> planes;
+  std::vector<DistanceConstraintLine> ties;
   std::vector<std::string> notes;  // what stands in for something else, for the user to know
 };
 
 // A link without a visual, or whose mesh cannot be read, is drawn by its collision shapes, and that
 // is noted. Throws InputError where a mesh of a body cannot be read.
-Cast cast_of(const SceneModel& scene, DrawList& list);
-Cast cast_of(const RobotDescription& robot, const Model<double>& model, DrawList& list);
+SceneMeshes cast_of(const SceneModel& scene, DrawList& list);
+SceneMeshes cast_of(const RobotDescription& robot, const Model<double>& model, DrawList& list);
 
 }  // namespace twinarm

@@ -12,43 +12,43 @@
 namespace twinarm {
 namespace {
 
-bool is_level(const CastPlane& plane) {
+bool is_level(const ScenePlane& plane) {
   return plane.body == 0 && plane.normal_L.z() > 1 - 1e-9;
 }
 
 // The highest level floor that nothing of the scene lies under, if there is one.
-std::optional<double> level_floor(const Stage& stage) {
+std::optional<double> level_floor(const SceneView& stage) {
   std::optional<double> height;
-  for (const CastPlane& plane : stage.cast.planes)
+  for (const ScenePlane& plane : stage.cast.planes)
     if (is_level(plane)) height = std::max(height.value_or(-1e300), plane.offset);
   return height;
 }
 
-void draw_planes(Stage& stage, const Moment& moment) {
+void draw_planes(SceneView& stage, const Snapshot& moment) {
   const double reach = 3.2 * stage.extent.radius(), thick = 0.02 * stage.extent.radius();
   const Vector3 center = stage.extent.empty() ? Vector3(Vector3::Zero()) : stage.extent.center();
-  for (const CastPlane& plane : stage.cast.planes) {
+  for (const ScenePlane& plane : stage.cast.planes) {
     if (is_level(plane)) continue;  // that is the ground
     const Pose& X_WL = moment.k.X_WL[plane.body];
     const Vector3 n = X_WL.R * plane.normal_L;
     const double offset = plane.offset + n.dot(X_WL.p);
     const Vector3 middle = center - (n.dot(center) - offset) * n;
     const OfBody mark(stage.list, plane.body);
-    add_box(stage.list, {turn_z_to(n), middle - 0.5 * thick * n}, {reach, reach, thick},
+    add_box(stage.list, {rotation_taking_z_to(n), middle - 0.5 * thick * n}, {reach, reach, thick},
             plane.color);
   }
 }
 
 // What stands fixed beside the robots looks alike in all.
-Color lane_color(const CastPart& part, std::size_t lane) {
+Color lane_color(const ScenePart& part, std::size_t lane) {
   if (part.body == 0 && part.robot < 0) return part.color;
   Color color = palette::lane(lane);
   color.a = part.color.a;
   return color;
 }
 
-void draw_first_variant(Stage& stage, const Moment& moment) {
-  for (const CastPart& part : stage.cast.parts) {
+void draw_first_variant(SceneView& stage, const Snapshot& moment) {
+  for (const ScenePart& part : stage.cast.parts) {
     const OfBody mark(stage.list, part.body);
     const std::size_t before = stage.list.instances.size();
     const bool has_lanes = !moment.lanes.empty();
@@ -58,25 +58,25 @@ void draw_first_variant(Stage& stage, const Moment& moment) {
       stage.list.instances.back().texture = part.texture;
   }
   const double thin = 0.004 * stage.extent.radius();
-  for (const CastTie& tie : stage.cast.ties)
+  for (const DistanceConstraintLine& tie : stage.cast.ties)
     add_rod(stage.list, moment.k.X_WL[tie.a] * tie.p_La, moment.k.X_WL[tie.b] * tie.p_Lb, thin,
             palette::kConstraint);
 }
 
 // Runs side by side: the same cast once for each, in one colour each, with its name above it.
-void draw_lanes(Stage& stage, const Moment& moment) {
+void draw_lanes(SceneView& stage, const Snapshot& moment) {
   DrawList& list = stage.list;
   for (std::size_t i = 0; i < moment.lanes.size(); ++i) {
-    const ShownLane& lane = moment.lanes[i];
+    const ShownVariant& lane = moment.lanes[i];
     add_label(list, lane.above_W, lane.name, {6, -14});
     list.legend.push_back({palette::lane(i), lane.name});
     if (i == 0) continue;  // has been drawn: it is the run itself
-    for (const CastPart& part : stage.cast.parts) {
+    for (const ScenePart& part : stage.cast.parts) {
       Pose X_WM = lane.X_WL[part.body] * part.X_LM;
       X_WM.p += lane.offset_W;
       add_mesh_instance(list, part.mesh, X_WM, lane_color(part, i), part.scale);
     }
-    for (const CastTie& tie : stage.cast.ties)
+    for (const DistanceConstraintLine& tie : stage.cast.ties)
       add_rod(list, lane.offset_W + lane.X_WL[tie.a] * tie.p_La,
               lane.offset_W + lane.X_WL[tie.b] * tie.p_Lb, 0.004 * stage.extent.radius(),
               palette::kConstraint);
@@ -95,13 +95,13 @@ std::string words_of(std::string name) {
 
 }  // namespace
 
-void Scales::widen_contacts(const Moment& moment) {
+void Scales::widen_contacts(const Snapshot& moment) {
   for (const PairForce& pair : pair_forces(moment)) widen_to(contact_force, pair.force.norm());
 }
 
-void Scales::widen_run(const Model<double>& model, const Moment& moment) {
-  for (const ShownPull& pull : moment.pulls)
-    widen_to(pull.kind == ShownPull::Kind::force ? force : couple, pull.pull_W.norm());
+void Scales::widen_run(const Model<double>& model, const Snapshot& moment) {
+  for (const ShownCouplingForce& pull : moment.pulls)
+    widen_to(pull.kind == ShownCouplingForce::Kind::force ? force : couple, pull.pull_W.norm());
   const TotalMotion total = total_motion(model, moment.k);
   widen_to(momentum, total.linear.norm());
   widen_to(angular, total.angular.norm());
@@ -131,8 +131,8 @@ double Scales::metres_per(double largest) const {
   return largest > 0 ? round_down(0.4 * length / largest) : 0;
 }
 
-Stage make_stage(const SceneModel& scene) {
-  Stage stage;
+SceneView make_stage(const SceneModel& scene) {
+  SceneView stage;
   stage.model = &scene.model;
   stage.scene = &scene;
   stage.cast = cast_of(scene, stage.list);
@@ -140,20 +140,20 @@ Stage make_stage(const SceneModel& scene) {
   return stage;
 }
 
-Stage make_stage(const RobotDescription& robot, const Model<double>& model) {
-  Stage stage;
+SceneView make_stage(const RobotDescription& robot, const Model<double>& model) {
+  SceneView stage;
   stage.model = &model;
   stage.cast = cast_of(robot, model, stage.list);
   stage.name = words_of(robot.name);
   return stage;
 }
 
-void look_at(Stage& stage, const Moment& moment) {
+void look_at(SceneView& stage, const Snapshot& moment) {
   stage.instants.emplace_back().add(stage.cast, moment);
   stage.has_hand = stage.has_hand || !moment.hands.empty();
 }
 
-void look_ahead(Stage& stage, const Moment& moment) {
+void look_ahead(SceneView& stage, const Snapshot& moment) {
   look_at(stage, moment);
   stage.trace.t.push_back(moment.x.t);
   std::vector<Vector3> places(stage.model->parent.size(), Vector3::Zero());
@@ -161,8 +161,8 @@ void look_ahead(Stage& stage, const Moment& moment) {
   stage.trace.p_Wc.push_back(std::move(places));
 }
 
-void settle(Stage& stage) {
-  stage.farthest = farthest_of_interest(stage.instants);
+void settle(SceneView& stage) {
+  stage.farthest = max_of_interest(stage.instants);
   double beyond = 0;
   for (const Extent& instant : stage.instants) {
     const double reach = instant.reach(stage.instants.front().center());
@@ -178,7 +178,7 @@ void settle(Stage& stage) {
                     beyond));
 }
 
-void measure(Stage& stage, const Moment& moment, Measured measured) {
+void measure(SceneView& stage, const Snapshot& moment, Measured measured) {
   Extent instant;
   instant.add(stage.cast, moment);
   if (instant.reach(stage.instants.front().center()) > stage.farthest) return;
@@ -186,11 +186,11 @@ void measure(Stage& stage, const Moment& moment, Measured measured) {
   if (measured == Measured::of_picture) stage.scales.widen_contacts(moment);
 }
 
-void set_view(Stage& stage, const CameraWish& wish, double aspect) {
+void set_view(SceneView& stage, const CameraWish& wish, double aspect) {
   stage.scales.length = stage.extent.radius();
   Ground& ground = stage.list.ground;
   const bool has_slope = std::ranges::any_of(
-      stage.cast.planes, [](const CastPlane& plane) { return !is_level(plane); });
+      stage.cast.planes, [](const ScenePlane& plane) { return !is_level(plane); });
   const double radius = stage.extent.radius();
   ground.cell = round_down(0.3 * radius);
   const double lead = ground.cell / std::pow(10.0, std::floor(std::log10(1.001 * ground.cell)));
@@ -213,11 +213,11 @@ void set_view(Stage& stage, const CameraWish& wish, double aspect) {
 }
 
 Vector3 device_shoulder() {
-  const OmniFigures omni;
+  const OmniParameters omni;
   return {0, omni.lift, -omni.back};
 }
 
-void place_device(Stage& stage) {
+void place_device(SceneView& stage) {
   // Device axes: x right, y up, z to the user, who sits at the world's -y.
   Pose X_WD;
   for (int c = 0; c < 3; ++c) X_WD.R.col(c) = world_from_device(Vector3::Unit(c));
@@ -232,7 +232,7 @@ void place_device(Stage& stage) {
       for (const double z : {-0.09, 0.3}) stage.extent.add(X_WD * (foot + Vector3(x, y, z)));
 }
 
-void draw_bodies(Stage& stage, const Moment& moment) {
+void draw_bodies(SceneView& stage, const Snapshot& moment) {
   stage.list.clear_frame();
   draw_planes(stage, moment);
   draw_first_variant(stage, moment);

@@ -25,8 +25,8 @@ struct Scales {
   double elastic = 0;
   double lowest_potential = 0, highest_potential = 0;
   bool has_moment = false;
-  void widen_run(const Model<double>& model, const Moment& moment);  // all but contact forces
-  void widen_contacts(const Moment& moment);
+  void widen_run(const Model<double>& model, const Snapshot& moment);  // all but contact forces
+  void widen_contacts(const Snapshot& moment);
   void widen(const Scales& other);
   double radius() const { return 0.006 * length; }  // of rods and arrows [m]
   // A round number of metres per newton, by which the largest is drawn as a third of the scene.
@@ -39,10 +39,10 @@ struct Trace {          // where bodies went, by instant and body
   std::vector<std::vector<Vector3>> p_Wc;  // centres of mass; of the world zero
 };
 
-struct Stage {
+struct SceneView {
   const Model<double>* model = nullptr;
   const SceneModel* scene = nullptr;  // null for a robot alone
-  Cast cast;
+  SceneMeshes cast;
   DrawList list;
   std::vector<Extent> instants;  // counted, of the run and of what is shown of it
   bool has_hand = false;         // at one of them
@@ -55,29 +55,29 @@ struct Stage {
   std::optional<Pose> X_WDevice;  // where it stands, if a hand is seen
 };
 
-Stage make_stage(const SceneModel& scene);
-Stage make_stage(const RobotDescription& robot, const Model<double>& model);
+SceneView make_stage(const SceneModel& scene);
+SceneView make_stage(const RobotDescription& robot, const Model<double>& model);
 
 // Before the first picture, in this order: look_ahead() at moments of the whole run, for framing
 // and trails, look_at() those of the pictures; settle(); measure() both, for the scales;
 // set_view().
-void look_ahead(Stage& stage, const Moment& moment);
-void look_at(Stage& stage, const Moment& moment);
-void settle(Stage& stage);
+void look_ahead(SceneView& stage, const Snapshot& moment);
+void look_at(SceneView& stage, const Snapshot& moment);
+void settle(SceneView& stage);
 // Contact forces by what is shown alone: an impact that is not must not make all others small. All
 // else by the whole run. What lies too far counts for neither.
 enum class Measured { of_run, of_picture };
-void measure(Stage& stage, const Moment& moment, Measured measured);
+void measure(SceneView& stage, const Snapshot& moment, Measured measured);
 // Camera, floor and grid. Notes where the floor is only drawn.
-void set_view(Stage& stage, const CameraWish& wish, double aspect);
+void set_view(SceneView& stage, const CameraWish& wish, double aspect);
 // The hand device stands on the ground, in front of all that is seen and to its left.
-void place_device(Stage& stage);
+void place_device(SceneView& stage);
 // Its shoulder in device axes, and how high that is above the ground [m]: the case is on a block,
 // because at zero the stylus is below the foot of the case.
 Vector3 device_shoulder();
 inline constexpr double kDeviceShoulder = 0.21;
 
 // Clears stage.list and adds the planes and the bodies of all variants.
-void draw_bodies(Stage& stage, const Moment& moment);
+void draw_bodies(SceneView& stage, const Snapshot& moment);
 
 }  // namespace twinarm

@@ -101,10 +101,10 @@ struct Look {
   Maybe operator()(const Capsule& c) const {
     return placed(list, list.register_mesh(capsule(c.radius, c.length)));
   }
-  Maybe operator()(const HollowSphere& s) const {
+  Maybe operator()(const SphericalCavity& s) const {
     return hollow(sphere(Vector3::Constant(s.radius), list));
   }
-  Maybe operator()(const HollowCylinder& c) const {
+  Maybe operator()(const CylindricalCavity& c) const {
     return hollow(cylinder(c.radius, c.length, list));
   }
   Maybe operator()(const HalfSpace&) const { return std::nullopt; }

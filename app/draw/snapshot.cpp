@@ -42,11 +42,11 @@ std::vector<std::size_t> leaders(const SceneModel& scene) {
   return found;
 }
 
-ShownPull pull_of(const SceneModel& scene, SceneCouplings& couplings, std::size_t c,
-                  const Moment& moment, const Vector3& pull) {
+ShownCouplingForce pull_of(const SceneModel& scene, SceneCouplings& couplings, std::size_t c,
+                           const Snapshot& moment, const Vector3& pull) {
   const SceneCoupling& spec = scene.couplings[c];
   const CouplingEnds ends = couplings.ends(c, moment.x, moment.k);
-  ShownPull shown;
+  ShownCouplingForce shown;
   shown.name = spec.name;
   shown.kind = kind_of_pull(scene, c);
   shown.has_ends = spec.type == CouplingDescription::Type::linear;
@@ -60,22 +60,24 @@ ShownPull pull_of(const SceneModel& scene, SceneCouplings& couplings, std::size_
   }
   shown.p_D = shown.p_K = moment.k.X_WL[shown.body].p;
   // The axis of a joint of one degree of freedom is z of its body.
-  if (spec.measure == Measure::joint) shown.pull_W = pull.x() * moment.k.R_WB[shown.body].col(2);
+  if (spec.measure == SpringSpace::joint)
+    shown.pull_W = pull.x() * moment.k.R_WB[shown.body].col(2);
   return shown;
 }
 
 }  // namespace
 
-ShownPull::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling) {
+ShownCouplingForce::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling) {
   const SceneCoupling& spec = scene.couplings[coupling];
   const bool along_joint =
-      spec.measure == Measure::joint &&
+      spec.measure == SpringSpace::joint &&
       is_translational(scene.model.joint[static_cast<std::size_t>(spec.spring.body)]);
-  return spec.type == CouplingDescription::Type::linear || along_joint ? ShownPull::Kind::force
-                                                                       : ShownPull::Kind::couple;
+  return spec.type == CouplingDescription::Type::linear || along_joint
+             ? ShownCouplingForce::Kind::force
+             : ShownCouplingForce::Kind::couple;
 }
 
-std::vector<PairForce> pair_forces(const Moment& moment) {
+std::vector<PairForce> pair_forces(const Snapshot& moment) {
   struct Sum {
     PairForce pair;
     double weight = 0;
@@ -98,8 +100,8 @@ std::vector<PairForce> pair_forces(const Moment& moment) {
   return all;
 }
 
-Moment moment_of(const Model<double>& model, const State<double>& x) {
-  Moment moment(model);
+Snapshot moment_of(const Model<double>& model, const State<double>& x) {
+  Snapshot moment(model);
   moment.x = x;
   forward_kinematics(model, x, moment.k);
   moment.kinetic = kinetic_energy(model, x);
@@ -107,9 +109,9 @@ Moment moment_of(const Model<double>& model, const State<double>& x) {
   return moment;
 }
 
-Moment moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
-                 const std::vector<Vector3>& pulls) {
-  Moment moment = moment_of(scene.model, x);
+Snapshot moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
+                   const std::vector<Vector3>& pulls) {
+  Snapshot moment = moment_of(scene.model, x);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     const Vector3 pull = c < pulls.size() ? pulls[c] : Vector3(Vector3::Zero());
     moment.pulls.push_back(pull_of(scene, couplings, c, moment, pull));

@@ -23,7 +23,7 @@ struct ShownContact {
   double friction = 0;                                            // Coulomb's, of the pair
 };
 
-struct ShownPull {
+struct ShownCouplingForce {
   enum class Kind { force, couple };
   std::string name;
   Kind kind = Kind::force;
@@ -42,7 +42,7 @@ struct PairForce {
 };
 
 // The kinematic twin of a robot.
-struct ShownTwin {
+struct ShownTargetRobot {
   std::size_t robot = 0;
   std::vector<Pose> X_WL;
 };
@@ -55,44 +55,44 @@ struct ShownHand {
 };
 
 // A spring by which somebody pulls at a body from outside.
-struct ShownGrip {
+struct ShownMouseSpring {
   std::size_t body = 0;
   Vector3 p_W = Vector3::Zero(), goal_W = Vector3::Zero();  // on the body; where it is pulled to
   Vector3 force_W = Vector3::Zero();                        // on the body [N]
 };
 
 // Another run of the same bodies, that is shown beside this one.
-struct ShownLane {
+struct ShownVariant {
   std::string name;
   Vector3 offset_W = Vector3::Zero(), above_W = Vector3::Zero();  // of its bodies; of its name
   std::vector<Pose> X_WL, before;  // by body, as if it stood where this one does
 };
 
-struct Moment {
+struct Snapshot {
   State<double> x;
   Kinematics k;
   std::vector<ShownContact> contacts;
-  std::vector<ShownPull> pulls;
-  std::vector<ShownTwin> twins;
+  std::vector<ShownCouplingForce> pulls;
+  std::vector<ShownTargetRobot> twins;
   std::vector<ShownHand> hands;  // by twin that a hand moves
-  std::optional<ShownGrip> grip;
+  std::optional<ShownMouseSpring> grip;
   std::vector<Pose> before;                        // of another run at this time, by body; or none
-  std::vector<ShownLane> lanes;                    // the first: this one, without places; or none
+  std::vector<ShownVariant> lanes;                 // the first: this one, without places; or none
   double kinetic = 0, potential = 0, elastic = 0;  // [J]
-  explicit Moment(const Model<double>& model) : x(model), k(model) {}
+  explicit Snapshot(const Model<double>& model) : x(model), k(model) {}
 };
 
 // Of a coupling of the scene.
-ShownPull::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling);
+ShownCouplingForce::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling);
 
 // In the order of the pairs' names.
-std::vector<PairForce> pair_forces(const Moment& moment);
+std::vector<PairForce> pair_forces(const Snapshot& moment);
 
 // What the state says; contacts are left to the caller.
-Moment moment_of(const Model<double>& model, const State<double>& x);
+Snapshot moment_of(const Model<double>& model, const State<double>& x);
 // The same of a scene; `pulls` by coupling as SceneCouplings::pull() has them, or none.
-Moment moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
-                 const std::vector<Vector3>& pulls);
+Snapshot moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
+                   const std::vector<Vector3>& pulls);
 
 // From the model in body axes B to the world: centre of mass of a body; of one without mass its
 // origin.

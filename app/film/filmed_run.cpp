@@ -16,8 +16,8 @@
 namespace twinarm {
 namespace {
 
-constexpr int kAround = 240;           // instants that stand for the whole run
-constexpr double kMostPictures = 1e5;  // of a film
+constexpr int kAround = 240;          // instants that stand for the whole run
+constexpr double kMaxPictures = 1e5;  // of a film
 
 // Before the first step nothing has been computed: what is shown there is what acts in it.
 void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInstant& first) {
@@ -29,7 +29,7 @@ void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInsta
 }
 
 std::vector<double> picture_times(double from, double to, double interval) {
-  if ((to - from) / interval > kMostPictures)
+  if ((to - from) / interval > kMaxPictures)
     throw InputError({{"", 0, "--slow", "the film would have more than 100000 pictures",
                        "give a shorter piece by --from and --to", "film.too-long"}});
   std::vector<double> times;
@@ -47,7 +47,7 @@ void check_piece(double from, double to) {
 
 // Both ends at once, by the numbers that were given.
 void check_within(const Recording& recording, double from, double to) {
-  FaultList faults;
+  DiagnosticList faults;
   attempt(faults, [&] { return recording.at(from, "--from"); });
   attempt(faults, [&] { return recording.at(to, "--to"); });
   faults.check();
@@ -108,11 +108,11 @@ SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& ti
     return prepare_simulation(options);
   } catch (const InputError& error) {
     const std::string option = times.is_film ? "--to" : "--at";
-    std::vector<Fault> faults = error.faults();
-    for (Fault& fault : faults) {
+    std::vector<Diagnostic> faults = error.faults();
+    for (Diagnostic& fault : faults) {
       if (!is_of_option(fault, "duration")) continue;
       fault.where = option;
-      if (!fault.remedy.empty()) fault.remedy = "give " + option + " SECONDS";
+      if (!fault.fix.empty()) fault.fix = "give " + option + " SECONDS";
     }
     throw InputError(std::move(faults));
   }
@@ -177,7 +177,7 @@ FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::
 
 std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
                                  const std::filesystem::path& right, FilmTimes times) {
-  FaultList faults;
+  DiagnosticList faults;
   for (const auto* file : {&left, &right})
     if (!is_recording(*file))
       faults.add({file->string(), 0, "--beside", "this is no recording",
@@ -214,7 +214,7 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
 FilmedRun film_run(const RobotOptions& options, const FilmTimes& times, const std::string& camera,
                    Progress& progress) {
   if (!is_recording(options.model)) return let_run(options, times, camera, progress);
-  FaultList faults;
+  DiagnosticList faults;
   check_recorded(options, faults);
   faults.check();
   return film_recording(options.model, times);
@@ -258,17 +258,18 @@ bool moves_by_forces(const Model<double>& model, std::size_t body) {
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   RunInstant instant;
   instant.x = State<double>(model);
-  Memory memory = simulation_memory(frame.memory);
+  StateArchive memory = simulation_memory(frame.memory);
   visit_state(memory, model, instant.x);
   instant.pulls = frame.pulls;
   instant.contacts = frame.contacts;
   return instant;
 }
 
-Moment moment_of(const SimulateInput& input, SceneCouplings* couplings, const RunInstant& instant) {
+Snapshot moment_of(const SimulateInput& input, SceneCouplings* couplings,
+                   const RunInstant& instant) {
   const SceneModel* scene = input.scene.get();
   if (!scene || !couplings) return moment_of(input.robot.model, instant.x);
-  Moment moment = moment_of(*scene, *couplings, instant.x, instant.pulls);
+  Snapshot moment = moment_of(*scene, *couplings, instant.x, instant.pulls);
   const auto count = static_cast<int>(scene->geometries.size());
   for (const RecordedContact& c : instant.contacts)
     if (c.a >= 0 && c.b >= 0 && c.a < count && c.b < count)

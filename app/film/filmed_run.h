@@ -30,7 +30,8 @@ bool moves_by_forces(const Model<double>& model, std::size_t body);
 
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model);
 // `couplings`: of the scene; null for a robot alone. Contacts of other scenes are left out.
-Moment moment_of(const SimulateInput& input, SceneCouplings* couplings, const RunInstant& instant);
+Snapshot moment_of(const SimulateInput& input, SceneCouplings* couplings,
+                   const RunInstant& instant);
 
 struct FilmedRun {
   std::string name;  // of a run beside another: its file's; empty: the scene's
@@ -41,7 +42,7 @@ struct FilmedRun {
   std::vector<RunInstant> around;  // of the whole run, some hundred: for framing, scales, trails
 
   const Model<double>& model() const { return plan.input.robot.model; }
-  Moment moment(const RunInstant& instant) const {
+  Snapshot moment(const RunInstant& instant) const {
     return moment_of(plan.input, plan.input.couplings.get(), instant);
   }
 };

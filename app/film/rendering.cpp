@@ -76,7 +76,7 @@ class Rendering::View {
   void paint(std::size_t picture, const std::vector<std::string>& overlays,
              const std::vector<LegendLine>* before, Image& image) {
     const RunInstant& instant = run_.shown[picture];
-    const Moment moment = run_.moment(instant);
+    const Snapshot moment = run_.moment(instant);
     draw(stage_, moment, overlays);
     DrawList& list = stage_.list;
     legend_ = list.legend;
@@ -104,7 +104,7 @@ class Rendering::View {
   }
 
   const FilmedRun& run_;
-  Stage stage_;
+  SceneView stage_;
   CameraWish camera_wish_;
   int left_, width_, plot_height_, height_;
   Camera camera_;

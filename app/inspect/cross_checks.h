@@ -78,7 +78,7 @@ void move(const Model<S>& model, const std::vector<S>& qd, const S& by, State<S>
       const Vec3<S> v = transpose_times(quaternion_E(q + 3), Vec3<S>{vJ[3], vJ[4], vJ[5]});
       q[0] = q[0] + by * v.x, q[1] = q[1] + by * v.y, q[2] = q[2] + by * v.z;
       const std::array<S, 3> turn{by * vJ[0], by * vJ[1], by * vJ[2]};
-      turn_quaternion(q + 3, turn.data(), q + 3);
+      integrate_quaternion(q + 3, turn.data(), q + 3);
     } else {
       visit_joint(model, i, [&](auto joint) { joint.integrate(q, shift.data() + model.iv[i], q); });
     }

@@ -81,8 +81,8 @@ BodyBalance balance_of(const Inspection& in, std::size_t body, const Viewpoint& 
     back.torque += (in.k.X_WL[child].p - in.k.X_WL[body].p).cross(back.force);
     all.push_back(std::move(back));
   }
-  for (const Actor& actor : in.actors)
-    for (const Actor::OnBody& on : actor.bodies)
+  for (const AppliedForce& actor : in.actors)
+    for (const AppliedForce::OnBody& on : actor.bodies)
       if (on.body == body) all.push_back(named(in, actor.source, body, in.force_of(on)));
   all.push_back(inertia_of(in, body));
 
@@ -110,8 +110,8 @@ std::vector<JointBalance> joint_balances(const Inspection& in) {
       JointBalance balance;
       balance.body = i;
       balance.dof = dof;
-      for (const Actor& actor : in.actors)
-        for (const Actor::OnJoint& on : actor.joints)
+      for (const AppliedForce& actor : in.actors)
+        for (const AppliedForce::OnJoint& on : actor.joints)
           if (on.dof == dof) balance.torques.push_back({actor.source, in.torque_of(on)});
       if (in.model.armature[dof] != 0)
         balance.torques.push_back({"rotor", -in.model.armature[dof] * in.w.qdd[dof]});
@@ -172,10 +172,10 @@ NamedWrench Viewpoint::see(const Inspection& in, std::size_t body, NamedWrench w
 
 std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from) {
   std::vector<NamedForce> all;
-  for (const Actor& actor : in.actors) {
+  for (const AppliedForce& actor : in.actors) {
     NamedForce named{actor.source,   {},           {},          actor.point_W,
                      actor.normal_W, std::nullopt, actor.is_tie};
-    for (const Actor::OnBody& on : actor.bodies) {
+    for (const AppliedForce::OnBody& on : actor.bodies) {
       const Force<double> f = in.force_of(on);
       const Matrix3& R = in.k.R_WB[on.body];
       const Vector3 force = R * to_eigen(f.f);
@@ -188,7 +188,7 @@ std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from
                             from.see(in, on.body, {actor.source, force, R * to_eigen(f.n)}),
                             from.p_WV(in, on.body)});
     }
-    for (const Actor::OnJoint& on : actor.joints)
+    for (const AppliedForce::OnJoint& on : actor.joints)
       for (std::size_t i = 1; i < in.body_count(); ++i)
         if (on.dof >= in.model.iv[i] && on.dof < in.model.iv[i] + in.model.dofs(i))
           named.joints.push_back({i, on.dof, in.torque_of(on)});

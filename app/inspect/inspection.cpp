@@ -19,14 +19,14 @@ bool is_zero(const ArticulatedInertia<double>& a) {
          dot(a.H.r0, a.H.r0) + dot(a.H.r1, a.H.r1) + dot(a.H.r2, a.H.r2) == 0;
 }
 
-Forces<double> sum_of(const Model<double>& model, const std::vector<Actor>& actors) {
+Forces<double> sum_of(const Model<double>& model, const std::vector<AppliedForce>& actors) {
   Forces<double> sum(model);
-  for (const Actor& actor : actors) {
-    for (const Actor::OnBody& on : actor.bodies) {
+  for (const AppliedForce& actor : actors) {
+    for (const AppliedForce::OnBody& on : actor.bodies) {
       sum.f_ext[on.body] += on.f;
       if (!is_zero(on.impedance)) sum.add_impedance(on.body, on.impedance);
     }
-    for (const Actor::OnJoint& on : actor.joints) {
+    for (const AppliedForce::OnJoint& on : actor.joints) {
       sum.tau[on.dof] += on.tau;
       sum.armature[on.dof] += on.armature;
     }
@@ -36,8 +36,8 @@ Forces<double> sum_of(const Model<double>& model, const std::vector<Actor>& acto
 
 }  // namespace
 
-Actor actor_of(std::string source, const Forces<double>& added) {
-  Actor actor{std::move(source), {}, {}};
+AppliedForce actor_of(std::string source, const Forces<double>& added) {
+  AppliedForce actor{std::move(source), {}, {}};
   for (std::size_t i = 0; i < added.f_ext.size(); ++i)
     if (!is_zero(added.f_ext[i]) || !is_zero(added.impedance[i]))
       actor.bodies.push_back({i, added.f_ext[i], added.impedance[i]});
@@ -47,8 +47,8 @@ Actor actor_of(std::string source, const Forces<double>& added) {
   return actor;
 }
 
-Inspection::Inspection(const Model<double>& model_of, State<double> at, std::vector<Actor> acting,
-                       std::vector<LoopClosure> closed)
+Inspection::Inspection(const Model<double>& model_of, State<double> at,
+                       std::vector<AppliedForce> acting, std::vector<LoopClosure> closed)
     : model(model_of),
       x(std::move(at)),
       actors(std::move(acting)),
@@ -81,7 +81,7 @@ struct Shower {
   LinkAxes axes;
 
   template <class T>
-  Shown of(const Quantity& quantity, const std::vector<T>& field) const {
+  DisplayedQuantity of(const Quantity& quantity, const std::vector<T>& field) const {
     switch (quantity.by) {
       case Quantity::By::velocity:
         return by_velocity(quantity, field);
@@ -98,7 +98,7 @@ struct Shower {
               axes.show(field[body])};
   }
   template <class T>
-  Shown by_velocity(const Quantity& quantity, const std::vector<T>& field) const {
+  DisplayedQuantity by_velocity(const Quantity& quantity, const std::vector<T>& field) const {
     if constexpr (std::is_same_v<T, double>)
       return {quantity, kJointFrame, axes.joint(field)};
     else if constexpr (std::is_same_v<T, Motion<double>> || std::is_same_v<T, Force<double>>)
@@ -180,14 +180,14 @@ Force<double> own_force(const Inspection& in, std::size_t body) {
   return crf(in.w.v[body], in.model.I[body] * in.w.v[body]) - in.forces.f_ext[body];
 }
 
-std::vector<Shown> shown_quantities(const Inspection& in, int pass, std::size_t body) {
+std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, std::size_t body) {
   const Shower shower{in, body, LinkAxes(in, body)};
-  std::vector<Shown> all;
+  std::vector<DisplayedQuantity> all;
   const auto take = [&](const Quantity& quantity, const auto& field) {
     const bool is_input = pass == 1 && quantity.pass == 0;
     if (quantity.pass != pass && !is_input) return;
     if (quantity.by != Quantity::By::body && shower.axes.nv() == 0) return;
-    Shown shown = shower.of(quantity, field);
+    DisplayedQuantity shown = shower.of(quantity, field);
     if (is_input && shown.value.isZero(0)) return;
     all.push_back(std::move(shown));
   };

@@ -19,7 +19,7 @@ namespace twinarm {
 
 // One thing that pushes: a wrench, an actuator, a coupling, a contact point, a constraint. The
 // implicit parts act against the acceleration that is found: f - impedance a, tau - armature qdd.
-struct Actor {
+struct AppliedForce {
   struct OnBody {
     std::size_t body;
     Force<double> f;  // body axes, about the body's origin
@@ -38,12 +38,12 @@ struct Actor {
 };
 
 // An actor of what a source of forces added to forces that were zero.
-Actor actor_of(std::string source, const Forces<double>& added);
+AppliedForce actor_of(std::string source, const Forces<double>& added);
 
 struct Inspection {
   const Model<double>& model;
   State<double> x;
-  std::vector<Actor> actors;
+  std::vector<AppliedForce> actors;
   std::vector<LoopClosure> loops;  // that `actors` keep closed; for a check
   Forces<double> forces;           // their sum
   Kinematics k;
@@ -51,17 +51,19 @@ struct Inspection {
   FullTrace<double> trace;
 
   // The model must outlive it.
-  Inspection(const Model<double>& model, State<double> x, std::vector<Actor> actors,
+  Inspection(const Model<double>& model, State<double> x, std::vector<AppliedForce> actors,
              std::vector<LoopClosure> loops = {});
 
   std::size_t body_count() const { return model.parent.size(); }
   std::size_t parent(std::size_t i) const { return static_cast<std::size_t>(model.parent[i]); }
   std::vector<std::size_t> children(std::size_t i) const;
   // What acts, at the acceleration that was found.
-  Force<double> force_of(const Actor::OnBody& on) const {
+  Force<double> force_of(const AppliedForce::OnBody& on) const {
     return on.f - on.impedance * w.a[on.body];
   }
-  double torque_of(const Actor::OnJoint& on) const { return on.tau - on.armature * w.qdd[on.dof]; }
+  double torque_of(const AppliedForce::OnJoint& on) const {
+    return on.tau - on.armature * w.qdd[on.dof];
+  }
 };
 
 // The quantities of the passes as users see them: in the axes of the link in their file.
@@ -120,14 +122,14 @@ class LinkAxes : public LinkFrame {
 };
 
 // One quantity of one body. A number is 1 x 1, what has six parts 6 x 1; S and U are 6 x nv.
-struct Shown {
+struct DisplayedQuantity {
   Quantity quantity;
   const char* frame;
   Eigen::MatrixXd value;
 };
 // What a pass (1 to 3) leaves of a body, in the order in which it is found; pass 1 begins with the
 // inputs that are not zero.
-std::vector<Shown> shown_quantities(const Inspection& in, int pass, std::size_t body);
+std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, std::size_t body);
 
 // The force of the body alone, v x* I v - f_ext.
 Force<double> own_force(const Inspection& in, std::size_t body);

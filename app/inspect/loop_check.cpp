@@ -84,10 +84,10 @@ double step_of_loop(const Inspection& in, const LoopClosure& loop) {
 }
 
 // What the accelerations are made of.
-double largest_push(const Inspection& in) {
+double max_push(const Inspection& in) {
   double largest = std::max(to_eigen(in.model.gravity).norm(), 1e-300);
-  for (const Actor& actor : in.actors)
-    for (const Actor::OnBody& on : actor.bodies)
+  for (const AppliedForce& actor : in.actors)
+    for (const AppliedForce::OnBody& on : actor.bodies)
       if (const double m = in.model.I[on.body].m; m > 0)
         largest = std::max(largest, to_eigen(in.force_of(on).f).norm() / m);
   return largest;
@@ -139,7 +139,7 @@ std::vector<NamedError> loop_errors(const Inspection& in) {
   std::vector<NamedError> errors;
   const std::vector<LoopClosure> loops = with_followers(in.model, in.loops);
   if (loops.empty()) return errors;
-  const double push = largest_push(in);
+  const double push = max_push(in);
   Kinematics k = in.k;
   for (const LoopClosure& loop : loops)
     errors.push_back({loop.name, loop_error(in, loop, push, k)});

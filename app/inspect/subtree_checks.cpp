@@ -16,9 +16,9 @@ namespace {
 
 // The same mechanism by CRBA and RNEA, implicit terms included:
 //   M = M_crba + sum J^T impedance J + armature,   h = RNEA at qdd = 0 with f - impedance a_0.
-class SecondWay {
+class CrbaRneaReference {
  public:
-  explicit SecondWay(const Inspection& in);
+  explicit CrbaRneaReference(const Inspection& in);
 
   const Eigen::MatrixXd& M() const { return M_; }
 
@@ -65,7 +65,7 @@ State<double> at_rest(State<double> x) {
   return x;
 }
 
-SecondWay::SecondWay(const Inspection& in)
+CrbaRneaReference::CrbaRneaReference(const Inspection& in)
     : in_(in), weightless_(in.model), rest_(at_rest(in.x)), w_(in.model) {
   weightless_.gravity = {};
   const auto nv = static_cast<Eigen::Index>(in.model.nv);
@@ -75,7 +75,7 @@ SecondWay::SecondWay(const Inspection& in)
 }
 
 // J of body b in its own axes has the columns X S_j of all joints below it, X from j to b.
-void SecondWay::add_implicit() {
+void CrbaRneaReference::add_implicit() {
   for (std::size_t dof = 0; dof < in_.model.nv; ++dof)
     M_(static_cast<Eigen::Index>(dof), static_cast<Eigen::Index>(dof)) += in_.forces.armature[dof];
   if (!in_.forces.has_impedance) return;
@@ -95,9 +95,9 @@ void SecondWay::add_implicit() {
   }
 }
 
-SecondWay::Answer SecondWay::run(const Model<double>& model, const State<double>& x,
-                                 const Eigen::VectorXd& qdd,
-                                 const std::vector<Force<double>>& f_ext) {
+CrbaRneaReference::Answer CrbaRneaReference::run(const Model<double>& model, const State<double>& x,
+                                                 const Eigen::VectorXd& qdd,
+                                                 const std::vector<Force<double>>& f_ext) {
   rnea(model, x, as_list(qdd), f_ext, w_);
   Answer answer{Eigen::Map<const Eigen::VectorXd>(w_.tau.data(), qdd.size()), w_.a, w_.f};
   for (Eigen::Index k = 0; k < qdd.size(); ++k)
@@ -105,7 +105,8 @@ SecondWay::Answer SecondWay::run(const Model<double>& model, const State<double>
   return answer;
 }
 
-SecondWay::Answer SecondWay::inverse(const Eigen::VectorXd& qdd, std::size_t subtree) {
+CrbaRneaReference::Answer CrbaRneaReference::inverse(const Eigen::VectorXd& qdd,
+                                                     std::size_t subtree) {
   Answer first = run(in_.model, in_.x, qdd, in_.forces.f_ext);
   if (subtree == 0 && !in_.forces.has_impedance) return first;
   std::vector<Force<double>> f_ext = in_.forces.f_ext;
@@ -125,7 +126,7 @@ SecondWay::Answer SecondWay::inverse(const Eigen::VectorXd& qdd, std::size_t sub
   return run(in_.model, in_.x, qdd, f_ext);
 }
 
-SecondWay::Answer SecondWay::inertial(const Eigen::VectorXd& qdd) {
+CrbaRneaReference::Answer CrbaRneaReference::inertial(const Eigen::VectorXd& qdd) {
   const std::vector<Force<double>> none(in_.body_count());
   Answer answer = run(weightless_, rest_, qdd, none);
   if (!in_.forces.has_impedance) return answer;
@@ -135,12 +136,12 @@ SecondWay::Answer SecondWay::inertial(const Eigen::VectorXd& qdd) {
   return run(weightless_, rest_, qdd, implicit);
 }
 
-bool SecondWay::is_below(std::size_t body, std::size_t ancestor) const {
+bool CrbaRneaReference::is_below(std::size_t body, std::size_t ancestor) const {
   while (body > ancestor) body = in_.parent(body);
   return body == ancestor;
 }
 
-SecondWay::Rows SecondWay::rows_of(std::size_t body) const {
+CrbaRneaReference::Rows CrbaRneaReference::rows_of(std::size_t body) const {
   Rows rows;
   for (std::size_t j = body; j < in_.body_count(); ++j) {
     if (!is_below(j, body)) continue;
@@ -172,7 +173,7 @@ double size_of(const A& a) {
 // of: an inertia felt through free joints may be small against what is locked.
 class Subtree {
  public:
-  Subtree(const Inspection& in, SecondWay& second, std::size_t body)
+  Subtree(const Inspection& in, CrbaRneaReference& second, std::size_t body)
       : in_(in), second_(second), body_(body), rows_(second.rows_of(body)) {
     M_ii_ = second.M()(rows_.own, rows_.own);
     M_id_ = second.M()(rows_.own, rows_.below);
@@ -193,7 +194,7 @@ class Subtree {
     for (std::size_t k = 0; k < rows_.own.size(); ++k) {
       Eigen::VectorXd qdd = Eigen::VectorXd::Zero(second_.M().rows());
       qdd[rows_.own[k]] = 1;
-      const SecondWay::Answer locked = second_.inertial(qdd);
+      const CrbaRneaReference::Answer locked = second_.inertial(qdd);
       for (std::size_t d = 0; d < rows_.below.size(); ++d)
         qdd[rows_.below[d]] = -below(static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(k));
       const Vector6 U = as_vector(second_.inertial(qdd).f[body_]);
@@ -208,11 +209,11 @@ class Subtree {
     const Eigen::VectorXd all_tau = Eigen::Map<const Eigen::VectorXd>(
         in_.forces.tau.data(), static_cast<Eigen::Index>(in_.forces.tau.size()));
     Eigen::VectorXd qdd = Eigen::VectorXd::Zero(second_.M().rows());
-    const SecondWay::Answer held = second_.inverse(qdd, body_);
+    const CrbaRneaReference::Answer held = second_.inverse(qdd, body_);
     const Eigen::VectorXd left = all_tau - held.tau;
     const Eigen::VectorXd below = solve_below(left(rows_.below));
     qdd(rows_.below) = below;
-    const SecondWay::Answer free = second_.inverse(qdd, body_);
+    const CrbaRneaReference::Answer free = second_.inverse(qdd, body_);
     const Vector6 pA = as_vector(free.f[body_]), found_pA = as_vector(in_.w.pA[body_]);
     const double scale = std::max({size_of(pA), size_of(as_vector(held.f[body_])), load});
 
@@ -230,14 +231,14 @@ class Subtree {
   }
 
   const Inspection& in_;
-  SecondWay& second_;
+  CrbaRneaReference& second_;
   std::size_t body_;
-  SecondWay::Rows rows_;
+  CrbaRneaReference::Rows rows_;
   Eigen::MatrixXd M_ii_, M_id_, M_dd_;
 };
 
 // Of the wrenches at a body: a force that is small because large ones cancel is held against those.
-double load_on(const Inspection& in, const SecondWay::Answer& still, std::size_t i) {
+double load_on(const Inspection& in, const CrbaRneaReference::Answer& still, std::size_t i) {
   const Force<double> moved = in.model.I[i] * in.w.a[i];
   const double weight = in.model.I[i].m * to_eigen(in.model.gravity).norm();
   return std::max({size_of(as_vector(still.f[i])), size_of(as_vector(moved)),
@@ -247,9 +248,9 @@ double load_on(const Inspection& in, const SecondWay::Answer& still, std::size_t
 }  // namespace
 
 SubtreeErrors subtree_errors(const Inspection& in) {
-  SecondWay second(in);
+  CrbaRneaReference second(in);
   const Eigen::VectorXd no_qdd = Eigen::VectorXd::Zero(second.M().rows());
-  const SecondWay::Answer still = second.inverse(no_qdd);
+  const CrbaRneaReference::Answer still = second.inverse(no_qdd);
   const Errors none(in.body_count());
   SubtreeErrors errors{none, none, none, none};
   for (std::size_t i = 1; i < in.body_count(); ++i) {
@@ -262,11 +263,11 @@ SubtreeErrors subtree_errors(const Inspection& in) {
 }
 
 WholeErrors whole_errors(const Inspection& in) {
-  SecondWay second(in);
+  CrbaRneaReference second(in);
   const auto nv = static_cast<Eigen::Index>(in.model.nv);
   const Eigen::Map<const Eigen::VectorXd> qdd(in.w.qdd.data(), nv), tau(in.forces.tau.data(), nv);
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(nv);
-  const SecondWay::Answer moving = second.inverse(qdd), still = second.inverse(none);
+  const CrbaRneaReference::Answer moving = second.inverse(qdd), still = second.inverse(none);
   const Eigen::VectorXd M_qdd = second.M() * qdd;
   const Errors zero(in.body_count());
   WholeErrors errors{zero, zero, zero, zero};

@@ -32,7 +32,7 @@ bool is_plain(const SimulatePlan& plan) {
          });
 }
 
-std::unique_ptr<HandSource> hand_of(const SceneCoupling& coupling) {
+std::unique_ptr<OperatorMotion> hand_of(const SceneCoupling& coupling) {
   if (coupling.target == CouplingTarget::Kind::trace) return read_hand_file(coupling.trace);
   return std::make_unique<AutomaticMotion>(HandMapping{});  // of a twin at rest it turns nothing
 }
@@ -69,7 +69,7 @@ struct CellBatch::Parts {
   SimulatePlan base;
   MeasuredJoints joints;
   std::vector<Limits> limits;  // by measured joint
-  std::vector<std::unique_ptr<HandSource>> hands;
+  std::vector<std::unique_ptr<OperatorMotion>> hands;
   BatchSetup setup;
   std::unique_ptr<BatchRun> runs;
   std::map<std::pair<double, double>, double> twin_energies;  // by speed and delay
@@ -130,7 +130,7 @@ bool CellBatch::Parts::find_limits() {
 // Nothing where couplings see one motion each in its own time.
 std::optional<BatchCell> CellBatch::Parts::cell_at(const Place& place) const {
   Value scene = job.scene;
-  FaultList faults;
+  DiagnosticList faults;
   put_in(job, place.x, place.y, scene, faults);
   BatchCell cell;
   cell.h = job.run.step.value_or(number_or(scene, "step", base.run.step));

@@ -17,7 +17,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kMostCreated = 100, kTurns = 25, kHair = 1e-3;  // the last one in metres
+constexpr double kMaxCreated = 100, kTurns = 25, kHair = 1e-3;  // the last one in metres
 constexpr int kLooksAtTwin = 64;
 
 bool is_moved(const SceneCoupling& coupling) {
@@ -26,7 +26,7 @@ bool is_moved(const SceneCoupling& coupling) {
 }
 
 // Of the twin on its way; a twin at rest has none.
-double largest_twin_energy(const SimulatePlan& plan, std::size_t c) {
+double max_twin_energy(const SimulatePlan& plan, std::size_t c) {
   SceneCouplings& couplings = *plan.input.couplings;
   if (!is_moved(couplings.spec(c))) return 0;
   const Model<double>& model = plan.input.robot.model;
@@ -40,10 +40,10 @@ double largest_twin_energy(const SimulatePlan& plan, std::size_t c) {
   return largest;
 }
 
-double created(const std::vector<LedgerRow>& ledger) {
+double created(const std::vector<EnergyRow>& ledger) {
   double sum = 0;
-  for (const LedgerRow& row : ledger)
-    if (row.kind == LedgerKind::numerical || row.kind == LedgerKind::coupling_implicit)
+  for (const EnergyRow& row : ledger)
+    if (row.kind == EnergyRowKind::numerical || row.kind == EnergyRowKind::coupling_implicit)
       sum += row.work;
   return sum;
 }
@@ -81,13 +81,13 @@ double energy_by_right(const SimulatePlan& plan, bool with_springs) {
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (with_springs)
       sum += 0.5 * couplings.spec(c).spring.k * couplings.ends(c, start, k).offset.squaredNorm();
-    twin = std::max(twin, largest_twin_energy(plan, c));
+    twin = std::max(twin, max_twin_energy(plan, c));
   }
   return sum + kTurns * twin;
 }
 
 bool within_reach(double created, double by_right) {
-  return created <= kMostCreated * by_right;
+  return created <= kMaxCreated * by_right;
 }
 
 CellMeasure::CellMeasure(const SimulatePlan& plan, MeasuredJoints joints)
@@ -102,14 +102,14 @@ void CellMeasure::look(RunView& run) {
   const State<double>& twin = plan_.input.couplings->target(joints_.coupling, x.t).x;
   for (std::size_t j = 0; j < joints_.iq.size(); ++j) {
     const double e = std::abs(twin.q[joints_.iq[j]] - x.q[joints_.iq[j]]);
-    largest_ = std::max(largest_, e);
+    max_ = std::max(max_, e);
     integral_[j] += 0.5 * (x.t - t_before_) * (before_[j] + e);
     before_[j] = e;
   }
   t_before_ = x.t;
   double put_in = 0;
-  for (const LedgerRow& row : run.hand()) put_in += row.work;
-  least_put_in_ = std::min(least_put_in_, put_in);
+  for (const EnergyRow& row : run.hand()) put_in += row.work;
+  min_put_in_ = std::min(min_put_in_, put_in);
 }
 
 CellValues CellMeasure::values(const SimulateResult& result) const {
@@ -118,8 +118,8 @@ CellValues CellMeasure::values(const SimulateResult& result) const {
   double mean = 0;
   for (const double sum : integral_) mean = std::max(mean, sum / plan_.run.duration);
   const double none = std::numeric_limits<double>::quiet_NaN();
-  return {1, joints_.iq.empty() ? none : largest_, joints_.iq.empty() ? none : mean, energy,
-          least_put_in_};
+  return {1, joints_.iq.empty() ? none : max_, joints_.iq.empty() ? none : mean, energy,
+          min_put_in_};
 }
 
 namespace {
@@ -127,7 +127,7 @@ namespace {
 // The scene of the cell, with what the command line said in its place.
 Value scene_of_cell(const MapJob& job, double x, double y) {
   Value scene = job.scene;
-  FaultList faults;
+  DiagnosticList faults;
   put_in(job, x, y, scene, faults);
   faults.check();
   if (job.run.step) scene.put("step", Value::of(*job.run.step));

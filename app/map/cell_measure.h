@@ -64,7 +64,7 @@ class CellMeasure {
   MeasuredJoints joints_;
   double t_before_ = 0;
   std::vector<double> before_, integral_;  // by joint
-  double largest_ = 0, least_put_in_ = 0;
+  double max_ = 0, min_put_in_ = 0;
 };
 
 }  // namespace twinarm

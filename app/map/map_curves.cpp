@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 
 constexpr double kRound = 1e-9;  // of the unit circle
 constexpr int kPoses = 24;       // along the twin's way
-constexpr int kMostColumns = 96, kRows = 48;
+constexpr int kMaxColumns = 96, kRows = 48;
 constexpr int kHalvings = 12;  // of a row
 
 bool is_semi_implicit(Integrator integrator) {
@@ -33,13 +33,13 @@ bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
   const SceneCouplings& couplings = *plan.input.couplings;
   Kinematics k(model);
   forward_kinematics(model, x, k);
-  std::vector<StepPart> parts;
+  std::vector<CoupledTerm> parts;
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (!couplings.spec(c).leads()) continue;
     const Coupling::JointSpace space = couplings.coupling(c).joint_space(k);
     parts.push_back({space.K, space.K, space.B, couplings.spec(c).treatment, 0});
   }
-  return growth_per_step(mass_matrix(model, x), parts, plan.run.integrator, plan.run.step) <=
+  return spectral_radius(mass_matrix(model, x), parts, plan.run.integrator, plan.run.step) <=
          1 + kRound;
 }
 
@@ -49,7 +49,7 @@ bool is_stable_at_start(const SimulatePlan& plan) {
 
 bool is_implicit_point(const SceneCoupling& coupling) {
   return coupling.type == CouplingDescription::Type::linear &&
-         coupling.treatment == Treatment::implicit;
+         coupling.treatment == Discretization::implicit;
 }
 
 bool is_stable_on_the_way(const SimulatePlan& plan) {
@@ -82,7 +82,7 @@ bool is_within_geometry(const SimulatePlan& plan) {
       };
       const auto iv = static_cast<Eigen::Index>(model.iv[i]);
       if (radius(target) >
-          largest_target_radius(M(iv, iv), radius(p), spec.spring.k, spec.spring.b, plan.run.step))
+          max_target_radius(M(iv, iv), radius(p), spec.spring.k, spec.spring.b, plan.run.step))
         return false;
     }
   }
@@ -96,7 +96,7 @@ class BoundarySearch {
   explicit BoundarySearch(const MapJob& job) : job_(job) {}
 
   MapCurve find(const std::string& name, const Good& good) const {
-    const int columns = std::min(job_.nx(), kMostColumns);
+    const int columns = std::min(job_.nx(), kMaxColumns);
     std::vector<std::vector<double>> places;  // [column][branch], along y
     for (int i = 0; i < columns; ++i) places.push_back(column(column_at(i, columns), good));
     std::size_t branches = 0;
@@ -161,14 +161,14 @@ bool has_theory(const SimulatePlan& plan) {
 
 std::string scheme_words(const SimulatePlan& plan) {
   const auto& couplings = plan.input.scene->couplings;
-  const auto is_all = [&](Treatment treatment) {
+  const auto is_all = [&](Discretization treatment) {
     return std::all_of(couplings.begin(), couplings.end(),
                        [&](const SceneCoupling& c) { return c.treatment == treatment; });
   };
   if (!is_semi_implicit(plan.run.integrator)) return integrator_name(plan.run.integrator);
-  if (is_all(Treatment::explicit_)) return name_of(Scheme::semi_implicit);
-  if (is_all(Treatment::semi_implicit)) return name_of(Scheme::implicit_damper);
-  if (is_all(Treatment::implicit)) return name_of(Scheme::implicit);
+  if (is_all(Discretization::explicit_)) return name_of(SteppingScheme::semi_implicit);
+  if (is_all(Discretization::semi_implicit)) return name_of(SteppingScheme::implicit_damper);
+  if (is_all(Discretization::implicit)) return name_of(SteppingScheme::implicit);
   return "semi-implicit Euler, each coupling in its treatment";
 }
 

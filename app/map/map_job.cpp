@@ -18,9 +18,9 @@ namespace {
 
 // No file has such lines: faults in what an axis wrote are known by them.
 constexpr int kLineOfX = -1, kLineOfY = -2;
-constexpr double kMostMapCells = 4.2e6, kMostSteps = 1e8;  // of a map, of a cell
+constexpr double kMaxMapCells = 4.2e6, kMaxSteps = 1e8;  // of a map, of a cell
 
-MapMeasure parse_measure(const std::string& name, FaultList& faults) {
+MapMeasure parse_measure(const std::string& name, DiagnosticList& faults) {
   const auto found = std::find(kMapMeasures.begin(), kMapMeasures.end(), name);
   if (found != kMapMeasures.end()) return static_cast<MapMeasure>(found - kMapMeasures.begin());
   const std::vector<std::string> names(kMapMeasures.begin(), kMapMeasures.end());
@@ -30,16 +30,17 @@ MapMeasure parse_measure(const std::string& name, FaultList& faults) {
 }
 
 InputError told_by_axis(const InputError& error, const MapJob& job, double x, double y) {
-  std::vector<Fault> faults = error.faults();
-  const auto by = [](const char* option, const MapAxis& axis, double value, const Fault& fault) {
-    return Fault{"",
-                 0,
-                 option + (" " + axis.path + " = " + number_text(value)),
-                 fault.where + ": " + fault.rule,
-                 fault.remedy,
-                 fault.code};
+  std::vector<Diagnostic> faults = error.faults();
+  const auto by = [](const char* option, const MapAxis& axis, double value,
+                     const Diagnostic& fault) {
+    return Diagnostic{"",
+                      0,
+                      option + (" " + axis.path + " = " + number_text(value)),
+                      fault.where + ": " + fault.problem,
+                      fault.fix,
+                      fault.code};
   };
-  for (Fault& fault : faults)
+  for (Diagnostic& fault : faults)
     if (fault.line == kLineOfX)
       fault = by("--x", job.x, x, fault);
     else if (fault.line == kLineOfY)
@@ -49,7 +50,7 @@ InputError told_by_axis(const InputError& error, const MapJob& job, double x, do
 
 // Whose joints are measured, and in which unit.
 void check_couplings(const SceneModel& scene, const std::string& of, MapJob& job,
-                     FaultList& faults) {
+                     DiagnosticList& faults) {
   const bool is_error =
       job.measure == MapMeasure::max_error || job.measure == MapMeasure::mean_error;
   const bool needs = is_error || job.measure == MapMeasure::passivity || !of.empty();
@@ -87,7 +88,7 @@ std::string content_hash(const MapJob& job, const SimulatePlan& base) {
 
 void check_plan(const MapJob& job, const SimulatePlan& plan, double x, double y) {
   const double steps = plan.run.duration / plan.run.step;
-  if (plan.run.is_adaptive() || (steps >= 1 && steps <= kMostSteps)) return;
+  if (plan.run.is_adaptive() || (steps >= 1 && steps <= kMaxSteps)) return;
   throw InputError(
       {{"", 0,
         fmt::format("--x {} = {}, --y {} = {}", job.x.path, number_text(x), job.y.path,
@@ -99,7 +100,7 @@ void check_plan(const MapJob& job, const SimulatePlan& plan, double x, double y)
 }
 
 // Faults of the scene itself hide those of the axes.
-void check_scene(MapJob& job, const std::string& of, FaultList& faults) {
+void check_scene(MapJob& job, const std::string& of, DiagnosticList& faults) {
   const SimulatePlan base = prepare_simulation(job.run);
   check_couplings(*base.input.scene, of, job, faults);
   job.identity.push_back("content " + content_hash(job, base));
@@ -115,7 +116,7 @@ std::string or_scene(const std::optional<double>& value) {
   return value ? number_text(*value) : identity::kAsScene;
 }
 
-void check_axes(const MapJob& job, const MapOptions& options, FaultList& faults) {
+void check_axes(const MapJob& job, const MapOptions& options, DiagnosticList& faults) {
   if (job.x.path == job.y.path)
     faults.add({"", 0, "--y", "is the same number as --x", "give two numbers of the scene",
                 "map.same-axes"});
@@ -127,40 +128,41 @@ void check_axes(const MapJob& job, const MapOptions& options, FaultList& faults)
       faults.add({"", 0, "--duration", std::string(name) + " varies it", "leave one of them out",
                   "map.option-and-axis"});
   }
-  if (static_cast<double>(job.nx()) * job.ny() > kMostMapCells)
+  if (static_cast<double>(job.nx()) * job.ny() > kMaxMapCells)
     faults.add({"", 0, "--x, --y", fmt::format("{} x {} cells are too many", job.nx(), job.ny()),
                 "give at most four million", "map.too-many-cells"});
 }
 
 // Of faults at the corners of a map each is told once.
-void check_once(const FaultList& faults) {
+void check_once(const DiagnosticList& faults) {
   try {
     faults.check();
   } catch (const InputError& error) {
-    std::vector<Fault> once;
-    for (const Fault& fault : error.faults())
-      if (std::none_of(once.begin(), once.end(),
-                       [&](const Fault& other) { return to_string(other) == to_string(fault); }))
+    std::vector<Diagnostic> once;
+    for (const Diagnostic& fault : error.faults())
+      if (std::none_of(once.begin(), once.end(), [&](const Diagnostic& other) {
+            return to_string(other) == to_string(fault);
+          }))
         once.push_back(fault);
     throw InputError(std::move(once));
   }
 }
 
-constexpr double kMostCells = 4096;  // along an axis
+constexpr double kMaxCells = 4096;  // along an axis
 const char* const kAxisForm =
     "write PATH:FROM:TO:N[:log], as in coupling[0].stiffness:100:1e5:64:log";
 
 }  // namespace
 
-void put_in(const MapJob& job, double x, double y, Value& scene, FaultList& faults) {
+void put_in(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults) {
   set_number(scene, job.x.path, x, kLineOfX, "--x", faults);
   set_number(scene, job.y.path, y, kLineOfY, "--y", faults);
 }
 
 SimulatePlan prepare_cell(const MapJob& job, double x, double y) {
   SimulateOptions options = job.run;
-  options.change_scene = [&](Value& scene, FaultList&) {
-    FaultList faults;
+  options.change_scene = [&](Value& scene, DiagnosticList&) {
+    DiagnosticList faults;
     put_in(job, x, y, scene, faults);
     faults.check();
   };
@@ -172,7 +174,7 @@ SimulatePlan prepare_cell(const MapJob& job, double x, double y) {
 }
 
 MapJob read_map_job(const MapOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   MapJob job;
   if (options.scene.empty())
     faults.add({"", 0, "command line", "no scene is given", "twinarm map SCENE.toml --x .. --y ..",
@@ -231,11 +233,11 @@ std::string MapAxis::text() const {
 }
 
 std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
-                                  FaultList& faults) {
+                                  DiagnosticList& faults) {
   bool good = true;
-  const auto fault = [&](const std::string& rule, const std::string& remedy,
+  const auto fault = [&](const std::string& problem, const std::string& fix,
                          std::string_view code) {
-    faults.add({"", 0, option, rule, remedy, code});
+    faults.add({"", 0, option, problem, fix, code});
     good = false;
   };
   const std::vector<std::string> parts = split(text, ':');
@@ -258,7 +260,7 @@ std::optional<MapAxis> parse_axis(const std::string& option, const std::string& 
   if (good && !(axis.from < axis.to))
     fault("goes from " + parts[1] + " to " + parts[2], "give the smaller value first",
           "axis.order");
-  if (good && (count < 2 || count > kMostCells || count != std::floor(count)))
+  if (good && (count < 2 || count > kMaxCells || count != std::floor(count)))
     fault("has " + parts[3] + " cells", "give a whole number of them, from 2 to 4096",
           "axis.count");
   axis.log = parts.size() == 5;

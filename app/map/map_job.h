@@ -48,7 +48,7 @@ struct MapAxis {
 
 // PATH:FROM:TO:N[:log]; adds all its faults, which name the option, and returns nothing then.
 std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
-                                  FaultList& faults);
+                                  DiagnosticList& faults);
 
 // What lines of MapJob::identity say besides names and numbers. They are part of the form of tile
 // files, of which older ones must fit: no word of them changes.
@@ -80,7 +80,7 @@ struct MapJob {
 MapJob read_map_job(const MapOptions& options);
 
 // The scene with the two numbers put in; u as in MapAxis::at().
-void put_in(const MapJob& job, double x, double y, Value& scene, FaultList& faults);
+void put_in(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults);
 // Ready to run. Throws InputError, which tells what an axis brought in by that axis.
 SimulatePlan prepare_cell(const MapJob& job, double x, double y);
 

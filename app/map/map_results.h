@@ -38,7 +38,7 @@ struct MapCurve {
 // About a pose, with e = q_K - q_D, a step of the couplings is linear; it is stable where no
 // eigenvalue of its matrix lies outside the unit circle. Two poses are taken: the start, and the
 // worst of those that the twin passes. A point spring that is implicit keeps an explicit rest, the
-// turning of its lever arm: the geometric limit of largest_target_radius
+// turning of its lever arm: the geometric limit of max_target_radius
 // (coupling/analysis/prediction.h), for each joint between the link and the ground, between the
 // radii at which link and target stand.
 //

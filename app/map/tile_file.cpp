@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kFirstLine = "# twinarm map 2\n";
 constexpr std::string_view kHeadMark = "# ";  // before each line of the head
 constexpr const char* kFirstLineOfOld = "twinarm map 1\n";
-constexpr std::uintmax_t kMostTileBytes = 512u << 20;  // four million cells
+constexpr std::uintmax_t kMaxTileBytes = 512u << 20;  // four million cells
 constexpr const char* kOtherFile =
     "give a file that `twinarm map` has written with --work or --tile";
 
@@ -28,9 +28,9 @@ std::string table_heading() {
   return line;
 }
 
-InputError not_readable(const std::filesystem::path& path, int line, const std::string& rule,
-                        const std::string& remedy, std::string_view code) {
-  return InputError({{path.string(), line, "", rule, remedy, code}});
+InputError not_readable(const std::filesystem::path& path, int line, const std::string& problem,
+                        const std::string& fix, std::string_view code) {
+  return InputError({{path.string(), line, "", problem, fix, code}});
 }
 
 std::string key_of(const std::string& line) {
@@ -111,7 +111,7 @@ std::string to_text(const TileFile& file) {
 
 TileFile read_tile_file(const std::filesystem::path& path) {
   std::error_code unknown;
-  if (std::filesystem::file_size(path, unknown) > kMostTileBytes && !unknown)
+  if (std::filesystem::file_size(path, unknown) > kMaxTileBytes && !unknown)
     throw not_readable(path, 0, "has more than 512 MiB: no map is as large", kOtherFile,
                        "file.too-large");
   const std::string text = read_whole_file(path);
@@ -145,8 +145,8 @@ TileFile read_tile_file(const std::filesystem::path& path) {
 }
 
 void add_cells(const TileFile& from, const MapBlocks& blocks, const std::filesystem::path& path,
-               const std::string& remedy, TileFile& into) {
-  FaultList faults;
+               const std::string& fix, TileFile& into) {
+  DiagnosticList faults;
   for (const std::string& line : into.head) {
     const std::string key = key_of(line);
     if (key == "scene") continue;  // its content is compared; where it lies may differ
@@ -156,14 +156,13 @@ void add_cells(const TileFile& from, const MapBlocks& blocks, const std::filesys
                                  ? "the scene, or a file that it names, is not the same"
                              : key == "of" ? "it measures " + here + ", not " + there
                                            : key + " is " + here + ", not " + there;
-    faults.add(
-        {path.string(), 0, "", "the file is of another map: " + what, remedy, "map.other-map"});
+    faults.add({path.string(), 0, "", "the file is of another map: " + what, fix, "map.other-map"});
   }
   faults.check();
   for (const auto& [place, values] : from.cells) {
     const auto [iy, ix] = place;
-    const auto fault = [&, x = ix, y = iy](const char* rule) {
-      faults.add({path.string(), 0, fmt::format("cell {},{}", x, y), rule,
+    const auto fault = [&, x = ix, y = iy](const char* problem) {
+      faults.add({path.string(), 0, fmt::format("cell {},{}", x, y), problem,
                   "delete the file, and compute its part again", "map.blocks"});
     };
     if (ix >= blocks.nx || iy >= blocks.ny)
@@ -189,7 +188,7 @@ TileFile resume_tile_file(const std::filesystem::path& work, const TileFile& emp
 TileFile merge_tile_files(const std::vector<std::filesystem::path>& parts, const TileFile& empty,
                           const MapBlocks& blocks) {
   TileFile file = empty;
-  FaultList faults;
+  DiagnosticList faults;
   for (const std::filesystem::path& path : parts)
     attempt(faults, [&] {
       add_cells(read_tile_file(path), blocks, path, "merge files of one map", file);

@@ -52,7 +52,7 @@ TileFile read_tile_file(const std::filesystem::path& path);
 // Takes over the cells of the file read from `path`. Throws InputError with all lines in which it
 // is of another map than `into`, with cells that `blocks` does not have, or that differ.
 void add_cells(const TileFile& from, const MapBlocks& blocks, const std::filesystem::path& path,
-               const std::string& remedy, TileFile& into);
+               const std::string& fix, TileFile& into);
 // What an earlier call has left in `work`. `force`: nothing, where that is no file of this map.
 TileFile resume_tile_file(const std::filesystem::path& work, const TileFile& empty,
                           const MapBlocks& blocks, bool force);

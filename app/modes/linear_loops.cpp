@@ -100,7 +100,7 @@ struct Split {
   // d with J d = rows and P d = 0.
   VectorXd lift(const VectorXd& rows) const {
     VectorXd d = VectorXd::Zero(Z.rows());
-    if (!follow.empty()) d(follow) = shortest_solution(J_follow, rows, kDependentRows);
+    if (!follow.empty()) d(follow) = min_solution(J_follow, rows, kDependentRows);
     return d;
   }
 };
@@ -136,9 +136,9 @@ Split split_by(const MatrixXd& J) {
 // qdd at x, and the push that keeps lambda and the force of followers as they are there.
 struct Held {
   std::vector<double> qdd;
-  PushAt push;
+  AppliedForces push;
 };
-Held hold_at(const Model<double>& model, const State<double>& x, const PushAt& push,
+Held hold_at(const Model<double>& model, const State<double>& x, const AppliedForces& push,
              const LoopClosures& loops) {
   Kinematics k(model);
   forward_kinematics(model, x, k);
@@ -171,7 +171,8 @@ Held hold_at(const Model<double>& model, const State<double>& x, const PushAt& p
 }  // namespace
 
 LoopedSystem linearise_with_loops(const Model<double>& model, const State<double>& x,
-                                  const PushAt& push, const std::vector<LoopClosure>& closures,
+                                  const AppliedForces& push,
+                                  const std::vector<LoopClosure>& closures,
                                   const std::vector<std::size_t>& still) {
   const LoopClosures loops(model, closures);
   Held held = hold_at(model, x, push, loops);

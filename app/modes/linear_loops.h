@@ -26,7 +26,7 @@ struct LoopedSystem {
 // loops and without what keeps followers to their leaders. Velocities in `still` do not move: what
 // they belong to is left out. The loops may be none.
 LoopedSystem linearise_with_loops(const Model<double>& model, const State<double>& x,
-                                  const PushAt& push, const std::vector<LoopClosure>& loops,
+                                  const AppliedForces& push, const std::vector<LoopClosure>& loops,
                                   const std::vector<std::size_t>& still = {});
 
 // A mode of the reduced system by all velocities; the largest part is 1 again.

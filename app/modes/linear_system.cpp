@@ -20,7 +20,7 @@ Index index(std::size_t i) {
 // The forces at x moved along one direction: their rate, by (f_ext; tau) of all bodies and dofs.
 class ForceRates {
  public:
-  ForceRates(const Model<double>& model, const State<double>& x, const PushAt& push)
+  ForceRates(const Model<double>& model, const State<double>& x, const AppliedForces& push)
       : model_(model), x_(x), push_(push), k_(model) {}
 
   Forces<double> along(std::size_t dof, bool of_velocity) {
@@ -71,7 +71,7 @@ class ForceRates {
 
   const Model<double>& model_;
   const State<double>& x_;
-  const PushAt& push_;
+  const AppliedForces& push_;
   Kinematics k_;
 };
 
@@ -87,8 +87,8 @@ void add_turning(const Model<double>& model, const State<double>& x, Eigen::Matr
 
 }  // namespace
 
-LinearSystem linearise(const Model<double>& model, const State<double>& x, const PushAt& push,
-                       std::size_t dof_count) {
+LinearSystem linearise(const Model<double>& model, const State<double>& x,
+                       const AppliedForces& push, std::size_t dof_count) {
   const Index nv = index(model.nv);
   Kinematics k(model);
   forward_kinematics(model, x, k);

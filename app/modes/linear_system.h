@@ -20,15 +20,15 @@
 namespace twinarm {
 
 // Adds all that pushes at a state: must be smooth there.
-using PushAt = std::function<void(const State<double>&, const Kinematics&, Forces<double>&)>;
+using AppliedForces = std::function<void(const State<double>&, const Kinematics&, Forces<double>&)>;
 
 struct LinearSystem {
   std::vector<std::size_t> dofs;  // velocity index of each row of dq
   Eigen::MatrixXd A, B;           // 2n x 2n, 2n x n
 };
 // Of the first `dof_count` velocities; what moves by the others is not coupled to them by inertia.
-LinearSystem linearise(const Model<double>& model, const State<double>& x, const PushAt& push,
-                       std::size_t dof_count);
+LinearSystem linearise(const Model<double>& model, const State<double>& x,
+                       const AppliedForces& push, std::size_t dof_count);
 
 struct Mode {
   std::complex<double> eigenvalue;  // imaginary part >= 0: one for each pair [1/s]

@@ -43,7 +43,7 @@ PageChannels::PageChannels(const FilmedRun& run)
   values_.resize(channels_.all().size());
 }
 
-void PageChannels::add_frame(const RecordedFrame& frame, const Moment& moment) {
+void PageChannels::add_frame(const RecordedFrame& frame, const Snapshot& moment) {
   times_.push_back(frame.t);
   channels_.values(frame, moment, run_.plan.input.couplings.get(), now_);
   for (std::size_t i = 0; i < now_.size(); ++i) values_[i].push_back(now_[i]);
@@ -83,7 +83,7 @@ namespace {
 
 const char* unit_of_pull(const SimulateInput& input, std::size_t c) {
   const bool is_couple = input.scene && c < input.scene->couplings.size() &&
-                         kind_of_pull(*input.scene, c) == ShownPull::Kind::couple;
+                         kind_of_pull(*input.scene, c) == ShownCouplingForce::Kind::couple;
   return is_couple ? "N m" : "N";
 }
 
@@ -136,7 +136,7 @@ void RunChannels::add_led_joints(const Coordinates& coordinates,
   }
 }
 
-void RunChannels::values(const RecordedFrame& frame, const Moment& moment,
+void RunChannels::values(const RecordedFrame& frame, const Snapshot& moment,
                          SceneCouplings* couplings, std::vector<double>& values) const {
   values.assign(all_.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < std::min(frame.values.size(), columns_); ++i)
@@ -152,7 +152,7 @@ void RunChannels::values(const RecordedFrame& frame, const Moment& moment,
   for (const auto& [place, force] : forces) values[place] = force.norm();
   if (!couplings) return;
   for (const Led& led : led_) {
-    const KvrSample& kvr = couplings->target(led.coupling, frame.t);
+    const TargetSample& kvr = couplings->target(led.coupling, frame.t);
     values[led.target] = coordinates_of(led.joint, kvr.x).front();
     values[led.error] = values[led.column] - values[led.target];
   }

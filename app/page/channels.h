@@ -35,7 +35,7 @@ class RunChannels {
   const std::vector<RunColumn>& all() const { return all_; }
   // By channel; NaN for those that are not known in this frame. `couplings`: those of the moment;
   // null for a robot alone.
-  void values(const RecordedFrame& frame, const Moment& moment, SceneCouplings* couplings,
+  void values(const RecordedFrame& frame, const Snapshot& moment, SceneCouplings* couplings,
               std::vector<double>& values) const;
 
  private:
@@ -85,7 +85,7 @@ class PageChannels {
  public:
   explicit PageChannels(const FilmedRun& run);
   // The recorded frame, and the moment of the same time.
-  void add_frame(const RecordedFrame& frame, const Moment& moment);
+  void add_frame(const RecordedFrame& frame, const Snapshot& moment);
   // Keys times, channels, ledger, momentum, bodies.
   void write(JsonWriter& json, PageBytes& bytes) const;
 

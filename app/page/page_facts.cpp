@@ -69,9 +69,9 @@ std::vector<Row> coupling_rows(const SceneModel& scene) {
     rows.push_back({c.name,
                     c.outside ? "stop"
                               : facts_of(c.law, c.printed).name +
-                                    std::string(is_linear                     ? ", at a point"
-                                                : c.measure == Measure::joint ? ", joint"
-                                                                              : ", world"),
+                                    std::string(is_linear                         ? ", at a point"
+                                                : c.measure == SpringSpace::joint ? ", joint"
+                                                                                  : ", world"),
                     scene.model.body_name[static_cast<std::size_t>(c.spring.body)],
                     number_text(c.spring.k), number_text(c.spring.b),
                     treatments[static_cast<std::size_t>(c.treatment)],
@@ -146,7 +146,7 @@ std::string command_line(const std::vector<std::string>& words) {
   return line;
 }
 
-void write_facts(JsonWriter& json, const FilmedRun& run, const Stage& stage, double rate) {
+void write_facts(JsonWriter& json, const FilmedRun& run, const SceneView& stage, double rate) {
   const RecordingHeader& header = run.recording->header();
   json.members({{"title", std::filesystem::path(header.run.model).stem().string()},
                 {"command", command_line(header.command)}});

@@ -14,6 +14,6 @@ namespace twinarm {
 std::string command_line(const std::vector<std::string>& words);
 
 // Keys title, command, facts, tables, files, notes. `rate`: frames of the page per second.
-void write_facts(JsonWriter& json, const FilmedRun& run, const Stage& stage, double rate);
+void write_facts(JsonWriter& json, const FilmedRun& run, const SceneView& stage, double rate);
 
 }  // namespace twinarm

@@ -48,7 +48,7 @@ void write_mesh(JsonWriter& json, PageBytes& bytes, const DrawMesh& mesh) {
 
 void write_textures(JsonWriter& json, PageBytes& bytes, const DrawList& list) {
   json.key("textures").begin_array();
-  for (std::size_t i = 0; i < std::min(list.textures.size(), kMostTextures); ++i) {
+  for (std::size_t i = 0; i < std::min(list.textures.size(), kMaxTextures); ++i) {
     const std::string png = texture_file(*list.textures[i]);
     json.begin_object();
     bytes.add(json, "png", std::vector<std::uint8_t>(png.begin(), png.end()));
@@ -79,7 +79,7 @@ void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
 
 }  // namespace
 
-PageLayers::PageLayers(Stage& stage) : stage_(stage) {
+PageLayers::PageLayers(SceneView& stage) : stage_(stage) {
   for (const LayerWords& words : layer_words({&all_overlays()})) {
     layers_.emplace_back();
     layers_.back().name = words.name;
@@ -95,7 +95,7 @@ void PageLayers::show_at_first(const std::vector<std::string>& names) {
     layer.shown = std::find(names.begin(), names.end(), layer.name) != names.end();
 }
 
-void PageLayers::add_frame(const Moment& moment) {
+void PageLayers::add_frame(const Snapshot& moment) {
   std::vector<Drawn> drawn = draw(stage_, moment, parse_overlays("all"));
   drawn.push_back(end_of_list());
   for (std::size_t i = 0; i + 1 < drawn.size(); ++i)
@@ -108,16 +108,16 @@ Drawn PageLayers::end_of_list() const {
 }
 
 // Of the cast only one body's parts are on stage at a time.
-void PageLayers::add_apart(const Moment& moment) {
-  const Cast all = stage_.cast;
+void PageLayers::add_apart(const Snapshot& moment) {
+  const SceneMeshes all = stage_.cast;
   for (std::size_t body = 0; body < stage_.model->parent.size(); ++body) {
-    Cast& cast = stage_.cast;
+    SceneMeshes& cast = stage_.cast;
     cast.ties.clear();
     cast.parts.clear();
     cast.planes.clear();
-    for (const CastPart& part : all.parts)
+    for (const ScenePart& part : all.parts)
       if (part.body == body) cast.parts.push_back(part);
-    for (const CastPlane& plane : all.planes)
+    for (const ScenePlane& plane : all.planes)
       if (plane.body == body) cast.planes.push_back(plane);
     draw(stage_, moment, {});
     layers_.emplace_back();
@@ -199,7 +199,7 @@ void InstanceColumns::add(const Instance& instance) {
   flags.push_back(instance.seen_through ? kSeenThrough : 0);
   shininess.push_back(byte_of(instance.shininess));
   texture.push_back(static_cast<std::uint8_t>(
-      instance.texture && *instance.texture < kMostTextures ? *instance.texture + 1 : 0));
+      instance.texture && *instance.texture < kMaxTextures ? *instance.texture + 1 : 0));
   const Color& c = instance.color;
   for (const float share : {c.r, c.g, c.b, c.a}) color.push_back(byte_of(share));
   append_vector(position, instance.X_WM.p);
@@ -252,7 +252,7 @@ void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend) {
   });
 }
 
-void write_view(JsonWriter& json, const Stage& stage) {
+void write_view(JsonWriter& json, const SceneView& stage) {
   const Camera& camera = stage.list.camera;
   const Ground& ground = stage.list.ground;
   json.key("view").begin_object();

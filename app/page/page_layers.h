@@ -63,7 +63,7 @@ struct LayerWords {
 std::vector<LayerWords> layer_words(const std::vector<const std::vector<Overlay>*>& overlays);
 
 // Textures beyond that number are not sent: places in columns are bytes.
-inline constexpr std::size_t kMostTextures = 255;
+inline constexpr std::size_t kMaxTextures = 255;
 // PNG; a wide one is halved until it is at most 1024 pixels.
 std::string texture_file(const Image& image);
 
@@ -71,7 +71,7 @@ std::string texture_file(const Image& image);
 void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend);
 void write_color(JsonWriter& json, const char* key, const Color& color);
 // Key view: camera, light, floor.
-void write_view(JsonWriter& json, const Stage& stage);
+void write_view(JsonWriter& json, const SceneView& stage);
 
 struct PageLayer {
   std::string name, what;
@@ -86,10 +86,10 @@ struct PageLayer {
 
 class PageLayers {
  public:
-  explicit PageLayers(Stage& stage);
-  void add_frame(const Moment& moment);
+  explicit PageLayers(SceneView& stage);
+  void add_frame(const Snapshot& moment);
   // Layers "body/NAME" with what belongs to that body alone; of the one frame of a page.
-  void add_apart(const Moment& moment);
+  void add_apart(const Snapshot& moment);
   void show_at_first(const std::vector<std::string>& names);
   // Keys meshes, textures, layers, texts.
   void write(JsonWriter& json, PageBytes& bytes) const;
@@ -100,7 +100,7 @@ class PageLayers {
   Drawn end_of_list() const;
   std::uint32_t number_of(const std::string& text);
 
-  Stage& stage_;
+  SceneView& stage_;
   std::vector<PageLayer> layers_;   // the bodies, then the overlays
   std::vector<std::string> texts_;  // of labels, each once
   std::map<std::string, std::uint32_t> numbers_;

@@ -50,14 +50,14 @@ std::string fill_form(std::string_view form, const std::string& title, const Jso
 }
 
 std::string inspect_page(const SimulateInput& input, const State<double>& x,
-                         const std::string& inspection, const InspectedWords& words) {
+                         const std::string& inspection, const InspectedJson& words) {
   const WebBundle bundle = web_bundle();
   require_form(bundle.inspect, bundle.missing, "--json needs none");
   const SceneModel* scene = input.scene.get();
   const Model<double>& model = input.robot.model;
-  Stage stage = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
-  const Moment moment = scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
-  look_ahead(stage, moment);
+  SceneView stage = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
+  const Snapshot moment = scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
+  position_lead(stage, moment);
   look_at(stage, moment);
   settle(stage);
   measure(stage, moment, Measured::of_picture);
@@ -84,15 +84,15 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
 
 namespace {
 
-constexpr double kMostRate = 120;     // frames per second: twice what screens show, for slow motion
-constexpr double kMostFrames = 1500;  // of a page
-constexpr std::size_t kMostEntries = 400'000;  // of all its draw lists together
-constexpr double kAspect = 1.35;               // of the view
+constexpr double kMaxRate = 120;     // frames per second: twice what screens show, for slow motion
+constexpr double kMaxFrames = 1500;  // of a page
+constexpr std::size_t kMaxEntries = 400'000;  // of all its draw lists together
+constexpr double kAspect = 1.35;              // of the view
 
 // Between two frames, so that the last is the recording's own last one. No frame comes twice.
 double interval_of(double duration, std::size_t recorded) {
   const double own = static_cast<double>(std::max<std::size_t>(recorded, 2) - 1) / duration;
-  const double rate = std::min({kMostRate, kMostFrames / duration, own});
+  const double rate = std::min({kMaxRate, kMaxFrames / duration, own});
   return duration / std::max(1.0, std::ceil(duration * rate - 1e-6));
 }
 
@@ -108,10 +108,10 @@ FilmedRun open_film(const std::filesystem::path& file, Progress& progress) {
   return film_run(options, times, "auto", progress);
 }
 
-Stage stage_of(const FilmedRun& run) {
-  Stage stage = run.plan.input.scene ? make_stage(*run.plan.input.scene)
-                                     : make_stage(run.plan.input.robot.robot, run.model());
-  for (const RunInstant& instant : run.around) look_ahead(stage, run.moment(instant));
+SceneView stage_of(const FilmedRun& run) {
+  SceneView stage = run.plan.input.scene ? make_stage(*run.plan.input.scene)
+                                         : make_stage(run.plan.input.robot.robot, run.model());
+  for (const RunInstant& instant : run.around) position_lead(stage, run.moment(instant));
   for (const RunInstant& instant : run.shown) look_at(stage, run.moment(instant));
   settle(stage);
   for (const RunInstant& instant : run.around)
@@ -123,9 +123,9 @@ Stage stage_of(const FilmedRun& run) {
 }
 
 // Where draw lists are long (a pyramid with all of its contacts), fewer frames; the last one stays.
-void thin_out(FilmedRun& run, std::size_t entries_a_frame) {
+void reduce_contacts(FilmedRun& run, std::size_t entries_a_frame) {
   const std::size_t count = run.shown.size();
-  const std::size_t stride = (count * entries_a_frame + kMostEntries - 1) / kMostEntries;
+  const std::size_t stride = (count * entries_a_frame + kMaxEntries - 1) / kMaxEntries;
   if (stride < 2) return;
   std::vector<RunInstant> kept;
   for (std::size_t i = 0; i < count; i += stride) kept.push_back(run.shown[i]);
@@ -133,7 +133,7 @@ void thin_out(FilmedRun& run, std::size_t entries_a_frame) {
   run.shown = std::move(kept);
 }
 
-std::size_t entries_of(Stage& stage, const Moment& moment) {
+std::size_t entries_of(SceneView& stage, const Snapshot& moment) {
   draw(stage, moment, parse_overlays("all"));
   return stage.list.instances.size();
 }
@@ -145,13 +145,13 @@ ReplayPage replay_page(const std::filesystem::path& file) {
   require_form(bundle.replay, bundle.missing, "--csv and --json need none");
   Progress progress(true);
   FilmedRun run = open_film(file, progress);
-  Stage stage = stage_of(run);
-  thin_out(run, entries_of(stage, run.moment(run.shown.back())));
+  SceneView stage = stage_of(run);
+  reduce_contacts(run, entries_of(stage, run.moment(run.shown.back())));
   PageLayers layers(stage);
   PageChannels channels(run);
   for (const RunInstant& instant : run.shown) {
     check_interrupt();
-    const Moment moment = run.moment(instant);
+    const Snapshot moment = run.moment(instant);
     layers.add_frame(moment);
     channels.add_frame(run.recording->frame(run.recording->at(instant.x.t, "export")), moment);
   }

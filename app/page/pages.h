@@ -18,7 +18,7 @@ std::string fill_form(std::string_view form, const std::string& title, const Jso
                       const PageBytes& bytes);
 
 // The page of an inspected state: `inspect --json` with the robot beside it (docs/replay_page.md).
-struct InspectedWords {
+struct InspectedJson {
   std::string title, state;          // what is looked at, and in which state
   std::vector<std::string> command;  // as it was typed
 };
@@ -26,7 +26,7 @@ struct InspectedWords {
 // `inspection`: what inspect_json() says. Throws InputError where the program was built without its
 // pages.
 std::string inspect_page(const SimulateInput& input, const State<double>& x,
-                         const std::string& inspection, const InspectedWords& words);
+                         const std::string& inspection, const InspectedJson& words);
 
 // The page of a recorded run: one HTML file with picture, plots, ledger and settings, that needs no
 // server and no network (docs/replay_page.md).

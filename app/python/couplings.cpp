@@ -18,13 +18,14 @@ namespace {
 py::list coupling_types() {
   py::list all;
   for (const CouplingFacts& facts : all_couplings) {
-    using Treatments = CouplingFacts::Treatments;
+    using Discretizations = CouplingFacts::Discretizations;
     py::dict row;
     row["name"] = facts.name;
-    row["treatments"] = facts.treatments == Treatments::all
+    row["treatments"] = facts.treatments == Discretizations::all
                             ? py::make_tuple("explicit", "semi-implicit", "implicit")
-                        : facts.treatments == Treatments::explicit_only ? py::make_tuple("explicit")
-                                                                        : py::make_tuple();
+                        : facts.treatments == Discretizations::explicit_only
+                            ? py::make_tuple("explicit")
+                            : py::make_tuple();
     row["at_point"] = facts.at_point;
     row["can_hold"] = facts.can_hold;
     all.append(row);
@@ -32,9 +33,9 @@ py::list coupling_types() {
   return all;
 }
 
-Scheme scheme_of(const std::string& name) {
+SteppingScheme scheme_of(const std::string& name) {
   std::string names;
-  for (const Scheme scheme : all_schemes) {
+  for (const SteppingScheme scheme : all_schemes) {
     if (name == name_of(scheme)) return scheme;
     names += (names.empty() ? "'" : ", '") + std::string(name_of(scheme)) + "'";
   }
@@ -92,7 +93,7 @@ void add_couplings(py::module_& m) {
       "schemes",
       [] {
         std::vector<std::string> names;
-        for (const Scheme scheme : all_schemes) names.emplace_back(name_of(scheme));
+        for (const SteppingScheme scheme : all_schemes) names.emplace_back(name_of(scheme));
         return names;
       },
       "Names of the ways to step a spring-damper of which limits are known.");
@@ -101,7 +102,7 @@ void add_couplings(py::module_& m) {
       [](const std::string& scheme, double zeta) {
         if (!(zeta >= 0) || !std::isfinite(zeta))
           throw py::value_error("zeta must not be negative, is " + number_text(zeta));
-        return largest_omega_h(scheme_of(scheme), zeta);
+        return max_omega_h(scheme_of(scheme), zeta);
       },
       py::arg("scheme"), py::arg("zeta"),
       "Of one spring-damper M e'' + b e' + k e = 0: the largest stable product of its frequency\n"
@@ -112,8 +113,8 @@ void add_couplings(py::module_& m) {
       "largest_stable_step",
       [](const py::object& M, const py::object& K, const py::object& B, const std::string& scheme) {
         const Eigen::MatrixXd inertia = square("M", M, 0);
-        return largest_stable_step(inertia, square("K", K, inertia.rows()),
-                                   square("B", B, inertia.rows()), scheme_of(scheme));
+        return max_stable_step(inertia, square("K", K, inertia.rows()),
+                               square("B", B, inertia.rows()), scheme_of(scheme));
       },
       py::arg("M"), py::arg("K"), py::arg("B"), py::arg("scheme"),
       "Of M e'' + B e' + K e = 0 with symmetric (n, n) matrices [kg m^2, N m/rad, N m s/rad; of\n"

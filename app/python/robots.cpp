@@ -186,11 +186,11 @@ Robot::Robot(RobotInput read)
 }
 
 void Robot::check_quaternions(const std::vector<double>& q, const char* function) const {
-  constexpr double kFew = 1e-6;  // as in a state file
+  constexpr double kUnitTolerance = 1e-6;  // as in a state file
   for (const std::size_t at : quaternions) {
     double square = 0;
     for (std::size_t k = at; k < at + 4; ++k) square += q[k] * q[k];
-    if (std::abs(std::sqrt(square) - 1) <= kFew) continue;
+    if (std::abs(std::sqrt(square) - 1) <= kUnitTolerance) continue;
     const std::string place = "q[" + std::to_string(at) + ":" + std::to_string(at + 4) + "]";
     throw pybind11::value_error(std::string(function) + "(): " + place +
                                 " is a unit quaternion (w, x, y, z), and has length " +

@@ -41,11 +41,11 @@ void change_scene(const py::object& set, SimulateOptions& options) {
     const std::string name = py::cast<std::string>(path);
     changes.push_back({name, setting_text(name, value)});
   }
-  options.change_scene = [changes](Value& scene, FaultList& faults) {
+  options.change_scene = [changes](Value& scene, DiagnosticList& faults) {
     for (const Change& change : changes) {
-      FaultList of_change;  // by the option of the command line
+      DiagnosticList of_change;  // by the option of the command line
       apply(change, 0, scene, of_change);
-      for (Fault fault : of_change.faults()) {
+      for (Diagnostic fault : of_change.faults()) {
         fault.where = name_of(change.path);
         faults.add(std::move(fault));
       }

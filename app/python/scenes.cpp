@@ -80,9 +80,9 @@ Run simulate(const py::object& file, const std::optional<double>& duration,
   return run;
 }
 
-py::dict ledger_of(const std::vector<LedgerRow>& rows) {
+py::dict ledger_of(const std::vector<EnergyRow>& rows) {
   py::dict all;
-  for (const LedgerRow& row : rows) all[py::str(row.name)] = row.work;
+  for (const EnergyRow& row : rows) all[py::str(row.name)] = row.work;
   return all;
 }
 py::dict momentum_ledger_of(const std::vector<MomentumRow>& rows) {

@@ -88,8 +88,8 @@ void one_step(RobotInMotion& moving) {
     throw std::runtime_error(where +
                              "no substep however short meets the tolerance; give a larger one");
   const std::string what =
-      where + "'" + (report.bad_field ? report.bad_field : "q") + "' of body '" +
-      moving.robot.model.body_name[static_cast<std::size_t>(report.bad_body)] +
+      where + "'" + (report.nonfinite_field ? report.nonfinite_field : "q") + "' of body '" +
+      moving.robot.model.body_name[static_cast<std::size_t>(report.nonfinite_body)] +
       "' is the first that is not finite; take a shorter h or another integrator";
   PyErr_SetString(PyExc_FloatingPointError, what.c_str());
   throw py::error_already_set();

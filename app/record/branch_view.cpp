@@ -55,16 +55,16 @@ std::vector<Parted> parted(const Recording& recording, const Replay& fork) {
 }
 
 void print_values(const Recording& recording, const Replay& fork) {
-  constexpr std::size_t widest_number = 12, between = 2;
+  constexpr std::size_t max_number = 12, between = 2;
   std::vector<std::size_t> columns;
   std::vector<std::string> headings{"t [s]"};
-  std::size_t width = widest_number;
+  std::size_t width = max_number;
   const std::vector<Parted> all = parted(recording, fork);
   for (const auto& [c, by] : all) {
     if (by == 0) break;
     const RecordedColumn& column = recording.header().columns[c];
     const std::string heading = column.name + " [" + column.unit + "]";
-    width += std::max(heading.size(), widest_number) + widest_number + 2 * between;
+    width += std::max(heading.size(), max_number) + max_number + 2 * between;
     if (!columns.empty() && width > kTableWidth) break;
     columns.push_back(c);
     headings.insert(headings.end(), {heading, "fork"});
@@ -128,7 +128,7 @@ std::vector<std::string> names_of_both(std::vector<std::string> names,
   return names;
 }
 
-void print_ledgers(const ComparedLedgers& ledgers, double from, double to) {
+void print_ledgers(const ComparedBalances& ledgers, double from, double to) {
   const std::string span = fmt::format("{} to {} s", cell(from), cell(to));
   TextTable works({"work on the bodies, " + span, "recorded [J]", "fork [J]", "difference [J]"});
   double recorded = 0, fork = 0;
@@ -152,7 +152,7 @@ void print_ledgers(const ComparedLedgers& ledgers, double from, double to) {
 }
 
 // The rows that part most.
-std::vector<std::string> parted_rows(const ComparedLedgers& ledgers) {
+std::vector<std::string> parted_rows(const ComparedBalances& ledgers) {
   std::vector<ComparedWork> rows = ledgers.works;
   std::ranges::stable_sort(rows, [](const ComparedWork& a, const ComparedWork& b) {
     return std::abs(a.fork - a.recorded) > std::abs(b.fork - b.recorded);
@@ -185,8 +185,8 @@ void check_plot(const std::filesystem::path& file) {
   make_folder(folder_of(file), "--plot");
 }
 
-ComparedLedgers compared_ledgers(const Replay& recorded, const Replay& fork) {
-  ComparedLedgers found;
+ComparedBalances compared_ledgers(const Replay& recorded, const Replay& fork) {
+  ComparedBalances found;
   if (recorded.frames.empty() || fork.frames.empty()) return found;
   for (const std::string& name : names_of_both(recorded.rows, fork.rows))
     found.works.push_back(

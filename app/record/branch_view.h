@@ -20,11 +20,11 @@ struct ComparedMomentum {
   std::string name;
   Eigen::Matrix<double, 6, 1> recorded, fork;  // linear [N s], angular [N m s]
 };
-struct ComparedLedgers {
+struct ComparedBalances {
   std::vector<ComparedWork> works;
   std::vector<ComparedMomentum> momenta;
 };
-ComparedLedgers compared_ledgers(const Replay& recorded, const Replay& fork);
+ComparedBalances compared_ledgers(const Replay& recorded, const Replay& fork);
 
 // The values that part most, then both ledgers, with the differences.
 void print_fork(const Recording& recording, const Replay& recorded, const Replay& fork);

@@ -59,7 +59,7 @@ void add_picture(std::vector<RecordedFile>& files, const std::filesystem::path& 
 
 // Files beside a mesh that it names: materials, and their textures; buffers of glTF.
 void add_companions(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
-  constexpr int kMost = 1000;  // files of a folder that are looked at
+  constexpr int kMax = 1000;  // files of a folder that are looked at
   static const std::vector<std::string> naming{".obj", ".mtl", ".dae", ".gltf"};
   if (std::ranges::find(naming, file.extension().string()) == naming.end()) return;
   const std::string text = files.back().bytes;
@@ -67,7 +67,7 @@ void add_companions(std::vector<RecordedFile>& files, const std::filesystem::pat
   int looked_at = 0;
   for (const auto& other :
        std::filesystem::recursive_directory_iterator(file.parent_path(), error)) {
-    if (++looked_at > kMost) return;
+    if (++looked_at > kMax) return;
     const std::size_t before = files.size();
     const std::filesystem::path end = other.path().extension();
     if (text.find(other.path().filename().string()) != std::string::npos &&
@@ -131,7 +131,7 @@ std::uint32_t number_in(std::vector<std::string>& names, const std::string& name
 template <class NumberOf, class MomentumNumberOf>
 void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_of,
               const MomentumNumberOf& momentum_number_of) {
-  for (const LedgerRow& row : run.ledger()) {
+  for (const EnergyRow& row : run.ledger()) {
     frame.rows.push_back(number_of(row.name));
     frame.works.push_back(row.work);
   }

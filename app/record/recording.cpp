@@ -14,19 +14,19 @@ namespace {
 
 // Of items that take so many bytes at least: a file cannot ask for more of them than it can hold.
 template <class T, class F>
-void visit_all(Memory& memory, std::vector<T>& items, std::size_t least, F f) {
+void visit_all(StateArchive& memory, std::vector<T>& items, std::size_t least, F f) {
   memory.resize(items, least);
   for (T& item : items) f(item);
 }
-constexpr std::size_t kLeastText = 8, kVector = 24, kLeastContact = 16 + 4 * kVector;  // [bytes]
+constexpr std::size_t kMinText = 8, kVector = 24, kMinContact = 16 + 4 * kVector;  // [bytes]
 
-void visit_path(Memory& memory, std::filesystem::path& path) {
+void visit_path(StateArchive& memory, std::filesystem::path& path) {
   std::string text = path.string();
   memory.visit(text);
   path = text;
 }
 
-void visit_number(Memory& memory, std::optional<double>& number) {
+void visit_number(StateArchive& memory, std::optional<double>& number) {
   bool given = number.has_value();
   double value = number.value_or(0);
   memory.visit(given);
@@ -37,7 +37,7 @@ void visit_number(Memory& memory, std::optional<double>& number) {
     number.reset();
 }
 
-void visit_run(Memory& memory, RecordedRun& run) {
+void visit_run(StateArchive& memory, RecordedRun& run) {
   visit_path(memory, run.model);
   visit_path(memory, run.state);
   memory.visit(run.gravity);
@@ -85,10 +85,10 @@ std::uint32_t checksum(const char* bytes, std::size_t count) {
       crc32_z(0, reinterpret_cast<const unsigned char*>(bytes), count));
 }
 
-void visit_version_2(Memory& memory, RecordingHeader& header) {
+void visit_version_2(StateArchive& memory, RecordingHeader& header) {
   memory.visit(header.program);
-  visit_all(memory, header.command, kLeastText, [&](std::string& word) { memory.visit(word); });
-  visit_all(memory, header.files, 2 * kLeastText, [&](RecordedFile& file) {
+  visit_all(memory, header.command, kMinText, [&](std::string& word) { memory.visit(word); });
+  visit_all(memory, header.files, 2 * kMinText, [&](RecordedFile& file) {
     memory.visit(file.path);
     memory.visit(file.bytes);
   });
@@ -97,21 +97,21 @@ void visit_version_2(Memory& memory, RecordingHeader& header) {
   memory.visit(header.step);
   memory.visit(header.duration);
   memory.visit(header.seed);
-  visit_all(memory, header.columns, 2 * kLeastText, [&](RecordedColumn& column) {
+  visit_all(memory, header.columns, 2 * kMinText, [&](RecordedColumn& column) {
     memory.visit(column.name);
     memory.visit(column.unit);
   });
-  visit_all(memory, header.couplings, kLeastText, [&](std::string& name) { memory.visit(name); });
-  visit_all(memory, header.geometries, kLeastText, [&](std::string& name) { memory.visit(name); });
+  visit_all(memory, header.couplings, kMinText, [&](std::string& name) { memory.visit(name); });
+  visit_all(memory, header.geometries, kMinText, [&](std::string& name) { memory.visit(name); });
 }
 
-void visit(Memory& memory, RecordedFrame& frame) {
+void visit(StateArchive& memory, RecordedFrame& frame) {
   memory.visit(frame.step);
   memory.visit(frame.t);
   memory.visit(frame.hash);
   memory.visit(frame.values);
   visit_all(memory, frame.pulls, kVector, [&](Vector3& pull) { memory.visit(pull); });
-  visit_all(memory, frame.contacts, kLeastContact, [&](RecordedContact& contact) {
+  visit_all(memory, frame.contacts, kMinContact, [&](RecordedContact& contact) {
     memory.visit(contact.a);
     memory.visit(contact.b);
     memory.visit(contact.depth);

@@ -82,9 +82,10 @@ std::uint64_t hash_of(const std::string& bytes);  // FNV-1a, 64 bits
 // std::runtime_error where one is missing or of another kind, or frames have another layout.
 std::string header_text(const RecordingHeader& header);
 RecordingHeader parse_header(std::string_view text);
-void visit_version_2(Memory& memory, RecordingHeader& header);  // what files of version 2 have
+void visit_version_2(StateArchive& memory,
+                     RecordingHeader& header);  // what files of version 2 have
 // Both ways, as solver/support/state_archive.h.
-void visit(Memory& memory, RecordedFrame& frame);
+void visit(StateArchive& memory, RecordedFrame& frame);
 
 // The blocks of the file: kind, length, payload, CRC-32 of all three. Little-endian.
 namespace recording_format {

@@ -15,8 +15,8 @@ namespace twinarm {
 namespace {
 
 // What no run writes: a file that asks for more is refused before it is given the memory.
-constexpr std::size_t kMostBlock = 256u << 20, kMostText = 64u << 20;  // [bytes]
-constexpr std::size_t kMostFrames = 1u << 24;
+constexpr std::size_t kMaxBlock = 256u << 20, kMaxText = 64u << 20;  // [bytes]
+constexpr std::size_t kMaxFrames = 1u << 24;
 
 std::uint32_t number_at(const std::string& bytes, std::size_t at) {
   std::uint32_t number = 0;
@@ -39,9 +39,9 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   std::error_code unknown;
   size_ = std::filesystem::file_size(file_, unknown);
   if (unknown) size_ = 0;
-  const auto refuse = [&](const std::string& rule, const std::string& remedy,
+  const auto refuse = [&](const std::string& problem, const std::string& fix,
                           std::string_view code) {
-    throw InputError({{file_, 0, "", rule, remedy, code}});
+    throw InputError({{file_, 0, "", problem, fix, code}});
   };
   using namespace recording_format;
   std::string start(std::min(size_, kStart), '\0');
@@ -93,7 +93,7 @@ void Recording::read_blocks() {
       what = "is cut short";
       break;
     }
-    if (size > kMostBlock) {
+    if (size > kMaxBlock) {
       what = "has a block of more than 256 MiB";
       break;
     }
@@ -135,7 +135,7 @@ void Recording::take(char kind, std::size_t begin, std::string_view payload) {
 
 void Recording::take_header(std::string_view payload) {
   if (version_ == 2) {
-    Memory memory{std::string(payload)};
+    StateArchive memory{std::string(payload)};
     visit_version_2(memory, header_);
     files_ = header_.files.size();
   } else {
@@ -146,17 +146,17 @@ void Recording::take_header(std::string_view payload) {
 
 void Recording::take_text(std::string_view text, std::vector<std::string>& texts) {
   text_ += text.size() + sizeof(std::string);
-  if (text_ > kMostText) throw std::runtime_error("there are more than 64 MiB of names");
+  if (text_ > kMaxText) throw std::runtime_error("there are more than 64 MiB of names");
   texts.emplace_back(text);
 }
 
 void Recording::take_frame(std::size_t begin, std::string_view payload) {
-  Memory memory{std::string(payload.substr(0, 16))};
+  StateArchive memory{std::string(payload.substr(0, 16))};
   long step = 0;
   double t = 0;
   memory.visit(step);
   memory.visit(t);
-  if (places_.size() == kMostFrames)
+  if (places_.size() == kMaxFrames)
     throw std::runtime_error("there are more than 16 million frames");
   if (!(t >= (places_.empty() ? -HUGE_VAL : places_.back().t)))
     throw std::runtime_error("the time of a frame lies before that of the last");
@@ -173,7 +173,7 @@ RecordedFrame Recording::frame(std::size_t n) const {
     stream_.seekg(static_cast<std::streamoff>(places_[n].begin));
     if (!stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size())))
       throw std::runtime_error("the file has become shorter");
-    Memory memory(std::move(bytes));
+    StateArchive memory(std::move(bytes));
     visit(memory, frame);
     fits = memory.at_end();
   } catch (const std::runtime_error&) {

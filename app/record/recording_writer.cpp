@@ -8,17 +8,17 @@
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kMostWaiting = 1 << 18;  // bytes
+constexpr std::size_t kMaxWaiting = 1 << 18;  // bytes
 constexpr std::chrono::milliseconds kLongestWait{250};
 
 std::string bytes_of(std::uint32_t number) {
-  Memory memory;
+  StateArchive memory;
   memory.visit(number);
   return memory.bytes();
 }
 
 std::filesystem::path checked_place(std::filesystem::path file) {
-  FaultList faults;
+  DiagnosticList faults;
   check_place(file, faults);
   faults.check();
   return file;
@@ -61,10 +61,10 @@ void RecordingWriter::alarm(const std::string& words) {
 }
 
 void RecordingWriter::write(RecordedFrame& frame) {
-  Memory memory;
+  StateArchive memory;
   visit(memory, frame);
   block(recording_format::kFrame, memory.bytes());
-  if (waiting_.size() > kMostWaiting || std::chrono::steady_clock::now() - flushed_ > kLongestWait)
+  if (waiting_.size() > kMaxWaiting || std::chrono::steady_clock::now() - flushed_ > kLongestWait)
     flush();
 }
 

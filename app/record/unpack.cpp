@@ -108,7 +108,7 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
   const bool is_scene = options.robot.model.extension() == ".toml";
   std::vector<std::pair<Change, int>> of_scene;  // and their lines
   static const std::vector<std::string> kept{"step", "integrator", "duration", "contact"};
-  FaultList faults;
+  DiagnosticList faults;
   for (std::size_t i = 0; i < changes.size(); ++i)
     if (changes[i].path == "gravity")
       options.robot.gravity = changes[i].value;
@@ -123,7 +123,7 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
                   "a robot alone has gravity to be changed, no more",
                   "write --set gravity=x,y,z, or record a scene", "change.robot"});
   faults.check();
-  options.change_scene = [this, of_scene](Value& tree, FaultList& found) {
+  options.change_scene = [this, of_scene](Value& tree, DiagnosticList& found) {
     lead_to_copies(tree);
     for (std::size_t i = 0; i < of_scene.size(); ++i)
       apply(of_scene[i].first, of_scene[i].second, tree, found);
@@ -138,16 +138,16 @@ InputError UnpackedRun::as_typed(const InputError& error,
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;)
       text.erase(at, folder.size());
   };
-  std::vector<Fault> faults = error.faults();
-  for (Fault& fault : faults) {
-    for (std::string* text : {&fault.file, &fault.where, &fault.rule, &fault.remedy})
+  std::vector<Diagnostic> faults = error.faults();
+  for (Diagnostic& fault : faults) {
+    for (std::string* text : {&fault.file, &fault.where, &fault.problem, &fault.fix})
       by_original(*text);
     for (std::size_t i = 0; i < changes.size(); ++i) {
       const std::string typed = "--set " + changes[i].path + "=" + changes[i].value;
       if (fault.line == line_of_change(i))
-        fault = {"", 0, typed, fault.where + ": " + fault.rule, fault.remedy, fault.code};
+        fault = {"", 0, typed, fault.where + ": " + fault.problem, fault.fix, fault.code};
       else if (changes[i].path == "gravity" && is_of_option(fault, "gravity"))
-        fault = {"", 0, typed, fault.rule, "write --set gravity=0,0,-9.81", fault.code};
+        fault = {"", 0, typed, fault.problem, "write --set gravity=0,0,-9.81", fault.code};
     }
   }
   return InputError(std::move(faults));
@@ -163,7 +163,7 @@ bool is_recording(const std::filesystem::path& file) {
   return !std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored);
 }
 
-void check_recorded(const RobotOptions& given, FaultList& faults) {
+void check_recorded(const RobotOptions& given, DiagnosticList& faults) {
   if (given.state.empty() && given.gravity.empty() && !given.floating && given.friction &&
       given.armature && !given.strict)
     return;
@@ -194,11 +194,11 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
   RecordedInstant instant{std::move(prepared), simulation_memory(frame.memory), frame.t, {}, files};
   for (std::size_t i = 0; i < frame.rows.size(); ++i)
     instant.ledger.push_back(
-        {LedgerKind::earlier, recording.rows()[frame.rows[i]], frame.works[i]});
-  Memory memory = instant.memory;
+        {EnergyRowKind::earlier, recording.rows()[frame.rows[i]], frame.works[i]});
+  StateArchive memory = instant.memory;
   State<double> x(instant.prepared.input.robot.model);
   visit_state(memory, instant.prepared.input.robot.model, x);
-  stand_at(instant.prepared.input.robot, x);
+  set_pose(instant.prepared.input.robot, x);
   return instant;
 }
 

@@ -56,14 +56,14 @@ class UnpackedRun {
 bool is_recording(const std::filesystem::path& file);
 
 // Adds a fault where options were given that change a model or its state: a recording has both.
-void check_recorded(const RobotOptions& given, FaultList& faults);
+void check_recorded(const RobotOptions& given, DiagnosticList& faults);
 
 // Opened again, for inspection.
 struct RecordedInstant {
-  SimulatePlan prepared;  // its state is that of the instant; so are the points of wrenches
-  Memory memory;          // for Simulation::visit_memory of a simulation that is built alike
-  double t = 0;           // of the frame [s]
-  std::vector<LedgerRow> ledger;  // up to it [J]
+  SimulatePlan prepared;          // its state is that of the instant; so are the points of wrenches
+  StateArchive memory;            // for Simulation::serialize of a simulation that is built alike
+  double t = 0;                   // of the frame [s]
+  std::vector<EnergyRow> ledger;  // up to it [J]
   // The files that it was made from: meshes are read when contacts are set up, which is later.
   std::shared_ptr<const UnpackedRun> files;
 };

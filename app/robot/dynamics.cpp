@@ -50,7 +50,7 @@ void forward(const RobotInput& input, const std::vector<Force<double>>& f_ext, D
   ForwardDynamics forward_dynamics(input.model);
   forward_dynamics(x, forces, w);
   d.qdd = by_rows(input.coordinates, x, w.qdd);
-  if (const BadQuantity bad = first_bad_quantity(input.model, forces, w); bad.body > 0)
+  if (const NonFiniteField bad = first_bad_quantity(input.model, forces, w); bad.body > 0)
     d.first_bad =
         std::string("'") + bad.name + "' of link '" + input.model.body_name[bad.body] + "'";
 }
@@ -120,7 +120,7 @@ Dynamics compute_dynamics(const RobotInput& input) {
   return d;
 }
 
-void stand_at(RobotInput& input, const State<double>& x) {
+void set_pose(RobotInput& input, const State<double>& x) {
   Kinematics before(input.model), now(input.model);
   forward_kinematics(input.model, input.state.x, before);
   forward_kinematics(input.model, x, now);

@@ -28,6 +28,6 @@ Force<double> in_body_axes(const Wrench& wrench, const Kinematics& k);
 
 // The state is x from now on. A wrench in world axes acts on the point of its link that stood at
 // its point before, and goes along.
-void stand_at(RobotInput& input, const State<double>& x);
+void set_pose(RobotInput& input, const State<double>& x);
 
 }  // namespace twinarm

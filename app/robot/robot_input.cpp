@@ -17,7 +17,8 @@
 namespace twinarm {
 namespace {
 
-std::optional<RobotDescription> read_model_file(const RobotOptions& options, FaultList& faults) {
+std::optional<RobotDescription> read_model_file(const RobotOptions& options,
+                                                DiagnosticList& faults) {
   const std::filesystem::path& file = options.model;
   if (file.extension() == ".toml") {
     faults.add({file.string(), 0, "model", "a scene has no one state of one robot",
@@ -46,7 +47,7 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options, Fau
 }  // namespace
 
 std::vector<double> parse_list(const std::string& option, const std::string& text,
-                               FaultList& faults) {
+                               DiagnosticList& faults) {
   std::vector<double> values;
   for (std::string item : split(text)) {
     item.erase(0, item.find_first_not_of(' '));
@@ -63,7 +64,7 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
   return values;
 }
 
-std::optional<Vector3> parse_gravity(const std::string& text, FaultList& faults) {
+std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults) {
   const std::vector<double> numbers = parse_list("--gravity", text, faults);
   if (numbers.size() == 3) return Vector3(numbers.data());
   if (!numbers.empty())
@@ -72,7 +73,7 @@ std::optional<Vector3> parse_gravity(const std::string& text, FaultList& faults)
   return std::nullopt;
 }
 
-RobotInput read_robot_input(const RobotOptions& options, FaultList faults) {
+RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) {
   std::optional<Vector3> gravity;
   if (!options.gravity.empty()) gravity = parse_gravity(options.gravity, faults);
   std::optional<Value> json;
@@ -93,7 +94,7 @@ RobotInput read_robot_input(const RobotOptions& options, FaultList faults) {
   if (json) state = read_state(*json, options.state, *robot, *model, coordinates, state, faults);
   faults.check();
   std::vector<std::string> warnings;
-  for (const Fault& warning : robot->warnings) warnings.push_back(to_string(warning));
+  for (const Diagnostic& warning : robot->warnings) warnings.push_back(to_string(warning));
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
   return {*robot, std::move(*model), coordinates, std::move(state), std::move(warnings)};
 }
@@ -104,7 +105,7 @@ class StateReader {
  public:
   StateReader(const std::filesystem::path& file, const RobotDescription& robot,
               const Model<double>& model, const Coordinates& coordinates, const GivenState& start,
-              FaultList& faults)
+              DiagnosticList& faults)
       : file_(file.string()),
         robot_(robot),
         model_(model),
@@ -225,7 +226,7 @@ class StateReader {
   const RobotDescription& robot_;
   const Model<double>& model_;
   const Coordinates& coordinates_;
-  FaultList& faults_;
+  DiagnosticList& faults_;
   GivenState state_;
 };
 
@@ -242,7 +243,8 @@ GivenState default_state(const Model<double>& model, const Coordinates& coordina
 
 GivenState read_state(const Value& json, const std::filesystem::path& file,
                       const RobotDescription& robot, const Model<double>& model,
-                      const Coordinates& coordinates, const GivenState& start, FaultList& faults) {
+                      const Coordinates& coordinates, const GivenState& start,
+                      DiagnosticList& faults) {
   return StateReader(file, robot, model, coordinates, start, faults).read(json);
 }
 

@@ -40,7 +40,8 @@ GivenState default_state(const Model<double>& model, const Coordinates& coordina
 // the file leaves out is as in `start`.
 GivenState read_state(const Value& json, const std::filesystem::path& file,
                       const RobotDescription& robot, const Model<double>& model,
-                      const Coordinates& coordinates, const GivenState& start, FaultList& faults);
+                      const Coordinates& coordinates, const GivenState& start,
+                      DiagnosticList& faults);
 
 struct RobotOptions {
   std::filesystem::path model, state;  // state may be empty: at rest at the identity
@@ -60,11 +61,11 @@ struct RobotInput {
 };
 
 // Throws InputError with all faults: those given, and those of the options, the URDF and the state.
-RobotInput read_robot_input(const RobotOptions& options, FaultList faults = {});
+RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults = {});
 
 // What f returns; nothing where it finds faults, which are added to the others.
 template <class F>
-auto attempt(FaultList& faults, F f) -> std::optional<decltype(f())> {
+auto attempt(DiagnosticList& faults, F f) -> std::optional<decltype(f())> {
   try {
     return f();
   } catch (const InputError& error) {
@@ -74,10 +75,10 @@ auto attempt(FaultList& faults, F f) -> std::optional<decltype(f())> {
 }
 
 // --gravity; nothing, told, where it is not three numbers.
-std::optional<Vector3> parse_gravity(const std::string& text, FaultList& faults);
+std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults);
 
 // Numbers separated by commas, as options have them; adds a fault and returns nothing else.
 std::vector<double> parse_list(const std::string& option, const std::string& text,
-                               FaultList& faults);
+                               DiagnosticList& faults);
 
 }  // namespace twinarm

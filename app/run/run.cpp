@@ -17,7 +17,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kMostSteps = 1e10, kMostSamples = 1e7;
+constexpr double kMaxSteps = 1e10, kMaxSamples = 1e7;
 
 bool is_positive(double value) {
   return value > 0 && std::isfinite(value);
@@ -30,7 +30,7 @@ std::vector<double> every(double interval, double duration) {
   return times;
 }
 
-void check_times(const std::vector<double>& times, double duration, FaultList& faults) {
+void check_times(const std::vector<double>& times, double duration, DiagnosticList& faults) {
   for (std::size_t i = 0; i < times.size(); ++i) {
     const std::string t = number_text(times[i]);
     if (times[i] < 0 || times[i] > duration)
@@ -43,7 +43,7 @@ void check_times(const std::vector<double>& times, double duration, FaultList& f
   }
 }
 
-void choose_integrator(const SimulateOptions& options, RunPlan& plan, FaultList& faults) {
+void choose_integrator(const SimulateOptions& options, RunPlan& plan, DiagnosticList& faults) {
   std::vector<std::string> names;
   for (const IntegratorFacts& facts : all_integrators) names.emplace_back(facts.name);
   if (const auto found = find_integrator(options.integrator))
@@ -65,7 +65,8 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, FaultList&
 
 }  // namespace
 
-RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, FaultList& faults) {
+RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults,
+                 DiagnosticList& faults) {
   RunPlan plan;
   plan.integrator = defaults.integrator;
   plan.locates_events = defaults.locates_events;
@@ -84,7 +85,7 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, Fa
   };
   const bool good_duration = positive("--duration", plan.duration);
   const bool good_step = !options.step || positive("--step", *options.step);
-  if (good_step && good_duration && plan.duration / plan.step > kMostSteps)
+  if (good_step && good_duration && plan.duration / plan.step > kMaxSteps)
     faults.add({"", 0, options.step ? "--step" : "step", "the run would have more than 1e10 steps",
                 "give a longer step or a shorter duration", "run.too-many-steps"});
   if (options.record_every) positive("--record-every", *options.record_every);
@@ -111,7 +112,7 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, Fa
     plan.times = parse_list("--at", options.at, faults);
     if (good_duration) check_times(plan.times, plan.duration, faults);
   } else if (options.every && positive("--every", *options.every) && good_duration) {
-    if (plan.duration / *options.every > kMostSamples)
+    if (plan.duration / *options.every > kMaxSamples)
       faults.add({"", 0, "--every", "there would be more than 1e7 samples", "give a longer time",
                   "run.too-many-samples"});
     else
@@ -184,11 +185,11 @@ PostMortem examine_end(const StepReport& report, const Simulation& simulation,
         found.joint = model.joint_name[i];
         found.body = model.body_name[i];
       }
-  if (!report.finite && report.bad_field) {
-    const auto body = static_cast<std::size_t>(report.bad_body);
+  if (!report.finite && report.nonfinite_field) {
+    const auto body = static_cast<std::size_t>(report.nonfinite_body);
     found.body = model.body_name[body];
     found.joint = model.joint_name[body];
-    found.field = report.bad_field;
+    found.field = report.nonfinite_field;
     found.pass =
         first_bad_quantity(model, simulation.mechanism().forces, simulation.mechanism().w).pass;
   }
@@ -253,7 +254,7 @@ std::string unlocated_warning(long unlocated, long steps) {
       "in {} of {} steps there were too many events to locate them all (bound: {} laws solved): "
       "what was left of these steps was taken as one step of fixed size, of first order; give "
       "--contact rigid, or a shorter --step",
-      unlocated, steps, EventStep::kMostLaws);
+      unlocated, steps, EventStep::kMaxLaws);
 }
 
 }  // namespace twinarm

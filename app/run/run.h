@@ -26,8 +26,8 @@ class RunView {
   virtual long step() const = 0;  // that was taken last; 0 at the start
   virtual const Simulation& simulation() const = 0;
   virtual const SceneContacts* contacts() const = 0;      // null for a URDF
-  virtual std::vector<LedgerRow> ledger() const = 0;      // `numerical` last
-  virtual std::vector<LedgerRow> hand() const = 0;        // work of the kinematic sides so far
+  virtual std::vector<EnergyRow> ledger() const = 0;      // `numerical` last
+  virtual std::vector<EnergyRow> hand() const = 0;        // work of the kinematic sides so far
   virtual std::vector<MomentumRow> momentum() const = 0;  // likewise
   virtual std::string memory() = 0;                       // all that the run goes on from
 };
@@ -46,16 +46,16 @@ struct RunStart {
 };
 
 // A spring or damper against the limit that the method sets to it, by linear theory.
-struct Suspect {
+struct StabilityViolation {
   enum class Kind { coupling, joint_damper };
   Kind kind = Kind::coupling;
   std::size_t index = 0;  // in SceneDescription::couplings; of a damper the body of the joint
   std::string name, scheme;
-  double step = 0, largest_step = 0;  // of a held force: between two evaluations [s]
-  double product = 0, limit = 0;      // w h, and the largest that holds
-  std::string gain, remedy;           // which one; of what is beyond its limit, what would hold
-  double largest_gain = 0;  // that holds at this step (of a time constant the least); 0: none, or
-                            // not asked for
+  double step = 0, max_step = 0;  // of a held force: between two evaluations [s]
+  double product = 0, limit = 0;  // w h, and the largest that holds
+  std::string gain, fix;          // which one; of what is beyond its limit, what would hold
+  double max_gain = 0;  // that holds at this step (of a time constant the least); 0: none, or
+                        // not asked for
 };
 
 // Why a run stopped by itself.
@@ -69,7 +69,7 @@ struct PostMortem {
   double kinetic_energy = 0, energy_bound = 0;  // [J]; of the last good state
   // What app/diagnose/post_mortem.h adds.
   std::vector<std::string> words;
-  std::vector<Suspect> suspects;
+  std::vector<StabilityViolation> suspects;
   std::string recording;      // of the last steps
   std::string row;            // of the ledger: it grew most in them
   double row_growth = 0;      // [J]
@@ -79,9 +79,9 @@ struct PostMortem {
 struct SimulateResult {
   long steps = 0;
   double end = 0;  // [s]; where the run stopped by itself: the last good time
-  std::vector<LedgerRow> ledger;
+  std::vector<EnergyRow> ledger;
   std::vector<MomentumRow> momentum;
-  std::vector<LedgerRow> hand;  // of the kinematic sides of couplings; outside the sum
+  std::vector<EnergyRow> hand;  // of the kinematic sides of couplings; outside the sum
   std::vector<std::string> warnings;
   int contacts = 0;  // points that press, at the last step
   std::optional<PostMortem> post_mortem;
@@ -100,8 +100,8 @@ struct RunWatch {
   bool (*interrupted)() = nullptr;
 };
 
-// Of RunView::memory() the part that Simulation::visit_memory reads.
-Memory simulation_memory(const std::string& memory);
+// Of RunView::memory() the part that Simulation::serialize reads.
+StateArchive simulation_memory(const std::string& memory);
 
 // Samples between two points of the grid are reached by a side step from the earlier one; the run
 // is the same, whatever is sampled.

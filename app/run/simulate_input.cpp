@@ -16,7 +16,7 @@ RunDefaults defaults_of(const SceneDescription& scene) {
           scene.contact == ContactMode::event};
 }
 
-void refuse_robot_options(const RobotOptions& options, FaultList& faults) {
+void refuse_robot_options(const RobotOptions& options, DiagnosticList& faults) {
   if (options.floating)
     faults.add({"", 0, "--floating", "the scene says which of its robots float",
                 "write base = \"floating\" in [[robot]]", "option.useless"});
@@ -26,7 +26,7 @@ void refuse_robot_options(const RobotOptions& options, FaultList& faults) {
 }
 
 // What the command line says in place of the scene; null where that could not be read.
-void choose_contact(const std::string& name, SceneDescription* scene, FaultList& faults) {
+void choose_contact(const std::string& name, SceneDescription* scene, DiagnosticList& faults) {
   if (name.empty()) return;
   const auto found = std::ranges::find(kContactModes, name);
   if (found == kContactModes.end())
@@ -36,19 +36,19 @@ void choose_contact(const std::string& name, SceneDescription* scene, FaultList&
     scene->contact = static_cast<ContactMode>(found - kContactModes.begin());
 }
 
-void check_treatments(const SceneModel& scene, const RunPlan& plan, FaultList& faults) {
+void check_treatments(const SceneModel& scene, const RunPlan& plan, DiagnosticList& faults) {
   for (const SceneCoupling& coupling : scene.couplings) {
     if (!coupling.leads()) continue;
-    const auto fault = [&](std::string rule, std::string remedy) {
+    const auto fault = [&](std::string problem, std::string fix) {
       faults.add({scene.description.file.string(), coupling.line,
-                  "coupling '" + coupling.coupling + "'", std::move(rule), std::move(remedy),
+                  "coupling '" + coupling.coupling + "'", std::move(problem), std::move(fix),
                   "run.integrator"});
     };
     if (coupling.needs_semi_implicit() && !facts_of(plan.integrator).implicit_force)
       fault(std::string("its treatment goes with the semi-implicit integrators only, not with ") +
                 integrator_name(plan.integrator),
             std::string(facts_of(coupling.law, coupling.printed).treatments ==
-                                    CouplingFacts::Treatments::all &&
+                                    CouplingFacts::Discretizations::all &&
                                 coupling.law != CouplingSpec::Type::weld_like
                             ? "give treatment = \"explicit\", or "
                             : "give ") +
@@ -73,7 +73,7 @@ RobotDescription all_robots(const SceneDescription& scene) {
 }
 
 SimulateInput scene_input(const SceneDescription& description, const SimulateOptions& options,
-                          const RunPlan& plan, FaultList& faults) {
+                          const RunPlan& plan, DiagnosticList& faults) {
   const RobotOptions& given = options.robot;
   ModelOptions model_options;
   model_options.friction = given.friction;
@@ -113,7 +113,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
 }  // namespace
 
 SimulatePlan prepare_simulation(const SimulateOptions& options) {
-  FaultList faults;
+  DiagnosticList faults;
   if (options.robot.model.extension() != ".toml" && !options.scene) {
     const RunPlan plan = plan_run(options, {}, faults);
     if (!options.contact.empty())

@@ -33,7 +33,7 @@ struct SimulateOptions {
   std::optional<double> energy_bound;  // of kinetic energy [J]; left out: kGrowth times the start's
   std::filesystem::path post_mortem;   // of a run that stops; empty: beside others in out/
   // What a fork changes in a scene before it is read; may be empty.
-  std::function<void(Value&, FaultList&)> change_scene;
+  std::function<void(Value&, DiagnosticList&)> change_scene;
   std::optional<Value> scene;  // in place of the file that robot.model names
   bool has_hand = false;       // one is at hand for couplings that follow a device
 };
@@ -61,7 +61,8 @@ struct RunPlan {
 };
 
 // Adds all faults of the options to the list.
-RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults, FaultList& faults);
+RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults,
+                 DiagnosticList& faults);
 
 struct SimulateInput {
   // Of a scene: the joints of all its robots, and the start that the state file has changed.

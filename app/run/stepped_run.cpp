@@ -16,7 +16,7 @@ namespace {
 constexpr long kCheckpoint = 1000;
 constexpr long kEnergyEvery = 8;  // steps: the check costs a pass
 
-void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& unlocated) {
+void visit_head(StateArchive& memory, long& steps, double& end, long& unsolved, long& unlocated) {
   memory.visit(steps);
   memory.visit(end);
   memory.visit(unsolved);
@@ -24,8 +24,8 @@ void visit_head(Memory& memory, long& steps, double& end, long& unsolved, long& 
 }
 
 // A new one stands before the last, `numerical`.
-LedgerRow& row_like(const LedgerRow& wanted, std::vector<LedgerRow>& rows) {
-  const auto is_it = [&](const LedgerRow& row) { return row.name == wanted.name; };
+EnergyRow& row_like(const EnergyRow& wanted, std::vector<EnergyRow>& rows) {
+  const auto is_it = [&](const EnergyRow& row) { return row.name == wanted.name; };
   const auto found = std::ranges::find_if(rows, is_it);
   if (found != rows.end()) return *found;
   return *rows.insert(rows.empty() ? rows.end() : rows.end() - 1, {wanted.kind, wanted.name, 0});
@@ -33,8 +33,8 @@ LedgerRow& row_like(const LedgerRow& wanted, std::vector<LedgerRow>& rows) {
 
 }  // namespace
 
-Memory simulation_memory(const std::string& memory) {
-  Memory all(memory);
+StateArchive simulation_memory(const std::string& memory) {
+  StateArchive all(memory);
   long steps = 0, unsolved = 0, unlocated = 0;
   double end = 0;
   visit_head(all, steps, end, unsolved, unlocated);
@@ -47,7 +47,8 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
       plan_(plan),
       watch_(watch),
       outside_(outside),
-      sim_(input_.model, input_.state.x, {.keep_account = true, .interrupted = watch.interrupted}),
+      sim_(input_.model, input_.state.x,
+           {.enable_constraint_work = true, .interrupted = watch.interrupted}),
       torques_(input_.model, input_.coordinates, input_.state.tau),
       limits_(input_, simulated.scene && limits_act(*simulated.scene, plan.integrator),
               result_.warnings) {
@@ -90,31 +91,31 @@ void SteppedRun::begin() {
   if (watch_.look) watch_.look(*this);
 }
 
-std::vector<LedgerRow> SteppedRun::ledger() const {
-  std::vector<LedgerRow> all = ledger_->rows();
-  const auto add = [&](const std::vector<LedgerRow>& rows) {
+std::vector<EnergyRow> SteppedRun::ledger() const {
+  std::vector<EnergyRow> all = ledger_->rows();
+  const auto add = [&](const std::vector<EnergyRow>& rows) {
     // Before the last row, `numerical`, which is what is left.
-    for (const LedgerRow& row : rows) all.back().work -= row.work;
+    for (const EnergyRow& row : rows) all.back().work -= row.work;
     all.insert(all.end() - 1, rows.begin(), rows.end());
   };
   if (contacts_) add(contacts_->rows());
   add(momentum_->energy_rows(sim_, contacts()));
   if (outside_ && outside_->has_acted())
-    add({{LedgerKind::outside, outside_->name(), outside_->total().work}});
-  for (const LedgerRow& row : carried_) row_like(row, all).work += row.work;
+    add({{EnergyRowKind::outside, outside_->name(), outside_->total().work}});
+  for (const EnergyRow& row : carried_) row_like(row, all).work += row.work;
   return all;
 }
 
-void SteppedRun::keep_books(const std::vector<LedgerRow>& told) {
+void SteppedRun::keep_books(const std::vector<EnergyRow>& told) {
   carried_.clear();
-  std::vector<LedgerRow> carried = told;
-  for (const LedgerRow& row : ledger()) row_like(row, carried).work -= row.work;
+  std::vector<EnergyRow> carried = told;
+  for (const EnergyRow& row : ledger()) row_like(row, carried).work -= row.work;
   carried_ = std::move(carried);
 }
 
 std::string SteppedRun::memory() {
-  Memory memory;
-  visit_memory(memory);
+  StateArchive memory;
+  serialize(memory);
   return memory.bytes();
 }
 
@@ -138,19 +139,19 @@ void SteppedRun::warn(std::string text) {
   if (watch_.warn) watch_.warn(result_.warnings.back());
 }
 
-void SteppedRun::visit_memory(Memory& memory) {
+void SteppedRun::serialize(StateArchive& memory) {
   visit_head(memory, result_.steps, result_.end, unsolved_, unlocated_);
-  sim_.visit_memory(memory);
-  ledger_->visit_memory(memory);
-  momentum_->visit_memory(memory);
+  sim_.serialize(memory);
+  ledger_->serialize(memory);
+  momentum_->serialize(memory);
   if (outside_ && (memory.reads() ? !memory.at_end() : outside_->has_acted()))
     outside_->visit_books(memory);
 }
 
 void SteppedRun::take_back(const std::string& bytes) {
-  Memory memory(bytes);
+  StateArchive memory(bytes);
   try {
-    visit_memory(memory);
+    serialize(memory);
     if (!memory.at_end()) throw std::runtime_error("it holds more than this scene remembers");
   } catch (const std::runtime_error& error) {
     throw InputError(
@@ -215,7 +216,7 @@ bool SteppedRun::one_step(double t, double h_most) {
     earlier_ = std::move(later_);
     later_ = memory();
   }
-  if (watch_.alarm && result_.steps % LedgerAlarm::kWindow == 0) look_at_ledger();
+  if (watch_.alarm && result_.steps % EnergyAlarm::kWindow == 0) look_at_ledger();
   return result_.steps % kEnergyEvery != 0 || stays_bounded(report);
 }
 

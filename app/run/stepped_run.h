@@ -26,7 +26,7 @@ class SteppedRun final : public RunView {
 
   // The rows of the ledger go on from these, whatever the change of a gain has made of the energy
   // in its spring: of a run that was taken up with other numbers.
-  void keep_books(const std::vector<LedgerRow>& told);
+  void keep_books(const std::vector<EnergyRow>& told);
   // What watchers see before the first step.
   void begin();
   // One step, or substep of an adaptive integrator. False where the run goes on no more: at its
@@ -41,8 +41,8 @@ class SteppedRun final : public RunView {
   long step() const override { return result_.steps; }
   const Simulation& simulation() const override { return sim_; }
   const SceneContacts* contacts() const override { return contacts_ ? &*contacts_ : nullptr; }
-  std::vector<LedgerRow> ledger() const override;
-  std::vector<LedgerRow> hand() const override { return ledger_->hand(); }
+  std::vector<EnergyRow> ledger() const override;
+  std::vector<EnergyRow> hand() const override { return ledger_->hand(); }
   std::vector<MomentumRow> momentum() const override {
     return momentum_->rows(sim_, contacts(), outside_);
   }
@@ -51,7 +51,7 @@ class SteppedRun final : public RunView {
  private:
   void add_forces(const SimulateInput& simulated);
   void warn(std::string text);
-  void visit_memory(Memory& memory);
+  void serialize(StateArchive& memory);
   void take_back(const std::string& bytes);
   void go_on_from(const RunStart& start);
   double time_after(double t, double h) const;
@@ -74,13 +74,13 @@ class SteppedRun final : public RunView {
   GivenTorques torques_;
   std::vector<GivenWrench> wrenches_;
   LimitWatch limits_;
-  std::optional<Ledger> ledger_;
-  std::optional<MomentumLedger> momentum_;
-  std::optional<LedgerAlarm> alarm_;
+  std::optional<EnergyBalance> ledger_;
+  std::optional<MomentumBalance> momentum_;
+  std::optional<EnergyAlarm> alarm_;
   std::optional<SceneContacts> contacts_;
   std::optional<Simulation> before_;  // the run at the start of the step
   std::vector<State<double>> inner_;
-  std::vector<LedgerRow> carried_;  // added to the rows of these names; together nothing
+  std::vector<EnergyRow> carried_;  // added to the rows of these names; together nothing
   std::size_t next_ = 0;            // sample
   long unsolved_ = 0, unlocated_ = 0, last_step_ = std::numeric_limits<long>::max();
   bool on_grid_ = true;

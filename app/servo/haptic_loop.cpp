@@ -70,7 +70,7 @@ const DeviceForce& HandLoop::after_step(const Simulation& simulation, double h,
   if (finite) {
     const std::vector<double>& tau = reaction_.after_step(
         couplings_.kvr(leader_).end(), simulation.state(), simulation.kinematics(), h);
-    if (watch_.mode() == HandWatch::Mode::live) felt_ = force_->tick(state_, tau, h);
+    if (watch_.mode() == DeviceWatchdog::Mode::live) felt_ = force_->tick(state_, tau, h);
   }
   device_.render(felt_);
   return felt_;
@@ -102,7 +102,7 @@ ServoClock::Wake ServoClock::wait() noexcept {
   const std::int64_t late = nanoseconds_of(CLOCK_MONOTONIC) - deadline_;
   Wake wake{1e-9 * static_cast<double>(late), 0};
   deadline_ += period_;
-  if (late > kMostBehind * period_) {
+  if (late > kMaxBehind * period_) {
     wake.slipped = static_cast<int>(late / period_);
     deadline_ += wake.slipped * period_;
   }

@@ -48,7 +48,7 @@ class HandLoop {
   const std::vector<double>& q_D() const { return q_D_; }  // of the DVR, at the start of the step
   const DeviceState& device() const { return state_; }     // as it was polled last
   const DeviceForce& felt() const { return felt_; }
-  const HandWatch& watch() const { return watch_; }
+  const DeviceWatchdog& watch() const { return watch_; }
   const DeviceMapping& mapping() const { return *mapping_; }
 
  private:
@@ -60,7 +60,7 @@ class HandLoop {
   std::unique_ptr<DeviceMapping> mapping_;
   CouplingReaction reaction_;
   std::unique_ptr<HandForce> force_;
-  HandWatch watch_;
+  DeviceWatchdog watch_;
   HandTarget target_;
   std::vector<double> q_D_;
   DeviceState state_;
@@ -82,7 +82,7 @@ class ServoClock {
  public:
   // Periods that the thread may be late by and still make up for, one tick at once after another.
   // Beyond it the deadlines begin anew from now: time has slipped.
-  static constexpr int kMostBehind = 100;
+  static constexpr int kMaxBehind = 100;
 
   explicit ServoClock(double period);  // [s]
   // The first deadline is a period from now.

@@ -36,7 +36,7 @@ class Servo {
       if (total == 0) first = last;
       const double cpu = thread_cpu_time();
       if (!is_empty) {
-        const TickView view = run_.tick();
+        const TickResult view = run_.tick();
         ++done;
         if (!ring_.push(view)) ++result_.lost;
         if (!view.finite) result_.finite = false;
@@ -51,7 +51,7 @@ class Servo {
     done_.store(true, std::memory_order_release);
   }
   bool is_done() const { return done_.load(std::memory_order_acquire); }
-  SpscRing<TickView>& ring() { return ring_; }
+  SpscRing<TickResult>& ring() { return ring_; }
   ServoResult take() { return std::move(result_); }
 
  private:
@@ -67,21 +67,21 @@ class Servo {
   LiveRun& run_;
   const ServoPlan& plan_;
   const std::atomic<bool>& stop_;
-  SpscRing<TickView> ring_;
+  SpscRing<TickResult> ring_;
   ServoResult result_;
   std::atomic<bool> done_{false};
 };
 
 // As fast as it goes, in this thread.
 ServoResult run_unpaced(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop,
-                        const std::function<void(SpscRing<TickView>&)>& drain) {
+                        const std::function<void(SpscRing<TickResult>&)>& drain) {
   constexpr long kAtOnce = 100;
-  SpscRing<TickView> ring(kAtOnce);
+  SpscRing<TickResult> ring(kAtOnce);
   ServoResult result;
   const double ticks = plan.duration / run.step() - 1e-9;
   for (long done = 0; static_cast<double>(done) < ticks && !stop && result.finite; ++done) {
     if (done % kAtOnce == 0) drain(ring);
-    const TickView view = run.tick();
+    const TickResult view = run.tick();
     result.finite = view.finite;
     ring.push(view);
   }
@@ -92,7 +92,7 @@ ServoResult run_unpaced(LiveRun& run, const ServoPlan& plan, const std::atomic<b
 }  // namespace
 
 ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop,
-                      const std::function<void(SpscRing<TickView>&)>& drain) {
+                      const std::function<void(SpscRing<TickResult>&)>& drain) {
   if (!plan.real_time) return run_unpaced(run, plan, stop, drain);
   Servo servo(run, plan, stop);
   std::thread thread([&] { servo.work(); });
@@ -108,12 +108,12 @@ ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<boo
 namespace {
 
 constexpr double kRemembered = 2.0;  // of the hand, for couplings that see it late [s]
-constexpr double kShortestStep = 1e-6, kLongestStep = 0.1;  // [s]
+constexpr double kMinStep = 1e-6, kLongestStep = 0.1;  // [s]
 
 double step_of(const SceneModel& scene, const LiveOptions& options) {
   const bool is_option = options.step > 0;
   const double h = is_option ? options.step : scene.description.step;
-  if (h >= kShortestStep && h <= kLongestStep) return h;
+  if (h >= kMinStep && h <= kLongestStep) return h;
   throw InputError(
       {{is_option ? "" : scene.description.file.string(), 0, is_option ? "--step" : "step",
         "with a hand device the step is from 1e-6 to 0.1 s, and here " + short_number_text(h) +
@@ -122,7 +122,7 @@ double step_of(const SceneModel& scene, const LiveOptions& options) {
 }
 
 // A tick takes one semi-implicit step of known work.
-void check_steps(const SceneModel& scene, FaultList& faults) {
+void check_steps(const SceneModel& scene, DiagnosticList& faults) {
   const std::string file = scene.description.file.string();
   const Integrator integrator = scene.description.integrator.value_or(Integrator::semi_implicit);
   if (integrator != Integrator::semi_implicit)
@@ -138,7 +138,7 @@ void check_steps(const SceneModel& scene, FaultList& faults) {
 // The couplings that follow the device. All of them are to turn the same joints.
 std::vector<std::size_t> find_led(const SceneModel& scene, double h) {
   const std::string file = scene.description.file.string();
-  FaultList faults;
+  DiagnosticList faults;
   check_steps(scene, faults);
   std::vector<std::size_t> led;
   for (std::size_t c = 0; c < scene.couplings.size(); ++c) {
@@ -167,7 +167,7 @@ LiveRun::LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions&
     : h_(step_of(scene, options)),
       led_(find_led(scene, h_)),
       leader_(led_.front()),
-      hand_(std::make_unique<LiveHand>(static_cast<std::size_t>(kRemembered / h_) + 2)),
+      hand_(std::make_unique<DeviceMotion>(static_cast<std::size_t>(kRemembered / h_) + 2)),
       couplings_(std::make_unique<SceneCouplings>(scene, h_, hand_.get())),
       simulation_(scene.model, scene.start) {
   loop_ = std::make_unique<HandLoop>(scene, *couplings_, led_, device, options);
@@ -178,8 +178,8 @@ LiveRun::LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions&
   loop_->begin(loop_->target().q, 0);
 }
 
-TickView LiveRun::tick() noexcept {
-  TickView view;
+TickResult LiveRun::tick() noexcept {
+  TickResult view;
   const double t = time();
   const HandTarget& target = loop_->before_step(simulation_.state(), t, h_);
   hand_->set(target, t, h_);
@@ -211,11 +211,11 @@ DeviceState first_state(HandDevice& device, ServoClock& clock, bool real_time, d
 
 }  // namespace
 
-std::unique_ptr<LiveHand> record_hand(HandDevice& device, double duration, bool real_time,
-                                      const std::function<void(double)>& tick) {
+std::unique_ptr<DeviceMotion> record_hand(HandDevice& device, double duration, bool real_time,
+                                          const std::function<void(double)>& tick) {
   const double h = 1 / device.figures().rate;
   const auto steps = static_cast<std::size_t>(std::ceil(duration / h - 1e-9));
-  auto hand = std::make_unique<LiveHand>(steps);
+  auto hand = std::make_unique<DeviceMotion>(steps);
   ServoClock clock(h);
   clock.start();
   DeviceState last = first_state(device, clock, real_time, h);

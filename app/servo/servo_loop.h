@@ -35,9 +35,9 @@ struct LiveOptions : HandLoopOptions {
 };
 
 // What a tick did, for the log and for whoever watches.
-struct TickView {
+struct TickResult {
   HandStep hand;  // what the KVR was told
-  HandWatch::Mode mode = HandWatch::Mode::live;
+  DeviceWatchdog::Mode mode = DeviceWatchdog::Mode::live;
   std::array<double, 3> felt{};   // torques of the motors [N m]
   std::array<double, 3> error{};  // q_K - q_D of the driven joints at the start of the step
   bool finite = true;             // false: the DVR has left all bounds, and stands
@@ -50,12 +50,12 @@ class LiveRun {
   // that follow the device with different joints, a mapping that cannot move them.
   LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options);
 
-  TickView tick() noexcept;
+  TickResult tick() noexcept;
   double time() const { return simulation_.state().t; }
   double step() const { return h_; }
   const Simulation& simulation() const { return simulation_; }
   const SceneContacts& contacts() const { return *contacts_; }
-  const HandWatch& watch() const { return loop_->watch(); }
+  const DeviceWatchdog& watch() const { return loop_->watch(); }
   const DeviceMapping& mapping() const { return loop_->mapping(); }
   std::size_t leader() const { return leader_; }  // the first coupling that follows the device
 
@@ -63,7 +63,7 @@ class LiveRun {
   double h_;
   std::vector<std::size_t> led_;  // couplings that follow the device
   std::size_t leader_ = 0;
-  std::unique_ptr<LiveHand> hand_;
+  std::unique_ptr<DeviceMotion> hand_;
   std::unique_ptr<SceneCouplings> couplings_;
   Simulation simulation_;
   std::optional<SceneContacts> contacts_;
@@ -77,8 +77,8 @@ class LiveRun {
 // that is simulated. Rates are differences; a device that is silent stands. No force is rendered.
 // `tick` is called with the time that has gone, and may throw. Throws InputError for a device that
 // says nothing in its first five seconds.
-std::unique_ptr<LiveHand> record_hand(HandDevice& device, double duration, bool real_time,
-                                      const std::function<void(double)>& tick);
+std::unique_ptr<DeviceMotion> record_hand(HandDevice& device, double duration, bool real_time,
+                                          const std::function<void(double)>& tick);
 
 // How long ticks took: a histogram that costs a few instructions to add to, and never allocates.
 //
@@ -95,12 +95,12 @@ class TickTimes {
     ++counts_[static_cast<std::size_t>(std::min(bin, kBins - 1.0))];
     ++count_;
     sum_ += seconds;
-    largest_ = std::max(largest_, seconds);
+    max_ = std::max(max_, seconds);
   }
   static double upper_edge(int bin) { return kFirst * std::exp2(bin / 16.0); }
   long count() const { return count_; }
   long count(int bin) const { return counts_[static_cast<std::size_t>(bin)]; }
-  double largest() const { return largest_; }
+  double largest() const { return max_; }
   double mean() const { return count_ ? sum_ / static_cast<double>(count_) : 0; }
   // The least edge that a share p of all values does not pass [s]; 0 where there are none.
   double quantile(double p) const {
@@ -108,16 +108,15 @@ class TickTimes {
     long below = 0;
     for (int bin = 0; bin < kBins; ++bin) {
       below += count(bin);
-      if (below > 0 && static_cast<double>(below) >= wanted)
-        return std::min(upper_edge(bin), largest_);
+      if (below > 0 && static_cast<double>(below) >= wanted) return std::min(upper_edge(bin), max_);
     }
-    return largest_;
+    return max_;
   }
 
  private:
   std::array<long, kBins> counts_{};
   long count_ = 0;
-  double sum_ = 0, largest_ = 0;
+  double sum_ = 0, max_ = 0;
 };
 
 // From one thread to another without a lock: a ring that one writes and one reads. A full ring
@@ -178,6 +177,6 @@ struct ServoResult {
 // flag). `drain` is called by this thread, some twenty times a second and once at the end, with the
 // ring. In real time it must not throw.
 ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop,
-                      const std::function<void(SpscRing<TickView>&)>& drain);
+                      const std::function<void(SpscRing<TickResult>&)>& drain);
 
 }  // namespace twinarm

@@ -13,7 +13,8 @@ constexpr const char* kRemedy = "see the file as it was shipped";
 // The tables of the settings: every key must be there. What is at fault comes back as nothing.
 class SettingsTable : public TableReader {
  public:
-  SettingsTable(const Value& table, std::string where, const std::string& file, FaultList& faults)
+  SettingsTable(const Value& table, std::string where, const std::string& file,
+                DiagnosticList& faults)
       : TableReader(table, std::move(where), file, faults), file_(file), faults_(faults) {}
 
   SettingsTable part(const std::string& key) {
@@ -70,10 +71,11 @@ class SettingsTable : public TableReader {
   }
 
   const std::string& file_;
-  FaultList& faults_;
+  DiagnosticList& faults_;
 };
 
-void read_robot(SettingsTable robot, const std::string& file, FaultList& faults, StudySettings& s) {
+void read_robot(SettingsTable robot, const std::string& file, DiagnosticList& faults,
+                StudySettings& s) {
   s.urdf = s.assets / robot.text("urdf");
   s.joints.turned = robot.texts("turned", 3);
   s.joints.gripper = robot.text("gripper");
@@ -97,7 +99,7 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   const std::filesystem::path path = assets / "study" / "settings.toml";
   const std::string file = path.string();
   const Value root = read_toml(path);
-  FaultList faults;
+  DiagnosticList faults;
   SettingsTable all(root, "settings", file, faults);
   StudySettings s;
   s.assets = assets;

@@ -13,7 +13,7 @@ namespace twinarm {
 namespace {
 
 // A system of KVR, DVR, studied coupling, auxiliary couplings and joint stops.
-TrackingSeries track(const StudyRobot& robot, const HandSource& hand, const RunSpec& spec) {
+TrackingSeries track(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec) {
   TrackingSetup setup;
   setup.kvr_model = &robot.kvr_model();
   setup.dvr_model = &robot.dvr_model(spec.coupling.type);
@@ -43,11 +43,11 @@ Scheme scheme_of(const RunSpec& run) {
   if (older) return Scheme::semi_implicit_older;
   if (spec.printed) return Scheme::semi_implicit_difference;
   switch (spec.treatment) {
-    case Treatment::explicit_:
+    case Discretization::explicit_:
       return Scheme::semi_implicit;
-    case Treatment::semi_implicit:
+    case Discretization::semi_implicit:
       return Scheme::implicit_damper;
-    case Treatment::implicit:
+    case Discretization::implicit:
       break;
   }
   return Scheme::implicit;
@@ -64,7 +64,7 @@ void measure(const TrackingSeries& series, RunResult& result) {
 
 }  // namespace
 
-RunResult run(const StudyRobot& robot, const HandSource& hand, const RunSpec& spec) {
+RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec) {
   RunResult result;
   result.spec = spec;
   result.series = track(robot, hand, spec);
@@ -80,7 +80,7 @@ void predict(const StudyRobot& robot, RunResult& result, const State<double>& po
   const RunSpec& spec = result.spec;
   const Model<double>& model = robot.dvr_model(spec.coupling.type);
   const AutomaticMotion hand{HandMapping{}};
-  KinematicRobot kvr(robot.kvr_model(), hand, HandMapping{}, robot.joints());
+  TargetRobot kvr(robot.kvr_model(), hand, HandMapping{}, robot.joints());
   CouplingSpec main = spec.coupling;
   main.springs = robot.springs(spec.gains.k1, spec.gains.b1, spec.gains.k2, spec.gains.b2);
   const auto coupling = make_coupling(main, model, kvr);
@@ -92,11 +92,11 @@ void predict(const StudyRobot& robot, RunResult& result, const State<double>& po
 
   const Eigen::VectorXd squares = squared_frequencies(M, K);
   result.frequency = {std::sqrt(std::max(0.0, squares(0))), std::sqrt(std::max(0.0, squares(1)))};
-  result.step_limit = largest_stable_step(M, K, B, scheme_of(spec));
+  result.step_limit = max_stable_step(M, K, B, scheme_of(spec));
   const Eigen::Vector2d sweep(-std::numbers::pi, std::numbers::pi / 2);  // [rad/s]
   const Eigen::VectorXd peak = peak_after_jump(M, K, B, 2 * sweep, 1.0);
   const JumpErrors motion =
-      errors_of_jumps(M, K, B, {{0, sweep}, {1, -2 * sweep}, {2, 2 * sweep}}, 3);
+      response_to_velocity_steps(M, K, B, {{0, sweep}, {1, -2 * sweep}, {2, 2 * sweep}}, 3);
   for (Eigen::Index j = 0; j < 2; ++j) {
     const auto joint = static_cast<std::size_t>(j);
     result.peak_deg[joint] = peak(j) / kDegree;
@@ -129,8 +129,8 @@ const char* treatment_name(const CouplingSpec& spec) {
 std::string coupling_words(const CouplingSpec& spec) {
   if (spec.type == CouplingSpec::Type::linear) return "linear";
   if (spec.type == CouplingSpec::Type::matched) return "torsional, full K_q of the linear one";
-  const Measure measure = spec.printed ? spec.options.measure : spec.measure;
-  return measure == Measure::world ? "torsional, world orientation" : "torsional, joint angle";
+  const SpringSpace measure = spec.printed ? spec.options.measure : spec.measure;
+  return measure == SpringSpace::world ? "torsional, world orientation" : "torsional, joint angle";
 }
 
 namespace {
@@ -156,8 +156,8 @@ CouplingSpec joint_hold(const Model<double>& model, const std::string& joint, do
   const double w = 2 * std::numbers::pi * frequency_hz;
   CouplingSpec spec;
   spec.name = joint;
-  spec.measure = Measure::joint;
-  spec.treatment = Treatment::implicit;
+  spec.measure = SpringSpace::joint;
+  spec.treatment = Discretization::implicit;
   spec.springs = {{joint, body, Vector3::Zero(), I * w * w, 2 * damping_ratio * I * w}};
   return spec;
 }

@@ -70,7 +70,7 @@ struct RunSpec {
   Gains gains;
   double rate = 60;       // of the coupling [Hz]
   int held_substeps = 1;  // physics steps per coupling evaluation
-  KvrRates kvr_rates = KvrRates::from_hand;
+  TargetRates kvr_rates = TargetRates::from_hand;
   Integrator integrator = Integrator::semi_implicit;
   double step() const { return 1 / (rate * held_substeps); }
 };
@@ -90,7 +90,7 @@ struct RunResult {
   double interval() const { return 1 / spec.rate; }  // what step_limit is a limit of [s]
 };
 
-RunResult run(const StudyRobot& robot, const HandSource& hand, const RunSpec& spec);
+RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec);
 // About the start of the automatic motion, or about another pose.
 void predict(const StudyRobot& robot, RunResult& result);
 void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose);

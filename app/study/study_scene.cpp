@@ -82,8 +82,7 @@ class SceneWriter {
 
   // The DVR begins on the KVR.
   std::string start() const {
-    const KinematicRobot kvr(robot_.kvr_model(), *scene_.hand.source, HandMapping{},
-                             robot_.joints());
+    const TargetRobot kvr(robot_.kvr_model(), *scene_.hand.source, HandMapping{}, robot_.joints());
     std::vector<std::string> moved = robot_.joints().turned;
     moved.push_back(robot_.joints().gripper);
     std::string q;
@@ -182,15 +181,15 @@ SceneHand automatic_hand() {
 }
 
 SceneHand device_hand() {
-  static const LiveHand at_zero(1);
+  static const DeviceMotion at_zero(1);
   return {"\"device\"", &at_zero};
 }
 
-SceneHand synthetic_hand(const HandSource& source, unsigned seed) {
+SceneHand synthetic_hand(const OperatorMotion& source, unsigned seed) {
   return {fmt::format("{{ seed = {}, duration = {} }}", seed, real(source.duration())), &source};
 }
 
-SceneHand traced_hand(const HandSource& source, const std::filesystem::path& trace) {
+SceneHand traced_hand(const OperatorMotion& source, const std::filesystem::path& trace) {
   return {quoted(std::filesystem::absolute(trace).lexically_normal().string()), &source};
 }
 

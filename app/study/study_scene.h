@@ -11,13 +11,13 @@ namespace twinarm {
 // Who moves the KVR: the value of a coupling's `target`, in TOML.
 struct SceneHand {
   std::string target;
-  const HandSource* source = nullptr;  // the same
+  const OperatorMotion* source = nullptr;  // the same
 };
 SceneHand automatic_hand();
-SceneHand synthetic_hand(const HandSource& source, unsigned seed);
+SceneHand synthetic_hand(const OperatorMotion& source, unsigned seed);
 // A hand device, live; the robot begins where all device angles are zero.
 SceneHand device_hand();
-SceneHand traced_hand(const HandSource& source, const std::filesystem::path& trace);
+SceneHand traced_hand(const OperatorMotion& source, const std::filesystem::path& trace);
 
 struct StudyScene {
   const StudySettings* settings = nullptr;

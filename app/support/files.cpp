@@ -102,7 +102,7 @@ std::filesystem::path make_temporary_folder(const std::string& name) {
         "let TMPDIR name a folder that can be written and has room", "file.unwritable"}});
 }
 
-void check_place(const std::filesystem::path& file, FaultList& faults) {
+void check_place(const std::filesystem::path& file, DiagnosticList& faults) {
   std::error_code error;
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
   if (std::filesystem::is_directory(file, error))

@@ -32,7 +32,7 @@ void make_folder(const std::filesystem::path& folder, const char* option = "--ou
 // A fresh one, NAME-XXXXXX where temporary files go; who asks for it removes it. Throws likewise.
 std::filesystem::path make_temporary_folder(const std::string& name);
 // Adds a fault where a file cannot be written: to be told before the work, and not after it.
-void check_place(const std::filesystem::path& file, FaultList& faults);
+void check_place(const std::filesystem::path& file, DiagnosticList& faults);
 // Both throw InputError where there is no such file, or it cannot be read.
 std::ifstream open_file(const std::filesystem::path& file);
 std::string read_whole_file(const std::filesystem::path& file);

@@ -48,16 +48,16 @@ std::string nearest_name(std::string_view misspelt, const std::vector<std::strin
 std::string name_remedy(std::string_view misspelt, const std::vector<std::string>& names,
                         std::string_view kind) {
   constexpr std::size_t kMany = 12;
-  std::string remedy;
+  std::string fix;
   if (const std::string nearest = nearest_name(misspelt, names); !nearest.empty())
-    remedy = "did you mean '" + nearest + "'?";
-  if (!remedy.empty() && names.size() > kMany) return remedy;
-  if (!remedy.empty()) remedy += " ";
-  if (names.empty()) return remedy + "there are no " + std::string(kind);
-  remedy += std::string(kind) + ":";
-  for (std::size_t i = 0; i < std::min(names.size(), kMany); ++i) remedy += " " + names[i];
-  if (names.size() > kMany) remedy += " and " + std::to_string(names.size() - kMany) + " more";
-  return remedy;
+    fix = "did you mean '" + nearest + "'?";
+  if (!fix.empty() && names.size() > kMany) return fix;
+  if (!fix.empty()) fix += " ";
+  if (names.empty()) return fix + "there are no " + std::string(kind);
+  fix += std::string(kind) + ":";
+  for (std::size_t i = 0; i < std::min(names.size(), kMany); ++i) fix += " " + names[i];
+  if (names.size() > kMany) fix += " and " + std::to_string(names.size() - kMany) + " more";
+  return fix;
 }
 
 std::string csv_field(const std::string& text) {

@@ -25,7 +25,7 @@ class TaskWatch {
     sum_ = max_;
   }
 
-  void look(const TickView& view, PickAndPlace* task) {
+  void look(const TickResult& view, PickAndPlace* task) {
     ++ticks_;
     for (std::size_t j = 0; j < max_.size(); ++j) {
       max_[j] = std::max(max_[j], std::abs(view.error[j]));
@@ -34,7 +34,7 @@ class TaskWatch {
     pose(view, is_kinematic_);
     if (task) task->tick(view.hand.t + view.hand.h, k_.X_WL[tip_].p, view.hand.hand.button);
   }
-  std::string picture(const TickView& view, const PickAndPlace* task) {
+  std::string picture(const TickResult& view, const PickAndPlace* task) {
     TopView table;
     if (task) {
       const PickAndPlace::Places& places = task->places();
@@ -62,7 +62,7 @@ class TaskWatch {
   std::size_t body(const std::string& joint) const {
     return static_cast<std::size_t>(model_.find_joint(joint));
   }
-  void pose(const TickView& view, bool kinematic) {
+  void pose(const TickResult& view, bool kinematic) {
     const HandMapping mapping;
     for (std::size_t j = 0; j < std::min<std::size_t>(3, turned_.size()); ++j)
       x_.q[model_.iq[turned_[j]]] =
@@ -108,8 +108,8 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
   std::atomic<bool> done{false};
   double reached = 0;
   bool stopped = false;
-  const ServoResult servo = run_servo(run, plan, done, [&](SpscRing<TickView>& ring) {
-    TickView view, newest;
+  const ServoResult servo = run_servo(run, plan, done, [&](SpscRing<TickResult>& ring) {
+    TickResult view, newest;
     bool any = false;
     while (!places.is_placed() && ring.pop(view)) {
       watch.look(view, pick);

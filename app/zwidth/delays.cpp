@@ -56,7 +56,7 @@ class Network {
 };
 
 // From the place that had come a tick ago to that which has come now.
-class NewestPlace final : public HandSource {
+class NewestPlace final : public OperatorMotion {
  public:
   double before = 0, now = 0, t = 0, h = 1;
   HandSample sample(double at, double) const override {
@@ -89,7 +89,7 @@ Model<double> rail_robot() {
 struct DistantRobot {
   Model<double> model = rail_robot();
   NewestPlace hand;
-  KinematicRobot kvr;
+  TargetRobot kvr;
   std::unique_ptr<Coupling> coupling;
   RailWall wall;
   Simulation simulation;
@@ -102,10 +102,10 @@ struct DistantRobot {
           return x;
         }()) {
     hand.before = hand.now = start;
-    kvr.stand_at(simulation.state());
+    kvr.set_pose(simulation.state());
     CouplingSpec spec;
-    spec.treatment = Treatment::implicit;
-    spec.measure = Measure::joint;
+    spec.treatment = Discretization::implicit;
+    spec.measure = SpringSpace::joint;
     spec.springs = {{"rail", 1, {}, kCoupling, 2 * std::sqrt(kCoupling * kRobotMass)}};
     coupling = make_coupling(spec, model, kvr);
     reaction.add(spec, *coupling);
@@ -130,7 +130,7 @@ double wanted_place(double t) {
 
 void run_delay(const SampledDevice& device, unsigned seed, DelayRow& row) {
   const double h = device.tick(), m = device.mass + kArmMass, start = wanted_place(0);
-  const OmniFigures omni;
+  const OmniParameters omni;
   Network there(row, seed), back(row, seed + 1);
   DistantRobot robot(start);
   // A hand of at most 1 m/s; damping that the device's mass can bear.

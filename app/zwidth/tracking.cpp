@@ -25,8 +25,8 @@ struct FollowCase {
 // A joint spring for each joint, of the inertia that it feels where the hand begins.
 CouplingSpec joint_springs(const Model<double>& model, const State<double>& x) {
   CouplingSpec spec;
-  spec.measure = Measure::joint;
-  spec.treatment = Treatment::implicit;
+  spec.measure = SpringSpace::joint;
+  spec.treatment = Discretization::implicit;
   const Eigen::MatrixXd M = mass_matrix(model, x);
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (model.dofs(i) != 1) continue;
@@ -37,14 +37,14 @@ CouplingSpec joint_springs(const Model<double>& model, const State<double>& x) {
   return spec;
 }
 
-void follow(const FollowCase& what, const Model<double>& model, const HandSource& hand,
+void follow(const FollowCase& what, const Model<double>& model, const OperatorMotion& hand,
             const std::string& hand_name, const std::function<void()>& look,
             std::vector<FollowRow>& rows) {
   TrackingSetup setup;
   setup.kvr_model = setup.dvr_model = &model;
   setup.hand = &hand;
   setup.joints.turned = what.driven;
-  const KinematicRobot begin(model, hand, setup.mapping, setup.joints);
+  const TargetRobot begin(model, hand, setup.mapping, setup.joints);
   setup.couplings = {joint_springs(model, begin.start().x)};
   TrackingSystem system(setup);
   const std::vector<Spring>& springs = system.coupling(0).springs();
@@ -57,7 +57,7 @@ void follow(const FollowCase& what, const Model<double>& model, const HandSource
   long samples = 0;
   system.run([&](double t) {
     if (++samples % 256 == 0) look();
-    const KvrSample& K = system.kvr().at(t);
+    const TargetSample& K = system.kvr().at(t);
     for (std::size_t s = 0; s < springs.size(); ++s) {
       const std::size_t iq = model.iq[static_cast<std::size_t>(springs[s].body)];
       const double e = std::abs(K.x.q[iq] - system.simulation().state().q[iq]);

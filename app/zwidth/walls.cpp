@@ -19,14 +19,14 @@ WallRow wall_row(const SampledDevice& device, double wall_damping) {
   row.wall_damping = wall_damping;
   SampledDevice smooth = device;  // the linear device that the other laws are about
   smooth.friction = smooth.resolution = 0;
-  row.stable = largest_stable_stiffness(smooth, wall_damping);
+  row.stable = max_stable_stiffness(smooth, wall_damping);
   row.stable_law = uncoupled_stiffness(smooth, wall_damping);
-  row.passive = largest_passive_stiffness(smooth, 0);
+  row.passive = max_passive_stiffness(smooth, 0);
   row.passive_law = colgate_stiffness(smooth, 0);
-  row.passive_damping = largest_passive_damping(smooth, 0);
+  row.passive_damping = max_passive_damping(smooth, 0);
   row.stepped = row.stepped_law = std::numeric_limits<double>::quiet_NaN();
   if (device.resolution > 0 && device.delay == 0) {
-    row.stepped = largest_passive_stiffness(device, 0);
+    row.stepped = max_passive_stiffness(device, 0);
     row.stepped_law = abbott_okamura_stiffness(device);
   }
   return row;
@@ -56,7 +56,7 @@ class SoftWall final : public ForceSource {
   double k_;
 };
 
-class StillHand final : public HandSource {
+class StillHand final : public OperatorMotion {
  public:
   explicit StillHand(double angle) : angle_(angle) {}
   HandSample sample(double, double) const override {
@@ -75,10 +75,10 @@ class StillHand final : public HandSource {
 double force_at_rest(double k_c, double k_e, double angle) {
   const Model<double> model = pressed_link();
   const StillHand hand(angle);
-  KinematicRobot kvr(model, hand, HandMapping{}, {{"joint"}, "", 0, 0});
+  TargetRobot kvr(model, hand, HandMapping{}, {{"joint"}, "", 0, 0});
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::linear;
-  spec.treatment = Treatment::implicit;
+  spec.treatment = Discretization::implicit;
   spec.springs = {{"end", 1, {kLink, 0, 0}, k_c, 2 * std::sqrt((k_c + k_e) * kLinkMass / 3)}};
   const auto coupling = make_coupling(spec, model, kvr);
   SoftWall wall(k_e);
@@ -127,10 +127,10 @@ WallPlane measure_plane(const SampledDevice& device, const Tell& tell) {
   for (int n = 0; n < kPoints; ++n) {
     const double part = n / (kPoints - 1.0);
     plane.stable_B.push_back(least * std::pow(most / least, part));
-    plane.stable_K.push_back(largest_stable_stiffness(plane.device, plane.stable_B.back()));
+    plane.stable_K.push_back(max_stable_stiffness(plane.device, plane.stable_B.back()));
     if (b > 0 && n % 2 == 0) {
       plane.passive_B.push_back(least * std::pow(0.97 * b / least, part));
-      plane.passive_K.push_back(largest_passive_stiffness(plane.device, plane.passive_B.back()));
+      plane.passive_K.push_back(max_passive_stiffness(plane.device, plane.passive_B.back()));
     }
     tell((n + 1.0) / kPoints);
   }

@@ -27,7 +27,7 @@ class ContactMeasure {
   void take(int step, const std::vector<double>& q);  // after each step, as in Scene
 
   double penetration() const { return penetration_; }  // the deepest point, of the last step [m]
-  double largest_penetration() const { return largest_; }
+  double max_penetration() const { return max_; }
   // Boxes: the farthest that one of them is from its vertical at the start [m]. The ball: how far
   // it creeps in the last fifth of the run [m].
   double drift() const { return drift_; }
@@ -37,7 +37,7 @@ class ContactMeasure {
   TimedScene timed_;
   std::unique_ptr<Detection> detection_;
   std::array<double, 3> reference_{};
-  double penetration_ = 0, largest_ = 0, drift_ = 0;
+  double penetration_ = 0, max_ = 0, drift_ = 0;
 };
 
 // Where bodies are, on revolutes and free.
@@ -102,7 +102,7 @@ void ContactMeasure::take(int step, const std::vector<double>& q) {
       detection_->X_WG[shape++] = {X_WB[i].R,
                                    X_WB[i].p + X_WB[i].R * vector3(scene.bodies[i].form_at)};
   penetration_ = detection_->deepest();
-  largest_ = std::max(largest_, penetration_);
+  max_ = std::max(max_, penetration_);
   drift_ = 0;
   if (!scene.obstacle) {
     for (std::size_t i = 0; i < q.size(); i += 7)
@@ -163,7 +163,7 @@ void check(const Options& o) {
 struct Row {
   std::string engine, model;
   std::vector<double> whole, settling, rest;  // by repetition: mean time of a step [s]
-  double penetration = 0, largest_penetration = 0, drift = 0;
+  double penetration = 0, max_penetration = 0, drift = 0;
   std::optional<SolverReading> solver;  // residual the largest, times the means of all steps
   int unconverged = 0;                  // steps
 };
@@ -190,7 +190,7 @@ void observe(Engine& engine, const TimedScene& timed, Row& row) {
     measure.take(step, q);
   }
   row.penetration = measure.penetration();
-  row.largest_penetration = measure.largest_penetration();
+  row.max_penetration = measure.max_penetration();
   row.drift = measure.drift();
 }
 
@@ -239,7 +239,7 @@ Json json_of(const Row& row) {
                {"ns_settling", ns_per_s * median_of(row.settling)},
                {"ns_rest", ns_per_s * median_of(row.rest)},
                {"penetration", row.penetration},
-               {"largest_penetration", row.largest_penetration},
+               {"largest_penetration", row.max_penetration},
                {"drift", row.drift}};
   if (const auto& s = row.solver) {
     json["residual"] = s->residual;

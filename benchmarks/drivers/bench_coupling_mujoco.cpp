@@ -91,7 +91,7 @@ bool limits() {
   bool good = true;
   for (const Row& row : rows)
     for (const double zeta : {0.0, 0.7, 1.0}) {
-      const double predicted = largest_omega_h(row.scheme, zeta);
+      const double predicted = max_omega_h(row.scheme, zeta);
       double inside = 0.8 * predicted, outside = 1.2 * predicted;
       while (outside - inside > 1e-5 * predicted) {
         const double middle = (inside + outside) / 2;

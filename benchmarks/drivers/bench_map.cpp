@@ -18,8 +18,8 @@
 namespace twinarm::bench {
 namespace {
 
-constexpr std::array kTreatments{Treatment::explicit_, Treatment::semi_implicit,
-                                 Treatment::implicit};
+constexpr std::array kTreatments{Discretization::explicit_, Discretization::semi_implicit,
+                                 Discretization::implicit};
 constexpr std::array kTreatmentNames{"explicit", "semi-implicit", "implicit"};
 
 struct MapBenchOptions {
@@ -83,7 +83,7 @@ void compare_with_passes(const MapBenchOptions& options) {
     std::printf("ns per step of a cell, one core, %d lanes; beside it the batch's aba() alone\n",
                 N);
   Rows rows("passes", options.json);
-  PassesAlone<N> alone(LumpedModel(locked_s103()).model);
+  PassesAlone<N> alone(ModelWithoutFixedJoints(locked_s103()).model);
   for (const bool energy : {false, true})
     for (const MapLaw& law : kMapLaws)
       for (std::size_t t = 0; t < kTreatments.size(); ++t) {
@@ -131,13 +131,13 @@ void measure_throughput(const MapBenchOptions& options) {
     std::printf("million steps per second by the wall clock, linear semi-implicit, energies too\n");
   Rows rows("throughput", options.json);
   const double duration = options.quick ? 0.3 : 3;
-  const std::size_t most = options.quick ? 16 : 1024, most_alone = options.quick ? 4 : 16;
+  const std::size_t most = options.quick ? 16 : 1024, max_alone = options.quick ? 4 : 16;
   for (const bool alone : {true, false})
     for (const std::size_t threads : {std::size_t{1}, std::size_t{2}})
-      for (std::size_t cells = 1; cells <= (alone ? most_alone : most); cells *= 2)
+      for (std::size_t cells = 1; cells <= (alone ? max_alone : most); cells *= 2)
         for (const bool energy : {true, false}) {
           if (!energy && (alone || cells < most)) continue;
-          MapRuns map(kMapLaws[2], Treatment::semi_implicit, energy, cells, threads, duration);
+          MapRuns map(kMapLaws[2], Discretization::semi_implicit, energy, cells, threads, duration);
           const Quickest best = quickest(map, alone, options.quick);
           const double steps = static_cast<double>(map.steps()), in = options.json ? 1 : 1e6;
           rows.add(

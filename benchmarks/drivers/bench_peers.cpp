@@ -255,7 +255,7 @@ int run(const Options& options) {
     for (const Row& row : rows.back())
       expected += expected_of_all(row, options.repetitions, options.budget);
   }
-  Stages stages("bench_peers", expected, StageLines::redrawn);
+  Stages stages("bench_peers", expected, SceneLines::redrawn);
   Json& list = answer[options.work_precision ? "work_precision" : "rows"] = Json::array();
   for (auto& of_case : rows) {
     measure(of_case, options.repetitions, options.budget, stages);

@@ -120,10 +120,10 @@ class CommandLine {
 // All that were asked for must be known.
 inline void check_known(const std::vector<std::string>& wanted,
                         const std::vector<std::string>& known, const std::string& what,
-                        const std::string& remedy) {
+                        const std::string& fix) {
   for (const std::string& name : wanted)
     if (std::find(known.begin(), known.end(), name) == known.end())
-      throw std::invalid_argument("no " + what + " " + name + remedy);
+      throw std::invalid_argument("no " + what + " " + name + fix);
 }
 
 }  // namespace twinarm::bench

@@ -35,13 +35,13 @@ Model<double> locked_s103() {
   return builder.build();
 }
 
-MapRuns::MapRuns(const MapLaw& law, Treatment treatment, bool energy, std::size_t cells,
+MapRuns::MapRuns(const MapLaw& law, Discretization treatment, bool energy, std::size_t cells,
                  std::size_t threads, double duration)
     : results_(cells) {
   setup_.model = &model_;
   setup_.start = State<double>(model_);
   BatchTarget target{&hand_, mapping_, {{"joint1", "joint2", "joint3"}, "", 0, 0}, setup_.start};
-  const KinematicRobot kvr(model_, hand_, mapping_, target.joints);
+  const TargetRobot kvr(model_, hand_, mapping_, target.joints);
   setup_.start.q = kvr.start().x.q;
   setup_.targets = {target};
   for (const int body : {1, 2, 3})
@@ -104,8 +104,8 @@ void MapRuns::run_alone() {
 
 std::size_t MapRuns::run_one(const BatchCell& cell) const {
   const BatchTarget& target = setup_.targets.front();
-  KinematicRobot kvr(model_, hand_, mapping_, target.joints);
-  kvr.stand_at(target.rest);
+  TargetRobot kvr(model_, hand_, mapping_, target.joints);
+  kvr.set_pose(target.rest);
   std::vector<std::unique_ptr<Coupling>> couplings;
   Simulation simulation(model_, setup_.start);
   for (std::size_t s = 0; s < setup_.springs.size(); ++s) {

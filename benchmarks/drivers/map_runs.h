@@ -18,19 +18,19 @@ Model<double> locked_s103();
 struct MapLaw {
   const char* name;
   CouplingSpec::Type type;
-  Measure measure;
+  SpringSpace measure;
   double k, b;
   double quill;  // its part of them: it is a thousand times as light, and would be unstable
 };
 inline constexpr std::array<MapLaw, 3> kMapLaws{
-    {{"world", CouplingSpec::Type::torsional, Measure::world, 300, 8, 1e-3},
-     {"joint", CouplingSpec::Type::torsional, Measure::joint, 300, 8, 1e-3},
-     {"linear", CouplingSpec::Type::linear, Measure::world, 3000, 60, 0.1}}};
+    {{"world", CouplingSpec::Type::torsional, SpringSpace::world, 300, 8, 1e-3},
+     {"joint", CouplingSpec::Type::torsional, SpringSpace::joint, 300, 8, 1e-3},
+     {"linear", CouplingSpec::Type::linear, SpringSpace::world, 3000, 60, 0.1}}};
 
 // A map of k against b about the law's gains, all cells of it stable.
 class MapRuns {
  public:
-  MapRuns(const MapLaw& law, Treatment treatment, bool energy, std::size_t cells,
+  MapRuns(const MapLaw& law, Discretization treatment, bool energy, std::size_t cells,
           std::size_t threads, double duration);
   MapRuns(const MapRuns&) = delete;
 

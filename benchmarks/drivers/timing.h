@@ -27,14 +27,14 @@ std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& j
 // stages of equal weight are expected to take equally long.
 
 // Of many short stages, one line is drawn again on a terminal, and elsewhere few are said.
-enum class StageLines { all, redrawn };
+enum class SceneLines { all, redrawn };
 
 class Stages {
  public:
-  Stages(std::string program, double total, StageLines lines = StageLines::all)
+  Stages(std::string program, double total, SceneLines lines = SceneLines::all)
       : program_(std::move(program)),
         total_(total),
-        redrawn_(lines == StageLines::redrawn && isatty(STDERR_FILENO) == 1) {}
+        redrawn_(lines == SceneLines::redrawn && isatty(STDERR_FILENO) == 1) {}
   ~Stages() {
     if (redrawn_) std::cerr << "\r\033[K" << std::flush;
   }

@@ -149,9 +149,9 @@ class Ode final : public FixedStepEngine {
   }
   static void near(void* self, dGeomID a, dGeomID b) {
     Ode& ode = *static_cast<Ode*>(self);
-    constexpr int kMost = 8;
-    dContact contacts[kMost] = {};
-    const int count = dCollide(a, b, kMost, &contacts[0].geom, sizeof(dContact));
+    constexpr int kMax = 8;
+    dContact contacts[kMax] = {};
+    const int count = dCollide(a, b, kMax, &contacts[0].geom, sizeof(dContact));
     const bool floor = dGeomGetBody(a) == nullptr || dGeomGetBody(b) == nullptr;
     for (int i = 0; i < count; ++i) {
       dSurfaceParameters& surface = contacts[i].surface;

@@ -55,7 +55,7 @@ struct SimbodySystem {
         b.parent < 0 ? static_cast<SimTK::MobilizedBody&>(matter.Ground()) : links[index(b.parent)];
     // its pin turns about z: frames whose z is the body's axis
     const Eigen::Matrix3d to_axis = b.joint == Joint::revolute
-                                        ? turn_z_to(axis_of(b))
+                                        ? rotation_taking_z_to(axis_of(b))
                                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
     const SimTK::Transform place(rotation_of(matrix3(b.rotation) * to_axis),
                                  vec3(vector3(b.position)));

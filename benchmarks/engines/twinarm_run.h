@@ -18,8 +18,8 @@ namespace twinarm::bench {
 inline constexpr const char* kLocated = "located";  // the scheme that locates events of contacts
 
 inline std::vector<Scheme> twinarm_schemes(const Scene& scene) {
-  constexpr std::size_t kMostLocated = 50;  // bodies; a pile has more impacts than can be located
-  if (scene.has_contacts() && scene.bodies.size() > kMostLocated) return {{"semi-implicit"}};
+  constexpr std::size_t kMaxLocated = 50;  // bodies; a pile has more impacts than can be located
+  if (scene.has_contacts() && scene.bodies.size() > kMaxLocated) return {{"semi-implicit"}};
   if (scene.has_contacts()) return {{"semi-implicit"}, {kLocated}};
   std::vector<Scheme> all{{"semi-implicit"}};
   for (const IntegratorFacts& facts : all_integrators)
@@ -66,10 +66,12 @@ class WatchedContacts final : public ConstraintSource {
     detection += now() - start;
   }
   bool closes(const ConstraintFrame& frame) noexcept override { return contacts_.closes(frame); }
-  bool look_farther(const Kinematics& k, double h) noexcept override {
-    return contacts_.look_farther(k, h);
+  bool extend_detection(const Kinematics& k, double h) noexcept override {
+    return contacts_.extend_detection(k, h);
   }
-  bool wants_separation() const noexcept override { return contacts_.wants_separation(); }
+  bool needs_position_correction() const noexcept override {
+    return contacts_.needs_position_correction();
+  }
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
     contacts_.add(frame, problem);
     added_ = now();

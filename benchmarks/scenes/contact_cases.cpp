@@ -162,7 +162,7 @@ SceneCase in_a_row(const std::string& name, const std::string& what, double rest
   c.judge = at_the_end([exact](const Values&, const Values& v) {
     double worst = 0;
     for (std::size_t i = 0; i < exact.size(); ++i)
-      worst = worse(worst, std::hypot(v[6 * i + 3] - exact[i], v[6 * i + 4], v[6 * i + 5]));
+      worst = nan_max(worst, std::hypot(v[6 * i + 3] - exact[i], v[6 * i + 4], v[6 * i + 5]));
     return worst;
   });
   return c;

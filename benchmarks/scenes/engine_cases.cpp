@@ -110,8 +110,8 @@ SceneCase planar_chain() {
     double worst = 0;
     return [=](double, const Values& q, const Values& v) mutable {
       const Kept now = kept_of(q, v);
-      worst = worse(worst, std::abs(now.energy / start.energy - 1));
-      return worst = worse(worst, std::abs(now.momentum / start.momentum - 1));
+      worst = nan_max(worst, std::abs(now.energy / start.energy - 1));
+      return worst = nan_max(worst, std::abs(now.momentum / start.momentum - 1));
     };
   };
   return c;
@@ -207,7 +207,7 @@ SceneCase from_list(const std::string& name, const std::string& what, const std:
         x.q = q, x.qd = v, x.t = t;
         const double error =
             motion->measure(motion->observe(moving->model, x), motion->reference(t));
-        return worst = worse(worst, error);
+        return worst = nan_max(worst, error);
       };
     };
     result.work_precision = work_precision;
@@ -239,8 +239,8 @@ SceneCase falling_puma() {
       for (std::size_t i = 0; i < q.size(); ++i) {
         constexpr double kTurn =
             2 * std::numbers::pi;  // the wrist turns round; ODE counts no turns
-        worst = worse(worst, std::abs(std::remainder(q[i] - there.q[i], kTurn)));
-        worst = worse(worst, std::abs(v[i] - there.qd[i]));
+        worst = nan_max(worst, std::abs(std::remainder(q[i] - there.q[i], kTurn)));
+        worst = nan_max(worst, std::abs(v[i] - there.qd[i]));
       }
       return worst;
     };

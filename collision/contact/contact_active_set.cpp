@@ -16,7 +16,7 @@ ContactWork& ContactWorks::of(int a, int b) {
   return *w;
 }
 
-void ContactWorks::visit_memory(Memory& memory, std::size_t count) {
+void ContactWorks::serialize(StateArchive& memory, std::size_t count) {
   constexpr std::size_t kWork = 9 * sizeof(double);  // bytes, at least
   memory.resize(all, kWork);
   for (ContactWork& work : all) {
@@ -44,12 +44,12 @@ void ContactActiveSet::hold(const ConstraintFrame& frame, bool struck) noexcept 
   flow_works_.assign(kFlowNumbers * held_pairs_.size(), 0);
 }
 
-void ContactActiveSet::hold_again() noexcept {
+void ContactActiveSet::restore_active_set() noexcept {
   points_ = held_;
   std::fill(flow_works_.begin(), flow_works_.end(), 0);
 }
 
-void ContactActiveSet::look(const ConstraintFrame& frame, Nearest& nearest) const noexcept {
+void ContactActiveSet::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
   for (const ContactPoint& p : points_)
     if (!p.is_held)
       nearest.see(-p.contact.depth, p.contact.n_W.dot(bodies_.approach(p.contact, frame.k)));
@@ -58,7 +58,7 @@ void ContactActiveSet::look(const ConstraintFrame& frame, Nearest& nearest) cons
 void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c, double h,
                                  double normal, double friction) {
   const bool moves = std::hypot(c.u[1], c.u[2]) > kMoves;
-  const bool slid = c.law == ImpulseLaw::coulomb && point.slip_W.norm() > kMoves;
+  const bool slid = c.law == ConstraintType::coulomb_cone && point.slip_W.norm() > kMoves;
   const bool goes_on = moves && point.slip_W.dot(point.velocity_W) > 0;
   char mode = moves ? slides : rests;
   if (slid && !goes_on) mode = turns;
@@ -78,7 +78,7 @@ void ContactActiveSet::modes(std::vector<char>& modes) const noexcept {
   modes.insert(modes.end(), modes_.begin(), modes_.end());
 }
 
-void ContactActiveSet::count_works() noexcept {
+void ContactActiveSet::commit_work() noexcept {
   for (std::size_t i = 0; i < held_pairs_.size(); ++i) {
     ContactWork& work = works_.of(held_pairs_[i].first, held_pairs_[i].second);
     const double* sums = &flow_works_[kFlowNumbers * i];

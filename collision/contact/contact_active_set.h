@@ -19,23 +19,23 @@ class ContactWorks {
 
   // Those of pairs that have worked before are found, others come in.
   ContactWork& of(int a, int b);
-  void visit_memory(Memory& memory, std::size_t geometries);
+  void serialize(StateArchive& memory, std::size_t geometries);
 
   std::vector<ContactWork> all;  // ascending by (a, b)
 };
 
 class ContactActiveSet final : public EventSource {
  public:
-  // `points`: the contacts found last; `works` takes what count_works() counts.
+  // `points`: the contacts found last; `works` takes what commit_work() counts.
   ContactActiveSet(ContactBodies& bodies, std::vector<ContactPoint>& points, ContactWorks& works)
       : bodies_(bodies), points_(points), works_(works) {}
 
   void hold(const ConstraintFrame& frame, bool struck) noexcept override;
-  void hold_again() noexcept override;
-  void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;
+  void restore_active_set() noexcept override;
+  void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept override;
   void modes(std::vector<char>& modes) const noexcept override;
   std::span<double> works() noexcept override { return flow_works_; }
-  void count_works() noexcept override;
+  void commit_work() noexcept override;
 
   // A solution in Phase::flow: what each held one does, and its works.
   void begin_flow() { modes_.clear(); }

@@ -25,10 +25,10 @@ ContactBodies::ContactBodies(const Model<double>& model) : model_(&model) {
 
 int ContactBodies::add(const ContactGeometry& geometry) {
   const ContactSurface& s = geometry.surface;
-  FaultList faults;
+  DiagnosticList faults;
   const std::string where = "geometry '" + geometry.name + "'";
-  const auto check = [&](bool good, const char* what, const char* remedy) {
-    if (!good) faults.add(where, what, remedy, "contact.geometry");
+  const auto check = [&](bool good, const char* what, const char* fix) {
+    if (!good) faults.add(where, what, fix, "contact.geometry");
   };
   check(geometry.body >= 0 && geometry.body < model_->body_count(), "it hangs on no body",
         "name a body of the model, or the world");
@@ -52,16 +52,16 @@ int ContactBodies::add(const ContactGeometry& geometry) {
   return id;
 }
 
-void ContactBodies::set_pair(int a, int b, const ContactPairLaw& law) {
+void ContactBodies::set_pair(int a, int b, const ContactMaterialPair& law) {
   rules_.push_back({std::min(a, b), std::max(a, b), law});
 }
 
-ContactPairLaw ContactBodies::law_of(int id_a, int id_b) const {
+ContactMaterialPair ContactBodies::law_of(int id_a, int id_b) const {
   const ContactSurface &a = geometry(id_a).surface, &b = geometry(id_b).surface;
-  ContactPairLaw law{std::sqrt(a.friction * b.friction), a.restitution * b.restitution,
-                     in_series({a.stiffness, a.dissipation}, {b.stiffness, b.dissipation})};
-  for (const PairRule& rule : rules_)
-    if (rule.a == id_a && rule.b == id_b) law = rule.law;
+  ContactMaterialPair law{std::sqrt(a.friction * b.friction), a.restitution * b.restitution,
+                          in_series({a.stiffness, a.dissipation}, {b.stiffness, b.dissipation})};
+  for (const PairOverride& problem : rules_)
+    if (problem.a == id_a && problem.b == id_b) law = problem.law;
   return law;
 }
 

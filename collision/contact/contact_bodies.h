@@ -17,8 +17,8 @@ class ContactBodies {
   // Returns its id. Throws InputError for bad numbers.
   int add(const ContactGeometry& geometry);
   // In place of what their surfaces give; the last one counts.
-  void set_pair(int a, int b, const ContactPairLaw& law);
-  ContactPairLaw law_of(int a, int b) const;
+  void set_pair(int a, int b, const ContactMaterialPair& law);
+  ContactMaterialPair law_of(int a, int b) const;
 
   CollisionWorld& world() { return world_; }
   const ContactGeometry& geometry(int id) const {
@@ -44,9 +44,9 @@ class ContactBodies {
   bool locates = false;  // steps locate their events
 
  private:
-  struct PairRule {
+  struct PairOverride {
     int a, b;
-    ContactPairLaw law;
+    ContactMaterialPair law;
   };
   bool is_immovable(int body) const { return is_immovable_[static_cast<std::size_t>(body)]; }
 
@@ -55,7 +55,7 @@ class ContactBodies {
   CollisionWorld world_;
   std::vector<ContactGeometry> geometries_;
   std::vector<double> radius_;  // by geometry: of a ball about its link's origin [m]
-  std::vector<PairRule> rules_;
+  std::vector<PairOverride> rules_;
 };
 
 }  // namespace twinarm

@@ -21,26 +21,27 @@ void ContactConstraints::begin_step(const Kinematics& k, const State<double>&, d
   found_.begin_step(k, h);
 }
 
-bool ContactConstraints::look_farther(const Kinematics& k, double h) noexcept {
-  return found_.look_farther(k, h);
+bool ContactConstraints::extend_detection(const Kinematics& k, double h) noexcept {
+  return found_.extend_detection(k, h);
 }
 
-bool ContactConstraints::closes(const ConstraintFrame& frame) noexcept {
+bool ContactConstraints::has_closing_contact(const ConstraintFrame& frame) noexcept {
   if (response_ == ContactResponse::compliant) return false;
   const bool located = frame.phase == Phase::hit;
   bool any = false;
   for (ContactPoint& p : found_.points) {
-    p.closes = false;
+    p.has_closing_contact = false;
     if (p.restitution <= 0 && !located) continue;  // those are for the second phase
     const double u = p.contact.n_W.dot(bodies_.approach(p.contact, frame.k));
-    p.closes = located ? u < -EventSource::kRest && p.contact.depth >= -EventSource::kClosed
-                       : u < -kSlowestBounce && frame.h * u < p.contact.depth;
-    any = any || p.closes;
+    p.has_closing_contact =
+        located ? u < -EventSource::kRest && p.contact.depth >= -EventSource::kClosed
+                : u < -kSlowestBounce && frame.h * u < p.contact.depth;
+    any = any || p.has_closing_contact;
   }
   return any;
 }
 
-bool ContactConstraints::wants_separation() const noexcept {
+bool ContactConstraints::needs_position_correction() const noexcept {
   if (response_ == ContactResponse::compliant) return false;
   return std::any_of(found_.points.begin(), found_.points.end(),
                      [](const ContactPoint& p) { return p.gap_after < -kSlop; });
@@ -88,7 +89,7 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
   const ImpulseConstraint& c = problem.constraints()[part.row];
   ContactPoint& point = found_.points[part.point];
   const Vector3 p(c.p[0], c.p[1], c.p[2]);
-  const double closing = rows_.may_close(frame, point);
+  const double closing = rows_.allowed_closing_speed(frame, point);
   const Vector3 start = axes.transpose() * bodies_.approach(point.contact, frame.k);
   std::array<double, 3> before, after;
   problem.velocity(c, problem.v(0), after);
@@ -101,7 +102,8 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
   const double normal = 0.5 * c.p[0] * (before[0] + after[0]);
   double friction = 0;
   for (const std::size_t r : {1, 2}) friction += 0.5 * c.p[r] * (before[r] + after[r]);
-  if (c.law == ImpulseLaw::compliant) {  // what the force says of the bristles; slipping sets it
+  if (c.law ==
+      ConstraintType::compliant) {  // what the force says of the bristles; slipping sets it
     const double stiff = c.h * c.k_t, damp = c.h * c.b_t;
     Vector3 anchor = Vector3::Zero();
     for (int r = 1; r < 3; ++r) anchor += axes.col(r) * (-(p[r] + damp * c.u[r]) / stiff);
@@ -123,10 +125,10 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
 }
 
 // What contacts remember from step to step (solver/support/state_archive.h).
-void ContactConstraints::visit_memory(Memory& memory) {
+void ContactConstraints::serialize(StateArchive& memory) {
   memory.visit(bodies_.locates);
-  found_.visit_memory(memory);
-  works_.visit_memory(memory, bodies_.size());
+  found_.serialize(memory);
+  works_.serialize(memory, bodies_.size());
 }
 
 }  // namespace twinarm

@@ -21,7 +21,7 @@
 
 namespace twinarm {
 
-class ContactConstraints final : public ConstraintSource, public Rewindable {
+class ContactConstraints final : public ConstraintSource, public Checkpointable {
  public:
   ContactConstraints(const Model<double>& model, ContactResponse response);
   ContactConstraints(const ContactConstraints&) = delete;  // its parts know each other
@@ -31,14 +31,14 @@ class ContactConstraints final : public ConstraintSource, public Rewindable {
   const ContactBodies& bodies() const { return bodies_; }
 
   void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override;
-  bool closes(const ConstraintFrame& frame) noexcept override;
-  bool look_farther(const Kinematics& k, double h) noexcept override;
-  bool wants_separation() const noexcept override;
+  bool has_closing_contact(const ConstraintFrame& frame) noexcept override;
+  bool extend_detection(const Kinematics& k, double h) noexcept override;
+  bool needs_position_correction() const noexcept override;
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
   EventSource* events() override { return &active_; }
-  void visit_memory(Memory& memory) override;
+  void serialize(StateArchive& memory) override;
 
   const std::vector<ContactPoint>& points() const { return found_.points; }
   // Of all steps so far, ascending by (a, b).

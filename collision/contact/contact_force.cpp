@@ -12,9 +12,9 @@ namespace twinarm {
 namespace {
 
 constexpr int kObstacleGroup = 0, kLinkGroup = 1;
-constexpr std::size_t kMostContacts = 256;  // reserved, so that a step does not allocate
+constexpr std::size_t kMaxContacts = 256;  // reserved, so that a step does not allocate
 // Speculative contacts reach as far as a link may move in a step, and at least this [m].
-constexpr double kLeastMargin = 1e-3;
+constexpr double kMinMargin = 1e-3;
 
 // Two unit vectors across n.
 std::pair<Vector3, Vector3> tangents(const Vector3& n) {
@@ -28,10 +28,10 @@ ContactForce::ContactForce(const Model<double>& model, const ContactLaw& law)
     : model_(model), law_(law) {
   world_.set_group_filter(kObstacleGroup, kObstacleGroup, false);
   world_.set_group_filter(kLinkGroup, kLinkGroup, false);
-  contacts_.reserve(kMostContacts);
-  readings_.reserve(kMostContacts);
-  last_readings_.reserve(kMostContacts);
-  points_.reserve(kMostContacts);
+  contacts_.reserve(kMaxContacts);
+  readings_.reserve(kMaxContacts);
+  last_readings_.reserve(kMaxContacts);
+  points_.reserve(kMaxContacts);
 }
 
 void ContactForce::add(int body, const Pose& X_LG, const std::string& name, const Shape& shape) {
@@ -70,7 +70,7 @@ void ContactForce::begin_step(const Kinematics& k, double /*t*/, double h) noexc
   double fastest = 0;  // of the corners of any link, roughly: origin speed plus a metre's turning
   for (std::size_t i = 1; i < k.v_WLo.size(); ++i)
     fastest = std::max(fastest, k.v_WLo[i].norm() + k.w_WL[i].norm());
-  find_contacts(k, std::max(kLeastMargin, 2 * h * fastest));
+  find_contacts(k, std::max(kMinMargin, 2 * h * fastest));
 
   std::swap(readings_, last_readings_);
   readings_.clear();

@@ -7,8 +7,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double kLeastReach = 5e-4;  // [m]
-constexpr double kSamePoint = 0.01;   // [m]
+constexpr double kMinReach = 5e-4;   // [m]
+constexpr double kSamePoint = 0.01;  // [m]
 
 std::tuple<int, int, int> name_of(const Contact& c) {
   return {c.a, c.b, c.feature};
@@ -24,13 +24,13 @@ ContactManifolds::ContactManifolds(ContactBodies& bodies) : bodies_(bodies) {
 // As far as it is looked for others, forces within the step included.
 double ContactManifolds::reach(std::size_t geometry, const Kinematics& k, double h) const {
   const bool is_fixed = bodies_.geometry(static_cast<int>(geometry)).body == 0;
-  return is_fixed ? 0 : kLeastReach + 1.25 * bodies_.way(geometry, k, h);
+  return is_fixed ? 0 : kMinReach + 1.25 * bodies_.way(geometry, k, h);
 }
 
 ContactPoint ContactManifolds::start(const Contact& contact) const {
   ContactPoint point;
   point.contact = contact;
-  const ContactPairLaw law = bodies_.law_of(contact.a, contact.b);
+  const ContactMaterialPair law = bodies_.law_of(contact.a, contact.b);
   point.friction = law.friction;
   point.restitution = law.restitution;
   point.compliance = law.compliance;
@@ -76,7 +76,7 @@ void ContactManifolds::begin_step(const Kinematics& k, double h) noexcept {
     if (bodies_.moves(contact)) points.push_back(start(contact));
 }
 
-bool ContactManifolds::look_farther(const Kinematics& k, double h) noexcept {
+bool ContactManifolds::extend_detection(const Kinematics& k, double h) noexcept {
   bool farther = false;
   for (std::size_t g = 0; g < bodies_.size(); ++g)
     if (bodies_.way(g, k, h) > reach_[g]) farther = true, reach_[g] = reach(g, k, h);
@@ -96,12 +96,12 @@ bool ContactManifolds::look_farther(const Kinematics& k, double h) noexcept {
   }
   if (points.size() == known) return false;
   std::sort(points.begin(), points.end(), before);
-  for (ContactPoint& point : points) point.closes = false, point.gap_after = 0;
+  for (ContactPoint& point : points) point.has_closing_contact = false, point.gap_after = 0;
   return true;
 }
 
 // Bristles, guesses, what is held.
-void ContactManifolds::visit_memory(Memory& memory) {
+void ContactManifolds::serialize(StateArchive& memory) {
   constexpr std::size_t kPoint = 28 * sizeof(double);  // bytes, at least
   const std::size_t count = bodies_.size();
   memory.resize(points, kPoint);

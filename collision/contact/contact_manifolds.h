@@ -16,8 +16,8 @@ class ContactManifolds {
   void begin_step(const Kinematics& k, double h) noexcept;
   // Looks again where something moves farther than it was looked for. Of points that were there
   // already, names and what they have carried so far stay. False if nothing new was found.
-  bool look_farther(const Kinematics& k, double h) noexcept;
-  void visit_memory(Memory& memory);
+  bool extend_detection(const Kinematics& k, double h) noexcept;
+  void serialize(StateArchive& memory);
 
   std::vector<ContactPoint> points;  // sorted by (a, b, feature)
 

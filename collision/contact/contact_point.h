@@ -31,7 +31,7 @@ inline Compliance in_series(const Compliance& a, const Compliance& b) {
 }
 
 // What holds between two geometries.
-struct ContactPairLaw {
+struct ContactMaterialPair {
   double friction, restitution;
   Compliance compliance;
 };
@@ -58,8 +58,8 @@ struct ContactPoint {
   bool is_held = false, opens = false;   // event_source.h
   Vector3 slip_W = Vector3::Zero();      // of what is held: at the start of the piece [m/s]
   // Within a step:
-  bool closes = false;   // takes part in the first phase, with its restitution
-  double gap_after = 0;  // as the second phase leaves it [m]
+  bool has_closing_contact = false;  // takes part in the first phase, with its restitution
+  double gap_after = 0;              // as the second phase leaves it [m]
 };
 
 // Of all points of two geometries, on what they belong to.

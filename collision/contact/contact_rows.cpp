@@ -43,7 +43,7 @@ void ContactRows::add(const ConstraintFrame& frame, const std::vector<ContactPoi
 bool ContactRows::takes_part(const ConstraintFrame& frame, const ContactPoint& point) const {
   switch (frame.phase) {
     case Phase::impact:
-      return point.closes || point.contact.depth > -kTouching;
+      return point.has_closing_contact || point.contact.depth > -kTouching;
     case Phase::hit:
       return point.contact.depth >= -EventSource::kClosed;
     case Phase::flow:
@@ -66,7 +66,8 @@ double ContactRows::bounce_speed(const ContactPoint& point, double u, const Cons
   return std::min(std::sqrt(std::max(0.0, square)), std::abs(u));
 }
 
-double ContactRows::may_close(const ConstraintFrame& frame, const ContactPoint& point) const {
+double ContactRows::allowed_closing_speed(const ConstraintFrame& frame,
+                                          const ContactPoint& point) const {
   const double gap = -point.contact.depth;
   if (frame.phase == Phase::flow) return EventSource::kGapRate * gap;
   if (response_ == ContactResponse::compliant) return 0;
@@ -87,9 +88,9 @@ void ContactRows::add_contact(const ConstraintFrame& frame, const ContactPoint& 
   const int rows = separate || smooth ? 1 : 3;
   const Matrix3 axes = contact_axes(contact.n_W);
   parts_.push_back({i, problem.constraints().size(), 0});
-  ImpulseConstraint& c = problem.add(rows == 1 ? ImpulseLaw::at_least
-                                     : soft    ? ImpulseLaw::compliant
-                                               : ImpulseLaw::coulomb,
+  ImpulseConstraint& c = problem.add(rows == 1 ? ConstraintType::unilateral
+                                     : soft    ? ConstraintType::compliant
+                                               : ConstraintType::coulomb_cone,
                                      rows, tree_a, tree_b);
   frame.trees.add_point_rows(frame.k, a, bodies_.point_on(contact, a), axes, rows, -1,
                              problem.J(c, 0));
@@ -109,12 +110,12 @@ void ContactRows::add_contact(const ConstraintFrame& frame, const ContactPoint& 
     for (int r = 0; r < rows; ++r) c.b[r] = u[r] - c.b[r];
   }
   if (frame.phase == Phase::impact || frame.phase == Phase::hit) {
-    if (point.closes && !frame.is_plastic(c))
+    if (point.has_closing_contact && !frame.is_plastic(c))
       c.b[0] -= bounce_speed(point, u[0], frame, problem, c);
     return;
   }
   if (soft) set_compliance(point, frame.h, axes, c);
-  c.b[0] += may_close(frame, point);
+  c.b[0] += allowed_closing_speed(frame, point);
   const Vector3 guess = axes.transpose() * point.force_W * frame.h;
   for (int r = 0; r < rows; ++r) c.p[r] = guess[r];
   add_friction_couples(frame, point, axes, problem);
@@ -131,7 +132,7 @@ void ContactRows::add_friction_couples(const ConstraintFrame& frame, const Conta
     const auto tree = problem.constraints()[parts_.back().row].tree;
     const bool one_tree = frame.trees.tree_of(bodies_.geometry(contact.a).body) ==
                           frame.trees.tree_of(bodies_.geometry(contact.b).body);
-    ImpulseConstraint& c = problem.add(ImpulseLaw::disc, rows, tree[0], tree[1]);
+    ImpulseConstraint& c = problem.add(ConstraintType::friction_disc, rows, tree[0], tree[1]);
     c.radius = radius;
     c.of = of;
     const int body_a = bodies_.geometry(contact.a).body, body_b = bodies_.geometry(contact.b).body;

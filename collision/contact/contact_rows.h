@@ -23,7 +23,7 @@ class ContactRows {
 
   // How fast the gap may close: in a step by what is left of it, in a smooth piece not at all but
   // for the rest that integration leaves.
-  double may_close(const ConstraintFrame& frame, const ContactPoint& point) const;
+  double allowed_closing_speed(const ConstraintFrame& frame, const ContactPoint& point) const;
 
   static constexpr double kSlop = 1e-6;  // penetration that is let be [m]
 

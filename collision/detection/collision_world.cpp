@@ -26,11 +26,12 @@ bool is_finite(const Pose& X) {
 }
 
 // The box of a body, grown by its margin: two boxes overlap if the bodies can be that near.
-Aabb bounding_box(const Placed& body, double margin) {
-  constexpr std::size_t kFew = 7;  // vertices, of which the least box is as cheap as any other
+Aabb bounding_box(const PosedShape& body, double margin) {
+  constexpr std::size_t kSmallCount =
+      7;  // vertices, of which the least box is as cheap as any other
   Aabb box;
   const Polytope& core = body.solid.core;
-  if (body.solid.surface || (core.exists && core.hull.vertices.size() > kFew)) {
+  if (body.solid.surface || (core.exists && core.hull.vertices.size() > kSmallCount)) {
     // Around the box in the body's own axes, which does not ask every vertex: wider, but of a box.
     const Vector3 centre = body.X_WG * body.solid.centre;
     const Vector3 half = body.X_WG.R.cwiseAbs() * body.solid.half;
@@ -57,7 +58,7 @@ Aabb bounding_box(const Placed& body, double margin) {
 
 int CollisionWorld::add(Geometry geometry) {
   const std::string where = "geometry '" + geometry.name + "'";
-  FaultList faults;
+  DiagnosticList faults;
   const std::string fault = shape_fault(geometry.shape);
   if (!fault.empty())
     faults.add(where, shape_name(geometry.shape) + ": " + fault, "correct the shape",
@@ -147,12 +148,12 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const doub
   }
   for (int ground : half_spaces_) {
     if (!is_finite(X_WG[ground])) continue;
-    const Placed half_space{solids_[ground], X_WG[ground]};
+    const PosedShape half_space{solids_[ground], X_WG[ground]};
     for (std::size_t i = 0; i < bounded_.size(); ++i) {
       const int body = bounded_[i];
       if (half_space_distance(half_space, boxes_[i]) > margins[ground]) continue;
       if (!may_collide(ground, body) || !is_finite(X_WG[body])) continue;
-      const Placed other{solids_[body], X_WG[body]};
+      const PosedShape other{solids_[body], X_WG[body]};
       if (half_space_distance(half_space, other) < margins[ground] + margins[body]) {
         pairs_.emplace_back(std::min(ground, body), std::max(ground, body));
       }
@@ -165,7 +166,8 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const doub
   std::sort(pairs_.begin(), pairs_.end());
 }
 
-NarrowPhase::Result CollisionWorld::narrow(const Placed& a, const Placed& b, double margin) {
+NarrowPhase::Result CollisionWorld::narrow(const PosedShape& a, const PosedShape& b,
+                                           double margin) {
   if (a.solid.surface != nullptr) {
     return {Vector3::Zero(), &mesh_contact_.contacts(narrow_phase_, a, b, margin)};
   }
@@ -204,7 +206,7 @@ void CollisionWorld::detect(std::span<const Pose> X_WG, double margin, std::vect
 
 double CollisionWorld::distance(int a, int b, const Pose& X_WA, const Pose& X_WB) {
   assert(is_supported(geometry(a).shape, geometry(b).shape));
-  const Placed placed_a{solids_[a], X_WA}, placed_b{solids_[b], X_WB};
+  const PosedShape placed_a{solids_[a], X_WA}, placed_b{solids_[b], X_WB};
   if (solids_[a].surface != nullptr) {
     return mesh_contact_.distance(narrow_phase_, placed_a, placed_b);
   }
@@ -233,7 +235,7 @@ struct StandIn {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-constexpr std::size_t kFew = 64;  // boxes
+constexpr std::size_t kSmallCount = 64;  // boxes
 
 bool meet(const Aabb& a, const Aabb& b) {
   return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
@@ -279,7 +281,7 @@ int BroadPhase::add() {
 
 void BroadPhase::overlaps(std::span<const Aabb> boxes, Pairs& pairs) {
   pairs.clear();
-  if (boxes.size() <= kFew) return each_with_each(boxes, pairs);
+  if (boxes.size() <= kSmallCount) return each_with_each(boxes, pairs);
   for (std::size_t i = 0; i < impl_->objects.size(); ++i) {
     StandIn& stand_in = impl_->objects[i];
     stand_in.geometry->aabb_local = fcl::AABBd(boxes[i].low, boxes[i].high);

@@ -90,12 +90,12 @@ class CollisionWorld {
  private:
   void check_pair(int a, int b) const;
   void find_pairs(std::span<const Pose> X_WG, std::span<const double> margins);
-  NarrowPhase::Result narrow(const Placed& a, const Placed& b, double margin);
+  NarrowPhase::Result narrow(const PosedShape& a, const PosedShape& b, double margin);
   void collide_pair(int a, int b, std::span<const Pose> X_WG, double margin,
                     std::vector<Contact>& out);
 
   std::vector<Geometry> geometries_;
-  std::vector<Solid> solids_;
+  std::vector<PreparedShape> solids_;
   std::array<std::uint32_t, group_count> mask_;      // bit j of mask i: groups i and j collide
   std::vector<std::pair<int, int>> disabled_pairs_;  // sorted
   std::vector<double> margins_;                      // one number spread over all

@@ -38,7 +38,7 @@ constexpr double clipped_as_one = 1e-9;
 // distance() asks for contacts from this far apart: what is flush within rounding counts.
 constexpr double flush = 1e-6;  // [m]
 
-Aabb box_in(const Placed& mesh, const Placed& body, double margin) {
+Aabb box_in(const PosedShape& mesh, const PosedShape& body, double margin) {
   const Pose X_MB = mesh.X_WG.inverse() * body.X_WG;
   Aabb box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -96,7 +96,7 @@ void MeshContact::take(const std::vector<ManifoldPoint>& points, Along along, co
 }
 
 // By what is hardly touched and yet near the line from the triangle down to the body's point.
-bool MeshContact::is_false(const Placed& mesh, const ManifoldPoint& point) const {
+bool MeshContact::is_false(const PosedShape& mesh, const ManifoldPoint& point) const {
   const MeshSurface& surface = *mesh.solid.surface;
   const Pose X_MW = mesh.X_WG.inverse();
   const Vector3 top = X_MW * point.p_WA, down = X_MW * point.p_WB - top;
@@ -116,7 +116,7 @@ bool MeshContact::is_false(const Placed& mesh, const ManifoldPoint& point) const
 }
 
 // From all_ to kept_, in the order of the triangles: of a point that two share, the name stays.
-void MeshContact::drop_false(const Placed& mesh) {
+void MeshContact::remove_ghost_contacts(const PosedShape& mesh) {
   std::sort(touches_.begin(), touches_.end(), [](const Touch& x, const Touch& y) {
     return std::tie(x.deepest, x.triangle) < std::tie(y.deepest, y.triangle);
   });
@@ -138,16 +138,16 @@ void MeshContact::drop_false(const Placed& mesh) {
     for (std::size_t i = touch.first; i < touch.last; ++i) kept_.push_back(all_[i]);
 }
 
-void MeshContact::touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, int t,
-                                 const Placed& body, double margin) {
+void MeshContact::touch_triangle(NarrowPhase& narrow_phase, const PosedShape& mesh, int t,
+                                 const PosedShape& body, double margin) {
   const MeshSurface& surface = *mesh.solid.surface;
-  const Placed triangle{surface.triangles[t], mesh.X_WG};
+  const PosedShape triangle{surface.triangles[t], mesh.X_WG};
   Vector3 n_W = mesh.X_WG.R * surface.normals[t];
   const Vector3 corner_W = mesh.X_WG * triangle.solid.core.hull.vertices[0];
   const bool is_behind = n_W.dot(body.X_WG.p - corner_W) < 0;
   if (is_behind && !surface.is_open) return;
   if (is_behind) n_W = -n_W;
-  const Axis front{n_W, overlap(triangle, body, n_W)};
+  const PenetrationDirection front{n_W, overlap(triangle, body, n_W)};
   if (!(front.overlap > -margin)) return;
   const std::vector<ManifoldPoint>& over = manifold_.features(triangle, body, front);
   const bool lies_over = std::any_of(over.begin(), over.end(), [&](const ManifoldPoint& point) {
@@ -167,7 +167,7 @@ void MeshContact::touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, 
 }
 
 // Direction by direction, deepest first: each point once, four at most.
-void MeshContact::thin_out() {
+void MeshContact::reduce_contacts() {
   kept_.clear();
   while (!all_.empty()) {
     double deepest = -1e300;
@@ -191,27 +191,28 @@ void MeshContact::thin_out() {
 }
 
 const std::vector<ManifoldPoint>& MeshContact::contacts(NarrowPhase& narrow_phase,
-                                                        const Placed& mesh, const Placed& body,
-                                                        double margin) {
+                                                        const PosedShape& mesh,
+                                                        const PosedShape& body, double margin) {
   near_.clear();
   all_.clear();
   touches_.clear();
   mesh.solid.surface->find(box_in(mesh, body, margin), near_);
   for (int t : near_) touch_triangle(narrow_phase, mesh, t, body, margin);
-  drop_false(mesh);
+  remove_ghost_contacts(mesh);
   std::swap(all_, kept_);
-  thin_out();
+  reduce_contacts();
   return kept_;
 }
 
-double MeshContact::distance(NarrowPhase& narrow_phase, const Placed& mesh, const Placed& body) {
+double MeshContact::distance(NarrowPhase& narrow_phase, const PosedShape& mesh,
+                             const PosedShape& body) {
   double deepest = 0;
   for (const ManifoldPoint& point : contacts(narrow_phase, mesh, body, flush)) {
     deepest = std::max(deepest, point.depth);
   }
   if (deepest > 0) return -deepest;
   double least = 1e300;
-  for (const Solid& triangle : mesh.solid.surface->triangles) {
+  for (const PreparedShape& triangle : mesh.solid.surface->triangles) {
     least = std::min(least, narrow_phase.distance({triangle, mesh.X_WG}, body));
   }
   return std::max(least, 0.0);

@@ -14,20 +14,20 @@ class MeshContact {
   // Contacts with depth > -margin, each with its own normal, from the mesh (A) to the body (B). Of
   // a closed mesh only the sides that face the body's origin count: it is taken to be outside. Up
   // to four for each direction in which the body touches.
-  const std::vector<ManifoldPoint>& contacts(NarrowPhase& narrow_phase, const Placed& mesh,
-                                             const Placed& body, double margin);
+  const std::vector<ManifoldPoint>& contacts(NarrowPhase& narrow_phase, const PosedShape& mesh,
+                                             const PosedShape& body, double margin);
   // Distance of the nearest triangle, or minus the largest depth [m].
-  double distance(NarrowPhase& narrow_phase, const Placed& mesh, const Placed& body);
+  double distance(NarrowPhase& narrow_phase, const PosedShape& mesh, const PosedShape& body);
 
  private:
-  void touch_triangle(NarrowPhase& narrow_phase, const Placed& mesh, int t, const Placed& body,
-                      double margin);
+  void touch_triangle(NarrowPhase& narrow_phase, const PosedShape& mesh, int t,
+                      const PosedShape& body, double margin);
   enum class Along { front, leaning };  // the triangle's own normal, or over a side or corner
   void take(const std::vector<ManifoldPoint>& points, Along along, const Vector3& n_W, int t,
             double margin);
-  bool is_false(const Placed& mesh, const ManifoldPoint& point) const;
-  void drop_false(const Placed& mesh);
-  void thin_out();
+  bool is_false(const PosedShape& mesh, const ManifoldPoint& point) const;
+  void remove_ghost_contacts(const PosedShape& mesh);
+  void reduce_contacts();
 
   struct Touch {  // of one triangle
     int triangle;

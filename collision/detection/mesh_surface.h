@@ -21,7 +21,7 @@ struct MeshSurface {
     int first, count;           // range of `order`
     int left = -1, right = -1;  // -1: a leaf
   };
-  std::vector<Solid> triangles;
+  std::vector<PreparedShape> triangles;
   std::vector<Vector3> normals;
   std::vector<std::array<Side, 3>> sides;
   std::vector<int> order;

@@ -27,8 +27,8 @@
 namespace twinarm {
 namespace {
 
-[[noreturn]] void refuse(const std::string& rule) {
-  throw InputError({{"", 0, "convex hull", rule,
+[[noreturn]] void refuse(const std::string& problem) {
+  throw InputError({{"", 0, "convex hull", problem,
                      "give at least 4 finite points that do not lie in one plane", "hull.points"}});
 }
 
@@ -149,8 +149,8 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   Loops loops = run_qhull(scaled, flatness);
 
   // Each plane is held against each point.
-  constexpr double kMostPlaneChecks = 4e9;
-  if (static_cast<double>(loops.size()) * static_cast<double>(points.size()) > kMostPlaneChecks)
+  constexpr double kMaxPlaneChecks = 4e9;
+  if (static_cast<double>(loops.size()) * static_cast<double>(points.size()) > kMaxPlaneChecks)
     throw InputError(
         {{"", 0, "convex hull",
           "there are " + std::to_string(points.size()) + " points, and " +

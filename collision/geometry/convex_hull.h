@@ -27,7 +27,7 @@ struct ConvexHull {
 
   // As a shape (collision/shapes/shape.h).
   static constexpr const char* name = "convex hull";
-  Vector3 support(const Vector3& d) const { return farthest_along(vertices, d); }
+  Vector3 support(const Vector3& d) const { return max_along(vertices, d); }
   std::string fault() const;
   MassProperties solid(double density) const;
   Polytope polytope() const;

@@ -25,8 +25,8 @@
 namespace twinarm {
 namespace {
 
-[[noreturn]] void refuse(const std::string& rule, const std::string& remedy) {
-  throw InputError({{"", 0, "mass properties", rule, remedy, "mesh.mass"}});
+[[noreturn]] void refuse(const std::string& problem, const std::string& fix) {
+  throw InputError({{"", 0, "mass properties", problem, fix, "mesh.mass"}});
 }
 
 Matrix3 outer(const Vector3& v) {
@@ -37,10 +37,10 @@ Matrix3 inertia_of(const Matrix3& second_moment) {
   return second_moment.trace() * Matrix3::Identity() - second_moment;
 }
 
-void check_positive(const char* name, double value, const char* unit, const char* remedy) {
+void check_positive(const char* name, double value, const char* unit, const char* fix) {
   if (value > 0 && std::isfinite(value)) return;
   refuse(std::string(name) + " is " + std::to_string(value) + " " + unit + ", must be positive",
-         remedy);
+         fix);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace twinarm {
 
-Vector3 farthest_along(const std::vector<Vector3>& points, const Vector3& d) {
+Vector3 max_along(const std::vector<Vector3>& points, const Vector3& d) {
   std::size_t best = 0;
   double height = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < points.size(); ++i) {

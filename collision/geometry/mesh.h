@@ -17,7 +17,7 @@ struct TriangleMesh {
 };
 
 // The first of the points that lie farthest along d (any length but zero).
-Vector3 farthest_along(const std::vector<Vector3>& points, const Vector3& d);
+Vector3 max_along(const std::vector<Vector3>& points, const Vector3& d);
 
 // Each directed edge occurs once and its reverse occurs once: the surface has no border, and all
 // triangles agree on which side is outside. O(n log n).

@@ -47,8 +47,8 @@ class Welder {
 }  // namespace
 
 TriangleMesh load_mesh(const std::filesystem::path& file, double scale) {
-  const auto refuse = [&](const std::string& rule, const std::string& remedy) {
-    throw InputError({{file.string(), 0, "mesh", rule, remedy, "mesh.file"}});
+  const auto refuse = [&](const std::string& problem, const std::string& fix) {
+    throw InputError({{file.string(), 0, "mesh", problem, fix, "mesh.file"}});
   };
   if (!(scale > 0 && std::isfinite(scale)))
     refuse("scale is " + std::to_string(scale) + ", must be positive",

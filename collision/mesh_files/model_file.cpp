@@ -39,8 +39,8 @@ constexpr std::array<const char*, 5> readers = {"Wavefront Object", "Stereolitho
                                                 "Collada", "Stanford Polygon Library (PLY)"};
 constexpr std::array<const char*, 6> extensions = {".stl", ".obj", ".ply", ".dae", ".gltf", ".glb"};
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& rule, const std::string& remedy) {
-  throw InputError({{file.string(), 0, "mesh", rule, remedy, "mesh.file"}});
+[[noreturn]] void refuse(const fs::path& file, const std::string& problem, const std::string& fix) {
+  throw InputError({{file.string(), 0, "mesh", problem, fix, "mesh.file"}});
 }
 
 // Files of the model's own folder (and below), up to the size cap, for reading only.
@@ -126,9 +126,9 @@ float encoded(float linear) {
 }
 
 // Takes assimp's scene apart, with its textures read.
-class Taker {
+class AssimpConverter {
  public:
-  Taker(const aiScene& scene, const FolderIO& folder, bool linear_colors)
+  AssimpConverter(const aiScene& scene, const FolderIO& folder, bool linear_colors)
       : scene_(scene), folder_(folder), linear_(linear_colors) {}
 
   ModelFile model;
@@ -218,29 +218,28 @@ std::string read_packed(const fs::path& file) {
                          aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure);
   if (scene == nullptr) return std::string("!") + importer.GetErrorString();
   const std::string extension = lower_extension(file);
-  Taker taker(*scene, *folder, extension == ".gltf" || extension == ".glb");
+  AssimpConverter taker(*scene, *folder, extension == ".gltf" || extension == ".glb");
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) taker.add(*scene->mMeshes[i]);
   return " " + pack(std::move(taker.model));
 }
 
 void check_parts(const fs::path& file, const ModelFile& model) {
-  const char* const remedy = "export the mesh again";
+  const char* const fix = "export the mesh again";
   for (const ModelPart& part : model.parts) {
     for (const auto& p : part.positions)
       if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-        refuse(file, "a coordinate is not a finite number", remedy);
+        refuse(file, "a coordinate is not a finite number", fix);
     const auto count = static_cast<std::int32_t>(part.positions.size());
     for (const auto& t : part.triangles)
       for (const std::int32_t v : t)
-        if (v < 0 || v >= count)
-          refuse(file, "a triangle names a vertex that does not exist", remedy);
+        if (v < 0 || v >= count) refuse(file, "a triangle names a vertex that does not exist", fix);
     for (const auto& uv : part.uv)
       if (!std::isfinite(uv[0]) || !std::isfinite(uv[1]))
-        refuse(file, "a texture coordinate is not a finite number", remedy);
+        refuse(file, "a texture coordinate is not a finite number", fix);
     if (!part.uv.empty() && part.uv.size() != part.positions.size())
-      refuse(file, "texture coordinates are not as many as vertices", remedy);
+      refuse(file, "texture coordinates are not as many as vertices", fix);
     if (part.texture >= static_cast<std::int32_t>(model.textures.size()))
-      refuse(file, "a part names a texture that does not exist", remedy);
+      refuse(file, "a part names a texture that does not exist", fix);
   }
   if (model.parts.empty()) refuse(file, "there is no triangle in it", formats);
 }

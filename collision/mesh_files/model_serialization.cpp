@@ -9,14 +9,14 @@ namespace {
 
 // Rows of so many numbers each.
 template <class Rows>
-void visit_rows(Memory& memory, Rows& rows) {
+void visit_rows(StateArchive& memory, Rows& rows) {
   memory.resize(rows, sizeof(rows[0]));
   for (auto& row : rows)
     for (auto& number : row) memory.visit(number);
 }
 
 // The one order of all fields, for both ways.
-void visit_model(Memory& memory, ModelFile& model) {
+void visit_model(StateArchive& memory, ModelFile& model) {
   memory.resize(model.parts, 1);
   for (ModelPart& part : model.parts) {
     visit_rows(memory, part.positions);
@@ -38,13 +38,13 @@ void visit_model(Memory& memory, ModelFile& model) {
 }  // namespace
 
 std::string pack(ModelFile model) {
-  Memory memory;
+  StateArchive memory;
   visit_model(memory, model);
   return memory.bytes();
 }
 
 std::optional<ModelFile> unpack_model(std::string bytes) {
-  Memory memory(std::move(bytes));
+  StateArchive memory(std::move(bytes));
   ModelFile model;
   try {
     visit_model(memory, model);

@@ -36,18 +36,19 @@ struct Ring {
 // One body in one hollow.
 class Within {
  public:
-  Within(const Placed& hollow, const Placed& body, double margin, std::vector<ManifoldPoint>& out)
+  Within(const PosedShape& hollow, const PosedShape& body, double margin,
+         std::vector<ManifoldPoint>& out)
       : X_WH_(hollow.X_WG), X_HB_(hollow.X_WG.inverse() * body.X_WG), margin_(margin), out_(out) {
-    if (const auto* tube = std::get_if<HollowCylinder>(&hollow.solid.shape)) {
+    if (const auto* tube = std::get_if<CylindricalCavity>(&hollow.solid.shape)) {
       radius_ = tube->radius;
       half_ = tube->length / 2;
       is_tube_ = true;
     } else {
-      radius_ = std::get<HollowSphere>(hollow.solid.shape).radius;
+      radius_ = std::get<SphericalCavity>(hollow.solid.shape).radius;
     }
   }
 
-  void add_body(const Placed& body) {
+  void add_body(const PosedShape& body) {
     const Polytope& core = body.solid.core;
     if (const auto* cylinder = std::get_if<Cylinder>(&body.solid.shape)) return add(*cylinder);
     if (const auto* ellipsoid = std::get_if<Ellipsoid>(&body.solid.shape)) return add(*ellipsoid);
@@ -211,11 +212,11 @@ class Within {
 }  // namespace
 
 bool is_hollow(const Shape& shape) {
-  return std::holds_alternative<HollowSphere>(shape) ||
-         std::holds_alternative<HollowCylinder>(shape);
+  return std::holds_alternative<SphericalCavity>(shape) ||
+         std::holds_alternative<CylindricalCavity>(shape);
 }
 
-void hollow_contacts(const Placed& hollow, const Placed& body, double margin,
+void hollow_contacts(const PosedShape& hollow, const PosedShape& body, double margin,
                      std::vector<ManifoldPoint>& out) {
   out.clear();
   Within(hollow, body, margin, out).add_body(body);
@@ -225,7 +226,7 @@ void hollow_contacts(const Placed& hollow, const Placed& body, double margin,
   reduce_to_four(mean.norm() > 0.1 ? Vector3(mean.normalized()) : out[0].n_W, out);
 }
 
-double hollow_distance(const Placed& hollow, const Placed& body,
+double hollow_distance(const PosedShape& hollow, const PosedShape& body,
                        std::vector<ManifoldPoint>& points) {
   points.clear();
   Within(hollow, body, 1e300, points).add_body(body);

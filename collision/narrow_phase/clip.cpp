@@ -29,7 +29,8 @@ constexpr double sine_of_flat = 1e-6;
 constexpr int cap_corners = 8;
 constexpr int label_of_clip = 1 << 12;
 
-void segment(const Placed& body, double half, double radius, const Vector3& offset_W, Feature& f) {
+void segment(const PosedShape& body, double half, double radius, const Vector3& offset_W,
+             Feature& f) {
   f.roundness = radius;
   f.points = {body.X_WG * Vector3(0, 0, -half) + offset_W,
               body.X_WG * Vector3(0, 0, half) + offset_W};
@@ -38,7 +39,7 @@ void segment(const Placed& body, double half, double radius, const Vector3& offs
 
 // Corner 0 of a tilted cap is the point of its rim that is farthest along n: the true point of
 // contact, a smooth function of the pose. The ends of the side are on the rims, farthest as well.
-void cylinder_feature(const Cylinder& c, const Placed& body, const Vector3& n_W, Feature& f) {
+void cylinder_feature(const Cylinder& c, const PosedShape& body, const Vector3& n_W, Feature& f) {
   const Vector3 n = body.X_WG.R.transpose() * n_W;
   const double sine = std::hypot(n.x(), n.y()), side = n.z() < 0 ? -1 : 1;
   f.id = side > 0 ? 1 : 2;
@@ -67,7 +68,7 @@ void cylinder_feature(const Cylinder& c, const Placed& body, const Vector3& n_W,
 }
 
 // The face with the most corners at the top, and of these the one that is best aligned.
-int best_face(const Placed& body, const Vector3& n, double top, double tolerance) {
+int best_face(const PosedShape& body, const Vector3& n, double top, double tolerance) {
   const ConvexHull& hull = body.solid.core.hull;
   int best = -1;
   double best_score = 0;
@@ -104,7 +105,7 @@ int best_edge(const Polytope& core, int top, const Vector3& n) {
   return best;
 }
 
-void polytope_feature(const Placed& body, const Vector3& n_W, Feature& f) {
+void polytope_feature(const PosedShape& body, const Vector3& n_W, Feature& f) {
   const Polytope& core = body.solid.core;
   const ConvexHull& hull = core.hull;
   const Vector3 n = body.X_WG.R.transpose() * n_W;
@@ -225,7 +226,7 @@ void swap_roles(std::vector<ManifoldPoint>& points) {
   }
 }
 
-void support_feature(const Placed& body, const Vector3& n_W, Feature& feature) {
+void support_feature(const PosedShape& body, const Vector3& n_W, Feature& feature) {
   feature.points.clear();
   feature.labels.clear();
   feature.id = 0;

@@ -20,7 +20,7 @@ struct Feature {
 };
 
 // Writes the feature of `body` that is farthest along n_W.
-void support_feature(const Placed& body, const Vector3& n_W, Feature& feature);
+void support_feature(const PosedShape& body, const Vector3& n_W, Feature& feature);
 
 struct ManifoldPoint {
   Vector3 p_WA, p_WB;             // on either surface, one behind the other along the normal [m]

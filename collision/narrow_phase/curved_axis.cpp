@@ -38,7 +38,7 @@ struct Range {
   Vector3 low, high;
 };
 
-Range range_of(const Placed& body, double reach) {
+Range range_of(const PosedShape& body, double reach) {
   Range range;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 e = Vector3::Unit(axis);
@@ -54,10 +54,10 @@ bool meets(const Range& range, const Vector3& low, const Vector3& high) {
 
 // Along the axis of a cylinder the height of its rim has a kink, which may be a minimum and hide
 // others next to it: begin round it as well, and between two of them.
-void add_round_kinks(const Placed& a, const Placed& b, Starts& starts) {
+void add_round_kinks(const PosedShape& a, const PosedShape& b, Starts& starts) {
   constexpr double aside = 0.12;  // [rad]
   bool any = false;
-  for (const Placed* body : {&a, &b}) {
+  for (const PosedShape* body : {&a, &b}) {
     if (body->solid.core.exists || body->solid.patches.flats.empty()) continue;
     any = true;
     for (int k = 0; k < 12; ++k) {
@@ -80,7 +80,8 @@ Matrix3 turned(const Matrix3& R, const Matrix3& Q) {
 }  // namespace
 
 // Edges of a polytope share corners, and a corner has no Q to turn.
-void CurvedAxis::place(const Placed& body, const Placed& other, double reach, Posed& posed) {
+void CurvedAxis::place(const PosedShape& body, const PosedShape& other, double reach,
+                       Posed& posed) {
   const Patches& patches = body.solid.patches;
   const Polytope& core = body.solid.core;
   const Range range = range_of(other, reach);
@@ -107,7 +108,7 @@ void CurvedAxis::place(const Placed& body, const Placed& other, double reach, Po
 
 // A direction of any length; the middle is that of the two supports.
 void CurvedAxis::offer(const Vector3& n_W, double handicap) {
-  Axis axis = best_.axis;
+  PenetrationDirection axis = best_.axis;
   consider(*body_a_, *body_b_, n_W, handicap, axis);
   if (axis.overlap == best_.axis.overlap) return;
   best_ = {axis, mean_of_supports(*body_a_, *body_b_, axis.n_W)};
@@ -134,9 +135,9 @@ double CurvedAxis::limit() const {
 }
 
 void CurvedAxis::try_flats() {
-  const auto try_of = [&](const Placed& body, const Placed& other, double sign) {
+  const auto try_of = [&](const PosedShape& body, const PosedShape& other, double sign) {
     const std::vector<Vector3>& flats = body.solid.patches.flats;
-    const std::size_t first = bound_flats(body, other, bounds_);
+    const std::size_t first = face_depth_lower_bounds(body, other, bounds_);
     for (std::size_t k = 0; k < flats.size(); ++k) {
       const std::size_t f = (first + k) % flats.size();
       if (bounds_[f] > limit()) continue;
@@ -249,7 +250,8 @@ void CurvedAxis::try_patches(double reach) {
   try_rounds();
 }
 
-bool CurvedAxis::nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair) {
+bool CurvedAxis::nearest(const PosedShape& a, const PosedShape& b, double margin,
+                         NearestPair& pair) {
   body_a_ = &a;
   body_b_ = &b;
   origin_ = a.X_WG.p;

@@ -13,7 +13,7 @@ namespace twinarm {
 class CurvedAxis {
  public:
   // False if it is certain that the bodies are more than `margin` apart.
-  bool nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair);
+  bool nearest(const PosedShape& a, const PosedShape& b, double margin, NearestPair& pair);
 
  private:
   struct Posed {  // patches in W, from the origin of A, that may carry the optimum
@@ -21,7 +21,7 @@ class CurvedAxis {
     std::vector<Vector3> along;  // of each ridge, unit
     std::vector<Patches::Round> rounds;
   };
-  void place(const Placed& body, const Placed& other, double reach, Posed& posed);
+  void place(const PosedShape& body, const PosedShape& other, double reach, Posed& posed);
   void offer(const Vector3& n_W, double handicap);
   void offer_round(const Vector3& n_W, const Patches::Round& round, bool is_of_a);
   double limit() const;
@@ -33,8 +33,8 @@ class CurvedAxis {
   void try_rounds();
   void search_sphere(const SupportSum& f, const Patches::Round& round, bool is_of_a);
 
-  const Placed* body_a_ = nullptr;
-  const Placed* body_b_ = nullptr;
+  const PosedShape* body_a_ = nullptr;
+  const PosedShape* body_b_ = nullptr;
   Vector3 origin_;
   bool overlaps_ = false, is_deep_ = false;
   NearestPair seed_, best_;

@@ -83,7 +83,7 @@ Simplex of_tetrahedron(const Corners& corners) {
   return best.count == 0 ? Simplex{{0, 1, 2, 3}, {}, 4, Vector3::Zero()} : best;
 }
 
-Vector3 core_support(const Solid& solid, const Vector3& direction) {
+Vector3 core_support(const PreparedShape& solid, const Vector3& direction) {
   if (!solid.core.exists || std::holds_alternative<Box>(solid.shape)) {
     return support(solid.shape, direction);
   }
@@ -91,7 +91,8 @@ Vector3 core_support(const Solid& solid, const Vector3& direction) {
 }
 
 // The corner of D that lies farthest along `direction`, all in the frame of A.
-Corner farthest(const Placed& a, const Placed& b, const Pose& X_AB, const Vector3& direction) {
+Corner farthest(const PosedShape& a, const PosedShape& b, const Pose& X_AB,
+                const Vector3& direction) {
   Corner corner;
   corner.p_A = core_support(a.solid, direction);
   corner.p_B = X_AB * core_support(b.solid, X_AB.R.transpose() * -direction);
@@ -101,7 +102,7 @@ Corner farthest(const Placed& a, const Placed& b, const Pose& X_AB, const Vector
 
 // The nearest point of D to the origin; the simplex carries it. All four corners: D holds the
 // origin.
-Simplex nearest_point(const Placed& a, const Placed& b, const Pose& X_AB, double far,
+Simplex nearest_point(const PosedShape& a, const PosedShape& b, const Pose& X_AB, double far,
                       Corners& corners) {
   const bool are_polytopes = a.solid.core.exists && b.solid.core.exists;
   const double enough = are_polytopes ? exact : resolved;
@@ -130,7 +131,7 @@ Simplex nearest_point(const Placed& a, const Placed& b, const Pose& X_AB, double
 
 }  // namespace
 
-CoreDistance core_distance(const Placed& a, const Placed& b, double far) {
+CoreDistance core_distance(const PosedShape& a, const PosedShape& b, double far) {
   const Pose X_AB = a.X_WG.inverse() * b.X_WG;
   Corners corners;
   const Simplex simplex = nearest_point(a, b, X_AB, far, corners);
@@ -151,7 +152,7 @@ CoreDistance core_distance(const Placed& a, const Placed& b, double far) {
 // vertices.
 namespace {
 
-double slack_of_flats(const Placed& body) {
+double slack_of_flats(const PosedShape& body) {
   constexpr double scatter = 1e-5;  // of the extent: 100 times that of convex_hull()
   return body.solid.core.radius + scatter * body.solid.half.norm();
 }
@@ -162,7 +163,8 @@ bool has_gap(double distance, double core_overlap) {
   return distance + core_overlap > 1e-8 + 1e-6 * distance;
 }
 
-void consider(const Placed& a, const Placed& b, Vector3 n_W, double handicap, Axis& best) {
+void consider(const PosedShape& a, const PosedShape& b, Vector3 n_W, double handicap,
+              PenetrationDirection& best) {
   const double length = n_W.norm();
   if (!(length > 1e-300)) return;
   n_W /= length;
@@ -172,7 +174,8 @@ void consider(const Placed& a, const Placed& b, Vector3 n_W, double handicap, Ax
 
 // Along the normal n of a flat at n . x = offset, a point p of the other body is reached once the
 // overlap is offset - n . p. The corners obey n . x <= offset but for what they scatter about it.
-std::size_t bound_flats(const Placed& body, const Placed& other, std::vector<double>& bounds) {
+std::size_t face_depth_lower_bounds(const PosedShape& body, const PosedShape& other,
+                                    std::vector<double>& bounds) {
   const std::vector<Vector3>& flats = body.solid.patches.flats;
   bounds.assign(flats.size(), -std::numeric_limits<double>::infinity());
   if (!body.solid.core.exists) return 0;
@@ -183,18 +186,19 @@ std::size_t bound_flats(const Placed& body, const Placed& other, std::vector<dou
   return static_cast<std::size_t>(std::min_element(bounds.begin(), bounds.end()) - bounds.begin());
 }
 
-double bound_flat(const Placed& body, std::size_t f, const Vector3& n_W, const Placed& other) {
+double bound_flat(const PosedShape& body, std::size_t f, const Vector3& n_W,
+                  const PosedShape& other) {
   if (!body.solid.core.exists) return -std::numeric_limits<double>::infinity();
   const double from = (body.X_WG.p - other.support_W(-n_W)).dot(n_W);
   return from + body.solid.core.hull.offsets[f] - slack_of_flats(body);
 }
 
-Vector3 midway(const Placed& a, const Placed& b, const Vector3& n_W, const Vector3& p_W) {
+Vector3 midway(const PosedShape& a, const PosedShape& b, const Vector3& n_W, const Vector3& p_W) {
   const double middle = 0.5 * n_W.dot(a.support_W(n_W) + b.support_W(-n_W));
   return p_W + n_W * (middle - n_W.dot(p_W));
 }
 
-Vector3 mean_of_supports(const Placed& a, const Placed& b, const Vector3& n_W) {
+Vector3 mean_of_supports(const PosedShape& a, const PosedShape& b, const Vector3& n_W) {
   return 0.5 * (a.support_W(n_W) + b.support_W(-n_W));
 }
 

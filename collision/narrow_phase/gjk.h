@@ -13,8 +13,8 @@ namespace twinarm {
 struct MeshSurface;
 std::shared_ptr<const MeshSurface> make_mesh_surface(const Shape& shape);
 
-struct Solid {
-  explicit Solid(const Shape& s)
+struct PreparedShape {
+  explicit PreparedShape(const Shape& s)
       : shape(s),
         core(make_polytope(s)),
         patches(make_patches(s, core)),
@@ -42,8 +42,8 @@ struct Solid {
 };
 
 // A solid where it stands in this step. Cheap to copy; does not own.
-struct Placed {
-  const Solid& solid;
+struct PosedShape {
+  const PreparedShape& solid;
   const Pose& X_WG;
 
   // Farthest point along n_W, in W.
@@ -57,12 +57,12 @@ struct Placed {
 // For convex bodies this is at least the signed depth for EVERY n, and equals it at the normal of
 // least translation. So any n can be checked, and the better of two chosen, without knowing where
 // they came from.
-inline double overlap(const Placed& a, const Placed& b, const Vector3& n_W) {
+inline double overlap(const PosedShape& a, const PosedShape& b, const Vector3& n_W) {
   return (a.support_W(n_W) - b.support_W(-n_W)).dot(n_W);
 }
 
 // A unit direction from A to B and the overlap along it [m].
-struct Axis {
+struct PenetrationDirection {
   Vector3 n_W = Vector3::Zero();
   double overlap = 1e300;
 };
@@ -82,7 +82,7 @@ struct CoreDistance {
 // ends early where the cores are certainly more than `far` apart; the distance is then at least
 // that, and no more than an upper bound. A pure function of the poses; does not allocate.
 // Polytopes 0.2-1 us, curved shapes 1-4 us.
-CoreDistance core_distance(const Placed& a, const Placed& b, double far = 1e300);
+CoreDistance core_distance(const PosedShape& a, const PosedShape& b, double far = 1e300);
 
 // What the searches for a contact direction share: judging a candidate, and placing the point.
 
@@ -92,17 +92,20 @@ bool has_gap(double distance, double core_overlap);
 
 // Takes the direction n_W (of any length) for `best` if its overlap is less by more than
 // `handicap`.
-void consider(const Placed& a, const Placed& b, Vector3 n_W, double handicap, Axis& best);
+void consider(const PosedShape& a, const PosedShape& b, Vector3 n_W, double handicap,
+              PenetrationDirection& best);
 
 // Lower bounds of the overlaps along the flats of a hull (of other bodies: minus infinity), where
 // overlap() asks all corners: of all flats from one point of the other body, a dot product each;
 // returns the place of the least. And of flat `f` with normal n_W, from the other body's support.
-std::size_t bound_flats(const Placed& body, const Placed& other, std::vector<double>& bounds);
-double bound_flat(const Placed& body, std::size_t f, const Vector3& n_W, const Placed& other);
+std::size_t face_depth_lower_bounds(const PosedShape& body, const PosedShape& other,
+                                    std::vector<double>& bounds);
+double bound_flat(const PosedShape& body, std::size_t f, const Vector3& n_W,
+                  const PosedShape& other);
 
 // p_W moved along n_W to the middle between the two supporting planes.
-Vector3 midway(const Placed& a, const Placed& b, const Vector3& n_W, const Vector3& p_W);
+Vector3 midway(const PosedShape& a, const PosedShape& b, const Vector3& n_W, const Vector3& p_W);
 
-Vector3 mean_of_supports(const Placed& a, const Placed& b, const Vector3& n_W);
+Vector3 mean_of_supports(const PosedShape& a, const PosedShape& b, const Vector3& n_W);
 
 }  // namespace twinarm

@@ -9,24 +9,24 @@
 #include "collision/narrow_phase/manifold.h"
 
 namespace twinarm {
-Vector3 outward_W(const Placed& half_space) {
+Vector3 outward_W(const PosedShape& half_space) {
   return half_space.X_WG.R * std::get<HalfSpace>(half_space.solid.shape).normal;
 }
 
-double half_space_distance(const Placed& half_space, const Placed& body) {
+double half_space_distance(const PosedShape& half_space, const PosedShape& body) {
   const Vector3 n = outward_W(half_space);
   return n.dot(body.support_W(-n) - half_space.X_WG.p) -
          std::get<HalfSpace>(half_space.solid.shape).offset;
 }
 
-double half_space_distance(const Placed& half_space, const Aabb& box) {
+double half_space_distance(const PosedShape& half_space, const Aabb& box) {
   const Vector3 n = outward_W(half_space);
   const Vector3 centre = (box.low + box.high) / 2, half = (box.high - box.low) / 2;
   return n.dot(centre - half_space.X_WG.p) - n.cwiseAbs().dot(half) -
          std::get<HalfSpace>(half_space.solid.shape).offset;
 }
 
-void half_space_contacts(const Placed& half_space, const Placed& body, double margin,
+void half_space_contacts(const PosedShape& half_space, const PosedShape& body, double margin,
                          std::vector<ManifoldPoint>& out) {
   out.clear();
   const Vector3 n = outward_W(half_space);
@@ -44,10 +44,9 @@ void half_space_contacts(const Placed& half_space, const Placed& body, double ma
   } else {
     std::visit(
         [&](const auto& shape) {
-          if constexpr (requires { shape.farthest_points(n, add); })
-            shape.farthest_points(
-                -(body.X_WG.R.transpose() * n),
-                [&](const Vector3& p_G, int name) { add(body.X_WG * p_G, name); });
+          if constexpr (requires { shape.max_points(n, add); })
+            shape.max_points(-(body.X_WG.R.transpose() * n),
+                             [&](const Vector3& p_G, int name) { add(body.X_WG * p_G, name); });
           else
             add(body.support_W(-n), 0);
         },

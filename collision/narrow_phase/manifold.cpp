@@ -60,8 +60,8 @@ void reduce_to_four(const Vector3& n, std::vector<ManifoldPoint>& points) {
   points.resize(max_manifold_points);
 }
 
-const std::vector<ManifoldPoint>& Manifold::features(const Placed& a, const Placed& b,
-                                                     const Axis& axis) {
+const std::vector<ManifoldPoint>& Manifold::features(const PosedShape& a, const PosedShape& b,
+                                                     const PenetrationDirection& axis) {
   points_.clear();
   support_feature(a, axis.n_W, feature_a_);
   support_feature(b, -axis.n_W, feature_b_);
@@ -71,7 +71,7 @@ const std::vector<ManifoldPoint>& Manifold::features(const Placed& a, const Plac
 
 // Twice the distance from the middle of the points to the nearest side of their polygon: no width
 // of it is less.
-double Manifold::narrowest(const Vector3& n_W) const {
+double Manifold::min_width(const Vector3& n_W) const {
   const std::size_t count = points_.size();
   if (count < 3) return 0;
   Vector3 middle = Vector3::Zero();
@@ -96,7 +96,7 @@ double Manifold::narrowest(const Vector3& n_W) const {
 // least max(d cos t, w sin t + (d - e) cos t), less than d by at most d (e/w)^2 / 2, up to t = 90
 // deg. Beyond, by f: at least w cos f - d sin f; and from the far ends of the bodies, T behind and
 // s aside, T sin f - s cos f. One falls, one rises: enough if both reach d at some f.
-bool Manifold::settles(const Placed& a, const Placed& b, const Axis& axis) {
+bool Manifold::settles(const PosedShape& a, const PosedShape& b, const PenetrationDirection& axis) {
   features(a, b, axis);
   if (points_.empty()) return false;
   double deepest = -1e300, shallowest = 1e300;
@@ -104,7 +104,7 @@ bool Manifold::settles(const Placed& a, const Placed& b, const Axis& axis) {
     deepest = std::max(deepest, point.depth);
     shallowest = std::min(shallowest, point.depth);
   }
-  const double d = axis.overlap, w = narrowest(axis.n_W);
+  const double d = axis.overlap, w = min_width(axis.n_W);
   if (deepest < d - rounding) return false;
   if (d <= a.solid.core.radius + b.solid.core.radius) return true;
   const double slope = (d - shallowest) / w;
@@ -115,7 +115,8 @@ bool Manifold::settles(const Placed& a, const Placed& b, const Axis& axis) {
   return w * cosine - d * sine >= d && T * sine - s * cosine >= d;
 }
 
-const std::vector<ManifoldPoint>& Manifold::points(const Axis& axis, double margin) {
+const std::vector<ManifoldPoint>& Manifold::points(const PenetrationDirection& axis,
+                                                   double margin) {
   std::erase_if(points_, [&](const ManifoldPoint& x) { return !(x.depth > -margin); });
   reduce_to_four(axis.n_W, points_);
   return points_;
@@ -123,7 +124,7 @@ const std::vector<ManifoldPoint>& Manifold::points(const Axis& axis, double marg
 
 // Midway between the surfaces where they are nearest: at a corner, at a crossing of two lines, else
 // at p_W.
-Vector3 Manifold::nearest_middle(const Axis& axis, const Vector3& p_W) const {
+Vector3 Manifold::nearest_middle(const PenetrationDirection& axis, const Vector3& p_W) const {
   const Vector3 half = axis.n_W * (axis.overlap / 2);
   const std::vector<Vector3>&a = feature_a_.points, &b = feature_b_.points;
   if (a.size() == 1) return a[0] - half;
@@ -136,15 +137,15 @@ Vector3 Manifold::nearest_middle(const Axis& axis, const Vector3& p_W) const {
 }
 
 // Whether a flat of either feature has the normal n.
-bool Manifold::looks_along(const Vector3& n_W) const {
+bool Manifold::has_face_normal(const Vector3& n_W) const {
   constexpr double cosine = 1 - 1e-12;
   return (feature_a_.is_polygon() && feature_a_.normal_W.dot(n_W) > cosine) ||
          (feature_b_.is_polygon() && feature_b_.normal_W.dot(n_W) < -cosine);
 }
 
-const std::vector<ManifoldPoint>& Manifold::between(const Placed& a, const Placed& b,
-                                                    const Axis& axis, const Vector3& p_W,
-                                                    double margin) {
+const std::vector<ManifoldPoint>& Manifold::between(const PosedShape& a, const PosedShape& b,
+                                                    const PenetrationDirection& axis,
+                                                    const Vector3& p_W, double margin) {
   features(a, b, axis);
   // The clipped corners are the contact only if one of them is as deep as the pair is; a rim
   // between two corners of its octagon, for one, is deeper. Where no flat has this normal a single
@@ -162,7 +163,7 @@ const std::vector<ManifoldPoint>& Manifold::between(const Placed& a, const Place
   const bool is_line = std::any_of(points_.begin(), points_.end(), [&](const ManifoldPoint& x) {
     return is_deepest(x) && !is_there(x);
   });
-  if (!found || (!is_line && !looks_along(axis.n_W))) {
+  if (!found || (!is_line && !has_face_normal(axis.n_W))) {
     std::erase_if(points_, is_there);
     points_.push_back({middle + half, middle - half, axis.overlap, witness_name});
   }

@@ -23,11 +23,11 @@ namespace {
 
 constexpr double well_apart = 1e-6;  // from here nearest points tell the direction to rounding [m]
 
-bool is_half_space(const Placed& body) {
+bool is_half_space(const PosedShape& body) {
   return std::holds_alternative<HalfSpace>(body.solid.shape);
 }
 
-double radii_of(const Placed& a, const Placed& b) {
+double radii_of(const PosedShape& a, const PosedShape& b) {
   return a.solid.core.radius + b.solid.core.radius;
 }
 
@@ -41,7 +41,8 @@ bool is_supported(const Shape& a, const Shape& b) {
   return !(is_surface(a) && is_surface(b));
 }
 
-bool NarrowPhase::nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair) {
+bool NarrowPhase::nearest(const PosedShape& a, const PosedShape& b, double margin,
+                          NearestPair& pair) {
   if (const auto closed = round_contact(a, b)) {
     pair = *closed;
     return pair.axis.overlap > -margin;
@@ -52,7 +53,7 @@ bool NarrowPhase::nearest(const Placed& a, const Placed& b, double margin, Neare
   const double radii = radii_of(a, b);
   const CoreDistance cores = core_distance(a, b, margin + radii);
   const bool apart = cores.distance > gjk_floor;
-  Axis best;  // of the cores, until the end
+  PenetrationDirection best;  // of the cores, until the end
   if (apart) {
     best = {cores.n_W, overlap(a, b, cores.n_W) - radii};
     if (best.overlap + radii < -margin) return false;
@@ -68,10 +69,10 @@ bool NarrowPhase::nearest(const Placed& a, const Placed& b, double margin, Neare
   return pair.axis.overlap > -margin;
 }
 
-NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, double margin) {
+NarrowPhase::Result NarrowPhase::contacts(const PosedShape& a, const PosedShape& b, double margin) {
   if (is_half_space(a) || is_half_space(b)) {
     const bool a_is_ground = is_half_space(a);
-    const Placed& ground = a_is_ground ? a : b;
+    const PosedShape& ground = a_is_ground ? a : b;
     half_space_contacts(ground, a_is_ground ? b : a, margin, points_);
     if (!a_is_ground) swap_roles(points_);
     return {a_is_ground ? outward_W(ground) : Vector3(-outward_W(ground)), &points_};
@@ -87,7 +88,7 @@ NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, doub
     pair = *closed;
     if (!(pair.axis.overlap > -margin)) return {};
   } else {
-    Axis flat;
+    PenetrationDirection flat;
     if (!flat_axis_.best(a, b, margin, flat)) return {};
     if (!flat.n_W.isZero(0) && manifold_.settles(a, b, flat)) {
       return {flat.n_W, &manifold_.points(flat, margin)};
@@ -97,7 +98,7 @@ NarrowPhase::Result NarrowPhase::contacts(const Placed& a, const Placed& b, doub
   return {pair.axis.n_W, &manifold_.between(a, b, pair.axis, pair.p_W, margin)};
 }
 
-double NarrowPhase::distance(const Placed& a, const Placed& b) {
+double NarrowPhase::distance(const PosedShape& a, const PosedShape& b) {
   if (is_half_space(a)) return half_space_distance(a, b);
   if (is_half_space(b)) return half_space_distance(b, a);
   if (is_hollow(a.solid.shape)) return hollow_distance(a, b, points_);

@@ -25,14 +25,14 @@ class NarrowPhase {
     const std::vector<ManifoldPoint>* points = nullptr;  // valid until the next call
     bool empty() const { return points == nullptr || points->empty(); }
   };
-  Result contacts(const Placed& a, const Placed& b, double margin);
+  Result contacts(const PosedShape& a, const PosedShape& b, double margin);
 
   // Signed distance: how far the surfaces are apart, or minus the least overlap [m].
-  double distance(const Placed& a, const Placed& b);
+  double distance(const PosedShape& a, const PosedShape& b);
 
   // Direction and amount of the least overlap; false if it is certain that they are more than
   // `margin` apart.
-  bool nearest(const Placed& a, const Placed& b, double margin, NearestPair& pair);
+  bool nearest(const PosedShape& a, const PosedShape& b, double margin, NearestPair& pair);
 
  private:
   FlatAxis flat_axis_;

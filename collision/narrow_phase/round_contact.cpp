@@ -14,7 +14,7 @@ struct Segment {
   Vector3 start, along;
 };
 
-Segment core_of(const Placed& body) {
+Segment core_of(const PosedShape& body) {
   const std::vector<Vector3>& ends = body.solid.core.hull.vertices;
   return {body.X_WG * ends.front(), body.X_WG.R * (ends.back() - ends.front())};
 }
@@ -34,7 +34,7 @@ std::pair<double, double> nearest_parameters(const Segment& a, const Segment& b)
   return {s, t};
 }
 
-NearestPair segments(const Placed& a, const Placed& b) {
+NearestPair segments(const PosedShape& a, const PosedShape& b) {
   const Segment u = core_of(a), w = core_of(b);
   const auto [s, t] = nearest_parameters(u, w);
   const Vector3 p_a = u.start + s * u.along, p_b = w.start + t * w.along;
@@ -55,7 +55,7 @@ NearestPair segments(const Placed& a, const Placed& b) {
 }
 
 // The sphere is B. Empty if A has no closed form of its distance from a point.
-std::optional<NearestPair> sphere_at(const Placed& a, const Placed& b) {
+std::optional<NearestPair> sphere_at(const PosedShape& a, const PosedShape& b) {
   const Vector3 p = a.X_WG.inverse() * b.X_WG.p;
   SignedPoint at{};
   const bool is_known = std::visit(
@@ -78,7 +78,7 @@ bool is_round(const Shape& s) {
 
 }  // namespace
 
-std::optional<NearestPair> round_contact(const Placed& a, const Placed& b) {
+std::optional<NearestPair> round_contact(const PosedShape& a, const PosedShape& b) {
   const Shape& sa = a.solid.shape;
   const Shape& sb = b.solid.shape;
   if (is_round(sa) && is_round(sb)) return segments(a, b);

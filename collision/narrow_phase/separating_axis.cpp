@@ -34,7 +34,7 @@ double highest(const std::vector<Vector3>& points, const Vector3& n) {
 
 }  // namespace
 
-void SeparatingAxis::place(const Placed& body, Posed& posed) {
+void SeparatingAxis::place(const PosedShape& body, Posed& posed) {
   const ConvexHull& hull = body.solid.core.hull;
   posed.vertices.clear();
   posed.normals.clear();
@@ -67,8 +67,8 @@ double SeparatingAxis::overlap_along(const Vector3& n_W) const {
   return highest(a_.vertices, n_W) + highest(b_.vertices, -n_W);
 }
 
-void SeparatingAxis::try_faces(const Placed& body, const Posed& own, const Posed& other,
-                               double sign, Axis& best) const {
+void SeparatingAxis::try_faces(const PosedShape& body, const Posed& own, const Posed& other,
+                               double sign, PenetrationDirection& best) const {
   const ConvexHull& hull = body.solid.core.hull;
   for (std::size_t f = 0; f < own.normals.size(); ++f) {
     const Vector3& n = own.normals[f];
@@ -87,7 +87,8 @@ bool SeparatingAxis::is_difference_face(const Polytope::Edge& ea, const Vector3&
   return r * s < 0 && p * q < 0 && r * q > 0;
 }
 
-void SeparatingAxis::try_edges(const Polytope& a, const Polytope& b, Axis& best) const {
+void SeparatingAxis::try_edges(const Polytope& a, const Polytope& b,
+                               PenetrationDirection& best) const {
   for (int i : a_.near_edges) {
     const Polytope::Edge& ea = a.edges[i];
     const Vector3& p_a = a_.vertices[ea.v0];
@@ -111,7 +112,8 @@ void SeparatingAxis::try_edges(const Polytope& a, const Polytope& b, Axis& best)
   }
 }
 
-void SeparatingAxis::improve(const Placed& a, const Placed& b, double reach, Axis& best) {
+void SeparatingAxis::improve(const PosedShape& a, const PosedShape& b, double reach,
+                             PenetrationDirection& best) {
   place(a, a_);
   place(b, b_);
   try_faces(a, a_, b_, 1, best);
@@ -143,17 +145,18 @@ std::pair<const Vector3*, const Vector3*> extremes(const std::vector<Vector3>& p
 
 }  // namespace
 
-bool FlatAxis::best(const Placed& a, const Placed& b, double margin, Axis& axis) {
+bool FlatAxis::best(const PosedShape& a, const PosedShape& b, double margin,
+                    PenetrationDirection& axis) {
   if (a.solid.core.exists && b.solid.core.exists) return best_of_polytopes(a, b, margin, axis);
   return try_flats(a, b, a, 1, margin, axis) && try_flats(a, b, b, -1, margin, axis);
 }
 
 // Of `own`, which is a with sign 1 or b with -1.
-bool FlatAxis::try_flats(const Placed& a, const Placed& b, const Placed& own, double sign,
-                         double margin, Axis& axis) {
+bool FlatAxis::try_flats(const PosedShape& a, const PosedShape& b, const PosedShape& own,
+                         double sign, double margin, PenetrationDirection& axis) {
   const std::vector<Vector3>& flats = own.solid.patches.flats;
-  const Placed& other = sign > 0 ? b : a;
-  const std::size_t first = bound_flats(own, other, bounds_);
+  const PosedShape& other = sign > 0 ? b : a;
+  const std::size_t first = face_depth_lower_bounds(own, other, bounds_);
   for (std::size_t k = 0; k < flats.size(); ++k) {
     const std::size_t f = (first + k) % flats.size();
     if (bounds_[f] > axis.overlap) continue;
@@ -167,7 +170,7 @@ bool FlatAxis::try_flats(const Placed& a, const Placed& b, const Placed& own, do
 
 bool FlatAxis::try_slabs(const Polytope& own, const Polytope& other, const Pose& X_own_other,
                          double sign, double margin, const Matrix3& R_W_own, double radii,
-                         Axis& axis) {
+                         PenetrationDirection& axis) {
   const std::vector<Vector3>& vertices = other.hull.vertices;
   vertices_.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) vertices_[i] = X_own_other * vertices[i];
@@ -194,7 +197,8 @@ bool FlatAxis::try_slabs(const Polytope& own, const Polytope& other, const Pose&
   return true;
 }
 
-bool FlatAxis::best_of_polytopes(const Placed& a, const Placed& b, double margin, Axis& axis) {
+bool FlatAxis::best_of_polytopes(const PosedShape& a, const PosedShape& b, double margin,
+                                 PenetrationDirection& axis) {
   const Polytope &core_a = a.solid.core, &core_b = b.solid.core;
   const double radii = core_a.radius + core_b.radius;
   const Pose X_AB = a.X_WG.inverse() * b.X_WG;

@@ -60,7 +60,7 @@ struct Cylinder {
   // the farthest point of its rim and three more, at quarter turns from it. Lying: the farthest
   // points of both rims. All on the true rims, and smooth functions of the pose.
   template <class Add>
-  void farthest_points(const Vector3& d, Add add) const {
+  void max_points(const Vector3& d, Add add) const {
     constexpr double flat = 1e-6;  // a cap that is tilted less lies flat: its points are then fixed
     const double sine = std::hypot(d.x(), d.y()), z = std::copysign(length / 2, d.z());
     const bool lies_flat = sine < flat;

@@ -6,16 +6,16 @@
 
 namespace twinarm {
 
-struct HollowSphere {  // the inside: bodies move within
+struct SphericalCavity {  // the inside: bodies move within
   static constexpr const char* name = "hollow sphere";
   static constexpr const char* key = "hollow_sphere";
   double radius = 1;  // [m], centred
   static constexpr auto lengths() {
-    return std::make_tuple(std::pair("radius", &HollowSphere::radius));
+    return std::make_tuple(std::pair("radius", &SphericalCavity::radius));
   }
 
   Vector3 support(const Vector3& d) const { return Sphere{radius}.support(d); }
 };
-HollowSphere numbered(ShapeNumber<6>);
+SphericalCavity numbered(ShapeNumber<6>);
 
 }  // namespace twinarm

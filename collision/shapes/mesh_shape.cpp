@@ -107,7 +107,7 @@ std::string MeshShape::fault() const {
     high = high.cwiseMax(v);
   }
   const double extent = (high - low).maxCoeff();
-  if (extent > largest_extent) {
+  if (extent > max_extent) {
     add("mesh is " + std::to_string(extent) +
         " m wide: read a file in millimetres with scale = 0.001");
   }

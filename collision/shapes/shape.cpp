@@ -8,8 +8,8 @@
 namespace twinarm {
 namespace {
 
-[[noreturn]] void refuse_solid(const std::string& rule, const char* remedy) {
-  throw InputError({{"", 0, "mass properties", rule, remedy, "shape.mass"}});
+[[noreturn]] void refuse_solid(const std::string& problem, const char* fix) {
+  throw InputError({{"", 0, "mass properties", problem, fix, "shape.mass"}});
 }
 
 std::string positive(const char* name, double value) {

@@ -11,7 +11,7 @@
 //   solid(density)       mass properties; without it, it encloses nothing
 //   is_in_urdf           URDF has it, as <key length_1 ..>
 //   nearest(p)           closed form of its distance from a point: exact contacts with spheres
-//   farthest_points(d)   the points that may lie on a plane, where it is curved
+//   max_points(d)   the points that may lie on a plane, where it is curved
 // Then robots and scenes read and write it, it is drawn as its hull, and it is collided with all
 // convex shapes, half-spaces and meshes; a polyhedron also within hollow shapes.
 #pragma once

@@ -19,7 +19,7 @@ namespace {
 struct SchemeFacts {
   const char* name;
   Integrator integrator = Integrator::semi_implicit;
-  Treatment treatment = Treatment::explicit_;
+  Discretization treatment = Discretization::explicit_;
   int hold_steps = 0;
   StepLaw law = StepLaw::spring_damper;
   bool older = false;
@@ -39,58 +39,58 @@ constexpr std::array<SchemeFacts, all_schemes.size()> kSchemes{{
      .integrator = Integrator::midpoint,
      .law = StepLaw::printed},
     {.name = "Runge-Kutta of order 4", .integrator = Integrator::rk4},
-    {.name = "semi-implicit Euler, damper implicit", .treatment = Treatment::semi_implicit},
-    {.name = "spring and damper implicit", .treatment = Treatment::implicit},
+    {.name = "semi-implicit Euler, damper implicit", .treatment = Discretization::semi_implicit},
+    {.name = "spring and damper implicit", .treatment = Discretization::implicit},
 }};
-const SchemeFacts& facts_of(Scheme scheme) {
+const SchemeFacts& facts_of(SteppingScheme scheme) {
   return kSchemes[static_cast<std::size_t>(scheme)];
 }
 
 // With M = 1: alpha = h^2 K, beta = h B, the step is the unit of time.
-bool contracts(const MatrixXd& alpha, const MatrixXd& beta, Scheme scheme) {
+bool contracts(const MatrixXd& alpha, const MatrixXd& beta, SteppingScheme scheme) {
   constexpr double kRounding = 1e-9;
   const SchemeFacts& facts = facts_of(scheme);
-  const StepPart part{alpha,     alpha,      beta, facts.treatment, facts.hold_steps,
-                      facts.law, facts.older};
+  const CoupledTerm part{alpha,     alpha,      beta, facts.treatment, facts.hold_steps,
+                         facts.law, facts.older};
   return growth_of_modes({part}, facts.integrator, 1) <= 1 + kRounding;
 }
 
 }  // namespace
 
-const char* name_of(Scheme scheme) {
+const char* name_of(SteppingScheme scheme) {
   return facts_of(scheme).name;
 }
 
-double largest_stable_step(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, Scheme scheme) {
+double max_stable_step(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
+                       SteppingScheme scheme) {
   const SpringModes modes = spring_modes(M, K, B);
   if (modes.size() == 0) return kNoLimit;
   const MatrixXd squares = modes.squares.asDiagonal();
   const double rate = modes.fastest_rate();
-  return largest_stable(
-      [&](double h) { return contracts(h * h * squares, h * modes.damping, scheme); }, 1e-4 / rate,
-      1e4 / rate);
+  return max_stable([&](double h) { return contracts(h * h * squares, h * modes.damping, scheme); },
+                    1e-4 / rate, 1e4 / rate);
 }
 
-double largest_stiffness_factor(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
-                                Scheme scheme, double h, Keep keep) {
+double max_stiffness_factor(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
+                            SteppingScheme scheme, double h, HoldConstant keep) {
   check_step_size(h);
   const SpringModes modes = spring_modes(M, K, B);
   if (modes.size() == 0) return kNoLimit;
   const MatrixXd squares = modes.squares.asDiagonal();
   const auto stable = [&](double factor) {
-    const double of_b = keep == Keep::damping_ratio ? std::sqrt(factor) : factor;
+    const double of_b = keep == HoldConstant::damping_ratio ? std::sqrt(factor) : factor;
     return contracts(factor * h * h * squares, of_b * h * modes.damping, scheme);
   };
   const double product = std::max(modes.fastest_rate() * h, 1e-12);
-  return largest_stable(stable, 1e-6 / (product * product), 1e8);
+  return max_stable(stable, 1e-6 / (product * product), 1e8);
 }
 
-double largest_omega_h(Scheme scheme, double zeta) {
+double max_omega_h(SteppingScheme scheme, double zeta) {
   const auto stable = [&](double wh) {
     return contracts(MatrixXd::Constant(1, 1, wh * wh), MatrixXd::Constant(1, 1, 2 * zeta * wh),
                      scheme);
   };
-  return largest_stable(stable, 1e-4, 1e4);
+  return max_stable(stable, 1e-4, 1e4);
 }
 
 SpringGains gains_of(const SpringResponse& response, double inertia) {

@@ -11,7 +11,7 @@
 namespace twinarm {
 
 // How a spring-damper is stepped. One degree of freedom, alpha = k h^2/I, beta = b h/I; stable iff
-enum class Scheme {
+enum class SteppingScheme {
   euler,             // alpha < beta < 2 + alpha/2
   semi_implicit,     // alpha < 4 - 2 beta
   euler_difference,  // explicit Euler, velocity by backward difference: alpha < beta(1-beta)
@@ -24,42 +24,44 @@ enum class Scheme {
   implicit_damper,           // semi-implicit, m* = h b: alpha < 4 + 2 beta
   implicit                   // m* = h b + h^2 k: always
 };
-inline constexpr std::array<Scheme, 10> all_schemes{Scheme::euler,
-                                                    Scheme::semi_implicit,
-                                                    Scheme::euler_difference,
-                                                    Scheme::semi_implicit_difference,
-                                                    Scheme::semi_implicit_older,
-                                                    Scheme::hold,
-                                                    Scheme::hold_difference,
-                                                    Scheme::rk4,
-                                                    Scheme::implicit_damper,
-                                                    Scheme::implicit};
-const char* name_of(Scheme scheme);
+inline constexpr std::array<SteppingScheme, 10> all_schemes{
+    SteppingScheme::euler,
+    SteppingScheme::semi_implicit,
+    SteppingScheme::euler_difference,
+    SteppingScheme::semi_implicit_difference,
+    SteppingScheme::semi_implicit_older,
+    SteppingScheme::hold,
+    SteppingScheme::hold_difference,
+    SteppingScheme::rk4,
+    SteppingScheme::implicit_damper,
+    SteppingScheme::implicit};
+const char* name_of(SteppingScheme scheme);
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 // The largest h of which every smaller one is stable as well; 0 where none is (w h < 1e-4),
 // kNoLimit where all are (to w h = 1e4). K and B symmetric; coordinates that neither holds do not
 // count.
-double largest_stable_step(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
-                           const Eigen::MatrixXd& B, Scheme scheme);
+double max_stable_step(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& B,
+                       SteppingScheme scheme);
 
 // What stays as it is when the stiffness grows.
-enum class Keep {
+enum class HoldConstant {
   damping_per_stiffness,  // b/k: B grows as K
   damping_ratio           // z: B grows as the root of K
 };
 // How many times stiffer all springs may be at this step; 0 and kNoLimit as above (to 1e8 times).
-double largest_stiffness_factor(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
-                                const Eigen::MatrixXd& B, Scheme scheme, double h, Keep keep);
+double max_stiffness_factor(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
+                            const Eigen::MatrixXd& B, SteppingScheme scheme, double h,
+                            HoldConstant keep);
 
 // On one degree of freedom: the largest w h at a damping ratio.
-double largest_omega_h(Scheme scheme, double zeta);
+double max_omega_h(SteppingScheme scheme, double zeta);
 
 // The largest x in [from, to] that is stable, with all below it as far as steps of a tenth show: a
 // narrower window of instability is passed over.
 template <class Stable>
-double largest_stable(Stable&& stable, double from, double to) {
+double max_stable(Stable&& stable, double from, double to) {
   if (!stable(from)) return 0;
   double inside = from;
   while (inside < to && stable(1.1 * inside)) inside *= 1.1;
@@ -121,7 +123,7 @@ Solref direct_solref_of(const SpringGains& gains, double inertia,
 // Against a steady load such a constraint is stiffer than it swings: k / (1 - d).
 double mujoco_static_stiffness(double k, const MujocoImpedance& impedance = {});
 // MuJoCo's own floor of timeconst (refsafe): shorter ones are taken as this.
-inline double shortest_timeconst(double h) {
+inline double min_timeconst(double h) {
   return 2 * h;
 }
 

@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-double largest_target_radius(double I, double r, double k, double b, double h) {
+double max_target_radius(double I, double r, double k, double b, double h) {
   check_step_size(h);
   if (k == 0 || r == 0) return std::numeric_limits<double>::infinity();
   return (4 * I + 2 * r * r * (h * h * k + h * b)) / (h * h * k * r);
@@ -29,7 +29,7 @@ VectorXd chain_sag(const MatrixXd& K, const VectorXd& G) {
     if (K.row(i).cwiseAbs().maxCoeff() > kNothing * largest) held.push_back(i);
   VectorXd sag = VectorXd::Constant(G.size(), std::numeric_limits<double>::quiet_NaN());
   if (held.empty()) return sag;
-  const VectorXd e = shortest_solution(K(held, held), G(held), kNothing);
+  const VectorXd e = min_solution(K(held, held), G(held), kNothing);
   constexpr double kUnheld = 1e-6;  // a part of G that no spring can carry at this pose
   if ((K(held, held) * e - G(held)).norm() > kUnheld * G.norm()) return sag;
   for (std::size_t i = 0; i < held.size(); ++i) sag[held[i]] = e[static_cast<Index>(i)];
@@ -56,7 +56,7 @@ TargetRadius nearest_target_radius(const Model<double>& model, const State<doubl
     const Vector3 axis = D.R_WB[i].col(2);  // of a joint of one degree of freedom: z of its body
     const auto radius = [&](const Vector3& p) { return (p - D.X_WL[i].p).cross(axis).norm(); };
     TargetRadius here{body, radius(p_D), radius(p_K), 0};
-    here.largest = largest_target_radius(M(dof, dof), here.r, spring.k, spring.b, h);
+    here.largest = max_target_radius(M(dof, dof), here.r, spring.k, spring.b, h);
     if (nearest.body == 0 || here.ratio() > nearest.ratio()) nearest = here;
   }
   return nearest;
@@ -84,7 +84,7 @@ namespace {
 // -(tau(x + s along dof) - tau(x - s)) / 2s, at steps that halve, extrapolated to order 6.
 class TauRates {
  public:
-  TauRates(const Model<double>& model, const State<double>& x, const PushesAt& push)
+  TauRates(const Model<double>& model, const State<double>& x, const AppliedForces& push)
       : model_(model), x_(x), push_(push), k_(model) {}
 
   VectorXd along(std::size_t dof, bool of_velocity) {
@@ -116,14 +116,14 @@ class TauRates {
 
   const Model<double>& model_;
   const State<double>& x_;
-  const PushesAt& push_;
+  const AppliedForces& push_;
   Kinematics k_;
 };
 
 }  // namespace
 
 TangentStiffness tangent_stiffness(const Model<double>& model, const State<double>& x,
-                                   const PushesAt& push, std::size_t count) {
+                                   const AppliedForces& push, std::size_t count) {
   const auto n = static_cast<Index>(model.nv);
   TangentStiffness found{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
   TauRates rates(model, x, push);
@@ -154,12 +154,12 @@ SpringModes spring_modes(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B
   const SymmetricEigensystem all = generalized_eigensystem((K + K.transpose()) / 2, M);
   const SymmetricEigensystem damped = generalized_eigensystem((B + B.transpose()) / 2, M);
   const double stiffest = all.values.cwiseAbs().maxCoeff();
-  const double most_damped = damped.values.cwiseAbs().maxCoeff();
+  const double max_damped = damped.values.cwiseAbs().maxCoeff();
   std::vector<Index> kept;
   for (Index i = 0; i < all.values.size(); ++i) {
     const double b = all.vectors.col(i).dot(B * all.vectors.col(i));
     if ((stiffest > 0 && std::abs(all.values[i]) > kNothing * stiffest) ||
-        (most_damped > 0 && std::abs(b) > kNothing * most_damped))
+        (max_damped > 0 && std::abs(b) > kNothing * max_damped))
       kept.push_back(i);
   }
   SpringModes modes{VectorXd(kept.size()), MatrixXd(M.rows(), kept.size()), {}};

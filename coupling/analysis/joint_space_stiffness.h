@@ -23,7 +23,7 @@ double series_stiffness(double k_c, double k_e);
 // A point spring at lever arm r, treated implicitly with step h on an inertia I about the joint, is
 // stable only while its target's radius R_K stays below this [m] (docs/coupling.md, 3):
 //   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b).
-double largest_target_radius(double I, double r, double k, double b, double h);
+double max_target_radius(double I, double r, double k, double b, double h);
 
 // Where a point spring stands against that limit. For every joint between the base and the link
 // that carries the spring; radii are measured from the joint's axis. Linear theory of one joint at
@@ -54,7 +54,7 @@ Eigen::VectorXd generalised_force(const Model<double>& model, const State<double
                                   const Forces<double>& forces);
 
 // Adds all that pushes at a state: must be smooth there.
-using PushesAt = std::function<void(const State<double>&, const Kinematics&, Forces<double>&)>;
+using AppliedForces = std::function<void(const State<double>&, const Kinematics&, Forces<double>&)>;
 
 // K = -d tau/dq and B = -d tau/dqd of what pushes, geometric stiffness included; dq are steps along
 // the joints' groups. By central differences, extrapolated twice: to about 1e-9 of its size for
@@ -64,9 +64,9 @@ struct TangentStiffness {
 };
 // Along the first `count` velocities; the other columns are 0.
 TangentStiffness tangent_stiffness(const Model<double>& model, const State<double>& x,
-                                   const PushesAt& push, std::size_t count);
+                                   const AppliedForces& push, std::size_t count);
 inline TangentStiffness tangent_stiffness(const Model<double>& model, const State<double>& x,
-                                          const PushesAt& push) {
+                                          const AppliedForces& push) {
   return tangent_stiffness(model, x, push, model.nv);
 }
 

@@ -29,7 +29,7 @@ MatrixXd rates_of_terms(double turn) {
   return N;
 }
 
-Eigen::RowVectorXd coefficients(const MovePiece::Series& series) {
+Eigen::RowVectorXd coefficients(const ProfileSegment::Series& series) {
   Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(kTerms);
   for (std::size_t n = 0; n < series.power.size(); ++n)
     row[static_cast<Index>(n)] = series.power[n];
@@ -54,7 +54,8 @@ MatrixXd exponential(const MatrixXd& A) {
 
 }  // namespace
 
-ChainErrors::ChainErrors(ChainFollower follower) : follower_(std::move(follower)) {
+MultiJointTrackingError::MultiJointTrackingError(ChainFollower follower)
+    : follower_(std::move(follower)) {
   const SpringModes modes = spring_modes(follower_.M, follower_.K, follower_.B);
   shapes_ = modes.shapes;
   damping_ = modes.damping;
@@ -73,58 +74,60 @@ ChainErrors::ChainErrors(ChainFollower follower) : follower_(std::move(follower)
   }
 }
 
-VectorXd ChainErrors::of_held(VectorXd by_joint, double others) const {
+VectorXd MultiJointTrackingError::restrict_to_held(VectorXd by_joint, double others) const {
   for (Index j = 0; j < by_joint.size(); ++j)
     if (!is_held(j)) by_joint[j] = others;
   return by_joint;
 }
 
-VectorXd ChainErrors::behind(TargetMove move, const VectorXd& distance, double time) const {
+VectorXd MultiJointTrackingError::behind(MotionProfile move, const VectorXd& distance,
+                                         double time) const {
   const double end = time + (slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
   return peaks(pieces_of(move, 1, time), distance, VectorXd::Zero(distance.size()), end,
                std::numbers::pi / time);
 }
 
-VectorXd ChainErrors::after_start(const VectorXd& v, double time) const {
+VectorXd MultiJointTrackingError::after_start(const VectorXd& v, double time) const {
   const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
   return peaks({{0, 1, {}, {{1}}}}, v, VectorXd::Zero(v.size()), end, 0);
 }
 
-VectorXd ChainErrors::after_reversal(const VectorXd& v, double time) const {
+VectorXd MultiJointTrackingError::after_reversal(const VectorXd& v, double time) const {
   const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
   return peaks({{0, -2, {}, {{-1}}}}, v, lag(v), end, 0);
 }
 
-VectorXd ChainErrors::lag(const VectorXd& v) const {
-  const VectorXd pulled = shapes_.transpose() * (follower_.absolute * of_held(v, 0));
+VectorXd MultiJointTrackingError::lag(const VectorXd& v) const {
+  const VectorXd pulled = shapes_.transpose() * (follower_.absolute * restrict_to_held(v, 0));
   VectorXd y = VectorXd::Zero(pulled.size());
   for (Index i = 0; i < y.size(); ++i) {
     const bool is_pulled = std::abs(pulled[i]) > 1e-10 * pulled.cwiseAbs().maxCoeff();
     if (is_pulled) y[i] = squares_[i] > 0 ? pulled[i] / squares_[i] : kNone;
   }
-  return of_held(shapes_ * y, kNone);
+  return restrict_to_held(shapes_ * y, kNone);
 }
 
 // Pieces are for a unit move; `along` has the joints' parts of it. e: at the start, at rest.
-VectorXd ChainErrors::peaks(const std::vector<MovePiece>& pieces, const VectorXd& along,
-                            const VectorXd& e, double end, double turn) const {
-  constexpr double kPerPeriod = 400, kLeast = 4000, kMost = 2e5;
+VectorXd MultiJointTrackingError::peaks(const std::vector<ProfileSegment>& pieces,
+                                        const VectorXd& along, const VectorXd& e, double end,
+                                        double turn) const {
+  constexpr double kPerPeriod = 400, kMin = 4000, kMax = 2e5;
   const Index m = squares_.size();
   if (m == 0 || squares_.minCoeff() < 0) return VectorXd::Constant(along.size(), kNone);
-  const VectorXd D = of_held(along, 0);
+  const VectorXd D = restrict_to_held(along, 0);
   const VectorXd by_a = shapes_.transpose() * (follower_.M * D);
   const VectorXd by_v = shapes_.transpose() * (follower_.absolute * D);
   const double samples =
-      std::clamp(kPerPeriod * end * fastest_ / (2 * std::numbers::pi), kLeast, kMost);
+      std::clamp(kPerPeriod * end * fastest_ / (2 * std::numbers::pi), kMin, kMax);
   VectorXd z = VectorXd::Zero(2 * m + kTerms), peak = VectorXd::Zero(along.size());
-  z.head(m) = shapes_.transpose() * (follower_.M * of_held(e, 0));
+  z.head(m) = shapes_.transpose() * (follower_.M * restrict_to_held(e, 0));
   MatrixXd A = MatrixXd::Zero(z.size(), z.size());
   A.block(0, m, m, m).setIdentity();
   A.block(m, 0, m, m).diagonal() = -squares_;
   A.block(m, m, m, m) = -damping_;
   A.bottomRightCorner(kTerms, kTerms) = rates_of_terms(turn);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const MovePiece& piece = pieces[p];
+    const ProfileSegment& piece = pieces[p];
     A.block(m, 2 * m, m, kTerms) =
         by_a * coefficients(piece.acceleration) + by_v * coefficients(piece.velocity);
     z.segment(m, m) += piece.jump * by_a;
@@ -137,7 +140,7 @@ VectorXd ChainErrors::peaks(const std::vector<MovePiece>& pieces, const VectorXd
       peak = peak.cwiseMax((shapes_ * z.head(m)).cwiseAbs());
     }
   }
-  return of_held(peak.cwiseMax(e.cwiseAbs()), kNone);
+  return restrict_to_held(peak.cwiseMax(e.cwiseAbs()), kNone);
 }
 
 }  // namespace twinarm

@@ -24,13 +24,13 @@ struct ChainFollower {
 
 // The largest |e_j| of each joint; not a number for joints that are not held, and for all where
 // springs push away.
-class ChainErrors {
+class MultiJointTrackingError {
  public:
-  explicit ChainErrors(ChainFollower follower);
+  explicit MultiJointTrackingError(ChainFollower follower);
   // Whether neither springs nor dampers leave the joint to itself.
   bool is_held(Eigen::Index joint) const { return held_[static_cast<std::size_t>(joint)]; }
   // Behind a target that goes `distance` in `time` [s], all joints at once, from rest.
-  Eigen::VectorXd behind(TargetMove move, const Eigen::VectorXd& distance, double time) const;
+  Eigen::VectorXd behind(MotionProfile move, const Eigen::VectorXd& distance, double time) const;
   // After a target starts at the speeds v, and after it turns from v to -v, having gone on for
   // long; within `time`, or the period of the slowest mode.
   Eigen::VectorXd after_start(const Eigen::VectorXd& v, double time) const;
@@ -39,9 +39,9 @@ class ChainErrors {
   Eigen::VectorXd lag(const Eigen::VectorXd& v) const;
 
  private:
-  Eigen::VectorXd peaks(const std::vector<MovePiece>& pieces, const Eigen::VectorXd& along,
+  Eigen::VectorXd peaks(const std::vector<ProfileSegment>& pieces, const Eigen::VectorXd& along,
                         const Eigen::VectorXd& e, double end, double turn) const;
-  Eigen::VectorXd of_held(Eigen::VectorXd by_joint, double others) const;
+  Eigen::VectorXd restrict_to_held(Eigen::VectorXd by_joint, double others) const;
 
   ChainFollower follower_;
   Eigen::MatrixXd shapes_, damping_;

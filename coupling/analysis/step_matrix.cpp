@@ -22,10 +22,10 @@ constexpr int kLongestPeriod = 100000;  // of steps between evaluations, where s
 // see an older one that difference.
 class PartsStep {
  public:
-  PartsStep(const std::vector<StepPart>& parts, double h, Index n) : n_(n) {
+  PartsStep(const std::vector<CoupledTerm>& parts, double h, Index n) : n_(n) {
     const MatrixXd none = MatrixXd::Zero(n, n);
     MatrixXd alpha = none, beta = none, ahead = none, felt = MatrixXd::Identity(n, n);
-    for (const StepPart& part : parts) {
+    for (const CoupledTerm& part : parts) {
       if (part.law == StepLaw::god_object) {
         alpha += part.K;
         beta += part.K;
@@ -40,9 +40,9 @@ class PartsStep {
       }
       alpha += a;
       beta += b;
-      if (pd || part.treatment != Treatment::explicit_) felt += b;
-      if (pd || part.treatment == Treatment::implicit) ahead += h * h * part.K_zero;
-      if (!pd && part.treatment == Treatment::implicit) felt += h * h * part.K_zero;
+      if (pd || part.treatment != Discretization::explicit_) felt += b;
+      if (pd || part.treatment == Discretization::implicit) ahead += h * h * part.K_zero;
+      if (!pd && part.treatment == Discretization::implicit) felt += h * h * part.K_zero;
     }
     const auto groups = static_cast<Index>(held_.size());
     const Index rows = n * (2 + groups + pasts_);
@@ -139,15 +139,15 @@ class PartsStep {
 };
 
 struct Reduced {
-  std::vector<StepPart> parts;  // with M = 1
+  std::vector<CoupledTerm> parts;  // with M = 1
   Index n = 0;
   double rate = 0;  // of what is fastest [1/s]
 };
 
 // To the directions that any part holds.
-Reduced reduced(const MatrixXd& M, const std::vector<StepPart>& parts) {
+Reduced reduced(const MatrixXd& M, const std::vector<CoupledTerm>& parts) {
   MatrixXd K = MatrixXd::Zero(M.rows(), M.cols()), B = K;
-  for (const StepPart& part : parts) {
+  for (const CoupledTerm& part : parts) {
     K += part.K;
     B += part.B;
   }
@@ -158,7 +158,7 @@ Reduced reduced(const MatrixXd& M, const std::vector<StepPart>& parts) {
   const auto by_modes = [&](const MatrixXd& A) {
     return MatrixXd(modes.shapes.transpose() * A * modes.shapes);
   };
-  for (const StepPart& part : parts)
+  for (const CoupledTerm& part : parts)
     found.parts.push_back({by_modes(part.K), by_modes(part.K_zero), by_modes(part.B),
                            part.treatment, part.hold_steps, part.law, part.older});
   found.rate = modes.fastest_rate();
@@ -167,25 +167,25 @@ Reduced reduced(const MatrixXd& M, const std::vector<StepPart>& parts) {
 
 }  // namespace
 
-double growth_of_modes(const std::vector<StepPart>& parts, Integrator integrator, double h) {
+double growth_of_modes(const std::vector<CoupledTerm>& parts, Integrator integrator, double h) {
   int steps = 1;
   const MatrixXd all = PartsStep(parts, h, parts.front().K.rows()).period(integrator, steps);
   return std::pow(eigenvalues_of(all).cwiseAbs().maxCoeff(), 1.0 / steps);
 }
 
-double growth_per_step(const MatrixXd& M, const std::vector<StepPart>& parts, Integrator integrator,
-                       double h) {
+double spectral_radius(const MatrixXd& M, const std::vector<CoupledTerm>& parts,
+                       Integrator integrator, double h) {
   check_step_size(h);
   const Reduced system = reduced(M, parts);
   return system.n == 0 ? 1 : growth_of_modes(system.parts, integrator, h);
 }
 
-double largest_stable_step(const MatrixXd& M, const std::vector<StepPart>& parts,
-                           Integrator integrator) {
+double max_stable_step(const MatrixXd& M, const std::vector<CoupledTerm>& parts,
+                       Integrator integrator) {
   constexpr double kRounding = 1e-9;
   const Reduced system = reduced(M, parts);
   if (system.n == 0 || integrator == Integrator::dopri5) return kNoLimit;
-  return largest_stable(
+  return max_stable(
       [&](double h) { return growth_of_modes(system.parts, integrator, h) <= 1 + kRounding; },
       1e-4 / system.rate, 1e4 / system.rate);
 }

@@ -25,9 +25,9 @@
 
 namespace twinarm {
 
-struct StepPart {
-  Eigen::MatrixXd K, K_zero, B;                // as it is about the pose; J^T k J alone; J^T b J
-  Treatment treatment = Treatment::explicit_;  // of a spring-damper
+struct CoupledTerm {
+  Eigen::MatrixXd K, K_zero, B;  // as it is about the pose; J^T k J alone; J^T b J
+  Discretization treatment = Discretization::explicit_;  // of a spring-damper
   // The force is computed every so many steps, and held; 0: at each stage (as printed: each step).
   int hold_steps = 0;
   StepLaw law = StepLaw::spring_damper;  // a god object has M_r for K, and nothing else
@@ -36,15 +36,15 @@ struct StepPart {
 
 // Of parts in coordinates with M = 1 that all count: the spectral radius of a step of h (of all
 // steps between two evaluations, for held forces, its root).
-double growth_of_modes(const std::vector<StepPart>& parts, Integrator integrator, double h);
+double growth_of_modes(const std::vector<CoupledTerm>& parts, Integrator integrator, double h);
 
 // By how much the error grows in a step of h, in the long run. At most 1: stable. Not for dopri5,
 // which chooses its step.
-double growth_per_step(const Eigen::MatrixXd& M, const std::vector<StepPart>& parts,
+double spectral_radius(const Eigen::MatrixXd& M, const std::vector<CoupledTerm>& parts,
                        Integrator integrator, double h);
 
 // The largest stable step of all parts together; kNoLimit where there is none, and for dopri5.
-double largest_stable_step(const Eigen::MatrixXd& M, const std::vector<StepPart>& parts,
-                           Integrator integrator);
+double max_stable_step(const Eigen::MatrixXd& M, const std::vector<CoupledTerm>& parts,
+                       Integrator integrator);
 
 }  // namespace twinarm

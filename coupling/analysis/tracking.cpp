@@ -30,8 +30,8 @@ TrackingError tracking_error(const TrackingSeries& series) {
 
 TrackingSystem::TrackingSystem(const TrackingSetup& setup) : setup_(setup) {
   check_step_size(setup.h);
-  kvr_ = std::make_unique<KinematicRobot>(*setup.kvr_model, *setup.hand, setup.mapping,
-                                          setup.joints, setup.kvr_rates);
+  kvr_ = std::make_unique<TargetRobot>(*setup.kvr_model, *setup.hand, setup.mapping, setup.joints,
+                                       setup.kvr_rates);
   State<double> start(*setup.dvr_model);
   start.q = kvr_->start().x.q;  // the DVR starts at rest on the KVR's pose
   simulation_ = std::make_unique<Simulation>(*setup.dvr_model, start);
@@ -84,12 +84,12 @@ TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step)
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-JumpErrors errors_of_jumps(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
-                           const std::vector<SpeedJump>& jumps, double duration) {
+JumpErrors response_to_velocity_steps(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
+                                      const std::vector<VelocityStep>& jumps, double duration) {
   const MatrixXd inverse = inverse_of(M), of_e = -inverse * K, of_v = -inverse * B;
   const double stiffest = std::sqrt(std::max(0.0, squared_frequencies(M, K).maxCoeff()));
-  const double most_damped = squared_frequencies(M, B).maxCoeff();
-  const double longest = std::min(duration / 100, 0.02 / std::max(stiffest, most_damped));
+  const double max_damped = squared_frequencies(M, B).maxCoeff();
+  const double longest = std::min(duration / 100, 0.02 / std::max(stiffest, max_damped));
   const auto a = [&](const VectorXd& x, const VectorXd& xd) {
     return VectorXd(of_e * x + of_v * xd);
   };
@@ -116,7 +116,7 @@ JumpErrors errors_of_jumps(const MatrixXd& M, const MatrixXd& K, const MatrixXd&
 
 VectorXd peak_after_jump(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B, const VectorXd& V,
                          double time) {
-  return errors_of_jumps(M, K, B, {{0, V}}, time).peak;
+  return response_to_velocity_steps(M, K, B, {{0, V}}, time).peak;
 }
 
 double peak_after_jump(double V, double omega, double zeta) {
@@ -132,44 +132,44 @@ double mocap_weld_lag(double v, double timeconst) {
   return absolute_damper_lag(v, 1 / timeconst, 1);
 }
 
-const char* name_of(TargetMove move) {
+const char* name_of(MotionProfile move) {
   constexpr std::array names{"constant speed", "cubic", "quintic", "cosine", "bang-bang"};
   return names[static_cast<std::size_t>(move)];
 }
 
-std::vector<MovePiece> pieces_of(TargetMove move, double D, double T) {
+std::vector<ProfileSegment> pieces_of(MotionProfile move, double D, double T) {
   const double v = D / T, a = v / T, j = a / T, s = j / T, c = s / T;  // by powers of 1/T
   const double W = std::numbers::pi / T;
-  std::vector<MovePiece> pieces;
+  std::vector<ProfileSegment> pieces;
   switch (move) {
-    case TargetMove::ramp:
+    case MotionProfile::ramp:
       pieces = {{0, v, {}, {{v}}}};
       break;
-    case TargetMove::cubic:
+    case MotionProfile::cubic:
       pieces = {{0, 0, {{6 * a, -12 * j}}, {{0, 6 * a, -6 * j}}}};
       break;
-    case TargetMove::quintic:
+    case MotionProfile::quintic:
       pieces = {{0, 0, {{0, 60 * j, -180 * s, 120 * c}}, {{0, 0, 30 * j, -60 * s, 30 * c}}}};
       break;
-    case TargetMove::cosine:
+    case MotionProfile::cosine:
       pieces = {{0, 0, {{}, D / 2 * W * W, 0}, {{}, 0, D / 2 * W}}};
       break;
-    case TargetMove::bang_bang:
+    case MotionProfile::bang_bang:
       pieces = {{0, 0, {{4 * a}}, {{0, 4 * a}}}, {T / 2, 0, {{-4 * a}}, {{2 * v, -4 * a}}}};
       break;
   }
-  pieces.push_back({T, move == TargetMove::ramp ? -v : 0, {}, {}});
+  pieces.push_back({T, move == MotionProfile::ramp ? -v : 0, {}, {}});
   return pieces;
 }
 
-FollowingError::FollowingError(TargetMove move, double D, double T, double omega, double zeta,
+FollowingError::FollowingError(MotionProfile move, double D, double T, double omega, double zeta,
                                Damper damper)
     : time_(T), omega_(omega), zeta_(zeta), turn_(std::numbers::pi / T), damper_(damper) {
-  for (const MovePiece& piece : pieces_of(move, D, T)) add_piece(piece);
+  for (const ProfileSegment& piece : pieces_of(move, D, T)) add_piece(piece);
   solve();
 }
 
-void FollowingError::add_piece(const MovePiece& move) {
+void FollowingError::add_piece(const ProfileSegment& move) {
   Piece piece{move.start, move.jump, move.acceleration, {}};
   const Forcing& velocity = move.velocity;
   if (damper_ == Damper::absolute) {
@@ -260,9 +260,9 @@ double FollowingError::at(double t) const {
 
 // On a fine grid over the move and a period after it, then by a parabola through the best three.
 double FollowingError::peak() const {
-  constexpr double kPerPeriod = 400, kLeast = 4000, kMost = 4e6;
+  constexpr double kPerPeriod = 400, kMin = 4000, kMax = 4e6;
   const double period = 2 * std::numbers::pi / omega_, end = time_ + period;
-  const double count = std::clamp(kPerPeriod * end / period, kLeast, kMost), dt = end / count;
+  const double count = std::clamp(kPerPeriod * end / period, kMin, kMax), dt = end / count;
   const auto size = [&](double n) { return std::abs(at(n * dt)); };
   double best = 0, where = 0;
   for (double n = 0; n <= count; ++n)

@@ -28,11 +28,11 @@ TrackingError tracking_error(const TrackingSeries& series);
 struct TrackingSetup {
   const Model<double>* kvr_model = nullptr;  // no added masses
   const Model<double>* dvr_model = nullptr;  // same tree, masses as simulated
-  const HandSource* hand = nullptr;
+  const OperatorMotion* hand = nullptr;
   HandMapping mapping;
   DrivenJoints joints;
   std::vector<CouplingSpec> couplings;  // the first is the one that is studied
-  KvrRates kvr_rates = KvrRates::from_hand;
+  TargetRates kvr_rates = TargetRates::from_hand;
   Integrator integrator = Integrator::semi_implicit;
   double h = 0.001;  // [s]
 };
@@ -43,7 +43,7 @@ class TrackingSystem {
   // Throws InputError for joints, couplings or a step size that cannot be.
   explicit TrackingSystem(const TrackingSetup& setup);
   Simulation& simulation() { return *simulation_; }
-  KinematicRobot& kvr() { return *kvr_; }
+  TargetRobot& kvr() { return *kvr_; }
   Coupling& coupling(std::size_t c) { return *couplings_[c]; }
   std::size_t coupling_count() const { return couplings_.size(); }
   // Runs to the hand's end. `each_step` is called at every sample, t = 0 included; it may be empty.
@@ -53,7 +53,7 @@ class TrackingSystem {
   void record(TrackingSeries& series);
 
   TrackingSetup setup_;
-  std::unique_ptr<KinematicRobot> kvr_;
+  std::unique_ptr<TargetRobot> kvr_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::unique_ptr<Coupling>> couplings_;
   std::vector<std::size_t> iq_;  // of the turned joints
@@ -72,16 +72,16 @@ Eigen::VectorXd peak_after_jump(const Eigen::MatrixXd& M, const Eigen::MatrixXd&
                                 const Eigen::MatrixXd& B, const Eigen::VectorXd& V, double time);
 
 // The same of several jumps, one after the other: largest and mean |e_j| from 0 to `duration` [s].
-struct SpeedJump {
+struct VelocityStep {
   double t = 0;
   Eigen::VectorXd V;
 };
 struct JumpErrors {
   Eigen::VectorXd peak, mean;
 };
-JumpErrors errors_of_jumps(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
-                           const Eigen::MatrixXd& B, const std::vector<SpeedJump>& jumps,
-                           double duration);
+JumpErrors response_to_velocity_steps(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
+                                      const Eigen::MatrixXd& B,
+                                      const std::vector<VelocityStep>& jumps, double duration);
 
 // One degree of freedom: (V/w) exp(-z acos(z)/sqrt(1 - z^2)), V/(e w) at z = 1.
 double peak_after_jump(double V, double omega, double zeta);
@@ -92,18 +92,18 @@ double absolute_damper_lag(double v, double omega, double zeta);  // 2 z v / w
 double mocap_weld_lag(double v, double timeconst);  // 2 v timeconst
 
 // Ways to move from 0 to `distance` in `time`, at rest before and after.
-enum class TargetMove {
+enum class MotionProfile {
   ramp,       // constant speed: it jumps at both ends
   cubic,      // D (3 s^2 - 2 s^3), s = t/T
   quintic,    // D (10 s^3 - 15 s^4 + 6 s^5)
   cosine,     // D (1 - cos pi s) / 2
   bang_bang,  // the largest acceleration, one half each way
 };
-const char* name_of(TargetMove move);
+const char* name_of(MotionProfile move);
 
 // The move itself: from `start` on, with s = t - start and W = pi/time, velocity and acceleration
 // are sum_n power[n] s^n + c cos(W s) + d sin(W s). The last piece is the rest after the move.
-struct MovePiece {
+struct ProfileSegment {
   struct Series {
     std::vector<double> power;
     double c = 0, d = 0;
@@ -111,13 +111,13 @@ struct MovePiece {
   double start = 0, jump = 0;  // of the target's velocity at its start
   Series acceleration, velocity;
 };
-std::vector<MovePiece> pieces_of(TargetMove move, double distance, double time);
+std::vector<ProfileSegment> pieces_of(MotionProfile move, double distance, double time);
 
 // The closed-form error behind such a move, from rest with e = 0.
 class FollowingError {
  public:
   enum class Damper { relative, absolute };
-  FollowingError(TargetMove move, double distance, double time, double omega, double zeta,
+  FollowingError(MotionProfile move, double distance, double time, double omega, double zeta,
                  Damper damper = Damper::relative);
   // At a time t >= 0; after the move it dies out.
   double at(double t) const;
@@ -126,13 +126,13 @@ class FollowingError {
 
  private:
   // f stands on the right; the particular solution has the same form.
-  using Forcing = MovePiece::Series;
+  using Forcing = ProfileSegment::Series;
   struct Piece {
     double start = 0, jump = 0;  // of the target's velocity at its start
     Forcing right, particular;
     double e = 0, e_dot = 0;  // of the free motion at its start
   };
-  void add_piece(const MovePiece& move);
+  void add_piece(const ProfileSegment& move);
   void solve();
   struct Motion {
     double e, e_dot;

@@ -4,7 +4,7 @@
 
 namespace twinarm {
 
-LumpedModel::LumpedModel(const Model<double>& whole) : model(whole) {
+ModelWithoutFixedJoints::ModelWithoutFixedJoints(const Model<double>& whole) : model(whole) {
   const std::size_t n = whole.parent.size();
   carrier.assign(n, 0);
   X.resize(n);
@@ -38,12 +38,13 @@ LumpedModel::LumpedModel(const Model<double>& whole) : model(whole) {
   model.I = inertias({});
 }
 
-Vec3<double> LumpedModel::point_of(const Model<double>& whole, std::size_t body,
-                                   const Vector3& p_L) const {
+Vec3<double> ModelWithoutFixedJoints::point_of(const Model<double>& whole, std::size_t body,
+                                               const Vector3& p_L) const {
   return X[body].r + transpose_times(X[body].E, whole.turn[body] * from_eigen(p_L));
 }
 
-std::vector<Inertia<double>> LumpedModel::inertias(const std::vector<double>& factor) const {
+std::vector<Inertia<double>> ModelWithoutFixedJoints::inertias(
+    const std::vector<double>& factor) const {
   std::vector<Inertia<double>> sum(origin.size());
   for (std::size_t i = 1; i < I.size(); ++i) {
     const double f = factor.empty() ? 1 : factor[i];

@@ -45,13 +45,13 @@ class BatchRun::Driver {
 };
 
 template <int N>
-class BatchRun::DriverOf final : public Driver {
+class BatchRun::BatchRunnerN final : public Driver {
  public:
   using S = Batch<N>;
   using Work = BatchWork<S>;
   using Kernel = void (*)(Work&);
 
-  DriverOf(const BatchSetup& setup, Kernel kernel)
+  BatchRunnerN(const BatchSetup& setup, Kernel kernel)
       : setup_(setup),
         kernel_(kernel),
         lumped_(*setup.model),
@@ -61,7 +61,7 @@ class BatchRun::DriverOf final : public Driver {
         results_(setup_, lumped_, motion_, work_) {
     work_.owner = this;
     work_.stopped = [](Work& work, std::size_t lane, std::size_t step) {
-      static_cast<DriverOf*>(work.owner)->stop(lane, step);
+      static_cast<BatchRunnerN*>(work.owner)->stop(lane, step);
     };
   }
 
@@ -134,7 +134,7 @@ class BatchRun::DriverOf final : public Driver {
 
   BatchSetup setup_;
   Kernel kernel_;
-  LumpedModel lumped_;
+  ModelWithoutFixedJoints lumped_;
   BatchMotion motion_;
   Work work_;
   LaneLoader<N> loader_;
@@ -148,14 +148,14 @@ class BatchRun::DriverOf final : public Driver {
 };
 
 BatchRun::BatchRun(const BatchSetup& setup) {
-  FaultList faults;
+  DiagnosticList faults;
   faults.add(batch_faults(setup));
   faults.check();
 #ifdef TWINARM_HAS_LEVELS
-  if (best_isa() == Isa::v4) driver_ = std::make_unique<DriverOf<8>>(setup, &v4::run_batch);
-  if (best_isa() == Isa::v3) driver_ = std::make_unique<DriverOf<4>>(setup, &v3::run_batch);
+  if (best_isa() == Isa::v4) driver_ = std::make_unique<BatchRunnerN<8>>(setup, &v4::run_batch);
+  if (best_isa() == Isa::v3) driver_ = std::make_unique<BatchRunnerN<4>>(setup, &v3::run_batch);
 #endif
-  if (!driver_) driver_ = std::make_unique<DriverOf<2>>(setup, &generic::run_batch);
+  if (!driver_) driver_ = std::make_unique<BatchRunnerN<2>>(setup, &generic::run_batch);
 }
 BatchRun::~BatchRun() = default;
 BatchRun::BatchRun(BatchRun&&) noexcept = default;
@@ -176,7 +176,7 @@ bool goes_in_lanes(JointType type) {
          type == JointType::screw;
 }
 
-void check_model(const Model<double>& model, FaultList& faults) {
+void check_model(const Model<double>& model, DiagnosticList& faults) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const std::string where = "joint '" + model.joint_name[i] + "'";
     if (!goes_in_lanes(model.joint[i]))
@@ -202,7 +202,7 @@ bool moves(const Model<double>& model, int body) {
   return false;
 }
 
-void check_driven(const Model<double>& model, const std::string& joint, FaultList& faults) {
+void check_driven(const Model<double>& model, const std::string& joint, DiagnosticList& faults) {
   const int body = model.find_joint(joint);
   if (body < 0)
     faults.add("joint '" + joint + "'", "the robot has no such joint",
@@ -212,7 +212,7 @@ void check_driven(const Model<double>& model, const std::string& joint, FaultLis
                "run the cells one by one, or leave it out", "batch.still-joint");
 }
 
-void check_spring(const BatchSetup& setup, std::size_t s, FaultList& faults) {
+void check_spring(const BatchSetup& setup, std::size_t s, DiagnosticList& faults) {
   const BatchSpring& spring = setup.springs[s];
   const Model<double>& model = *setup.model;
   const std::string where = "spring " + std::to_string(s);
@@ -225,15 +225,15 @@ void check_spring(const BatchSetup& setup, std::size_t s, FaultList& faults) {
                "run the cells one by one", "batch.spring");
   if (spring.body <= 0 || spring.body >= model.body_count() || !moves(model, spring.body))
     faults.add(where, "it pulls at no link that moves", "name a moving link", "batch.link");
-  else if (spring.type == CouplingSpec::Type::torsional && spring.measure == Measure::joint &&
+  else if (spring.type == CouplingSpec::Type::torsional && spring.measure == SpringSpace::joint &&
            model.dofs(static_cast<std::size_t>(spring.body)) != 1)
     faults.add(where, "it acts at a joint that does not move", "name another link", "batch.joint");
 }
 
 }  // namespace
 
-std::vector<Fault> batch_faults(const BatchSetup& setup) {
-  FaultList faults;
+std::vector<Diagnostic> batch_faults(const BatchSetup& setup) {
+  DiagnosticList faults;
   const Model<double>& model = *setup.model;
   check_model(model, faults);
   if (setup.targets.empty())

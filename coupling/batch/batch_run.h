@@ -25,7 +25,7 @@ namespace twinarm {
 
 // What pulls: a KVR, which stands at `rest` but for the joints that the hand turns.
 struct BatchTarget {
-  const HandSource* hand = nullptr;
+  const OperatorMotion* hand = nullptr;
   HandMapping mapping;
   DrivenJoints joints;
   State<double> rest;
@@ -33,8 +33,8 @@ struct BatchTarget {
 
 struct BatchSpring {
   CouplingSpec::Type type = CouplingSpec::Type::torsional;  // torsional or linear
-  Measure measure = Measure::world;                         // of a torsional one
-  Treatment treatment = Treatment::explicit_;
+  SpringSpace measure = SpringSpace::world;                 // of a torsional one
+  Discretization treatment = Discretization::explicit_;
   bool absolute_damper = false;  // does not see the target's velocity
   std::size_t target = 0;        // index in BatchSetup::targets
   int body = 0;                  // whose k, b and lever each cell gives
@@ -85,7 +85,7 @@ struct BatchResult {
 
 // What a batch cannot run: other joints than revolute, prismatic, screw and fixed, mimics, Coulomb
 // friction, springs on what cannot move. Empty: it can.
-std::vector<Fault> batch_faults(const BatchSetup& setup);
+std::vector<Diagnostic> batch_faults(const BatchSetup& setup);
 
 class BatchRun {
  public:
@@ -104,7 +104,7 @@ class BatchRun {
  private:
   class Driver;
   template <int N>
-  class DriverOf;
+  class BatchRunnerN;
   std::unique_ptr<Driver> driver_;
 };
 

@@ -25,23 +25,25 @@ void put_products(const RowSizes& size, const double* pose, const double* veloci
 
 // Reads one spring's numbers off the KVR, and writes them one after another.
 struct BatchMotion::Reader {
-  PullKind kind;
+  SpringKind kind;
   std::size_t iq, iv, body;
   Vector3 p_B;
-  Treatment treatment;
+  Discretization treatment;
   std::size_t target;
 
-  Vector3 point(const KvrSample& kvr) const { return kvr.k.X_WL[body].p + kvr.k.R_WB[body] * p_B; }
-  void pose(const KvrSample& kvr, double* out) const {
-    if (kind == PullKind::joint) *out = kvr.x.q[iq];
-    if (kind == PullKind::linear) put(point(kvr), out);
-    for (int column = 0; column < 3 && kind == PullKind::world; ++column)  // E = R^T, by rows
+  Vector3 point(const TargetSample& kvr) const {
+    return kvr.k.X_WL[body].p + kvr.k.R_WB[body] * p_B;
+  }
+  void pose(const TargetSample& kvr, double* out) const {
+    if (kind == SpringKind::joint) *out = kvr.x.q[iq];
+    if (kind == SpringKind::linear) put(point(kvr), out);
+    for (int column = 0; column < 3 && kind == SpringKind::world; ++column)  // E = R^T, by rows
       out = put(kvr.k.R_WB[body].col(column), out);
   }
-  void velocity(const KvrSample& kvr, double* out) const {
-    if (kind == PullKind::joint) *out = kvr.x.qd[iv];
-    if (kind == PullKind::linear) put(kvr.k.velocity(static_cast<int>(body), point(kvr)), out);
-    if (kind == PullKind::world) put(kvr.k.w_WL[body], out);
+  void velocity(const TargetSample& kvr, double* out) const {
+    if (kind == SpringKind::joint) *out = kvr.x.qd[iv];
+    if (kind == SpringKind::linear) put(kvr.k.velocity(static_cast<int>(body), point(kvr)), out);
+    if (kind == SpringKind::world) put(kvr.k.w_WL[body], out);
   }
 };
 
@@ -54,7 +56,8 @@ BatchMotion::BatchMotion(const BatchSetup& setup) : joints(setup.measured.size()
   }
 }
 
-void BatchMotion::fill(const BatchSetup& setup, const LumpedModel& lumped, const BatchCell& cell) {
+void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& lumped,
+                       const BatchCell& cell) {
   constexpr double kSameTime = 1e-9;  // parts of a step
   const double whole = std::floor(setup.duration / cell.h + kSameTime);
   const double rest = setup.duration - whole * cell.h;
@@ -65,13 +68,13 @@ void BatchMotion::fill(const BatchSetup& setup, const LumpedModel& lumped, const
   energy.assign((steps + 1) * energy_stride, 0);
   q_K.assign((steps + 1) * joints, 0);
 
-  std::vector<PacedHand> hands;
-  std::vector<KinematicRobot> kvrs;
+  std::vector<DelayedMotion> hands;
+  std::vector<TargetRobot> kvrs;
   hands.reserve(setup.targets.size());
   for (const BatchTarget& target : setup.targets) {
     hands.emplace_back(*target.hand, cell.delay, cell.speed);
     kvrs.emplace_back(lumped.model, hands.back(), target.mapping, target.joints);
-    kvrs.back().stand_at(target.rest);
+    kvrs.back().set_pose(target.rest);
   }
   std::vector<Reader> readers;
   for (std::size_t s = 0; s < setup.springs.size(); ++s) {
@@ -83,7 +86,7 @@ void BatchMotion::fill(const BatchSetup& setup, const LumpedModel& lumped, const
   }
   double t = setup.start.t;
   for (std::size_t n = 0; n < steps; ++n, t += cell.h) {
-    for (KinematicRobot& kvr : kvrs) kvr.begin_step(t, n + 1 < steps ? cell.h : last_step);
+    for (TargetRobot& kvr : kvrs) kvr.begin_step(t, n + 1 < steps ? cell.h : last_step);
     fill_step(n, setup, readers, kvrs);
   }
   if (setup.energy) find_corners(setup, cell.h);
@@ -114,14 +117,14 @@ void BatchMotion::find_corners(const BatchSetup& setup, double h) {
 
 void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup,
                             const std::vector<Reader>& readers,
-                            const std::vector<KinematicRobot>& kvrs) {
+                            const std::vector<TargetRobot>& kvrs) {
   for (std::size_t s = 0; s < readers.size(); ++s) {
     const Reader& of = readers[s];
     const RowSizes size = row_sizes(of.kind);
-    const KvrSample &start = kvrs[of.target].start(), &end = kvrs[of.target].end();
+    const TargetSample &start = kvrs[of.target].start(), &end = kvrs[of.target].end();
     double* out = &motion[n * motion_stride + places[s].motion];
-    of.pose(of.treatment == Treatment::implicit ? end : start, out);
-    of.velocity(of.treatment == Treatment::explicit_ ? start : end, out + size.pose);
+    of.pose(of.treatment == Discretization::implicit ? end : start, out);
+    of.velocity(of.treatment == Discretization::explicit_ ? start : end, out + size.pose);
     if (!setup.energy) continue;
     double* pose = &energy[n * energy_stride + places[s].energy];
     double *before = pose + size.pose, *after = before + size.velocity;

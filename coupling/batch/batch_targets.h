@@ -9,7 +9,7 @@
 
 namespace twinarm {
 
-// Rows as LanePull in batch_state.h describes them, and the measured joints' coordinates.
+// Rows as LaneSpring in batch_state.h describes them, and the measured joints' coordinates.
 struct BatchMotion {
   struct Place {
     std::size_t motion, energy;  // where a spring's numbers begin in a row
@@ -26,12 +26,12 @@ struct BatchMotion {
 
   explicit BatchMotion(const BatchSetup& setup);
   // Of a cell's step, motion and levers. Looks at the hands as Simulation's couplings do.
-  void fill(const BatchSetup& setup, const LumpedModel& lumped, const BatchCell& cell);
+  void fill(const BatchSetup& setup, const ModelWithoutFixedJoints& lumped, const BatchCell& cell);
 
  private:
   struct Reader;  // of a spring's numbers
   void fill_step(std::size_t n, const BatchSetup& setup, const std::vector<Reader>& readers,
-                 const std::vector<KinematicRobot>& kvrs);
+                 const std::vector<TargetRobot>& kvrs);
   void find_corners(const BatchSetup& setup, double h);
   void find_range();
 };

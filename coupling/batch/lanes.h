@@ -20,8 +20,8 @@ class LaneResults {
   using S = Batch<N>;
 
   // All must outlive it.
-  LaneResults(const BatchSetup& setup, const LumpedModel& lumped, const BatchMotion& motion,
-              BatchWork<S>& work)
+  LaneResults(const BatchSetup& setup, const ModelWithoutFixedJoints& lumped,
+              const BatchMotion& motion, BatchWork<S>& work)
       : setup_(setup), lumped_(lumped), motion_(motion), work_(work), one_lane_(lumped.model) {
     work_.has_energy = setup.energy;
     work_.measured = setup.measured;
@@ -91,7 +91,7 @@ class LaneResults {
   }
 
   const BatchSetup& setup_;
-  const LumpedModel& lumped_;
+  const ModelWithoutFixedJoints& lumped_;
   const BatchMotion& motion_;
   BatchWork<S>& work_;
   Model<double> one_lane_;
@@ -104,8 +104,8 @@ class LaneLoader {
   using S = Batch<N>;
 
   // All must outlive it.
-  LaneLoader(const BatchSetup& setup, const LumpedModel& lumped, const BatchMotion& motion,
-             BatchWork<S>& work)
+  LaneLoader(const BatchSetup& setup, const ModelWithoutFixedJoints& lumped,
+             const BatchMotion& motion, BatchWork<S>& work)
       : setup_(setup), lumped_(lumped), work_(work) {
     prepare_bodies();
     prepare_pulls(motion);
@@ -138,7 +138,7 @@ class LaneLoader {
   }
   // The lane stands still at the start from now on, without springs: their gains may be anything.
   void park(std::size_t lane) {
-    for (LanePull<S>& pull : work_.pulls) {
+    for (LaneSpring<S>& pull : work_.pulls) {
       for (S* gain : {&pull.k, &pull.b, &pull.kb, &pull.b_seen, &pull.m_star})
         set_lane(*gain, lane, 0);
       set_lane(pull.kp, lane, Vec3<double>{});
@@ -169,7 +169,7 @@ class LaneLoader {
     for (std::size_t s = 0; s < setup_.springs.size(); ++s) {
       const BatchSpring& spring = setup_.springs[s];
       const auto body = static_cast<std::size_t>(spring.body);
-      LanePull<S> pull;
+      LaneSpring<S> pull;
       pull.kind = kind_of(spring);
       pull.body = lumped_.carrier[body];
       pull.iq = setup_.model->iq[body];
@@ -178,15 +178,15 @@ class LaneLoader {
       pull.energy = motion.places[s].energy;
       pull.sees = sees_of(spring.treatment);
       work_.pulls.push_back(pull);
-      const bool at_joint = pull.kind == PullKind::joint;
+      const bool at_joint = pull.kind == SpringKind::joint;
       work_.has_joint_pulls |= at_joint;
       for (std::size_t i = at_joint ? 0 : pull.body; i > 0; i = parent_of(i)) place(i);
       const bool turned = work_.place[pull.body] == Place::turned;
       work_.has_places |= !at_joint;
-      work_.has_points |= pull.kind == PullKind::linear;
+      work_.has_points |= pull.kind == SpringKind::linear;
       work_.has_bias |=
-          spring.treatment != Treatment::explicit_ &&
-          (pull.kind == PullKind::linear || (pull.kind == PullKind::world && !turned));
+          spring.treatment != Discretization::explicit_ &&
+          (pull.kind == SpringKind::linear || (pull.kind == SpringKind::world && !turned));
     }
   }
   std::size_t parent_of(std::size_t i) const {
@@ -204,7 +204,7 @@ class LaneLoader {
   }
 
   const BatchSetup& setup_;
-  const LumpedModel& lumped_;
+  const ModelWithoutFixedJoints& lumped_;
   BatchWork<S>& work_;
   std::array<std::vector<Inertia<double>>, N> inertias_;  // by lane, of its lumped bodies
 };

@@ -6,14 +6,14 @@
 
 namespace twinarm {
 
-GestureHand::GestureHand(const OmniFigures& omni, const GestureSettings& settings)
+DesktopInput::DesktopInput(const OmniParameters& omni, const GestureSettings& settings)
     : omni_(omni), settings_(settings), newest_(Goal{}) {
   goal_.p = omni_position(omni_, settings_.start);
   std::copy_n(settings_.start.begin() + 3, 3, goal_.gimbal.begin());
   end();
 }
 
-OmniAngles GestureHand::angles(const Goal& goal, double t) const noexcept {
+OmniAngles DesktopInput::angles(const Goal& goal, double t) const noexcept {
   const double dt = std::max(t - goal.t, 0.0);
   const Vector3 p = goal.p + dt * Vector3(goal.rate[0], goal.rate[1], goal.rate[2]);
   const auto arm = omni_nearest(omni_, p);
@@ -23,7 +23,7 @@ OmniAngles GestureHand::angles(const Goal& goal, double t) const noexcept {
   return theta;
 }
 
-HandSample GestureHand::sample(double t, double /*toward: rates change between two calls*/) const {
+HandSample DesktopInput::sample(double t, double /*toward: rates change between two calls*/) const {
   if (t > asked_.load(std::memory_order_relaxed)) asked_.store(t, std::memory_order_relaxed);
   const Goal& goal = newest_.read();
   HandSample hand;
@@ -37,11 +37,11 @@ HandSample GestureHand::sample(double t, double /*toward: rates change between t
   return hand;
 }
 
-double GestureHand::duration() const {
+double DesktopInput::duration() const {
   return std::numeric_limits<double>::infinity();
 }
 
-void GestureHand::begin() noexcept {
+void DesktopInput::begin() noexcept {
   const double t = asked_.load(std::memory_order_relaxed);
   const OmniAngles theta = angles(goal_, t);
   goal_.p = omni_position(omni_, theta);
@@ -49,7 +49,7 @@ void GestureHand::begin() noexcept {
   goal_.t = std::max(t, goal_.t);
 }
 
-void GestureHand::end() noexcept {
+void DesktopInput::end() noexcept {
   const OmniAngles theta = angles(goal_, goal_.t);
   goal_.p = omni_position(omni_, theta);
   std::copy_n(theta.begin() + 3, 3, goal_.gimbal.begin());
@@ -61,27 +61,27 @@ void GestureHand::end() noexcept {
   newest_.write(goal_);
 }
 
-void GestureHand::place(const Vector3& p) noexcept {
+void DesktopInput::place(const Vector3& p) noexcept {
   if (!p.allFinite()) return;
   begin();
   goal_.p = p;
   end();
 }
 
-void GestureHand::turn_stylus(const Vector3& by) noexcept {
+void DesktopInput::turn_stylus(const Vector3& by) noexcept {
   if (!by.allFinite()) return;
   begin();
   for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];
   end();
 }
 
-void GestureHand::key(HandAxis axis, bool positive, bool down) noexcept {
+void DesktopInput::key(HandAxis axis, bool positive, bool down) noexcept {
   begin();
   keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down;
   end();
 }
 
-void GestureHand::axes(const std::array<double, 6>& rates) noexcept {
+void DesktopInput::axes(const std::array<double, 6>& rates) noexcept {
   begin();
   for (std::size_t j = 0; j < 6; ++j) {
     const double rate = std::isfinite(rates[j]) ? std::clamp(rates[j], -1.0, 1.0) : 0.0;
@@ -91,14 +91,14 @@ void GestureHand::axes(const std::array<double, 6>& rates) noexcept {
   end();
 }
 
-void GestureHand::button(std::size_t index, bool down) noexcept {
+void DesktopInput::button(std::size_t index, bool down) noexcept {
   if (index >= goal_.buttons.size()) return;
   begin();
   goal_.buttons[index] = down;
   end();
 }
 
-void GestureHand::release() noexcept {
+void DesktopInput::release() noexcept {
   begin();
   keys_ = {};
   axes_ = {};

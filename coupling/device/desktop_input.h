@@ -25,9 +25,9 @@ struct GestureSettings {
   OmniAngles start{0, 0.7, 0.2, 0, 0.6, 0};
 };
 
-class GestureHand final : public HandSource {
+class DesktopInput final : public OperatorMotion {
  public:
-  explicit GestureHand(const OmniFigures& omni, const GestureSettings& settings = {});
+  explicit DesktopInput(const OmniParameters& omni, const GestureSettings& settings = {});
 
   // For the thread of events, one at a time. What is not finite is not heard.
   void place(const Vector3& p) noexcept;         // there, device axes [m]
@@ -56,12 +56,12 @@ class GestureHand final : public HandSource {
   void begin() noexcept;  // goal_ is brought to the newest time that was asked for
   void end() noexcept;    // and handed over, within reach
 
-  OmniFigures omni_;
+  OmniParameters omni_;
   GestureSettings settings_;
   Goal goal_;                                  // the events' own
   std::array<std::array<bool, 2>, 6> keys_{};  // held, by axis and direction
   std::array<double, 6> axes_{};
-  mutable Newest<Goal> newest_;
+  mutable TripleBuffer<Goal> newest_;
   mutable std::atomic<double> asked_ = 0;  // the newest time that the virtual Omni has come to
 };
 

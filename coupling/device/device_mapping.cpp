@@ -81,7 +81,7 @@ class JointMapping final : public ClutchedMapping {
         force.torque[spec_.device_joint[j]] = spec_.force_scale * spec_.gain[j] * tau[j];
     return force;
   }
-  std::string what_is_felt() const override {
+  std::string force_feedback_description() const override {
     return spec_.kind == MappingKind::paper
                ? "joint 1 alone: theta4 and theta6, which turn joints 2 and 3, have no motors"
                : "joints 1, 2 and 3, on the motors of theta1, theta2 and theta3";
@@ -110,7 +110,7 @@ class JointMapping final : public ClutchedMapping {
 
 class CartesianMapping final : public ClutchedMapping {
  public:
-  CartesianMapping(const MappingSpec& spec, const OmniFigures& omni, const MappedRobot& robot)
+  CartesianMapping(const MappingSpec& spec, const OmniParameters& omni, const MappedRobot& robot)
       : ClutchedMapping(robot), spec_(spec), omni_(omni), inverse_(robot) {}
 
   // dgoal = scale R J_O dtheta, tau . dq = f . dgoal, so torque = J_O^T R^T scale f.
@@ -125,14 +125,14 @@ class CartesianMapping final : public ClutchedMapping {
   std::optional<Vector3> stylus_for(const Vector3& goal_W) const noexcept override {
     return Vector3(stylus_start_ + device_from_world((goal_W - start_) / spec_.scale));
   }
-  std::string what_is_felt() const override {
+  std::string force_feedback_description() const override {
     return "forces on the robot's point that follows the stylus, in their own directions, as far "
            "as its driven joints can move it; no torques";
   }
 
  private:
   void engage(const DeviceState& device) override {
-    inverse_.stand_at(target_.q);
+    inverse_.set_pose(target_.q);
     start_ = inverse_.position();
     stylus_start_ = device.stylus.p;
   }
@@ -144,12 +144,12 @@ class CartesianMapping final : public ClutchedMapping {
   }
 
   MappingSpec spec_;
-  OmniFigures omni_;
+  OmniParameters omni_;
   PointInverse inverse_;
   Vector3 start_ = Vector3::Zero(), stylus_start_ = Vector3::Zero();
 };
 
-void check_number(const std::string& what, double value, bool positive, FaultList& faults) {
+void check_number(const std::string& what, double value, bool positive, DiagnosticList& faults) {
   if (std::isfinite(value) && (!positive || value > 0)) return;
   faults.add(
       "mapping, " + what,
@@ -157,7 +157,7 @@ void check_number(const std::string& what, double value, bool positive, FaultLis
       "give a " + std::string(positive ? "positive " : "") + "number", "mapping.number");
 }
 
-void check_spec(const MappingSpec& spec, FaultList& faults) {
+void check_spec(const MappingSpec& spec, DiagnosticList& faults) {
   for (std::size_t j = 0; j < 3; ++j) {
     check_number("gain of joint " + std::to_string(j + 1), spec.gain[j], false, faults);
     check_number("offset of joint " + std::to_string(j + 1), spec.offset[j], false, faults);
@@ -173,7 +173,7 @@ bool moves(const Model<double>& model, const std::vector<int>& turned, int body)
   return false;
 }
 
-void check_robot(MappingKind kind, const MappedRobot& robot, FaultList& faults) {
+void check_robot(MappingKind kind, const MappedRobot& robot, DiagnosticList& faults) {
   const Model<double>& model = *robot.model;
   const bool in_joints = kind != MappingKind::cartesian;
   if (robot.turned.empty() || (in_joints && robot.turned.size() > 3))
@@ -202,9 +202,9 @@ void check_robot(MappingKind kind, const MappedRobot& robot, FaultList& faults) 
 
 }  // namespace
 
-std::unique_ptr<DeviceMapping> make_mapping(const MappingSpec& spec, const OmniFigures& omni,
+std::unique_ptr<DeviceMapping> make_mapping(const MappingSpec& spec, const OmniParameters& omni,
                                             const MappedRobot& robot) {
-  FaultList faults;
+  DiagnosticList faults;
   check_spec(spec, faults);
   check_robot(spec.kind, robot, faults);
   faults.check();

@@ -91,13 +91,13 @@ class DeviceMapping {
     return std::nullopt;
   }
   // What can be felt and what cannot, for people.
-  virtual std::string what_is_felt() const = 0;
+  virtual std::string force_feedback_description() const = 0;
 };
 
 // Joints beyond a range are put back into it, where it has one. Throws InputError for numbers that
 // are none, and for a robot that the mapping cannot move: joints that have not one degree of
 // freedom, more than three of them for a joint mapping, a point that none of them moves.
-std::unique_ptr<DeviceMapping> make_mapping(const MappingSpec& spec, const OmniFigures& omni,
+std::unique_ptr<DeviceMapping> make_mapping(const MappingSpec& spec, const OmniParameters& omni,
                                             const MappedRobot& robot);
 
 }  // namespace twinarm

@@ -15,10 +15,10 @@
 
 namespace twinarm {
 
-LiveHand::LiveHand(std::size_t remembered, const HandMapping& mapping)
+DeviceMotion::DeviceMotion(std::size_t remembered, const HandMapping& mapping)
     : mapping_(mapping), steps_(std::max<std::size_t>(1, remembered)) {}
 
-void LiveHand::set(const HandTarget& target, double t, double h) noexcept {
+void DeviceMotion::set(const HandTarget& target, double t, double h) noexcept {
   HandStep step{t, h, {}};
   for (std::size_t j = 0; j < std::min<std::size_t>(3, target.q.size()); ++j)
     mapping_.set_robot_angle(step.hand, j, target.q[j], target.qd[j]);
@@ -26,11 +26,11 @@ void LiveHand::set(const HandTarget& target, double t, double h) noexcept {
   set(step);
 }
 
-void LiveHand::set(const HandStep& step) noexcept {
+void DeviceMotion::set(const HandStep& step) noexcept {
   steps_[count_++ % steps_.size()] = step;
 }
 
-HandSample LiveHand::sample(double t, double toward) const {
+HandSample DeviceMotion::sample(double t, double toward) const {
   if (count_ == 0) return {};
   // The step that an instant just inside, seen from `toward`, belongs to: by halving, oldest first.
   double inside = t + 1e-9 * (toward - t);
@@ -50,21 +50,21 @@ HandSample LiveHand::sample(double t, double toward) const {
   return hand;
 }
 
-std::vector<HandStep> LiveHand::steps() const {
+std::vector<HandStep> DeviceMotion::steps() const {
   std::vector<HandStep> all;
   for (std::size_t n = count_ - std::min(count_, steps_.size()); n < count_; ++n)
     all.push_back(at(n));
   return all;
 }
 
-double LiveHand::duration() const {
+double DeviceMotion::duration() const {
   return count_ == 0 ? 0 : newest().t + newest().h;
 }
 
 namespace {
 
-constexpr std::size_t kMostLogSteps = std::size_t{1} << 22;  // an hour at 1 kHz
-constexpr std::size_t kLogColumns = 15;                      // t, h, six angles, six rates, button
+constexpr std::size_t kMaxLogSteps = std::size_t{1} << 22;  // an hour at 1 kHz
+constexpr std::size_t kLogColumns = 15;                     // t, h, six angles, six rates, button
 
 // All numbers of the line; empty where it is torn or holds something else.
 std::vector<double> log_numbers(const std::string& line) {
@@ -103,7 +103,7 @@ std::string hand_log_line(const HandStep& step) {
   return text + (step.hand.button ? ",1\n" : ",0\n");
 }
 
-void write_hand_log(const LiveHand& hand, const std::filesystem::path& file) {
+void write_hand_log(const DeviceMotion& hand, const std::filesystem::path& file) {
   std::string text = hand_log_header();
   for (const HandStep& step : hand.steps()) text += hand_log_line(step);
   write_whole_file(file, text);
@@ -116,7 +116,7 @@ bool is_hand_log(const std::filesystem::path& file) {
   return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == header;
 }
 
-std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file) {
+std::unique_ptr<DeviceMotion> read_hand_log(const std::filesystem::path& file) {
   if (!is_hand_log(file))
     throw InputError({{file.string(), 1, "header", "it is not that of a hand's log",
                        "give a file that `twinarm hand --log` wrote", "hand.header"}});
@@ -124,9 +124,9 @@ std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file) {
   std::string line;
   next_line(stream, line, file.string(), 1);
   std::vector<HandStep> steps;
-  FaultList faults;
+  DiagnosticList faults;
   for (int number = 2; next_line(stream, line, file.string(), number); ++number) {
-    if (steps.size() == kMostLogSteps) {
+    if (steps.size() == kMaxLogSteps) {
       faults.add({file.string(), number, "", "the log has more than 4 million steps",
                   "remove the lines from here on", "hand.too-long"});
       break;
@@ -150,12 +150,12 @@ std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file) {
     faults.add({file.string(), 0, "", "the log has no steps", "record a run of at least one step",
                 "hand.empty"});
   faults.check();
-  auto hand = std::make_unique<LiveHand>(steps.size());
+  auto hand = std::make_unique<DeviceMotion>(steps.size());
   for (const HandStep& step : steps) hand->set(step);
   return hand;
 }
 
-std::unique_ptr<HandSource> read_hand_file(const std::filesystem::path& file) {
+std::unique_ptr<OperatorMotion> read_hand_file(const std::filesystem::path& file) {
   if (is_hand_log(file)) return read_hand_log(file);
   return std::make_unique<RecordedTrace>(file);
 }

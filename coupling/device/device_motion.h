@@ -1,4 +1,4 @@
-// A hand that is known only up to now: the newest target of a device, as a HandSource.
+// A hand that is known only up to now: the newest target of a device, as a OperatorMotion.
 //
 // A step [t, t + h] needs the KVR at its end, which nobody knows yet: x_K' = x_K + h v_K of the
 // newest target. Nothing is invented beyond one step: a target that is not renewed stands still.
@@ -24,10 +24,10 @@ struct HandStep {
   HandSample hand;
 };
 
-class LiveHand final : public HandSource {
+class DeviceMotion final : public OperatorMotion {
  public:
   // Remembers so many steps, at least one; no allocation from then on.
-  explicit LiveHand(std::size_t remembered, const HandMapping& mapping = {});
+  explicit DeviceMotion(std::size_t remembered, const HandMapping& mapping = {});
   // The target of the step that begins at t, later than all before.
   void set(const HandTarget& target, double t, double h) noexcept;
   void set(const HandStep& step) noexcept;
@@ -56,15 +56,15 @@ std::string hand_log_header();
 std::string hand_log_line(const HandStep& step);
 
 // All steps that the hand remembers, to a temporary name, then renamed.
-void write_hand_log(const LiveHand& hand, const std::filesystem::path& file);
+void write_hand_log(const DeviceMotion& hand, const std::filesystem::path& file);
 
 // Whether the file's header is that of a log, and not of a trace. False where it cannot be read.
 bool is_hand_log(const std::filesystem::path& file);
 // Throws one InputError with every fault of the file. A torn last line, of a run that was killed,
 // is left out.
-std::unique_ptr<LiveHand> read_hand_log(const std::filesystem::path& file);
+std::unique_ptr<DeviceMotion> read_hand_log(const std::filesystem::path& file);
 
 // The hand of a file, log or trace. Throws InputError with all of its faults.
-std::unique_ptr<HandSource> read_hand_file(const std::filesystem::path& file);
+std::unique_ptr<OperatorMotion> read_hand_file(const std::filesystem::path& file);
 
 }  // namespace twinarm

@@ -14,11 +14,11 @@
 
 namespace twinarm {
 
-class HandWatch {
+class DeviceWatchdog {
  public:
   enum class Mode { live, held, released };
 
-  explicit HandWatch(double patience = 1.0, double slack = 0.2)  // [s]
+  explicit DeviceWatchdog(double patience = 1.0, double slack = 0.2)  // [s]
       : patience_(patience), slack_(slack) {}
 
   // One tick of h [s]. `target` is what the KVR was told last, and becomes what it is told now; of

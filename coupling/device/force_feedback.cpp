@@ -8,7 +8,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kLeastLever = 0.1;  // of the stylus about the motors, for their inertia [m]
+constexpr double kMinLever = 0.1;  // of the stylus about the motors, for their inertia [m]
 
 }  // namespace
 
@@ -59,12 +59,12 @@ void CouplingReaction::add_reaction(const Part& part, const Vector3& pull, doubl
                      });
 }
 
-const std::vector<double>& CouplingReaction::after_step(const KvrSample& kvr,
+const std::vector<double>& CouplingReaction::after_step(const TargetSample& kvr,
                                                         const State<double>& x, const Kinematics& D,
                                                         double h) noexcept {
   std::fill(tau_.begin(), tau_.end(), 0.0);
   for (Part& part : parts_) {
-    const SpringReading& reading = part.coupling->readings()[part.reading];
+    const SpringState& reading = part.coupling->readings()[part.reading];
     const Vector3 velocity = velocity_of(part, x, D);
     const double over_h = part.known && h > 0 ? reading.m_star / h : 0.0;
     const Vector3 less = over_h * (velocity - part.velocity);
@@ -75,7 +75,7 @@ const std::vector<double>& CouplingReaction::after_step(const KvrSample& kvr,
   return tau_;
 }
 
-double stylus_force(const OmniFigures& omni, const OmniAngles& theta, const Vector3& torque) {
+double stylus_force(const OmniParameters& omni, const OmniAngles& theta, const Vector3& torque) {
   // Where the arm is stretched, or above the waist, some torques are no force at all there: they
   // count as that of a lever of a millimetre.
   constexpr double kLever = 1e-3;  // [m]
@@ -84,12 +84,12 @@ double stylus_force(const OmniFigures& omni, const OmniAngles& theta, const Vect
   return (J * (A.inverse() * torque)).norm();
 }
 
-HandForce::HandForce(const HandForceSpec& spec, const OmniFigures& omni, DeviceMapping& mapping)
+HandForce::HandForce(const HandForceSpec& spec, const OmniParameters& omni, DeviceMapping& mapping)
     : spec_(spec),
       omni_(omni),
       mapping_(mapping),
       passivity_(omni.peak_force * spec.fastest / omni.rate,
-                 0.5 * omni.apparent_mass * kLeastLever * kLeastLever * omni.rate * omni.rate) {}
+                 0.5 * omni.apparent_mass * kMinLever * kMinLever * omni.rate * omni.rate) {}
 
 DeviceForce HandForce::tick(const DeviceState& device, const std::vector<double>& tau,
                             double h) noexcept {

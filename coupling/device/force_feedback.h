@@ -25,7 +25,7 @@ class CouplingReaction {
   // After each step of h [s] that ended in x, with D its kinematics and the KVR at its end. By
   // driven joint [N m, N]. An implicit pull lessened over the step by m* times the acceleration of
   // what it measures; so a call must follow each step.
-  const std::vector<double>& after_step(const KvrSample& kvr, const State<double>& x,
+  const std::vector<double>& after_step(const TargetSample& kvr, const State<double>& x,
                                         const Kinematics& D, double h) noexcept;
 
  private:
@@ -53,12 +53,12 @@ struct HandForceSpec {
 };
 
 // The force that the motors' torques are at the stylus [N]: |J^-T torque|.
-double stylus_force(const OmniFigures& omni, const OmniAngles& theta, const Vector3& torque);
+double stylus_force(const OmniParameters& omni, const OmniAngles& theta, const Vector3& torque);
 
 class HandForce {
  public:
   // The mapping must outlive it.
-  HandForce(const HandForceSpec& spec, const OmniFigures& omni, DeviceMapping& mapping);
+  HandForce(const HandForceSpec& spec, const OmniParameters& omni, DeviceMapping& mapping);
   // For the motors, to be held until the next tick: after DeviceMapping::map() and the step. `tau`
   // by driven joint of the KVR, h [s] the tick.
   DeviceForce tick(const DeviceState& device, const std::vector<double>& tau, double h) noexcept;
@@ -66,7 +66,7 @@ class HandForce {
 
  private:
   HandForceSpec spec_;
-  OmniFigures omni_;
+  OmniParameters omni_;
   DeviceMapping& mapping_;
   PassivityControl passivity_;
   Vector3 smooth_ = Vector3::Zero();

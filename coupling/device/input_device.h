@@ -31,7 +31,7 @@ class HandDevice {
   virtual DeviceState poll(double now) noexcept = 0;
   // Until the next call (a zero-order hold). The device limits it to what its motors can do.
   virtual void render(const DeviceForce& force) noexcept = 0;
-  virtual const OmniFigures& figures() const = 0;
+  virtual const OmniParameters& figures() const = 0;
   virtual std::string description() const = 0;  // one line for reports
   // What of the force can be felt: false for what has no motors (a trace, a keyboard).
   virtual bool has_motors() const = 0;

@@ -41,10 +41,10 @@ PointInverse::PointInverse(const MappedRobot& robot)
   before_ = gradient_ = dq_ = low_ = high_ = q_;
   free_.assign(n, 1);
   chain_.reserve(model_.nv);
-  stand_at(std::vector<double>(q_));
+  set_pose(std::vector<double>(q_));
 }
 
-void PointInverse::stand_at(const std::vector<double>& q) noexcept {
+void PointInverse::set_pose(const std::vector<double>& q) noexcept {
   for (std::size_t j = 0; j < q_.size(); ++j) {
     q_[j] = std::clamp(q[j], lower_[j], upper_[j]);
     low_[j] = lower_[j];

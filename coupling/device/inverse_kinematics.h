@@ -26,7 +26,7 @@ class PointInverse {
   explicit PointInverse(const MappedRobot& robot);
 
   // From now on from here.
-  void stand_at(const std::vector<double>& q) noexcept;
+  void set_pose(const std::vector<double>& q) noexcept;
   // Brings the point as near to the goal as it gets while no joint goes further than `most` from
   // where it stood before this call [rad, m].
   void reach(const Vector3& goal, double most) noexcept;

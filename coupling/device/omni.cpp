@@ -23,7 +23,7 @@ struct OmniArm {
   Vector3 side, out;              // the waist's axes: x and z, turned by theta1
 };
 
-OmniArm omni_arm(const OmniFigures& omni, const OmniAngles& theta) {
+OmniArm omni_arm(const OmniParameters& omni, const OmniAngles& theta) {
   const double t3 = theta[1] + theta[2];
   OmniArm a{std::sin(theta[0]),
             std::cos(theta[0]),
@@ -41,7 +41,7 @@ OmniArm omni_arm(const OmniFigures& omni, const OmniAngles& theta) {
 }
 
 // J^-1: rates of the angles for a velocity of the point. Rows of motors without a hold are zero.
-Matrix3 omni_jacobian_inverse(const OmniFigures& omni, const OmniAngles& theta) {
+Matrix3 omni_jacobian_inverse(const OmniParameters& omni, const OmniAngles& theta) {
   const OmniArm a = omni_arm(omni, theta);
   Matrix3 inverse = Matrix3::Zero();
   if (std::abs(a.R) > kNoHold) inverse.row(0) = -a.side.transpose() / a.R;
@@ -67,7 +67,7 @@ Matrix3 forearm_turn(const std::array<double, 3>& theta) {
 }
 
 // theta2, theta3 for a point of the arm's plane.
-std::optional<std::array<double, 2>> reach_in_plane(const OmniFigures& omni, double out,
+std::optional<std::array<double, 2>> reach_in_plane(const OmniParameters& omni, double out,
                                                     double up) {
   const double L1 = omni.L1, L2 = omni.L2, r = std::hypot(out, up);
   const double rounding = 1e-14 * (L1 + L2);
@@ -91,7 +91,7 @@ double clamp_turn(double angle, double low, double high) {
 
 // theta2, theta3 within their ranges whose point is nearest: the point itself, else one of the four
 // arcs that bound what is reached, each with one joint at an end of its range.
-std::array<double, 2> nearest_in_plane(const OmniFigures& omni, double out, double up) {
+std::array<double, 2> nearest_in_plane(const OmniParameters& omni, double out, double up) {
   const double low2 = omni.lower[1], high2 = omni.upper[1];
   const double low3 = omni.lower[2], high3 = omni.upper[2];
   if (const auto q = reach_in_plane(omni, out, up))
@@ -122,17 +122,17 @@ std::array<double, 2> nearest_in_plane(const OmniFigures& omni, double out, doub
 
 }  // namespace
 
-Vector3 omni_elbow(const OmniFigures& omni, const OmniAngles& theta) {
+Vector3 omni_elbow(const OmniParameters& omni, const OmniAngles& theta) {
   const OmniArm a = omni_arm(omni, theta);
   return omni.L1 * (a.c2 * a.out + a.s2 * Vector3::UnitY()) + Vector3(0, omni.lift, -omni.back);
 }
 
-Vector3 omni_position(const OmniFigures& omni, const OmniAngles& theta) {
+Vector3 omni_position(const OmniParameters& omni, const OmniAngles& theta) {
   const OmniArm a = omni_arm(omni, theta);
   return {-a.s1 * a.R, omni.L1 * a.s2 - omni.L2 * a.c3 + omni.lift, a.c1 * a.R - omni.back};
 }
 
-Matrix3 omni_jacobian(const OmniFigures& omni, const OmniAngles& theta) {
+Matrix3 omni_jacobian(const OmniParameters& omni, const OmniAngles& theta) {
   const OmniArm a = omni_arm(omni, theta);
   const Vector3 up = Vector3::UnitY();
   const Vector3 by_arm = omni.L1 * (-a.s2 * a.out + a.c2 * up);
@@ -143,13 +143,13 @@ Matrix3 omni_jacobian(const OmniFigures& omni, const OmniAngles& theta) {
   return J;
 }
 
-Vector3 omni_force(const OmniFigures& omni, const OmniAngles& theta,
+Vector3 omni_force(const OmniParameters& omni, const OmniAngles& theta,
                    const std::array<double, 3>& torque) {
   const Vector3 tau(torque[0], torque[1], torque[2]);
   return omni_jacobian_inverse(omni, theta).transpose() * tau;
 }
 
-std::array<double, 3> omni_limit(const OmniFigures& omni, const OmniAngles& theta,
+std::array<double, 3> omni_limit(const OmniParameters& omni, const OmniAngles& theta,
                                  const std::array<double, 3>& torque) {
   const double force = omni_force(omni, theta, torque).norm();
   if (!std::isfinite(force)) return {};
@@ -157,13 +157,13 @@ std::array<double, 3> omni_limit(const OmniFigures& omni, const OmniAngles& thet
   return {part * torque[0], part * torque[1], part * torque[2]};
 }
 
-Pose omni_stylus(const OmniFigures& omni, const OmniAngles& theta) {
+Pose omni_stylus(const OmniParameters& omni, const OmniAngles& theta) {
   const Matrix3 gimbal = turn_y(-theta[3]) * turn_x(theta[4] - omni.gimbal_pitch) *
                          Eigen::AngleAxisd(theta[5], Vector3::UnitZ());
   return {forearm_turn({theta[0], theta[1], theta[2]}) * gimbal, omni_position(omni, theta)};
 }
 
-std::optional<std::array<double, 3>> omni_inverse(const OmniFigures& omni,
+std::optional<std::array<double, 3>> omni_inverse(const OmniParameters& omni,
                                                   const Vector3& position) {
   const double x = position.x(), z = position.z() + omni.back;
   const auto q = reach_in_plane(omni, std::hypot(x, z), position.y() - omni.lift);
@@ -171,7 +171,7 @@ std::optional<std::array<double, 3>> omni_inverse(const OmniFigures& omni,
   return std::array<double, 3>{-std::atan2(x, z), (*q)[0], (*q)[1]};
 }
 
-std::optional<OmniAngles> omni_inverse(const OmniFigures& omni, const Pose& stylus) {
+std::optional<OmniAngles> omni_inverse(const OmniParameters& omni, const Pose& stylus) {
   const auto arm = omni_inverse(omni, stylus.p);
   if (!arm) return std::nullopt;
   // Ry(a) Rx(b) Rz(c): its last column is (sin a cos b, -sin b, cos a cos b).
@@ -184,7 +184,7 @@ std::optional<OmniAngles> omni_inverse(const OmniFigures& omni, const Pose& styl
   return OmniAngles{(*arm)[0], (*arm)[1], (*arm)[2], -a, b + omni.gimbal_pitch, c};
 }
 
-std::array<double, 3> omni_nearest(const OmniFigures& omni, const Vector3& position) {
+std::array<double, 3> omni_nearest(const OmniParameters& omni, const Vector3& position) {
   const double x = position.x(), z = position.z() + omni.back, up = position.y() - omni.lift;
   const double towards = -std::atan2(x, z);
   std::array<double, 3> best{};

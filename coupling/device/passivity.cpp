@@ -9,7 +9,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kLeastPart = 1e-9;  // part of the peak: in 10^9 ticks one tick's work
+constexpr double kMinPart = 1e-9;  // part of the peak: in 10^9 ticks one tick's work
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Vector3 PassivityControl::damped(const Vector3& wanted) const noexcept {
 
 double PassivityControl::allowance() const noexcept {
   // Not quite none at the lowest: from nothing there is no way back.
-  return most_ > 0 ? std::clamp(kLeastPart + (E_ - lowest_) / most_, kLeastPart, 1.0) : 1.0;
+  return max_ > 0 ? std::clamp(kMinPart + (E_ - lowest_) / max_, kMinPart, 1.0) : 1.0;
 }
 
 Vector3 PassivityControl::tick(const Vector3& x, const Vector3& wanted, double peak) noexcept {
@@ -167,13 +167,13 @@ bool is_passive(const SampledDevice& device, double K, double B) {
   return true;
 }
 
-double largest_stable_stiffness(const SampledDevice& device, double B) {
+double max_stable_stiffness(const SampledDevice& device, double B) {
   return bisect([&](double K) { return is_stable(device, K, B); });
 }
-double largest_passive_stiffness(const SampledDevice& device, double B) {
+double max_passive_stiffness(const SampledDevice& device, double B) {
   return bisect([&](double K) { return is_passive(device, K, B); });
 }
-double largest_passive_damping(const SampledDevice& device, double K) {
+double max_passive_damping(const SampledDevice& device, double K) {
   return bisect([&](double B) { return is_passive(device, K, B); });
 }
 

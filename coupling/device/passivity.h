@@ -33,7 +33,7 @@ class PassivityControl {
   // W [J]; alpha_max [N/m], [N m/rad].
   explicit PassivityControl(double one_ticks_work,
                             double stiffest = std::numeric_limits<double>::infinity())
-      : most_(one_ticks_work), lowest_(-one_ticks_work), stiffest_(stiffest) {}
+      : max_(one_ticks_work), lowest_(-one_ticks_work), stiffest_(stiffest) {}
 
   // A tick, in this order. Where the hand is now: the force that was held has done its work.
   void moved_to(const Vector3& x) noexcept;
@@ -50,7 +50,7 @@ class PassivityControl {
   double energy() const { return E_; }  // [J]
 
  private:
-  double most_, lowest_;  // W, and the lowest that E has been, -W at most
+  double max_, lowest_;  // W, and the lowest that E has been, -W at most
   double stiffest_;
   double E_ = 0;
   bool placed_ = false;
@@ -94,8 +94,8 @@ bool is_stable(const SampledDevice& device, double K, double B);
 bool is_passive(const SampledDevice& device, double K, double B);
 
 // By bisection to one part in 10^5; 0 where there is none.
-double largest_stable_stiffness(const SampledDevice& device, double B);
-double largest_passive_stiffness(const SampledDevice& device, double B);
-double largest_passive_damping(const SampledDevice& device, double K);
+double max_stable_stiffness(const SampledDevice& device, double B);
+double max_passive_stiffness(const SampledDevice& device, double B);
+double max_passive_damping(const SampledDevice& device, double K);
 
 }  // namespace twinarm

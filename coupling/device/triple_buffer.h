@@ -11,9 +11,9 @@
 namespace twinarm {
 
 template <class T>
-class Newest {
+class TripleBuffer {
  public:
-  explicit Newest(const T& first) : place_{first, first, first} {}
+  explicit TripleBuffer(const T& first) : place_{first, first, first} {}
 
   void write(const T& value) noexcept {  // the writer's thread
     place_[back_] = value;

@@ -11,12 +11,12 @@ namespace twinarm {
 namespace {
 
 constexpr int kSubsteps = 4;        // a tick
-constexpr long kMostTicks = 250;    // that one poll catches up with
+constexpr long kMaxTicks = 250;     // that one poll catches up with
 constexpr double kSameTick = 1e-6;  // of a tick: instants that a sum of steps meets to rounding
 
 void check_settings(const VirtualOmniSettings& s) {
-  FaultList faults;
-  const OmniFigures& o = s.figures;
+  DiagnosticList faults;
+  const OmniParameters& o = s.figures;
   const auto demand = [&](bool holds, const char* where, double value, const char* rule) {
     if (!holds)
       faults.add(where, "is " + std::to_string(value) + ", must be " + rule,
@@ -72,7 +72,7 @@ std::size_t ticks_of(double delay, double period) {
 
 }  // namespace
 
-VirtualOmni::VirtualOmni(std::shared_ptr<const HandSource> hand,
+VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> hand,
                          const VirtualOmniSettings& settings)
     : hand_(std::move(hand)),
       figures_(settings.figures),
@@ -105,7 +105,7 @@ DeviceState VirtualOmni::poll(double now) noexcept {
     origin_ = now_ = now;
   }
   if (now > now_ && std::isfinite(now)) now_ = now;
-  const double most = static_cast<double>(tick_ + kMostTicks);
+  const double most = static_cast<double>(tick_ + kMaxTicks);
   const double due = std::floor((now_ - origin_) / period_ + kSameTick);
   if (due > most) origin_ += (due - most) * period_;  // after a pause the device goes on from there
   for (const auto last = static_cast<long>(std::min(due, most)); tick_ < last;) tick();

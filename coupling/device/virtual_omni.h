@@ -40,7 +40,7 @@ struct ArmImpedance {
 };
 
 struct VirtualOmniSettings {
-  OmniFigures figures;
+  OmniParameters figures;
   ArmImpedance arm;
   double device_damping = 0;                      // of the device itself [N s/m]
   double delay_to_host = 0, delay_to_motors = 0;  // [s]
@@ -50,11 +50,11 @@ class VirtualOmni final : public HandDevice {
  public:
   // Starts at rest where the hand is at its time 0. The hand is asked once a tick, by the thread
   // that polls. Throws InputError with all faults of the settings.
-  VirtualOmni(std::shared_ptr<const HandSource> hand, const VirtualOmniSettings& settings);
+  VirtualOmni(std::shared_ptr<const OperatorMotion> hand, const VirtualOmniSettings& settings);
 
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override;
-  const OmniFigures& figures() const override { return figures_; }
+  const OmniParameters& figures() const override { return figures_; }
   std::string description() const override;
   bool has_motors() const override { return true; }
 
@@ -84,8 +84,8 @@ class VirtualOmni final : public HandDevice {
   void look_at_hand() noexcept;
   void sense() noexcept;
 
-  std::shared_ptr<const HandSource> hand_;
-  OmniFigures figures_;
+  std::shared_ptr<const OperatorMotion> hand_;
+  OmniParameters figures_;
   double viscous_, period_, delay_to_host_, delay_to_motors_;
   Response response_;
   HandSample wanted_;  // at the last tick

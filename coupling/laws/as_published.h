@@ -30,9 +30,9 @@ enum class Difference {
   older        // (x_n-1 - x_n-2) / h: one frame of lag
 };
 
-struct PrintedOptions {
-  Measure measure = Measure::world;  // torsional only
-  Damper damper = Damper::folded;    // torsional only
+struct AsPublishedOptions {
+  SpringSpace measure = SpringSpace::world;  // torsional only
+  Damper damper = Damper::folded;            // torsional only
   // Torsional folded and unsigned: -1 puts the damping couple against the KVR's motion (as printed:
   // opposed to the restoring couple of a DVR that lags), +1 along it.
   double damping_sign = -1;
@@ -50,8 +50,8 @@ struct PrintedOptions {
 template <class Law, class Pose>
 class AsPublished : public Coupling {
  public:
-  AsPublished(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr,
-              const PrintedOptions& options, const Pose& none)
+  AsPublished(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr,
+              const AsPublishedOptions& options, const Pose& none)
       : Coupling(spec, model, kvr), options_(options), past_(springs_.size(), {none, none}) {
     options_.hold_steps = std::max(1, options_.hold_steps);
   }
@@ -75,8 +75,8 @@ class AsPublished : public Coupling {
                    h * options_.hold_steps);
     }
   }
-  void visit_memory(Memory& memory) final {
-    Coupling::visit_memory(memory);
+  void serialize(StateArchive& memory) final {
+    Coupling::serialize(memory);
     memory.visit(steps_);
     for (Past& past : past_) {
       for (Pose* pose : {&past.K, &past.D})
@@ -86,7 +86,7 @@ class AsPublished : public Coupling {
   }
 
  protected:
-  PrintedOptions options_;
+  AsPublishedOptions options_;
 
  private:
   struct Past {  // of one spring: poses at the last evaluation, and their last steps

@@ -5,9 +5,9 @@
 namespace twinarm {
 namespace {
 
-class PrintedLinear final : public AsPublished<PrintedLinear, Vector3> {
+class AsPublishedLinear final : public AsPublished<AsPublishedLinear, Vector3> {
  public:
-  PrintedLinear(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+  AsPublishedLinear(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
       : AsPublished(spec, model, kvr, spec.options, Vector3::Zero()) {}
   void add_forces(const State<double>&, const Kinematics& k,
                   Forces<double>& forces) noexcept override {
@@ -26,7 +26,7 @@ class PrintedLinear final : public AsPublished<PrintedLinear, Vector3> {
                 const Vector3& step_K, const Vector3& step_D, double interval) {
     const double by = options_.difference == Difference::per_frame ? 1.0 : interval;
     const Vector3 v_K = step_K / by, v_D = step_D / by;
-    SpringReading& reading = readings_[s];
+    SpringState& reading = readings_[s];
     reading.p_K = p_K;
     reading.p_D = p_D;
     reading.pull = springs_[s].k * (p_K - p_D) - springs_[s].b * (v_D - v_K);
@@ -44,7 +44,7 @@ CouplingFacts as_published_linear_coupling() {
           .at_point = true,
           .can_hold = true,
           .step_law = StepLaw::printed,
-          .make = make_law<PrintedLinear>};
+          .make = make_law<AsPublishedLinear>};
 }
 
 }  // namespace twinarm

@@ -13,9 +13,9 @@ Matrix3 rotation(const Vector3& turn) {
   return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
 }
 
-class PrintedTorsional final : public AsPublished<PrintedTorsional, Matrix3> {
+class AsPublishedTorsional final : public AsPublished<AsPublishedTorsional, Matrix3> {
  public:
-  PrintedTorsional(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+  AsPublishedTorsional(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
       : AsPublished(spec, model, kvr, spec.options, Matrix3::Identity()) {}
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
@@ -25,7 +25,7 @@ class PrintedTorsional final : public AsPublished<PrintedTorsional, Matrix3> {
   // Of the link in the world, or relative to its parent link.
   Matrix3 pose(const Spring& spring, const Kinematics& k) const {
     const auto i = static_cast<std::size_t>(spring.body);
-    if (options_.measure == Measure::world) return k.X_WL[i].R;
+    if (options_.measure == SpringSpace::world) return k.X_WL[i].R;
     return k.X_WL[parent_of(i)].R.transpose() * k.X_WL[i].R;
   }
   static Vector3 step_between(const Matrix3& before, const Matrix3& now) {
@@ -40,8 +40,8 @@ class PrintedTorsional final : public AsPublished<PrintedTorsional, Matrix3> {
   std::size_t parent_of(std::size_t i) const { return static_cast<std::size_t>(model_.parent[i]); }
 };
 
-Vector3 PrintedTorsional::damping(const Spring& spring, const Vector3& step_K,
-                                  const Vector3& step_D, double interval) const {
+Vector3 AsPublishedTorsional::damping(const Spring& spring, const Vector3& step_K,
+                                      const Vector3& step_D, double interval) const {
   const double per_time = options_.difference == Difference::per_frame ? 1.0 : 1.0 / interval;
   const Vector3 w_K = step_K * per_time, w_D = step_D * per_time;
   if (options_.damper == Damper::vector_) return spring.b * (w_K - w_D);
@@ -53,37 +53,38 @@ Vector3 PrintedTorsional::damping(const Spring& spring, const Vector3& step_K,
   return options_.damping_sign * spring.b * relative * (step_K / angle_K);
 }
 
-void PrintedTorsional::evaluate(std::size_t s, const Kinematics& k, const Matrix3& R_K,
-                                const Matrix3& R_D, const Vector3& step_K, const Vector3& step_D,
-                                double interval) {
+void AsPublishedTorsional::evaluate(std::size_t s, const Kinematics& k, const Matrix3& R_K,
+                                    const Matrix3& R_D, const Vector3& step_K,
+                                    const Vector3& step_D, double interval) {
   const Spring& spring = springs_[s];
   const auto i = static_cast<std::size_t>(spring.body);
   const Vector3 restoring = spring.k * (R_D * rotation_vector(R_D.transpose() * R_K));
   const Vector3 pull = restoring + damping(spring, step_K, step_D, interval);
-  SpringReading& reading = readings_[s];
+  SpringState& reading = readings_[s];
   // A joint's orientation stands in its parent's axes.
-  reading.pull = options_.measure == Measure::world ? pull : Vector3(k.X_WL[parent_of(i)].R * pull);
+  reading.pull =
+      options_.measure == SpringSpace::world ? pull : Vector3(k.X_WL[parent_of(i)].R * pull);
   reading.size = pull.norm();
   reading.p_K = kvr_.start().k.X_WL[i].p;
   reading.p_D = k.X_WL[i].p;
 }
 
-void PrintedTorsional::add_forces(const State<double>&, const Kinematics& k,
-                                  Forces<double>& forces) noexcept {
+void AsPublishedTorsional::add_forces(const State<double>&, const Kinematics& k,
+                                      Forces<double>& forces) noexcept {
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     const int body = springs_[s].body;
     add_couple(k, body, readings_[s].pull, forces);
     const int parent = model_.parent[static_cast<std::size_t>(body)];
-    if (options_.measure == Measure::joint && parent > 0)  // the reaction, on the parent link
+    if (options_.measure == SpringSpace::joint && parent > 0)  // the reaction, on the parent link
       add_couple(k, parent, -readings_[s].pull, forces);
   }
 }
 
-Coupling::JointSpace PrintedTorsional::joint_space(const Kinematics& k) const {
+Coupling::JointSpace AsPublishedTorsional::joint_space(const Kinematics& k) const {
   JointSpace sum(model_.nv);
   for (const Spring& spring : springs_) {
     Eigen::Matrix3Xd J = rotation_jacobian(model_, k, spring.body);
-    if (options_.measure == Measure::joint)
+    if (options_.measure == SpringSpace::joint)
       J -= rotation_jacobian(model_, k, model_.parent[static_cast<std::size_t>(spring.body)]);
     sum.add(spring.k, options_.damper == Damper::vector_ ? spring.b : 0, J);
   }
@@ -99,7 +100,7 @@ CouplingFacts as_published_torsional_coupling() {
           .order = 9,
           .can_hold = true,
           .step_law = StepLaw::printed,
-          .make = make_law<PrintedTorsional>};
+          .make = make_law<AsPublishedTorsional>};
 }
 
 }  // namespace twinarm

@@ -7,10 +7,10 @@
 
 namespace twinarm {
 
-Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
     : name_(spec.name), model_(model), kvr_(kvr), springs_(spec.springs) {
   readings_.resize(springs_.size());
-  FaultList faults;
+  DiagnosticList faults;
   for (const Spring& spring : springs_) {
     const std::string where = "coupling '" + name_ + "', spring '" + spring.name + "'";
     if (spring.body <= 0 || spring.body >= model.body_count())
@@ -40,7 +40,7 @@ Eigen::MatrixXd Coupling::joint_row(int body) const {
 }
 
 void Coupling::check_one_dof() const {
-  FaultList faults;
+  DiagnosticList faults;
   for (const Spring& spring : springs_) {
     const auto i = static_cast<std::size_t>(spring.body);
     if (model_.dofs(i) == 1) continue;

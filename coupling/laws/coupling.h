@@ -25,7 +25,7 @@ struct Spring {
   double k_turn = 0, b_turn = 0;  // of couplings in six dimensions
 };
 
-enum class Measure {
+enum class SpringSpace {
   world,  // orientation of the link in the world (the paper's): an external couple on the link
   joint   // coordinate of the joint that carries the link: acts between the link and its parent
 };
@@ -35,7 +35,7 @@ struct CouplingSpec;
 class Coupling : public SpringSource {
  public:
   // Throws InputError with all springs that name no moving link or have a gain below zero.
-  Coupling(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr);
+  Coupling(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
 
   void begin_step(const Kinematics& k, double t, double h) noexcept override;
   const std::string& name() const { return name_; }
@@ -57,7 +57,7 @@ class Coupling : public SpringSource {
 
   std::string name_;
   const Model<double>& model_;
-  KinematicRobot& kvr_;
+  TargetRobot& kvr_;
   std::vector<Spring> springs_;
   double h_ = 0;  // step [s]
 };

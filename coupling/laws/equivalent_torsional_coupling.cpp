@@ -17,7 +17,7 @@ class MatchedTorsional final : public Coupling {
  public:
   // The springs are those of the linear coupling that is matched. Throws InputError for joints
   // between base and links that have not one degree of freedom.
-  MatchedTorsional(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr);
+  MatchedTorsional(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   JointSpace joint_space(const Kinematics& k) const override {
@@ -29,9 +29,9 @@ class MatchedTorsional final : public Coupling {
 };
 
 MatchedTorsional::MatchedTorsional(const CouplingSpec& spec, const Model<double>& model,
-                                   KinematicRobot& kvr)
+                                   TargetRobot& kvr)
     : Coupling(spec, model, kvr), iq_(model.nv) {
-  FaultList faults;
+  DiagnosticList faults;
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     if (model.dofs(i) == 1) iq_[model.iv[i]] = model.iq[i];
   for (const Spring& spring : springs_)
@@ -49,7 +49,7 @@ MatchedTorsional::MatchedTorsional(const CouplingSpec& spec, const Model<double>
 // tau = sum_p J_p^T (k J_p e + b J_p e'), point by point: no matrix, nothing allocated.
 void MatchedTorsional::add_forces(const State<double>& x, const Kinematics&,
                                   Forces<double>& forces) noexcept {
-  const KvrSample& target = kvr_.at(x.t);
+  const TargetSample& target = kvr_.at(x.t);
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     const Spring& spring = springs_[s];
     const Vector3 p_K = target.k.position(spring.body, spring.p_L);

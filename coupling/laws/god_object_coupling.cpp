@@ -25,7 +25,7 @@ class GodObject final : public Coupling {
  public:
   // One spring for each joint, named by the body that it carries; their gains must be 0. Throws
   // InputError for joints that have not one degree of freedom, or whose neighbours are left out.
-  GodObject(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr);
+  GodObject(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
 
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
@@ -43,7 +43,7 @@ class GodObject final : public Coupling {
   Workspace<double> w_;
 };
 
-GodObject::GodObject(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+GodObject::GodObject(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
     : Coupling(spec, model, kvr), a_u_(model.nv), no_forces_(model.parent.size()), w_(model) {
   check_one_dof();
   check_joints();
@@ -53,7 +53,7 @@ GodObject::GodObject(const CouplingSpec& spec, const Model<double>& model, Kinem
 void GodObject::check_joints() const {
   std::vector<char> driven(model_.parent.size(), 0), above(driven);  // above: in a driven branch
   for (const Spring& joint : springs_) driven[static_cast<std::size_t>(joint.body)] = 1;
-  FaultList faults;
+  DiagnosticList faults;
   const auto fault = [&](std::size_t i) {
     faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
                "it is left out, but its neighbours are driven", "drive all joints of the robot",
@@ -84,7 +84,7 @@ double GodObject::friction(std::size_t dof, double qd_end) const {
 
 void GodObject::add_forces(const State<double>& x, const Kinematics& k,
                            Forces<double>& forces) noexcept {
-  const KvrSample& end = kvr_.end();
+  const TargetSample& end = kvr_.end();
   for (const Spring& joint : springs_) {
     const auto i = static_cast<std::size_t>(joint.body);
     const std::size_t iq = model_.iq[i], iv = model_.iv[i];
@@ -94,7 +94,7 @@ void GodObject::add_forces(const State<double>& x, const Kinematics& k,
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     const auto i = static_cast<std::size_t>(springs_[s].body);
     const std::size_t iv = model_.iv[i];
-    SpringReading& reading = readings_[s];
+    SpringState& reading = readings_[s];
     reading.size = w_.tau[iv] + friction(iv, x.qd[iv] + h_ * a_u_[iv]);
     reading.p_K = end.k.X_WL[i].p;
     reading.p_D = k.X_WL[i].p;
@@ -116,7 +116,7 @@ std::vector<Spring> god_object_joints(const Model<double>& model, int first_body
 CouplingFacts god_object_coupling() {
   return {.name = "god-object",
           .order = 7,
-          .treatments = CouplingFacts::Treatments::own,
+          .treatments = CouplingFacts::Discretizations::own,
           .gains = CouplingFacts::Gains::none,
           .at_joint = true,
           .is_spring_damper = false,

@@ -33,7 +33,7 @@
 
 namespace twinarm {
 
-struct WeldReference {
+struct SolrefParameters {
   double time_constant = 0.02;  // T > 0 [s]
   double damping_ratio = 1;     // z > 0
   double impedance = 0.95;      // d in (0, 1)
@@ -47,6 +47,6 @@ struct WeldReference {
 // The gains of a weld of a link: k = m_R k_ref and so on. Zero in what the link cannot do at x.
 // O(n^3); allocates.
 Spring weld_spring(std::string name, const Model<double>& model, const State<double>& x, int body,
-                   const Vector3& p_L, const WeldReference& reference);
+                   const Vector3& p_L, const SolrefParameters& reference);
 
 }  // namespace twinarm

@@ -30,10 +30,10 @@ BiasAcceleration bias_acceleration(const Model<double>& model, const Kinematics&
   return {turn, origin + turn.cross(p_W - k.X_WL[i].p) + k.w_WL[i].cross(k.velocity(body, p_W))};
 }
 
-class WeldLike final : public Coupling {
+class MujocoWeld final : public Coupling {
  public:
   // Of the springs, m_R = b/b_ref. Throws InputError for a reference out of bounds.
-  WeldLike(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr);
+  MujocoWeld(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
 
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
@@ -44,14 +44,14 @@ class WeldLike final : public Coupling {
   }
 
  private:
-  Treatment treatment_;
+  Discretization treatment_;
   double damping_;  // b_ref
 };
 
 }  // namespace
 
 Spring weld_spring(std::string name, const Model<double>& model, const State<double>& x, int body,
-                   const Vector3& p_L, const WeldReference& reference) {
+                   const Vector3& p_L, const SolrefParameters& reference) {
   const auto i = static_cast<std::size_t>(body);
   Kinematics k(model);
   forward_kinematics(model, x, k);
@@ -66,11 +66,11 @@ Spring weld_spring(std::string name, const Model<double>& model, const State<dou
   return {std::move(name), body, p_L, mass * k_ref, mass * b_ref, turn * k_ref, turn * b_ref};
 }
 
-WeldLike::WeldLike(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+MujocoWeld::MujocoWeld(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
     : Coupling(spec, model, kvr), treatment_(spec.treatment), damping_(spec.reference.damping()) {
-  const WeldReference& reference = spec.reference;
+  const SolrefParameters& reference = spec.reference;
   const auto good = [](double x) { return x > 0 && std::isfinite(x); };
-  FaultList faults;
+  DiagnosticList faults;
   const auto check = [&](bool holds, const char* what, const char* rule) {
     if (!holds) faults.add("coupling '" + name_ + "', " + what, rule, "", "coupling.weld");
   };
@@ -83,16 +83,16 @@ WeldLike::WeldLike(const CouplingSpec& spec, const Model<double>& model, Kinemat
 }
 
 // The pulls are those at qdd = 0: m_R times the bias acceleration goes off them.
-void WeldLike::add_forces(const State<double>& x, const Kinematics& k,
-                          Forces<double>& forces) noexcept {
-  TreatmentTerms terms = terms_of(treatment_, kvr_, x.t, h_);
+void MujocoWeld::add_forces(const State<double>& x, const Kinematics& k,
+                            Forces<double>& forces) noexcept {
+  DiscretizationTerms terms = discretization_terms(treatment_, kvr_, x.t, h_);
   terms.weight_b += 1 / damping_;  // m* = m_R + h b + h^2 k
-  terms.sees_target_moves = false;
+  terms.is_relative_damper = false;
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     const Spring& spring = springs_[s];
-    SpringReading &force = readings_[s], &couple = readings_[springs_.size() + s];
+    SpringState &force = readings_[s], &couple = readings_[springs_.size() + s];
     pull_point(spring, terms, k, force, forces);
-    turn_link(spring.body, spring.k_turn, spring.b_turn, terms, k, couple, forces);
+    apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, couple, forces);
     const BiasAcceleration bias = bias_acceleration(model_, k, spring.body, force.p_D);
     force.pull -= spring.b / damping_ * bias.point;
     couple.pull -= spring.b_turn / damping_ * bias.turn;
@@ -106,10 +106,10 @@ void WeldLike::add_forces(const State<double>& x, const Kinematics& k,
 CouplingFacts mujoco_weld_coupling() {
   return {.name = "weld",
           .order = 4,
-          .treatments = CouplingFacts::Treatments::all,
+          .treatments = CouplingFacts::Discretizations::all,
           .gains = CouplingFacts::Gains::reference,
           .at_point = true,
-          .make = make_law<WeldLike>};
+          .make = make_law<MujocoWeld>};
 }
 
 }  // namespace twinarm

@@ -5,7 +5,7 @@
 namespace twinarm {
 
 SpringDamperCoupling::SpringDamperCoupling(const CouplingSpec& spec, const Model<double>& model,
-                                           KinematicRobot& kvr, Space space)
+                                           TargetRobot& kvr, Space space)
     : Coupling(spec, model, kvr),
       space_(space),
       treatment_(spec.treatment),
@@ -21,20 +21,20 @@ void SpringDamperCoupling::begin_step(const Kinematics& k, double t, double h) n
 
 void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& k,
                                       Forces<double>& forces) noexcept {
-  const TreatmentTerms terms = terms_of(treatment_, kvr_, x.t, h_);
+  const DiscretizationTerms terms = discretization_terms(treatment_, kvr_, x.t, h_);
   const bool at_point = space_ == Space::point || space_ == Space::frame;
   const bool turns = space_ == Space::orientation || space_ == Space::frame;
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     if (space_ == Space::joint) pull_joint(s, terms, x, k, forces);
     const Spring& spring = springs_[s];
-    SpringReading &force = readings_[s],
-                  &couple = readings_[at_point && turns ? springs_.size() + s : s];
+    SpringState &force = readings_[s],
+                &couple = readings_[at_point && turns ? springs_.size() + s : s];
     if (hold_.is_fresh()) {
       if (at_point) pull_point(spring, terms, k, force, forces);
       if (turns && at_point)
-        turn_link(spring.body, spring.k_turn, spring.b_turn, terms, k, couple, forces);
+        apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, couple, forces);
       else if (turns)
-        turn_link(spring.body, spring.k, spring.b, terms, k, couple, forces);
+        apply_torsional_spring(spring.body, spring.k, spring.b, terms, k, couple, forces);
     }
     if (at_point)
       add_point_force(k, spring.body, k.position(spring.body, spring.p_L), force.pull, forces);
@@ -43,15 +43,15 @@ void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& 
   hold_.computed();
 }
 
-void SpringDamperCoupling::pull_joint(std::size_t s, const TreatmentTerms& terms,
+void SpringDamperCoupling::pull_joint(std::size_t s, const DiscretizationTerms& terms,
                                       const State<double>& x, const Kinematics& k,
                                       Forces<double>& forces) {
   const Spring& spring = springs_[s];
   const auto i = static_cast<std::size_t>(spring.body);
   const std::size_t iq = model_.iq[i], iv = model_.iv[i];
-  SpringReading& reading = readings_[s];
+  SpringState& reading = readings_[s];
   if (hold_.is_fresh()) {
-    const double e = terms.spring_target->x.q[iq] - x.q[iq] - terms.look_ahead * x.qd[iv];
+    const double e = terms.spring_target->x.q[iq] - x.q[iq] - terms.position_lead * x.qd[iv];
     reading.size = spring.k * e + spring.b * (terms.damper_target->x.qd[iv] - x.qd[iv]);
     reading.p_K = terms.spring_target->k.X_WL[i].p;
     reading.p_D = k.X_WL[i].p;
@@ -73,35 +73,35 @@ Coupling::JointSpace SpringDamperCoupling::joint_space(const Kinematics& k) cons
   return sum;
 }
 
-void SpringDamperCoupling::visit_memory(Memory& memory) {
-  Coupling::visit_memory(memory);
-  hold_.visit_memory(memory);
+void SpringDamperCoupling::serialize(StateArchive& memory) {
+  Coupling::serialize(memory);
+  hold_.serialize(memory);
 }
 
-void pull_point(const Spring& spring, const TreatmentTerms& terms, const Kinematics& D,
-                SpringReading& reading, Forces<double>& forces) {
+void pull_point(const Spring& spring, const DiscretizationTerms& terms, const Kinematics& D,
+                SpringState& reading, Forces<double>& forces) {
   const Kinematics &K = terms.spring_target->k, &K_damper = terms.damper_target->k;
   reading.p_K = K.position(spring.body, spring.p_L);
   reading.p_D = D.position(spring.body, spring.p_L);
   const Vector3 v_D = D.velocity(spring.body, reading.p_D);
   Vector3 v_K = Vector3::Zero();
-  if (terms.sees_target_moves)
+  if (terms.is_relative_damper)
     v_K = K_damper.velocity(spring.body, K_damper.position(spring.body, spring.p_L));
   reading.pull =
-      spring.k * (reading.p_K - reading.p_D - terms.look_ahead * v_D) + spring.b * (v_K - v_D);
+      spring.k * (reading.p_K - reading.p_D - terms.position_lead * v_D) + spring.b * (v_K - v_D);
   reading.size = reading.pull.norm();
   reading.m_star = terms.m_star(spring.k, spring.b);
   if (reading.m_star > 0) add_particle(D, spring.body, reading.p_D, reading.m_star, forces);
 }
 
-void turn_link(int body, double k, double b, const TreatmentTerms& terms, const Kinematics& D,
-               SpringReading& reading, Forces<double>& forces) {
+void apply_torsional_spring(int body, double k, double b, const DiscretizationTerms& terms,
+                            const Kinematics& D, SpringState& reading, Forces<double>& forces) {
   const auto i = static_cast<std::size_t>(body);
   const Kinematics& K = terms.spring_target->k;
   const Vector3 phi =
-      rotation_vector(K.X_WL[i].R * D.X_WL[i].R.transpose()) - terms.look_ahead * D.w_WL[i];
+      rotation_vector(K.X_WL[i].R * D.X_WL[i].R.transpose()) - terms.position_lead * D.w_WL[i];
   Vector3 w_K = Vector3::Zero();
-  if (terms.sees_target_moves) w_K = terms.damper_target->k.w_WL[i];
+  if (terms.is_relative_damper) w_K = terms.damper_target->k.w_WL[i];
   reading.pull = k * phi + b * (w_K - D.w_WL[i]);
   reading.size = reading.pull.norm();
   reading.p_K = K.X_WL[i].p;

@@ -28,8 +28,8 @@ namespace twinarm {
 class Hold {
  public:
   // 0 steps: none is held. Throws std::invalid_argument for an implicit force that is to be held.
-  Hold(int steps, Treatment treatment) : every_(steps) {
-    if (steps > 0 && treatment != Treatment::explicit_)
+  Hold(int steps, Discretization treatment) : every_(steps) {
+    if (steps > 0 && treatment != Discretization::explicit_)
       throw std::invalid_argument("a held force is explicit: it cannot see the end of the step");
   }
   void begin_step() {
@@ -40,7 +40,7 @@ class Hold {
   void computed() {
     if (every_ > 0) fresh_ = false;
   }
-  void visit_memory(Memory& memory) {
+  void serialize(StateArchive& memory) {
     memory.visit_index(steps_, std::numeric_limits<int>::max() / 2);
   }
 
@@ -55,41 +55,41 @@ class SpringDamperCoupling final : public Coupling {
   // CouplingSpec::hold_steps > 0: the force is computed every so many steps and held between
   // (explicit only); 0: at every step and stage. Throws InputError for springs on joints that have
   // not one dof where they act at the joint.
-  SpringDamperCoupling(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr,
+  SpringDamperCoupling(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr,
                        Space space);
 
   void begin_step(const Kinematics& k, double t, double h) noexcept override;
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
-  bool needs_semi_implicit() const override { return treatment_ != Treatment::explicit_; }
+  bool needs_semi_implicit() const override { return treatment_ != Discretization::explicit_; }
   JointSpace joint_space(const Kinematics& k) const override;
-  void visit_memory(Memory& memory) override;
+  void serialize(StateArchive& memory) override;
 
  private:
-  void pull_joint(std::size_t s, const TreatmentTerms& terms, const State<double>& x,
+  void pull_joint(std::size_t s, const DiscretizationTerms& terms, const State<double>& x,
                   const Kinematics& k, Forces<double>& forces);
 
   Space space_;
-  Treatment treatment_;
+  Discretization treatment_;
   Hold hold_;
 };
 
 // As CouplingFacts::make.
 template <SpringDamperCoupling::Space space>
 std::unique_ptr<Coupling> make_spring_damper(const CouplingSpec& spec, const Model<double>& model,
-                                             KinematicRobot& kvr) {
+                                             TargetRobot& kvr) {
   return std::make_unique<SpringDamperCoupling>(spec, model, kvr, space);
 }
 
 // Each fills the reading and adds its weightless inertia (solver/forces/spring.h); the force itself
 // is added by the caller, who may hold it.
 //
-// F = k (p_K - p_D - look_ahead v_D) + b (v_K - v_D), and a particle of m*.
-void pull_point(const Spring& spring, const TreatmentTerms& terms, const Kinematics& D,
-                SpringReading& reading, Forces<double>& forces);
-// T = k (log(R_K R_D^T) - look_ahead w_D) + b (w_K - w_D), and a flywheel of m*.
-void turn_link(int body, double k, double b, const TreatmentTerms& terms, const Kinematics& D,
-               SpringReading& reading, Forces<double>& forces);
+// F = k (p_K - p_D - position_lead v_D) + b (v_K - v_D), and a particle of m*.
+void pull_point(const Spring& spring, const DiscretizationTerms& terms, const Kinematics& D,
+                SpringState& reading, Forces<double>& forces);
+// T = k (log(R_K R_D^T) - position_lead w_D) + b (w_K - w_D), and a flywheel of m*.
+void apply_torsional_spring(int body, double k, double b, const DiscretizationTerms& terms,
+                            const Kinematics& D, SpringState& reading, Forces<double>& forces);
 
 // sum of J^T k J and of J^T b J: of springs at points, with J the point's Jacobian; of frames, with
 // k_turn, b_turn and the rotation's besides.

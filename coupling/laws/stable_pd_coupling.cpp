@@ -21,19 +21,19 @@ namespace {
 class StablePd final : public Coupling {
  public:
   // Throws InputError for joints that have not one degree of freedom.
-  StablePd(const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr)
+  StablePd(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
       : Coupling(spec, model, kvr) {
     check_one_dof();
   }
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override {
-    const KvrSample& end = kvr_.end();
+    const TargetSample& end = kvr_.end();
     for (std::size_t s = 0; s < springs_.size(); ++s) {
       const Spring& spring = springs_[s];
       const auto i = static_cast<std::size_t>(spring.body);
       const std::size_t iq = model_.iq[i], iv = model_.iv[i];
       const double e = end.x.q[iq] - (x.q[iq] + h_ * x.qd[iv]), e_dot = end.x.qd[iv] - x.qd[iv];
-      SpringReading& reading = readings_[s];
+      SpringState& reading = readings_[s];
       reading.size = spring.k * e + spring.b * e_dot;
       reading.m_star = h_ * spring.b;
       reading.p_K = end.k.X_WL[i].p;
@@ -55,7 +55,7 @@ class StablePd final : public Coupling {
 CouplingFacts stable_pd_coupling() {
   return {.name = "stable-pd",
           .order = 6,
-          .treatments = CouplingFacts::Treatments::own,
+          .treatments = CouplingFacts::Discretizations::own,
           .at_joint = true,
           .step_law = StepLaw::stable_pd,
           .make = make_law<StablePd>};

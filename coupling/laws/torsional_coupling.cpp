@@ -7,12 +7,12 @@ namespace twinarm {
 CouplingFacts torsional_coupling() {
   return {.name = "torsional",
           .order = 2,
-          .treatments = CouplingFacts::Treatments::all,
+          .treatments = CouplingFacts::Discretizations::all,
           .has_measure = true,
           .can_hold = true,
-          .make = [](const CouplingSpec& spec, const Model<double>& model, KinematicRobot& kvr) {
+          .make = [](const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr) {
             using Space = SpringDamperCoupling::Space;
-            const auto make = spec.measure == Measure::joint
+            const auto make = spec.measure == SpringSpace::joint
                                   ? make_spring_damper<Space::joint>
                                   : make_spring_damper<Space::orientation>;
             return make(spec, model, kvr);

@@ -41,9 +41,9 @@ struct HandMapping {
   }
 };
 
-class HandSource {
+class OperatorMotion {
  public:
-  virtual ~HandSource() = default;
+  virtual ~OperatorMotion() = default;
   virtual HandSample sample(double t, double toward) const = 0;
   virtual double duration() const = 0;          // [s]
   virtual std::string description() const = 0;  // one line for the report
@@ -52,7 +52,7 @@ class HandSource {
 // The paper's automatic motion (section Experiments): robot joint 1 from 90 to -90 degrees and
 // joint 2 from -45 to 45 degrees, at once, linearly in time; back; and the first sweep again. The
 // speed jumps at every end. Expressed as device angles, so that it takes the same way as a hand.
-class AutomaticMotion final : public HandSource {
+class AutomaticMotion final : public OperatorMotion {
  public:
   // sweep_time [s] of one sweep, 1 s in the paper.
   AutomaticMotion(const HandMapping& mapping, double sweep_time = 1.0, int sweeps = 3);
@@ -72,12 +72,12 @@ class AutomaticMotion final : public HandSource {
 // The velocity is the other hand's own at s, times the speed (d/dt of what is seen), and zero
 // before the delay has passed. Whether a step at that instant is before or after it is said by
 // `toward`, as at any other corner.
-class PacedHand final : public HandSource {
+class DelayedMotion final : public OperatorMotion {
  public:
   // delay >= 0 [s], speed > 0. A hand that is lent must outlive it.
-  PacedHand(std::unique_ptr<HandSource> hand, double delay, double speed)
+  DelayedMotion(std::unique_ptr<OperatorMotion> hand, double delay, double speed)
       : owned_(std::move(hand)), hand_(*owned_), delay_(delay), speed_(speed) {}
-  PacedHand(const HandSource& hand, double delay, double speed)
+  DelayedMotion(const OperatorMotion& hand, double delay, double speed)
       : hand_(hand), delay_(delay), speed_(speed) {}
 
   HandSample sample(double t, double toward) const override {
@@ -96,8 +96,8 @@ class PacedHand final : public HandSource {
   }
 
  private:
-  std::unique_ptr<HandSource> owned_;
-  const HandSource& hand_;
+  std::unique_ptr<OperatorMotion> owned_;
+  const OperatorMotion& hand_;
   double delay_, speed_;
 };
 

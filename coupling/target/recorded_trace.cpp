@@ -19,8 +19,8 @@ namespace {
 constexpr std::array<const char*, 7> kColumns{"t[s]",        "theta1[rad]", "theta2[rad]",
                                               "theta3[rad]", "theta4[rad]", "theta5[rad]",
                                               "theta6[rad]"};
-constexpr std::size_t kMostTraceFaults = 20;  // of one file; a wrong unit would name every line
-constexpr std::size_t kMostSamples = std::size_t{1} << 23;  // two hours at 1 kHz
+constexpr std::size_t kMaxTraceFaults = 20;  // of one file; a wrong unit would name every line
+constexpr std::size_t kMaxSamples = std::size_t{1} << 23;  // two hours at 1 kHz
 
 // The ends of the Omni's joints, theta3 told relative to theta2 or to the world [rad]. A trace may
 // come from another hand: what lies beyond them is asked, not refused.
@@ -44,9 +44,9 @@ class TraceReader {
 
  private:
   using Cells = std::vector<std::string_view>;
-  void add(int line, const std::string& where, const std::string& rule, const std::string& remedy) {
-    if (++fault_count_ <= kMostTraceFaults)
-      faults_.add({trace_.file_, line, where, rule, remedy, "trace.value"});
+  void add(int line, const std::string& where, const std::string& rule, const std::string& fix) {
+    if (++fault_count_ <= kMaxTraceFaults)
+      faults_.add({trace_.file_, line, where, rule, fix, "trace.value"});
   }
   std::string column_name(std::size_t joint) const {
     return in_degrees_[joint] ? degree_column(joint) : kColumns[joint + 1];
@@ -58,7 +58,7 @@ class TraceReader {
   void measure_intervals(std::vector<double> intervals);
 
   RecordedTrace& trace_;
-  FaultList faults_;
+  DiagnosticList faults_;
   std::size_t fault_count_ = 0;
   int header_line_ = 0;
   std::array<std::size_t, 8> column_{};  // of t, theta1..theta6, button
@@ -81,7 +81,7 @@ void TraceReader::read(std::istream& stream) {
   if (fault_count_ == 0 && trace_.samples_.size() < 2)
     add(0, "", "the trace has fewer than two samples", "give a header line and at least two lines");
   check_angles();
-  if (const auto more = fault_count_ - std::min(fault_count_, kMostTraceFaults))
+  if (const auto more = fault_count_ - std::min(fault_count_, kMaxTraceFaults))
     faults_.add({trace_.file_, 0, "", fmt::format("and {} more faults", more), "", "trace.more"});
   faults_.check();
   measure();
@@ -136,7 +136,7 @@ void TraceReader::read_sample(int line, const Cells& cells) {
         "sort the lines by time, one line for each instant");
     return;
   }
-  if (samples.size() == kMostSamples)
+  if (samples.size() == kMaxSamples)
     throw InputError({{trace_.file_, line, "", "the trace has more than 8 million samples",
                        "cut it, or sample it more slowly", "trace.too-long"}});
   samples.push_back(sample);
@@ -152,7 +152,7 @@ void TraceReader::check_angles() {
   bool fits_as_degrees = true;
   for (std::size_t j = 0; j < 6; ++j)
     if (!in_degrees_[j] && farthest[j] * kDegree > kBeyond * kJointEnd[j]) fits_as_degrees = false;
-  double most_degrees = 0;
+  double max_degrees = 0;
   for (std::size_t j = 0; j < 6; ++j) {
     const std::string name = fmt::format("theta{}", j + 1);
     if (farthest[j] > kFullTurn && (in_degrees_[j] || !fits_as_degrees)) {
@@ -161,7 +161,7 @@ void TraceReader::check_angles() {
                       farthest[j]),
           "give radians, or degrees in columns theta1[deg] and so on");
     } else if (in_degrees_[j]) {
-      most_degrees = std::max(most_degrees, farthest[j] / kDegree);
+      max_degrees = std::max(max_degrees, farthest[j] / kDegree);
     } else if (farthest[j] > kFullTurn) {
       add(header_line_, kColumns[j + 1],
           fmt::format("reaches {:.4g} rad, more than a whole turn, which looks like degrees",
@@ -174,11 +174,11 @@ void TraceReader::check_angles() {
           name, farthest[j], kJointEnd[j], degree_column(j)));
     }
   }
-  if (most_degrees > 0 && most_degrees < kFewRadians)
+  if (max_degrees > 0 && max_degrees < kFewRadians)
     trace_.quality_.warnings.push_back(
         fmt::format("the angles named [deg] stay below {:.2g} degrees; if these are radians, name "
                     "the columns theta1[rad] and so on",
-                    most_degrees));
+                    max_degrees));
 }
 
 void TraceReader::measure() {
@@ -187,8 +187,8 @@ void TraceReader::measure() {
   std::vector<double> intervals;
   for (std::size_t n = 1; n < samples.size(); ++n) {
     intervals.push_back(samples[n].t - samples[n - 1].t);
-    if (intervals.back() <= quality.largest_gap) continue;
-    quality.largest_gap = intervals.back();
+    if (intervals.back() <= quality.max_gap) continue;
+    quality.max_gap = intervals.back();
     quality.gap_start = samples[n - 1].t;
   }
   measure_intervals(std::move(intervals));
@@ -217,7 +217,7 @@ void TraceReader::measure_intervals(std::vector<double> intervals) {
         "{} gap{} longer than {:g} samples' time, the largest {:.3g} s at t = {:.6g} s; the hand "
         "is "
         "taken to go straight through, at one speed",
-        gaps, gaps == 1 ? "" : "s", kGapIntervals, quality.largest_gap, quality.gap_start));
+        gaps, gaps == 1 ? "" : "s", kGapIntervals, quality.max_gap, quality.gap_start));
   if (quality.jitter > kJitterShare * quality.interval)
     quality.warnings.push_back(
         fmt::format("the time between samples jitters by {:.2g} s about {:.3g} s; the hand's speed "
@@ -257,7 +257,7 @@ std::string RecordedTrace::description() const {
                      quality_.rate, duration());
 }
 
-void write_trace(const HandSource& hand, double rate, const std::filesystem::path& file) {
+void write_trace(const OperatorMotion& hand, double rate, const std::filesystem::path& file) {
   std::string text = "# " + hand.description() + "\n";
   for (const char* column : kColumns) text += fmt::format("{},", column);
   text += "button\n";

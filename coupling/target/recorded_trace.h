@@ -20,13 +20,13 @@ struct TraceQuality {
   double interval = 0;  // median time between samples [s]
   double rate = 0;      // 1 / interval [Hz]
   // Longest time without a sample [s], and when it begins, on the file's clock [s].
-  double largest_gap = 0, gap_start = 0;
+  double max_gap = 0, gap_start = 0;
   // Root mean square of the intervals' deviations from their median, gaps left out [s].
   double jitter = 0;
   std::vector<std::string> warnings;  // sentences for people; empty for a clean trace
 };
 
-class RecordedTrace final : public HandSource {
+class RecordedTrace final : public OperatorMotion {
  public:
   // Throws one InputError with every fault of the file: it cannot be read, columns are missing,
   // a value is not a finite number, time does not advance, fewer than two samples, angles that no
@@ -50,7 +50,7 @@ class RecordedTrace final : public HandSource {
 };
 
 // Writes samples of a source at a fixed rate [Hz], to a temporary name, then renamed.
-void write_trace(const HandSource& hand, double rate, const std::filesystem::path& file);
+void write_trace(const OperatorMotion& hand, double rate, const std::filesystem::path& file);
 
 // Lines of a file that may be hostile.
 

@@ -21,24 +21,24 @@ std::string seconds_text(double t) {
 
 }  // namespace
 
-StepHand::StepHand(const HandAngles& from, const HandAngles& to, double at, double duration)
+StepMotion::StepMotion(const HandAngles& from, const HandAngles& to, double at, double duration)
     : from_(from), to_(to), at_(at), duration_(duration) {}
 
-HandSample StepHand::sample(double t, double toward) const {
+HandSample StepMotion::sample(double t, double toward) const {
   HandSample hand;
   hand.theta = is_after(t, toward, at_) ? to_ : from_;
   return hand;
 }
 
-std::string StepHand::description() const {
+std::string StepMotion::description() const {
   return "scripted: a step after " + seconds_text(at_);
 }
 
-ChirpHand::ChirpHand(const HandAngles& middle, const HandAngles& amplitude, double f0, double f1,
-                     double T)
+ChirpMotion::ChirpMotion(const HandAngles& middle, const HandAngles& amplitude, double f0,
+                         double f1, double T)
     : middle_(middle), amplitude_(amplitude), f0_(f0), f1_(f1), duration_(T) {}
 
-HandSample ChirpHand::sample(double t, double toward) const {
+HandSample ChirpMotion::sample(double t, double toward) const {
   const double s = std::clamp(t, 0.0, duration_), slope = (f1_ - f0_) / duration_;
   const double phi = 2 * std::numbers::pi * (f0_ + 0.5 * slope * s) * s;
   const bool moves = is_after(t, toward, 0) && !is_after(t, toward, duration_);
@@ -51,15 +51,15 @@ HandSample ChirpHand::sample(double t, double toward) const {
   return hand;
 }
 
-std::string ChirpHand::description() const {
+std::string ChirpMotion::description() const {
   return "scripted: a chirp from " + std::to_string(f0_) + " to " + std::to_string(f1_) +
          " Hz in " + seconds_text(duration_);
 }
 
-ReachHand::ReachHand(const HandAngles& from, const HandAngles& to, double at, double T)
+ReachMotion::ReachMotion(const HandAngles& from, const HandAngles& to, double at, double T)
     : from_(from), to_(to), at_(at), T_(T) {}
 
-HandSample ReachHand::sample(double t, double /*toward: the motion has no corners*/) const {
+HandSample ReachMotion::sample(double t, double /*toward: the motion has no corners*/) const {
   const double s = std::clamp((t - at_) / T_, 0.0, 1.0);
   HandSample hand;
   for (std::size_t j = 0; j < 6; ++j) {
@@ -70,7 +70,7 @@ HandSample ReachHand::sample(double t, double /*toward: the motion has no corner
   return hand;
 }
 
-std::string ReachHand::description() const {
+std::string ReachMotion::description() const {
   return "scripted: a minimum-jerk reach of " + seconds_text(T_) + " after " + seconds_text(at_);
 }
 

@@ -10,9 +10,9 @@ using HandAngles = std::array<double, 6>;  // theta1..theta6 of the device [rad]
 
 // Rests at `from`, jumps to `to` at the time `at`, rests there. The rate is zero throughout: a
 // jump has none. At the instant itself the angles are those of the side that is asked for.
-class StepHand final : public HandSource {
+class StepMotion final : public OperatorMotion {
  public:
-  StepHand(const HandAngles& from, const HandAngles& to, double at, double duration);
+  StepMotion(const HandAngles& from, const HandAngles& to, double at, double duration);
   HandSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override;
@@ -25,9 +25,10 @@ class StepHand final : public HandSource {
 // theta_j = middle_j + amplitude_j sin(phi), phi = 2 pi (f0 t + (f1 - f0) t^2 / (2 T)): from f0 to
 // f1 [Hz] in T [s], linearly in time. Begins with a corner (the rate jumps) and rests after T where
 // it was.
-class ChirpHand final : public HandSource {
+class ChirpMotion final : public OperatorMotion {
  public:
-  ChirpHand(const HandAngles& middle, const HandAngles& amplitude, double f0, double f1, double T);
+  ChirpMotion(const HandAngles& middle, const HandAngles& amplitude, double f0, double f1,
+              double T);
   HandSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override;
@@ -39,9 +40,9 @@ class ChirpHand final : public HandSource {
 
 // From one posture to another on the path of least jerk (Flash and Hogan 1985),
 // s^3 (10 - 15 s + 6 s^2): it begins at `at`, takes T [s], and rests before and after.
-class ReachHand final : public HandSource {
+class ReachMotion final : public OperatorMotion {
  public:
-  ReachHand(const HandAngles& from, const HandAngles& to, double at, double T);
+  ReachMotion(const HandAngles& from, const HandAngles& to, double at, double T);
   HandSample sample(double t, double toward) const override;
   double duration() const override { return at_ + T_; }
   std::string description() const override;

@@ -9,7 +9,7 @@
 
 namespace twinarm {
 
-class SyntheticOperator final : public HandSource {
+class SyntheticOperator final : public OperatorMotion {
  public:
   explicit SyntheticOperator(unsigned seed, double duration = 20.0);
   HandSample sample(double t, double toward) const override;

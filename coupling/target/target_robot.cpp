@@ -9,9 +9,8 @@
 
 namespace twinarm {
 
-KinematicRobot::KinematicRobot(const Model<double>& model, const HandSource& hand,
-                               const HandMapping& mapping, const DrivenJoints& joints,
-                               KvrRates rates)
+TargetRobot::TargetRobot(const Model<double>& model, const OperatorMotion& hand,
+                         const HandMapping& mapping, const DrivenJoints& joints, TargetRates rates)
     : model_(model),
       hand_(hand),
       mapping_(mapping),
@@ -21,7 +20,7 @@ KinematicRobot::KinematicRobot(const Model<double>& model, const HandSource& han
       start_(model),
       middle_(model),
       end_(model) {
-  FaultList faults;
+  DiagnosticList faults;
   const auto find = [&](const std::string& name) {
     const int body = model.find_joint(name);
     if (body < 0)
@@ -43,14 +42,14 @@ KinematicRobot::KinematicRobot(const Model<double>& model, const HandSource& han
   if (!joints.gripper.empty()) gripper_ = static_cast<int>(find(joints.gripper));
   faults.check();
   difference_.assign(iq_.size(), 0.0);
-  for (KvrSample* sample : {&start_, &middle_, &end_})
+  for (TargetSample* sample : {&start_, &middle_, &end_})
     sample->x.t = std::numeric_limits<double>::quiet_NaN();
   set(start_, 0, 1);
   set(end_, 0, 1);
 }
 
-void KinematicRobot::stand_at(const State<double>& x) {
-  for (KvrSample* sample : {&start_, &middle_, &end_}) {
+void TargetRobot::set_pose(const State<double>& x) {
+  for (TargetSample* sample : {&start_, &middle_, &end_}) {
     sample->x.q = x.q;
     sample->x.prescribed = x.prescribed;
     sample->x.t = std::numeric_limits<double>::quiet_NaN();
@@ -59,14 +58,14 @@ void KinematicRobot::stand_at(const State<double>& x) {
   set(end_, 0, 1);
 }
 
-void KinematicRobot::begin_step(double t, double h) {
+void TargetRobot::begin_step(double t, double h) {
   if (started_ && start_.x.t == t && end_.x.t == t + h) return;
   if (started_ && end_.x.t == t) std::swap(start_, end_);  // its pose is known already
   // Kinematics are the dear part: once a step, for the start was the end of the step before.
   const bool start_moved = look(start_, t, t + h);
   bool end_moved = look(end_, t + h, t);
   middle_.x.t = std::numeric_limits<double>::quiet_NaN();
-  if (rates_ == KvrRates::backward_difference) {
+  if (rates_ == TargetRates::backward_difference) {
     for (std::size_t j = 0; j < iq_.size(); ++j) {
       difference_[j] = (end_.x.q[iq_[j]] - start_.x.q[iq_[j]]) / h;
       end_moved = end_moved || end_.x.qd[iv_[j]] != difference_[j];
@@ -78,18 +77,18 @@ void KinematicRobot::begin_step(double t, double h) {
   started_ = true;
 }
 
-const KvrSample& KinematicRobot::at(double t) {
+const TargetSample& TargetRobot::at(double t) {
   if (t == start_.x.t) return start_;
   if (t == end_.x.t) return end_;
   if (t != middle_.x.t) set(middle_, t, 0.5 * (start_.x.t + end_.x.t));
   return middle_;
 }
 
-void KinematicRobot::set(KvrSample& sample, double t, double toward) const {
+void TargetRobot::set(TargetSample& sample, double t, double toward) const {
   if (look(sample, t, toward)) pose(sample);
 }
 
-bool KinematicRobot::look(KvrSample& sample, double t, double toward) const {
+bool TargetRobot::look(TargetSample& sample, double t, double toward) const {
   const HandSample hand = hand_.sample(t, toward);
   bool changed = std::isnan(sample.x.t);
   const auto put = [&](double& place, double value) {
@@ -99,8 +98,8 @@ bool KinematicRobot::look(KvrSample& sample, double t, double toward) const {
   sample.x.t = t;
   for (std::size_t j = 0; j < iq_.size(); ++j) {
     put(sample.x.q[iq_[j]], mapping_.robot_angle(hand, j));
-    if (rates_ == KvrRates::from_hand) put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
-    if (rates_ == KvrRates::backward_difference) put(sample.x.qd[iv_[j]], difference_[j]);
+    if (rates_ == TargetRates::from_hand) put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
+    if (rates_ == TargetRates::backward_difference) put(sample.x.qd[iv_[j]], difference_[j]);
   }
   if (gripper_ > 0)
     put(sample.x.q[model_.iq[static_cast<std::size_t>(gripper_)]],
@@ -108,7 +107,7 @@ bool KinematicRobot::look(KvrSample& sample, double t, double toward) const {
   return changed;
 }
 
-void KinematicRobot::pose(KvrSample& sample) const {
+void TargetRobot::pose(TargetSample& sample) const {
   apply_mimics(model_, sample.x);
   forward_kinematics(model_, sample.x, sample.k);
 }

@@ -10,10 +10,10 @@
 
 namespace twinarm {
 
-struct KvrSample {
+struct TargetSample {
   State<double> x;
   Kinematics k;
-  explicit KvrSample(const Model<double>& model) : x(model), k(model) {}
+  explicit TargetSample(const Model<double>& model) : x(model), k(model) {}
 };
 
 // Which joints of a robot the hand moves, by name.
@@ -25,46 +25,46 @@ struct DrivenJoints {
 };
 
 // Where the KVR's velocity comes from.
-enum class KvrRates {
+enum class TargetRates {
   from_hand,            // the hand's own rate, one-sided at a corner
   backward_difference,  // (q_n - q_n-1) / h of its angles, zero at first: all that a device gives
   none                  // zero: dampers then brake the link's own motion
 };
 
-class KinematicRobot {
+class TargetRobot {
  public:
   // The model and the hand must outlive the robot. Throws InputError for joints that are not there
   // or have not one degree of freedom.
-  KinematicRobot(const Model<double>& model, const HandSource& hand, const HandMapping& mapping,
-                 const DrivenJoints& joints, KvrRates rates = KvrRates::from_hand);
+  TargetRobot(const Model<double>& model, const OperatorMotion& hand, const HandMapping& mapping,
+              const DrivenJoints& joints, TargetRates rates = TargetRates::from_hand);
 
   // Where the joints stand that the hand does not move; zero at first. Before the first step.
-  void stand_at(const State<double>& x);
+  void set_pose(const State<double>& x);
   // Looks at the hand for the step [t, t + h]. Asking again for the same step costs nothing.
   void begin_step(double t, double h);
   // The hand has another past now: a step that was looked at is looked at again.
   void forget() { started_ = false; }
-  const KvrSample& start() const { return start_; }
-  const KvrSample& end() const { return end_; }
+  const TargetSample& start() const { return start_; }
+  const TargetSample& end() const { return end_; }
   // At a stage within the step, with the velocity of the sweep that the step belongs to.
-  const KvrSample& at(double t);
+  const TargetSample& at(double t);
 
-  const HandSource& hand() const { return hand_; }
+  const OperatorMotion& hand() const { return hand_; }
 
  private:
-  void set(KvrSample& sample, double t, double toward) const;
+  void set(TargetSample& sample, double t, double toward) const;
   // The hand's angles and rates into the sample; false: nothing has changed.
-  bool look(KvrSample& sample, double t, double toward) const;
-  void pose(KvrSample& sample) const;
+  bool look(TargetSample& sample, double t, double toward) const;
+  void pose(TargetSample& sample) const;
 
   const Model<double>& model_;
-  const HandSource& hand_;
+  const OperatorMotion& hand_;
   HandMapping mapping_;
-  KvrRates rates_;
+  TargetRates rates_;
   std::vector<std::size_t> iq_, iv_;  // of the turned joints
   int gripper_ = -1;                  // body that the gripper joint carries
   double gripper_open_, gripper_closed_;
-  KvrSample start_, middle_, end_;
+  TargetSample start_, middle_, end_;
   bool started_ = false;
   std::vector<double> difference_;  // of the last step, by turned joint [rad/s]
 };

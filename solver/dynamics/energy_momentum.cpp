@@ -6,15 +6,15 @@
 
 namespace twinarm {
 
-std::vector<char> bodies_that_forces_move(const Model<double>& model) {
+std::vector<char> bodies_with_dofs(const Model<double>& model) {
   std::vector<char> moved(model.parent.size(), 0);
   for (std::size_t i = 1; i < moved.size(); ++i)
     moved[i] = model.dofs(i) > 0 || moved[static_cast<std::size_t>(model.parent[i])] ? 1 : 0;
   return moved;
 }
 
-Exchange contents_of(const Model<double>& model, const std::vector<char>& of,
-                     const State<double>& x, Workspace<double>& w) {
+EnergyMomentum energy_and_momentum_of(const Model<double>& model, const std::vector<char>& of,
+                                      const State<double>& x, Workspace<double>& w) {
   kinematics(model, x, w);
   Force<double> sum;
   for (std::size_t i = 1; i < model.parent.size(); ++i)

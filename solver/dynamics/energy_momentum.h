@@ -1,10 +1,10 @@
 // Energy of a mechanism, and what something does to all bodies together: joules, and momentum about
 // the world's origin. The rows of the ledgers are made of it.
 //
-// contents_of() is what the bodies have: kinetic energy and potential of gravity, and the linear
-// and angular momentum of all that forces can move (a body of prescribed motion has any momentum
-// that its law says). Between two states its difference is the sum of all exchanges but gravity's
-// work, which is in it already. O(n), allocates nothing.
+// energy_and_momentum_of() is what the bodies have: kinetic energy and potential of gravity, and
+// the linear and angular momentum of all that forces can move (a body of prescribed motion has any
+// momentum that its law says). Between two states its difference is the sum of all exchanges but
+// gravity's work, which is in it already. O(n), allocates nothing.
 #pragma once
 
 #include <vector>
@@ -16,12 +16,12 @@
 
 namespace twinarm {
 
-struct Exchange {
+struct EnergyMomentum {
   double work = 0;                    // [J]
   Vector3 impulse = Vector3::Zero();  // [N s]
   Vector3 moment = Vector3::Zero();   // about the world's origin [N m s]
 
-  Exchange& operator+=(const Exchange& other) {
+  EnergyMomentum& operator+=(const EnergyMomentum& other) {
     work += other.work;
     impulse += other.impulse;
     moment += other.moment;
@@ -32,25 +32,25 @@ struct Exchange {
     impulse += part * force;
     moment += part * (p.cross(force) + couple);
   }
-  void visit_memory(Memory& memory) {
+  void serialize(StateArchive& memory) {
     memory.visit(work);
     memory.visit(impulse);
     memory.visit(moment);
   }
 };
-inline Exchange operator*(double part, const Exchange& e) {
+inline EnergyMomentum operator*(double part, const EnergyMomentum& e) {
   return {part * e.work, part * e.impulse, part * e.moment};
 }
-inline Exchange operator-(Exchange a, const Exchange& b) {
+inline EnergyMomentum operator-(EnergyMomentum a, const EnergyMomentum& b) {
   return a += -1.0 * b;
 }
 
 // By body: whether forces can move it.
-std::vector<char> bodies_that_forces_move(const Model<double>& model);
+std::vector<char> bodies_with_dofs(const Model<double>& model);
 
-// `of` as bodies_that_forces_move(), or of a part of them; w is written.
-Exchange contents_of(const Model<double>& model, const std::vector<char>& of,
-                     const State<double>& x, Workspace<double>& w);
+// `of` as bodies_with_dofs(), or of a part of them; w is written.
+EnergyMomentum energy_and_momentum_of(const Model<double>& model, const std::vector<char>& of,
+                                      const State<double>& x, Workspace<double>& w);
 
 // Of those who have no workspace at hand (world_kinematics.h): allocates, in O(n).
 double kinetic_energy(const Model<double>& model, const State<double>& x);  // with rotors [J]

@@ -29,7 +29,7 @@ bool has_axis(JointType type) {
   return facts_of(type).axis != AxisUse::none;
 }
 
-void check_inertia(const std::string& where, const BodyInertia& body, FaultList& faults) {
+void check_inertia(const std::string& where, const BodyInertia& body, DiagnosticList& faults) {
   if (!std::isfinite(body.mass) || !body.com.allFinite() || !body.inertia.allFinite())
     faults.add(where, "mass, centre of mass or inertia is not a finite number", "",
                "model.not-finite");
@@ -37,7 +37,7 @@ void check_inertia(const std::string& where, const BodyInertia& body, FaultList&
     faults.add(where, "mass is " + short_number_text(body.mass) + " kg, must not be negative",
                "give the link its mass", "model.negative");
 }
-void check_properties(const std::string& joint, const JointProperties& p, FaultList& faults) {
+void check_properties(const std::string& joint, const JointProperties& p, DiagnosticList& faults) {
   for (const auto& [what, value] : {std::pair{"armature", p.armature},
                                     {"damping", p.damping},
                                     {"Coulomb friction", p.coulomb_plus},
@@ -90,7 +90,7 @@ std::vector<double> felt_inertia_by_dof(const Model<double>& model) {
 
 // Every dof must feel some. One that does not spoils the numbers of its ancestors: from the tips
 // on, what is found is told, and mended in a copy, until nothing is found.
-void check_felt_inertia(const Model<double>& model, FaultList& faults) {
+void check_felt_inertia(const Model<double>& model, DiagnosticList& faults) {
   Model<double> mended = model;
   std::vector<bool> told(model.parent.size());
   for (bool found = true; found && !faults.is_full();) {
@@ -137,7 +137,7 @@ void ModelBuilder::add_mimic(const std::string& follower, const std::string& lea
   mimics_.push_back({follower, leader, ratio, offset});
 }
 
-void ModelBuilder::check(const Body& body, int index, Names& taken, FaultList& faults) {
+void ModelBuilder::check(const Body& body, int index, Names& taken, DiagnosticList& faults) {
   const std::string where = link_called(body.name);
   if (body.parent < 0 || body.parent >= index)
     faults.add(where, "its parent is not a body that was added before it", "", "model.parent");
@@ -158,7 +158,7 @@ void ModelBuilder::check(const Body& body, int index, Names& taken, FaultList& f
 void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Matrix3>& R_LB) {
   const bool known_parent = body.parent >= 0 && body.parent < model.body_count();
   const Matrix3 R_PlPb = R_LB[static_cast<std::size_t>(known_parent ? body.parent : 0)];
-  R_LB.push_back(has_axis(body.type) && is_direction(body.axis) ? turn_z_to(body.axis)
+  R_LB.push_back(has_axis(body.type) && is_direction(body.axis) ? rotation_taking_z_to(body.axis)
                                                                 : Matrix3::Identity());
   const Pose X_PbPl{R_PlPb.transpose(), Vector3::Zero()};
   const Pose X_LB{R_LB.back(), Vector3::Zero()};
@@ -186,7 +186,7 @@ void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Ma
 }
 
 Model<double> ModelBuilder::build() const {
-  FaultList faults;
+  DiagnosticList faults;
   Model<double> model;
   model.gravity = to_vec3(gravity_);
   model.body_name = {"world"};
@@ -215,7 +215,7 @@ Model<double> ModelBuilder::build() const {
   return model;
 }
 
-void ModelBuilder::add_mimics_to(Model<double>& model, FaultList& faults) const {
+void ModelBuilder::add_mimics_to(Model<double>& model, DiagnosticList& faults) const {
   const auto leader_of = [&](MimicByName& mimic) {
     const auto next = std::find_if(mimics_.begin(), mimics_.end(), [&](const MimicByName& other) {
       return other.follower == mimic.leader;

@@ -68,9 +68,9 @@ class ModelBuilder {
   struct Names {
     std::unordered_set<std::string> links, joints;
   };
-  static void check(const Body& body, int index, Names& taken, FaultList& faults);
+  static void check(const Body& body, int index, Names& taken, DiagnosticList& faults);
   static void append(const Body& body, Model<double>& model, std::vector<Matrix3>& R_LB);
-  void add_mimics_to(Model<double>& model, FaultList& faults) const;
+  void add_mimics_to(Model<double>& model, DiagnosticList& faults) const;
 
   std::vector<Body> bodies_;
   std::vector<MimicByName> mimics_;

@@ -14,7 +14,7 @@
 namespace twinarm {
 
 // How a spring-damper enters a step of size h (docs/coupling.md).
-enum class Treatment {
+enum class Discretization {
   explicit_,      // force at the start of the step
   semi_implicit,  // spring at the start, damper at the end: m* = h b
   implicit        // both at the end: m* = h b + h^2 k

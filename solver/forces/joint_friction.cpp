@@ -5,7 +5,7 @@
 
 namespace twinarm {
 
-double BoxProblem::result(std::size_t i, double& size) const {
+double BoxLcp::result(std::size_t i, double& size) const {
   double v = rows[i].a;
   size = std::abs(v);
   for (std::size_t j = 0; j < rows.size(); ++j) {
@@ -17,7 +17,7 @@ double BoxProblem::result(std::size_t i, double& size) const {
 }
 
 // f of the rows inside so that their v' is zero, the others at their bounds.
-void BoxProblem::solve_inside() {
+void BoxLcp::solve_inside() {
   inside_.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Row& row = rows[i];
@@ -34,7 +34,7 @@ void BoxProblem::solve_inside() {
   for (std::size_t n = 0; n < inside_.size(); ++n) rows[inside_[n]].f = rhs_[n];
 }
 
-bool BoxProblem::contradicts(std::size_t i, At& better) const {
+bool BoxLcp::contradicts(std::size_t i, At& better) const {
   const Row& row = rows[i];
   better = row.at;
   if (row.at == At::inside) {
@@ -49,7 +49,7 @@ bool BoxProblem::contradicts(std::size_t i, At& better) const {
   return better != row.at;
 }
 
-bool BoxProblem::solve() noexcept {
+bool BoxLcp::solve() noexcept {
   for (Row& row : rows) row.at = At::inside;
   std::size_t fewest = rows.size() + 1;
   int patience = 3;
@@ -75,7 +75,7 @@ bool BoxProblem::solve() noexcept {
   return false;
 }
 
-bool BoxProblem::solve_by_gauss_seidel() noexcept {
+bool BoxLcp::solve_by_gauss_seidel() noexcept {
   constexpr int kMaxSweeps = 10000;
   for (Row& row : rows) row.f = std::clamp(row.f, row.low, row.high);
   bool done = false;
@@ -102,7 +102,7 @@ CoulombFriction::CoulombFriction(const Model<double>& model) {
     ratio[m.follower] = m.ratio;
   }
   for (std::size_t l = 0; l < model.nv; ++l) {
-    Family family{l, 0, 0, members_.size(), 0};
+    MimicGroup family{l, 0, 0, members_.size(), 0};
     for (std::size_t d = 0; d < model.nv; ++d) {
       if (leader[d] != l || ratio[d] == 0) continue;
       const double r = ratio[d];
@@ -121,7 +121,7 @@ CoulombFriction::CoulombFriction(const Model<double>& model) {
 }
 
 void CoulombFriction::distribute(std::size_t family, double f, std::vector<double>& tau) const {
-  const Family& of = families_[family];
+  const MimicGroup& of = families_[family];
   const double limit = f < 0 ? of.plus : of.minus;
   if (f == 0 || limit == 0) return;
   const double part = std::abs(f) / limit;

@@ -25,7 +25,7 @@ namespace twinarm {
 // Chosen as it is exact (one solve with the right guess, which mostly is the first or second one)
 // and warm-start free, so the same inputs give the same bits. Pivots are bounded; should that not
 // do, projected Gauss-Seidel goes on to rounding.
-class BoxProblem {
+class BoxLcp {
  public:
   static constexpr double kRounding = 1e-13;  // relative: contradictions up to this are rounding
   enum class At : signed char { low, inside, high };
@@ -35,7 +35,7 @@ class BoxProblem {
     At at = At::inside;
   };
 
-  explicit BoxProblem(std::size_t capacity) : B_(capacity), factors_(capacity), rhs_(capacity) {
+  explicit BoxLcp(std::size_t capacity) : B_(capacity), factors_(capacity), rhs_(capacity) {
     rows.reserve(capacity);
     inside_.reserve(capacity);
   }
@@ -58,13 +58,13 @@ class BoxProblem {
 // The Coulomb friction of a model, dof by dof that follows nobody and has any.
 class CoulombFriction {
  public:
-  struct Family {
+  struct MimicGroup {
     std::size_t dof;           // the leader's
     double plus, minus;        // limits of the friction felt there: it lies in [-plus, minus]
     std::size_t first, count;  // its members
   };
   explicit CoulombFriction(const Model<double>& model);
-  const std::vector<Family>& families() const { return families_; }
+  const std::vector<MimicGroup>& families() const { return families_; }
   // Adds what friction f felt at the leader is in each joint of the family: parts of their limits
   // that are all the same.
   void distribute(std::size_t family, double f, std::vector<double>& tau) const;
@@ -74,7 +74,7 @@ class CoulombFriction {
     std::size_t dof;
     double plus, minus;  // torque on the dof itself when f = -plus, f = minus of the family
   };
-  std::vector<Family> families_;
+  std::vector<MimicGroup> families_;
   std::vector<Member> members_;
 };
 

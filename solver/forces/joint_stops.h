@@ -25,7 +25,7 @@ class JointStops final : public SpringSource {
   JointStops(const std::string& name, const Model<double>& model, std::vector<Stop> stops)
       : model_(model), stops_(std::move(stops)) {
     readings_.resize(stops_.size());
-    FaultList faults;
+    DiagnosticList faults;
     for (const Stop& stop : stops_) {
       const std::string where = "coupling '" + name + "'";
       if (!(stop.k >= 0 && stop.b >= 0))
@@ -51,7 +51,7 @@ class JointStops final : public SpringSource {
       const auto i = static_cast<std::size_t>(stop.body);
       const double q = x.q[model_.iq[i]], qd = x.qd[model_.iv[i]];
       const double limit = q < stop.lower ? stop.lower : stop.upper;
-      SpringReading& reading = readings_[s];
+      SpringState& reading = readings_[s];
       reading.p_K = reading.p_D = k.X_WL[i].p;
       reading.size = reading.m_star = 0;
       if (q >= stop.lower && q <= stop.upper) continue;

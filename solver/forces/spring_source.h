@@ -12,7 +12,7 @@ namespace twinarm {
 
 // A spring's pull on the robot D that moves, towards its target K, at the last evaluation: for
 // plots and pictures.
-struct SpringReading {
+struct SpringState {
   Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();  // ends in the KVR and the DVR, world [m]
   Vector3 pull = Vector3::Zero();  // force [N] or couple [N m] on the DVR, world axes
   double size = 0;                 // |pull|; of a joint spring the torque, or force, with its sign
@@ -20,13 +20,13 @@ struct SpringReading {
                       // quantity: the weightless inertia [kg, kg m^2]
 };
 
-class SpringSource : public ForceSource, public Rewindable {
+class SpringSource : public ForceSource, public Checkpointable {
  public:
   // By spring. In six dimensions the forces of all springs, and then the couples of all.
-  const std::vector<SpringReading>& readings() const { return readings_; }
+  const std::vector<SpringState>& readings() const { return readings_; }
   // The pulls, which may be held over many steps; more where a law overrides it.
-  void visit_memory(Memory& memory) override {
-    for (SpringReading& reading : readings_) {
+  void serialize(StateArchive& memory) override {
+    for (SpringState& reading : readings_) {
       for (Vector3* v : {&reading.p_K, &reading.p_D, &reading.pull}) memory.visit(*v);
       memory.visit(reading.size);
       memory.visit(reading.m_star);
@@ -34,7 +34,7 @@ class SpringSource : public ForceSource, public Rewindable {
   }
 
  protected:
-  std::vector<SpringReading> readings_;
+  std::vector<SpringState> readings_;
 };
 
 }  // namespace twinarm

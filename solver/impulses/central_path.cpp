@@ -27,7 +27,7 @@
 namespace twinarm {
 namespace {
 
-constexpr int most_steps = 1500, most_corrections = 5, most_starting = 60;
+constexpr int max_steps = 1500, max_corrections = 5, max_starting = 60;
 constexpr double near = 0.1, slow = 0.7, shorter = 0.3, longest = 0.95, shortest = 1e-6;
 constexpr double sharp = 1e-3;  // a turn by more than 90 degrees within that length is one
 constexpr double boundary = 0.95;
@@ -113,7 +113,7 @@ struct ImpulseSolver::Path {
 
   void find_directions();
   void predict(bool again);
-  void go_back();
+  void restore();
   bool step();
 };
 
@@ -160,7 +160,7 @@ void ImpulseSolver::Path::predict(bool again) {
   corrections = 0, size = infinity, at = At::predicted;
 }
 
-void ImpulseSolver::Path::go_back() {
+void ImpulseSolver::Path::restore() {
   for_each_cone([&](int i) { of.x_[i] = of.saved_.x[i], of.z_[i] = of.saved_.z[i]; });
   for_each_velocity([&](std::size_t k) { problem.v(0)[k] = of.saved_.v[k]; });
   s = of.saved_.s;
@@ -191,10 +191,10 @@ bool ImpulseSolver::Path::step() {
   const int sign = -of.matrix_.determinant_sign();
   if (size <= near && (length < sharp || sign * inner(tangent, of.last_) > 0))
     predict(false);
-  else if (size > near && size < slow * before && corrections < most_corrections)
+  else if (size > near && size < slow * before && corrections < max_corrections)
     ++corrections, go(correction);
   else
-    go_back();
+    restore();
   return length > shortest;
 }
 
@@ -209,7 +209,7 @@ int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, in
   Path path{*this, problem, island, s0};
   double best = infinity;
   int steps = 0;
-  for (; s0 > 0 && steps < most_steps; ++steps) {
+  for (; s0 > 0 && steps < max_steps; ++steps) {
     shift_part_ = std::max(0.0, 1 - path.s / s0);
     rounded_ = path.s / s0;
     double residual = 0;
@@ -218,13 +218,13 @@ int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, in
       best = residual;
       for (const int i : island.constraints) kept_[i] = p_[i];
     }
-    if (path.at == Path::At::start && steps > most_starting) break;
+    if (path.at == Path::At::start && steps > max_starting) break;
     if (residual <= 0.5 * accepted || path.s > 2 * s0) break;
     if (inside) {
       if (!path.step()) break;
     } else {
       if (path.at == Path::At::start) break;
-      path.go_back();
+      path.restore();
     }
   }
   if (best < infinity)

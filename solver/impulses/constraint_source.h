@@ -3,9 +3,9 @@
 // A step of h asks each source, in this order (constrained_step.h):
 //   begin_step      once, with the kinematics at its start: find contacts, measure gaps
 //   closes          before impacts: does anything hit within this step, at these velocities?
-//   look_farther    when velocities have jumped
+//   extend_detection    when velocities have jumped
 //   add, take       Phase::impact, as often as something closes; Phase::step once;
-//                   Phase::separate if one of them wants_separation
+//                   Phase::separate if one of them needs_position_correction
 // A step that locates its events in time asks its events() for more: event_source.h.
 // None of them may throw or allocate once warm.
 #pragma once
@@ -27,7 +27,7 @@ enum class Phase {
 
 struct ConstraintFrame {
   const Kinematics& k;  // at the start of the step
-  const ModelTrees& trees;
+  const KinematicTrees& trees;
   const State<double>& x;  // q at the start, qd before this phase
   Phase phase;
   double h;  // [s]
@@ -51,11 +51,11 @@ class ConstraintSource {
  public:
   virtual ~ConstraintSource() = default;
   virtual void begin_step(const Kinematics&, const State<double>&, double /*h*/) noexcept {}
-  virtual bool closes(const ConstraintFrame&) noexcept { return false; }
+  virtual bool has_closing_contact(const ConstraintFrame&) noexcept { return false; }
   // Velocities have jumped to those of k: what is met now and was not before comes in, with a gap.
   // True where there is something new.
-  virtual bool look_farther(const Kinematics&, double /*h*/) noexcept { return false; }
-  virtual bool wants_separation() const noexcept { return false; }
+  virtual bool extend_detection(const Kinematics&, double /*h*/) noexcept { return false; }
+  virtual bool needs_position_correction() const noexcept { return false; }
   // Adds its constraints, with the last impulses as a guess.
   virtual void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept = 0;
   // The solution for them: the same constraints, from index `first` on.

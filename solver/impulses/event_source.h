@@ -30,22 +30,23 @@ class EventSource {
   // not open, unless something has hit meanwhile.
   virtual void hold(const ConstraintFrame& frame, bool struck) noexcept = 0;
   // Back to the start of the piece, as hold() left it; the next begin_step follows from there.
-  virtual void hold_again() noexcept = 0;
+  virtual void restore_active_set() noexcept = 0;
 
   // Of what is not held.
-  struct Nearest {
+  struct NextEvent {
     double gap = std::numeric_limits<double>::infinity();   // the least [m], negative: beyond
     double time = std::numeric_limits<double>::infinity();  // the least, at the present speeds [s]
-    bool closes = true;  // the one with the least gap comes nearer
+    bool has_closing_contact = true;  // the one with the least gap comes nearer
 
     // One more gap [m], which opens at `rate` [m/s].
     void see(double gap_now, double rate) {
       const bool comes = rate < -kRest;
       if (comes) time = std::min(time, std::max(0.0, gap_now) / -rate);
-      if ((comes || gap_now < -10 * kClosed) && gap_now < gap) gap = gap_now, closes = comes;
+      if ((comes || gap_now < -10 * kClosed) && gap_now < gap)
+        gap = gap_now, has_closing_contact = comes;
     }
   };
-  virtual void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept = 0;
+  virtual void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept = 0;
 
   // After a solution in Phase::flow: what each held one does, appended. They agree all through a
   // smooth piece. What slides at its start, but then stands or slides the other way, turns: that is
@@ -53,11 +54,11 @@ class EventSource {
   enum Mode : char { rests, slides, opens, turns };
   virtual void modes(std::vector<char>& modes) const noexcept = 0;
 
-  // Work since hold_again() of each held one, some numbers each, for the stepper to extrapolate
-  // [J].
+  // Work since restore_active_set() of each held one, some numbers each, for the stepper to
+  // extrapolate [J].
   virtual std::span<double> works() noexcept = 0;
   // The piece is done: works() are right now.
-  virtual void count_works() noexcept = 0;
+  virtual void commit_work() noexcept = 0;
 };
 
 }  // namespace twinarm

@@ -63,24 +63,24 @@ void project_on_cone(double mu, Vec& p, Mat* slope) {
 void project(const ImpulseConstraint& c, double radius, Vec& p, Mat* D) {
   if (D) *D = {};
   switch (c.law) {
-    case ImpulseLaw::equal:
+    case ConstraintType::bilateral:
       if (D) (*D)[xx] = 1, (*D)[yy] = c.rows > 1, (*D)[zz] = c.rows > 2;
       break;
-    case ImpulseLaw::at_least:
+    case ConstraintType::unilateral:
       if (D) (*D)[xx] = p[0] > 0;
       p[0] = std::max(0.0, p[0]);
       break;
-    case ImpulseLaw::within:
+    case ConstraintType::box:
       if (D) (*D)[xx] = p[0] > c.low && p[0] < c.high;
       p[0] = std::clamp(p[0], c.low, c.high);
       break;
-    case ImpulseLaw::disc:
+    case ConstraintType::friction_disc:
       clip_to_disc(0, c.rows, radius, p, D);
       break;
-    case ImpulseLaw::coulomb:
+    case ConstraintType::coulomb_cone:
       project_on_cone(c.mu, p, D);
       break;
-    case ImpulseLaw::compliant:
+    case ConstraintType::compliant:
       break;
   }
 }
@@ -100,11 +100,12 @@ void respond_softly(const ImpulseConstraint& c, double bound, const Vec& u, Vec&
 }
 
 Vec shifted(const ImpulseConstraint& c, double shift, const Vec& u) {
-  return c.law == ImpulseLaw::coulomb ? Vec{u[0] + shift, u[1], u[2]} : u;
+  return c.law == ConstraintType::coulomb_cone ? Vec{u[0] + shift, u[1], u[2]} : u;
 }
 
 // l - rho (u + shift e_n)
-Vec asked_for(const ImpulseConstraint& c, const LawMemory& memory, double shift, const Vec& u) {
+Vec unprojected_impulse(const ImpulseConstraint& c, const MultiplierState& memory, double shift,
+                        const Vec& u) {
   const Vec ut = shifted(c, shift, u);
   Vec p{};
   for (int r = 0; r < c.rows; ++r) p[r] = memory.l[r] - memory.rho * ut[r];
@@ -117,11 +118,12 @@ double slip(const Vec& u) {
 
 }  // namespace
 
-void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, const Vec& u, Vec& p,
-             Mat& D) {
-  if (c.law == ImpulseLaw::compliant) return respond_softly(c, memory.radius, u, p, D);
-  const bool follow = shift == Shift::followed && c.law == ImpulseLaw::coulomb;
-  p = asked_for(c, memory, follow ? c.mu * slip(u) : memory.shift, u);
+void respond(const ImpulseConstraint& c, const MultiplierState& memory, DeSaxceShift shift,
+             const Vec& u, Vec& p, Mat& D) {
+  if (c.law == ConstraintType::compliant) return respond_softly(c, memory.radius, u, p, D);
+  const bool follow =
+      shift == DeSaxceShift::differentiated && c.law == ConstraintType::coulomb_cone;
+  p = unprojected_impulse(c, memory, follow ? c.mu * slip(u) : memory.shift, u);
   project(c, memory.radius, p, &D);
   for (double& d : D) d *= memory.rho;
   if (const double speed = slip(u); follow && speed > 0) {
@@ -131,29 +133,29 @@ void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, c
   }
 }
 
-Vec answer(const ImpulseConstraint& c, const LawMemory& memory, const Vec& u) {
+Vec answer(const ImpulseConstraint& c, const MultiplierState& memory, const Vec& u) {
   Vec p;
-  if (Mat D; c.law == ImpulseLaw::compliant) {
+  if (Mat D; c.law == ConstraintType::compliant) {
     respond_softly(c, memory.radius, u, p, D);
   } else {
-    p = asked_for(c, memory, memory.shift, u);
+    p = unprojected_impulse(c, memory, memory.shift, u);
     project(c, memory.radius, p, nullptr);
   }
   return p;
 }
 
-Vec along_edge(const ImpulseConstraint& c, const LawMemory& memory, const Vec& u) {
+Vec sliding_direction(const ImpulseConstraint& c, const MultiplierState& memory, const Vec& u) {
   const double x = memory.l[0] - memory.rho * u[0];
   const double y = c.rows > 1 ? memory.l[1] - memory.rho * u[1] : 0;
   const double norm = length(x, y);
   return norm > memory.radius ? Vec{x / norm, y / norm, 0} : Vec{};
 }
 
-double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double rho, const Vec& u,
-                    const Vec& p) {
+double law_residual(const ImpulseConstraint& c, const MultiplierState& memory, double rho,
+                    const Vec& u, const Vec& p) {
   Vec again{};
   Mat D{};
-  if (c.law == ImpulseLaw::compliant) {
+  if (c.law == ConstraintType::compliant) {
     respond_softly(c, c.mu * p[0], u, again, D);
   } else {
     const Vec ut = shifted(c, shift_of(c, u), u);
@@ -163,20 +165,20 @@ double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double 
   // A stiff spring makes much of a velocity that is hardly wrong: its own stiffness counts to rho.
   double largest = 0;
   for (int r = 0; r < c.rows; ++r)
-    largest = worse(largest, std::abs(p[r] - again[r]) / (rho + D[4 * r]));
+    largest = nan_max(largest, std::abs(p[r] - again[r]) / (rho + D[4 * r]));
   return largest;
 }
 
 double shift_of(const ImpulseConstraint& c, const Vec& u) {
-  return c.law == ImpulseLaw::coulomb ? c.mu * slip(u) : 0;
+  return c.law == ConstraintType::coulomb_cone ? c.mu * slip(u) : 0;
 }
 
 void remember(const ImpulseConstraint& c, const std::vector<ImpulseConstraint>& all, const Vec& u,
-              const Vec& p, LawMemory& memory) {
+              const Vec& p, MultiplierState& memory) {
   memory.l = p;
   memory.shift = shift_of(c, u);
-  if (c.law == ImpulseLaw::compliant) memory.radius = c.mu * p[0];
-  if (c.law == ImpulseLaw::disc) memory.radius = c.radius * all[c.of].p[0];
+  if (c.law == ConstraintType::compliant) memory.radius = c.mu * p[0];
+  if (c.law == ConstraintType::friction_disc) memory.radius = c.radius * all[c.of].p[0];
 }
 
 }  // namespace twinarm

@@ -17,7 +17,7 @@
 namespace twinarm {
 
 // What the rounds before have left for one constraint.
-struct LawMemory {
+struct MultiplierState {
   double rho = 0;             // [kg], or [kg m^2]
   std::array<double, 3> l{};  // multiplier [N s]
   double shift = 0;           // s of a cone, where it is held [m/s]
@@ -29,25 +29,25 @@ using Mat = std::array<double, 9>;  // row by row
 
 // p(u), u with b, and D = -dp/du. Shift held: the gradient of a convex function, D symmetric.
 // Followed: s = mu |u_t| at this u, and in D.
-enum class Shift { held, followed };
-void respond(const ImpulseConstraint& c, const LawMemory& memory, Shift shift, const Vec& u, Vec& p,
-             Mat& D);
+enum class DeSaxceShift { frozen, differentiated };
+void respond(const ImpulseConstraint& c, const MultiplierState& memory, DeSaxceShift shift,
+             const Vec& u, Vec& p, Mat& D);
 // Shift held: p(u) alone.
-Vec answer(const ImpulseConstraint& c, const LawMemory& memory, const Vec& u);
+Vec answer(const ImpulseConstraint& c, const MultiplierState& memory, const Vec& u);
 
 // Where p(u) of a disc is at its edge, the direction of p there; 0 within.
-Vec along_edge(const ImpulseConstraint& c, const LawMemory& memory, const Vec& u);
+Vec sliding_direction(const ImpulseConstraint& c, const MultiplierState& memory, const Vec& u);
 
 // How far p is from obeying the law at u, with the same for rho = 1/g: |p - P_K(p - rho ut)| / rho
 // [m/s]; of a compliant contact p less what its springs and bristles give, over rho and stiffness.
-double law_residual(const ImpulseConstraint& c, const LawMemory& memory, double rho, const Vec& u,
-                    const Vec& p);
+double law_residual(const ImpulseConstraint& c, const MultiplierState& memory, double rho,
+                    const Vec& u, const Vec& p);
 
 // mu |u_t| of a cone, 0 of others.
 double shift_of(const ImpulseConstraint& c, const Vec& u);
 
 // Sets l and the bounds to those of p and u.
 void remember(const ImpulseConstraint& c, const std::vector<ImpulseConstraint>& all, const Vec& u,
-              const Vec& p, LawMemory& memory);
+              const Vec& p, MultiplierState& memory);
 
 }  // namespace twinarm

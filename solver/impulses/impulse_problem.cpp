@@ -23,7 +23,7 @@ int ImpulseProblem::add_tree(int n) {
   return tree_count() - 1;
 }
 
-ImpulseConstraint& ImpulseProblem::add(ImpulseLaw law, int rows, int tree_a, int tree_b) {
+ImpulseConstraint& ImpulseProblem::add(ConstraintType law, int rows, int tree_a, int tree_b) {
   assert(rows >= 1 && rows <= 3);
   ImpulseConstraint& c = constraints_.emplace_back();
   c.law = law;

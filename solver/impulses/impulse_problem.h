@@ -14,19 +14,19 @@
 
 namespace twinarm {
 
-enum class ImpulseLaw : unsigned char {
-  equal,     // u = 0                                                       1 to 3 rows
-  at_least,  // u >= 0, p >= 0, u p = 0: a limit, a contact without friction  1 row
-  within,    // p in [low, high]; u > 0 only at low, u < 0 only at high      1 row
-  disc,      // |p| <= radius p_n of the contact `of`; slips against p       1 or 2 rows
-             // (the contact comes before it, and is between the same trees)
-  coulomb,   // row 0 normal: at_least; rows 1, 2: |p_t| <= mu p_n, slips against p_t
-  compliant  // a spring-damper in place of at_least, and bristles that slip at mu p_n (3 rows)
+enum class ConstraintType : unsigned char {
+  bilateral,      // u = 0                                                       1 to 3 rows
+  unilateral,     // u >= 0, p >= 0, u p = 0: a limit, a contact without friction  1 row
+  box,            // p in [low, high]; u > 0 only at low, u < 0 only at high      1 row
+  friction_disc,  // |p| <= radius p_n of the contact `of`; slides against p       1 or 2 rows
+                  // (the contact comes before it, and is between the same trees)
+  coulomb_cone,   // row 0 normal: unilateral; rows 1, 2: |p_t| <= mu p_n, slides against p_t
+  compliant       // spring-damper instead of unilateral, and bristles that slide at mu p_n (3 rows)
 };
 
 struct ImpulseConstraint {
   static constexpr int no_tree = -1;
-  ImpulseLaw law = ImpulseLaw::equal;
+  ConstraintType law = ConstraintType::bilateral;
   int rows = 1;
   std::array<int, 2> tree{no_tree, no_tree};
   std::array<std::size_t, 2> J{};  // where the rows x n block of either tree begins
@@ -52,7 +52,7 @@ class ImpulseProblem {
   // A block of M with n rows; returns its index. Fill M(tree) and v0(tree).
   int add_tree(int n);
   // A law between two trees (or one, or none: ImpulseConstraint::no_tree). J blocks are zero.
-  ImpulseConstraint& add(ImpulseLaw law, int rows, int tree_a, int tree_b);
+  ImpulseConstraint& add(ConstraintType law, int rows, int tree_a, int tree_b);
 
   int tree_count() const { return static_cast<int>(size_.size()); }
   int size(int tree) const { return size_[tree]; }

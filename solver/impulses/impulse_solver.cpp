@@ -11,11 +11,11 @@ namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
 constexpr double first_rho = 1e2, large_rho = 1e4, usual_rho = 1e5,
-                 largest_rho = 1e7;             // times rho0
-constexpr double least_rho = 1, astray = 10;    // a residual so much larger than the best
-constexpr int most_returns = 10, patience = 4;  // times most_newton, from the best of all
+                 max_rho = 1e7;                // times rho0
+constexpr double min_rho = 1, astray = 10;     // a residual so much larger than the best
+constexpr int max_returns = 10, patience = 4;  // times max_newton, from the best of all
 constexpr std::size_t few = 8;  // constraints of an island whose solution is polished
-constexpr int most_paths = 8;   // one after the other
+constexpr int max_paths = 8;    // one after the other
 
 }  // namespace
 
@@ -67,7 +67,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     }
     again = fails;
     for (const int t : islands_[i].trees) residual_[static_cast<std::size_t>(t)] = residual;
-    report.residual = worse(report.residual, residual);
+    report.residual = nan_max(report.residual, residual);
     report.converged = report.converged && residual <= accepted;
   }
   return report;
@@ -102,8 +102,9 @@ double ImpulseSolver::settle(ImpulseProblem& problem, const Island& island) {
     ImpulseConstraint& c = problem.constraints()[i];
     problem.velocity(c, problem.v(0), c.u);
     for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
-    if (c.law == ImpulseLaw::disc) memory_[i].radius = c.radius * problem.constraints()[c.of].p[0];
-    residual = worse(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
+    if (c.law == ConstraintType::friction_disc)
+      memory_[i].radius = c.radius * problem.constraints()[c.of].p[0];
+    residual = nan_max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
   }
   return residual;
 }
@@ -116,8 +117,8 @@ double ImpulseSolver::relax(ImpulseProblem& problem, const Island& island) {
     ImpulseConstraint& c = problem.constraints()[i];
     remember(c, problem.constraints(), c.u, c.p, memory_[i]);
     memory_[i].rho = part * rho0_[i];
-    respond(c, memory_[i], Shift::held, c.u, p_[i], D_[i]);
-    if (c.law != ImpulseLaw::compliant) {
+    respond(c, memory_[i], DeSaxceShift::frozen, c.u, p_[i], D_[i]);
+    if (c.law != ConstraintType::compliant) {
       c.p = p_[i];
     } else {  // what the spring asks for, less what it gives way meanwhile
       for (int r = 0; r < 3; ++r)
@@ -150,7 +151,7 @@ double ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island
     judge(settle(problem, island));
   };
   if (island.constraints.size() <= few && is_warm(problem, island)) {
-    judge(start_near(problem, island, report));
+    judge(warm_start_newton(problem, island, report));
     if (best <= accepted) return best;
     for (const int i : island.constraints) problem.constraints()[i].p = guess_p_[i];
     settle(problem, island);
@@ -160,9 +161,9 @@ double ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island
   const auto finish = [&](bool yields) {
     judge(settle(problem, island));
     if (best <= accepted) return;
-    go_on(most_newton, yields, first_rho);
+    go_on(max_newton, yields, first_rho);
   };
-  report.interior = std::max(report.interior, approach_centrally(problem, island));
+  report.interior = std::max(report.interior, interior_point_start(problem, island));
   finish(false);
   // A body between two surfaces may slide, or jam with impulses that have no bound; from the middle
   // of what is possible one comes to the jam, even where a hair of a gap makes it no solution.
@@ -170,26 +171,26 @@ double ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island
     if (best <= accepted) break;
     for (const int i : island.constraints) problem.constraints()[i].p = guess_p_[i];
     settle(problem, island);
-    go_on(most_newton, false, rho);
+    go_on(max_newton, false, rho);
   }
-  for (int which = 0; which < most_paths && best > accepted; ++which) {
+  for (int which = 0; which < max_paths && best > accepted; ++which) {
     report.path = std::max(report.path, follow_path(problem, island, which));
     finish(which % 2 == 1);
   }
   // On from the best, in one way and in the other, as long as that comes nearer.
-  for (int k = 0; k < most_returns && best > accepted; ++k) {
+  for (int k = 0; k < max_returns && best > accepted; ++k) {
     const bool yields = k % 2 == 0;
     for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
     const double before = best;
     settle(problem, island);
-    go_on(patience * most_newton, yields, first_rho);
+    go_on(patience * max_newton, yields, first_rho);
     if (!yields && best > 0.5 * before) break;
   }
   // What neither can solve (friction beyond Painleve's bound) is at least brought near, so that
   // nothing falls through.
-  const auto most_descents =
+  const auto max_descents =
       static_cast<int>(std::clamp<std::size_t>(30000 / island.constraints.size(), 300, 5000));
-  for (int k = 0; k < most_descents && best > accepted; ++k) judge(relax(problem, island));
+  for (int k = 0; k < max_descents && best > accepted; ++k) judge(relax(problem, island));
   for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
   return settle(problem, island);
 }
@@ -202,7 +203,7 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
                                ImpulseReport& report) {
   int newton = 0, round = 0;
   double last = 0, best = std::numeric_limits<double>::infinity();
-  double most_rho = usual_rho;
+  double max_rho = usual_rho;
   const auto bring_back = [&] {
     for (const int i : island.constraints) problem.constraints()[i].p = round_p_[i];
     settle(problem, island);
@@ -230,7 +231,7 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
     for (const int i : island.constraints) {
       const ImpulseConstraint& c = problem.constraints()[i];
       remember(c, problem.constraints(), c.u, c.p, memory_[i]);
-      residual = worse(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
+      residual = nan_max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
     }
     report.rounds = std::max(report.rounds, round);
     report.newton = std::max(report.newton, newton);
@@ -238,18 +239,18 @@ void ImpulseSolver::run_rounds(ImpulseProblem& problem, const Island& island, in
     if (residual < best) {
       best = residual;
       for (const int i : island.constraints) round_p_[i] = problem.constraints()[i].p;
-    } else if (!(residual <= astray * best) && rho_ratio_ > least_rho) {
+    } else if (!(residual <= astray * best) && rho_ratio_ > min_rho) {
       bring_back();
       remember_all();
-      most_rho = rho_ratio_ = std::max(least_rho, 0.01 * rho_ratio_);
+      max_rho = rho_ratio_ = std::max(min_rho, 0.01 * rho_ratio_);
       last = best;
       continue;
     }
     // Multipliers that creep while the active laws stay the same need a larger rho.
     const bool creeps = end.steps <= 2 && residual > 0.3 * last;
     if (yields && end.strayed)
-      rho_ratio_ = std::max(least_rho, 0.1 * rho_ratio_);
-    else if (rho_ratio_ < most_rho || (creeps && rho_ratio_ < largest_rho))
+      rho_ratio_ = std::max(min_rho, 0.1 * rho_ratio_);
+    else if (rho_ratio_ < max_rho || (creeps && rho_ratio_ < max_rho))
       rho_ratio_ *= 10;
     last = residual;
   }

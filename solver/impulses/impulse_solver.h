@@ -43,14 +43,14 @@ class ImpulseSolver {
   double tolerance = 1e-10;   // residual that a solution aims at [m/s]
   int quick_newton = 12;      // steps before the start of interior_point.cpp is asked for,
   int quick_newton_few = 28;  // and of a small island, where a start costs as much as these
-  int most_newton = 400;      // steps in all
+  int max_newton = 400;       // steps in all
 
   // Writes v of the problem, and p and u of its constraints.
   ImpulseReport solve(ImpulseProblem& problem);
   // Of the last solution: what is left of the laws that this tree is under [m/s].
   double residual_of(int tree) const { return residual_[static_cast<std::size_t>(tree)]; }
   // Which guesses are not to be trusted.
-  void visit_memory(Memory& memory) { memory.visit(solve_again_); }
+  void serialize(StateArchive& memory) { memory.visit(solve_again_); }
 
  private:
   struct Island {
@@ -66,8 +66,8 @@ class ImpulseSolver {
   void run_rounds(ImpulseProblem& problem, const Island& island, int most, bool yields,
                   ImpulseReport& report);
   static bool is_warm(const ImpulseProblem& problem, const Island& island);
-  double start_near(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
-  double take_one_step(ImpulseProblem& problem, const Island& island, double residual);
+  double warm_start_newton(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
+  double semismooth_newton_step(ImpulseProblem& problem, const Island& island, double residual);
   double polish(ImpulseProblem& problem, const Island& island, double residual);
   void order(const ImpulseProblem& problem, const Island& island);
   void lay_out(const ImpulseProblem& problem, const Island& island);
@@ -83,7 +83,7 @@ class ImpulseSolver {
   };
   Round solve_round(ImpulseProblem& problem, const Island& island, int most);
   double noise(const ImpulseProblem& problem, const Island& island);
-  Gradient gradient(ImpulseProblem& problem, const Island& island, Shift shift);
+  Gradient gradient(ImpulseProblem& problem, const Island& island, DeSaxceShift shift);
   void respond_disc(const ImpulseConstraint& c, int i);
   Gradient balance(const ImpulseProblem& problem, const Island& island);
   void find_direction(const ImpulseProblem& problem, const Island& island, bool symmetric);
@@ -93,7 +93,7 @@ class ImpulseSolver {
   void add_block(const ImpulseProblem& problem, const ImpulseConstraint& left, int side_s,
                  const ImpulseConstraint& right, int side_t, bool symmetric);
   void move(ImpulseProblem& problem, const Island& island, double step);
-  int approach_centrally(ImpulseProblem& problem, const Island& island);
+  int interior_point_start(ImpulseProblem& problem, const Island& island);
   bool has_cone(const ImpulseProblem& problem, const ImpulseConstraint& c) const;
   double begin_centrally(ImpulseProblem& problem, const Island& island, int which);
   double measure_centrally(ImpulseProblem& problem, const Island& island, double& residual);
@@ -109,12 +109,12 @@ class ImpulseSolver {
   struct Path;
   int follow_path(ImpulseProblem& problem, const Island& island, int which);
 
-  std::vector<double> factors_;    // of the blocks of M: L L^T, 1 / l_ii on the diagonal
-  std::vector<LawMemory> memory_;  // by constraint
-  std::vector<double> rho0_;       // by constraint: 1 / J diag(M)^-1 J^T
-  std::vector<Mat> D_;             // by constraint
-  std::vector<int> next_disc_;     // by contact and disc: the next disc of this contact, or -1
-  struct Cross {                   // -dp of constraint `of` / du of `by`
+  std::vector<double> factors_;          // of the blocks of M: L L^T, 1 / l_ii on the diagonal
+  std::vector<MultiplierState> memory_;  // by constraint
+  std::vector<double> rho0_;             // by constraint: 1 / J diag(M)^-1 J^T
+  std::vector<Mat> D_;                   // by constraint
+  std::vector<int> next_disc_;  // by contact and disc: the next disc of this contact, or -1
+  struct Cross {                // -dp of constraint `of` / du of `by`
     int of, by;
     Mat D;
   };

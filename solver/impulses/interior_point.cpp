@@ -20,17 +20,17 @@
 namespace twinarm {
 namespace {
 
-constexpr double poor_step = 0.5, stuck_step = 0.05, least_centering = 0.1;
-constexpr int most_iterations = 60, most_stuck = 3;
+constexpr double poor_step = 0.5, stuck_step = 0.05, min_centering = 0.1;
+constexpr int max_iterations = 60, max_stuck = 3;
 
 }  // namespace
 
-int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& island) {
+int ImpulseSolver::interior_point_start(ImpulseProblem& problem, const Island& island) {
   begin_centrally(problem, island, 0);
   shift_part_ = 1, rounded_ = 0;
   double step = 1, best = std::numeric_limits<double>::infinity();
   int iterations = 0, stuck = 0;
-  for (; iterations < most_iterations && stuck <= most_stuck; ++iterations) {
+  for (; iterations < max_iterations && stuck <= max_stuck; ++iterations) {
     double residual = 0;
     const double mean = measure_centrally(problem, island, residual);
     if (!(mean > 0) || !(residual < 1e100)) break;
@@ -47,7 +47,7 @@ int ImpulseSolver::approach_centrally(ImpulseProblem& problem, const Island& isl
       for (int r = 0; r < 3; ++r)
         after += (x_[i][r] + affine * dx_[i][r]) * (z_[i][r] + affine * dz_[i][r]);
     const double ratio = std::max(0.0, after / (mean * static_cast<double>(cones_.size())));
-    double centering = std::clamp(ratio * ratio * ratio, least_centering, 1.0);
+    double centering = std::clamp(ratio * ratio * ratio, min_centering, 1.0);
     const bool correct = step >= poor_step;  // after a poor step back to the middle first
     if (!correct) centering = std::max(centering, 0.3);
     step = std::min(1.0, 0.99 * direct_centrally(problem, island, centering * mean, correct));

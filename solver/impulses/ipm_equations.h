@@ -22,20 +22,22 @@
 namespace twinarm {
 
 inline double arm_of(const ImpulseConstraint& c) {
-  return c.law == ImpulseLaw::coulomb    ? c.mu
-         : c.law == ImpulseLaw::at_least ? 1
-         : c.law == ImpulseLaw::disc     ? c.radius
-                                         : 0;
+  return c.law == ConstraintType::coulomb_cone    ? c.mu
+         : c.law == ConstraintType::unilateral    ? 1
+         : c.law == ConstraintType::friction_disc ? c.radius
+                                                  : 0;
 }
 // The rows across: how many, and the first.
 inline int across(const ImpulseConstraint& c) {
-  return c.law == ImpulseLaw::coulomb ? 2 : c.law == ImpulseLaw::at_least ? 0 : c.rows;
+  return c.law == ConstraintType::coulomb_cone ? 2
+         : c.law == ConstraintType::unilateral ? 0
+                                               : c.rows;
 }
 inline int first_across(const ImpulseConstraint& c) {
-  return c.law == ImpulseLaw::coulomb ? 1 : 0;
+  return c.law == ConstraintType::coulomb_cone ? 1 : 0;
 }
 inline bool is_contact(const ImpulseConstraint& c) {
-  return c.law == ImpulseLaw::at_least || c.law == ImpulseLaw::coulomb;
+  return c.law == ConstraintType::unilateral || c.law == ConstraintType::coulomb_cone;
 }
 
 }  // namespace twinarm

@@ -53,8 +53,9 @@ Vec in_rows(const ImpulseConstraint& c, double normal, const std::array<double, 
 
 // What has a cone: discs with that of their contact.
 bool ImpulseSolver::has_cone(const ImpulseProblem& problem, const ImpulseConstraint& c) const {
-  if (c.law == ImpulseLaw::disc) return c.radius > 0 && is_contact(problem.constraints()[c.of]);
-  if (c.law == ImpulseLaw::within) return c.low < c.high && c.high - c.low < 1e100;
+  if (c.law == ConstraintType::friction_disc)
+    return c.radius > 0 && is_contact(problem.constraints()[c.of]);
+  if (c.law == ConstraintType::box) return c.low < c.high && c.high - c.low < 1e100;
   return is_contact(c);
 }
 
@@ -77,7 +78,7 @@ double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& isl
     x_[i] = z_[i] = dx_[i] = dz_[i] = {};
     if (!has_cone(problem, c)) continue;
     cones_.push_back(i);
-    if (c.law == ImpulseLaw::disc) continue;  // as its contact
+    if (c.law == ConstraintType::friction_disc) continue;  // as its contact
     problem.velocity(c, problem.v(0), c.u);
     for (int r = 0; r < c.rows; ++r) {
       speed = std::max(speed, std::abs(c.u[r] + c.b[r]));
@@ -88,10 +89,10 @@ double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& isl
   for (const int i : cones_) {
     const ImpulseConstraint& c = problem.constraints()[i];
     terms_[i].arm = arm_of(c);
-    if (c.law == ImpulseLaw::disc)
+    if (c.law == ConstraintType::friction_disc)
       x_[i][0] = terms_[i].arm * x_[c.of][0] / terms_[c.of].arm;
     else
-      x_[i][0] = c.law == ImpulseLaw::within ? 0.5 * (c.high - c.low) : impulse;
+      x_[i][0] = c.law == ConstraintType::box ? 0.5 * (c.high - c.low) : impulse;
     terms_[i].weight = which == 0 ? 1 : weight_of(which, i);
     z_[i][0] = terms_[i].weight * s0 / x_[i][0];
     terms_[i].corner = z_[i][0];
@@ -111,22 +112,23 @@ double ImpulseSolver::measure_centrally(ImpulseProblem& problem, const Island& i
     ImpulseConstraint& c = problem.constraints()[i];
     problem.velocity(c, problem.v(0), c.u);
     for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
-    if (c.law == ImpulseLaw::disc) memory_[i].radius = c.radius * problem.constraints()[c.of].p[0];
-    if (c.law == ImpulseLaw::compliant) memory_[i].radius = c.mu * c.p[0];
+    if (c.law == ConstraintType::friction_disc)
+      memory_[i].radius = c.radius * problem.constraints()[c.of].p[0];
+    if (c.law == ConstraintType::compliant) memory_[i].radius = c.mu * c.p[0];
     if (has_cone(problem, c)) {
       sum += cone_dot(x_[i], z_[i]);
       measure_cone(c, i);
     } else {
-      respond(c, memory_[i], Shift::held, c.u, c.p, D_[i]);
+      respond(c, memory_[i], DeSaxceShift::frozen, c.u, c.p, D_[i]);
       memory_[i].l = c.p;
     }
     p_[i] = c.p, u_[i] = c.u;
     problem.add_transpose(c, c.p, f_.data());
-    residual = worse(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
+    residual = nan_max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
   }
   for (const int i : cones_)
     if (is_contact(problem.constraints()[i])) join_discs(problem, i);
-  residual = worse(residual, balance(problem, island).largest);
+  residual = nan_max(residual, balance(problem, island).largest);
   return sum / std::max<double>(1, static_cast<double>(cones_.size()));
 }
 
@@ -137,7 +139,7 @@ void ImpulseSolver::measure_cone(ImpulseConstraint& c, int i) {
   const int first = first_across(c), count = across(c);
   if (is_contact(c)) c.p[0] = x[0] / terms.arm;
   for (int k = 0; k < count; ++k) c.p[first + k] = x[1 + k];
-  if (c.law == ImpulseLaw::within) c.p[0] += 0.5 * (c.low + c.high);
+  if (c.law == ConstraintType::box) c.p[0] += 0.5 * (c.low + c.high);
 
   const auto w = rows_across(c, c.u);
   const double corner = rounded_ * terms.corner;

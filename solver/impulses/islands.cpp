@@ -17,7 +17,7 @@ void ImpulseSolver::link_discs(const ImpulseProblem& problem) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
   next_disc_.assign(all.size(), -1);
   for (std::size_t i = all.size(); i-- > 0;)
-    if (all[i].law == ImpulseLaw::disc && all[i].radius > 0) {
+    if (all[i].law == ConstraintType::friction_disc && all[i].radius > 0) {
       next_disc_[i] = next_disc_[all[i].of];
       next_disc_[all[i].of] = static_cast<int>(i);
     }

@@ -7,8 +7,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double kSlop = 1e-9, kLeastReach = 1e-3;  // [rad, m]
-constexpr double kSeparationPart = 0.2;             // of the rest beyond the limit, in each step
+constexpr double kSlop = 1e-9, kMinReach = 1e-3;  // [rad, m]
+constexpr double kSeparationPart = 0.2;           // of the rest beyond the limit, in each step
 
 }  // namespace
 
@@ -28,13 +28,13 @@ void JointLimits::begin_step(const Kinematics&, const State<double>& x, double h
     const Limit& limit = limits_[i];
     const auto body = static_cast<std::size_t>(limit.body);
     const double q = x.q[model_->iq[body]],
-                 reach = 2 * h * std::abs(x.qd[model_->iv[body]]) + 1e4 * h * h + kLeastReach;
+                 reach = 2 * h * std::abs(x.qd[model_->iv[body]]) + 1e4 * h * h + kMinReach;
     if (q - limit.lower < reach) rows_.push_back({i, 1, q - limit.lower});
     if (limit.upper - q < reach) rows_.push_back({i, -1, limit.upper - q});
   }
 }
 
-bool JointLimits::wants_separation() const noexcept {
+bool JointLimits::needs_position_correction() const noexcept {
   return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.after < -kSlop; });
 }
 
@@ -42,7 +42,7 @@ void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noe
   for (const Row& row : rows_) {
     if (!takes_part(frame, row)) continue;
     const std::size_t dof = model_->iv[static_cast<std::size_t>(limits_[row.limit].body)];
-    ImpulseConstraint& c = problem.add(ImpulseLaw::at_least, 1, frame.trees.tree_of_dof(dof),
+    ImpulseConstraint& c = problem.add(ConstraintType::unilateral, 1, frame.trees.tree_of_dof(dof),
                                        ImpulseConstraint::no_tree);
     problem.J(c, 0)[frame.trees.place(dof)] = row.sign;
     switch (frame.phase) {
@@ -114,7 +114,7 @@ bool JointLimits::takes_part(const ConstraintFrame& frame, const Row& row) const
 }
 
 // Limits are plastic: in a step of fixed size they stop what comes in its second phase.
-bool JointLimits::closes(const ConstraintFrame& frame) noexcept {
+bool JointLimits::has_closing_contact(const ConstraintFrame& frame) noexcept {
   if (frame.phase != Phase::hit) return false;
   return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
     return row.gap <= kClosed && speed(row, frame.x) < -kRest;
@@ -133,11 +133,11 @@ void JointLimits::hold(const ConstraintFrame& frame, bool struck) noexcept {
   flow_works_.assign(held_.size(), 0);
 }
 
-void JointLimits::hold_again() noexcept {
+void JointLimits::restore_active_set() noexcept {
   std::fill(flow_works_.begin(), flow_works_.end(), 0);
 }
 
-void JointLimits::look(const ConstraintFrame& frame, Nearest& nearest) const noexcept {
+void JointLimits::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
   for (const Row& row : rows_)
     if (!held(row)) nearest.see(row.gap, speed(row, frame.x));
 }
@@ -147,7 +147,7 @@ void JointLimits::modes(std::vector<char>& modes) const noexcept {
     if (const Held* h = held(row)) modes.push_back(h->opens ? Mode::opens : Mode::rests);
 }
 
-void JointLimits::count_works() noexcept {
+void JointLimits::commit_work() noexcept {
   for (std::size_t i = 0; i < held_.size(); ++i) limits_[held_[i].limit].work += flow_works_[i];
 }
 

@@ -9,7 +9,7 @@
 
 namespace twinarm {
 
-class JointLimits final : public ConstraintSource, public EventSource, public Rewindable {
+class JointLimits final : public ConstraintSource, public EventSource, public Checkpointable {
  public:
   struct Limit {
     int body;             // that the joint carries
@@ -24,20 +24,20 @@ class JointLimits final : public ConstraintSource, public EventSource, public Re
   const std::vector<Limit>& limits() const { return limits_; }
 
   void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override;
-  bool wants_separation() const noexcept override;
+  bool needs_position_correction() const noexcept override;
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
-  bool closes(const ConstraintFrame& frame) noexcept override;
+  bool has_closing_contact(const ConstraintFrame& frame) noexcept override;
   EventSource* events() override { return this; }
   void hold(const ConstraintFrame& frame, bool struck) noexcept override;
-  void hold_again() noexcept override;
-  void look(const ConstraintFrame& frame, Nearest& nearest) const noexcept override;
+  void restore_active_set() noexcept override;
+  void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept override;
   void modes(std::vector<char>& modes) const noexcept override;
   std::span<double> works() noexcept override { return flow_works_; }
-  void count_works() noexcept override;
+  void commit_work() noexcept override;
 
-  void visit_memory(Memory& memory) override {
+  void serialize(StateArchive& memory) override {
     for (Limit& limit : limits_) memory.visit(limit.force), memory.visit(limit.work);
     memory.resize(held_, 2 * sizeof(double));
     for (Held& held : held_) {

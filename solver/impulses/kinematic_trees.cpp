@@ -2,7 +2,7 @@
 
 namespace twinarm {
 
-ModelTrees::ModelTrees(const Model<double>& model)
+KinematicTrees::KinematicTrees(const Model<double>& model)
     : model_(&model),
       tree_(model.parent.size(), ImpulseConstraint::no_tree),
       tree_of_dof_(model.nv),
@@ -24,8 +24,8 @@ ModelTrees::ModelTrees(const Model<double>& model)
 }
 
 // The composite-rigid-body algorithm, RBDA section 6.2, tree by tree.
-void ModelTrees::add_to(ImpulseProblem& problem, const Forces<double>* forces,
-                        Workspace<double>& w) {
+void KinematicTrees::add_to(ImpulseProblem& problem, const Forces<double>* forces,
+                            Workspace<double>& w) {
   const Model<double>& model = *model_;
   for (const int size : size_) problem.add_tree(size);
   const std::size_t n = model.parent.size();
@@ -53,18 +53,18 @@ void ModelTrees::add_to(ImpulseProblem& problem, const Forces<double>* forces,
   }
 }
 
-void ModelTrees::gather(const std::vector<double>& qd, ImpulseProblem& problem) const {
+void KinematicTrees::gather(const std::vector<double>& qd, ImpulseProblem& problem) const {
   for (std::size_t dof = 0; dof < qd.size(); ++dof)
     problem.v0(tree_of_dof_[dof])[place_[dof]] = qd[dof];
 }
 
-void ModelTrees::scatter(const ImpulseProblem& problem, std::vector<double>& qd) const {
+void KinematicTrees::scatter(const ImpulseProblem& problem, std::vector<double>& qd) const {
   for (std::size_t dof = 0; dof < qd.size(); ++dof)
     qd[dof] = problem.v(tree_of_dof_[dof])[place_[dof]];
 }
 
-void ModelTrees::add_point_rows(const Kinematics& k, int body, const Vector3& p_W,
-                                const Matrix3& axes, int count, double sign, double* J) const {
+void KinematicTrees::add_point_rows(const Kinematics& k, int body, const Vector3& p_W,
+                                    const Matrix3& axes, int count, double sign, double* J) const {
   const int tree = tree_of(body);
   if (tree == ImpulseConstraint::no_tree) return;
   const auto n = static_cast<std::size_t>(size_[tree]);
@@ -76,8 +76,8 @@ void ModelTrees::add_point_rows(const Kinematics& k, int body, const Vector3& p_
       });
 }
 
-void ModelTrees::add_turn_rows(const Kinematics& k, int body, const Matrix3& axes, int count,
-                               double sign, double* J) const {
+void KinematicTrees::add_turn_rows(const Kinematics& k, int body, const Matrix3& axes, int count,
+                                   double sign, double* J) const {
   const int tree = tree_of(body);
   if (tree == ImpulseConstraint::no_tree) return;
   const auto n = static_cast<std::size_t>(size_[tree]);

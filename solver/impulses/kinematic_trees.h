@@ -14,9 +14,9 @@
 
 namespace twinarm {
 
-class ModelTrees {
+class KinematicTrees {
  public:
-  explicit ModelTrees(const Model<double>& model);
+  explicit KinematicTrees(const Model<double>& model);
 
   int count() const { return static_cast<int>(size_.size()); }
   // Of the body; ImpulseConstraint::no_tree for the base and what hangs on it by fixed joints.

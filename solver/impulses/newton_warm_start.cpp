@@ -18,11 +18,12 @@ namespace twinarm {
 namespace {
 
 constexpr double near_rho = 1e3, polish_rho = 1e2;  // times rho0
-constexpr int most_near = 8, most_in_vain = 2;
+constexpr int max_near = 8, max_in_vain = 2;
 
 // The largest rho by which c, if it presses, goes on to press.
 double holding_rho(const ImpulseConstraint& c, double rho) {
-  const bool is_contact = c.law == ImpulseLaw::coulomb || c.law == ImpulseLaw::at_least;
+  const bool is_contact =
+      c.law == ConstraintType::coulomb_cone || c.law == ConstraintType::unilateral;
   if (!is_contact || !(c.p[0] > 0) || !(c.u[0] > 0)) return rho;
   return std::min(rho, 0.5 * (1 + c.mu * c.mu) * c.p[0] / c.u[0]);
 }
@@ -31,13 +32,13 @@ double holding_rho(const ImpulseConstraint& c, double rho) {
 
 // With the rho that memory_ has. Returns what is left of the laws; `residual` where there is
 // nothing to do.
-double ImpulseSolver::take_one_step(ImpulseProblem& problem, const Island& island,
-                                    double residual) {
-  const Gradient now = gradient(problem, island, Shift::followed);
+double ImpulseSolver::semismooth_newton_step(ImpulseProblem& problem, const Island& island,
+                                             double residual) {
+  const Gradient now = gradient(problem, island, DeSaxceShift::differentiated);
   if (!(now.squared > 0)) return residual;
   find_direction(problem, island, false);
   move(problem, island, 1);
-  gradient(problem, island, Shift::followed);
+  gradient(problem, island, DeSaxceShift::differentiated);
   for (const int i : island.constraints) problem.constraints()[i].p = p_[i];
   return settle(problem, island);
 }
@@ -45,24 +46,25 @@ double ImpulseSolver::take_one_step(ImpulseProblem& problem, const Island& islan
 // Whether the guess says anything.
 bool ImpulseSolver::is_warm(const ImpulseProblem& problem, const Island& island) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
-  return std::any_of(island.constraints.begin(), island.constraints.end(),
-                     [&](int i) { return all[i].law == ImpulseLaw::coulomb && all[i].p[0] > 0; });
+  return std::any_of(island.constraints.begin(), island.constraints.end(), [&](int i) {
+    return all[i].law == ConstraintType::coulomb_cone && all[i].p[0] > 0;
+  });
 }
 
 // Returns what is left of the laws; infinity where there is nothing to do.
-double ImpulseSolver::start_near(ImpulseProblem& problem, const Island& island,
-                                 ImpulseReport& report) {
+double ImpulseSolver::warm_start_newton(ImpulseProblem& problem, const Island& island,
+                                        ImpulseReport& report) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
   rho_ratio_ = near_rho;
   double residual = std::numeric_limits<double>::infinity();
   int steps = 0, in_vain = 0;
-  while (steps < most_near && in_vain < most_in_vain && residual > tolerance) {
+  while (steps < max_near && in_vain < max_in_vain && residual > tolerance) {
     for (const int i : island.constraints) {
       remember(all[i], all, all[i].u, all[i].p, memory_[i]);
       memory_[i].rho = holding_rho(all[i], rho_ratio_ * rho0_[i]);
     }
     const double before = residual;
-    residual = take_one_step(problem, island, residual);
+    residual = semismooth_newton_step(problem, island, residual);
     in_vain += !(residual < 0.5 * before);
     ++steps;
   }
@@ -84,7 +86,7 @@ double ImpulseSolver::polish(ImpulseProblem& problem, const Island& island, doub
       best_p_[i] = c.p;
     }
     const double before = residual;
-    residual = take_one_step(problem, island, residual);
+    residual = semismooth_newton_step(problem, island, residual);
     if (residual < 0.5 * before) continue;
     if (residual < before) break;
     for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];

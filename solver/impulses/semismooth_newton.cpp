@@ -24,8 +24,9 @@ ImpulseSolver::Round ImpulseSolver::solve_round(ImpulseProblem& problem, const I
                                                 int most) {
   Round round;
   int& steps = round.steps;
-  for (Gradient now = gradient(problem, island, Shift::held);
-       steps < most && now.largest > now.rounding; now = gradient(problem, island, Shift::held)) {
+  for (Gradient now = gradient(problem, island, DeSaxceShift::frozen);
+       steps < most && now.largest > now.rounding;
+       now = gradient(problem, island, DeSaxceShift::frozen)) {
     find_direction(problem, island, true);
     const double step = step_length(problem, island);
     move(problem, island, step);
@@ -35,24 +36,24 @@ ImpulseSolver::Round ImpulseSolver::solve_round(ImpulseProblem& problem, const I
   for (const int t : island.trees)
     std::copy_n(problem.v(t), problem.size(t),
                 held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)));
-  Gradient now = gradient(problem, island, Shift::followed);
+  Gradient now = gradient(problem, island, DeSaxceShift::differentiated);
   round.left = now.left();
   while (steps < most && now.largest > now.rounding) {
     find_direction(problem, island, false);
     move(problem, island, 1);
     ++steps;
-    Gradient then = gradient(problem, island, Shift::followed);
+    Gradient then = gradient(problem, island, DeSaxceShift::differentiated);
     double step = 1;
     if (most > quick_newton_few)
       for (; !(then.squared < (1 - 0.5 * step) * now.squared) && step > 0.05; step *= 0.5) {
         move(problem, island, -0.5 * step);
-        then = gradient(problem, island, Shift::followed);
+        then = gradient(problem, island, DeSaxceShift::differentiated);
       }
     if (!(then.squared < (step < 1 ? 1 - 0.5 * step : 0.25) * now.squared)) {
       for (const int t : island.trees)
         std::copy_n(held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)),
                     problem.size(t), problem.v(t));
-      round.left = gradient(problem, island, Shift::held).left();
+      round.left = gradient(problem, island, DeSaxceShift::frozen).left();
       round.strayed = true;
       break;
     }
@@ -70,7 +71,7 @@ void ImpulseSolver::move(ImpulseProblem& problem, const Island& island, double s
 
 // u, p and D at v; rhs_ = M (v - v0) - J^T p.
 ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const Island& island,
-                                                Shift shift) {
+                                                DeSaxceShift shift) {
   for (const int t : island.trees)
     std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
   double fastest = 0;
@@ -79,7 +80,7 @@ ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const I
     const ImpulseConstraint& c = problem.constraints()[i];
     problem.velocity(c, problem.v(0), u_[i]);
     for (int r = 0; r < c.rows; ++r) u_[i][r] += c.b[r];
-    if (c.law == ImpulseLaw::disc && shift == Shift::followed)
+    if (c.law == ConstraintType::friction_disc && shift == DeSaxceShift::differentiated)
       respond_disc(c, i);
     else
       respond(c, memory_[i], shift, u_[i], p_[i], D_[i]);
@@ -125,10 +126,10 @@ double ImpulseSolver::noise(const ImpulseProblem& problem, const Island& island)
 
 // A disc whose radius follows the contact's p_n at this u.
 void ImpulseSolver::respond_disc(const ImpulseConstraint& c, int i) {
-  LawMemory memory = memory_[i];
+  MultiplierState memory = memory_[i];
   memory.radius = c.radius * std::max(0.0, p_[c.of][0]);
-  respond(c, memory, Shift::followed, u_[i], p_[i], D_[i]);
-  const Vec way = along_edge(c, memory, u_[i]);
+  respond(c, memory, DeSaxceShift::differentiated, u_[i], p_[i], D_[i]);
+  const Vec way = sliding_direction(c, memory, u_[i]);
   if (way == Vec{}) return;
   Cross& cross = crosses_.emplace_back(Cross{i, c.of, {}});
   for (int r = 0; r < c.rows; ++r)
@@ -149,7 +150,7 @@ ImpulseSolver::Gradient ImpulseSolver::balance(const ImpulseProblem& problem,
       double sum = -f_[at + static_cast<std::size_t>(r)];
       for (int k = 0; k < n; ++k) sum += M[r * n + k] * delta_[at + static_cast<std::size_t>(k)];
       rhs_[row_[t] + static_cast<std::size_t>(r)] = sum;
-      all.largest = worse(all.largest, std::abs(sum) / M[r * n + r]);
+      all.largest = nan_max(all.largest, std::abs(sum) / M[r * n + r]);
       all.squared += sum * sum / M[r * n + r];
     }
   }

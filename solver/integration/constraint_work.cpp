@@ -13,9 +13,9 @@ bool is_same(const State<double>& a, const State<double>& b) {
 
 }  // namespace
 
-StepAccount::StepAccount(const Model<double>& model, std::size_t loops, std::size_t rows)
+ConstraintWork::ConstraintWork(const Model<double>& model, std::size_t loops, std::size_t rows)
     : model_(&model),
-      moved_(bodies_that_forces_move(model)),
+      moved_(bodies_with_dofs(model)),
       w_(model),
       loops_(loops),
       stabilisation_(loops),
@@ -30,21 +30,21 @@ StepAccount::StepAccount(const Model<double>& model, std::size_t loops, std::siz
     *x = State<double>(model);
 }
 
-void StepAccount::start_step() {
-  std::fill(loops_.begin(), loops_.end(), Exchange{});
-  std::fill(stabilisation_.begin(), stabilisation_.end(), Exchange{});
+void ConstraintWork::start_step() {
+  std::fill(loops_.begin(), loops_.end(), EnergyMomentum{});
+  std::fill(stabilisation_.begin(), stabilisation_.end(), EnergyMomentum{});
   std::fill(mimics_.begin(), mimics_.end(), 0);
   separation_ = {};
   push_count_ = 0;
   pending_ = false;
 }
 
-void StepAccount::before_projection(const State<double>& x) {
+void ConstraintWork::before_projection(const State<double>& x) {
   seen_ = x;
 }
 
-void StepAccount::after_projection(const State<double>& x, const LoopProjection& projection,
-                                   const LoopClosures& at_start) {
+void ConstraintWork::after_projection(const State<double>& x, const LoopProjection& projection,
+                                      const LoopClosures& at_start) {
   if (is_same(x, seen_)) {
     pending_ = pending_ && is_same(x, after_);
     return;
@@ -63,7 +63,7 @@ void StepAccount::after_projection(const State<double>& x, const LoopProjection&
 }
 
 // E is quadratic in v: over the mean of the velocities before and after, works of all loops add up.
-void StepAccount::count_projection() {
+void ConstraintWork::count_projection() {
   if (!pending_) return;
   pending_ = false;
   if (push_count_ < pushes_.size()) {
@@ -71,7 +71,7 @@ void StepAccount::count_projection() {
     push.from = push.to = after_;
     push.from.qd = before_.qd;
   }
-  const Exchange from = contents(before_);
+  const EnergyMomentum from = contents(before_);
   for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
     integrate_coordinates(*model_, before_.q, share_q_[l], trial_.q);
     trial_.qd = before_.qd;
@@ -87,11 +87,11 @@ void StepAccount::count_projection() {
   }
 }
 
-void StepAccount::add_separation(const State<double>& before, const State<double>& after) {
+void ConstraintWork::add_separation(const State<double>& before, const State<double>& after) {
   separation_ += contents(after) - contents(before);
 }
 
-void StepAccount::add_loop(std::size_t loop, const Exchange& on_a, bool in_flow) {
+void ConstraintWork::add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_flow) {
   if (!in_flow) {
     loops_[loop] += on_a;
     return;
@@ -101,18 +101,18 @@ void StepAccount::add_loop(std::size_t loop, const Exchange& on_a, bool in_flow)
   for (int c = 0; c < 3; ++c) sums[1 + c] += on_a.impulse[c], sums[4 + c] += on_a.moment[c];
 }
 
-void StepAccount::add_mimic(std::size_t mimic, double work, bool in_flow) {
+void ConstraintWork::add_mimic(std::size_t mimic, double work, bool in_flow) {
   (in_flow ? flow_[kNumbers * loops_.size() + mimic] : mimics_[mimic]) += work;
 }
 
-void StepAccount::start_flow() {
+void ConstraintWork::start_flow() {
   std::fill(flow_.begin(), flow_.end(), 0);
 }
 
-void StepAccount::count_flow() {
+void ConstraintWork::count_flow() {
   for (std::size_t l = 0; l < loops_.size(); ++l) {
     const double* sums = &flow_[kNumbers * l];
-    loops_[l] += Exchange{sums[0], {sums[1], sums[2], sums[3]}, {sums[4], sums[5], sums[6]}};
+    loops_[l] += EnergyMomentum{sums[0], {sums[1], sums[2], sums[3]}, {sums[4], sums[5], sums[6]}};
   }
   for (std::size_t i = 0; i < mimics_.size(); ++i)
     mimics_[i] += flow_[kNumbers * loops_.size() + i];

@@ -1,5 +1,5 @@
 // What constraints did in the last step, for the ledgers: kept where somebody asked for it
-// (SimulationOptions::keep_account), and else not computed at all.
+// (SimulationOptions::enable_constraint_work), and else not computed at all.
 //
 //   forces          of loops and followers in steps by impulses (constrained_step.h): an impulse p
 //                   over rows J works p . J (v + v')/2 on what moves, which is exact where the
@@ -24,13 +24,15 @@
 
 namespace twinarm {
 
-class StepAccount {
+class ConstraintWork {
  public:
   // The model must outlive it.
-  StepAccount(const Model<double>& model, std::size_t loops, std::size_t rows);
+  ConstraintWork(const Model<double>& model, std::size_t loops, std::size_t rows);
 
   void start_step();
-  Exchange contents(const State<double>& x) { return contents_of(*model_, moved_, x, w_); }
+  EnergyMomentum contents(const State<double>& x) {
+    return energy_and_momentum_of(*model_, moved_, x, w_);
+  }
 
   // Around every projection. That of a state which is not taken is forgotten with the next; one
   // that moves nothing, of a state that came out of one, leaves that one pending.
@@ -42,17 +44,17 @@ class StepAccount {
   void add_separation(const State<double>& before, const State<double>& after);
 
   // On link a of the loop; what it does to link b is in `work` too.
-  void add_loop(std::size_t loop, const Exchange& on_a, bool in_flow);
+  void add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_flow);
   void add_mimic(std::size_t mimic, double work, bool in_flow);
   // Of the pieces of event_driven_step.h: sums of a column, which are extrapolated, then counted.
   void start_flow();
   std::vector<double>& flow() { return flow_; }
   void count_flow();
 
-  const std::vector<Exchange>& loops() const { return loops_; }
+  const std::vector<EnergyMomentum>& loops() const { return loops_; }
   const std::vector<double>& mimics() const { return mimics_; }
-  const std::vector<Exchange>& stabilisation() const { return stabilisation_; }  // by loop
-  const Exchange& separation() const { return separation_; }
+  const std::vector<EnergyMomentum>& stabilisation() const { return stabilisation_; }  // by loop
+  const EnergyMomentum& separation() const { return separation_; }
   // What projections did to the velocities, at one place each: two in a step of semi-implicit-xv,
   // else one; of steps that locate events the first two.
   struct Push {
@@ -65,12 +67,12 @@ class StepAccount {
   const Model<double>* model_;
   std::vector<char> moved_;
   Workspace<double> w_;
-  std::vector<Exchange> loops_, stabilisation_;
+  std::vector<EnergyMomentum> loops_, stabilisation_;
   std::vector<double> mimics_, flow_;
-  Exchange separation_;
+  EnergyMomentum separation_;
   State<double> seen_, before_, after_, trial_;
   std::vector<std::vector<double>> share_q_, share_qd_;  // by loop
-  std::vector<Exchange> push_;                           // by loop, without work
+  std::vector<EnergyMomentum> push_;                     // by loop, without work
   Eigen::VectorXd lambda_;
   std::array<Push, 2> pushes_;
   std::size_t push_count_ = 0;

@@ -19,13 +19,13 @@ double largest(double a, double b) {
 
 }  // namespace
 
-Dopri5::Dopri5(const Mechanism& m)
+Dopri5::Dopri5(const IntegrationState& m)
     : rk_(m.model.nv),
       margin_(m.dynamics.families().size()),
       size_(m.model.nv),
       size_new_(m.model.nv) {}
 
-void Dopri5::step(Mechanism& m, double h, bool one, StepReport& report) {
+void Dopri5::step(IntegrationState& m, double h, bool one, StepReport& report) {
   const double t_end = m.x.t + h;
   report.substeps = 0;
   m.accelerate();
@@ -60,13 +60,13 @@ void Dopri5::step(Mechanism& m, double h, bool one, StepReport& report) {
   }
 }
 
-void Dopri5::stages(Mechanism& m, double h) {
+void Dopri5::stages(IntegrationState& m, double h) {
   const Tableau& tableau = tableau_of(Integrator::dopri5);
   for (int s = 1; s < tableau.stages; ++s) rk_.stage(m, tableau, s, h);
 }
 
 // The part of h after which a joint comes to rest or breaks loose; m.stage is there then.
-double Dopri5::up_to_event(Mechanism& m, double h, StepReport& report) {
+double Dopri5::up_to_event(IntegrationState& m, double h, StepReport& report) {
   if (!m.dynamics.has_coulomb()) return h;
   const auto margin = [&](double s) {
     stages(m, s);
@@ -84,7 +84,7 @@ double Dopri5::up_to_event(Mechanism& m, double h, StepReport& report) {
 }
 
 // After it m.w holds the acceleration at the new m.x, the first stage of the next substep.
-void Dopri5::accept(Mechanism& m, double t) {
+void Dopri5::accept(IntegrationState& m, double t) {
   std::swap(m.x, m.stage);
   m.x.t = t;
   if (m.dynamics.has_coulomb()) {
@@ -97,7 +97,7 @@ void Dopri5::accept(Mechanism& m, double t) {
   rk_.first_stage(m);
 }
 
-double Dopri5::error(const Mechanism& m, double h) {
+double Dopri5::error(const IntegrationState& m, double h) {
   const int stages = Tableau::kMaxStages;
   coordinate_sizes(m.model, m.x.q, size_);
   coordinate_sizes(m.model, m.stage.q, size_new_);
@@ -136,7 +136,7 @@ void Dopri5::choose_next(double h, bool whole) {
 
 // Hairer, Norsett, Wanner, II.4: such that an Euler step would change little, and that the second
 // derivative, by a difference, fits the tolerance.
-double Dopri5::first_substep(Mechanism& m, double h_max) {
+double Dopri5::first_substep(IntegrationState& m, double h_max) {
   const Tableau& euler = tableau_of(Integrator::euler);
   coordinate_sizes(m.model, m.x.q, size_);
   double d0 = 0, d1 = 0, d2 = 0;

@@ -22,10 +22,10 @@ namespace twinarm {
 
 class Dopri5 {
  public:
-  explicit Dopri5(const Mechanism& m);
+  explicit Dopri5(const IntegrationState& m);
   void set_tolerance(double tolerance) { tolerance_ = tolerance; }
   double tolerance() const { return tolerance_; }
-  void visit_memory(Memory& memory) {
+  void serialize(StateArchive& memory) {
     memory.visit(h_next_);
     memory.visit(err_before_);
   }
@@ -33,19 +33,19 @@ class Dopri5 {
 
   // Moves m.x, its time too, by h in as many substeps as it needs; or, with `one`, by one accepted
   // substep of at most h. m.k is left to the caller. The sources' step is the whole of h.
-  void step(Mechanism& m, double h, bool one, StepReport& report);
+  void step(IntegrationState& m, double h, bool one, StepReport& report);
 
  private:
-  void stages(Mechanism& m, double h);  // m.stage: where they lead
-  double up_to_event(Mechanism& m, double h, StepReport& report);
-  void accept(Mechanism& m, double t);
-  double error(const Mechanism& m, double h);
+  void stages(IntegrationState& m, double h);  // m.stage: where they lead
+  double up_to_event(IntegrationState& m, double h, StepReport& report);
+  void accept(IntegrationState& m, double t);
+  double error(const IntegrationState& m, double h);
   double scaled(double error, double y, double y_new) const;
-  double first_substep(Mechanism& m, double h_max);
+  double first_substep(IntegrationState& m, double h_max);
   void choose_next(double h, bool whole);
 
   RungeKutta rk_;
-  FrictionMargin margin_;
+  FrictionEventFunction margin_;
   double tolerance_ = 1e-9;
   double h_next_ = 0;                    // 0: none known
   double err_ = 0, err_before_ = 1e-4;   // of the last attempt, of the last accepted one

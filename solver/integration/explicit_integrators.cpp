@@ -62,12 +62,12 @@ double RungeKutta::qdd_sum(const Tableau::Row<double>& weight, int stages, std::
   return weighed(qdd_, weight, stages, i);
 }
 
-void RungeKutta::first_stage(const Mechanism& m) {
+void RungeKutta::first_stage(const IntegrationState& m) {
   rate_[0] = m.x.qd;  // dexpinv(0, v) = v
   qdd_[0] = m.w.qdd;
 }
 
-void RungeKutta::stage(Mechanism& m, const Tableau& tableau, int s, double h) {
+void RungeKutta::stage(IntegrationState& m, const Tableau& tableau, int s, double h) {
   const auto row = static_cast<std::size_t>(s);
   for (std::size_t i = 0; i < theta_.size(); ++i) {
     theta_[i] = h * rate_sum(tableau.a[row], s, i);
@@ -80,7 +80,7 @@ void RungeKutta::stage(Mechanism& m, const Tableau& tableau, int s, double h) {
   qdd_[row] = m.w.qdd;
 }
 
-void RungeKutta::step(Mechanism& m, const Tableau& tableau, double h) {
+void RungeKutta::step(IntegrationState& m, const Tableau& tableau, double h) {
   m.accelerate();
   first_stage(m);
   for (int s = 1; s < tableau.stages; ++s) stage(m, tableau, s, h);
@@ -91,16 +91,16 @@ void RungeKutta::step(Mechanism& m, const Tableau& tableau, double h) {
   integrate_coordinates(m.model, m.x.q, theta_, m.x.q);
 }
 
-void kick(Mechanism& m, double h) {
+void kick(IntegrationState& m, double h) {
   for (std::size_t i = 0; i < m.model.nv; ++i) m.x.qd[i] += h * m.w.qdd[i];
 }
 
-void drift(Mechanism& m, std::vector<double>& shift, double h) {
+void drift(IntegrationState& m, std::vector<double>& shift, double h) {
   for (std::size_t i = 0; i < m.model.nv; ++i) shift[i] = h * m.x.qd[i];
   integrate_coordinates(m.model, m.x.q, shift, m.x.q);
 }
 
-void step_verlet(Mechanism& m, std::vector<double>& shift, double h) {
+void step_verlet(IntegrationState& m, std::vector<double>& shift, double h) {
   m.accelerate();
   kick(m, h / 2);
   drift(m, shift, h);

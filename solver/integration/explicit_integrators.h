@@ -27,11 +27,11 @@ class RungeKutta {
  public:
   explicit RungeKutta(std::size_t nv);
   // Moves m.x by h; its time and kinematics are left to the caller.
-  void step(Mechanism& m, const Tableau& tableau, double h);
+  void step(IntegrationState& m, const Tableau& tableau, double h);
 
   // Stage 0 is at m.x, whose acceleration m.w holds; a later one sets m.stage and asks for it.
-  void first_stage(const Mechanism& m);
-  void stage(Mechanism& m, const Tableau& tableau, int s, double h);
+  void first_stage(const IntegrationState& m);
+  void stage(IntegrationState& m, const Tableau& tableau, int s, double h);
   // Sums of the stages' rates of change, weighed: h times it is a shift, or a change of velocity.
   double rate_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const;
   double qdd_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const;
@@ -42,8 +42,8 @@ class RungeKutta {
 };
 
 // Both move m.x by h, but for its time and kinematics; m.w.qdd is the acceleration at m.x.
-void kick(Mechanism& m, double h);                               // v' = v + h a
-void drift(Mechanism& m, std::vector<double>& shift, double h);  // q' = q exp(h v)
-void step_verlet(Mechanism& m, std::vector<double>& shift, double h);
+void kick(IntegrationState& m, double h);                               // v' = v + h a
+void drift(IntegrationState& m, std::vector<double>& shift, double h);  // q' = q exp(h v)
+void step_verlet(IntegrationState& m, std::vector<double>& shift, double h);
 
 }  // namespace twinarm

@@ -12,14 +12,15 @@ constexpr double kBeyondLimit = 1e-10;
 
 }  // namespace
 
-void FrictionMargin::start(const Mechanism& m) {
+void FrictionEventFunction::start(const IntegrationState& m) {
   const ForwardDynamics& dynamics = m.dynamics;
   for (std::size_t k = 0; k < slid_.size(); ++k)
     slid_[k] = m.x.qd[dynamics.families()[k].dof] * static_cast<double>(dynamics.mode(k)) > 0;
   at_start_ = (*this)(dynamics, m.x);
 }
 
-double FrictionMargin::operator()(const ForwardDynamics& dynamics, const State<double>& x) const {
+double FrictionEventFunction::operator()(const ForwardDynamics& dynamics,
+                                         const State<double>& x) const {
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < slid_.size(); ++k)
     if (slid_[k])

@@ -21,10 +21,10 @@ namespace twinarm {
 
 // g of a step: start() at m.x after m.accelerate(), then as a function of where the step led, with
 // the last acceleration `as chosen` there if anything is held.
-class FrictionMargin {
+class FrictionEventFunction {
  public:
-  explicit FrictionMargin(std::size_t families) : slid_(families) {}
-  void start(const Mechanism& m);
+  explicit FrictionEventFunction(std::size_t families) : slid_(families) {}
+  void start(const IntegrationState& m);
   double at_start() const { return at_start_; }
   double operator()(const ForwardDynamics& dynamics, const State<double>& x) const;
 
@@ -60,16 +60,16 @@ double step_to_zero(double length, double g_start, double g_end, G&& g) {
 }
 
 // Of integrators with a fixed step.
-class FrictionEvents {
+class FrictionEventLocator {
  public:
   static constexpr int kMaxEvents = 20;  // in one step; then its rest is taken as a whole
-  explicit FrictionEvents(const Mechanism& m)
+  explicit FrictionEventLocator(const IntegrationState& m)
       : margin_(m.dynamics.families().size()), start_(m.x) {}
 
   // Moves m.x by h in pieces, its time too but for the last one. step(s) moves m.x by s, but for
   // its time and kinematics. Returns the number of events.
   template <class Step>
-  int advance(Mechanism& m, double h, Step&& step) {
+  int advance(IntegrationState& m, double h, Step&& step) {
     const double t = m.x.t;
     double done = 0;
     for (int events = 0;; ++events) {
@@ -93,7 +93,7 @@ class FrictionEvents {
   }
 
  private:
-  FrictionMargin margin_;
+  FrictionEventFunction margin_;
   State<double> start_;
 };
 

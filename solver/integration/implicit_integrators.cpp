@@ -52,13 +52,13 @@ void DenseLu::solve(std::vector<double>& b) const {
 ImplicitStep::ImplicitStep(std::size_t nv)
     : u_(nv), r_(nv), known_(nv), shift_(nv), trial_(nv), r_trial_(nv), du_(nv), lu_(nv) {}
 
-void ImplicitStep::step(Mechanism& m, Integrator integrator, double h, StepReport& report) {
+void ImplicitStep::step(IntegrationState& m, Integrator integrator, double h, StepReport& report) {
   prepare(m, integrator, h);
   report.converged = iterate(m, report);
   finish(m, integrator, h);
 }
 
-void ImplicitStep::prepare(Mechanism& m, Integrator integrator, double h) {
+void ImplicitStep::prepare(IntegrationState& m, Integrator integrator, double h) {
   reach_ = integrator == Integrator::implicit_euler ? h : h / 2;
   trust_ = integrator == Integrator::trapezoid ? h / 2 : 0;
   t_u_ = m.x.t + (integrator == Integrator::implicit_midpoint ? h / 2 : h);
@@ -70,7 +70,8 @@ void ImplicitStep::prepare(Mechanism& m, Integrator integrator, double h) {
   for (std::size_t i = 0; i < known_.size(); ++i) known_[i] += h / 2 * m.w.qdd[i];
 }
 
-double ImplicitStep::residual(Mechanism& m, const std::vector<double>& u, std::vector<double>& r) {
+double ImplicitStep::residual(IntegrationState& m, const std::vector<double>& u,
+                              std::vector<double>& r) {
   for (std::size_t i = 0; i < u.size(); ++i) shift_[i] = reach_ * u[i] + trust_ * m.x.qd[i];
   integrate_coordinates(m.model, m.x.q, shift_, m.stage.q);
   m.stage.qd = u;
@@ -80,7 +81,7 @@ double ImplicitStep::residual(Mechanism& m, const std::vector<double>& u, std::v
   return largest(r);
 }
 
-void ImplicitStep::form_jacobian(Mechanism& m) {
+void ImplicitStep::form_jacobian(IntegrationState& m) {
   const std::size_t n = u_.size();
   trial_ = u_;
   for (std::size_t j = 0; j < n; ++j) {
@@ -94,7 +95,7 @@ void ImplicitStep::form_jacobian(Mechanism& m) {
 
 // Newton's method. `before` is the size of the last correction with the same Jacobian: where the
 // next one is not much smaller, rounding is reached or the Jacobian is too old.
-bool ImplicitStep::iterate(Mechanism& m, StepReport& report) {
+bool ImplicitStep::iterate(IntegrationState& m, StepReport& report) {
   double size = residual(m, u_, r_), before = 0;
   for (int n = 0; size != 0; ++n) {
     if (n == kMaxIterations) return false;
@@ -121,7 +122,7 @@ bool ImplicitStep::iterate(Mechanism& m, StepReport& report) {
 }
 
 // u less the correction, or less of it, where the whole would make r larger.
-double ImplicitStep::search(Mechanism& m, double size, double step, double scale) {
+double ImplicitStep::search(IntegrationState& m, double size, double step, double scale) {
   double new_size = size;
   double part = 1;
   for (int tries = 0; tries < 10; ++tries, part /= 2) {
@@ -134,7 +135,7 @@ double ImplicitStep::search(Mechanism& m, double size, double step, double scale
   return new_size;
 }
 
-void ImplicitStep::finish(Mechanism& m, Integrator integrator, double h) {
+void ImplicitStep::finish(IntegrationState& m, Integrator integrator, double h) {
   const bool middle = integrator == Integrator::implicit_midpoint;
   for (std::size_t i = 0; i < u_.size(); ++i) {
     shift_[i] = middle ? h * u_[i] : reach_ * u_[i] + trust_ * m.x.qd[i];

@@ -37,16 +37,16 @@ class ImplicitStep {
  public:
   explicit ImplicitStep(std::size_t nv);
   // Moves m.x by h; its time and kinematics are left to the caller.
-  void step(Mechanism& m, Integrator integrator, double h, StepReport& report);
+  void step(IntegrationState& m, Integrator integrator, double h, StepReport& report);
 
  private:
-  void prepare(Mechanism& m, Integrator integrator, double h);
+  void prepare(IntegrationState& m, Integrator integrator, double h);
   // r at u, largest entry; u and r may be the members of these names.
-  double residual(Mechanism& m, const std::vector<double>& u, std::vector<double>& r);
-  void form_jacobian(Mechanism& m);
-  bool iterate(Mechanism& m, StepReport& report);
-  double search(Mechanism& m, double size, double step, double scale);
-  void finish(Mechanism& m, Integrator integrator, double h);
+  double residual(IntegrationState& m, const std::vector<double>& u, std::vector<double>& r);
+  void form_jacobian(IntegrationState& m);
+  bool iterate(IntegrationState& m, StepReport& report);
+  double search(IntegrationState& m, double size, double step, double scale);
+  void finish(IntegrationState& m, Integrator integrator, double h);
 
   double reach_ = 0;  // weight of a(q_u, u) in r, and of u in the shift [s]
   double t_u_ = 0;    // time that u belongs to

@@ -32,7 +32,7 @@ void store_motion(const Model<double>& model, std::size_t body, const Prescribed
   q[3] = turn.w();
 }
 
-void visit_state(Memory& memory, const Model<double>& model, State<double>& x) {
+void visit_state(StateArchive& memory, const Model<double>& model, State<double>& x) {
   std::vector<double> q = q_with_prescribed(model, x);
   memory.visit(q);
   memory.visit(x.qd);
@@ -42,7 +42,7 @@ void visit_state(Memory& memory, const Model<double>& model, State<double>& x) {
   set_q_with_prescribed(model, q, x);
 }
 
-Mechanism::Mechanism(const Model<double>& model_of, State<double> start)
+IntegrationState::IntegrationState(const Model<double>& model_of, State<double> start)
     : model(model_of),
       x(std::move(start)),
       k(model),
@@ -55,22 +55,22 @@ Mechanism::Mechanism(const Model<double>& model_of, State<double> start)
   refresh();
 }
 
-void Mechanism::place(State<double>& at) const {
+void IntegrationState::place(State<double>& at) const {
   for (const Drive& drive : drives) store_motion(model, drive.body, drive.law(at.t), at);
 }
 
-void Mechanism::place_and_look() {
+void IntegrationState::place_and_look() {
   apply_mimics(model, x);
   place(x);
   forward_kinematics(model, x, k);
 }
 
-void Mechanism::refresh() {
+void IntegrationState::refresh() {
   place_and_look();
-  loops_open = close(x, k);
+  loop_position_error = close(x, k);
 }
 
-double Mechanism::close(State<double>& at, Kinematics& k_at) {
+double IntegrationState::close(State<double>& at, Kinematics& k_at) {
   if (!has_loops()) return 0;
   if (account) account->before_projection(at);
   const double open = projection(dynamics.at_rest(at), at, k_at, w);
@@ -78,7 +78,7 @@ double Mechanism::close(State<double>& at, Kinematics& k_at) {
   return open;
 }
 
-void Mechanism::start(State<double> from) {
+void IntegrationState::start(State<double> from) {
   apply_mimics(model, from);
   place(from);
   if (has_loops()) check_loops(model, dynamics.bilateral().loops().loops(), from);
@@ -88,12 +88,12 @@ void Mechanism::start(State<double> from) {
   refresh();
 }
 
-void Mechanism::resume(State<double> from) {
+void IntegrationState::resume(State<double> from) {
   x = std::move(from);
   forward_kinematics(model, x, k);
 }
 
-void Mechanism::set_loops(LoopClosures loops) {
+void IntegrationState::set_loops(LoopClosures loops) {
   if (account) account.emplace(model, loops.loops().size(), loops.rows());
   projection.set_loops(loops);
   dynamics.bilateral().set_loops(std::move(loops));
@@ -101,7 +101,7 @@ void Mechanism::set_loops(LoopClosures loops) {
   refresh();
 }
 
-void Mechanism::prepare_projection() {
+void IntegrationState::prepare_projection() {
   if (!has_loops()) return;
   dynamics.bilateral().loops().evaluate(x, k);
   forces.clear();
@@ -110,7 +110,7 @@ void Mechanism::prepare_projection() {
   start_projection();
 }
 
-void Mechanism::accelerate_stage() {
+void IntegrationState::accelerate_stage() {
   stage.prescribed = x.prescribed;  // of joints without a law
   place(stage);
   forward_kinematics(model, stage, k_stage);
@@ -118,13 +118,14 @@ void Mechanism::accelerate_stage() {
   accelerate(stage, k_stage, Rule::as_chosen, 0);
 }
 
-void Mechanism::accelerate_end(double t) {
+void IntegrationState::accelerate_end(double t) {
   x.t = t;
   refresh();
   accelerate(x, k, Rule::as_chosen, 0);
 }
 
-void Mechanism::accelerate(const State<double>& at, const Kinematics& k_at, Rule rule, double h) {
+void IntegrationState::accelerate(const State<double>& at, const Kinematics& k_at, Rule rule,
+                                  double h) {
   if (has_loops()) dynamics.bilateral().loops().evaluate(at, k_at);
   forces.clear();
   for (ForceSource* source : sources) source->add_forces(at, k_at, forces);

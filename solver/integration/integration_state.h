@@ -28,7 +28,7 @@ struct PrescribedMotion {
   Vector3 angular_acceleration = Vector3::Zero();
 };
 // The motion at a time. Must not throw; whether a step allocates is then the law's affair.
-using MotionLaw = std::function<PrescribedMotion(double t)>;
+using MotionFunction = std::function<PrescribedMotion(double t)>;
 
 // Writes pose, velocity and acceleration of the prescribed joint of this body.
 void store_motion(const Model<double>& model, std::size_t body, const PrescribedMotion& motion,
@@ -36,10 +36,10 @@ void store_motion(const Model<double>& model, std::size_t body, const Prescribed
 
 // q with the motion of prescribed joints (q_with_prescribed), qd and t, as recordings have them.
 // Throws std::runtime_error where what is read is not a state of this model.
-void visit_state(Memory& memory, const Model<double>& model, State<double>& x);
+void visit_state(StateArchive& memory, const Model<double>& model, State<double>& x);
 
-struct Mechanism {
-  Mechanism(const Model<double>& model, State<double> start);
+struct IntegrationState {
+  IntegrationState(const Model<double>& model, State<double> start);
 
   const Model<double>& model;
   State<double> x;      // where the mechanism is
@@ -50,12 +50,12 @@ struct Mechanism {
   Forces<double> forces;     // likewise
   ForwardDynamics dynamics;  // likewise: friction, followers' and loops' forces
   LoopProjection projection;
-  std::optional<StepAccount> account;  // where the ledgers ask for it
-  double loops_open = 0;               // at x: the largest row of g that refresh() left
+  std::optional<ConstraintWork> account;  // where the ledgers ask for it
+  double loop_position_error = 0;         // at x: the largest row of g that refresh() left
   std::vector<ForceSource*> sources;
   struct Drive {
     std::size_t body;
-    MotionLaw law;
+    MotionFunction law;
   };
   std::vector<Drive> drives;
 

@@ -12,7 +12,7 @@ namespace twinarm {
 namespace {
 
 // Forces and ABA, in rounds where a source asks for them.
-void solve_sources(Mechanism& m, double h, StepReport& report) {
+void solve_sources(IntegrationState& m, double h, StepReport& report) {
   bool again = true;
   for (report.rounds = 0; again && report.rounds < ForceSource::kMaxRounds; ++report.rounds) {
     m.accelerate_over(h);
@@ -24,7 +24,7 @@ void solve_sources(Mechanism& m, double h, StepReport& report) {
 
 }  // namespace
 
-IntegratorStep::IntegratorStep(const Mechanism& m)
+IntegratorStep::IntegratorStep(const IntegrationState& m)
     : shift_(m.model.nv), rk_(m.model.nv), dopri5_(m), events_(m) {}
 
 void IntegratorStep::set_integrator(Integrator integrator, double tolerance) {
@@ -36,7 +36,7 @@ void IntegratorStep::set_integrator(Integrator integrator, double tolerance) {
   if (facts_of(integrator).solves && !implicit_) implicit_.emplace(shift_.size());
 }
 
-void IntegratorStep::step(Mechanism& m, double h, bool one_substep, StepReport& report) {
+void IntegratorStep::step(IntegrationState& m, double h, bool one_substep, StepReport& report) {
   const double t = m.x.t;
   if (integrator_ == Integrator::semi_implicit_xv) {  // its sources act at the new coordinates
     m.prepare_projection();
@@ -61,7 +61,7 @@ void IntegratorStep::step(Mechanism& m, double h, bool one_substep, StepReport& 
   m.x.t = t + h;
 }
 
-void IntegratorStep::move(Mechanism& m, double h, StepReport& report) {
+void IntegratorStep::move(IntegrationState& m, double h, StepReport& report) {
   if (facts_of(integrator_).solves)
     implicit_->step(m, integrator_, h, report);
   else if (integrator_ == Integrator::verlet)
@@ -70,26 +70,26 @@ void IntegratorStep::move(Mechanism& m, double h, StepReport& report) {
     rk_.step(m, tableau_of(integrator_), h);
 }
 
-void report_non_finite(const Mechanism& m, StepReport& report) {
+void report_non_finite(const IntegrationState& m, StepReport& report) {
   double sum = 0;  // one non-finite number makes the sum non-finite
   for (const auto* numbers : {&m.x.q, &m.x.qd, &m.x.prescribed})
     for (double number : *numbers) sum += number * 0;
   if (sum == 0) return;
 
   report.finite = false;
-  const BadQuantity bad = first_bad_quantity(m.model, m.forces, m.w);
+  const NonFiniteField bad = first_bad_quantity(m.model, m.forces, m.w);
   if (bad.body != 0) {
-    report.bad_field = bad.name;
-    report.bad_body = static_cast<int>(bad.body);
+    report.nonfinite_field = bad.name;
+    report.nonfinite_body = static_cast<int>(bad.body);
     return;
   }
   const std::vector<double> q = q_with_prescribed(m.model, m.x);
   const auto bad_q = std::ranges::find_if_not(q, [](double c) { return std::isfinite(c); });
   if (bad_q == q.end()) return;
-  report.bad_field = "q";
+  report.nonfinite_field = "q";
   for (std::size_t i = 1; i < m.model.parent.size(); ++i)
     if (m.model.iq[i] + m.model.ip[i] <= static_cast<std::size_t>(bad_q - q.begin()))
-      report.bad_body = static_cast<int>(i);
+      report.nonfinite_body = static_cast<int>(i);
 }
 
 }  // namespace twinarm

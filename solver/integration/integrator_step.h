@@ -15,28 +15,28 @@ namespace twinarm {
 
 class IntegratorStep {
  public:
-  explicit IntegratorStep(const Mechanism& m);
+  explicit IntegratorStep(const IntegrationState& m);
   Integrator integrator() const { return integrator_; }
   void set_integrator(Integrator integrator, double tolerance);
   void forget() { dopri5_.forget(); }  // the state is not where the last step led
-  void visit_memory(Memory& memory) { dopri5_.visit_memory(memory); }
+  void serialize(StateArchive& memory) { dopri5_.serialize(memory); }
 
   // Moves m.x by h, its time too, and begins the step for the sources of forces; m.k is left to the
   // caller. `one_substep`: dopri5 takes one, of the size that its tolerance asks for.
-  void step(Mechanism& m, double h, bool one_substep, StepReport& report);
+  void step(IntegrationState& m, double h, bool one_substep, StepReport& report);
 
  private:
-  void move(Mechanism& m, double h, StepReport& report);  // a fixed size, not semi-implicit
+  void move(IntegrationState& m, double h, StepReport& report);  // a fixed size, not semi-implicit
 
   Integrator integrator_ = Integrator::semi_implicit;
   std::vector<double> shift_;
   RungeKutta rk_;
   Dopri5 dopri5_;
-  FrictionEvents events_;
+  FrictionEventLocator events_;
   std::optional<ImplicitStep> implicit_;  // nv x nv numbers: only where the integrator needs it
 };
 
 // The first number of the step that is not finite, if there is one, into the report.
-void report_non_finite(const Mechanism& m, StepReport& report);
+void report_non_finite(const IntegrationState& m, StepReport& report);
 
 }  // namespace twinarm

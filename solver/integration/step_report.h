@@ -19,14 +19,17 @@ struct StepReport {
   bool located = true;
   bool interrupted = false;  // likewise: the step was asked to end, and stands before its end
   double h = 0;              // by how much the time went on [s]
-  double loops_open = 0;     // the largest error of position of a loop, after the step [m, rad]
+  double loop_position_error =
+      0;  // the largest error of position of a loop, after the step [m, rad]
   // Where the first non-finite number stands, in the order in which the passes write; body 0 and
   // null where all is finite.
-  int bad_body = 0;
-  const char* bad_field = nullptr;
+  int nonfinite_body = 0;
+  const char* nonfinite_field = nullptr;
 
-  static constexpr double kMostOpen = 1e-8;  // that still counts as closed
-  bool ok() const { return finite && converged && reached && located && loops_open <= kMostOpen; }
+  static constexpr double kMaxOpen = 1e-8;  // that still counts as closed
+  bool ok() const {
+    return finite && converged && reached && located && loop_position_error <= kMaxOpen;
+  }
 };
 
 }  // namespace twinarm

@@ -18,8 +18,8 @@ Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& A);
 
 // The shortest x with the least |A x - b|, by a complete orthogonal decomposition; pivots below
 // `threshold` times the largest count as zero (0: below the rounding errors of A's size).
-Eigen::VectorXd shortest_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
-                                  double threshold = 0);
+Eigen::VectorXd min_solution(const Eigen::MatrixXd& A, const Eigen::VectorXd& b,
+                             double threshold = 0);
 
 // How many columns of A are independent (pivots below `threshold` times the largest count as zero),
 // and all columns' numbers in the order in which a QR factorization takes them.

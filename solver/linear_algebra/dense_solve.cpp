@@ -26,7 +26,7 @@ MatrixXd inverse_of(const MatrixXd& A) {
   return A.inverse();
 }
 
-VectorXd shortest_solution(const MatrixXd& A, const VectorXd& b, double threshold) {
+VectorXd min_solution(const MatrixXd& A, const VectorXd& b, double threshold) {
   Eigen::CompleteOrthogonalDecomposition<MatrixXd> solver(A.rows(), A.cols());
   if (threshold > 0) solver.setThreshold(threshold);
   return solver.compute(A).solve(b);

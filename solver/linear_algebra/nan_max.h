@@ -5,7 +5,7 @@
 
 namespace twinarm {
 
-inline double worse(double a, double b) {
+inline double nan_max(double a, double b) {
   return b <= a || std::isnan(a) ? a : b;
 }
 

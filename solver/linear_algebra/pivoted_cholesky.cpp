@@ -4,7 +4,7 @@
 
 namespace twinarm {
 
-LoopFactors::LoopFactors(std::size_t capacity)
+PivotedCholesky::PivotedCholesky(std::size_t capacity)
     : capacity_(capacity),
       A_(capacity * capacity),
       L_(capacity * capacity),
@@ -14,7 +14,7 @@ LoopFactors::LoopFactors(std::size_t capacity)
   chosen_.reserve(capacity);
 }
 
-void LoopFactors::factorise(std::size_t n, double tolerance) noexcept {
+void PivotedCholesky::factorise(std::size_t n, double tolerance) noexcept {
   n_ = n;
   chosen_.clear();
   for (std::size_t i = 0; i < n; ++i) {
@@ -32,7 +32,7 @@ void LoopFactors::factorise(std::size_t n, double tolerance) noexcept {
 }
 
 // The next column of L, for all rows; rows that were chosen before get what is never read.
-void LoopFactors::take(std::size_t pivot) noexcept {
+void PivotedCholesky::take(std::size_t pivot) noexcept {
   const std::size_t k = chosen_.size();
   const double root = std::sqrt(left_[pivot]);
   const double* of_pivot = &L_[pivot * capacity_];
@@ -50,7 +50,7 @@ void LoopFactors::take(std::size_t pivot) noexcept {
   chosen_.push_back(pivot);
 }
 
-void LoopFactors::solve(double* b) const noexcept {
+void PivotedCholesky::solve(double* b) const noexcept {
   const std::size_t r = chosen_.size();
   for (std::size_t k = 0; k < r; ++k) {
     const std::size_t p = chosen_[k];

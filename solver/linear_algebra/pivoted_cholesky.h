@@ -15,11 +15,11 @@
 
 namespace twinarm {
 
-class LoopFactors {
+class PivotedCholesky {
  public:
   static constexpr double kDependent = 1e-12;
 
-  explicit LoopFactors(std::size_t capacity);
+  explicit PivotedCholesky(std::size_t capacity);
   // Both triangles.
   double& operator()(std::size_t row, std::size_t column) { return A_[row * capacity_ + column]; }
   void factorise(std::size_t n, double tolerance = kDependent) noexcept;

@@ -56,7 +56,7 @@ bool ForwardDynamics::holds_any() const {
 double ForwardDynamics::slack() const {
   double least = 1;
   for (std::size_t k = 0; k < mode_.size(); ++k) {
-    const CoulombFriction::Family& of = families()[k];
+    const CoulombFriction::MimicGroup& of = families()[k];
     if (mode_[k] == Mode::held)
       least = std::min(least, std::min(f_[k] + of.plus, of.minus - f_[k]) / (of.plus + of.minus));
   }
@@ -81,11 +81,11 @@ const std::vector<std::size_t>& ForwardDynamics::at_rest(const State<double>& x)
 }
 
 void ForwardDynamics::operator()(const State<double>& x, Forces<double>& forces,
-                                 Workspace<double>& w, Rule rule, double h) noexcept {
+                                 Workspace<double>& w, Rule problem, double h) noexcept {
   const bool any_friction = friction_on_ && (has_damping_ || has_coulomb());
   if (!any_friction && !bilateral_.any()) return aba(*model_, x, forces, w);
 
-  known_torques(x, h, rule, forces);
+  known_torques(x, h, problem, forces);
   std::swap(forces.tau, tau_), std::swap(forces.armature, armature_);
   aba(*model_, x, forces, w);
   std::swap(forces.tau, tau_), std::swap(forces.armature, armature_);
@@ -95,7 +95,7 @@ void ForwardDynamics::operator()(const State<double>& x, Forces<double>& forces,
     bilateral_.prepare(w);
     bilateral_.project_acceleration(a_);
   }
-  if (has_coulomb()) find_unknown(x, h, rule, w);
+  if (has_coulomb()) find_unknown(x, h, problem, w);
   correct(w);
   make_exact(h, w);
   if (h > 0 && has_damping_ && friction_on_)
@@ -105,7 +105,7 @@ void ForwardDynamics::operator()(const State<double>& x, Forces<double>& forces,
 
 // Friction that does not depend on qdd goes into ABA: damping (at the end of a step h b qdd of it
 // as armature), and Coulomb friction of all that slides.
-void ForwardDynamics::known_torques(const State<double>& x, double h, Rule rule,
+void ForwardDynamics::known_torques(const State<double>& x, double h, Rule problem,
                                     const Forces<double>& forces) {
   tau_ = forces.tau;
   armature_ = forces.armature;
@@ -116,8 +116,8 @@ void ForwardDynamics::known_torques(const State<double>& x, double h, Rule rule,
     armature_[d] += h * model_->damping[d];
   }
   for (std::size_t k = 0; k < mode_.size(); ++k) {
-    const CoulombFriction::Family& of = families()[k];
-    if (rule != Rule::as_chosen) mode_[k] = mode_of(x.qd[of.dof]);
+    const CoulombFriction::MimicGroup& of = families()[k];
+    if (problem != Rule::as_chosen) mode_[k] = mode_of(x.qd[of.dof]);
     f_[k] = mode_[k] == Mode::slides_plus    ? -of.plus
             : mode_[k] == Mode::slides_minus ? of.minus
                                              : 0;
@@ -129,7 +129,7 @@ void ForwardDynamics::known_torques(const State<double>& x, double h, Rule rule,
 
 // Unknown is the friction of what is at rest; at the end of a step also of what would pass through
 // rest: with those found others may, so it is looked again, each family at most once.
-void ForwardDynamics::find_unknown(const State<double>& x, double h, Rule rule,
+void ForwardDynamics::find_unknown(const State<double>& x, double h, Rule problem,
                                    Workspace<double>& w) {
   unknown_.clear();
   box_.rows.clear();
@@ -141,8 +141,8 @@ void ForwardDynamics::find_unknown(const State<double>& x, double h, Rule rule,
       const std::size_t dof = families()[k].dof;
       const double v = x.qd[dof] + h * (a_[dof] + sum_of_changes(k));
       if (mode_[k] == Mode::held ||
-          (rule == Rule::end_of_step && v * static_cast<double>(mode_[k]) < 0))
-        add_unknown(k, rule, w);
+          (problem == Rule::end_of_step && v * static_cast<double>(mode_[k]) < 0))
+        add_unknown(k, problem, w);
     }
     if (unknown_.size() == before) break;
     for (std::size_t r = before; r < unknown_.size(); ++r) {
@@ -151,11 +151,11 @@ void ForwardDynamics::find_unknown(const State<double>& x, double h, Rule rule,
     }
     box_.solve();
   }
-  using At = BoxProblem::At;
+  using At = BoxLcp::At;
   for (std::size_t r = 0; r < unknown_.size(); ++r) {
     const std::size_t k = unknown_[r];
-    const BoxProblem::Row& row = box_.rows[r];
-    const CoulombFriction::Family& of = families()[k];
+    const BoxLcp::Row& row = box_.rows[r];
+    const CoulombFriction::MimicGroup& of = families()[k];
     f_[k] = row.at == At::low ? -of.plus : row.at == At::high ? of.minus : f0_[k] + row.f;
     mode_[k] = row.at == At::low    ? Mode::slides_plus
                : row.at == At::high ? Mode::slides_minus
@@ -171,8 +171,8 @@ double ForwardDynamics::sum_of_changes(std::size_t family) const {
   return sum;
 }
 
-void ForwardDynamics::add_unknown(std::size_t family, Rule rule, Workspace<double>& w) {
-  const CoulombFriction::Family& of = families()[family];
+void ForwardDynamics::add_unknown(std::size_t family, Rule problem, Workspace<double>& w) {
+  const CoulombFriction::MimicGroup& of = families()[family];
   std::fill(b_.begin(), b_.end(), 0);
   b_[of.dof] = 1;
   minv_times(*model_, b_, no_forces_, w);
@@ -182,9 +182,9 @@ void ForwardDynamics::add_unknown(std::size_t family, Rule rule, Workspace<doubl
   unknown_.push_back(family);
   is_unknown_[family] = 1;
   for (std::size_t k = 0; k < mode_.size(); ++k) B_[k * mode_.size() + r] = w.y[families()[k].dof];
-  BoxProblem::Row row;
-  row.low = rule == Rule::as_chosen ? -kUnlimited : -of.plus - f0_[family];
-  row.high = rule == Rule::as_chosen ? kUnlimited : of.minus - f0_[family];
+  BoxLcp::Row row;
+  row.low = problem == Rule::as_chosen ? -kUnlimited : -of.plus - f0_[family];
+  row.high = problem == Rule::as_chosen ? kUnlimited : of.minus - f0_[family];
   box_.rows.push_back(row);
   for (std::size_t s = 0; s <= r; ++s)
     box_.B(r, s) = box_.B(s, r) = B_[unknown_[s] * mode_.size() + r];

@@ -6,7 +6,7 @@
 // closed (loop_forces.h). One run of ABA with all friction that is known beforehand, minv_times
 // once for every row of A and every dof whose friction is to be found, and once for the correction;
 // a model with neither friction nor constraints costs ABA alone. No allocation after the
-// constructor and BilateralForces::set_loops.
+// constructor and ConstraintForceSolver::set_loops.
 //
 // Where velocity and time come in, there are three rules for f:
 //   now          by qd; a dof at rest sticks, or slips from rest by a qdd != 0
@@ -42,20 +42,20 @@ class ForwardDynamics {
   // friction that is known beforehand. `forces` is lent, and given back as it was. h [s] goes
   // with end_of_step, and is 0 otherwise.
   void operator()(const State<double>& x, Forces<double>& forces, Workspace<double>& w,
-                  Rule rule = Rule::now, double h = 0) noexcept;
+                  Rule problem = Rule::now, double h = 0) noexcept;
 
   // Of the last call, by velocity [N m, N]; zero where there is none.
   struct Torques {
     std::vector<double> damping, coulomb, mimic, loop;
   };
   const Torques& torques() const { return torques_; }
-  const BilateralForces& bilateral() const { return bilateral_; }
-  BilateralForces& bilateral() { return bilateral_; }
+  const ConstraintForceSolver& bilateral() const { return bilateral_; }
+  ConstraintForceSolver& bilateral() { return bilateral_; }
 
   // What the last call by another rule than as_chosen found.
   enum class Mode : signed char { slides_minus = -1, held = 0, slides_plus = 1 };
   bool has_coulomb() const { return friction_on_ && !friction_.families().empty(); }
-  const std::vector<CoulombFriction::Family>& families() const { return friction_.families(); }
+  const std::vector<CoulombFriction::MimicGroup>& families() const { return friction_.families(); }
   Mode mode(std::size_t family) const { return mode_[family]; }
   bool holds_any() const;
   // How far the held dofs are from slipping, least of all of them, as a part of the whole width of
@@ -65,12 +65,12 @@ class ForwardDynamics {
   const std::vector<std::size_t>& at_rest(const State<double>& x) noexcept;
   // Stops what the last call holds, and what slides against its mode, exactly.
   void settle(State<double>& x) const;
-  void visit_memory(Memory& memory) { memory.visit_fixed(mode_); }
+  void serialize(StateArchive& memory) { memory.visit_fixed(mode_); }
 
  private:
-  void known_torques(const State<double>& x, double h, Rule rule, const Forces<double>& forces);
-  void find_unknown(const State<double>& x, double h, Rule rule, Workspace<double>& w);
-  void add_unknown(std::size_t family, Rule rule, Workspace<double>& w);
+  void known_torques(const State<double>& x, double h, Rule problem, const Forces<double>& forces);
+  void find_unknown(const State<double>& x, double h, Rule problem, Workspace<double>& w);
+  void add_unknown(std::size_t family, Rule problem, Workspace<double>& w);
   void correct(Workspace<double>& w);
   void make_exact(double h, Workspace<double>& w) const;
   double sum_of_changes(std::size_t family) const;
@@ -79,10 +79,10 @@ class ForwardDynamics {
   bool has_damping_ = false;
   bool friction_on_ = true;
   CoulombFriction friction_;
-  BilateralForces bilateral_;
+  ConstraintForceSolver bilateral_;
   std::vector<Mode> mode_;      // by family
   std::vector<double> f_, f0_;  // by family: Coulomb friction, and what ABA was given of it
-  BoxProblem box_;              // of the families in unknown_, for f - f0
+  BoxLcp box_;                  // of the families in unknown_, for f - f0
   std::vector<std::size_t> unknown_;
   std::vector<char> is_unknown_;
   std::vector<double> B_;  // by family, by unknown: qdd of the one per friction of the other

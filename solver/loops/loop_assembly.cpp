@@ -36,7 +36,7 @@ class Assembly {
     double open = look(x_);
     for (int n = 0; n < kMaxSteps && open > kAssemblyRounding; ++n) {
       // Of rows that are open by some angle, what is below its square is not known.
-      prepare(std::max(LoopFactors::kDependent, std::min(1e-4, open * open)));
+      prepare(std::max(PivotedCholesky::kDependent, std::min(1e-4, open * open)));
       forces_.correction(forces_.loops().g(), shift_);
       const double then = search(open);
       if (!(then < open)) break;
@@ -44,7 +44,7 @@ class Assembly {
       open = then;
     }
     look(x_);
-    prepare(LoopFactors::kDependent);
+    prepare(PivotedCholesky::kDependent);
     forces_.correction(forces_.loops().rate(), shift_);
     for (std::size_t d = 0; d < model_.nv; ++d) x_.qd[d] += shift_[d];
     apply_mimics(model_, x_);
@@ -81,7 +81,7 @@ class Assembly {
   Kinematics k_;
   Workspace<double> w_;
   Forces<double> none_;
-  BilateralForces forces_;
+  ConstraintForceSolver forces_;
   std::vector<double> shift_, scaled_;
 };
 

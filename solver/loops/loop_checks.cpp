@@ -43,7 +43,7 @@ bool moves_between(const Model<double>& model, int a, int b) {
 // Faults of one loop by itself.
 class OneLoop {
  public:
-  OneLoop(const Model<double>& model, const LoopClosure& loop, std::vector<Fault>& faults)
+  OneLoop(const Model<double>& model, const LoopClosure& loop, std::vector<Diagnostic>& faults)
       : model_(model), loop_(loop), faults_(faults) {}
 
   void check() {
@@ -61,9 +61,9 @@ class OneLoop {
   }
 
  private:
-  void add(std::string rule, std::string remedy) {
+  void add(std::string problem, std::string fix) {
     faults_.push_back(
-        {"", 0, "loop '" + loop_.name + "'", std::move(rule), std::move(remedy), "loop.ends"});
+        {"", 0, "loop '" + loop_.name + "'", std::move(problem), std::move(fix), "loop.ends"});
   }
   bool is_body(int body, const char* end) {
     if (body >= 0 && body < model_.body_count()) return true;
@@ -89,13 +89,13 @@ class OneLoop {
   const Model<double>& model_;
   const LoopClosure& loop_;
   const LoopBetween ends_ = facts_of(loop_.type).ends;
-  std::vector<Fault>& faults_;
+  std::vector<Diagnostic>& faults_;
 };
 
 // By loop: its faults, alone and beside those before it.
-std::vector<std::vector<Fault>> faults_by_loop(const Model<double>& model,
-                                               const std::vector<LoopClosure>& loops) {
-  std::vector<std::vector<Fault>> faults(loops.size());
+std::vector<std::vector<Diagnostic>> faults_by_loop(const Model<double>& model,
+                                                    const std::vector<LoopClosure>& loops) {
+  std::vector<std::vector<Diagnostic>> faults(loops.size());
   for (std::size_t l = 0; l < loops.size(); ++l) {
     OneLoop(model, loops[l], faults[l]).check();
     for (std::size_t other = 0; other < l; ++other)
@@ -115,28 +115,27 @@ bool is_turned_over(const LoopClosure& loop, const Kinematics& k) {
 }
 
 void add_open(const Model<double>& model, const LoopClosure& loop, const State<double>& x,
-              std::vector<Fault>& faults) {
+              std::vector<Diagnostic>& faults) {
   Kinematics k(model);
   forward_kinematics(model, x, k);
   LoopClosures alone(model, {loop});
   alone.evaluate(x, k);
   const double open = alone.g().lpNorm<Eigen::Infinity>();
-  const std::string remedy =
-      "start where it is closed: close_loops() looks for such a state nearby";
+  const std::string fix = "start where it is closed: close_loops() looks for such a state nearby";
   if (is_turned_over(loop, k))
     faults.push_back({"", 0, "loop '" + loop.name + "'",
-                      "its frames are turned over against each other at the start", remedy,
+                      "its frames are turned over against each other at the start", fix,
                       "loop.turned-over"});
   else if (!(open <= kOpenAtStart))
     faults.push_back(
         {"", 0, "loop '" + loop.name + "'",
-         text("it is open by ", open, " (m or rad) at the start, may be ", kOpenAtStart), remedy,
+         text("it is open by ", open, " (m or rad) at the start, may be ", kOpenAtStart), fix,
          "loop.open"});
 }
 
-void throw_all(const std::vector<std::vector<Fault>>& by_loop) {
-  FaultList all;
-  for (const std::vector<Fault>& faults : by_loop) all.add(faults);
+void throw_all(const std::vector<std::vector<Diagnostic>>& by_loop) {
+  DiagnosticList all;
+  for (const std::vector<Diagnostic>& faults : by_loop) all.add(faults);
   all.check();
 }
 
@@ -148,7 +147,7 @@ void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loo
 
 void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loops,
                  const State<double>& x) {
-  std::vector<std::vector<Fault>> faults = faults_by_loop(model, loops);
+  std::vector<std::vector<Diagnostic>> faults = faults_by_loop(model, loops);
   for (std::size_t l = 0; l < loops.size(); ++l)
     if (faults[l].empty()) add_open(model, loops[l], x, faults[l]);
   throw_all(faults);

@@ -35,8 +35,8 @@ namespace twinarm {
 // The list of the types. A new one is a line here and its struct in loop_types.h.
 #define TWINARM_LOOPS(LOOP)    \
   LOOP(weld, WeldLoop)         \
-  LOOP(ball, BallLoop)         \
-  LOOP(hinge, HingeLoop)       \
+  LOOP(ball, SphericalLoop)    \
+  LOOP(hinge, RevoluteLoop)    \
   LOOP(distance, DistanceLoop) \
   LOOP(gear, GearLoop)         \
   LOOP(locked, LockedLoop)

@@ -8,7 +8,7 @@
 
 namespace twinarm {
 
-BilateralForces::BilateralForces(const Model<double>& model)
+ConstraintForceSolver::ConstraintForceSolver(const Model<double>& model)
     : model_(&model),
       rows_(model.mimics.size()),
       factors_(rows_),
@@ -17,11 +17,11 @@ BilateralForces::BilateralForces(const Model<double>& model)
       b_(model.nv),
       no_forces_(model.parent.size()) {}
 
-void BilateralForces::set_loops(LoopClosures loops) {
+void ConstraintForceSolver::set_loops(LoopClosures loops) {
   loops_ = std::move(loops);
   rows_ = model_->mimics.size() + loops_.rows();
   const std::size_t most = rows_ + (loops_.any() ? model_->nv : 0);
-  factors_ = LoopFactors(most);
+  factors_ = PivotedCholesky(most);
   Z_.assign(most * model_->nv, 0);
   lambda_.assign(most, 0);
   held_.clear();
@@ -30,7 +30,7 @@ void BilateralForces::set_loops(LoopClosures loops) {
 
 // Calls f(dof, value) for what is not zero in a row of A.
 template <class F>
-void BilateralForces::for_each_entry(std::size_t row, F&& f) const {
+void ConstraintForceSolver::for_each_entry(std::size_t row, F&& f) const {
   if (row < model_->mimics.size()) {
     const Mimic& m = model_->mimics[row];
     f(m.follower, 1.0);
@@ -44,14 +44,14 @@ void BilateralForces::for_each_entry(std::size_t row, F&& f) const {
   }
 }
 
-double BilateralForces::row_times(std::size_t row, const double* v) const {
+double ConstraintForceSolver::row_times(std::size_t row, const double* v) const {
   double sum = 0;
   for_each_entry(row, [&](std::size_t d, double entry) { sum += entry * v[d]; });
   return sum;
 }
 
-void BilateralForces::prepare(Workspace<double>& w, const std::vector<std::size_t>& held,
-                              double tolerance) noexcept {
+void ConstraintForceSolver::prepare(Workspace<double>& w, const std::vector<std::size_t>& held,
+                                    double tolerance) noexcept {
   held_.assign(held.begin(), held.end());
   const std::size_t n = rows_ + held_.size();
   for (std::size_t j = 0; j < n; ++j) {
@@ -73,7 +73,8 @@ void BilateralForces::prepare(Workspace<double>& w, const std::vector<std::size_
   factors_.factorise(n, tolerance);
 }
 
-void BilateralForces::solve(const std::vector<double>& a, const std::vector<double>& b) noexcept {
+void ConstraintForceSolver::solve(const std::vector<double>& a,
+                                  const std::vector<double>& b) noexcept {
   const std::size_t mimics = model_->mimics.size();
   for (std::size_t j = 0; j < rows_ + held_.size(); ++j) {
     const double* Z = &Z_[j * model_->nv];
@@ -85,7 +86,7 @@ void BilateralForces::solve(const std::vector<double>& a, const std::vector<doub
   factors_.solve(lambda_.data());
 }
 
-void BilateralForces::add_accelerations(std::vector<double>& y) const noexcept {
+void ConstraintForceSolver::add_accelerations(std::vector<double>& y) const noexcept {
   for (std::size_t j = 0; j < rows_ + held_.size(); ++j) {
     if (lambda_[j] == 0) continue;
     const double* Z = &Z_[j * model_->nv];
@@ -93,26 +94,27 @@ void BilateralForces::add_accelerations(std::vector<double>& y) const noexcept {
   }
 }
 
-void BilateralForces::add_forces(std::vector<double>& mimic, std::vector<double>& loop) const {
+void ConstraintForceSolver::add_forces(std::vector<double>& mimic,
+                                       std::vector<double>& loop) const {
   for (std::size_t j = 0; j < rows_; ++j) {
     std::vector<double>& tau = j < model_->mimics.size() ? mimic : loop;
     for_each_entry(j, [&](std::size_t d, double entry) { tau[d] += entry * lambda_[j]; });
   }
 }
 
-void BilateralForces::project_acceleration(std::vector<double>& a) noexcept {
+void ConstraintForceSolver::project_acceleration(std::vector<double>& a) noexcept {
   solve(a, b_);  // b_ is zero between calls
   add_accelerations(a);
 }
 
-void BilateralForces::project(std::vector<double>& y) noexcept {
+void ConstraintForceSolver::project(std::vector<double>& y) noexcept {
   for (std::size_t j = 0; j < rows_ + held_.size(); ++j) lambda_[j] = -row_times(j, y.data());
   factors_.solve(lambda_.data());
   add_accelerations(y);
 }
 
-void BilateralForces::correction(const Eigen::VectorXd& residual,
-                                 std::vector<double>& out) noexcept {
+void ConstraintForceSolver::correction(const Eigen::VectorXd& residual,
+                                       std::vector<double>& out) noexcept {
   const std::size_t mimics = model_->mimics.size();
   for (std::size_t j = 0; j < rows_ + held_.size(); ++j)
     lambda_[j] = j >= mimics && j < rows_ ? -residual[static_cast<Eigen::Index>(j - mimics)] : 0;
@@ -121,13 +123,13 @@ void BilateralForces::correction(const Eigen::VectorXd& residual,
   add_accelerations(out);
 }
 
-void BilateralForces::add_lambda(double part, std::vector<double>& sum) const {
+void ConstraintForceSolver::add_lambda(double part, std::vector<double>& sum) const {
   for (std::size_t r = 0; r < loops_.rows(); ++r)
     sum[r] += part * lambda_[model_->mimics.size() + r];
 }
 
-void BilateralForces::shift_of(std::size_t loop, const std::vector<double>& lambda,
-                               std::vector<double>& out) const {
+void ConstraintForceSolver::shift_of(std::size_t loop, const std::vector<double>& lambda,
+                                     std::vector<double>& out) const {
   std::fill(out.begin(), out.end(), 0);
   for (std::size_t r = loops_.first_row(loop); r < loops_.rows() && loops_.loop_of(r) == loop;
        ++r) {
@@ -136,17 +138,17 @@ void BilateralForces::shift_of(std::size_t loop, const std::vector<double>& lamb
   }
 }
 
-void BilateralForces::take_factors(const BilateralForces& from) noexcept {
+void ConstraintForceSolver::take_factors(const ConstraintForceSolver& from) noexcept {
   Z_ = from.Z_;
   factors_ = from.factors_;
   held_ = from.held_;
 }
 
-Eigen::VectorXd BilateralForces::lambda_of_loops() const {
+Eigen::VectorXd ConstraintForceSolver::lambda_of_loops() const {
   Eigen::VectorXd lambda(static_cast<Eigen::Index>(loops_.rows()));
   for (Eigen::Index r = 0; r < lambda.size(); ++r)
     lambda[r] = lambda_[model_->mimics.size() + static_cast<std::size_t>(r)];
-  return shortest_solution(loops_.J().transpose(), loops_.J().transpose() * lambda, 1e-9);
+  return min_solution(loops_.J().transpose(), loops_.J().transpose() * lambda, 1e-9);
 }
 
 }  // namespace twinarm

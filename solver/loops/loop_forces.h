@@ -20,9 +20,9 @@
 
 namespace twinarm {
 
-class BilateralForces {
+class ConstraintForceSolver {
  public:
-  explicit BilateralForces(const Model<double>& model);
+  explicit ConstraintForceSolver(const Model<double>& model);
   void set_loops(LoopClosures loops);
   bool any() const { return rows_ > 0; }
   const LoopClosures& loops() const { return loops_; }
@@ -31,10 +31,10 @@ class BilateralForces {
   // After aba() at the same coordinates, or near by, with loops().evaluate() where A is wanted.
   // Uses w.y, w.p, w.dv. `held` are velocities that are to stay as they are: rows of their own.
   void prepare(Workspace<double>& w, const std::vector<std::size_t>& held = {},
-               double tolerance = LoopFactors::kDependent) noexcept;
+               double tolerance = PivotedCholesky::kDependent) noexcept;
   const std::vector<std::size_t>& held() const { return held_; }
   // What prepare() found there, as if it had been found here.
-  void take_factors(const BilateralForces& from) noexcept;
+  void take_factors(const ConstraintForceSolver& from) noexcept;
 
   // Sets lambda so that A (a + M^-1 b + M^-1 A^T lambda) = -gamma.
   void solve(const std::vector<double>& a, const std::vector<double>& b) noexcept;
@@ -67,7 +67,7 @@ class BilateralForces {
   LoopClosures loops_;
   std::size_t rows_ = 0;  // of mimics and loops; those of held_ come after them
   std::vector<std::size_t> held_;
-  LoopFactors factors_;
+  PivotedCholesky factors_;
   std::vector<double> Z_;  // M^-1 A^T, one row of A after the other
   std::vector<double> lambda_, b_;
   std::vector<Force<double>> no_forces_;

@@ -25,9 +25,9 @@ void add(const std::vector<double>& shift, double part, std::vector<double>& sum
 
 }  // namespace
 
-void LoopProjection::start(const BilateralForces& prepared, const std::vector<std::size_t>& held,
-                           const State<double>& x, const Kinematics& k,
-                           Workspace<double>& w) noexcept {
+void LoopProjection::start(const ConstraintForceSolver& prepared,
+                           const std::vector<std::size_t>& held, const State<double>& x,
+                           const Kinematics& k, Workspace<double>& w) noexcept {
   forces_.take_factors(prepared);
   if (held.empty()) return;
   forces_.loops().evaluate(x, k);
@@ -66,7 +66,7 @@ void LoopProjection::iterate(const At& at, double rounding, Size&& size, Move&& 
     if (fresh || stalls) return;
     // Rows of a loop that is open by some angle are known to that angle, their squares in G to its
     // square.
-    forces_.prepare(at.w, at.held, std::max(LoopFactors::kDependent, open * open));
+    forces_.prepare(at.w, at.held, std::max(PivotedCholesky::kDependent, open * open));
     fresh = true;
   }
 }

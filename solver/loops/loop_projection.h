@@ -43,7 +43,7 @@ class LoopProjection {
   }
 
   // The step starts at x, where `prepared` was; `held` velocities stay as they are.
-  void start(const BilateralForces& prepared, const std::vector<std::size_t>& held,
+  void start(const ConstraintForceSolver& prepared, const std::vector<std::size_t>& held,
              const State<double>& x, const Kinematics& k, Workspace<double>& w) noexcept;
   // Moves x, of which k is the kinematics, and k. w: of any aba() near by, for held velocities that
   // are others than at the start. Returns how far open the widest loop is left, in any row of g.
@@ -68,7 +68,7 @@ class LoopProjection {
   void iterate(const At& at, double rounding, Size&& size, Move&& move, Restore&& restore);
 
   const Model<double>* model_;
-  BilateralForces forces_;
+  ConstraintForceSolver forces_;
   std::vector<double> q_before_, qd_before_, shift_, moved_q_, moved_qd_;
   std::vector<double> pushed_q_, pushed_qd_;  // by row of the loops: lambda of all corrections
 };

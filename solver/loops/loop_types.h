@@ -155,10 +155,10 @@ struct FrameLoop : AnyLoop {
     return on_a;
   }
 };
-struct BallLoop : FrameLoop<> {
+struct SphericalLoop : FrameLoop<> {
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p; }
 };
-struct HingeLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
+struct RevoluteLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
   static bool is_turned_over(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
     return (Eigen::VectorXd(5) << X_CaCb.p, X_CaCb.R(0, 2), X_CaCb.R(1, 2)).finished();
@@ -260,7 +260,7 @@ decltype(auto) visit_loop(LoopType type, F&& f) {
     TWINARM_LOOPS(TWINARM_CASE)
 #undef TWINARM_CASE
   }
-  return f(BallLoop{});  // not reached
+  return f(SphericalLoop{});  // not reached
 }
 
 }  // namespace twinarm

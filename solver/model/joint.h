@@ -80,7 +80,7 @@ auto joint_velocity(const Joint& joint, const Subspace& subspace, const S* qd) {
 // (solver/spatial/sincos_batch.h).
 template <class Joint, class S>
 auto joint_transform(const Joint& joint, const S* q, const S* sin, const S* cos) {
-  if constexpr (takes_sines_ahead<S> && requires { joint.XJ(SinCos<S>{}); })
+  if constexpr (precomputes_sincos<S> && requires { joint.XJ(SinCos<S>{}); })
     if (std::abs(q[0]) <= kPolynomialRange) return joint.XJ(SinCos<S>{*sin, *cos});
   return joint.XJ(q);
 }

@@ -43,7 +43,7 @@ Motion<S> operator+(const Motion<S>& a, NoBias) {
   return a;
 }
 template <class S>
-AcrossZ<S> operator+(const AcrossZ<S>& a, NoBias) {
+MotionNormalToZ<S> operator+(const MotionNormalToZ<S>& a, NoBias) {
   return a;
 }
 
@@ -77,8 +77,8 @@ template <class S>
 struct RevoluteJoint : VectorJoint<S, 1>, ConstantSubspace<S, AxisZ> {
   static constexpr AxisUse axis = AxisUse::motion;
   static constexpr std::array<Coordinate, 1> coordinates{{{"", true}}};
-  static TurnZ<S> XJ(const S* q) { return TurnZ<S>(q[0]); }
-  static TurnZ<S> XJ(const SinCos<S>& of_q) { return TurnZ<S>(of_q); }
+  static RotationZ<S> XJ(const S* q) { return RotationZ<S>(q[0]); }
+  static RotationZ<S> XJ(const SinCos<S>& of_q) { return RotationZ<S>(of_q); }
 };
 
 // Shifts along z.
@@ -98,7 +98,7 @@ struct ScrewJoint : VectorJoint<S, 1> {
   static constexpr bool S_is_constant = false;
   Columns<S, 1> subspace(const S*) const { return {{{{{S(0), S(0), S(1)}, {S(0), S(0), pitch}}}}}; }
   static NoBias cJ(const S*, const S*) { return {}; }
-  Transform<S> XJ(const S* q) const { return {TurnZ<S>(q[0]).E(), {S(0), S(0), pitch * q[0]}}; }
+  Transform<S> XJ(const S* q) const { return {RotationZ<S>(q[0]).E(), {S(0), S(0), pitch * q[0]}}; }
 };
 
 // q = (angle about z, shift along z).
@@ -106,7 +106,7 @@ template <class S>
 struct CylindricalJoint : VectorJoint<S, 2>, ConstantSubspace<S, UnitAxes<2, 5>> {
   static constexpr AxisUse axis = AxisUse::motion;
   static constexpr std::array<Coordinate, 2> coordinates{{{"angle", true}, {"shift", false}}};
-  static Transform<S> XJ(const S* q) { return {TurnZ<S>(q[0]).E(), {S(0), S(0), q[1]}}; }
+  static Transform<S> XJ(const S* q) { return {RotationZ<S>(q[0]).E(), {S(0), S(0), q[1]}}; }
 };
 
 // Turns about z, then about the turned y: E = E_y(q2) E_z(q1), S = (E_y z, y).
@@ -127,7 +127,7 @@ struct UniversalJoint : VectorJoint<S, 2> {
   static Transform<S> XJ(const S* q) {
     const SinCos<S> b = sin_cos(q[1]);
     const Mat3<S> E_y{{b.cos, S(0), -b.sin}, {S(0), S(1), S(0)}, {b.sin, S(0), b.cos}};
-    return {E_y * TurnZ<S>(q[0]).E(), {}};
+    return {E_y * RotationZ<S>(q[0]).E(), {}};
   }
 };
 
@@ -147,7 +147,7 @@ struct PlanarJoint : VectorJoint<S, 3> {
     const S vx = a.cos * qd[0] + a.sin * qd[1], vy = a.cos * qd[1] - a.sin * qd[0];
     return {{}, {qd[2] * vy, -(qd[2] * vx), S(0)}};
   }
-  static Transform<S> XJ(const S* q) { return {TurnZ<S>(q[2]).E(), {q[0], q[1], S(0)}}; }
+  static Transform<S> XJ(const S* q) { return {RotationZ<S>(q[2]).E(), {q[0], q[1], S(0)}}; }
 };
 
 // q is the unit quaternion (w, x, y, z) that turns the child's coordinates into the parent's; qd
@@ -164,7 +164,7 @@ struct SphericalJoint : ConstantSubspace<S, UnitAxes<0, 1, 2>> {
     q[0] = S(1);
     q[1] = q[2] = q[3] = S(0);
   }
-  static void integrate(const S* q, const S* shift, S* out) { turn_quaternion(q, shift, out); }
+  static void integrate(const S* q, const S* shift, S* out) { integrate_quaternion(q, shift, out); }
   static VecN<S, 3> dexpinv(const VecN<S, 3>& theta, const VecN<S, 3>& qd) {
     const Vec3<S> rate = dexpinv_so3<S>({theta[0], theta[1], theta[2]}, {qd[0], qd[1], qd[2]});
     return {rate.x, rate.y, rate.z};
@@ -187,7 +187,7 @@ struct FreeJoint {
                                                           {"turn_y", true},
                                                           {"turn_z", true}}};
   static constexpr bool S_is_constant = false;
-  static FreeAxes<S> subspace(const S* q) { return {quaternion_E(q + 3)}; }
+  static FreeJointSubspace<S> subspace(const S* q) { return {quaternion_E(q + 3)}; }
   static Motion<S> cJ(const S* q, const S* qd) {  // E' v = -w x E v
     return {{}, cross(quaternion_E(q + 3) * Vec3<S>{qd[3], qd[4], qd[5]}, {qd[0], qd[1], qd[2]})};
   }
@@ -198,7 +198,7 @@ struct FreeJoint {
   }
   static void integrate(const S* q, const S* shift, S* out) {
     for (std::size_t k = 0; k < 3; ++k) out[k] = q[k] + shift[3 + k];
-    turn_quaternion(q + 3, shift, out + 3);
+    integrate_quaternion(q + 3, shift, out + 3);
   }
   static VecN<S, 6> dexpinv(const VecN<S, 6>& theta, const VecN<S, 6>& qd) {
     const Vec3<S> rate = dexpinv_so3<S>({theta[0], theta[1], theta[2]}, {qd[0], qd[1], qd[2]});

@@ -30,10 +30,10 @@ struct Mimic {
 // By body, and the same in all lanes of S: kept once, and spread over the lanes where it is read.
 // That takes no instruction more than to load them, and an Nth of the memory: batches fill caches.
 template <template <class> class T, class S>
-class Spread {
+class Broadcast {
  public:
-  Spread() = default;
-  Spread(std::vector<T<Constant<S>>> once) : once_(std::move(once)) {}  // NOLINT: as a vector
+  Broadcast() = default;
+  Broadcast(std::vector<T<Constant<S>>> once) : once_(std::move(once)) {}  // NOLINT: as a vector
   T<S> operator[](std::size_t i) const { return convert<S>(once_[i]); }
 
  private:
@@ -41,7 +41,7 @@ class Spread {
 };
 template <template <class> class T, class S>
 using Constants =
-    std::conditional_t<std::is_same_v<S, Constant<S>>, std::vector<T<S>>, Spread<T, S>>;
+    std::conditional_t<std::is_same_v<S, Constant<S>>, std::vector<T<S>>, Broadcast<T, S>>;
 
 template <class S>
 struct Model {
@@ -82,7 +82,7 @@ template <class M, class S, class F>
 void visit_joint(const M& model, const std::vector<S>& more_armature, std::size_t i, F&& f) {
   if (model.joint[i] == JointType::revolute &&
       !is_nonzero(model.armature[model.iv[i]] + more_armature[model.iv[i]]))
-    return f(RevoluteJoint<S>{}, HingeZeros{});
+    return f(RevoluteJoint<S>{}, RevoluteSparsity{});
   visit_joint(model, i, [&](auto joint) { f(joint, FullInertia{}); });
 }
 

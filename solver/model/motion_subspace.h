@@ -27,7 +27,7 @@ struct Columns {
 
 // (1 0; 0 E): turns in body axes, shifts in the parent's axes; E from parent's to body's.
 template <class S>
-struct FreeAxes {
+struct FreeJointSubspace {
   Mat3<S> E;
 };
 
@@ -39,7 +39,7 @@ void remember(const Columns<S, n>& c, Motion<S>* kept) {
   for (std::size_t k = 0; k < n; ++k) kept[k] = c.column[k];
 }
 template <class S>
-void remember(const FreeAxes<S>& a, Motion<S>* kept) {
+void remember(const FreeJointSubspace<S>& a, Motion<S>* kept) {
   const Mat3<S> Et = transpose(a.E);
   kept[3].v = Et.r0;
   kept[4].v = Et.r1;
@@ -52,7 +52,7 @@ void recall(const Motion<S>* kept, Columns<S, n>& c) {
   for (std::size_t k = 0; k < n; ++k) c.column[k] = kept[k];
 }
 template <class S>
-void recall(const Motion<S>* kept, FreeAxes<S>& a) {
+void recall(const Motion<S>* kept, FreeJointSubspace<S>& a) {
   a.E = transpose(Mat3<S>{kept[3].v, kept[4].v, kept[5].v});
 }
 
@@ -60,21 +60,21 @@ void recall(const Motion<S>* kept, FreeAxes<S>& a) {
 
 // rate * (0 0 1 0 0 0): the velocity of a hinge.
 template <class S>
-struct AboutZ {
+struct MotionAboutZ {
   S rate;
   explicit operator Motion<S>() const { return {{S(0), S(0), rate}, {}}; }
-  friend Motion<S> operator+(const Motion<S>& a, const AboutZ& b) {
+  friend Motion<S> operator+(const Motion<S>& a, const MotionAboutZ& b) {
     return {{a.w.x, a.w.y, a.w.z + b.rate}, a.v};
   }
 };
 // a x vJ of a hinge: no component about or along z.
 template <class S>
-struct AcrossZ {
+struct MotionNormalToZ {
   S wx, wy, vx, vy;
   operator Motion<S>() const { return {{wx, wy, S(0)}, {vx, vy, S(0)}}; }
 };
 template <class S>
-AcrossZ<S> crm(const Motion<S>& a, const AboutZ<S>& b) {
+MotionNormalToZ<S> crm(const Motion<S>& a, const MotionAboutZ<S>& b) {
   const S minus = -b.rate;
   return {a.w.y * b.rate, a.w.x * minus, a.v.y * b.rate, a.v.x * minus};
 }
@@ -100,7 +100,7 @@ const S& component(const Force<S>& f) {
   if constexpr (k == 5) return f.f.z;
 }
 template <class S>
-AboutZ<S> times(AxisZ, const VecN<S, 1>& qd) {
+MotionAboutZ<S> times(AxisZ, const VecN<S, 1>& qd) {
   return {qd[0]};
 }
 template <class S, int... k>
@@ -117,7 +117,7 @@ Motion<S> times(const Columns<S, n>& c, const VecN<S, n>& qd) {
   return m;
 }
 template <class S>
-Motion<S> times(const FreeAxes<S>& a, const VecN<S, 6>& qd) {
+Motion<S> times(const FreeJointSubspace<S>& a, const VecN<S, 6>& qd) {
   return {{qd[0], qd[1], qd[2]}, a.E * Vec3<S>{qd[3], qd[4], qd[5]}};
 }
 
@@ -146,7 +146,7 @@ ForceColumns<S, n> operator*(const ArticulatedInertia<S>& IA, const Columns<S, n
   return U;
 }
 template <class S>
-ForceColumns<S, 6> operator*(const ArticulatedInertia<S>& IA, const FreeAxes<S>& a) {
+ForceColumns<S, 6> operator*(const ArticulatedInertia<S>& IA, const FreeJointSubspace<S>& a) {
   const auto shift_along = [&](const Vec3<S>& e) { return Force<S>{IA.H * e, IA.M * e}; };
   const Mat3<S> Et = transpose(a.E);
   return {column<0>(IA),      column<1>(IA),      column<2>(IA),
@@ -166,7 +166,7 @@ VecN<S, n> transpose_times(const Columns<S, n>& c, const Force<S>& f) {
   return y;
 }
 template <class S>
-VecN<S, 6> transpose_times(const FreeAxes<S>& a, const Force<S>& f) {
+VecN<S, 6> transpose_times(const FreeJointSubspace<S>& a, const Force<S>& f) {
   const Vec3<S> along = transpose_times(a.E, f.f);
   return {f.n.x, f.n.y, f.n.z, along.x, along.y, along.z};
 }
@@ -207,7 +207,7 @@ struct HingeInertia {
   explicit operator ArticulatedInertia<S>() const {
     return {{xx, yy, S(0), xy, S(0), S(0)}, {h0, h1, {}}, M};
   }
-  // Ia c for the c of a hinge, whose components about and along z are zero (AcrossZ).
+  // Ia c for the c of a hinge, whose components about and along z are zero (MotionNormalToZ).
   friend Force<S> operator*(const HingeInertia& a, const Motion<S>& c) {
     return {{a.xx * c.w.x + a.xy * c.w.y + a.h0.x * c.v.x + a.h0.y * c.v.y,
              a.xy * c.w.x + a.yy * c.w.y + a.h1.x * c.v.x + a.h1.y * c.v.y, S(0)},
@@ -246,16 +246,16 @@ ArticulatedInertia<S> minus_congruence(ArticulatedInertia<S> IA, ForceColumns<S,
 
 // How a joint's Ia is formed: in general, or with the zeros of a hinge without armature.
 struct FullInertia {};
-struct HingeZeros {};
+struct RevoluteSparsity {};
 
 template <class S, std::size_t n>
-ArticulatedInertia<S> felt_inertia(FullInertia, const ArticulatedInertia<S>& IA,
-                                   const ForceColumns<S, n>& U, const Spd<S, n>& D) {
+ArticulatedInertia<S> apparent_inertia(FullInertia, const ArticulatedInertia<S>& IA,
+                                       const ForceColumns<S, n>& U, const Spd<S, n>& D) {
   return minus_congruence(IA, U, D);
 }
 template <class S>
-HingeInertia<S> felt_inertia(HingeZeros, const ArticulatedInertia<S>& IA,
-                             const ForceColumns<S, 1>& U, const Spd<S, 1>& D) {
+HingeInertia<S> apparent_inertia(RevoluteSparsity, const ArticulatedInertia<S>& IA,
+                                 const ForceColumns<S, 1>& U, const Spd<S, 1>& D) {
   const Vec3<S>&n = U[0].n, &l = U[0].f;
   const S nx = D.inverse_d[0] * n.x, ny = D.inverse_d[0] * n.y;
   const Vec3<S> m = D.inverse_d[0] * l;

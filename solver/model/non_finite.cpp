@@ -17,10 +17,10 @@ double rest_of(const T& a) {
 
 }  // namespace
 
-BadQuantity first_bad_quantity(const Model<double>& model, const Forces<double>& forces,
-                               const Workspace<double>& w) {
+NonFiniteField first_bad_quantity(const Model<double>& model, const Forces<double>& forces,
+                                  const Workspace<double>& w) {
   const std::size_t n = model.parent.size();
-  BadQuantity found;
+  NonFiniteField found;
   const auto look = [&](int pass, std::size_t body, const auto& fields) {
     fields.describe([&](const Quantity& quantity, const auto& field) {
       if (found.body != 0 || quantity.pass != pass) return;

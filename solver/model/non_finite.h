@@ -7,13 +7,13 @@
 
 namespace twinarm {
 
-struct BadQuantity {
+struct NonFiniteField {
   std::size_t body = 0;        // 0: all is finite
   const char* name = nullptr;  // as in describe()
   int pass = 0;                // 0: an input
 };
 
-BadQuantity first_bad_quantity(const Model<double>& model, const Forces<double>& forces,
-                               const Workspace<double>& w);
+NonFiniteField first_bad_quantity(const Model<double>& model, const Forces<double>& forces,
+                                  const Workspace<double>& w);
 
 }  // namespace twinarm

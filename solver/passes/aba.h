@@ -23,7 +23,7 @@ template <class S, class M, class Trace = NoTrace>
   forget(w.v), forget(w.c), forget(w.IA), forget(w.pA), forget(w.a), forget(w.qdd);
   w.v[0] = {};
   w.a[0] = {{}, -model.gravity};  // gravity as an upward acceleration of the base
-  sin_cos_ahead(x.q, w.sin, w.cos);
+  precompute_sincos(x.q, w.sin, w.cos);
 
   // pass 1, base to tips: velocities, velocity-product terms, inertias and bias forces of each body
   for (std::size_t i = 1; i < n_bodies; ++i) {
@@ -59,7 +59,7 @@ template <class S, class M, class Trace = NoTrace>
       const auto factors = factorized(D);
       const auto u = slice<joint.nv>(forces.tau, iv) - transpose_times(S_i, w.pA[i]);
       if (p > 0) {
-        const auto Ia = felt_inertia(felt, w.IA[i], U, factors);  // IA - U D^-1 U^T
+        const auto Ia = apparent_inertia(felt, w.IA[i], U, factors);  // IA - U D^-1 U^T
         const Force<S> pa = w.pA[i] + Ia * w.c[i] + times(U, solve(factors, u));
         w.pA[p] += transpose_times(w.Xup[i], pa);
         if (model.last_child[p] == static_cast<int>(i))  // IA_p = I_p + X^T Ia X

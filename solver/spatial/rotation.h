@@ -7,12 +7,12 @@ namespace twinarm {
 
 // The coordinate transform of a turn about z by an angle: E = (c s 0; -s c 0; 0 0 1), r = 0.
 template <class S>
-struct TurnZ {
+struct RotationZ {
   S c, s;
-  explicit TurnZ(const SinCos<S>& both) : c(both.cos), s(both.sin) {}
-  explicit TurnZ(const S& angle) : TurnZ(sin_cos(angle)) {}
+  explicit RotationZ(const SinCos<S>& both) : c(both.cos), s(both.sin) {}
+  explicit RotationZ(const S& angle) : RotationZ(sin_cos(angle)) {}
   Mat3<S> E() const { return {{c, s, S(0)}, {-s, c, S(0)}, {S(0), S(0), S(1)}}; }
-  friend Transform<S> operator*(const TurnZ& a, const Transform<S>& X) {
+  friend Transform<S> operator*(const RotationZ& a, const Transform<S>& X) {
     return {{a.c * X.E.r0 + a.s * X.E.r1, a.c * X.E.r1 - a.s * X.E.r0, X.E.r2}, X.r};
   }
 };
@@ -29,7 +29,7 @@ Mat3<S> quaternion_E(const S* q) {
 // out = q exp(turn), turn in child axes [rad]; out may be q. sin(t/2)/t is an even power series in
 // t: below t = 1e-1 five terms are exact to rounding, and there is no 0/0.
 template <class S>
-void turn_quaternion(const S* q, const S* turn, S* out) {
+void integrate_quaternion(const S* q, const S* turn, S* out) {
   using std::sqrt;
   const Vec3<S> u{turn[0], turn[1], turn[2]};
   const S t2 = dot(u, u);

@@ -9,7 +9,7 @@ namespace twinarm {
 // R_AB with the axis (in A, of any length but 0) as its third column; exactly the identity for an
 // axis along +z, half a turn about x for one along -z. By Rodrigues' formula about z x a, with
 // 1 / (1 + a_z) written so that nothing cancels near -z.
-inline Matrix3 turn_z_to(const Vector3& axis) {
+inline Matrix3 rotation_taking_z_to(const Vector3& axis) {
   const Vector3 a = axis.normalized();
   const double x = a.x(), y = a.y(), z = a.z(), aside = x * x + y * y;
   if (aside == 0) return Vector3(1, z, z).asDiagonal();

@@ -93,7 +93,7 @@ inline constexpr double kPolynomialRange = 200;  // [rad]
 // Whether the polynomials are worth evaluating side by side for many numbers
 // (solver/spatial/sincos_batch.h).
 template <class S>
-inline constexpr bool takes_sines_ahead = std::is_same_v<S, double>;
+inline constexpr bool precomputes_sincos = std::is_same_v<S, double>;
 
 inline SinCos<double> sin_cos(double x) {
   if (std::abs(x) <= kPolynomialRange) return sin_cos_polynomial<double, std::int64_t>(x);

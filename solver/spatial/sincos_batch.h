@@ -43,8 +43,8 @@ void sin_cos_in_groups(std::size_t n, const double* x, double* sin, double* cos)
 // Valid where |q| <= kPolynomialRange (joint_transform asks). Other scalars than double are not
 // taken ahead: lanes are side by side already.
 template <class S>
-void sin_cos_ahead(const std::vector<S>& q, std::vector<S>& sin, std::vector<S>& cos) {
-  if constexpr (takes_sines_ahead<S>)
+void precompute_sincos(const std::vector<S>& q, std::vector<S>& sin, std::vector<S>& cos) {
+  if constexpr (precomputes_sincos<S>)
     sin_cos_in_groups<kNativeLanes>(q.size(), q.data(), sin.data(), cos.data());
 }
 

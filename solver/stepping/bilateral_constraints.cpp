@@ -4,26 +4,26 @@
 
 namespace twinarm {
 
-void BilateralConstraints::visit_memory(Memory& memory, std::size_t loop_rows) {
+void BilateralConstraints::serialize(StateArchive& memory, std::size_t loop_rows) {
   memory.visit_fixed(mimic_guess_);
   memory.visit(loop_guess_);
   if (!loop_guess_.empty() && loop_guess_.size() != loop_rows)
     throw std::runtime_error("the loops are not those of this simulation");
 }
 
-void BilateralConstraints::add_to(ImpulseProblem& problem, const ModelTrees& trees, Mechanism& m,
-                                  Phase phase, double h) {
+void BilateralConstraints::add_to(ImpulseProblem& problem, const KinematicTrees& trees,
+                                  IntegrationState& m, Phase phase, double h) {
   first_ = problem.constraints().size();
   add_mimics(problem, trees);
   if (m.has_loops()) add_loops(problem, trees, m, phase, h);
 }
 
-void BilateralConstraints::add_mimics(ImpulseProblem& problem, const ModelTrees& trees) {
+void BilateralConstraints::add_mimics(ImpulseProblem& problem, const KinematicTrees& trees) {
   for (std::size_t i = 0; i < model_->mimics.size(); ++i) {
     const Mimic& mimic = model_->mimics[i];
     const int a = trees.tree_of_dof(mimic.follower), b = trees.tree_of_dof(mimic.leader);
     ImpulseConstraint& c =
-        problem.add(ImpulseLaw::equal, 1, a, a == b ? ImpulseConstraint::no_tree : b);
+        problem.add(ConstraintType::bilateral, 1, a, a == b ? ImpulseConstraint::no_tree : b);
     problem.J(c, 0)[trees.place(mimic.follower)] = 1;
     problem.J(c, a == b ? 0 : 1)[trees.place(mimic.leader)] -= mimic.ratio;
     c.p[0] = mimic_guess_[i];
@@ -39,7 +39,7 @@ void BilateralConstraints::keep_guesses(const ImpulseProblem& problem) {
 }
 
 void BilateralConstraints::count(const ImpulseProblem& problem, const double* velocity_before,
-                                 Mechanism& m, Phase phase) {
+                                 IntegrationState& m, Phase phase) {
   if (!m.account) return;
   const bool in_flow = phase == Phase::flow;
   const auto work_of = [&](const ImpulseConstraint& c) {
@@ -57,14 +57,14 @@ void BilateralConstraints::count(const ImpulseProblem& problem, const double* ve
   lambda_.resize(static_cast<Eigen::Index>(loops.rows()));
   for (std::size_t row = 0; row < loops.rows(); ++next) {
     const ImpulseConstraint& c = problem.constraints()[next];
-    Exchange on_both;
+    EnergyMomentum on_both;
     on_both.work = work_of(c);
     m.account->add_loop(loops.loop_of(row), on_both, in_flow);
     for (int r = 0; r < c.rows; ++r)
       lambda_[static_cast<Eigen::Index>(row++)] = c.p[static_cast<std::size_t>(r)];
   }
   for (std::size_t l = 0; l < loops.loops().size(); ++l) {
-    Exchange on_a;
+    EnergyMomentum on_a;
     const LoopWrench wrench = loops.wrench(l, lambda_);
     on_a.add_wrench(1, loops.point(l), wrench.force, wrench.couple);
     m.account->add_loop(l, on_a, in_flow);
@@ -72,8 +72,8 @@ void BilateralConstraints::count(const ImpulseProblem& problem, const double* ve
 }
 
 // g' = 0; what is left of g = 0 is for Mechanism::refresh().
-void BilateralConstraints::add_loops(ImpulseProblem& problem, const ModelTrees& trees, Mechanism& m,
-                                     Phase phase, double h) {
+void BilateralConstraints::add_loops(ImpulseProblem& problem, const KinematicTrees& trees,
+                                     IntegrationState& m, Phase phase, double h) {
   LoopClosures& loops = m.dynamics.bilateral().loops();
   loops.evaluate(m.x, m.k);
   loop_guess_.resize(loops.rows());
@@ -88,7 +88,7 @@ void BilateralConstraints::add_loops(ImpulseProblem& problem, const ModelTrees& 
       if (a == ImpulseConstraint::no_tree) a = tree;
       if (tree != a) b = tree;
     }
-    ImpulseConstraint& c = problem.add(ImpulseLaw::equal, static_cast<int>(count), a, b);
+    ImpulseConstraint& c = problem.add(ConstraintType::bilateral, static_cast<int>(count), a, b);
     for (std::size_t r = 0; r < count; ++r) {
       const auto from = static_cast<Eigen::Index>(row + r);
       c.b[r] = phase == Phase::separate ? 0 : loops.rate()[from];

@@ -17,21 +17,21 @@ class BilateralConstraints {
   // leaves gamma to the impulses that put velocities right: they cannot give energy.
   void constrain_accelerations() { with_gamma_ = true; }
 
-  void add_to(ImpulseProblem& problem, const ModelTrees& trees, Mechanism& m, Phase phase,
-              double h = 0);
+  void add_to(ImpulseProblem& problem, const KinematicTrees& trees, IntegrationState& m,
+              Phase phase, double h = 0);
   // After the solution: its impulses are the next guesses.
   void keep_guesses(const ImpulseProblem& problem);
   // Works and momenta of what add_to() added (constraint_work.h); `before`: v0 of the problem.
-  void count(const ImpulseProblem& problem, const double* before, Mechanism& m, Phase phase);
+  void count(const ImpulseProblem& problem, const double* before, IntegrationState& m, Phase phase);
 
   // Guesses of impulses. Those of loops: none before the first step, then one for each row.
   void forget_loops() { loop_guess_.clear(); }
-  void visit_memory(Memory& memory, std::size_t loop_rows);
+  void serialize(StateArchive& memory, std::size_t loop_rows);
 
  private:
-  void add_mimics(ImpulseProblem& problem, const ModelTrees& trees);
-  void add_loops(ImpulseProblem& problem, const ModelTrees& trees, Mechanism& m, Phase phase,
-                 double h);
+  void add_mimics(ImpulseProblem& problem, const KinematicTrees& trees);
+  void add_loops(ImpulseProblem& problem, const KinematicTrees& trees, IntegrationState& m,
+                 Phase phase, double h);
 
   const Model<double>* model_;
   bool with_gamma_ = false;

@@ -13,14 +13,14 @@ namespace {
 // A jump of velocities that sources are asked about, as a way within the step [m, rad]: what moves
 // less, on arms of less than 4 m, stays within their least reach.
 constexpr double jump = 1.25e-4;
-constexpr int most_looks = 4;
+constexpr int max_looks = 4;
 
 }  // namespace
 
 ConstrainedStep::ConstrainedStep(const Model<double>& model)
     : model_(&model), system_(model), couples_(model), constraint_(model.nv), shift_(model.nv) {}
 
-void ConstrainedStep::step(Mechanism& m, double h, StepReport& report) {
+void ConstrainedStep::step(IntegrationState& m, double h, StepReport& report) {
   start_report();
   system_.begin_step(m, h);
   m.begin_step(h);
@@ -37,11 +37,11 @@ void ConstrainedStep::step(Mechanism& m, double h, StepReport& report) {
   report.iterations = report_.step.newton;
 }
 
-bool ConstrainedStep::hit(Mechanism& m) {
+bool ConstrainedStep::hit(IntegrationState& m) {
   return impacts_.resolve(system_, m, 0, Phase::hit, report_) > 0;
 }
 
-void ConstrainedStep::flow(Mechanism& m, double h) {
+void ConstrainedStep::flow(IntegrationState& m, double h) {
   system_.accelerate(m, h);
   if (solve_step(m, h, Phase::flow))
     system_.trees.scatter(system_.problem, m.x.qd);
@@ -54,17 +54,17 @@ void ConstrainedStep::constrain_accelerations() {
   system_.bilateral.constrain_accelerations();
 }
 
-void ConstrainedStep::visit_memory(Memory& memory, std::size_t loop_rows) {
-  system_.friction.visit_memory(memory);
-  system_.bilateral.visit_memory(memory, loop_rows);
-  system_.solver.visit_memory(memory);
+void ConstrainedStep::serialize(StateArchive& memory, std::size_t loop_rows) {
+  system_.friction.serialize(memory);
+  system_.bilateral.serialize(memory, loop_rows);
+  system_.solver.serialize(memory);
 }
 
 // The velocities at the end of the step, in the problem, and the constraints' forces; false where
 // there are none.
-bool ConstrainedStep::solve_step(Mechanism& m, double h, Phase phase) {
+bool ConstrainedStep::solve_step(IntegrationState& m, double h, Phase phase) {
   ImpulseProblem& problem = system_.problem;
-  const ModelTrees& trees = system_.trees;
+  const KinematicTrees& trees = system_.trees;
   ConstraintFrame frame{m.k, trees, m.x, phase, h};
   std::fill(constraint_.begin(), constraint_.end(), 0);
   system_.friction.clear();
@@ -79,9 +79,9 @@ bool ConstrainedStep::solve_step(Mechanism& m, double h, Phase phase) {
     system_.bilateral.add_to(problem, trees, m, phase, h);
     if (problem.constraints().empty()) return false;
     report_.step = system_.solver.solve(problem);
-    if (phase != Phase::step || looks == most_looks || !looks_farther(m, h)) break;
+    if (phase != Phase::step || looks == max_looks || !looks_farther(m, h)) break;
   }
-  system_.hand_out(frame);
+  system_.distribute_impulses(frame);
   system_.bilateral.count(problem, system_.velocity.data(), m, phase);
   system_.friction.take(problem, h);
   system_.bilateral.keep_guesses(problem);
@@ -98,7 +98,7 @@ bool ConstrainedStep::solve_step(Mechanism& m, double h, Phase phase) {
 }
 
 // With the velocities that the problem holds.
-bool ConstrainedStep::looks_farther(Mechanism& m, double h) {
+bool ConstrainedStep::looks_farther(IntegrationState& m, double h) {
   const ImpulseProblem& problem = system_.problem;
   double farthest = 0;
   for (int t = 0; t < problem.tree_count(); ++t) {
@@ -113,13 +113,13 @@ bool ConstrainedStep::looks_farther(Mechanism& m, double h) {
   forward_kinematics(*model_, m.stage, m.k_stage);
   bool found = false;
   for (ConstraintSource* source : system_.sources)
-    found = source->look_farther(m.k_stage, h) || found;
+    found = source->extend_detection(m.k_stage, h) || found;
   return found;
 }
 
 // A free body that nothing but gravity acts on moves by the mean of its velocities: so its fall and
 // its energy are exact, and a bouncing ball keeps its height.
-void ConstrainedStep::move(Mechanism& m, double h) {
+void ConstrainedStep::move(IntegrationState& m, double h) {
   for (std::size_t dof = 0; dof < model_->nv; ++dof) shift_[dof] = h * m.x.qd[dof];
   flies_.assign(static_cast<std::size_t>(system_.trees.count()), 1);
   for (const ImpulseConstraint& c : system_.problem.constraints())
@@ -141,10 +141,10 @@ void ConstrainedStep::move(Mechanism& m, double h) {
   integrate_coordinates(*model_, m.x.q, shift_, m.x.q);
 }
 
-void ConstrainedStep::separate(Mechanism& m, double h) {
+void ConstrainedStep::separate(IntegrationState& m, double h) {
   bool wanted = false;
   for (const ConstraintSource* source : system_.sources)
-    wanted = source->wants_separation() || wanted;
+    wanted = source->needs_position_correction() || wanted;
   if (!wanted) return;
   if (m.account) penetrating_ = m.x;
   system_.begin_problem(nullptr, m.w);

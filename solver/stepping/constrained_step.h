@@ -34,17 +34,17 @@ class ConstrainedStep {
   const ConstraintSystem& system() const { return system_; }
 
   // From m.x, whose m.k is up to date, to the end of the step; begins it for all sources.
-  void step(Mechanism& m, double h, StepReport& report);
+  void step(IntegrationState& m, double h, StepReport& report);
 
   // The parts that event_driven_step.h puts together, from m.x with m.k up to date. Velocities
   // alone move.
   void start_report() { report_ = {}; }
-  bool hit(Mechanism& m);             // what touches and closes now; false where nothing does
-  void flow(Mechanism& m, double h);  // by forces and what is held, over h
+  bool hit(IntegrationState& m);  // what touches and closes now; false where nothing does
+  void flow(IntegrationState& m, double h);  // by forces and what is held, over h
 
   // Of this instant: BilateralConstraints::constrain_accelerations(), and no gyroscopic couples.
   void constrain_accelerations();
-  void visit_memory(Memory& memory, std::size_t loop_rows);
+  void serialize(StateArchive& memory, std::size_t loop_rows);
 
   const ConstraintReport& report() const { return report_; }
   // Of the last step.
@@ -55,10 +55,10 @@ class ConstrainedStep {
   const std::vector<double>& velocities_after_impacts() const { return before_; }
 
  private:
-  bool solve_step(Mechanism& m, double h, Phase phase);
-  bool looks_farther(Mechanism& m, double h);
-  void move(Mechanism& m, double h);
-  void separate(Mechanism& m, double h);
+  bool solve_step(IntegrationState& m, double h, Phase phase);
+  bool looks_farther(IntegrationState& m, double h);
+  void move(IntegrationState& m, double h);
+  void separate(IntegrationState& m, double h);
 
   const Model<double>* model_;
   ConstraintSystem system_;

@@ -4,11 +4,11 @@
 
 namespace twinarm {
 
-void ConstraintSystem::begin_step(const Mechanism& m, double h) {
+void ConstraintSystem::begin_step(const IntegrationState& m, double h) {
   for (ConstraintSource* source : sources) source->begin_step(m.k, m.x, h);
 }
 
-void ConstraintSystem::accelerate(Mechanism& m, double h) {
+void ConstraintSystem::accelerate(IntegrationState& m, double h) {
   m.forces.clear();
   for (ForceSource* source : m.sources) source->add_forces(m.x, m.k, m.forces);
   friction.add_dampers(m.x, h, m.forces);
@@ -38,7 +38,7 @@ void ConstraintSystem::add_sources(const ConstraintFrame& frame) {
   }
 }
 
-void ConstraintSystem::hand_out(const ConstraintFrame& frame) {
+void ConstraintSystem::distribute_impulses(const ConstraintFrame& frame) {
   for (std::size_t s = 0; s < sources.size(); ++s) sources[s]->take(frame, problem, first_[s]);
 }
 

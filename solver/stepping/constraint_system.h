@@ -19,7 +19,7 @@ class ConstraintSystem {
   explicit ConstraintSystem(const Model<double>& model)
       : trees(model), bilateral(model), friction(model) {}
 
-  ModelTrees trees;
+  KinematicTrees trees;
   std::vector<ConstraintSource*> sources;
   BilateralConstraints bilateral;
   FrictionConstraints friction;
@@ -27,15 +27,15 @@ class ConstraintSystem {
   ImpulseSolver solver;
   std::vector<double> velocity;  // v0 of the problem, as keep_velocities() found it
 
-  void begin_step(const Mechanism& m, double h);
+  void begin_step(const IntegrationState& m, double h);
   // m.w.qdd at m.x, whose m.k is up to date, without constraints.
-  void accelerate(Mechanism& m, double h);
+  void accelerate(IntegrationState& m, double h);
   // A problem without constraints; with the implicit terms of `forces` where given.
   void begin_problem(const Forces<double>* forces, Workspace<double>& w);
   // v0 of the problem, before anything is added to it.
   void keep_velocities(ConstraintFrame& frame);
   void add_sources(const ConstraintFrame& frame);
-  void hand_out(const ConstraintFrame& frame);  // the solution, to the sources
+  void distribute_impulses(const ConstraintFrame& frame);  // the solution, to the sources
 
   // Residuals [m/s]: of a guess and of a solution that will do, and what a solution aims at.
   void set_accuracy(double good_guess, double accepted, double aim) {

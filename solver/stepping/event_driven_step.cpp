@@ -25,7 +25,7 @@ void ExtrapolationTable::add_row(std::vector<double>& values) {
 
 namespace {
 
-constexpr double kShortest = 1e-11;  // of a piece that must be good [s]
+constexpr double kMinLength = 1e-11;  // of a piece that must be good [s]
 // Residuals of the impulses [m/s]: extrapolation multiplies what they leave by some hundreds.
 constexpr double kGoodGuess = 1e-14, kAccepted = 1e-11, kAim = 1e-13;
 // Of a piece, relative and absolute: well below EventSource::kMoves, else what rolls seems to slip.
@@ -34,8 +34,8 @@ constexpr double kFar = 1;  // stands for a gap that is not there [m]
 
 }  // namespace
 
-void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, Interrupted interrupted,
-                     StepReport& report) {
+void EventStep::step(ConstrainedStep& constrained, IntegrationState& m, double h,
+                     Interrupted interrupted, StepReport& report) {
   sources_.clear();
   for (ConstraintSource* source : constrained.system().sources)
     sources_.push_back(source->events());
@@ -50,7 +50,7 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, Inter
   for (double left = h; left > 1e-15 * h; left = t_end - m.x.t) {
     const double s = piece(constrained, m, left, report);
     if (s == 0) {
-      go_back(m);
+      restore(m);
       report.interrupted = is_interrupted_;
       report.reached = !is_interrupted_;
       if (!is_interrupted_) finish(constrained, m, t_end, report);
@@ -59,7 +59,7 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, Inter
     m.x.t = s == left ? t_end : start_.t + s;
     m.refresh();
     if (m.account) m.account->count_flow(), m.account->count_projection();
-    for (EventSource* source : sources_) source->count_works();
+    for (EventSource* source : sources_) source->commit_work();
     report.converged = report.converged && is_solved_;
     ++report.substeps;
     if (s == left) break;
@@ -69,18 +69,18 @@ void EventStep::step(ConstrainedStep& constrained, Mechanism& m, double h, Inter
 // Whether the piece is given up.
 bool EventStep::stops() {
   if (!is_interrupted_ && interrupted_) is_interrupted_ = interrupted_();
-  return is_interrupted_ || laws_ >= kMostLaws;
+  return is_interrupted_ || laws_ >= kMaxLaws;
 }
 
 // To the start of the piece.
-void EventStep::go_back(Mechanism& m) {
+void EventStep::restore(IntegrationState& m) {
   m.x = start_;
   forward_kinematics(*model_, m.x, m.k);
-  for (EventSource* source : sources_) source->hold_again();
+  for (EventSource* source : sources_) source->restore_active_set();
 }
 
 // The rest of the step at once; what is held in the next one is found anew.
-void EventStep::finish(ConstrainedStep& constrained, Mechanism& m, double t_end,
+void EventStep::finish(ConstrainedStep& constrained, IntegrationState& m, double t_end,
                        StepReport& report) {
   const bool is_converged = report.converged;
   constrained.system().set_usual_accuracy();
@@ -95,34 +95,35 @@ void EventStep::finish(ConstrainedStep& constrained, Mechanism& m, double t_end,
 }
 
 // What has come together is struck; the rest is held or free.
-void EventStep::begin(ConstrainedStep& constrained, Mechanism& m, double s) {
+void EventStep::begin(ConstrainedStep& constrained, IntegrationState& m, double s) {
   constrained.system().begin_step(m, s);
   const bool struck = constrained.hit(m);
   for (EventSource* source : sources_) source->hold(frame(constrained, m), struck);
   start_ = m.x;
 }
 
-EventSource::Nearest EventStep::look(ConstrainedStep& constrained, const Mechanism& m) const {
-  EventSource::Nearest nearest;
+EventSource::NextEvent EventStep::look(ConstrainedStep& constrained,
+                                       const IntegrationState& m) const {
+  EventSource::NextEvent nearest;
   for (const EventSource* source : sources_) source->look(frame(constrained, m), nearest);
   nearest.gap = std::min(nearest.gap, kFar);
   return nearest;
 }
 
 // Moves m by a good piece, at most the longest; returns its length, or 0 where it is given up.
-double EventStep::piece(ConstrainedStep& constrained, Mechanism& m, double longest,
+double EventStep::piece(ConstrainedStep& constrained, IntegrationState& m, double longest,
                         StepReport& report) {
   begin(constrained, m, longest);
-  const EventSource::Nearest ahead = look(constrained, m);
+  const EventSource::NextEvent ahead = look(constrained, m);
   double s = std::min(length_, longest);
   if (longest - s < 1e-3 * s) s = longest;  // no sliver is left over
-  if (1.02 * ahead.time < s) s = std::max(1.02 * ahead.time, kShortest);
+  if (1.02 * ahead.time < s) s = std::max(1.02 * ahead.time, kMinLength);
   for (;; ++report.rejected) {
     const Piece found = cross(constrained, m, s);
     if (found == Piece::stopped) return 0;
-    if (found != Piece::good && s <= kShortest) {
+    if (found != Piece::good && s <= kMinLength) {
       ++report.events;
-      force_through(constrained, m, s);
+      step_over_event(constrained, m, s);
       return s;
     }
     if (found == Piece::uneven) {
@@ -134,14 +135,14 @@ double EventStep::piece(ConstrainedStep& constrained, Mechanism& m, double longe
       continue;
     }
     constrained.system().begin_step(m, s);
-    const EventSource::Nearest end = look(constrained, m);
+    const EventSource::NextEvent end = look(constrained, m);
     if (end.gap >= 0) break;
-    if (ahead.closes && ahead.gap > 0 && ahead.gap < kFar) {
+    if (ahead.has_closing_contact && ahead.gap > 0 && ahead.gap < kFar) {
       ++report.events;
-      length_ = std::max(s, kShortest);
+      length_ = std::max(s, kMinLength);
       return shorten(constrained, m, s, ahead.gap, end.gap);
     }
-    if (s <= kShortest) break;
+    if (s <= kMinLength) break;
     s *= 0.5;  // it was thrown up, and has come down again
   }
   const double grow =
@@ -150,8 +151,8 @@ double EventStep::piece(ConstrainedStep& constrained, Mechanism& m, double longe
   return s;
 }
 
-double EventStep::shorten(ConstrainedStep& constrained, Mechanism& m, double s, double gap_start,
-                          double gap_end) {
+double EventStep::shorten(ConstrainedStep& constrained, IntegrationState& m, double s,
+                          double gap_start, double gap_end) {
   const double length = step_to_zero(s, gap_start, gap_end, [&](double trial) {
     m.x = start_;
     forward_kinematics(*model_, m.x, m.k);
@@ -163,7 +164,7 @@ double EventStep::shorten(ConstrainedStep& constrained, Mechanism& m, double s, 
 }
 
 // Over an event that is located: one step of the first order.
-void EventStep::force_through(ConstrainedStep& constrained, Mechanism& m, double s) {
+void EventStep::step_over_event(ConstrainedStep& constrained, IntegrationState& m, double s) {
   is_solved_ = true;
   modes_.clear();
   run_column(constrained, m, s, 1, Uneven::taken);
@@ -171,7 +172,7 @@ void EventStep::force_through(ConstrainedStep& constrained, Mechanism& m, double
 }
 
 // From start_ by s: m is there, whether the piece is good or not.
-EventStep::Piece EventStep::cross(ConstrainedStep& constrained, Mechanism& m, double s) {
+EventStep::Piece EventStep::cross(ConstrainedStep& constrained, IntegrationState& m, double s) {
   modes_.clear();
   is_solved_ = true;
   table_.clear();
@@ -197,13 +198,13 @@ EventStep::Piece EventStep::cross(ConstrainedStep& constrained, Mechanism& m, do
 
 // n steps of the first order; false as soon as what is held does another thing than before, or the
 // piece is given up.
-bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s, int n,
+bool EventStep::run_column(ConstrainedStep& constrained, IntegrationState& m, double s, int n,
                            Uneven uneven) {
   const std::size_t nv = model_->nv;
   const double step = s / n;
   m.x = start_;
   if (m.account) m.account->start_flow();
-  for (EventSource* source : sources_) source->hold_again();
+  for (EventSource* source : sources_) source->restore_active_set();
   theta_.assign(nv, 0);
   rate_.resize(nv);
   for (int i = 1; i <= n; ++i) {
@@ -232,7 +233,7 @@ bool EventStep::run_column(ConstrainedStep& constrained, Mechanism& m, double s,
   return true;
 }
 
-void EventStep::go_to(Mechanism& m, const std::vector<double>& row, double s) {
+void EventStep::go_to(IntegrationState& m, const std::vector<double>& row, double s) {
   const std::size_t nv = model_->nv;
   theta_.assign(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(nv));
   integrate_coordinates(*model_, start_.q, theta_, m.x.q);

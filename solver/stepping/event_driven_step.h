@@ -16,7 +16,7 @@
 //
 // Where events follow one another without end (a heap that chatters; redundant loops, whose forces
 // are known to rounding only, so that no piece is good) a step stops looking for them after
-// kMostLaws laws solved (one for each constraint in each solution): what is left of it is one step
+// kMaxLaws laws solved (one for each constraint in each solution): what is left of it is one step
 // of fixed size (constrained_step.h), which obeys the same laws to first order, and the report says
 // so (StepReport::located).
 //
@@ -52,33 +52,35 @@ class ExtrapolationTable {
 class EventStep {
  public:
   explicit EventStep(const Model<double>& model) : model_(&model) {}
-  void visit_memory(Memory& memory) { memory.visit(length_); }
+  void serialize(StateArchive& memory) { memory.visit(length_); }
   // `interrupted` is asked before each solution; may be null. True ends the step where its last
   // piece began. All of constrained's sources must have events().
   using Interrupted = bool (*)();
-  void step(ConstrainedStep& constrained, Mechanism& m, double h, Interrupted interrupted,
+  void step(ConstrainedStep& constrained, IntegrationState& m, double h, Interrupted interrupted,
             StepReport& report);
 
-  static constexpr long kMostLaws = 500'000;  // in one step; a second or two
+  static constexpr long kMaxLaws = 500'000;  // in one step; a second or two
 
  private:
   static constexpr int kColumns = ExtrapolationTable::kColumns;
   enum class Piece { good, inexact, uneven, stopped };
 
-  Piece cross(ConstrainedStep& constrained, Mechanism& m, double s);
+  Piece cross(ConstrainedStep& constrained, IntegrationState& m, double s);
   enum class Uneven { refused, taken };
-  bool run_column(ConstrainedStep& constrained, Mechanism& m, double s, int n, Uneven uneven);
-  void begin(ConstrainedStep& constrained, Mechanism& m, double s);
-  double piece(ConstrainedStep& constrained, Mechanism& m, double longest, StepReport& report);
-  double shorten(ConstrainedStep& constrained, Mechanism& m, double s, double gap_start,
+  bool run_column(ConstrainedStep& constrained, IntegrationState& m, double s, int n,
+                  Uneven uneven);
+  void begin(ConstrainedStep& constrained, IntegrationState& m, double s);
+  double piece(ConstrainedStep& constrained, IntegrationState& m, double longest,
+               StepReport& report);
+  double shorten(ConstrainedStep& constrained, IntegrationState& m, double s, double gap_start,
                  double gap_end);
-  void force_through(ConstrainedStep& constrained, Mechanism& m, double s);
-  void go_back(Mechanism& m);
-  void finish(ConstrainedStep& constrained, Mechanism& m, double t_end, StepReport& report);
+  void step_over_event(ConstrainedStep& constrained, IntegrationState& m, double s);
+  void restore(IntegrationState& m);
+  void finish(ConstrainedStep& constrained, IntegrationState& m, double t_end, StepReport& report);
   bool stops();
-  EventSource::Nearest look(ConstrainedStep& constrained, const Mechanism& m) const;
-  void go_to(Mechanism& m, const std::vector<double>& row, double s);
-  ConstraintFrame frame(const ConstrainedStep& constrained, const Mechanism& m) const {
+  EventSource::NextEvent look(ConstrainedStep& constrained, const IntegrationState& m) const;
+  void go_to(IntegrationState& m, const std::vector<double>& row, double s);
+  ConstraintFrame frame(const ConstrainedStep& constrained, const IntegrationState& m) const {
     return {m.k, constrained.system().trees, m.x, Phase::flow, 0};
   }
 

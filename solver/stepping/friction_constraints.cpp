@@ -13,12 +13,12 @@ void FrictionConstraints::add_dampers(const State<double>& x, double h,
   }
 }
 
-void FrictionConstraints::add_to(ImpulseProblem& problem, const ModelTrees& trees, double h) {
+void FrictionConstraints::add_to(ImpulseProblem& problem, const KinematicTrees& trees, double h) {
   first_ = problem.constraints().size();
   for (std::size_t dof = 0; is_on_ && dof < model_->nv; ++dof) {
     if (!has_coulomb(dof)) continue;
     ImpulseConstraint& c =
-        problem.add(ImpulseLaw::within, 1, trees.tree_of_dof(dof), ImpulseConstraint::no_tree);
+        problem.add(ConstraintType::box, 1, trees.tree_of_dof(dof), ImpulseConstraint::no_tree);
     problem.J(c, 0)[trees.place(dof)] = 1;
     c.low = -h * model_->coulomb_plus[dof], c.high = h * model_->coulomb_minus[dof];
     c.p[0] = std::clamp(guess_[dof], c.low, c.high);

@@ -16,12 +16,12 @@ class FrictionConstraints {
   void set_on(bool on) { is_on_ = on; }
 
   void add_dampers(const State<double>& x, double h, Forces<double>& forces) const;
-  void add_to(ImpulseProblem& problem, const ModelTrees& trees, double h);
+  void add_to(ImpulseProblem& problem, const KinematicTrees& trees, double h);
   // After the solution, over a step of h: its impulses are torques, and the next guesses.
   void take(const ImpulseProblem& problem, double h);
   void clear();                                                  // no torque
   const std::vector<double>& torque() const { return torque_; }  // by velocity [N m, N]
-  void visit_memory(Memory& memory) { memory.visit_fixed(guess_); }
+  void serialize(StateArchive& memory) { memory.visit_fixed(guess_); }
 
  private:
   bool has_coulomb(std::size_t dof) const {

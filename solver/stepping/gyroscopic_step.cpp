@@ -6,8 +6,8 @@ namespace twinarm {
 namespace {
 
 // A turn in one step that is left alone [rad]: its nutation grows e-fold in 1e12 steps.
-constexpr double least_turn = 1e-6;
-constexpr int most_newton_steps = 10;
+constexpr double min_turn = 1e-6;
+constexpr int max_newton_steps = 10;
 
 Matrix3 cross_matrix(const Vector3& a) {
   Matrix3 A;
@@ -26,7 +26,7 @@ Matrix3 about_centre(const Inertia<double>& body) {
 // w' - w of the equation above.
 Vector3 turn_freely(const Matrix3& I, const Vector3& w, const Vector3& n, double h) {
   Vector3 change = Vector3::Zero();
-  for (int k = 0; k < most_newton_steps; ++k) {
+  for (int k = 0; k < max_newton_steps; ++k) {
     const Vector3 mean = w + 0.5 * change, L = I * mean;
     const Vector3 left = I * change + h * (mean.cross(L) - n);
     const Matrix3 slope = I + 0.5 * h * (cross_matrix(mean) * I - cross_matrix(L));
@@ -37,7 +37,7 @@ Vector3 turn_freely(const Matrix3& I, const Vector3& w, const Vector3& n, double
   return change;
 }
 
-bool turns_alone(const Model<double>& model, const Forces<double>& forces, std::size_t i) {
+bool is_free_rigid_body(const Model<double>& model, const Forces<double>& forces, std::size_t i) {
   if (model.joint[i] != JointType::free || model.parent[i] != 0 || model.last_child[i] != 0)
     return false;
   if (!forces.has_impedance) return true;
@@ -47,13 +47,13 @@ bool turns_alone(const Model<double>& model, const Forces<double>& forces, std::
 
 }  // namespace
 
-void GyroscopicCouples::apply(Mechanism& m, double h) {
+void GyroscopicCouples::apply(IntegrationState& m, double h) {
   bool any = false;
   for (std::size_t i = 1; i < couple_.size(); ++i) {
     couple_[i] = {};
-    if (!turns_alone(m.model, m.forces, i)) continue;
+    if (!is_free_rigid_body(m.model, m.forces, i)) continue;
     const Eigen::Map<const Vector3> w(m.x.qd.data() + m.model.iv[i]);
-    if (!(h * w.norm() > least_turn)) continue;
+    if (!(h * w.norm() > min_turn)) continue;
     const Matrix3 I = about_centre(m.model.I[i]);
     const Vector3 moment = w.cross(I * w);
     const Vector3 n = I * Eigen::Map<const Vector3>(m.w.qdd.data() + m.model.iv[i]) + moment;

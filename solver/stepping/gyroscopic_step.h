@@ -22,7 +22,7 @@ class GyroscopicCouples {
  public:
   explicit GyroscopicCouples(const Model<double>& model) : couple_(model.parent.size()) {}
   // After the acceleration without constraints: adds the couples to m.forces, and accelerates anew.
-  void apply(Mechanism& m, double h);
+  void apply(IntegrationState& m, double h);
   // On the body, in body axes; in m.forces.f_ext.
   const Vec3<double>& of(std::size_t body) const { return couple_[body]; }
 

@@ -29,7 +29,8 @@ double kinetic_energy(const ImpulseProblem& problem, const double* v) {
 
 }  // namespace
 
-ImpulseReport Impacts::solve(ConstraintSystem& system, Mechanism& m, ConstraintFrame& frame) {
+ImpulseReport Impacts::solve(ConstraintSystem& system, IntegrationState& m,
+                             ConstraintFrame& frame) {
   ImpulseProblem& problem = system.problem;
   system.begin_problem(nullptr, m.w);
   system.trees.gather(acceleration_, problem);
@@ -42,15 +43,16 @@ ImpulseReport Impacts::solve(ConstraintSystem& system, Mechanism& m, ConstraintF
   return system.solver.solve(problem);
 }
 
-int Impacts::resolve(ConstraintSystem& system, Mechanism& m, double h, Phase phase,
+int Impacts::resolve(ConstraintSystem& system, IntegrationState& m, double h, Phase phase,
                      ConstraintReport& report) {
   ImpulseProblem& problem = system.problem;
   int passes = 0;
-  for (; passes < most_impacts; ++passes, ++report.impacts) {
+  for (; passes < max_impacts; ++passes, ++report.impacts) {
     ConstraintFrame frame{m.k, system.trees, m.x, phase, h};
-    bool closes = false;
-    for (ConstraintSource* source : system.sources) closes = source->closes(frame) || closes;
-    if (!closes) break;
+    bool has_closing_contact = false;
+    for (ConstraintSource* source : system.sources)
+      has_closing_contact = source->has_closing_contact(frame) || has_closing_contact;
+    if (!has_closing_contact) break;
     if (passes == 0) {
       system.accelerate(m, h);
       acceleration_ = m.w.qdd;
@@ -61,7 +63,7 @@ int Impacts::resolve(ConstraintSystem& system, Mechanism& m, double h, Phase pha
     if (!(pass.residual <= obeyed)) {
       for (std::size_t t = 0; t < plastic_.size(); ++t)
         plastic_[t] = !(system.solver.residual_of(static_cast<int>(t)) <= obeyed);
-      ++report.wedged;
+      ++report.infeasible_impacts;
       pass = solve(system, m, frame);
     }
     const double before = kinetic_energy(problem, problem.v0(0));
@@ -77,11 +79,11 @@ int Impacts::resolve(ConstraintSystem& system, Mechanism& m, double h, Phase pha
     }
     note(pass, report.impacts == 0, report.impact);
     report.impact_loss += before - after;
-    system.hand_out(frame);  // with the kinematics before
+    system.distribute_impulses(frame);  // with the kinematics before
     system.bilateral.count(problem, system.velocity.data(), m, phase);
     system.trees.scatter(problem, m.x.qd);
     forward_kinematics(m.model, m.x, m.k);
-    for (ConstraintSource* source : system.sources) source->look_farther(m.k, h);
+    for (ConstraintSource* source : system.sources) source->extend_detection(m.k, h);
   }
   return passes;
 }

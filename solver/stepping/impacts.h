@@ -15,7 +15,7 @@ namespace twinarm {
 
 struct ConstraintReport {
   int impacts = 0;             // passes of the first phase
-  int wedged = 0;              // of these: what no velocities obey, restitution left out
+  int infeasible_impacts = 0;  // of these: what no velocities obey, restitution left out
   ImpulseReport step, impact;  // impact: the worst of its passes
   double impact_loss = 0;      // kinetic energy that impacts took [J]
 };
@@ -23,12 +23,12 @@ struct ConstraintReport {
 class Impacts {
  public:
   // While something closes: new velocities of m.x. Returns the number of passes.
-  int resolve(ConstraintSystem& system, Mechanism& m, double h, Phase phase,
+  int resolve(ConstraintSystem& system, IntegrationState& m, double h, Phase phase,
               ConstraintReport& report);
 
  private:
-  static constexpr int most_impacts = 50;
-  ImpulseReport solve(ConstraintSystem& system, Mechanism& m, ConstraintFrame& frame);
+  static constexpr int max_impacts = 50;
+  ImpulseReport solve(ConstraintSystem& system, IntegrationState& m, ConstraintFrame& frame);
   double bounce(ImpulseProblem& problem);
 
   std::vector<char> plastic_;                   // by tree

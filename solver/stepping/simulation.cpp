@@ -58,11 +58,11 @@ void check_parts(const StepParts& parts) {
 }
 
 // What all sources remember.
-std::vector<Rewindable*> memories(const Simulation& simulation) {
-  std::vector<Rewindable*> memories;
+std::vector<Checkpointable*> memories(const Simulation& simulation) {
+  std::vector<Checkpointable*> memories;
   const auto add_all = [&](const auto& sources, const std::string& what) {
     for (auto* source : sources) {
-      memories.push_back(dynamic_cast<Rewindable*>(source));
+      memories.push_back(dynamic_cast<Checkpointable*>(source));
       if (!memories.back())
         throw std::invalid_argument("a source of " + what + " does not let a step be taken back");
     }
@@ -82,7 +82,7 @@ Simulation::Simulation(const Model<double>& model, State<double> start,
       interrupted_(options.interrupted) {
   m_.dynamics.set_friction(options.joint_friction);
   constrained_.system().friction.set_on(options.joint_friction);
-  if (options.keep_account) m_.account.emplace(model, 0, 0);
+  if (options.enable_constraint_work) m_.account.emplace(model, 0, 0);
   if (options.at_instant) constrained_.constrain_accelerations();
 }
 
@@ -117,12 +117,12 @@ void Simulation::set_loops(std::vector<LoopClosure> loops) {
   integrator_step_.forget();
 }
 
-void Simulation::prescribe(int body, MotionLaw law) {
+void Simulation::prescribe(int body, MotionFunction law) {
   const auto i = static_cast<std::size_t>(body);
   if (body <= 0 || body >= m_.model.body_count() || m_.model.joint[i] != JointType::prescribed)
     throw std::invalid_argument("only the body of a prescribed joint moves by a law");
-  const std::vector<Mechanism::Drive> before = m_.drives;
-  std::erase_if(m_.drives, [&](const Mechanism::Drive& drive) { return drive.body == i; });
+  const std::vector<IntegrationState::Drive> before = m_.drives;
+  std::erase_if(m_.drives, [&](const IntegrationState::Drive& drive) { return drive.body == i; });
   m_.drives.push_back({i, std::move(law)});
   try {
     m_.start(m_.x);
@@ -140,16 +140,16 @@ void Simulation::set_state(State<double> x) {
   integrator_step_.forget();
 }
 
-void Simulation::visit_memory(Memory& memory) {
-  const std::vector<Rewindable*> all = memories(*this);
+void Simulation::serialize(StateArchive& memory) {
+  const std::vector<Checkpointable*> all = memories(*this);
   State<double> x = m_.x;
   visit_state(memory, m_.model, x);
   if (memory.reads()) m_.resume(std::move(x));
-  m_.dynamics.visit_memory(memory);
-  integrator_step_.visit_memory(memory);
-  constrained_.visit_memory(memory, m_.dynamics.bilateral().loops().rows());
-  if (located_) located_->visit_memory(memory);
-  for (Rewindable* source : all) source->visit_memory(memory);
+  m_.dynamics.serialize(memory);
+  integrator_step_.serialize(memory);
+  constrained_.serialize(memory, m_.dynamics.bilateral().loops().rows());
+  if (located_) located_->serialize(memory);
+  for (Checkpointable* source : all) source->serialize(memory);
 }
 
 StepReport Simulation::step(double h, bool one_substep) {
@@ -170,7 +170,7 @@ StepReport Simulation::step(double h, bool one_substep) {
     if (m_.account) m_.account->count_projection();
   }
   report.h = m_.x.t - t;
-  report.loops_open = m_.loops_open;
+  report.loop_position_error = m_.loop_position_error;
   report_non_finite(m_, report);
   return report;
 }
@@ -184,10 +184,10 @@ State<double> side_step(const Simulation& from, double h, StepReport* report) {
   return aside.state();
 }
 
-Mechanism evaluate_at(const Simulation& simulation, const State<double>& x) {
+IntegrationState evaluate_at(const Simulation& simulation, const State<double>& x) {
   constexpr double kMoment = 1e-6;  // [s]; tells which side of a corner of a hand's motion is meant
   const SavedSources saved(memories(simulation));
-  Mechanism aside(simulation.mechanism());
+  IntegrationState aside(simulation.mechanism());
   aside.x = x;
   forward_kinematics(aside.model, aside.x, aside.k);
   aside.begin_step(kMoment);

@@ -19,7 +19,8 @@ namespace twinarm {
 
 struct SimulationOptions {
   bool joint_friction = true;  // false: no joint has damping or Coulomb friction
-  bool keep_account = false;   // mechanism().account: what constraints did in the last step
+  bool enable_constraint_work =
+      false;  // mechanism().account: what constraints did in the last step
   // Constraints give the forces of this instant (ConstrainedStep::constrain_accelerations).
   bool at_instant = false;
   // Asked within steps that locate their events, which may be long; true ends the step
@@ -52,7 +53,7 @@ class Simulation {
   // `tolerance`: of dopri5, relative and absolute.
   void set_integrator(Integrator integrator, double tolerance = 1e-9);
   // The prescribed joint that carries the body moves by this law, from now on.
-  void prescribe(int body, MotionLaw law);
+  void prescribe(int body, MotionFunction law);
   // Elsewhere, at another time; followers go to their leaders. What sources remember is left alone.
   void set_state(State<double> x);
 
@@ -64,17 +65,17 @@ class Simulation {
   // All that the next step reads: the state, and what integrator, impulses and sources remember.
   // Taken back in a simulation that was built alike, the run goes on with the same bits. Throws
   // std::runtime_error where it was not, std::invalid_argument as side_step().
-  void visit_memory(Memory& memory);
+  void serialize(StateArchive& memory);
 
   const State<double>& state() const { return m_.x; }
   const Kinematics& kinematics() const { return m_.k; }  // of state()
   // Workspace, forces, friction, followers' and loops' forces: of the last step's last ABA.
-  const Mechanism& mechanism() const { return m_; }
+  const IntegrationState& mechanism() const { return m_; }
   const ConstrainedStep& constraints() const { return constrained_; }  // of the last step
   Integrator integrator() const { return integrator_step_.integrator(); }
 
  private:
-  Mechanism m_;
+  IntegrationState m_;
   IntegratorStep integrator_step_;
   ConstrainedStep constrained_;
   std::optional<EventStep> located_;
@@ -87,6 +88,6 @@ class Simulation {
 State<double> side_step(const Simulation& from, double h, StepReport* report = nullptr);
 // A copy that stands at x, after one evaluation of all forces there by no step's rule; contacts and
 // limits take no part. Sources, and what it throws, as in side_step(). May allocate.
-Mechanism evaluate_at(const Simulation& simulation, const State<double>& x);
+IntegrationState evaluate_at(const Simulation& simulation, const State<double>& x);
 
 }  // namespace twinarm

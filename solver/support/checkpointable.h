@@ -11,20 +11,20 @@ namespace twinarm {
 
 // A source that is asked for a step which then is not taken must be as before. What it remembers
 // from step to step (held forces, last positions, stick anchors, warm starts) it names in
-// visit_memory(): it is put aside and taken back by that, or written down for a restart elsewhere
+// serialize(): it is put aside and taken back by that, or written down for a restart elsewhere
 // (solver/support/state_archive.h). A source that is not Rewindable refuses side steps.
-class Rewindable {
+class Checkpointable {
  public:
-  virtual ~Rewindable() = default;
-  virtual void visit_memory(Memory&) {}
+  virtual ~Checkpointable() = default;
+  virtual void serialize(StateArchive&) {}
   virtual void keep() {
-    Memory memory;
-    visit_memory(memory);
+    StateArchive memory;
+    serialize(memory);
     kept_memory_ = memory.bytes();
   }
-  virtual void go_back() noexcept {
-    Memory memory(kept_memory_);
-    visit_memory(memory);
+  virtual void restore() noexcept {
+    StateArchive memory(kept_memory_);
+    serialize(memory);
   }
 
  private:
@@ -34,16 +34,16 @@ class Rewindable {
 // Keeps what sources remember, and takes it back at the end of its scope.
 class SavedSources {
  public:
-  explicit SavedSources(std::vector<Rewindable*> sources) : sources_(std::move(sources)) {
-    for (Rewindable* source : sources_) source->keep();
+  explicit SavedSources(std::vector<Checkpointable*> sources) : sources_(std::move(sources)) {
+    for (Checkpointable* source : sources_) source->keep();
   }
   SavedSources(const SavedSources&) = delete;
   ~SavedSources() {
-    for (Rewindable* source : sources_) source->go_back();
+    for (Checkpointable* source : sources_) source->restore();
   }
 
  private:
-  std::vector<Rewindable*> sources_;
+  std::vector<Checkpointable*> sources_;
 };
 
 }  // namespace twinarm

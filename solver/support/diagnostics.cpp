@@ -8,9 +8,9 @@
 namespace twinarm {
 namespace {
 
-std::string line_by_line(const std::vector<Fault>& faults) {
+std::string line_by_line(const std::vector<Diagnostic>& faults) {
   std::string text;
-  for (const Fault& fault : faults) text += (text.empty() ? "" : "\n") + to_string(fault);
+  for (const Diagnostic& fault : faults) text += (text.empty() ? "" : "\n") + to_string(fault);
   return text;
 }
 
@@ -24,18 +24,18 @@ void shorten(std::string& text) {
   text += "...";
 }
 
-void shorten(Fault& fault) {
-  for (std::string* text : {&fault.where, &fault.rule, &fault.remedy}) shorten(*text);
+void shorten(Diagnostic& fault) {
+  for (std::string* text : {&fault.where, &fault.problem, &fault.fix}) shorten(*text);
 }
 
-std::vector<Fault>& shortened(std::vector<Fault>& faults) {
-  for (Fault& fault : faults) shorten(fault);
+std::vector<Diagnostic>& shortened(std::vector<Diagnostic>& faults) {
+  for (Diagnostic& fault : faults) shorten(fault);
   return faults;
 }
 
 }  // namespace
 
-std::string to_string(const Fault& fault) {
+std::string to_string(const Diagnostic& fault) {
   std::string text;
   if (!fault.file.empty()) {
     text += fault.file;
@@ -43,36 +43,36 @@ std::string to_string(const Fault& fault) {
     text += ": ";
   }
   if (!fault.where.empty()) text += fault.where + ": ";
-  text += fault.rule;
-  if (!fault.remedy.empty()) text += "; " + fault.remedy;
+  text += fault.problem;
+  if (!fault.fix.empty()) text += "; " + fault.fix;
   return text;
 }
 
-bool is_of_option(const Fault& fault, std::string_view option) {
+bool is_of_option(const Diagnostic& fault, std::string_view option) {
   return fault.where.starts_with("--") && fault.where.substr(2) == option;
 }
 
-void add_fault(std::vector<Fault>& faults, Fault fault) {
+void add_diagnostic(std::vector<Diagnostic>& faults, Diagnostic fault) {
   shorten(fault);
-  if (faults.size() < kMostFaults)
+  if (faults.size() < kMaxFaults)
     faults.push_back(std::move(fault));
-  else if (faults.size() == kMostFaults)
+  else if (faults.size() == kMaxFaults)
     faults.push_back({std::move(fault.file), 0, "",
-                      "has more than " + std::to_string(kMostFaults) + " faults",
+                      "has more than " + std::to_string(kMaxFaults) + " faults",
                       "mend the others that are told, and try again", "faults.too-many"});
 }
 
-InputError::InputError(std::vector<Fault> faults)
+InputError::InputError(std::vector<Diagnostic> faults)
     : std::runtime_error(line_by_line(shortened(faults))), faults_(std::move(faults)) {}
 InputError::~InputError() = default;
 
-void FaultList::add(Fault fault) {
-  add_fault(faults_, std::move(fault));
+void DiagnosticList::add(Diagnostic fault) {
+  add_diagnostic(faults_, std::move(fault));
 }
-void FaultList::add(const std::vector<Fault>& more) {
-  for (const Fault& fault : more) add(fault);
+void DiagnosticList::add(const std::vector<Diagnostic>& more) {
+  for (const Diagnostic& fault : more) add(fault);
 }
-void FaultList::check() const {
+void DiagnosticList::check() const {
   if (!faults_.empty()) throw InputError(faults_);
 }
 

@@ -1,7 +1,7 @@
 // What a run remembers from step to step besides its state: held forces, stick anchors, guesses of
 // impulses, lengths of substeps. Without it a restart is not bit-exact.
 //
-// Each owner names its fields once, in visit_memory(). A Memory that was made empty appends them as
+// Each owner names its fields once, in serialize(). A Memory that was made empty appends them as
 // bytes; one that was made of such bytes puts them back. Little-endian, sizes before vectors.
 #pragma once
 
@@ -19,10 +19,10 @@
 
 namespace twinarm {
 
-class Memory {
+class StateArchive {
  public:
-  Memory() = default;  // writes
-  explicit Memory(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}
+  StateArchive() = default;  // writes
+  explicit StateArchive(std::string bytes) : bytes_(std::move(bytes)), reads_(true) {}
   bool reads() const { return reads_; }
   const std::string& bytes() const { return bytes_; }
   bool at_end() const { return at_ == bytes_.size(); }
@@ -78,11 +78,11 @@ class Memory {
   }
   // Of a vector whose elements the caller visits; each has at least so many bytes.
   template <class T>
-  void resize(std::vector<T>& values, std::size_t least_bytes) {
+  void resize(std::vector<T>& values, std::size_t min_bytes) {
     std::uint64_t size = values.size();
     visit(size);
     if (!reads_) return;
-    if (size > (bytes_.size() - at_) / least_bytes) of_another_scene();
+    if (size > (bytes_.size() - at_) / min_bytes) of_another_scene();
     values.resize(size);
   }
 

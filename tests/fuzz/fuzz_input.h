@@ -62,8 +62,8 @@ bool goes_through(F f) {
     constexpr std::size_t kLongest = 1 << 20;
     std::size_t length = 0;
     require(!error.faults().empty(), "an InputError without a fault");
-    for (const Fault& fault : error.faults()) {
-      require(!fault.rule.empty(), "a fault without a rule");
+    for (const Diagnostic& fault : error.faults()) {
+      require(!fault.problem.empty(), "a fault without a rule");
       length += to_string(fault).size();
     }
     require(length < kLongest, "the faults take more than a megabyte to tell");

@@ -13,7 +13,7 @@ void gestures(Bytes bytes) {
   for (GestureDecoder* decoder :
        {static_cast<GestureDecoder*>(&keys), static_cast<GestureDecoder*>(&usual),
         static_cast<GestureDecoder*>(&by_codes), static_cast<GestureDecoder*>(&mouse)}) {
-    GestureHand hand((OmniFigures()));
+    DesktopInput hand((OmniParameters()));
     decoder->feed(data, first, 0.1, hand);
     decoder->feed(data + first, bytes.size() - first, 0.2, hand);
     decoder->pass(1, hand);

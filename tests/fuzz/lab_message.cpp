@@ -33,7 +33,7 @@ void lab_message(Bytes bytes) {
     needs_hand(command.what);
     if (command.what != LabCommand::Do::set && command.what != LabCommand::Do::branch) return;
     Value tree = scene;
-    FaultList faults;
+    DiagnosticList faults;
     for (const std::string& text : command.names) apply(parse_change(text), -1, tree, faults);
     faults.check();
     read_scene(tree, file);

@@ -48,9 +48,9 @@ void mesh_shape(Bytes bytes) {
     const ConvexHull hull = convex_hull(mesh.vertices);
     for (const Vector3& n : hull.normals) require(n.allFinite(), "a hull has a bad normal");
     goes_through([&] { mass_properties(Shape(hull), 1000); });
-    const Solid solid((Shape(hull)));
+    const PreparedShape solid((Shape(hull)));
   });
-  if (MeshShape{mesh}.fault().empty()) const Solid solid((Shape(MeshShape{mesh})));
+  if (MeshShape{mesh}.fault().empty()) const PreparedShape solid((Shape(MeshShape{mesh})));
 }
 
 }  // namespace twinarm::fuzz

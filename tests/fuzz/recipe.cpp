@@ -6,7 +6,7 @@ namespace twinarm::fuzz {
 
 void recipe(Bytes bytes) {
   goes_through([&] {
-    std::vector<Fault> faults;
+    std::vector<Diagnostic> faults;
     read_recipe_file(folder().write("recipe.toml", bytes), faults);
     if (!faults.empty()) throw InputError(faults);
   });

@@ -71,7 +71,7 @@ void ball_on_a_floor() {
 }
 
 // The hand of a kinematic robot that stands still.
-struct StillHand final : HandSource {
+struct StillHand final : OperatorMotion {
   HandSample sample(double, double) const override { return {}; }
   double duration() const override { return 1; }
   std::string description() const override { return "still"; }
@@ -83,8 +83,8 @@ void rod_under_a_spring(const char* urdf) {
   State<double> target(model), start(model);
   target.q[0] = std::numbers::pi / 2;  // the twin lies along y
   const StillHand hand;
-  KinematicRobot twin(model, hand, {}, {});
-  twin.stand_at(target);
+  TargetRobot twin(model, hand, {}, {});
+  twin.set_pose(target);
   const int rod = model.find_body("rod");
   CouplingSpec spec{.name = "pull", .type = CouplingSpec::Type::linear};
   spec.springs = {{"tip", rod, {0, 0, -l}, k, 0}};

@@ -44,7 +44,7 @@ void EnergyBooks::begin(const State<double>& x) {
 
 // From x_ on, whose k_ is up to date. Centres of free bodies are their origins.
 EnergyBooks::Turning EnergyBooks::turned(const State<double>& to, double h) {
-  constexpr int kMost = 200;
+  constexpr int kMax = 200;
   const Model<double>& model = scene_.model;
   pushed_.clear();
   shoves_.add_forces(x_, k_, pushed_);
@@ -58,7 +58,7 @@ EnergyBooks::Turning EnergyBooks::turned(const State<double>& to, double h) {
     const Matrix3 inverse = I.inverse();
     const Vector3 n = to_eigen(pushed_.f_ext[i].n);
     Vector3 mean = w, last = Vector3::Zero();
-    for (int k = 0; k < kMost && mean != last; ++k) {
+    for (int k = 0; k < kMax && mean != last; ++k) {
       last = mean;
       mean = w + 0.5 * h * inverse * (n - last.cross(I * last));
     }

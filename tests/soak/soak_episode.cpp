@@ -38,7 +38,7 @@ class Episode {
         made_(make_scene(name, chance_)),
         scene_(build_scene(made_.description)),
         couplings_(scene_, made_.description.step),
-        sim_(scene_.model, scene_.start, {.keep_account = true}),
+        sim_(scene_.model, scene_.start, {.enable_constraint_work = true}),
         contacts_(scene_.model, ContactResponse::rigid),
         limits_(scene_.model),
         shoves_(masses_of(scene_), made_.push, chance_),
@@ -105,7 +105,7 @@ class Episode {
     if (residual > result_.residual)
       result_.residual = residual, result_.residual_at = result_.seconds;
     result_.unconverged += report.converged ? 0 : 1;
-    result_.wedged += solved.wedged;
+    result_.infeasible_impacts += solved.infeasible_impacts;
     result_.above += residual > EpisodeResult::kResidual ? 1 : 0;
     if (!(residual <= bounds_.residual)) fault("a law of contact is broken, m/s", residual);
     if (solved.impact_loss < -bounds_.created * books_.scale())

@@ -10,9 +10,10 @@ namespace twinarm::soak {
 struct EpisodeResult {
   double seconds = 0;  // simulated
   long steps = 0;
-  long unconverged = 0;    // steps that say so
-  long above = 0;          // steps with a residual above kResidual
-  long wedged = 0;         // impacts that were taken without restitution, as no velocities obey it
+  long unconverged = 0;  // steps that say so
+  long above = 0;        // steps with a residual above kResidual
+  long infeasible_impacts =
+      0;                   // impacts that were taken without restitution, as no velocities obey it
   double residual = 0;     // the largest [m/s]
   double residual_at = 0;  // its time [s]
   double depth = 0;        // the deepest contact at the start of a step [m]

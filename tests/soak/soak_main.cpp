@@ -25,9 +25,9 @@ void print(long episode, const twinarm::soak::EpisodeResult& r, double wall) {
       "\"residual\": %.3g, \"residual_at\": %.3f, \"depth\": %.3g, \"deep\": %ld, \"created\": "
       "%.3g, \"given\": %.3g, \"apart\": %.3g, \"excess\": %.3g, \"work\": %.6g, "
       "\"contacts\": %d, \"wall\": %.2f, \"fault\": \"%s\"}\n",
-      episode, r.seconds, r.steps, r.unconverged, r.above, r.wedged, r.residual, r.residual_at,
-      r.depth, r.deep, r.created, r.given, r.apart, r.excess, r.work, r.contacts, wall,
-      r.fault.c_str());
+      episode, r.seconds, r.steps, r.unconverged, r.above, r.infeasible_impacts, r.residual,
+      r.residual_at, r.depth, r.deep, r.created, r.given, r.apart, r.excess, r.work, r.contacts,
+      wall, r.fault.c_str());
   std::fflush(stdout);
 }
 

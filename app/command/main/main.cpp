@@ -24,13 +24,13 @@ enum ExitCode { kDone = 0, kBadInput = 2, kInternal = 4, kInterrupted = 130 };
 int tell(const InputError& error, bool as_json) {
   using Told = nlohmann::ordered_json;  // the one flavour of this program: it is compiled once
   Told errors = Told::array();
-  for (const Fault& fault : error.faults()) {
+  for (const Diagnostic& fault : error.faults()) {
     say("twinarm: {}\n", to_string(fault));
     errors.push_back({{"code", fault.code},
                       {"file", fault.file},
                       {"line", fault.line},
-                      {"remedy", fault.remedy},
-                      {"rule", fault.rule},
+                      {"remedy", fault.fix},
+                      {"rule", fault.problem},
                       {"where", fault.where}});
   }
   if (as_json)
@@ -75,7 +75,7 @@ void check_command(const CLI::App& app, int argc, char** argv) {
 
 // `--png=` of a script whose variable is not set: CLI11 would take the next word for its value.
 void check_values(int argc, char** argv) {
-  FaultList faults;
+  DiagnosticList faults;
   for (const std::string_view word : std::vector<std::string_view>(argv, argv + argc))
     if (word.starts_with("--") && word.find('=') == word.size() - 1)
       faults.add({"", 0, "command line", fmt::format("'{}' has no value", word),

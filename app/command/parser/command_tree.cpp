@@ -18,8 +18,8 @@ std::vector<std::string> paragraphs(const std::string& text) {
   return found;
 }
 
-ToldOption told(CLI::Option& option) {
-  ToldOption result;
+OptionInfo told(CLI::Option& option) {
+  OptionInfo result;
   result.is_word = option.get_positional();
   if (result.is_word) {
     result.names.push_back(option.get_name(true));
@@ -39,8 +39,8 @@ ToldOption told(CLI::Option& option) {
   return result;
 }
 
-void tell(CLI::App& command, const std::string& name, std::vector<ToldCommand>& tree) {
-  ToldCommand result;
+void tell(CLI::App& command, const std::string& name, std::vector<CommandInfo>& tree) {
+  CommandInfo result;
   result.name = name;
   result.details = paragraphs(command.get_description());
   if (!result.details.empty()) {
@@ -49,7 +49,7 @@ void tell(CLI::App& command, const std::string& name, std::vector<ToldCommand>& 
   }
   for (CLI::Option* option : command.get_options()) result.options.push_back(told(*option));
   std::stable_partition(result.options.begin(), result.options.end(),
-                        [](const ToldOption& option) { return option.is_word; });
+                        [](const OptionInfo& option) { return option.is_word; });
   const std::vector<CLI::App*> next = command.get_subcommands({});
   for (const CLI::App* follower : next) result.followers.push_back(follower->get_name());
   tree.push_back(std::move(result));
@@ -59,8 +59,8 @@ void tell(CLI::App& command, const std::string& name, std::vector<ToldCommand>& 
 
 }  // namespace
 
-std::vector<ToldCommand> command_tree(CLI::App& program) {
-  std::vector<ToldCommand> tree;
+std::vector<CommandInfo> command_tree(CLI::App& program) {
+  std::vector<CommandInfo> tree;
   tell(program, "", tree);
   return tree;
 }

@@ -16,7 +16,7 @@ class Option;
 
 namespace twinarm {
 
-struct ToldOption {
+struct OptionInfo {
   std::vector<std::string> names;  // "-h", "--help"; of a word without dashes its name alone
   std::string value;               // "NUMBER", "PATH"; empty: a flag
   std::string preset;              // what it is if not given; may be empty
@@ -24,16 +24,16 @@ struct ToldOption {
   bool is_word = false, is_file = false, is_required = false;
 };
 
-struct ToldCommand {
+struct CommandInfo {
   std::string name;                    // "coupling predict"; empty: the program itself
   std::string summary;                 // the first paragraph of its description
   std::vector<std::string> details;    // the others, an example first
-  std::vector<ToldOption> options;     // words without dashes first
+  std::vector<OptionInfo> options;     // words without dashes first
   std::vector<std::string> followers;  // names of commands that may come next
 };
 
 // The program first; each before the commands below it.
-std::vector<ToldCommand> command_tree(CLI::App& program);
+std::vector<CommandInfo> command_tree(CLI::App& program);
 
 // That tree as a man page, in man(7), section 1; and as completion for a shell, to be sourced by
 // bash, or by zsh after bashcompinit. Made from what reads the command line itself, so that neither

@@ -35,7 +35,7 @@ std::string italic(const std::string& text) {
   return "\\fI" + roff(text) + "\\fR";
 }
 
-std::string of_option(const ToldOption& option) {
+std::string of_option(const OptionInfo& option) {
   std::string names;
   for (const std::string& name : option.names)
     names += (names.empty() ? "" : ", ") + (option.is_word ? italic(name) : bold(name));
@@ -53,9 +53,9 @@ std::string of_paragraph(const std::string& text) {
          "\n.RE\n.fi\n";
 }
 
-std::string usage(const ToldCommand& command) {
+std::string usage(const CommandInfo& command) {
   std::string line = bold("twinarm " + command.name);
-  for (const ToldOption& option : command.options) {
+  for (const OptionInfo& option : command.options) {
     if (!option.is_word) continue;
     line += option.is_required ? " " + italic(option.names.front())
                                : " [" + italic(option.names.front()) + "]";
@@ -64,11 +64,11 @@ std::string usage(const ToldCommand& command) {
   return line + " [" + italic("options") + "]\n";
 }
 
-std::string of_command(const ToldCommand& command) {
+std::string of_command(const CommandInfo& command) {
   std::string out = fmt::format(".SS {}\n{}", roff(command.name), usage(command));
   out += ".PP\n" + roff(command.summary) + "\n";
   for (const std::string& detail : command.details) out += of_paragraph(detail);
-  for (const ToldOption& option : command.options)
+  for (const OptionInfo& option : command.options)
     if (option.names.back() != "--help") out += of_option(option);
   return out;
 }
@@ -111,7 +111,7 @@ and is not there means the former.
 }  // namespace
 
 std::string man_page(CLI::App& program, const std::string& version) {
-  const std::vector<ToldCommand> tree = command_tree(program);
+  const std::vector<CommandInfo> tree = command_tree(program);
   const std::string& title = tree.front().summary;  // "twinarm: what it is"
   const std::string what = title.substr(std::min(title.find(": ") + 2, title.size()));
   std::string out = fmt::format(
@@ -122,7 +122,7 @@ std::string man_page(CLI::App& program, const std::string& version) {
       version, roff(what), bold("twinarm"), italic("COMMAND"), italic("options"), bold("twinarm"),
       italic("COMMAND"), bold("--help"));
   for (const std::string& detail : tree.front().details) out += of_paragraph(detail);
-  for (const ToldOption& option : tree.front().options) out += of_option(option);
+  for (const OptionInfo& option : tree.front().options) out += of_option(option);
   out += ".SH COMMANDS\n";
   for (std::size_t i = 1; i < tree.size(); ++i) out += of_command(tree[i]);
   return out + kEnd;
@@ -137,13 +137,13 @@ struct CompletedWords {
   bool is_file = false;             // a word without dashes is one
 };
 
-CompletedWords completed_words(const ToldCommand& command) {
+CompletedWords completed_words(const CommandInfo& command) {
   CompletedWords words;
   const auto add = [](std::string& list, const std::string& word) {
     list += (list.empty() ? "" : " ") + word;
   };
   for (const std::string& follower : command.followers) add(words.next, follower);
-  for (const ToldOption& option : command.options) {
+  for (const OptionInfo& option : command.options) {
     if (option.is_word) words.is_file = words.is_file || option.is_file;
     if (option.is_word) continue;
     for (const std::string& name : option.names) {
@@ -192,7 +192,7 @@ complete -F _twinarm twinarm
 
 std::string shell_completion(CLI::App& program) {
   std::string paths, cases;
-  for (const ToldCommand& command : command_tree(program)) {
+  for (const CommandInfo& command : command_tree(program)) {
     const CompletedWords words = completed_words(command);
     const std::string path = command.name.empty() ? "" : " " + command.name;
     if (!path.empty()) paths += fmt::format("{}\"{}\"", paths.empty() ? "" : "|", path);

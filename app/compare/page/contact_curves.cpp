@@ -49,14 +49,15 @@ std::string unit_in(const std::string& reading) {
 }
 
 // Several runs of one reading have their own names, a search tells what was tried.
-std::string curve_name(const ContactLook& look, const ContactRun& run, std::size_t number,
+std::string curve_name(const ContactCasePlot& look, const ContactRun& run, std::size_t number,
                        std::size_t reading) {
   const std::string& name = look.readings[reading];
   if (look.search) return fmt::format("{} = {:.4g} {}", look.search, run.tried, unit_in(name));
   return look.runs.empty() ? name : look.runs[number] + " " + unit_in(name);
 }
 
-void add_run(const ContactLook& look, const ContactRun& run, std::size_t number, CaseCurves& all) {
+void add_run(const ContactCasePlot& look, const ContactRun& run, std::size_t number,
+             CaseCurves& all) {
   for (std::size_t k = 0; k < run.seen.size(); ++k) {
     all.names.push_back(curve_name(look, run, number, k));
     all.seen.push_back(at_times(all.t, run.t, run.seen[k]));
@@ -69,7 +70,7 @@ void add_run(const ContactLook& look, const ContactRun& run, std::size_t number,
   all.energy.push_back(at_times(all.t, run.t, energy));
 }
 
-void add_exact(const ContactLook& look, CaseCurves& all) {
+void add_exact(const ContactCasePlot& look, CaseCurves& all) {
   constexpr int kPoints = 24;
   all.exact.resize(all.names.size());
   if (!look.exact) return;
@@ -99,7 +100,7 @@ ErrorCurve errors_of(const AnalyticCase& c, double step) {
   return curve;
 }
 
-void add_errors(const ContactLook& look, const ErrorCurve& curve, CaseCurves& all) {
+void add_errors(const ContactCasePlot& look, const ErrorCurve& curve, CaseCurves& all) {
   constexpr double kSolver = 1e-8;  // relative; what is below has been left by the impulses' solver
   const auto worst = std::max_element(curve.error.begin(), curve.error.end());
   if (*look.about_steps)
@@ -114,7 +115,7 @@ void add_errors(const ContactLook& look, const ErrorCurve& curve, CaseCurves& al
 }  // namespace
 
 std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c) {
-  const ContactLook* look = c.look.get();
+  const ContactCasePlot* look = c.look.get();
   if (!look) return {};
   ContactRecorder recorder;
   recorder.look = look->read;

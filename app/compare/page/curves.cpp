@@ -10,7 +10,7 @@
 namespace twinarm::compare_page {
 namespace {
 
-constexpr long kMostSteps = 50000;               // of the run that is drawn
+constexpr long kMaxSteps = 50000;                // of the run that is drawn
 constexpr long kFinestSteps = 4000, kSteps = 5;  // of those in the diagram of errors
 constexpr std::size_t kMany = 60;                // dofs of which implicit steps take long
 constexpr int kExactPoints = 24;
@@ -70,7 +70,7 @@ void choose_sides(CaseCurves& curves) {
 }
 
 void record(const TrajectoryCase& c, CaseCurves& curves) {
-  const double end = end_of(c), longest = static_cast<double>(kMostSteps) * c.lane.step;
+  const double end = end_of(c), longest = static_cast<double>(kMaxSteps) * c.lane.step;
   const bool adaptive = c.lane.integrator == Integrator::dopri5;
   const double until = adaptive ? end : std::min(end, longest);
   curves.cut = until < end;

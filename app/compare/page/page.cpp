@@ -192,12 +192,12 @@ std::filesystem::path page_file(const std::filesystem::path& asked) {
   return asked.extension() == ".html" ? asked : asked / "compare.html";
 }
 
-void check_page(const std::filesystem::path& file, FaultList& faults) {
+void check_page(const std::filesystem::path& file, DiagnosticList& faults) {
   const auto add_from = [&](auto&& check) {
     try {
       check();
     } catch (const InputError& error) {
-      for (const Fault& fault : error.faults()) faults.add(fault);
+      for (const Diagnostic& fault : error.faults()) faults.add(fault);
     }
   };
   add_from(

@@ -13,7 +13,7 @@ namespace twinarm::compare_page {
 std::filesystem::path page_file(const std::filesystem::path& asked);
 
 // Whether the file could be written, and gnuplot is there: before anything is run. Adds to faults.
-void check_page(const std::filesystem::path& file, FaultList& faults);
+void check_page(const std::filesystem::path& file, DiagnosticList& faults);
 
 // What a terminal shows as "mu" or "rad/s^2"; escaped.
 std::string in_unicode(std::string words);

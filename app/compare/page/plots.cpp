@@ -11,7 +11,7 @@ namespace {
 
 // A page has hundreds of curves: fewer points than in a report of ten figures.
 constexpr std::size_t kStretches = 80;
-constexpr std::size_t kMostPanels = 4;
+constexpr std::size_t kMaxPanels = 4;
 
 struct LineLook {
   const char* colour;
@@ -90,11 +90,11 @@ std::vector<std::vector<std::size_t>> panels_of(const CaseCurves& curves) {
       return same_unit(panel) && mine <= kMuchLarger * its && its <= kMuchLarger * mine;
     };
     auto panel = std::find_if(panels.begin(), panels.end(), alike);
-    if (panel == panels.end() && panels.size() == kMostPanels)
+    if (panel == panels.end() && panels.size() == kMaxPanels)
       panel = std::find_if(panels.begin(), panels.end(), same_unit);
     if (panel != panels.end())
       panel->push_back(i);
-    else if (panels.size() < kMostPanels)
+    else if (panels.size() < kMaxPanels)
       panels.push_back({i});
   }
   return panels;

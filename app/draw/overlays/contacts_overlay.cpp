@@ -10,15 +10,15 @@ namespace twinarm {
 namespace {
 
 // The tip at the point, open along the normal: the force on b stays inside of it.
-void draw_cone(Stage& stage, const ShownContact& contact, double height) {
+void draw_cone(SceneView& stage, const ShownContact& contact, double height) {
   if (!(contact.friction > 0)) return;
   const double radius = contact.friction * height;
   add_mesh_instance(stage.list, stage.list.unit_mesh(UnitShape::cone),
-                    {turn_z_to(-contact.n_W), contact.p_W + height * contact.n_W}, palette::kCone,
-                    Vector3(radius, radius, height));
+                    {rotation_taking_z_to(-contact.n_W), contact.p_W + height * contact.n_W},
+                    palette::kCone, Vector3(radius, radius, height));
 }
 
-void show_contacts(Stage& stage, const Moment& moment) {
+void show_contacts(SceneView& stage, const Snapshot& moment) {
   // Many are drawn smaller: dots so that as much of the picture is covered as by twenty, cones so
   // that rows of them stay apart.
   const double crowd = std::max(1.0, static_cast<double>(moment.contacts.size()) / 20);

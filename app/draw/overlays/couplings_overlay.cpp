@@ -9,14 +9,14 @@
 namespace twinarm {
 namespace {
 
-constexpr double kLeastPull = 1e-3;    // of the largest
-constexpr double kLeastArrow = 0.005;  // of the weight, and of that at half the scene's extent
+constexpr double kMinPull = 1e-3;    // of the largest
+constexpr double kMinArrow = 0.005;  // of the weight, and of that at half the scene's extent
 
 struct DrawnPulls {
   bool force = false, couple = false;
 };
 
-void draw_spring(Stage& stage, const ShownPull& pull, const Color& color) {
+void draw_spring(SceneView& stage, const ShownCouplingForce& pull, const Color& color) {
   const double radius = 3 * stage.scales.radius();
   add_spring(stage.list, pull.p_D, pull.p_K, radius, color);
   add_sphere(stage.list, pull.p_D, 1.15 * radius, color);
@@ -24,9 +24,9 @@ void draw_spring(Stage& stage, const ShownPull& pull, const Color& color) {
   add_label(stage.list, 0.5 * (pull.p_D + pull.p_K), with_unit(pull.pull_W.norm(), "N"), {24, -34});
 }
 
-void draw_pull(Stage& stage, const ShownPull& pull, const Color& color) {
+void draw_pull(SceneView& stage, const ShownCouplingForce& pull, const Color& color) {
   const double size = pull.pull_W.norm(), radius = stage.scales.radius();
-  if (pull.kind == ShownPull::Kind::force) {
+  if (pull.kind == ShownCouplingForce::Kind::force) {
     const double scale = stage.scales.metres_per(stage.scales.force);
     add_arrow(stage.list, pull.p_D, pull.p_D + scale * pull.pull_W, radius, color);
     add_label(stage.list, pull.p_D, with_unit(size, "N"), {24, -24});
@@ -38,7 +38,7 @@ void draw_pull(Stage& stage, const ShownPull& pull, const Color& color) {
   }
 }
 
-void add_ramp_legend(Stage& stage, const DrawnPulls& drawn) {
+void add_ramp_legend(SceneView& stage, const DrawnPulls& drawn) {
   if (drawn.force) {
     stage.list.legend.push_back({palette::ramp(0), "spring-damper that pulls little"});
     stage.list.legend.push_back(
@@ -49,20 +49,20 @@ void add_ramp_legend(Stage& stage, const DrawnPulls& drawn) {
                                  ": " + with_unit(stage.scales.couple, "N m")});
 }
 
-void show_couplings(Stage& stage, const Moment& moment) {
+void show_couplings(SceneView& stage, const Snapshot& moment) {
   DrawnPulls drawn;
   const Model<double>& model = *stage.model;
   const double weight = total_motion(model, moment.k).mass * to_eigen(model.gravity).norm();
-  for (const ShownPull& pull : moment.pulls) {
-    const bool is_force = pull.kind == ShownPull::Kind::force;
+  for (const ShownCouplingForce& pull : moment.pulls) {
+    const bool is_force = pull.kind == ShownCouplingForce::Kind::force;
     const double largest = is_force ? stage.scales.force : stage.scales.couple;
     const double size = pull.pull_W.norm();
     // What holds a joint against next to nothing must not look like what moves the robot.
     const double least =
-        pull.has_ends ? 0 : kLeastArrow * weight * (is_force ? 1 : stage.scales.length);
+        pull.has_ends ? 0 : kMinArrow * weight * (is_force ? 1 : stage.scales.length);
     if (largest < least) continue;
     (is_force ? drawn.force : drawn.couple) = true;
-    if (!(largest > 0) || size < std::max(least, kLeastPull * largest)) continue;
+    if (!(largest > 0) || size < std::max(least, kMinPull * largest)) continue;
     const Color color = palette::ramp(size / largest);
     const OfBody mark(stage.list, pull.body);
     if (pull.has_ends)

@@ -21,10 +21,10 @@ const Color kCase{0.23f, 0.24f, 0.27f, 1.0f}, kArm{0.66f, 0.68f, 0.71f, 1.0f},
 constexpr double kShoulder = kDeviceShoulder, kBlock = 0.085;
 constexpr double kNextDevice = 0.35;                        // to the left of the one before [m]
 constexpr double kFeltLength = 0.165, kFeltRadius = 0.007;  // of the peak force's arrow [m]
-constexpr double kLeastFelt = 0.01;                         // that is drawn [N]
+constexpr double kMinFelt = 0.01;                           // that is drawn [N]
 
 void draw_device(DrawList& list, const Pose& X_WD, const ShownHand& hand) {
-  const OmniFigures omni;
+  const OmniParameters omni;
   const Vector3 shoulder = device_shoulder(), elbow = omni_elbow(omni, hand.theta);
   const Pose X_WS = X_WD * omni_stylus(omni, hand.theta);
   const Matrix3 waist = Eigen::AngleAxisd(-hand.theta[0], Vector3::UnitY()).toRotationMatrix();
@@ -43,11 +43,11 @@ void draw_device(DrawList& list, const Pose& X_WD, const ShownHand& hand) {
   const Color& grip = hand.button ? kPressed : kStylus;
   add_rod(list, X_WS * Vector3(0, 0, -0.02), X_WS * Vector3(0, 0, 0.11), 0.0085, grip);
   const Vector3 tip = X_WS * Vector3(0, 0, -0.045), neck = X_WS * Vector3(0, 0, -0.02);
-  add_mesh_instance(list, list.unit_mesh(UnitShape::cone), {turn_z_to(tip - neck), neck}, kCase,
-                    Vector3(0.0085, 0.0085, (tip - neck).norm()));
+  add_mesh_instance(list, list.unit_mesh(UnitShape::cone), {rotation_taking_z_to(tip - neck), neck},
+                    kCase, Vector3(0.0085, 0.0085, (tip - neck).norm()));
 }
 
-void show_device(Stage& stage, const Moment& moment) {
+void show_device(SceneView& stage, const Snapshot& moment) {
   if (moment.hands.empty() || !stage.X_WDevice) return;
   Pose X_WD = *stage.X_WDevice;
   for (const ShownHand& hand : moment.hands) {
@@ -59,16 +59,16 @@ void show_device(Stage& stage, const Moment& moment) {
 
 // From the stylus' point, beside all that the device can do: a full arrow is its peak force. At
 // that limit the colour changes.
-void show_felt(Stage& stage, const Moment& moment) {
+void show_felt(SceneView& stage, const Snapshot& moment) {
   if (moment.hands.empty() || !stage.X_WDevice) return;
-  const OmniFigures omni;
+  const OmniParameters omni;
   const double most = omni.peak_force;
   Pose X_WD = *stage.X_WDevice;
   for (const ShownHand& hand : moment.hands) {
     const Vector3 p_W = X_WD * omni_position(omni, hand.theta);
     X_WD.p.x() -= kNextDevice;
     const double size = hand.force_W.norm();
-    if (!(size > kLeastFelt) || !(size < 1e6)) continue;
+    if (!(size > kMinFelt) || !(size < 1e6)) continue;
     const Vector3 along = hand.force_W / size, tip = p_W + (kFeltLength * size / most) * along;
     const bool is_most = size > 0.99 * most;
     add_arrow(stage.list, p_W, tip, kFeltRadius, is_most ? palette::kFeltMost : palette::kFelt);

@@ -29,7 +29,7 @@ void draw_bar(DrawList& list, const Bar& bar, double top_px, double largest) {
                          .size_px = 14});
 }
 
-void show_energy(Stage& stage, const Moment& moment) {
+void show_energy(SceneView& stage, const Snapshot& moment) {
   const Scales& s = stage.scales;
   const double largest = std::max({s.kinetic, s.elastic, s.highest_potential - s.lowest_potential});
   std::array<Bar, 4> bars{

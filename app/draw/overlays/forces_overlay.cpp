@@ -10,30 +10,30 @@
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kMostLabels = 14;
-constexpr double kLeastForce = 0.004;  // of the largest
+constexpr std::size_t kMaxLabels = 14;
+constexpr double kMinForce = 0.004;  // of the largest
 
 // The smallest force of the `most` largest.
-double least_of_largest(const std::vector<PairForce>& pairs, std::size_t most) {
+double min_of_largest(const std::vector<PairForce>& pairs, std::size_t most) {
   std::vector<double> sizes;
   for (const PairForce& pair : pairs) sizes.push_back(pair.force.norm());
   std::ranges::sort(sizes, std::greater<>());
   return sizes.empty() ? 0 : sizes[std::min(most, sizes.size()) - 1];
 }
 
-void show_forces(Stage& stage, const Moment& moment) {
+void show_forces(SceneView& stage, const Snapshot& moment) {
   const std::vector<PairForce> pairs = pair_forces(moment);
   if (pairs.empty()) return;
   const double scale = stage.scales.metres_per(stage.scales.contact_force);
   const double radius = stage.scales.radius();
-  const double least_told = least_of_largest(pairs, kMostLabels);
+  const double min_told = min_of_largest(pairs, kMaxLabels);
   for (const PairForce& pair : pairs) {
     const double size = pair.force.norm();
-    if (!(size > kLeastForce * stage.scales.contact_force)) continue;
+    if (!(size > kMinForce * stage.scales.contact_force)) continue;
     const Vector3 tip = pair.point + scale * pair.force;
     const OfBody mark(stage.list, pair.body_b);
     add_arrow(stage.list, pair.point, tip, radius, palette::kForce);
-    if (size >= least_told) add_label(stage.list, pair.point, with_unit(size, "N"), {30, -6});
+    if (size >= min_told) add_label(stage.list, pair.point, with_unit(size, "N"), {30, -6});
     if (pair.couple.norm() > 0)
       add_turn_arrow(stage.list, pair.point, pair.couple, 0.1 * stage.scales.length, 0.7 * radius,
                      palette::kForce);
@@ -42,7 +42,7 @@ void show_forces(Stage& stage, const Moment& moment) {
       {palette::kForce, "contact force", scale_words(scale, stage.scales.length, "N")});
 }
 
-void show_gravity(Stage& stage, const Moment& moment) {
+void show_gravity(SceneView& stage, const Snapshot& moment) {
   const Vector3 g = to_eigen(stage.model->gravity);
   double heaviest = 0;
   for (const auto& I : stage.model->I) heaviest = std::max(heaviest, I.m * g.norm());

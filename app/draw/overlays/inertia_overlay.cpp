@@ -33,14 +33,14 @@ Principal principal(const Matrix3& A) {
 }
 
 // A body without extent along an axis is still to be seen.
-void draw_ellipsoid(Stage& stage, std::size_t body, const Vector3& center, const Principal& shape,
-                    const Vector3& semi_axes, const Color& color) {
+void draw_ellipsoid(SceneView& stage, std::size_t body, const Vector3& center,
+                    const Principal& shape, const Vector3& semi_axes, const Color& color) {
   const OfBody mark(stage.list, body);
   add_mesh_instance(stage.list, stage.list.unit_mesh(UnitShape::sphere), {shape.axes, center},
                     color, semi_axes.cwiseMax(0.004 * stage.scales.length));
 }
 
-void show_inertia(Stage& stage, const Moment& moment) {
+void show_inertia(SceneView& stage, const Snapshot& moment) {
   const Model<double>& model = *stage.model;
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const double m = model.I[i].m;
@@ -56,7 +56,7 @@ void show_inertia(Stage& stage, const Moment& moment) {
       {palette::kInertiaSwatch, "inertia: the uniform ellipsoid with the body's mass and moments"});
 }
 
-void show_articulated(Stage& stage, const Moment& moment) {
+void show_articulated(SceneView& stage, const Snapshot& moment) {
   const Model<double>& model = *stage.model;
   const Inspection in(model, moment.x, {});
   std::vector<Principal> all(model.parent.size());

@@ -14,7 +14,7 @@ bool turns(JointType type) {
 
 const Color kTurns{0.55f, 0.20f, 0.60f, 1.0f}, kSlides{0.05f, 0.45f, 0.55f, 1.0f};
 
-void draw_axis(Stage& stage, const Moment& moment, std::size_t body) {
+void draw_axis(SceneView& stage, const Snapshot& moment, std::size_t body) {
   const Vector3 p = moment.k.X_WL[body].p, z = moment.k.R_WB[body].col(2);
   const double reach = 0.17 * stage.scales.length, radius = 0.6 * stage.scales.radius();
   if (turns(stage.model->joint[body])) {
@@ -32,7 +32,7 @@ void draw_frame(DrawList& list, const Pose& X_W, double length, double radius) {
               palette::kAxes[static_cast<std::size_t>(c)]);
 }
 
-void show_joints(Stage& stage, const Moment& moment) {
+void show_joints(SceneView& stage, const Snapshot& moment) {
   bool any_turns = false, any_slides = false;
   for (std::size_t i = 1; i < stage.model->parent.size(); ++i) {
     const JointType type = stage.model->joint[i];
@@ -45,7 +45,7 @@ void show_joints(Stage& stage, const Moment& moment) {
   if (any_slides) stage.list.legend.push_back({kSlides, "joint that slides"});
 }
 
-void show_frames(Stage& stage, const Moment& moment) {
+void show_frames(SceneView& stage, const Snapshot& moment) {
   const double length = 0.12 * stage.scales.length, radius = 0.45 * stage.scales.radius();
   for (std::size_t i = 1; i < stage.model->parent.size(); ++i) {
     const OfBody mark(stage.list, i);

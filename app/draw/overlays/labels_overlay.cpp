@@ -4,7 +4,7 @@
 namespace twinarm {
 namespace {
 
-void show_labels(Stage& stage, const Moment& moment) {
+void show_labels(SceneView& stage, const Snapshot& moment) {
   for (std::size_t i = 1; i < stage.model->parent.size(); ++i)
     add_label(stage.list, com_of(*stage.model, moment.k, i), stage.model->body_name[i], {26, -22},
               14);

@@ -7,7 +7,7 @@ namespace {
 
 const Color kDark{0.10f, 0.10f, 0.12f, 1.0f}, kWhole{0.95f, 0.85f, 0.20f, 1.0f};
 
-void show_com(Stage& stage, const Moment& moment) {
+void show_com(SceneView& stage, const Snapshot& moment) {
   const double radius = 1.6 * stage.scales.radius();
   for (std::size_t i = 1; i < stage.model->parent.size(); ++i)
     if (stage.model->I[i].m > 0) {
@@ -22,7 +22,7 @@ void show_com(Stage& stage, const Moment& moment) {
   stage.list.legend.push_back({kWhole, "centre of mass of the whole"});
 }
 
-void show_momentum(Stage& stage, const Moment& moment) {
+void show_momentum(SceneView& stage, const Snapshot& moment) {
   const TotalMotion total = total_motion(*stage.model, moment.k);
   const double scale = stage.scales.metres_per(stage.scales.momentum);
   const double radius = 1.4 * stage.scales.radius();

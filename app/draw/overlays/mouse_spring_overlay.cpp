@@ -5,9 +5,9 @@
 namespace twinarm {
 namespace {
 
-void show_pull(Stage& stage, const Moment& moment) {
+void show_pull(SceneView& stage, const Snapshot& moment) {
   if (!moment.grip) return;
-  const ShownGrip& grip = *moment.grip;
+  const ShownMouseSpring& grip = *moment.grip;
   const double radius = 2.4 * stage.scales.radius();
   const OfBody mark(stage.list, grip.body);
   add_spring(stage.list, grip.p_W, grip.goal_W, radius, palette::kMouse);

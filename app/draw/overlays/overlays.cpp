@@ -45,7 +45,7 @@ std::vector<std::string> usual_overlays(Overlay::Shown least) {
 std::vector<std::string> parse_overlays(const std::string& text) {
   std::vector<std::string> known, chosen;
   for (const Overlay& overlay : all_overlays()) known.emplace_back(overlay.name);
-  FaultList faults;
+  DiagnosticList faults;
   for (const std::string& word : split(text)) {
     if (word == "none" || word.empty()) continue;
     if (word == "all") return known;
@@ -58,7 +58,7 @@ std::vector<std::string> parse_overlays(const std::string& text) {
   return chosen;
 }
 
-std::vector<Drawn> draw(Stage& stage, const Moment& moment,
+std::vector<Drawn> draw(SceneView& stage, const Snapshot& moment,
                         const std::vector<std::string>& overlays) {
   DrawList& list = stage.list;
   draw_bodies(stage, moment);
@@ -97,7 +97,7 @@ void add_turn_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis
   if (!(axis_W.norm() > 0) || !axis_W.allFinite()) return;
   constexpr int kPieces = 20;
   constexpr double kTurn = 1.5 * std::numbers::pi;
-  const Matrix3 R = turn_z_to(axis_W);
+  const Matrix3 R = rotation_taking_z_to(axis_W);
   const auto at = [&](double angle) {
     return Vector3(center_W + radius * (std::cos(angle) * R.col(0) + std::sin(angle) * R.col(1)));
   };
@@ -107,7 +107,7 @@ void add_turn_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis
             thickness, color);
   add_mesh_instance(
       list, list.unit_mesh(UnitShape::cone),
-      {turn_z_to(at(kTurn) - at(kTurn - head)), at(kTurn - head)}, color,
+      {rotation_taking_z_to(at(kTurn) - at(kTurn - head)), at(kTurn - head)}, color,
       Vector3(2.4 * thickness, 2.4 * thickness, (at(kTurn) - at(kTurn - head)).norm()));
 }
 

@@ -15,7 +15,7 @@ struct Overlay {
   int place = 0;          // in which they are drawn and stand in the legend, ascending
   const char* name = "";  // of --show
   const char* what = "";  // in the help
-  void (*add)(Stage& stage, const Moment& moment) = nullptr;
+  void (*add)(SceneView& stage, const Snapshot& moment) = nullptr;
   bool seen_through = true;  // faintly where bodies hide it
   Shown shown = Shown::no;   // where nobody has chosen
   bool is_live = false;      // of a run that somebody works on: no recording has what it shows
@@ -39,7 +39,7 @@ struct Drawn {
   std::size_t instance = 0, label = 0, legend = 0;
 };
 // Names of overlays. Fills stage.list: the bodies first, then the overlays in the order above.
-std::vector<Drawn> draw(Stage& stage, const Moment& moment,
+std::vector<Drawn> draw(SceneView& stage, const Snapshot& moment,
                         const std::vector<std::string>& overlays);
 
 // "12.3 N", "4.57 kN": three digits.

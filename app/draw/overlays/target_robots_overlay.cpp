@@ -11,10 +11,10 @@ bool is_apart(const Pose& a, const Pose& b, double length) {
   return (a.p - b.p).norm() > 1e-4 * length || (a.R - b.R).norm() > 1e-4;
 }
 
-bool add_before(Stage& stage, const std::vector<Pose>& before, const std::vector<Pose>& now,
+bool add_before(SceneView& stage, const std::vector<Pose>& before, const std::vector<Pose>& now,
                 const Vector3& offset_W) {
   bool any = false;
-  for (const CastPart& part : stage.cast.parts) {
+  for (const ScenePart& part : stage.cast.parts) {
     if (part.body == 0 || part.body >= before.size()) continue;
     const Pose& X_WL = before[part.body];
     if (!is_apart(X_WL, now[part.body], stage.scales.length)) continue;
@@ -27,10 +27,10 @@ bool add_before(Stage& stage, const std::vector<Pose>& before, const std::vector
   return any;
 }
 
-void show_twins(Stage& stage, const Moment& moment) {
+void show_twins(SceneView& stage, const Snapshot& moment) {
   bool any = false;
-  for (const ShownTwin& twin : moment.twins)
-    for (const CastPart& part : stage.cast.parts) {
+  for (const ShownTargetRobot& twin : moment.twins)
+    for (const ScenePart& part : stage.cast.parts) {
       if (part.robot != static_cast<int>(twin.robot)) continue;
       const Pose& X_WL = twin.X_WL[part.body];
       if (!is_apart(X_WL, moment.k.X_WL[part.body], stage.scales.length)) continue;
@@ -43,9 +43,9 @@ void show_twins(Stage& stage, const Moment& moment) {
         {palette::kGhostSwatch, "kinematic twin: moved by the hand, has no mass"});
 }
 
-void show_before(Stage& stage, const Moment& moment) {
+void show_before(SceneView& stage, const Snapshot& moment) {
   bool any = add_before(stage, moment.before, moment.k.X_WL, Vector3::Zero());
-  for (const ShownLane& lane : moment.lanes)
+  for (const ShownVariant& lane : moment.lanes)
     if (add_before(stage, lane.before, lane.X_WL, lane.offset_W)) any = true;
   if (any) stage.list.legend.push_back({palette::kBeforeSwatch, "the run that was left"});
 }

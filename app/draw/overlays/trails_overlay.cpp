@@ -7,21 +7,21 @@
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kMostPieces = 160;
+constexpr std::size_t kMaxPieces = 160;
 
 bool has_child(const Model<double>& model, std::size_t body) {
   const auto is_child = [&](int parent) { return parent == static_cast<int>(body); };
   return std::any_of(model.parent.begin() + 1, model.parent.end(), is_child);
 }
 
-void show_trails(Stage& stage, const Moment& moment) {
+void show_trails(SceneView& stage, const Snapshot& moment) {
   const auto& t = stage.trace.t;
   const auto end =
       static_cast<std::size_t>(std::upper_bound(t.begin(), t.end(), moment.x.t + 1e-9) - t.begin());
   const auto begin = static_cast<std::size_t>(
       std::lower_bound(t.begin(), t.end(), moment.x.t - stage.trace.span) - t.begin());
   if (end < begin + 2) return;
-  const std::size_t stride = std::max<std::size_t>(1, (end - begin) / kMostPieces);
+  const std::size_t stride = std::max<std::size_t>(1, (end - begin) / kMaxPieces);
   std::size_t shown = 0;
   for (std::size_t body = 1; body < stage.model->parent.size(); ++body) {
     if (has_child(*stage.model, body)) continue;

@@ -123,18 +123,19 @@ void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sh
 }
 
 void add_by_joint(const Model<double>& model, const std::vector<double>& tau,
-                  const std::string& before, const std::string& after, std::vector<Actor>& actors) {
+                  const std::string& before, const std::string& after,
+                  std::vector<AppliedForce>& actors) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const std::string& joint = model.joint_name[i];
-    Actor actor{before + (joint.empty() ? "base" : joint) + after, {}, {}};
+    AppliedForce actor{before + (joint.empty() ? "base" : joint) + after, {}, {}};
     for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)
       if (tau[dof] != 0) actor.joints.push_back({dof, tau[dof], 0});
     if (!actor.joints.empty()) actors.push_back(std::move(actor));
   }
 }
 
-std::vector<Actor> given_actors(const RobotInput& input) {
-  std::vector<Actor> actors;
+std::vector<AppliedForce> given_actors(const RobotInput& input) {
+  std::vector<AppliedForce> actors;
   std::vector<double> tau(input.model.nv);
   for (const NamedJoint& joint : input.coordinates.all())
     to_solver(joint, input.state.x, input.state.tau.data() + joint.row, tau);
@@ -143,7 +144,8 @@ std::vector<Actor> given_actors(const RobotInput& input) {
   forward_kinematics(input.model, input.state.x, k);
   for (std::size_t i = 0; i < input.state.wrenches.size(); ++i) {
     const Wrench& wrench = input.state.wrenches[i];
-    Actor actor{"wrench/" + std::to_string(i), {{wrench.body, in_body_axes(wrench, k), {}}}, {}};
+    AppliedForce actor{
+        "wrench/" + std::to_string(i), {{wrench.body, in_body_axes(wrench, k), {}}}, {}};
     actor.is_tie = true;
     actor.point_W = wrench.in_link_axes ? k.X_WL[wrench.body] * wrench.point : wrench.point;
     actors.push_back(std::move(actor));
@@ -155,9 +157,9 @@ Inspected inspect_robot(const RobotInput& input) {
   const Model<double>& model = input.model;
   Inspected inspected{input.state.x, given_actors(input), input.warnings, {}, {}};
   Forces<double> forces(model);
-  for (const Actor& actor : inspected.actors) {
-    for (const Actor::OnBody& on : actor.bodies) forces.f_ext[on.body] += on.f;
-    for (const Actor::OnJoint& on : actor.joints) forces.tau[on.dof] += on.tau;
+  for (const AppliedForce& actor : inspected.actors) {
+    for (const AppliedForce::OnBody& on : actor.bodies) forces.f_ext[on.body] += on.f;
+    for (const AppliedForce::OnJoint& on : actor.joints) forces.tau[on.dof] += on.tau;
   }
   ForwardDynamics dynamics(model);
   Workspace<double> w(model);

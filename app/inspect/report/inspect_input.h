@@ -18,7 +18,7 @@ namespace twinarm {
 // An impulse that was over before the forces act: velocities are those after it.
 struct Inspected {
   State<double> x;
-  std::vector<Actor> actors;
+  std::vector<AppliedForce> actors;
   std::vector<std::string> warnings;
   // Of a scene: accelerations of the step that was run, to be found again. Empty for a URDF.
   std::vector<double> qdd_of_step;
@@ -46,8 +46,8 @@ class SceneInspector {
                  Integrator of_run = Integrator::semi_implicit);
   ~SceneInspector();
   // From the state of the last call, or of the input; or from an instant within a run that was
-  // built alike (Simulation::visit_memory; throws as that does).
-  Inspected look(Memory* memory = nullptr);
+  // built alike (Simulation::serialize; throws as that does).
+  Inspected look(StateArchive* memory = nullptr);
 
  private:
   class FirstStep;
@@ -55,13 +55,14 @@ class SceneInspector {
 };
 
 // The same of one instant.
-Inspected inspect_scene(SimulateInput& input, double h, Memory* memory = nullptr,
+Inspected inspect_scene(SimulateInput& input, double h, StateArchive* memory = nullptr,
                         Integrator of_run = Integrator::semi_implicit);
 
 // Used by both: torques of the state file by joint, and its wrenches.
-std::vector<Actor> given_actors(const RobotInput& input);
+std::vector<AppliedForce> given_actors(const RobotInput& input);
 // By joint, of what acts on velocities; nothing of joints where it is zero.
 void add_by_joint(const Model<double>& model, const std::vector<double>& tau,
-                  const std::string& before, const std::string& after, std::vector<Actor>& actors);
+                  const std::string& before, const std::string& after,
+                  std::vector<AppliedForce>& actors);
 
 }  // namespace twinarm

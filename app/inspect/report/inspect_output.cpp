@@ -41,13 +41,13 @@ void write_checks(const std::vector<Check>& checks, Sheet& sheet) {
 }
 
 // The largest rows, one after the other; what did nothing is left out.
-void write_ledger(std::vector<LedgerRow> rows, Sheet& sheet) {
+void write_ledger(std::vector<EnergyRow> rows, Sheet& sheet) {
   constexpr std::size_t most = 24;
   if (rows.empty()) return;
   double change = 0;
-  for (const LedgerRow& row : rows) change += row.work;
-  std::erase_if(rows, [](const LedgerRow& row) { return row.work == 0; });
-  std::ranges::stable_sort(rows, [](const LedgerRow& a, const LedgerRow& b) {
+  for (const EnergyRow& row : rows) change += row.work;
+  std::erase_if(rows, [](const EnergyRow& row) { return row.work == 0; });
+  std::ranges::stable_sort(rows, [](const EnergyRow& a, const EnergyRow& b) {
     return std::abs(a.work) > std::abs(b.work);
   });
   std::string text = " ";
@@ -85,7 +85,7 @@ std::vector<double> list_of(const Eigen::MatrixXd& column) {
 }
 
 // A number alone; six numbers; a list of columns where a joint has several; else a matrix by rows.
-void write_value(JsonWriter& json, const Shown& shown) {
+void write_value(JsonWriter& json, const DisplayedQuantity& shown) {
   using By = Quantity::By;
   const Eigen::MatrixXd& m = shown.value;
   if (m.cols() == 1) return json.number_or_list(list_of(m));
@@ -162,8 +162,8 @@ void write_checks(JsonWriter& json, const std::vector<Check>& checks) {
 
 }  // namespace
 
-void write_quantities(JsonWriter& json, const std::vector<Shown>& quantities) {
-  json.list(quantities, [&](const Shown& shown) {
+void write_quantities(JsonWriter& json, const std::vector<DisplayedQuantity>& quantities) {
+  json.list(quantities, [&](const DisplayedQuantity& shown) {
     json.object({{"name", shown.quantity.name},
                  {"meaning", shown.quantity.meaning},
                  {"unit", shown.quantity.unit},
@@ -197,7 +197,7 @@ void write_inspection(JsonWriter& json, const Inspection& in, const InspectView&
   write_checks(json.key("checks"), checks);
   if (!view.ledger.empty()) {
     json.key("ledger").object([&] {
-      for (const LedgerRow& row : view.ledger) json.put(row.name, row.work);
+      for (const EnergyRow& row : view.ledger) json.put(row.name, row.work);
     });
   }
   json.members({{"axes", view.axes}, {"about", view.about}, {"warnings", view.warnings}});

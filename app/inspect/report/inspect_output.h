@@ -21,7 +21,7 @@ struct InspectView {
   std::vector<std::string> forces;               // sources to be read out; none: all
   bool forces_alone = false;                     // pages for people tell of nothing else
   std::string title;
-  std::vector<LedgerRow> ledger;  // of a recording, up to its instant [J]
+  std::vector<EnergyRow> ledger;  // of a recording, up to its instant [J]
   std::vector<std::string> warnings;
 };
 
@@ -39,7 +39,7 @@ void write_inspection(JsonWriter& json, const Inspection& in, const InspectView&
 // The list at its key "passes", in the order in which aba() goes.
 void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>& passes,
                   const std::vector<std::size_t>& bodies);
-void write_quantities(JsonWriter& json, const std::vector<Shown>& quantities);
+void write_quantities(JsonWriter& json, const std::vector<DisplayedQuantity>& quantities);
 std::string inspect_json(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks);
 std::string inspect_text(const Inspection& in, const InspectView& view,

@@ -18,7 +18,7 @@ std::vector<std::string> names_of_bodies(const Model<double>& model) {
 // The body's index; 0, told, where there is none.
 std::size_t index_of_body(const std::string& option, const std::string& name,
                           const std::string& others, const Model<double>& model,
-                          FaultList& faults) {
+                          DiagnosticList& faults) {
   const std::vector<std::string> names = names_of_bodies(model);
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin()) + 1;
@@ -36,7 +36,7 @@ bool is_called(const std::string& name, const std::string& wanted) {
 }
 
 void read_axes(const std::string& text, const Model<double>& model, InspectView& view,
-               FaultList& faults) {
+               DiagnosticList& faults) {
   view.axes = text;
   if (text == "world") return;
   view.from.axes = text == "link" ? Viewpoint::Axes::own : Viewpoint::Axes::body;
@@ -46,7 +46,7 @@ void read_axes(const std::string& text, const Model<double>& model, InspectView&
 }
 
 void read_about(const std::string& text, const Model<double>& model, InspectView& view,
-                FaultList& faults) {
+                DiagnosticList& faults) {
   using About = Viewpoint::About;
   view.about = text;
   if (text == "origin") return;
@@ -54,7 +54,7 @@ void read_about(const std::string& text, const Model<double>& model, InspectView
     view.from.about = About::own_com;
   } else if (text.find(',') != std::string::npos) {
     view.from.about = About::point;
-    FaultList of_numbers;
+    DiagnosticList of_numbers;
     const std::vector<double> numbers = parse_list("--about", text, of_numbers);
     if (numbers.size() == 3)
       view.from.point = Vector3(numbers[0], numbers[1], numbers[2]);
@@ -70,7 +70,7 @@ void read_about(const std::string& text, const Model<double>& model, InspectView
 
 }  // namespace
 
-void read_passes(const InspectOptions& options, InspectView& view, FaultList& faults) {
+void read_passes(const InspectOptions& options, InspectView& view, DiagnosticList& faults) {
   static const std::vector<std::string> names{"1", "2", "3"};
   if (!options.passes.empty()) view.passes.clear();
   for (const std::string& pass : options.passes) {
@@ -87,7 +87,7 @@ void read_passes(const InspectOptions& options, InspectView& view, FaultList& fa
 }
 
 void read_bodies(const InspectOptions& options, const Model<double>& model, InspectView& view,
-                 FaultList& faults) {
+                 DiagnosticList& faults) {
   std::vector<char> wanted(model.parent.size(), options.bodies.empty());
   for (const std::string& body : options.bodies)
     wanted[index_of_body("--body", body, "", model, faults)] = 1;
@@ -97,10 +97,10 @@ void read_bodies(const InspectOptions& options, const Model<double>& model, Insp
   read_about(options.about, model, view, faults);
 }
 
-void read_forces(const InspectOptions& options, const std::vector<Actor>& actors, InspectView& view,
-                 FaultList& faults) {
+void read_forces(const InspectOptions& options, const std::vector<AppliedForce>& actors,
+                 InspectView& view, DiagnosticList& faults) {
   std::vector<std::string> names;
-  for (const Actor& actor : actors) names.push_back(actor.source);
+  for (const AppliedForce& actor : actors) names.push_back(actor.source);
   view.forces_alone = !options.forces.empty();
   for (const std::string& wanted : options.forces) {
     bool found = false;
@@ -134,7 +134,7 @@ Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step) {
 }
 
 void warn_of_bad_numbers(const Inspection& in, std::vector<std::string>& warnings) {
-  const BadQuantity bad = first_bad_quantity(in.model, in.forces, in.w);
+  const NonFiniteField bad = first_bad_quantity(in.model, in.forces, in.w);
   if (bad.body == 0) return;
   const std::string pass = bad.pass == 0 ? "an input" : "of pass " + std::to_string(bad.pass);
   warnings.push_back(fmt::format(

@@ -26,13 +26,13 @@ struct InspectOptions {
 };
 
 // --pass; all if none is given.
-void read_passes(const InspectOptions& options, InspectView& view, FaultList& faults);
+void read_passes(const InspectOptions& options, InspectView& view, DiagnosticList& faults);
 // --body, --axes, --about: names of bodies.
 void read_bodies(const InspectOptions& options, const Model<double>& model, InspectView& view,
-                 FaultList& faults);
+                 DiagnosticList& faults);
 // --force: the whole name of a force, or what stands after its first slash; of a contact with
 // several points without their numbers all of them.
-void read_forces(const InspectOptions& options, const std::vector<Actor>& actors, InspectView& view,
-                 FaultList& faults);
+void read_forces(const InspectOptions& options, const std::vector<AppliedForce>& actors,
+                 InspectView& view, DiagnosticList& faults);
 
 }  // namespace twinarm

@@ -15,8 +15,8 @@ namespace {
 void write_tau(const Inspection& in, std::size_t i, Sheet& sheet) {
   std::string who;
   for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof)
-    for (const Actor& actor : in.actors)
-      for (const Actor::OnJoint& on : actor.joints)
+    for (const AppliedForce& actor : in.actors)
+      for (const AppliedForce::OnJoint& on : actor.joints)
         if (on.dof == dof && on.tau != 0)
           who +=
               fmt::format("{}{} {}", who.empty() ? "" : ", ", actor.source, short_number(on.tau));
@@ -34,11 +34,11 @@ class PassPage {
 
   // What no equation makes comes before the next quantity that one makes.
   void write(int pass) {
-    const std::vector<Shown> all = shown_quantities(in_, pass, i_);
+    const std::vector<DisplayedQuantity> all = shown_quantities(in_, pass, i_);
     const std::vector<Equation> equations = equations_of(in_, pass, i_);
     auto next = all.begin();
     for (const Equation& equation : equations) {
-      const auto made = std::find_if(next, all.end(), [&](const Shown& shown) {
+      const auto made = std::find_if(next, all.end(), [&](const DisplayedQuantity& shown) {
         return equation.name == shown.quantity.name;
       });
       if (made != all.end()) {
@@ -62,7 +62,7 @@ class PassPage {
       sheet_.line("  " + text);
   }
 
-  void write(const Shown& shown) {
+  void write(const DisplayedQuantity& shown) {
     const std::string name = shown.quantity.name;
     if (shown.value.size() == 1)
       return heading(name + " = " + name_of_number(shown.value), &shown.quantity);

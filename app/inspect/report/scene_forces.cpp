@@ -46,11 +46,11 @@ class SceneInspector::FirstStep {
     sim_.set_integrator(Integrator::semi_implicit);
   }
 
-  Inspected look(Memory* memory) {
+  Inspected look(StateArchive* memory) {
     if (memory) {
-      sim_.visit_memory(*memory);
+      sim_.serialize(*memory);
       input_.robot.state = given_;
-      stand_at(input_.robot, sim_.state());
+      set_pose(input_.robot, sim_.state());
     }
     actors_.clear();
     return take();
@@ -108,7 +108,7 @@ class SceneInspector::FirstStep {
     for (const NamedSource& other : others_) {
       Forces<double> added(model_);
       other.source->add_forces(x_, k_, added);
-      Actor actor = actor_of(other.name, added);
+      AppliedForce actor = actor_of(other.name, added);
       if (actor.bodies.empty() && actor.joints.empty()) continue;
       actors_.push_back(std::move(actor));
       if (other.at) actors_.back().point_W = k_.position(other.at->first, other.at->second);
@@ -117,7 +117,7 @@ class SceneInspector::FirstStep {
   // At the end of the step: h b as armature.
   void add_damping() {
     for (std::size_t i = 1; i < model_.parent.size(); ++i) {
-      Actor actor{"joint/" + model_.joint_name[i] + "/damping", {}, {}};
+      AppliedForce actor{"joint/" + model_.joint_name[i] + "/damping", {}, {}};
       for (std::size_t dof = model_.iv[i]; dof < model_.iv[i] + model_.dofs(i); ++dof)
         if (const double b = model_.damping[dof]; b != 0)
           actor.joints.push_back({dof, -b * x_.qd[dof], h_ * b});
@@ -133,7 +133,7 @@ class SceneInspector::FirstStep {
                                             sim_.mechanism().dynamics.torques().loop[dof];
   }
 
-  void push(Actor& actor, int body, const Vector3& p_W, const Vector3& force,
+  void push(AppliedForce& actor, int body, const Vector3& p_W, const Vector3& force,
             const Vector3& torque) {
     if (body <= 0) return;
     Wrench wrench;
@@ -169,7 +169,7 @@ class SceneInspector::FirstStep {
                             &b = all->bodies().geometry(pair.second);
       std::string name = "contact/" + a.name + "-" + b.name;
       if (count[pair] > 1) name += "/" + std::to_string(++number[pair]);
-      Actor actor{std::move(name), {}, {}};
+      AppliedForce actor{std::move(name), {}, {}};
       // A gap that closes within the step closes on the side that can move.
       const Vector3 half = 0.5 * std::max(0.0, -p.contact.depth) * p.contact.n_W;
       const Vector3 on_b = p.contact.p_WC + (moves(a.body) ? Vector3::Zero() : half);
@@ -206,7 +206,7 @@ class SceneInspector::FirstStep {
       A(index(loops.rows() + m), index(mimic.follower)) += 1;
       A(index(loops.rows() + m), index(mimic.leader)) -= mimic.ratio;
     }
-    const Eigen::VectorXd lambda = shortest_solution(A.transpose(), rest_, 1e-9);
+    const Eigen::VectorXd lambda = min_solution(A.transpose(), rest_, 1e-9);
     const Eigen::VectorXd of_loops = lambda.head(index(loops.rows()));
     for (std::size_t l = 0; l < loops.loops().size(); ++l) add_loop(loops, l, of_loops);
     std::vector<double> tau(model_.nv);
@@ -218,7 +218,7 @@ class SceneInspector::FirstStep {
   }
   void add_loop(const LoopClosures& loops, std::size_t l, const Eigen::VectorXd& lambda) {
     const LoopClosure& loop = loops.loops()[l];
-    Actor actor{"constraint/" + loop.name, {}, {}};
+    AppliedForce actor{"constraint/" + loop.name, {}, {}};
     actor.is_tie = true;
     if (facts_of(loop.type).ends != LoopBetween::bodies) {
       const std::size_t row = loops.first_row(l);
@@ -248,7 +248,7 @@ class SceneInspector::FirstStep {
   std::optional<SceneContacts> contacts_;
   State<double> x_;  // when the forces act
   Kinematics k_;
-  std::vector<Actor> actors_;
+  std::vector<AppliedForce> actors_;
   Eigen::VectorXd rest_;
 };
 
@@ -256,11 +256,11 @@ SceneInspector::SceneInspector(SimulateInput& input, double h,
                                const std::vector<NamedSource>& others, Integrator of_run)
     : step_(std::make_unique<FirstStep>(input, h, others, of_run)) {}
 SceneInspector::~SceneInspector() = default;
-Inspected SceneInspector::look(Memory* memory) {
+Inspected SceneInspector::look(StateArchive* memory) {
   return step_->look(memory);
 }
 
-Inspected inspect_scene(SimulateInput& input, double h, Memory* memory, Integrator of_run) {
+Inspected inspect_scene(SimulateInput& input, double h, StateArchive* memory, Integrator of_run) {
   return SceneInspector(input, h, {}, of_run).look(memory);
 }
 

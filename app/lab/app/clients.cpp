@@ -11,13 +11,13 @@
 
 namespace twinarm {
 
-void Audience::opened(ClientId client) {
+void Clients::opened(ClientId client) {
   const std::lock_guard lock(mutex_);
   clients_.try_emplace(client);
   if (holder_ == 0) holder_ = client;
 }
 
-void Audience::closed(ClientId client) {
+void Clients::closed(ClientId client) {
   const std::lock_guard lock(mutex_);
   clients_.erase(client);
   std::erase(asked_, client);
@@ -31,7 +31,7 @@ void Audience::closed(ClientId client) {
   }
 }
 
-void Audience::take(ClientId client) {
+void Clients::take(ClientId client) {
   const std::lock_guard lock(mutex_);
   if (!clients_.contains(client) || holder_ == client) return;
   if (holder_ == 0)
@@ -40,7 +40,7 @@ void Audience::take(ClientId client) {
     asked_.push_back(client);
 }
 
-bool Audience::give(ClientId from, ClientId to) {
+bool Clients::give(ClientId from, ClientId to) {
   const std::lock_guard lock(mutex_);
   if (holder_ != from || !clients_.contains(to)) return false;
   holder_ = to;
@@ -48,42 +48,42 @@ bool Audience::give(ClientId from, ClientId to) {
   return true;
 }
 
-bool Audience::has_hand(ClientId client) const {
+bool Clients::has_hand(ClientId client) const {
   const std::lock_guard lock(mutex_);
   return holder_ == client;
 }
 
-std::string Audience::secret(ClientId client) const {
+std::string Clients::secret(ClientId client) const {
   const std::lock_guard lock(mutex_);
   const auto found = clients_.find(client);
   return found == clients_.end() ? "" : found->second.secret;
 }
 
-bool Audience::has_hand(std::string_view secret) const {
+bool Clients::has_hand(std::string_view secret) const {
   const std::lock_guard lock(mutex_);
   const auto found = clients_.find(holder_);
   return found != clients_.end() && is_secret(secret, found->second.secret);
 }
 
-void Audience::want_layers(ClientId client, std::vector<std::string> names) {
+void Clients::want_layers(ClientId client, std::vector<std::string> names) {
   const std::lock_guard lock(mutex_);
   if (const auto found = clients_.find(client); found != clients_.end())
     found->second.layers = std::move(names);
 }
 
-void Audience::want_glass(ClientId client, std::optional<long> body) {
+void Clients::want_glass(ClientId client, std::optional<long> body) {
   const std::lock_guard lock(mutex_);
   if (const auto found = clients_.find(client); found != clients_.end()) found->second.glass = body;
 }
 
-std::vector<std::string> Audience::layers() const {
+std::vector<std::string> Clients::layers() const {
   const std::lock_guard lock(mutex_);
   std::set<std::string> all;
   for (const auto& [id, client] : clients_) all.insert(client.layers.begin(), client.layers.end());
   return {all.begin(), all.end()};
 }
 
-std::map<ClientId, long> Audience::glass() const {
+std::map<ClientId, long> Clients::glass() const {
   const std::lock_guard lock(mutex_);
   std::map<ClientId, long> all;
   for (const auto& [id, client] : clients_)
@@ -91,7 +91,7 @@ std::map<ClientId, long> Audience::glass() const {
   return all;
 }
 
-Audience::View Audience::view() const {
+Clients::View Clients::view() const {
   const std::lock_guard lock(mutex_);
   View view{holder_, asked_, {}};
   for (const auto& [id, client] : clients_) view.clients.push_back(id);
@@ -105,7 +105,7 @@ void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
       changes, [&](const Change& change) { json.text(change.path + "=" + change.value); });
 }
 
-void write_audience(JsonWriter& json, const Audience::View& audience) {
+void write_audience(JsonWriter& json, const Clients::View& audience) {
   const auto holder = audience.holder != 0 ? std::optional(audience.holder) : std::nullopt;
   json.members(
       {{"holder", holder}, {"clients", audience.clients.size()}, {"asked", audience.asked}});
@@ -182,8 +182,8 @@ void write_notes(JsonWriter& json, const std::vector<LabNote>& notes) {
 
 }  // namespace
 
-std::string state_message(const LabStatus& status, const Audience::View& audience,
-                          const std::vector<Knob>& knobs,
+std::string state_message(const LabStatus& status, const Clients::View& audience,
+                          const std::vector<LabParameter>& knobs,
                           const std::vector<GalleryScene>& gallery) {
   return json_text([&](JsonWriter& json) {
     json.members({{"kind", "state"},

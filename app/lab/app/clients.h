@@ -18,7 +18,7 @@
 
 namespace twinarm {
 
-class Audience {
+class Clients {
  public:
   struct View {
     ClientId holder = 0;          // 0: nobody
@@ -58,8 +58,9 @@ class Audience {
 // The message `state` of docs/lab_protocol.md.
 
 // For all clients alike, but for `you` and `secret`: addressed() puts them in.
-std::string state_message(const LabStatus& status, const Audience::View& audience,
-                          const std::vector<Knob>& knobs, const std::vector<GalleryScene>& gallery);
+std::string state_message(const LabStatus& status, const Clients::View& audience,
+                          const std::vector<LabParameter>& knobs,
+                          const std::vector<GalleryScene>& gallery);
 std::string addressed(const std::string& state, ClientId you, const std::string& secret);
 
 }  // namespace twinarm

@@ -14,7 +14,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kMostPixels = 1920;
+constexpr double kMaxPixels = 1920;
 
 HttpReply reply_of(int status, const std::string& text) {
   HttpReply reply;
@@ -37,7 +37,7 @@ HttpReply file_of(const std::string& type, Bytes body, bool lasts) {
 
 HttpReply faults_of(const InputError& error) {
   std::string words;
-  for (const Fault& fault : error.faults()) words += to_string(fault) + "\n";
+  for (const Diagnostic& fault : error.faults()) words += to_string(fault) + "\n";
   words.pop_back();
   return reply_of(422, words);
 }
@@ -75,7 +75,7 @@ std::string after(const std::string& path, const std::string& start) {
   return path.rfind(start, 0) == 0 ? path.substr(start.size()) : "";
 }
 
-HttpReply reply_of_painter(LabPainter& painter, const HttpRequest& request) {
+HttpReply reply_of_painter(MessageStreamer& painter, const HttpRequest& request) {
   const std::string& path = request.path;
   if (path == "/history") {
     const double from = number_of(request.query, "from", 0);
@@ -89,7 +89,7 @@ HttpReply reply_of_painter(LabPainter& painter, const HttpRequest& request) {
 
 }  // namespace
 
-LabRoutes::LabRoutes(LabSession& session, LabPainter& painter, const Audience& audience,
+LabRoutes::LabRoutes(LabSession& session, MessageStreamer& painter, const Clients& audience,
                      const std::vector<GalleryScene>& gallery, std::string page,
                      std::string missing)
     : session_(session),
@@ -136,7 +136,7 @@ void LabRoutes::end() {
 }
 
 void LabRoutes::ask_painter(const HttpRequest& request, const Answer& answer) {
-  painter_.ask([request, answer](LabPainter& painter) {
+  painter_.ask([request, answer](MessageStreamer& painter) {
     answer_faults(answer, [&] { answer(reply_of_painter(painter, request)); });
   });
 }
@@ -175,8 +175,7 @@ HttpReply LabRoutes::run_errand(const HttpRequest& request) const {
 // What was drawn last, by the program's own renderer.
 HttpReply LabRoutes::picture(const HttpRequest& request) const {
   const auto size = [&](const char* key, double otherwise) {
-    return static_cast<int>(
-        std::clamp(number_of(request.query, key, otherwise), 64.0, kMostPixels));
+    return static_cast<int>(std::clamp(number_of(request.query, key, otherwise), 64.0, kMaxPixels));
   };
   Painter painter(Backend::osmesa, size("width", 960), size("height", 540), Quality::draft);
   return file_of("image/png", shared_bytes(encode_png(painter.paint(painter_.drawn()))), false);
@@ -197,7 +196,7 @@ void LabRoutes::open(const std::string& name, const std::string& bytes, const An
   if (!brought.fault.empty()) return answer(reply_of(422, name + ": " + brought.fault));
   const std::filesystem::path file = uploads_.write(brought.path, bytes);
   if (!brought.opens) return answer(reply_of(202, "kept"));
-  Order order;
+  BuildRequest order;
   order.file = file;
   if (session_.shown().now().scene->order.is_shared) order.roots = {uploads_.path(), find_assets()};
   order.name = file.stem().string();

@@ -17,7 +17,7 @@ class LabRoutes {
  public:
   // All must outlive it. `page`: empty where the program was built without its pages; `missing`
   // says why then.
-  LabRoutes(LabSession& session, LabPainter& painter, const Audience& audience,
+  LabRoutes(LabSession& session, MessageStreamer& painter, const Clients& audience,
             const std::vector<GalleryScene>& gallery, std::string page, std::string missing);
   ~LabRoutes();  // uploaded files are removed
   LabRoutes(const LabRoutes&) = delete;
@@ -40,14 +40,14 @@ class LabRoutes {
   HttpReply run_errand(const HttpRequest& request) const;
 
   LabSession& session_;
-  LabPainter& painter_;
-  const Audience& audience_;
+  MessageStreamer& painter_;
+  const Clients& audience_;
   const std::vector<GalleryScene>& gallery_;
   Bytes page_;
   std::string missing_;
   std::filesystem::path folder_;  // of temporary files
   UploadFolder uploads_;          // of the errands' thread
-  Errands errands_;
+  TaskQueue errands_;
 };
 
 }  // namespace twinarm

@@ -21,15 +21,15 @@ constexpr double kMore = 1.05;
 
 }  // namespace
 
-LabPainter::LabPainter(LabSession& session, Audience& audience,
-                       const std::vector<GalleryScene>& gallery, Post post)
+MessageStreamer::MessageStreamer(LabSession& session, Clients& audience,
+                                 const std::vector<GalleryScene>& gallery, Post post)
     : session_(session), audience_(audience), gallery_(gallery), post_(std::move(post)) {}
 
-void LabPainter::begin() {
+void MessageStreamer::begin() {
   thread_ = std::thread([this] { work(); });
 }
 
-void LabPainter::end() {
+void MessageStreamer::end() {
   if (!thread_.joinable()) return;
   {
     const std::lock_guard lock(mutex_);
@@ -39,7 +39,7 @@ void LabPainter::end() {
   thread_.join();
 }
 
-void LabPainter::ask(std::function<void(LabPainter&)> job) {
+void MessageStreamer::ask(std::function<void(MessageStreamer&)> job) {
   {
     const std::lock_guard lock(mutex_);
     jobs_.push_back(std::move(job));
@@ -47,7 +47,7 @@ void LabPainter::ask(std::function<void(LabPainter&)> job) {
   session_.shown().wake();
 }
 
-void LabPainter::work() {
+void MessageStreamer::work() {
   pthread_setname_np(pthread_self(), "lab painter");
   for (;;) {
     const LabNow now = session_.shown().now();
@@ -68,7 +68,7 @@ void LabPainter::work() {
   }
 }
 
-double LabPainter::paint(const LabNow& now) {
+double MessageStreamer::paint(const LabNow& now) {
   const double rate = clients_.size() > kManyClients ? kSlowRate : kRate;
   session_.set_rate(rate);
   look_at_knobs(now);
@@ -79,15 +79,15 @@ double LabPainter::paint(const LabNow& now) {
 }
 
 // What fails may fail again with each frame: the same failure is shown every few seconds.
-void LabPainter::show_failure(const std::string& why) {
+void MessageStreamer::show_failure(const std::string& why) {
   if (why == failure_ && !is_due(last_failure_, kFailureEvery)) return;
   failure_ = why;
   last_failure_ = Clock::now();
   session_.note("error", "the lab cannot draw this: " + why);
 }
 
-void LabPainter::do_jobs() {
-  std::deque<std::function<void(LabPainter&)>> jobs;
+void MessageStreamer::do_jobs() {
+  std::deque<std::function<void(MessageStreamer&)>> jobs;
   {
     const std::lock_guard lock(mutex_);
     jobs.swap(jobs_);
@@ -96,7 +96,7 @@ void LabPainter::do_jobs() {
 }
 
 // A newcomer is told everything, the scene first and each frame once.
-void LabPainter::look_at_clients() {
+void MessageStreamer::look_at_clients() {
   std::vector<ClientId> clients = audience_.view().clients;
   for (const ClientId client : clients) {
     if (std::ranges::find(clients_, client) != clients_.end()) continue;
@@ -108,20 +108,20 @@ void LabPainter::look_at_clients() {
 }
 
 // The scene of this instant, with plans of the painter's own.
-void LabPainter::take_scene(const LabNow& now) {
+void MessageStreamer::take_scene(const LabNow& now) {
   if (now.change_number == change_number_) return;
   const auto plan_of = [](const std::shared_ptr<LabScene::Plan>& plan) {
     return std::shared_ptr<const SimulatePlan>(plan, &plan->prepared);
   };
   const std::shared_ptr<const SimulatePlan> plan = plan_of(now.scene->view);
-  const LaneSet& lanes = now.scene->order.lanes;
+  const VariantSet& lanes = now.scene->order.lanes;
   std::vector<std::shared_ptr<const SimulatePlan>> lane_plans;
   for (const auto& lane : now.scene->lane_views) lane_plans.push_back(plan_of(lane));
   const std::lock_guard drawing(view_mutex_);
   if (now.scene_number != scene_number_) {
     view_ = std::make_unique<LabView>(static_cast<std::uint32_t>(now.scene_number), plan,
                                       now.scene->header, now.scene->order.words,
-                                      ViewLanes{lanes, std::move(lane_plans)});
+                                      ViewVariants{lanes, std::move(lane_plans)});
     last_frame_.reset();
   } else {
     view_->change(plan, std::move(lane_plans));
@@ -132,19 +132,19 @@ void LabPainter::take_scene(const LabNow& now) {
   glass_.reset();
   knobs_ = knobs_of(*plan);
   know_starts(unchanged_, knobs_);
-  std::erase_if(knobs_, [&](const Knob& knob) { return knob.path == lanes.path; });
+  std::erase_if(knobs_, [&](const LabParameter& knob) { return knob.path == lanes.path; });
   last_knobs_ = {};
   scene_number_ = now.scene_number;
   change_number_ = now.change_number;
   tell_scene();
 }
 
-void LabPainter::tell_scene() {
+void MessageStreamer::tell_scene() {
   revision_ = view_->revision();
   to_all(scene_channel, view_->scene_message(), false);
 }
 
-void LabPainter::look_at_knobs(const LabNow& now) {
+void MessageStreamer::look_at_knobs(const LabNow& now) {
   if (!now.frame || !is_due(last_knobs_, kKnobsEvery)) return;
   SimulatePlan& plan = now.scene->knobs->prepared;
   const State<double> x = instant_of(now.frame->recorded, plan.input.robot.model).x;
@@ -154,7 +154,7 @@ void LabPainter::look_at_knobs(const LabNow& now) {
 }
 
 // To each its own, since it says who is who.
-void LabPainter::tell_state(const LabNow& now) {
+void MessageStreamer::tell_state(const LabNow& now) {
   std::string state = state_message(*now.status, audience_.view(), knobs_, gallery_);
   if (state == state_) return;
   state_ = std::move(state);
@@ -165,14 +165,14 @@ void LabPainter::tell_state(const LabNow& now) {
 
 // What has been told is not told again, whatever else is new. How long the next has to wait [s]:
 // what is new too soon is told then, or what is newer than that.
-double LabPainter::tell_frame(const LabNow& now, double per_second) {
+double MessageStreamer::tell_frame(const LabNow& now, double per_second) {
   if (!now.frame) return kIdle;
-  FrameTold wanted{now.frame,
-                   now.before,
-                   audience_.layers(),
-                   !now.status->playing,
-                   now.status->at.has_value(),
-                   now.status->dead.has_value()};
+  LastSentFrame wanted{now.frame,
+                       now.before,
+                       audience_.layers(),
+                       !now.status->playing,
+                       now.status->at.has_value(),
+                       now.status->dead.has_value()};
   if (wanted == told_frame_) return kIdle;
   const Clock::time_point time = Clock::now();
   if (const double left = frames_.wait(time); left > 0) return left;
@@ -194,14 +194,14 @@ double LabPainter::tell_frame(const LabNow& now, double per_second) {
   return kIdle;
 }
 
-DrawList LabPainter::drawn() {
+DrawList MessageStreamer::drawn() {
   const std::lock_guard lock(view_mutex_);
   return view_ ? view_->drawn() : DrawList();
 }
 
 // What has been told is not told again: where time stands, it would cost the same each time.
-void LabPainter::tell_glass(const LabNow& now) {
-  std::map<ClientId, GlassTold> wanted;
+void MessageStreamer::tell_glass(const LabNow& now) {
+  std::map<ClientId, SentInspection> wanted;
   const bool stands = !now.status->playing;
   for (const auto& [client, body] : audience_.glass())
     wanted[client] = {now.scene_number, now.number, body, stands};
@@ -212,7 +212,7 @@ void LabPainter::tell_glass(const LabNow& now) {
     if (const auto before = told_glass_.find(client);
         before != told_glass_.end() && before->second == told)
       continue;
-    GlassQuestion question;
+    InspectRequest question;
     question.body = static_cast<std::size_t>(std::max(0L, told.body));
     question.stands = stands;
     question.scene = static_cast<unsigned>(now.scene_number);
@@ -222,19 +222,19 @@ void LabPainter::tell_glass(const LabNow& now) {
   told_glass_ = std::move(wanted);
 }
 
-std::string LabPainter::history(double from) {
+std::string MessageStreamer::history(double from) {
   const auto frames = session_.timeline().frames(from);
   std::vector<const LabFrame*> all;
   for (const auto& frame : frames) all.push_back(frame.get());
   return view_->history(all);
 }
 
-void LabPainter::to_all(Channel channel, const std::string& message, bool is_binary) {
+void MessageStreamer::to_all(Channel channel, const std::string& message, bool is_binary) {
   const Bytes bytes = shared_bytes(message);
   for (const ClientId client : clients_) post_(client, channel, bytes, is_binary);
 }
 
-bool LabPainter::is_due(Clock::time_point& last, double interval) const {
+bool MessageStreamer::is_due(Clock::time_point& last, double interval) const {
   const Clock::time_point now = Clock::now();
   if (as_seconds(now - last) < interval) return false;
   last = now;

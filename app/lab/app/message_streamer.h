@@ -27,7 +27,7 @@ namespace twinarm {
 
 // So many a second, and no more: what is evenly spaced goes on without a wait, and of what comes in
 // a burst two may go at once. After a pause nothing is made up for.
-class Allowance {
+class RateLimiter {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
@@ -46,21 +46,21 @@ class Allowance {
   Time next_{};
 };
 
-class LabPainter {
+class MessageStreamer {
  public:
   // Where messages go: to one client. From the painter's thread.
   enum Channel { scene_channel, state_channel, frame_channel, glass_channel };
   using Post = std::function<void(ClientId, Channel, Bytes, bool is_binary)>;
 
   // All must outlive it.
-  LabPainter(LabSession& session, Audience& audience, const std::vector<GalleryScene>& gallery,
-             Post post);
-  ~LabPainter() { end(); }
+  MessageStreamer(LabSession& session, Clients& audience, const std::vector<GalleryScene>& gallery,
+                  Post post);
+  ~MessageStreamer() { end(); }
   void begin();
   void end();
 
   // From any thread: to be done by the painter's, which alone may touch its view.
-  void ask(std::function<void(LabPainter&)> job);
+  void ask(std::function<void(MessageStreamer&)> job);
   void look_again() { session_.shown().wake(); }  // something about clients has changed
 
   // A copy of what was drawn last, for whoever paints it elsewhere. From any thread.
@@ -88,40 +88,40 @@ class LabPainter {
   bool is_due(Clock::time_point& last, double interval) const;
 
   LabSession& session_;
-  Audience& audience_;
+  Clients& audience_;
   const std::vector<GalleryScene>& gallery_;
   Post post_;
 
   std::mutex view_mutex_;  // of what view_ has drawn
   std::mutex mutex_;       // of the next two
-  std::deque<std::function<void(LabPainter&)>> jobs_;
+  std::deque<std::function<void(MessageStreamer&)>> jobs_;
   bool stop_ = false;
 
   std::unique_ptr<LabView> view_;
   std::vector<ClientId> clients_;  // that have been told the scene
-  struct GlassTold {
+  struct SentInspection {
     long scene = 0;
     std::uint64_t number = 0;  // LabNow's
     long body = 0;
     bool stands = false;
-    bool operator==(const GlassTold&) const = default;
+    bool operator==(const SentInspection&) const = default;
   };
-  std::optional<Glass> glass_;
-  std::map<ClientId, GlassTold> told_glass_;
-  std::vector<Knob> knobs_, unchanged_;  // now; of the scene as it was opened
+  std::optional<BodyInspector> glass_;
+  std::map<ClientId, SentInspection> told_glass_;
+  std::vector<LabParameter> knobs_, unchanged_;  // now; of the scene as it was opened
   long scene_number_ = -1, change_number_ = -1;
   std::uint64_t revision_ = 0;  // of the view's scene message that was told
   std::uint32_t frame_ = 0;
   std::string state_;  // that was told last
   // What the last frame was made of.
-  struct FrameTold {
+  struct LastSentFrame {
     std::shared_ptr<const LabFrame> frame, before;
     std::vector<std::string> layers;
     bool stands = false, looked_back = false, stopped = false;
-    bool operator==(const FrameTold&) const = default;
+    bool operator==(const LastSentFrame&) const = default;
   };
-  FrameTold told_frame_;
-  Allowance frames_;
+  LastSentFrame told_frame_;
+  RateLimiter frames_;
   Bytes last_frame_;
   Clock::time_point last_glass_{}, last_knobs_{}, last_failure_{};
   std::string failure_;  // the last one that was shown

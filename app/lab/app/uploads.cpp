@@ -47,7 +47,7 @@ std::filesystem::path UploadFolder::write(const std::string& name, const std::st
     uploads_.erase(same);
   }
   while (!uploads_.empty() &&
-         (uploads_.size() >= most_files_ || bytes_ + bytes.size() > most_bytes_)) {
+         (uploads_.size() >= max_files_ || bytes_ + bytes.size() > max_bytes_)) {
     remove(uploads_.front());
     uploads_.pop_front();
   }

@@ -17,9 +17,9 @@ namespace twinarm {
 
 class UploadFolder {
  public:
-  explicit UploadFolder(std::filesystem::path folder, std::size_t most_files = 256,
-                        std::size_t most_bytes = std::size_t{256} << 20)
-      : folder_(std::move(folder)), most_files_(most_files), most_bytes_(most_bytes) {}
+  explicit UploadFolder(std::filesystem::path folder, std::size_t max_files = 256,
+                        std::size_t max_bytes = std::size_t{256} << 20)
+      : folder_(std::move(folder)), max_files_(max_files), max_bytes_(max_bytes) {}
 
   const std::filesystem::path& path() const { return folder_; }
   // A relative name without "..". Returns the whole path. Throws InputError.
@@ -33,7 +33,7 @@ class UploadFolder {
   void remove(const Upload& upload);
 
   std::filesystem::path folder_;
-  std::size_t most_files_, most_bytes_, bytes_ = 0;
+  std::size_t max_files_, max_bytes_, bytes_ = 0;
   std::deque<Upload> uploads_;  // the oldest first
 };
 
@@ -48,20 +48,20 @@ struct BroughtFile {
 BroughtFile brought_file(const std::string& name, const std::string& bytes);
 
 // A thread that does one thing after the other, in the order in which they were asked for.
-class Errands {
+class TaskQueue {
  public:
   // `failed` gets what an errand throws, from the thread of the errands.
-  explicit Errands(std::function<void(const std::string& why)> failed)
+  explicit TaskQueue(std::function<void(const std::string& why)> failed)
       : failed_(std::move(failed)), thread_([this] { work(); }) {}
-  ~Errands() { end(); }
-  Errands(const Errands&) = delete;
-  Errands& operator=(const Errands&) = delete;
+  ~TaskQueue() { end(); }
+  TaskQueue(const TaskQueue&) = delete;
+  TaskQueue& operator=(const TaskQueue&) = delete;
 
   // From any thread. False where too many wait already.
   bool add(std::function<void()> errand) {
     {
       const std::lock_guard lock(mutex_);
-      if (errands_.size() >= kMost || stop_) return false;
+      if (errands_.size() >= kMax || stop_) return false;
       errands_.push_back(std::move(errand));
     }
     wake_.notify_one();
@@ -78,7 +78,7 @@ class Errands {
   }
 
  private:
-  static constexpr std::size_t kMost = 16;
+  static constexpr std::size_t kMax = 16;
 
   void work() {
     pthread_setname_np(pthread_self(), "lab errands");

@@ -23,7 +23,7 @@ namespace {
 
 // The newest hand of a frame, for all pulls that it leads.
 struct FrameHand {
-  std::optional<LiveHand> live;  // nothing: the scene's own hands lead
+  std::optional<DeviceMotion> live;  // nothing: the scene's own hands lead
 
   void take(const LabFrame& frame, double h) {
     live.reset();
@@ -38,11 +38,12 @@ struct FrameHand {
 };
 
 // Those pulls that the run's hand would lead (input_override.h).
-HandInPlace in_place_of(HandLead& lead, const FrameHand& hand) {
+HandInPlace in_place_of(InputOverride& lead, const FrameHand& hand) {
   return [&hand, leads = lead.in_place()](
-             std::size_t pull, std::unique_ptr<HandSource> own) -> std::unique_ptr<HandSource> {
-    const HandSource* before = own.get();
-    std::unique_ptr<HandSource> made = leads(pull, std::move(own));
+             std::size_t pull,
+             std::unique_ptr<OperatorMotion> own) -> std::unique_ptr<OperatorMotion> {
+    const OperatorMotion* before = own.get();
+    std::unique_ptr<OperatorMotion> made = leads(pull, std::move(own));
     if (made.get() == before) return made;
     const auto instead = [&hand](double, double) { return hand.live ? &*hand.live : nullptr; };
     return std::make_unique<ReplacedHand>(std::move(made), instead);
@@ -50,9 +51,9 @@ HandInPlace in_place_of(HandLead& lead, const FrameHand& hand) {
 }
 
 // The mouse's spring, with the force of the step that led to the frame.
-class HeldPull final : public ForceSource, public Rewindable {
+class HeldPull final : public ForceSource, public Checkpointable {
  public:
-  void hold(const std::optional<LabPull>& pull) { pull_ = pull; }
+  void hold(const std::optional<MousePoint>& pull) { pull_ = pull; }
   void add_forces(const State<double>&, const Kinematics& k,
                   Forces<double>& forces) noexcept override {
     if (!pull_ || pull_->body <= 0) return;
@@ -60,15 +61,15 @@ class HeldPull final : public ForceSource, public Rewindable {
   }
 
  private:
-  std::optional<LabPull> pull_;
+  std::optional<MousePoint> pull_;
 };
 
-bool acts_on(const Actor& actor, const Model<double>& model, std::size_t body) {
-  const auto is_its = [&](const Actor::OnJoint& on) {
+bool acts_on(const AppliedForce& actor, const Model<double>& model, std::size_t body) {
+  const auto is_its = [&](const AppliedForce::OnJoint& on) {
     return on.dof >= model.iv[body] && on.dof < model.iv[body] + model.dofs(body);
   };
   return std::ranges::any_of(actor.bodies,
-                             [&](const Actor::OnBody& on) { return on.body == body; }) ||
+                             [&](const AppliedForce::OnBody& on) { return on.body == body; }) ||
          std::ranges::any_of(actor.joints, is_its);
 }
 
@@ -105,9 +106,10 @@ void write_equations(JsonWriter& json, const Inspection& in, std::size_t body) {
 
 using Names = std::initializer_list<std::string_view>;
 
-std::vector<Shown> some_of(const Inspection& in, int pass, std::size_t body, Names names) {
-  std::vector<Shown> all = shown_quantities(in, pass, body);
-  std::erase_if(all, [&](const Shown& shown) {
+std::vector<DisplayedQuantity> some_of(const Inspection& in, int pass, std::size_t body,
+                                       Names names) {
+  std::vector<DisplayedQuantity> all = shown_quantities(in, pass, body);
+  std::erase_if(all, [&](const DisplayedQuantity& shown) {
     return std::ranges::find(names, shown.quantity.name) == names.end();
   });
   return all;
@@ -116,9 +118,10 @@ std::vector<Shown> some_of(const Inspection& in, int pass, std::size_t body, Nam
 // What the equations of a body take from another one.
 void write_neighbour(JsonWriter& json, const Inspection& in, std::size_t body, const char* is,
                      Names names) {
-  std::vector<Shown> taken;
+  std::vector<DisplayedQuantity> taken;
   for (const int pass : {1, 2, 3})
-    for (Shown& shown : some_of(in, pass, body, names)) taken.push_back(std::move(shown));
+    for (DisplayedQuantity& shown : some_of(in, pass, body, names))
+      taken.push_back(std::move(shown));
   const auto quantities = [&] { write_quantities(json, taken); };
   json.object({{"body", in.model.body_name[body]}, {"is", is}, {"quantities", quantities}});
 }
@@ -132,7 +135,7 @@ void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) 
 }
 
 // p'' = R (a_lin + w x v) + g, world axes: w.a is spatial, with gravity as a_0 = -g.
-Shown origin_acceleration(const Inspection& in, std::size_t body) {
+DisplayedQuantity origin_acceleration(const Inspection& in, std::size_t body) {
   const Vec3<double> a_B = classical_acceleration(in.w.v[body], in.w.a[body], {});
   return {{"acceleration", 3, Quantity::By::body, "acceleration of the link's origin", "m/s^2",
            "R (a_lin + w x v) + g, section 2.10"},
@@ -144,7 +147,7 @@ Shown origin_acceleration(const Inspection& in, std::size_t body) {
 void write_call(JsonWriter& json, const Inspection& in) {
   json.begin_array();
   const auto step = [&](int pass, std::size_t body, Names names) {
-    std::vector<Shown> results = some_of(in, pass, body, names);
+    std::vector<DisplayedQuantity> results = some_of(in, pass, body, names);
     if (pass == 3) results.push_back(origin_acceleration(in, body));
     json.object({{"pass", pass},
                  {"body", in.model.body_name[body]},
@@ -158,11 +161,11 @@ void write_call(JsonWriter& json, const Inspection& in) {
 
 }  // namespace
 
-struct Glass::Impl {
+struct BodyInspector::Impl {
   SimulatePlan plan;
   GivenState given;  // of the start
   LabHand nobody;    // asked for nothing
-  std::optional<HandLead> lead;
+  std::optional<InputOverride> lead;
   FrameHand hand;
   HeldPull pull;
   std::optional<SceneInspector> scene;
@@ -179,7 +182,7 @@ struct Glass::Impl {
   }
 
   Inspected look(const LabFrame& frame) {
-    Memory memory = simulation_memory(frame.recorded.memory);
+    StateArchive memory = simulation_memory(frame.recorded.memory);
     if (scene) {
       hand.take(frame, plan.run.step);
       plan.input.couplings->forget_hands();
@@ -190,7 +193,7 @@ struct Glass::Impl {
     State<double> x(robot.model);
     visit_state(memory, robot.model, x);
     robot.state = given;
-    stand_at(robot, x);
+    set_pose(robot, x);
     return inspect_robot(robot);
   }
 
@@ -199,16 +202,17 @@ struct Glass::Impl {
     InspectView view;
     view.bodies = {body};
     view.forces_alone = true;
-    for (const Actor& actor : in.actors)
+    for (const AppliedForce& actor : in.actors)
       if (acts_on(actor, in.model, body)) view.forces.push_back(actor.source);
     const RecordedFrame& recorded = frame.recorded;
     for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
       if (recorded.rows[i] < ledger.size())
-        view.ledger.push_back({LedgerKind::earlier, ledger[recorded.rows[i]], recorded.works[i]});
+        view.ledger.push_back(
+            {EnergyRowKind::earlier, ledger[recorded.rows[i]], recorded.works[i]});
     return view;
   }
 
-  void write(JsonWriter& json, const LabFrame& frame, const GlassQuestion& question) {
+  void write(JsonWriter& json, const LabFrame& frame, const InspectRequest& question) {
     const Model<double>& model = plan.input.robot.model;
     if (model.parent.size() < 2) throw std::runtime_error("nothing moves here");
     const std::size_t body =
@@ -232,12 +236,12 @@ struct Glass::Impl {
   }
 };
 
-Glass::Glass(SimulatePlan plan) : impl_(std::make_unique<Impl>(std::move(plan))) {}
-Glass::~Glass() = default;
-Glass::Glass(Glass&&) noexcept = default;
-Glass& Glass::operator=(Glass&&) noexcept = default;
+BodyInspector::BodyInspector(SimulatePlan plan) : impl_(std::make_unique<Impl>(std::move(plan))) {}
+BodyInspector::~BodyInspector() = default;
+BodyInspector::BodyInspector(BodyInspector&&) noexcept = default;
+BodyInspector& BodyInspector::operator=(BodyInspector&&) noexcept = default;
 
-std::string Glass::message(const LabFrame& frame, const GlassQuestion& question) {
+std::string BodyInspector::message(const LabFrame& frame, const InspectRequest& question) {
   const auto text_with = [&](const auto& write) {
     return json_text([&](JsonWriter& json) {
       json.members({{"kind", "glass"},

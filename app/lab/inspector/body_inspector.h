@@ -18,7 +18,7 @@
 
 namespace twinarm {
 
-struct GlassQuestion {
+struct InspectRequest {
   std::size_t body = 1;  // of the model; one that is not there is the first
   bool stands = false;   // time stands still: with all bodies' steps of the call, and second ways
   unsigned scene = 0;    // its number, for the page
@@ -26,18 +26,18 @@ struct GlassQuestion {
       nullptr;  // names of RecordedFrame::rows; null: no ledger
 };
 
-class Glass {
+class BodyInspector {
  public:
   // A plan of its own, made of what the run was made of, its changes included; files that it names
   // are read here. Throws InputError as a run would.
-  explicit Glass(SimulatePlan plan);
-  ~Glass();
-  Glass(Glass&&) noexcept;
-  Glass& operator=(Glass&&) noexcept;
+  explicit BodyInspector(SimulatePlan plan);
+  ~BodyInspector();
+  BodyInspector(BodyInspector&&) noexcept;
+  BodyInspector& operator=(BodyInspector&&) noexcept;
 
   // The message, JSON. Never throws for what is in a frame: numbers that are not finite are null,
   // and a frame of another scene gives a message with a warning and no passes.
-  std::string message(const LabFrame& frame, const GlassQuestion& question);
+  std::string message(const LabFrame& frame, const InspectRequest& question);
 
  private:
   struct Impl;

@@ -10,10 +10,10 @@ namespace twinarm {
 namespace {
 
 // lanes = { path = "integrator", values = ["verlet", "rk4"], apart = [0, 0.5, 0] }
-LaneSet read_lanes(TableReader& entry, const Value& told, const std::string& file,
-                   FaultList& faults) {
+VariantSet read_lanes(TableReader& entry, const Value& told, const std::string& file,
+                      DiagnosticList& faults) {
   TableReader table(told, entry.where() + ", lanes", file, faults);
-  LaneSet lanes;
+  VariantSet lanes;
   lanes.path = table.text("path").value_or("");
   lanes.apart = table.vector("apart");
   if (const Value* values = table.find("values"))
@@ -22,12 +22,12 @@ LaneSet read_lanes(TableReader& entry, const Value& told, const std::string& fil
                                                                : value.text);
   table.done();
   if (const auto fault = fault_of(lanes))
-    entry.fault("lanes", fault->rule, fault->remedy, "gallery.lanes");
+    entry.fault("lanes", fault->problem, fault->fix, "gallery.lanes");
   return lanes;
 }
 
 GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
-                        const std::string& file, FaultList& faults) {
+                        const std::string& file, DiagnosticList& faults) {
   GalleryScene scene;
   for (const char* key : {"name", "file", "title", "look"})
     table.missing(key, "give name, file, title and three lines of look");
@@ -61,7 +61,7 @@ GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
 std::vector<GalleryScene> read_gallery(const std::filesystem::path& file) {
   const Value root = read_toml(file);
   const std::string name = file.string();
-  FaultList faults;
+  DiagnosticList faults;
   TableReader top(root, "gallery", name, faults);
   std::vector<GalleryScene> gallery;
   for (const Value* entry : top.tables("scene")) {

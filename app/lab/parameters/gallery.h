@@ -17,7 +17,7 @@ struct GalleryScene {
   std::filesystem::path file;       // absolute
   std::filesystem::path picture;    // absolute; empty: there is none
   std::array<std::string, 3> look;  // what to look for
-  LaneSet lanes;                    // that it is opened with; empty: one run
+  VariantSet lanes;                 // that it is opened with; empty: one run
 };
 
 // Throws InputError with all faults: a file that is not there, less than three lines.

@@ -17,7 +17,7 @@
 namespace twinarm {
 namespace {
 
-using LimitState = KnobLimit::State;
+using LimitState = ParameterLimit::State;
 using Holds = std::function<bool(double)>;
 
 constexpr double kStride = 4, kFine = 1.01, kRoomLeft = 0.25;
@@ -81,8 +81,8 @@ std::string short_value(double value, const std::string& unit) {
   return fmt::format("{:.3g}{}{}", value, unit.empty() ? "" : " ", unit);
 }
 
-KnobLimit limit_of(const Edge& edge, double now, const std::string& unit, const char* at) {
-  KnobLimit limit{edge.value, "", state_of(edge, now)};
+ParameterLimit limit_of(const Edge& edge, double now, const std::string& unit, const char* at) {
+  ParameterLimit limit{edge.value, "", state_of(edge, now)};
   if (edge.value)
     limit.words = fmt::format("{} {} {}{}", edge.holds_now ? "stable" : "would be stable",
                               edge.is_lower ? "from" : "up to", short_value(*edge.value, unit), at);
@@ -104,12 +104,12 @@ constexpr GainKey kGains[] = {{"stiffness", CoupledStep::Gain::stiffness, true},
 
 class Limits {
  public:
-  Limits(const SimulatePlan& plan, std::vector<Knob>& knobs)
+  Limits(const SimulatePlan& plan, std::vector<LabParameter>& knobs)
       : scene_(plan.input.scene->description), step_(plan), knobs_(knobs), holds_(step_.holds()) {}
 
   void add() {
     if (step_.is_empty()) return;
-    for (Knob& knob : knobs_) {
+    for (LabParameter& knob : knobs_) {
       if (knob.path == "step") add_step(knob);
       if (!knob.coupling || is_stop(*knob.coupling)) continue;
       if (knob.key == "rate") add_rate(knob, *knob.coupling);
@@ -123,10 +123,10 @@ class Limits {
   // Of a step that does not hold: knobs that would mend it alone say so, the others nothing; where
   // none would, the step says it for all.
   void tell_once() {
-    const bool is_mended = std::any_of(knobs_.begin(), knobs_.end(), [](const Knob& knob) {
+    const bool is_mended = std::any_of(knobs_.begin(), knobs_.end(), [](const LabParameter& knob) {
       return knob.limit && knob.limit->value;
     });
-    for (Knob& knob : knobs_) {
+    for (LabParameter& knob : knobs_) {
       if (!knob.limit || knob.limit->value) continue;
       if (knob.path == "step" && !is_mended)
         knob.limit->words = "no knob alone makes it stable";
@@ -135,14 +135,14 @@ class Limits {
     }
   }
 
-  void add_step(Knob& knob) {
+  void add_step(LabParameter& knob) {
     const double now = step_.step();
     const Edge edge =
         find_edge(now, 1e-7, 0.1, true, holds_, [&](double h) { return step_.holds_at_step(h); });
     knob.limit = limit_of(edge, now, "s", " with these gains");
   }
 
-  void add_gain(Knob& knob, int coupling, const GainKey& key) {
+  void add_gain(LabParameter& knob, int coupling, const GainKey& key) {
     const double value = knob.number.value_or(0);
     const bool starts = value > 0;
     const double now = starts ? value : knob.low;
@@ -154,13 +154,13 @@ class Limits {
   }
 
   // Fewer evaluations are what a held force cannot bear.
-  void add_rate(Knob& knob, int coupling) {
-    constexpr int kMostSteps = 1000;
+  void add_rate(LabParameter& knob, int coupling) {
+    constexpr int kMaxSteps = 1000;
     const double rate = parse_number(knob.text).value_or(1 / step_.step());
     const int now = std::max(1, static_cast<int>(std::lround(1 / (rate * step_.step()))));
     const auto holds = [&](int steps) { return step_.holds_with_hold(coupling, steps); };
     int good = holds(now) ? now : 0, bad = good ? 0 : now;
-    for (int n = now; good && !bad && n < kMostSteps;) {
+    for (int n = now; good && !bad && n < kMaxSteps;) {
       n *= 2;
       holds(n) ? good = n : bad = n;
     }
@@ -184,7 +184,7 @@ class Limits {
 
   const SceneDescription& scene_;
   CoupledStep step_;
-  std::vector<Knob>& knobs_;
+  std::vector<LabParameter>& knobs_;
   bool holds_;
 };
 
@@ -234,12 +234,12 @@ class Lags {
 
 }  // namespace
 
-void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<Knob>& knobs) {
+void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<LabParameter>& knobs) {
   if (!plan.input.scene || !plan.input.couplings || plan.input.couplings->size() == 0) return;
   plan.input.robot.state.x = now;
   Limits(plan, knobs).add();
   const Lags lags(plan);
-  for (Knob& knob : knobs) {
+  for (LabParameter& knob : knobs) {
     if (knob.coupling && knob.key == "stiffness") knob.lag = lags.of(*knob.coupling);
   }
 }

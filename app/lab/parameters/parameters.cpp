@@ -12,13 +12,13 @@
 namespace twinarm {
 namespace knob_makers {
 
-Knob slider(std::string path, const SliderRow& row, double value, std::string unit) {
-  Knob knob;
+LabParameter slider(std::string path, const SliderRow& row, double value, std::string unit) {
+  LabParameter knob;
   knob.path = std::move(path);
   knob.label = row.label;
   knob.number = value;
   knob.unit = std::move(unit);
-  knob.form = row.scale == SliderRow::linear ? Knob::Form::linear : Knob::Form::log;
+  knob.form = row.scale == SliderRow::linear ? LabParameter::Form::linear : LabParameter::Form::log;
   knob.low = row.low;
   knob.high = row.high;
   knob.meaning = row.meaning;
@@ -26,13 +26,13 @@ Knob slider(std::string path, const SliderRow& row, double value, std::string un
   return knob;
 }
 
-Knob choice(std::string path, std::string label, std::string value,
-            std::vector<std::string> choices, std::string meaning) {
-  Knob knob;
+LabParameter choice(std::string path, std::string label, std::string value,
+                    std::vector<std::string> choices, std::string meaning) {
+  LabParameter knob;
   knob.path = std::move(path);
   knob.label = std::move(label);
   knob.text = std::move(value);
-  knob.form = Knob::Form::choice;
+  knob.form = LabParameter::Form::choice;
   knob.choices = std::move(choices);
   knob.meaning = std::move(meaning);
   return knob;
@@ -44,15 +44,15 @@ namespace {
 
 using namespace knob_makers;
 
-Knob step_knob(const SimulatePlan& plan) {
+LabParameter step_knob(const SimulatePlan& plan) {
   const double step = plan.run.step;
   const char* meaning =
       "Time from one step to the next. What a spring does within a step is not seen: too long a "
       "step, and it gains energy from nothing.";
   std::vector<std::string> steps;
   if (plan.input.scene) steps = steps_for_rates(plan.input.scene->description, step);
-  Knob knob = steps.empty() ? slider("step", {"step h", 1e-5, 0.02, meaning}, step, "s")
-                            : choice("step", "step h", number_text(step), steps, meaning);
+  LabParameter knob = steps.empty() ? slider("step", {"step h", 1e-5, 0.02, meaning}, step, "s")
+                                    : choice("step", "step h", number_text(step), steps, meaning);
   knob.unit = "s";
   knob.group = "time";
   return knob;
@@ -75,8 +75,8 @@ std::vector<std::string> integrators_for(const SceneModel* scene, Integrator now
   return names;
 }
 
-Knob integrator_knob(const SimulatePlan& plan) {
-  Knob knob =
+LabParameter integrator_knob(const SimulatePlan& plan) {
+  LabParameter knob =
       choice("integrator", "integrator", integrator_name(plan.run.integrator),
              integrators_for(plan.input.scene.get(), plan.run.integrator),
              "How a step goes from forces to the next state. Those that are not offered do not go "
@@ -86,56 +86,58 @@ Knob integrator_knob(const SimulatePlan& plan) {
   return knob;
 }
 
-Knob gravity_knob(const Vector3& gravity) {
+LabParameter gravity_knob(const Vector3& gravity) {
   const SliderRow row{"gravity, up", -25, 25,
                       "Downward is negative: Earth -9.81, Moon -1.62, free flight 0.",
                       SliderRow::linear};
-  Knob knob = slider("gravity[2]", row, gravity.z(), "m/s²");
+  LabParameter knob = slider("gravity[2]", row, gravity.z(), "m/s²");
   knob.group = "world";
   return knob;
 }
 
-Knob contact_knob(const SceneDescription& scene) {
+LabParameter contact_knob(const SceneDescription& scene) {
   std::vector<std::string> names{"rigid", "compliant"};
   if (scene.contact == ContactMode::event) names.push_back("event");
-  Knob knob = choice("contact", "contact law",
-                     kContactModes[static_cast<std::size_t>(scene.contact)], names,
-                     "rigid: nothing goes into anything, impulses are solved for; compliant: a "
-                     "stiff spring with damping at each point.");
+  LabParameter knob = choice(
+      "contact", "contact law", kContactModes[static_cast<std::size_t>(scene.contact)], names,
+      "rigid: nothing goes into anything, impulses are solved for; compliant: a "
+      "stiff spring with damping at each point.");
   knob.group = "world";
   knob.restarts = true;
   return knob;
 }
 
-const char* word_of(KnobLimit::State state) {
-  return state == KnobLimit::State::ok ? "ok" : state == KnobLimit::State::near ? "near" : "beyond";
+const char* word_of(ParameterLimit::State state) {
+  return state == ParameterLimit::State::ok     ? "ok"
+         : state == ParameterLimit::State::near ? "near"
+                                                : "beyond";
 }
 
-const char* word_of(Knob::Form form) {
+const char* word_of(LabParameter::Form form) {
   constexpr const char* kWords[] = {"log", "linear", "choice", "number"};
   return kWords[static_cast<std::size_t>(form)];
 }
 
 }  // namespace
 
-std::string Knob::value() const {
+std::string LabParameter::value() const {
   if (form == Form::choice) return text;
   return number ? number_text(*number) : "";
 }
 
-std::string Knob::change() const {
+std::string LabParameter::change() const {
   const std::string now = value();
   return now.empty() ? "" : path + "=" + now;
 }
 
-void know_starts(const std::vector<Knob>& unchanged, std::vector<Knob>& knobs) {
-  for (Knob& knob : knobs)
-    for (const Knob& before : unchanged)
+void know_starts(const std::vector<LabParameter>& unchanged, std::vector<LabParameter>& knobs) {
+  for (LabParameter& knob : knobs)
+    for (const LabParameter& before : unchanged)
       if (before.path == knob.path) knob.start = before.value();
 }
 
-std::vector<Knob> knobs_of(const SimulatePlan& plan) {
-  std::vector<Knob> knobs{step_knob(plan), integrator_knob(plan)};
+std::vector<LabParameter> knobs_of(const SimulatePlan& plan) {
+  std::vector<LabParameter> knobs{step_knob(plan), integrator_knob(plan)};
   const SceneModel* scene = plan.input.scene.get();
   if (!scene) return knobs;
   knobs.push_back(gravity_knob(scene->description.gravity));
@@ -146,11 +148,12 @@ std::vector<Knob> knobs_of(const SimulatePlan& plan) {
   return knobs;
 }
 
-void write_knobs(const std::vector<Knob>& knobs, JsonWriter& json) {
-  json.list(knobs, [&](const Knob& knob) {
+void write_knobs(const std::vector<LabParameter>& knobs, JsonWriter& json) {
+  json.list(knobs, [&](const LabParameter& knob) {
     json.begin_object();
     json.members({{"path", knob.path}, {"label", knob.label}, {"group", knob.group}});
-    knob.form == Knob::Form::choice ? json.put("value", knob.text) : json.put("value", knob.number);
+    knob.form == LabParameter::Form::choice ? json.put("value", knob.text)
+                                            : json.put("value", knob.number);
     if (knob.start) json.key("start").text(*knob.start);
     json.members({{"unit", knob.unit},
                   {"form", word_of(knob.form)},

@@ -20,14 +20,14 @@
 
 namespace twinarm {
 
-struct KnobLimit {
+struct ParameterLimit {
   enum class State { ok, near, beyond };  // near: less than a quarter of it is left
   std::optional<double> value;            // in the knob's unit; none: any value holds, or none
   std::string words;
   State state = State::ok;
 };
 
-struct Knob {
+struct LabParameter {
   // log and linear are sliders from low to high; number is typed; choice is one of `choices`.
   enum class Form { log, linear, choice, number };
   std::string path, label, group;
@@ -45,7 +45,7 @@ struct Knob {
   double low = 0, high = 0;  // what a slider offers; the value may lie outside
   std::vector<std::string> choices;
   std::string meaning;
-  std::optional<KnobLimit> limit;
+  std::optional<ParameterLimit> limit;
   std::string lag;
   // The run goes on from coordinates and velocities alone: what laws remember of past steps
   // (held forces, differences, contacts) begins anew.
@@ -57,15 +57,15 @@ struct Knob {
 
 // In the order of a page: time and world, robots, couplings, surfaces. Values that the file leaves
 // out are those of its reader.
-std::vector<Knob> knobs_of(const SimulatePlan& plan);
+std::vector<LabParameter> knobs_of(const SimulatePlan& plan);
 
 // Fills `start` from the knobs of the scene without changes.
-void know_starts(const std::vector<Knob>& unchanged, std::vector<Knob>& knobs);
+void know_starts(const std::vector<LabParameter>& unchanged, std::vector<LabParameter>& knobs);
 
 // Adds limits and lags about `now`. The plan is the caller's own: its state is set to `now`.
-void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<Knob>& knobs);
+void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<LabParameter>& knobs);
 
 // The list `knobs` of docs/lab_protocol.md.
-void write_knobs(const std::vector<Knob>& knobs, JsonWriter& json);
+void write_knobs(const std::vector<LabParameter>& knobs, JsonWriter& json);
 
 }  // namespace twinarm

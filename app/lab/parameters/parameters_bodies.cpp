@@ -8,15 +8,15 @@ namespace {
 
 constexpr std::size_t kManyBodies = 8;
 
-Knob knob_of(const SurfaceKey& key, std::string path, double value, std::string group) {
-  Knob knob = slider(std::move(path), key.slider, value, key.unit);
+LabParameter knob_of(const SurfaceKey& key, std::string path, double value, std::string group) {
+  LabParameter knob = slider(std::move(path), key.slider, value, key.unit);
   knob.group = std::move(group);
   return knob;
 }
 
 class Surfaces {
  public:
-  Surfaces(const SceneModel& model, std::vector<Knob>& knobs)
+  Surfaces(const SceneModel& model, std::vector<LabParameter>& knobs)
       : scene_(model.description), knobs_(knobs) {}
 
   void add(const SurfaceKey& key) {
@@ -49,12 +49,12 @@ class Surfaces {
 
  private:
   const SceneDescription& scene_;
-  std::vector<Knob>& knobs_;
+  std::vector<LabParameter>& knobs_;
 };
 
 }  // namespace
 
-void add_surfaces(const SceneModel& model, std::vector<Knob>& knobs) {
+void add_surfaces(const SceneModel& model, std::vector<LabParameter>& knobs) {
   Surfaces surfaces(model, knobs);
   const bool is_compliant = model.description.contact == ContactMode::compliant;
   for (const SurfaceKey& key : surface_keys())
@@ -62,7 +62,7 @@ void add_surfaces(const SceneModel& model, std::vector<Knob>& knobs) {
   surfaces.add_pairs();
 }
 
-void add_masses(const SceneDescription& scene, std::vector<Knob>& knobs) {
+void add_masses(const SceneDescription& scene, std::vector<LabParameter>& knobs) {
   const auto put = [&](std::string path, const std::string& label, double value, const char* unit,
                        double low, double high, const std::string& group, const char* meaning) {
     knobs.push_back(slider(std::move(path), {label.c_str(), low, high, meaning}, value, unit));

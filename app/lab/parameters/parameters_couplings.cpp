@@ -21,7 +21,8 @@ const JointDescription* own_joint(const SceneDescription& scene, const CouplingD
 
 bool is_slide(const SceneDescription& scene, const CouplingDescription& c) {
   const JointDescription* joint = own_joint(scene, c);
-  return c.measure == Measure::joint && joint && joint->type == JointDescription::Type::prismatic;
+  return c.measure == SpringSpace::joint && joint &&
+         joint->type == JointDescription::Type::prismatic;
 }
 
 // From a point one may go to an orientation; back only where the file names the point.
@@ -31,7 +32,7 @@ std::vector<std::string> types_for(const SceneDescription& scene, const Coupling
   std::vector<std::string> names;
   for (const CouplingFacts& facts : all_couplings) {
     const bool is_now = facts.type == c.law && facts.printed == c.printed;
-    const bool sees_end = facts.treatments == CouplingFacts::Treatments::own ||
+    const bool sees_end = facts.treatments == CouplingFacts::Discretizations::own ||
                           facts.gains == CouplingFacts::Gains::reference;
     const bool fits = facts.gains != CouplingFacts::Gains::none &&
                       (now.at_point || !facts.at_point) &&
@@ -44,7 +45,7 @@ std::vector<std::string> types_for(const SceneDescription& scene, const Coupling
 class CouplingKnobs {
  public:
   CouplingKnobs(const SceneDescription& scene, const RunPlan& run, std::size_t index,
-                std::vector<Knob>& knobs)
+                std::vector<LabParameter>& knobs)
       : scene_(scene),
         run_(run),
         c_(scene.couplings[index]),
@@ -65,7 +66,7 @@ class CouplingKnobs {
   }
 
  private:
-  Knob& put(const char* key, Knob knob) {
+  LabParameter& put(const char* key, LabParameter knob) {
     knob.path = item("coupling", index_, key);
     knob.group = c_.name;
     knob.coupling = static_cast<int>(index_);
@@ -76,7 +77,7 @@ class CouplingKnobs {
   void add_slider(const CouplingKey& row) {
     if (!row.slider.label || !row.has(facts_)) return;
     const bool turns = c_.type == CouplingDescription::Type::torsional && !is_slide(scene_, c_);
-    Knob& knob = put(row.key, slider("", row.slider, row.value(c_), row.unit_of(turns)));
+    LabParameter& knob = put(row.key, slider("", row.slider, row.value(c_), row.unit_of(turns)));
     if (!turns || row.turning_low == 0) return;
     knob.low = row.turning_low;
     knob.high = row.turning_high;
@@ -89,14 +90,15 @@ class CouplingKnobs {
                          "What is pulled together, and by which equations."))
           .restarts = true;
     if (c_.law == CouplingKind::torsional && !c_.printed && own_joint(scene_, c_))
-      put("measure", choice("", "measures", c_.measure == Measure::world ? "world" : "joint",
+      put("measure", choice("", "measures", c_.measure == SpringSpace::world ? "world" : "joint",
                             {"world", "joint"},
                             "The link's orientation in the world, or the angle of its own joint."))
           .restarts = true;
   }
 
   void add_treatment() {
-    if (c_.outside || c_.rate > 0 || facts_.treatments != CouplingFacts::Treatments::all) return;
+    if (c_.outside || c_.rate > 0 || facts_.treatments != CouplingFacts::Discretizations::all)
+      return;
     if (!implicit_fits_) return;
     put("treatment",
         choice("", "treatment", name_of(c_.treatment), {"explicit", "semi-implicit", "implicit"},
@@ -107,17 +109,18 @@ class CouplingKnobs {
 
   void add_time() {
     // A held force sees the start of a step only, so it is offered to what is explicit.
-    const bool is_explicit = c_.treatment == Treatment::explicit_ || c_.printed;
+    const bool is_explicit = c_.treatment == Discretization::explicit_ || c_.printed;
     if (facts_.can_hold && is_explicit && !run_.is_adaptive()) {
-      Knob knob = choice("", "update rate", c_.rate > 0 ? number_text(c_.rate) : "",
-                         rates_for_step(c_.rate, run_.step),
-                         "The force is computed so often, and held between. Empty: at every step.");
+      LabParameter knob =
+          choice("", "update rate", c_.rate > 0 ? number_text(c_.rate) : "",
+                 rates_for_step(c_.rate, run_.step),
+                 "The force is computed so often, and held between. Empty: at every step.");
       knob.unit = "Hz";
       knob.restarts = true;
       put("rate", std::move(knob));
     }
-    if (coupling_key("damper").has(facts_) && facts_.treatments != CouplingFacts::Treatments::own &&
-        !c_.outside)
+    if (coupling_key("damper").has(facts_) &&
+        facts_.treatments != CouplingFacts::Discretizations::own && !c_.outside)
       put("damper", choice("", "damper", c_.absolute_damper ? "absolute" : "relative",
                            {"relative", "absolute"},
                            "Against the twin's velocity, or against the link's own: that one "
@@ -129,12 +132,12 @@ class CouplingKnobs {
   const CouplingDescription& c_;
   const CouplingFacts& facts_;
   std::size_t index_;
-  std::vector<Knob>& knobs_;
+  std::vector<LabParameter>& knobs_;
   bool implicit_fits_;
 };
 
 // One slider for all where they agree.
-void add_common(const SceneDescription& scene, std::vector<Knob>& knobs) {
+void add_common(const SceneDescription& scene, std::vector<LabParameter>& knobs) {
   const auto& all = scene.couplings;
   if (all.size() < 2) return;
   const auto agree = [&](auto value) {
@@ -146,12 +149,12 @@ void add_common(const SceneDescription& scene, std::vector<Knob>& knobs) {
   };
   for (const CouplingKey& row : coupling_keys()) {
     if (!row.turning_unit) continue;
-    const auto one = std::find_if(knobs.begin(), knobs.end(), [&](const Knob& knob) {
+    const auto one = std::find_if(knobs.begin(), knobs.end(), [&](const LabParameter& knob) {
       return knob.coupling == 0 && knob.key == row.key;
     });
     if (one == knobs.end() || !agree([&](const CouplingDescription& c) { return row.value(c); }))
       continue;
-    Knob knob = *one;
+    LabParameter knob = *one;
     knob.path = std::string("coupling.") + row.key;
     knob.coupling = -1;
     knob.group = "all couplings";
@@ -191,10 +194,11 @@ std::vector<std::string> rates_for_step(double rate, double step) {
   return texts;
 }
 
-void add_couplings(const SceneDescription& scene, const RunPlan& run, std::vector<Knob>& knobs) {
-  std::vector<Knob> own;
+void add_couplings(const SceneDescription& scene, const RunPlan& run,
+                   std::vector<LabParameter>& knobs) {
+  std::vector<LabParameter> own;
   for (std::size_t i = 0; i < scene.couplings.size(); ++i) CouplingKnobs(scene, run, i, own).add();
-  std::vector<Knob> common = own;
+  std::vector<LabParameter> common = own;
   add_common(scene, common);
   knobs.insert(knobs.end(), common.begin() + static_cast<std::ptrdiff_t>(own.size()), common.end());
   knobs.insert(knobs.end(), own.begin(), own.end());

@@ -28,7 +28,7 @@ std::size_t bytes_of(const LabFrame& frame) {
                       bytes_in(r.contacts) + bytes_in(r.rows) + bytes_in(r.works) +
                       bytes_in(r.momentum_rows) + bytes_in(r.momenta) + r.memory.size() +
                       (frame.hand ? bytes_in(frame.hand->q_K) : 0) + bytes_in(frame.lanes);
-  for (const LaneFrame& lane : frame.lanes)
+  for (const VariantFrame& lane : frame.lanes)
     if (!lane.stopped)
       bytes += bytes_of(*lane.frame);  // else one for all, which is next to nothing
   return bytes;
@@ -64,7 +64,7 @@ void LabHistory::begin_segment(std::vector<Change> changes) {
 
 // Always leaves the newest frame.
 void LabHistory::trim() {
-  while (bytes_ > most_ && frames_.size() > 1) {
+  while (bytes_ > max_ && frames_.size() > 1) {
     bytes_ -= bytes_of(*frames_.front());
     frames_.pop_front();
     const long oldest = frames_.front()->recorded.step;
@@ -90,7 +90,7 @@ const LabInput* LabHistory::input(long step) const {
 }
 
 LabHistory LabHistory::cut(std::size_t n) {
-  LabHistory left(most_);
+  LabHistory left(max_);
   const long step = frames_[n]->recorded.step;
   left.segments_ = segments_;
   left.frames_.assign(frames_.begin() + static_cast<std::ptrdiff_t>(n), frames_.end());

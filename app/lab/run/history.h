@@ -23,7 +23,7 @@ namespace twinarm {
 // What the lab remembers of an instant: a frame of a recording, and what moved the robot in it.
 
 // A spring from a point of a body to where the mouse is. World axes.
-struct LabPull {
+struct MousePoint {
   int body = 0;
   Vector3 p_L = Vector3::Zero();      // on the body, link axes [m]
   Vector3 goal_W = Vector3::Zero();   // [m]
@@ -39,12 +39,12 @@ struct LabHandFrame {
   std::array<double, 3> torque{};  // of its motors [N m]
   Vector3 force_W = Vector3::Zero();  // on the stylus, world axes [N]
   bool gripper_closed = false;
-  int mode = 0;  // HandWatch::Mode
+  int mode = 0;  // DeviceWatchdog::Mode
 };
 
 // Of a run beside this one (variants.h). Stopped: where it stopped, and at that time.
 struct LabFrame;
-struct LaneFrame {
+struct VariantFrame {
   std::shared_ptr<const LabFrame> frame;
   bool stopped = false;
 };
@@ -52,7 +52,7 @@ struct LaneFrame {
 struct LabFrame {
   RecordedFrame recorded;
   std::optional<LabHandFrame> hand;
-  std::optional<LabPull> pull;
+  std::optional<MousePoint> pull;
   // At the end of recorded.memory: the books of pulls, once there were any. What a scene's header
   // describes goes without.
   std::size_t outside_bytes = 0;
@@ -60,7 +60,7 @@ struct LabFrame {
   // Of the thread, since the frame before: processor time per step, mean and largest [s]; run time
   // over the wall time that was asked for (1: it keeps up).
   double step_time = 0, longest_step = 0, pace = 1;
-  std::vector<LaneFrame> lanes;  // of the runs beside this one, from the second lane on
+  std::vector<VariantFrame> lanes;  // of the runs beside this one, from the second lane on
 };
 
 // A spring-damper from a point of a body to a goal in the world.
@@ -90,8 +90,8 @@ std::size_t bytes_of(const LabFrame& frame);  // with its lanes
 class LabHistory {
  public:
   using Frame = std::shared_ptr<const LabFrame>;
-  static constexpr std::size_t kMostBytes = std::size_t{256} << 20;
-  explicit LabHistory(std::size_t most_bytes = kMostBytes) : most_(most_bytes) {}
+  static constexpr std::size_t kMaxBytes = std::size_t{256} << 20;
+  explicit LabHistory(std::size_t max_bytes = kMaxBytes) : max_(max_bytes) {}
 
   // Later than all before, else those that are not earlier are forgotten.
   Frame add(LabFrame frame);
@@ -108,7 +108,7 @@ class LabHistory {
   // The last frame at or before t; the oldest where all are later. Not of an empty history.
   std::size_t at(double t) const;
   std::size_t bytes() const { return bytes_; }
-  std::size_t most_bytes() const { return most_; }
+  std::size_t max_bytes() const { return max_; }
   // What came in that step; null: nothing, or it is no longer remembered.
   const LabInput* input(long step) const;
   // A branch from frame n: what came after it is forgotten here and given back, the frame included.
@@ -133,7 +133,7 @@ class LabHistory {
   long first_step_to_save() const;
   std::string log_of_hand() const;
 
-  std::size_t most_, bytes_ = 0;
+  std::size_t max_, bytes_ = 0;
   std::deque<Frame> frames_;
   std::deque<LabInput> inputs_;
   std::deque<Segment> segments_;

@@ -27,12 +27,12 @@ bool has_one_hand(const SceneCoupling& a, const SceneCoupling& b) {
 
 }  // namespace
 
-HandLead::HandLead(SceneModel* scene, LabHand& hand, double h)
+InputOverride::InputOverride(SceneModel* scene, LabHand& hand, double h)
     : scene_(scene), hand_(hand), live_(steps_remembered(h)), first_(1) {
   if (scene_) choose_pulls();
 }
 
-void HandLead::choose_pulls() {
+void InputOverride::choose_pulls() {
   std::vector<SceneCoupling>& all = scene_->couplings;
   const SceneCoupling* leader = nullptr;
   for (const SceneCoupling& c : all)
@@ -54,8 +54,9 @@ void HandLead::choose_pulls() {
   target_.qd.assign(turned_.size(), 0);
 }
 
-HandInPlace HandLead::in_place() {
-  return [this](std::size_t pull, std::unique_ptr<HandSource> own) -> std::unique_ptr<HandSource> {
+HandInPlace InputOverride::in_place() {
+  return [this](std::size_t pull,
+                std::unique_ptr<OperatorMotion> own) -> std::unique_ptr<OperatorMotion> {
     if (std::ranges::find(led_, pull) == led_.end()) return own;
     if (pull == led_.front()) own_ = own.get();
     const auto instead = [this](double t, double toward) { return source_at(t, toward); };
@@ -64,21 +65,21 @@ HandInPlace HandLead::in_place() {
 }
 
 // Null: the scene's own, before the lab's hand leads and elsewhere.
-const HandSource* HandLead::source_at(double t, double toward) const {
+const OperatorMotion* InputOverride::source_at(double t, double toward) const {
   double inside = t + 1e-9 * (toward - t);
   if (inside == t) inside = std::nextafter(t, toward);
   if (!leads_ || inside < first_.newest().t) return nullptr;
   return inside <= first_.duration() ? &first_ : &live_;
 }
 
-void HandLead::go_on_from(const LabHandFrame& frame) {
+void InputOverride::go_on_from(const LabHandFrame& frame) {
   if (!frame.leads || frame.q_K.size() != target_.q.size()) return;
   target_.q = frame.q_K;
   target_.gripper_closed = frame.gripper_closed;
   goes_on_ = true;
 }
 
-void HandLead::stand_as(const LabHandFrame& frame, double t, double h) {
+void InputOverride::stand_as(const LabHandFrame& frame, double t, double h) {
   if (!frame.leads || frame.q_K.size() != target_.q.size()) return;
   target_.q = frame.q_K;
   target_.qd = frame.qd_K;
@@ -89,7 +90,7 @@ void HandLead::stand_as(const LabHandFrame& frame, double t, double h) {
   ask_elsewhere(t);
 }
 
-std::vector<double> HandLead::own_q(double t, double toward) const {
+std::vector<double> InputOverride::own_q(double t, double toward) const {
   const HandSample sample = own_->sample(t, toward);
   std::vector<double> q;
   for (std::size_t j = 0; j < turned_.size(); ++j)
@@ -97,7 +98,7 @@ std::vector<double> HandLead::own_q(double t, double toward) const {
   return q;
 }
 
-void HandLead::take_over(double t, double h) {
+void InputOverride::take_over(double t, double h) {
   if (!goes_on_) {
     target_.q = own_q(t, t + h);
     target_.gripper_closed = own_->sample(t, t + h).button;
@@ -106,7 +107,7 @@ void HandLead::take_over(double t, double h) {
   goes_on_ = false;
 }
 
-void HandLead::make_loop(double h) {
+void InputOverride::make_loop(double h) {
   made_for_ = hand_.chosen();
   is_live_ = true;
   loop_.reset();
@@ -118,7 +119,7 @@ void HandLead::make_loop(double h) {
 }
 
 // No joint faster than LabHand::kFastest.
-void HandLead::move_towards(const std::vector<double>& goal, double h) {
+void InputOverride::move_towards(const std::vector<double>& goal, double h) {
   const double most = LabHand::kFastest * h;
   for (std::size_t j = 0; j < target_.q.size(); ++j) {
     const double before = target_.q[j], way = goal[j] - before;
@@ -127,7 +128,7 @@ void HandLead::move_towards(const std::vector<double>& goal, double h) {
   }
 }
 
-void HandLead::follow_tip() {
+void InputOverride::follow_tip() {
   if (!hand_.gestures() || !hand_.tip_goal()) return;
   if (const auto stylus = loop_->mapping().stylus_for(*hand_.tip_goal()))
     hand_.gestures()->place(*stylus);
@@ -135,11 +136,11 @@ void HandLead::follow_tip() {
 
 // A kinematic robot that was asked for its target at t, as ledgers do, keeps the answer: where
 // another hand begins to lead, that is no longer true. Asked for another time it forgets.
-void HandLead::ask_elsewhere(double t) {
+void InputOverride::ask_elsewhere(double t) {
   for (const std::size_t pull : led_) couplings_->target(pull, t - 1);
 }
 
-std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, double h) {
+std::optional<HandStep> InputOverride::before_step(const State<double>& x, double t, double h) {
   if (led_.empty()) return std::nullopt;
   const LabHand::Source source = hand_.source();
   if (std::exchange(stands_, false)) leads_ = false;
@@ -177,7 +178,7 @@ std::optional<HandStep> HandLead::before_step(const State<double>& x, double t, 
   return live_.newest();
 }
 
-void HandLead::take_again(const std::optional<HandStep>& told) {
+void InputOverride::take_again(const std::optional<HandStep>& told) {
   is_live_ = goes_on_ = false;
   if (std::exchange(stands_, false)) leads_ = false;
   const bool led = leads_;
@@ -196,11 +197,11 @@ void HandLead::take_again(const std::optional<HandStep>& told) {
   target_.gripper_closed = told->hand.button;
 }
 
-void HandLead::after_step(const Simulation& simulation, double h, bool finite) noexcept {
+void InputOverride::after_step(const Simulation& simulation, double h, bool finite) noexcept {
   if (loop_ && is_live_ && leads_) loop_->after_step(simulation, h, finite);
 }
 
-std::optional<LabHandFrame> HandLead::frame(double t) const {
+std::optional<LabHandFrame> InputOverride::frame(double t) const {
   if (led_.empty()) return std::nullopt;
   LabHandFrame frame;
   frame.leads = leads_ || goes_on_;
@@ -210,7 +211,7 @@ std::optional<LabHandFrame> HandLead::frame(double t) const {
   frame.gripper_closed = frame.leads ? target_.gripper_closed : own_->sample(t, t - 1e-6).button;
   // A device that was chosen since the last step has not moved anything yet.
   if (!loop_ || !is_live_ || made_for_ != hand_.chosen()) return frame;
-  const OmniFigures& figures = hand_.device()->figures();
+  const OmniParameters& figures = hand_.device()->figures();
   frame.theta = loop_->device().theta;
   frame.torque = loop_->felt().torque;
   frame.force_W = world_from_device(omni_force(figures, frame.theta, frame.torque));
@@ -218,7 +219,7 @@ std::optional<LabHandFrame> HandLead::frame(double t) const {
   return frame;
 }
 
-std::vector<std::size_t> HandLead::couplings() const {
+std::vector<std::size_t> InputOverride::couplings() const {
   std::vector<std::size_t> places;
   const std::vector<CouplingDescription>& all = scene_->description.couplings;
   for (std::size_t place = 0; place < all.size(); ++place)
@@ -228,7 +229,7 @@ std::vector<std::size_t> HandLead::couplings() const {
   return places;
 }
 
-std::optional<std::pair<int, Vector3>> HandLead::tip() const {
+std::optional<std::pair<int, Vector3>> InputOverride::tip() const {
   if (led_.empty()) return std::nullopt;
   return led_point(*scene_, led_);
 }

@@ -22,29 +22,29 @@
 namespace twinarm {
 
 // A hand in whose place another leads at times.
-class ReplacedHand final : public HandSource {
+class ReplacedHand final : public OperatorMotion {
  public:
   // Null: its own.
-  using Instead = std::function<const HandSource*(double t, double toward)>;
-  ReplacedHand(std::unique_ptr<HandSource> own, Instead instead)
+  using Instead = std::function<const OperatorMotion*(double t, double toward)>;
+  ReplacedHand(std::unique_ptr<OperatorMotion> own, Instead instead)
       : own_(std::move(own)), instead_(std::move(instead)) {}
   HandSample sample(double t, double toward) const override {
-    const HandSource* other = instead_(t, toward);
+    const OperatorMotion* other = instead_(t, toward);
     return (other ? *other : *own_).sample(t, toward);
   }
   double duration() const override { return own_->duration(); }
   std::string description() const override { return own_->description(); }
 
  private:
-  std::unique_ptr<HandSource> own_;
+  std::unique_ptr<OperatorMotion> own_;
   Instead instead_;
 };
 
-class HandLead {
+class InputOverride {
  public:
   // Chooses the pulls; those whose target stands still get joints that a hand can turn. Before the
   // couplings are made, with in_place(). All must outlive this. The scene may be null.
-  HandLead(SceneModel* scene, LabHand& hand, double h);
+  InputOverride(SceneModel* scene, LabHand& hand, double h);
   HandInPlace in_place();
   void attach(SceneCouplings& couplings) { couplings_ = &couplings; }
   // The robot stands where that frame left it.
@@ -69,7 +69,7 @@ class HandLead {
 
  private:
   void choose_pulls();
-  const HandSource* source_at(double t, double toward) const;
+  const OperatorMotion* source_at(double t, double toward) const;
   std::vector<double> own_q(double t, double toward) const;
   void take_over(double t, double h);
   void make_loop(double h);
@@ -82,8 +82,8 @@ class HandLead {
   SceneCouplings* couplings_ = nullptr;
   std::vector<std::size_t> led_;
   std::vector<int> turned_;
-  const HandSource* own_ = nullptr;  // of the first that is led
-  LiveHand live_, first_;            // what was told of late, and when this lead began
+  const OperatorMotion* own_ = nullptr;  // of the first that is led
+  DeviceMotion live_, first_;            // what was told of late, and when this lead began
   HandTarget target_;
   std::unique_ptr<HandLoop> loop_;
   unsigned long made_for_ = 0;  // of LabHand::chosen()

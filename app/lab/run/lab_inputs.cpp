@@ -23,14 +23,14 @@ LabHand::LabHand() {
 }
 
 void LabHand::choose(Source source, const std::string& spec) {
-  std::shared_ptr<GestureHand> gestures;
+  std::shared_ptr<DesktopInput> gestures;
   std::unique_ptr<HandDevice> device;
   if (source == Source::device) device = open_device(spec);
   if (source == Source::drag) {
     VirtualOmniSettings settings;
     // No encoders: their counts, magnified and divided by a millisecond, are felt in every damper.
     settings.figures.resolution = 0;
-    gestures = std::make_shared<GestureHand>(settings.figures);
+    gestures = std::make_shared<DesktopInput>(settings.figures);
     device = std::make_unique<VirtualOmni>(gestures, settings);
     gestures->button(0, gripper_);
   }
@@ -55,8 +55,8 @@ void LabHand::tip(const Vector3& goal_W, double stamp) {
 }
 
 void LabHand::joint(std::size_t driven, double value, double stamp) {
-  constexpr std::size_t kMost = 64;
-  if (driven >= kMost || !std::isfinite(value)) return;
+  constexpr std::size_t kMax = 64;
+  if (driven >= kMax || !std::isfinite(value)) return;
   if (joints_.size() <= driven) joints_.resize(driven + 1);
   joints_[driven] = value;
   stamp_ = stamp;
@@ -86,7 +86,7 @@ void LabHand::release() {
   gestures_->button(0, gripper_);
 }
 
-MousePull::MousePull(const Model<double>& model, const RunPlan& plan)
+MouseSpring::MouseSpring(const Model<double>& model, const RunPlan& plan)
     : model_(model),
       is_implicit_(facts_of(plan.integrator).implicit_force && !plan.locates_events),
       drifts_first_(plan.integrator == Integrator::semi_implicit_xv),
@@ -94,8 +94,8 @@ MousePull::MousePull(const Model<double>& model, const RunPlan& plan)
   given_.reserve(model.parent.size());
 }
 
-std::optional<PullInput> MousePull::grab(const State<double>& x, int body, const Vector3& p_L,
-                                         const Vector3& goal_W) const {
+std::optional<PullInput> MouseSpring::grab(const State<double>& x, int body, const Vector3& p_L,
+                                           const Vector3& goal_W) const {
   if (body <= 0 || body >= model_.body_count() || !p_L.allFinite() || !goal_W.allFinite())
     return std::nullopt;
   Kinematics k(model_);
@@ -110,7 +110,7 @@ std::optional<PullInput> MousePull::grab(const State<double>& x, int body, const
   return PullInput{body, p_L, goal_W, stiffness, 2 * m * kOmega, stiffness * kLongestStretch};
 }
 
-MousePull::Reading MousePull::read(const Kinematics& k) const {
+MouseSpring::Reading MouseSpring::read(const Kinematics& k) const {
   const Vector3 p = k.position(pull_->body, pull_->p_L), v = k.velocity(pull_->body, p);
   const Vector3 spring = pull_->k * (pull_->goal_W - p);
   const double size = spring.norm(), h = is_implicit_ ? h_ : 0;
@@ -119,8 +119,8 @@ MousePull::Reading MousePull::read(const Kinematics& k) const {
   return {Vector3(spring - (h * pull_->k + pull_->b) * v), h * pull_->b + h * h * pull_->k};
 }
 
-void MousePull::add_forces(const State<double>&, const Kinematics& k,
-                           Forces<double>& forces) noexcept {
+void MouseSpring::add_forces(const State<double>&, const Kinematics& k,
+                             Forces<double>& forces) noexcept {
   if (!pull_) return;
   reading_ = read(k);
   const Vector3 p = k.position(pull_->body, pull_->p_L);
@@ -128,8 +128,8 @@ void MousePull::add_forces(const State<double>&, const Kinematics& k,
   add_point_force(k, pull_->body, p, reading_.force, forces);
 }
 
-void MousePull::book(double h, std::span<const double> weights, const State<double>& start,
-                     const std::vector<State<double>>& inner, const State<double>& end) {
+void MouseSpring::book(double h, std::span<const double> weights, const State<double>& start,
+                       const std::vector<State<double>>& inner, const State<double>& end) {
   shown_.setZero();
   if (!pull_) return;
   const auto on_it = [&](const Given& part) { return part.body == pull_->body; };
@@ -149,8 +149,8 @@ void MousePull::book(double h, std::span<const double> weights, const State<doub
 
 // h F - m* (v' - v), v by the Jacobian of the place where F was found; its work is over the mean of
 // both velocities.
-void MousePull::book_step(double h, const State<double>& start, const State<double>& end,
-                          Exchange& sum) {
+void MouseSpring::book_step(double h, const State<double>& start, const State<double>& end,
+                            EnergyMomentum& sum) {
   State<double> at = drifts_first_ ? end : start;
   at.qd = start.qd;
   forward_kinematics(model_, at, k_);
@@ -163,18 +163,18 @@ void MousePull::book_step(double h, const State<double>& start, const State<doub
   sum.work += impulse.dot(0.5 * (v + v_end));
 }
 
-void MousePull::book_part(double part, const State<double>& x, Exchange& sum) {
+void MouseSpring::book_part(double part, const State<double>& x, EnergyMomentum& sum) {
   forward_kinematics(model_, x, k_);
   const Vector3 p = k_.position(pull_->body, pull_->p_L), force = read(k_).force;
   sum.add_wrench(part, p, force, Vector3::Zero());
   sum.work += part * force.dot(k_.velocity(pull_->body, p));
 }
 
-void MousePull::visit_books(Memory& memory) {
-  memory.resize(given_, sizeof(Exchange));
+void MouseSpring::visit_books(StateArchive& memory) {
+  memory.resize(given_, sizeof(EnergyMomentum));
   for (Given& part : given_) {
     memory.visit(part.body);
-    part.exchange.visit_memory(memory);
+    part.exchange.serialize(memory);
   }
 }
 

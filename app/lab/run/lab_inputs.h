@@ -47,7 +47,7 @@ class LabHand {
   void tip(const Vector3& goal_W, double stamp);  // where the led point is to go
   void joint(std::size_t driven, double value, double stamp);
   void turn(double yaw, double pitch, double roll, double stamp);  // the stylus, by [rad]
-  void axes(const std::array<double, 6>& rates, double stamp);     // as GestureHand::axes
+  void axes(const std::array<double, 6>& rates, double stamp);     // as DesktopInput::axes
   void button(std::size_t index, bool down, double stamp);         // 0: gripper, 1: clutch
   // Keys, axes and the clutch; the robot stays where it is, the gripper as it is.
   void release();
@@ -56,7 +56,7 @@ class LabHand {
   unsigned long chosen() const { return chosen_; }
   double stamp() const { return stamp_; }
   void set_stamp(double stamp) { stamp_ = stamp; }
-  GestureHand* gestures() const { return gestures_.get(); }
+  DesktopInput* gestures() const { return gestures_.get(); }
   const std::optional<Vector3>& tip_goal() const { return tip_; }
   // By driven joint; no value: it stays.
   const std::vector<std::optional<double>>& joint_goals() const { return joints_; }
@@ -68,7 +68,7 @@ class LabHand {
   std::string spec_;
   MappingSpec mapping_;
   HandForceSpec force_;
-  std::shared_ptr<GestureHand> gestures_;
+  std::shared_ptr<DesktopInput> gestures_;
   std::unique_ptr<HandDevice> device_;
   std::optional<Vector3> tip_;
   std::vector<std::optional<double>> joints_;
@@ -85,13 +85,13 @@ class LabHand {
 // J M^-1 J^T. The spring pulls with `most` at the most: the goal is then as if nearer. In
 // semi-implicit steps it is implicit (solver/forces/spring.h), m* = h b + h^2 k, and stable however
 // light the body is; with other integrators it is a force like any other.
-class MousePull final : public OutsideForce {
+class MouseSpring final : public OutsideForce {
  public:
   static constexpr double kOmega = 15;            // [rad/s]
   static constexpr double kLongestStretch = 0.3;  // that the spring pulls with [m]
 
   // The model must outlive it.
-  MousePull(const Model<double>& model, const RunPlan& plan);
+  MouseSpring(const Model<double>& model, const RunPlan& plan);
 
   // A pull at a point of a body (link axes) that stands at x. nullopt: no force can move it.
   std::optional<PullInput> grab(const State<double>& x, int body, const Vector3& p_L,
@@ -104,13 +104,13 @@ class MousePull final : public OutsideForce {
   void add_forces(const State<double>&, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   void keep() override { kept_ = reading_; }
-  void go_back() noexcept override { reading_ = kept_; }
+  void restore() noexcept override { reading_ = kept_; }
 
   std::string name() const override { return "mouse"; }
   void book(double h, std::span<const double> weights, const State<double>& start,
             const std::vector<State<double>>& inner, const State<double>& end) override;
   const std::vector<Given>& given() const override { return given_; }
-  void visit_books(Memory& memory) override;
+  void visit_books(StateArchive& memory) override;
 
  private:
   struct Reading {  // of the last evaluation
@@ -118,8 +118,9 @@ class MousePull final : public OutsideForce {
     double m_star = 0;
   };
   Reading read(const Kinematics& k) const;
-  void book_step(double h, const State<double>& start, const State<double>& end, Exchange& sum);
-  void book_part(double part, const State<double>& x, Exchange& sum);
+  void book_step(double h, const State<double>& start, const State<double>& end,
+                 EnergyMomentum& sum);
+  void book_part(double part, const State<double>& x, EnergyMomentum& sum);
 
   const Model<double>& model_;
   bool is_implicit_, drifts_first_;

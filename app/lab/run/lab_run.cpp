@@ -16,7 +16,7 @@ namespace {
 // A run of the lab stops where its kinetic energy has grown so much, over the largest of 1 J, that
 // at the start, and the weight over 1 m: sooner than in `simulate` (RunPlan::kGrowth), for at such
 // speeds contacts and limits take a second a step, and somebody waits.
-constexpr double kMostGrowth = 1e3;
+constexpr double kMaxGrowth = 1e3;
 
 }  // namespace
 
@@ -31,11 +31,11 @@ LabRun::LabRun(std::unique_ptr<LabScene::Plan> plan_of_changes, LabHand& hand, c
     : hand_(hand), plan_(std::move(plan_of_changes)) {
   SimulateInput& input = plan_->prepared.input;
   const RunPlan& plan = plan_->prepared.run;
-  lead_ = std::make_unique<HandLead>(input.scene.get(), hand_, plan.step);
+  lead_ = std::make_unique<InputOverride>(input.scene.get(), hand_, plan.step);
   make_couplings();
   const RobotInput& robot = input.robot;
-  most_energy_ = kMostGrowth * std::max({1.0, kinetic_energy(robot.model, robot.state.x),
-                                         weight_of(robot.model)});
+  max_energy_ = kMaxGrowth *
+                std::max({1.0, kinetic_energy(robot.model, robot.state.x), weight_of(robot.model)});
   watch_.warn = [this](const std::string& words) { warnings_.push_back(words); };
   watch_.alarm = [this](const Alarm& alarm) {
     warnings_.push_back(alarm_words(alarm, plan_->prepared));
@@ -58,7 +58,7 @@ void LabRun::make_couplings() {
 
 void LabRun::start(const LabFrame* from) {
   const SimulatePlan& prepared = plan_->prepared;
-  pull_ = std::make_unique<MousePull>(prepared.input.robot.model, prepared.run);
+  pull_ = std::make_unique<MouseSpring>(prepared.input.robot.model, prepared.run);
   if (!from) {
     run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, nullptr, pull_.get());
     run_->begin();
@@ -69,7 +69,7 @@ void LabRun::start(const LabFrame* from) {
     run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, &start, pull_.get());
   } catch (const InputError& error) {
     if (error.faults().front().code != kOtherMemory) throw;
-    begun_anew_ = error.faults().front().rule;
+    begun_anew_ = error.faults().front().problem;
     begin_anew(*from);
   }
 }
@@ -78,14 +78,14 @@ void LabRun::start(const LabFrame* from) {
 void LabRun::begin_anew(const LabFrame& from) {
   SimulatePlan& prepared = plan_->prepared;
   try {
-    Memory memory = simulation_memory(from.recorded.memory);
+    StateArchive memory = simulation_memory(from.recorded.memory);
     visit_state(memory, prepared.input.robot.model, prepared.input.robot.state.x);
   } catch (const std::runtime_error&) {
     throw InputError({{"", 0, "change", "the scene would have other joints",
                        "begin from the start: reset", "change.joints"}});
   }
   make_couplings();
-  pull_ = std::make_unique<MousePull>(prepared.input.robot.model, prepared.run);
+  pull_ = std::make_unique<MouseSpring>(prepared.input.robot.model, prepared.run);
   RunStart start;
   start.anew = true;
   start.step = from.recorded.step;
@@ -94,10 +94,10 @@ void LabRun::begin_anew(const LabFrame& from) {
 }
 
 void LabRun::keep_books(const LabFrame& from, const LabNames& names) {
-  std::vector<LedgerRow> told;
+  std::vector<EnergyRow> told;
   for (std::size_t i = 0; i < from.recorded.rows.size(); ++i)
     told.push_back(
-        {LedgerKind::earlier, names.rows[from.recorded.rows[i]], from.recorded.works[i]});
+        {EnergyRowKind::earlier, names.rows[from.recorded.rows[i]], from.recorded.works[i]});
   // The springs are as long as they were there: the books hold their energy.
   if (from.hand) lead_->stand_as(*from.hand, from.recorded.t, step_length());
   run_->keep_books(told);
@@ -109,7 +109,7 @@ bool LabRun::take() {
   lead_->after_step(run_->simulation(), step_length(), goes_on);
   const Simulation& simulation = run_->simulation();
   stopped_ = !goes_on || run_->result().alarm ||
-             kinetic_energy(simulation.mechanism().model, simulation.state()) > most_energy_;
+             kinetic_energy(simulation.mechanism().model, simulation.state()) > max_energy_;
   return !stopped_;
 }
 
@@ -151,9 +151,9 @@ LabFrame LabRun::frame(LabNames& names) {
   add_ledgers(*run_, names.rows, names.momentum_rows, frame.recorded);
   frame.hand = hand_frame();
   if (const auto& pull = input_.pull)
-    frame.pull = LabPull{pull->body, pull->p_L, pull->goal_W, pull_->force()};
+    frame.pull = MousePoint{pull->body, pull->p_L, pull->goal_W, pull_->force()};
   if (pull_->has_acted()) {
-    Memory books;
+    StateArchive books;
     pull_->visit_books(books);
     frame.outside_bytes = books.bytes().size();
   }
@@ -190,12 +190,12 @@ PostMortem LabRun::stopped_by_energy() const {
   const Simulation& simulation = run_->simulation();
   PostMortem found = examine_end({}, simulation, simulation.state(), run_->time(), run_->step());
   found.by_energy = true;
-  found.energy_bound = most_energy_;
+  found.energy_bound = max_energy_;
   found.reason = "it creates energy";
   return found;
 }
 
-const PostMortem* LabRun::post_mortem(const std::vector<LedgerRow>& before) {
+const PostMortem* LabRun::post_mortem(const std::vector<EnergyRow>& before) {
   if (!stopped_ || post_mortem_) return post_mortem_ ? &*post_mortem_ : nullptr;
   SimulateResult result = run_->finish();
   if (!result.post_mortem) result.post_mortem = stopped_by_energy();

@@ -14,8 +14,8 @@
 
 namespace twinarm {
 
-class HandLead;
-class MousePull;
+class InputOverride;
+class MouseSpring;
 
 class LabRun {
  public:
@@ -70,7 +70,7 @@ class LabRun {
   // Why it stopped (by itself, by the ledger's alarm, or as it has far too much energy), with
   // suspects and their remedies; null while it goes on. `before`: the ledger some time before, to
   // tell the row that grew.
-  const PostMortem* post_mortem(const std::vector<LedgerRow>& before = {});
+  const PostMortem* post_mortem(const std::vector<EnergyRow>& before = {});
 
  private:
   void start(const LabFrame* from);
@@ -82,14 +82,14 @@ class LabRun {
   LabHand& hand_;
   std::unique_ptr<LabScene::Plan> plan_;
   RunWatch watch_;
-  std::unique_ptr<HandLead> lead_;
-  std::unique_ptr<MousePull> pull_;
+  std::unique_ptr<InputOverride> lead_;
+  std::unique_ptr<MouseSpring> pull_;
   std::unique_ptr<SteppedRun> run_;
   LabInput input_;
   std::optional<PullInput> mouse_;  // as it is now
   std::string begun_anew_;
   bool stopped_ = false;
-  double most_energy_ = 0;  // kinetic [J]
+  double max_energy_ = 0;  // kinetic [J]
   std::vector<std::string> warnings_;
   std::optional<PostMortem> post_mortem_;
 };

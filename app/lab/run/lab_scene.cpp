@@ -11,7 +11,7 @@ namespace twinarm {
 namespace {
 
 // What a change turns that stands beside the scene, as on the command line of `simulate`.
-bool turns_option(const Change& change, SimulateOptions& options, FaultList& faults) {
+bool turns_option(const Change& change, SimulateOptions& options, DiagnosticList& faults) {
   const auto number = [&](std::optional<double>& value) {
     value = parse_number(change.value);
     if (!value)
@@ -32,7 +32,7 @@ bool turns_option(const Change& change, SimulateOptions& options, FaultList& fau
 }
 
 std::vector<Change> of_the_scene(const std::vector<Change>& changes, SimulateOptions& options,
-                                 FaultList& faults) {
+                                 DiagnosticList& faults) {
   std::vector<Change> others;
   for (const Change& change : changes)
     if (!turns_option(change, options, faults)) others.push_back(change);
@@ -51,8 +51,8 @@ SimulateOptions without_end(SimulateOptions options) {
 
 // Faults of options by the change that set them.
 InputError by_change(const InputError& error, const std::vector<Change>& changes) {
-  std::vector<Fault> faults = error.faults();
-  for (Fault& fault : faults)
+  std::vector<Diagnostic> faults = error.faults();
+  for (Diagnostic& fault : faults)
     for (const Change& change : changes)
       if (is_of_option(fault, change.path))
         fault.where = "--set " + change.path + "=" + change.value;
@@ -87,7 +87,7 @@ bool LabScene::is_scene() const {
 
 std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& changes) const {
   SimulateOptions beside = options_of(files_->header().run);
-  FaultList faults;
+  DiagnosticList faults;
   const std::vector<Change> others = of_the_scene(changes, beside, faults);
   faults.check();
   try {
@@ -111,7 +111,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
 
 Value LabScene::tree(const std::vector<Change>& changes) const {
   SimulateOptions beside = options_of(files_->header().run);
-  FaultList faults;
+  DiagnosticList faults;
   const std::vector<Change> others = of_the_scene(changes, beside, faults);
   Value scene = read_toml(files_->options().robot.model);
   for (std::size_t i = 0; i < others.size(); ++i)
@@ -138,7 +138,7 @@ std::string LabScene::text(const std::vector<Change>& changes) const {
 RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand& hand) const {
   const std::unique_ptr<Plan> planned = plan(changes);
   RecordingHeader header = files_->header();
-  FaultList faults;
+  DiagnosticList faults;
   SimulateOptions options = options_of(header.run);
   for (const Change& change : of_the_scene(changes, options, faults))
     if (change.path == "gravity") options.robot.gravity = change.value;

@@ -23,12 +23,12 @@ HandStep told_at(double t, double h, HandStep told) {
 
 }  // namespace
 
-LabLanes::LabLanes(const LaneSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
-                   const LabFrame* from, const LabNames& names) {
+LabVariants::LabVariants(const VariantSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
+                         const LabFrame* from, const LabNames& names) {
   for (std::size_t i = 0; i < plans.size(); ++i) {
     Lane lane;
     lane.name = set.values[i + 1];
-    const LaneFrame start = from ? from->lanes[i] : LaneFrame{};
+    const VariantFrame start = from ? from->lanes[i] : VariantFrame{};
     if (start.stopped) {
       lane.last = start.frame;
       lane.stopped = true;
@@ -41,7 +41,7 @@ LabLanes::LabLanes(const LaneSet& set, std::vector<std::unique_ptr<LabScene::Pla
   }
 }
 
-void LabLanes::follow(const LabRun& run) {
+void LabVariants::follow(const LabRun& run) {
   for (Lane& lane : lanes_) {
     if (lane.stopped) continue;
     const double h = lane.run->step_length();
@@ -56,7 +56,7 @@ void LabLanes::follow(const LabRun& run) {
   }
 }
 
-void LabLanes::stop(Lane& lane) {
+void LabVariants::stop(Lane& lane) {
   lane.stopped = true;
   const PostMortem* found = lane.run->post_mortem();
   const std::string why = found ? found->reason : "";  // none: a number is not finite
@@ -64,7 +64,7 @@ void LabLanes::stop(Lane& lane) {
                                lane.run->time(), why.empty() ? "" : ": ", why));
 }
 
-void LabLanes::add_to(LabFrame& frame, LabNames& names) {
+void LabVariants::add_to(LabFrame& frame, LabNames& names) {
   frame.lanes.clear();
   for (Lane& lane : lanes_) {
     if (lane.run) lane.last = std::make_shared<const LabFrame>(lane.run->frame(names));
@@ -73,7 +73,7 @@ void LabLanes::add_to(LabFrame& frame, LabNames& names) {
   }
 }
 
-std::vector<std::string> LabLanes::take_words() {
+std::vector<std::string> LabVariants::take_words() {
   return std::exchange(words_, {});
 }
 
@@ -95,22 +95,22 @@ std::vector<std::string> split_values(const std::string& text) {
 
 }  // namespace
 
-LaneSet parse_lanes(const std::string& text) {
+VariantSet parse_lanes(const std::string& text) {
   const std::size_t equals = text.find('=');
-  LaneSet lanes;
+  VariantSet lanes;
   lanes.path = text.substr(0, equals);
   if (equals != std::string::npos) lanes.values = split_values(text.substr(equals + 1));
   if (const auto fault = fault_of(lanes))
-    throw InputError({{"", 0, "--lanes " + text, fault->rule, fault->remedy, "option.lanes"}});
+    throw InputError({{"", 0, "--lanes " + text, fault->problem, fault->fix, "option.lanes"}});
   return lanes;
 }
 
-std::optional<LaneFault> fault_of(const LaneSet& lanes) {
+std::optional<LaneFault> fault_of(const VariantSet& lanes) {
   const std::vector<std::string>& values = lanes.values;
   const auto is_empty = [](const std::string& value) { return value.empty(); };
   if (lanes.path.empty() || values.empty() || std::ranges::any_of(values, is_empty))
     return LaneFault{"a path or a value is missing", "write integrator=semi-implicit,rk4"};
-  if (values.size() < 2 || values.size() > LaneSet::kMost)
+  if (values.size() < 2 || values.size() > VariantSet::kMax)
     return LaneFault{std::to_string(values.size()) + " values make no lanes", "give 2 to 7 values"};
   for (auto value = values.begin(); value != values.end(); ++value)
     if (std::find(values.begin(), value, *value) != value)

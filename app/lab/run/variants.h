@@ -21,8 +21,8 @@ namespace twinarm {
 // Runs of one scene side by side, on one clock: for each its own value of one path. The first is
 // the run itself, that hands, knobs and recordings are about; the others stand beside it
 // (variants.h).
-struct LaneSet {
-  static constexpr std::size_t kMost = 7;  // that colours tell apart
+struct VariantSet {
+  static constexpr std::size_t kMax = 7;  // that colours tell apart
 
   std::string path;                 // as of a Change: "integrator", "coupling.stiffness"
   std::vector<std::string> values;  // by lane
@@ -33,23 +33,23 @@ struct LaneSet {
 };
 
 // "integrator=semi-implicit,rk4"; commas within brackets are of the value. Throws InputError.
-LaneSet parse_lanes(const std::string& text);
+VariantSet parse_lanes(const std::string& text);
 
 // What is wrong with it whatever the scene is; nothing: it may be tried.
 struct LaneFault {
-  std::string rule, remedy;
+  std::string problem, fix;
 };
-std::optional<LaneFault> fault_of(const LaneSet& lanes);
+std::optional<LaneFault> fault_of(const VariantSet& lanes);
 
 // Behind all others: changes are applied in their order. One to the same path goes.
 void put(std::vector<Change>& changes, const Change& change);
 
-class LabLanes {
+class LabVariants {
  public:
-  LabLanes() = default;  // none
+  LabVariants() = default;  // none
   // Plans by lane, from the second on; `from` null: the start. Throws InputError.
-  LabLanes(const LaneSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
-           const LabFrame* from, const LabNames& names);
+  LabVariants(const VariantSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
+              const LabFrame* from, const LabNames& names);
 
   // After each step of the run: all up to its time, by what came from outside in that step.
   void follow(const LabRun& run);

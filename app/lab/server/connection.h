@@ -56,7 +56,7 @@ struct Core : std::enable_shared_from_this<Core> {
   const ServerHandlers handlers;
   std::optional<HostNames> hosts;
   std::string cookie;  // its name: with the port, for cookies are shared by all ports
-  Mailboxes mailboxes;
+  OutgoingQueues mailboxes;
   std::set<std::shared_ptr<Connection>> connections;
   std::size_t live = 0;
   ClientId last_client = 0;

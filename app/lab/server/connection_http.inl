@@ -5,9 +5,9 @@
 
 namespace twinarm::lab_server {
 
-constexpr std::uint32_t kMostHead = 16 << 10;  // [bytes]
-constexpr double kSlowestDownload = 50e3;      // [bytes/s]
-constexpr std::chrono::seconds kFarewell{2};   // for what is said last
+constexpr std::uint32_t kMaxHead = 16 << 10;  // [bytes]
+constexpr double kSlowestDownload = 50e3;     // [bytes/s]
+constexpr std::chrono::seconds kFarewell{2};  // for what is said last
 
 inline std::string_view view(boost::beast::string_view text) {
   return {text.data(), text.size()};
@@ -15,8 +15,8 @@ inline std::string_view view(boost::beast::string_view text) {
 
 void Connection::start() {
   parser_.emplace();
-  parser_->header_limit(kMostHead);
-  parser_->body_limit(core_.options.most_body);
+  parser_->header_limit(kMaxHead);
+  parser_->body_limit(core_.options.max_body);
   is_welcome_ = gives_cookie_ = false;
   deadline_ = Clock::now() + core_.patience(0.25);
   in_.empty() ? read_some() : parse();

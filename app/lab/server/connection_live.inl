@@ -7,18 +7,18 @@
 
 namespace twinarm::lab_server {
 
-constexpr std::uint64_t kMostUnanswered = 4;  // messages on the way to a client
+constexpr std::uint64_t kMaxUnanswered = 4;  // messages on the way to a client
 
 void Connection::go_live() {
   if (!in_.empty()) return refuse(400, "a WebSocket begins after its answer");
-  if (core_.live >= core_.options.most_clients)
+  if (core_.live >= core_.options.max_clients)
     return refuse(503,
                   std::to_string(core_.live) + " pages are open, and no more can be: close one");
   ++core_.live;
   deadline_ = Clock::now() + core_.patience(0.25);
   ws_.emplace(std::move(socket_));
   ws_->auto_fragment(false);
-  ws_->read_message_max(core_.options.most_message);
+  ws_->read_message_max(core_.options.max_message);
   ws_->control_callback([this](websocket::frame_type kind, boost::beast::string_view text) {
     take_control(kind, view(text));
   });
@@ -83,8 +83,8 @@ bool Connection::is_too_fast() {
 }
 
 void Connection::send_next() {
-  if (client_ == 0 || is_closing_ || writing_ || sent_ - answered_ >= kMostUnanswered) return;
-  const std::optional<Mailboxes::Message> next = core_.mailboxes.take(client_);
+  if (client_ == 0 || is_closing_ || writing_ || sent_ - answered_ >= kMaxUnanswered) return;
+  const std::optional<OutgoingQueues::Message> next = core_.mailboxes.take(client_);
   if (!next) return;
   if (sent_ == answered_) progress_ = Clock::now();
   writing_ = next->bytes;

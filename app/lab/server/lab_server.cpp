@@ -45,14 +45,15 @@ constexpr std::size_t kConnectionsPerClient = 8;
 
 [[noreturn]] void refuse_address(const ServerOptions& options, const std::string& why) {
   const bool is_port = options.port != 0;
-  throw InputError({Fault{{},
-                          0,
-                          is_port ? "--port " + std::to_string(options.port) : "--listen",
-                          "address " + options.address + " cannot be listened on: " + why,
-                          is_port ? "another program may have this port: leave --port out, and a "
-                                    "free one is taken"
-                                  : "give a numeric address of this machine, as 127.0.0.1",
-                          "lab.address"}});
+  throw InputError(
+      {Diagnostic{{},
+                  0,
+                  is_port ? "--port " + std::to_string(options.port) : "--listen",
+                  "address " + options.address + " cannot be listened on: " + why,
+                  is_port ? "another program may have this port: leave --port out, and a "
+                            "free one is taken"
+                          : "give a numeric address of this machine, as 127.0.0.1",
+                  "lab.address"}});
 }
 
 }  // namespace
@@ -96,7 +97,7 @@ struct LabServer::Impl {
 
   void accept() {
     acceptor.async_accept(core->io, [this](error_code error, Socket socket) {
-      const std::size_t most = kConnectionsPerClient * core->options.most_clients;
+      const std::size_t most = kConnectionsPerClient * core->options.max_clients;
       if (!error && core->connections.size() < most) {
         socket.set_option(net::ip::tcp::no_delay(true), error);
         const auto connection = std::make_shared<Connection>(*core, std::move(socket));

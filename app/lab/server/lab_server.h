@@ -45,10 +45,10 @@ struct ServerOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 0;  // 0: any that is free
   std::string token;
-  std::size_t most_clients = 32;
-  std::size_t most_message = 64 << 10;  // of a client [bytes]
-  std::size_t most_body = 32 << 20;     // of a POST [bytes]
-  double messages_per_second = 500;     // of a client; more: it is told so and dropped
+  std::size_t max_clients = 32;
+  std::size_t max_message = 64 << 10;  // of a client [bytes]
+  std::size_t max_body = 32 << 20;     // of a POST [bytes]
+  double messages_per_second = 500;    // of a client; more: it is told so and dropped
   double patience =
       60;  // a client that takes nothing is kept so long, a request a quarter of it [s]
 };

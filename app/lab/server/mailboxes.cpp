@@ -4,17 +4,17 @@
 
 namespace twinarm {
 
-void Mailboxes::open(ClientId client) {
+void OutgoingQueues::open(ClientId client) {
   const std::lock_guard lock(mutex_);
   boxes_[client];
 }
 
-void Mailboxes::close(ClientId client) {
+void OutgoingQueues::close(ClientId client) {
   const std::lock_guard lock(mutex_);
   boxes_.erase(client);
 }
 
-bool Mailboxes::put(ClientId client, int channel, const Message& message) {
+bool OutgoingQueues::put(ClientId client, int channel, const Message& message) {
   const std::lock_guard lock(mutex_);
   const auto found = boxes_.find(client);
   if (found == boxes_.end()) return false;  // it has just left
@@ -22,13 +22,13 @@ bool Mailboxes::put(ClientId client, int channel, const Message& message) {
   return wake();
 }
 
-bool Mailboxes::put_all(int channel, const Message& message) {
+bool OutgoingQueues::put_all(int channel, const Message& message) {
   const std::lock_guard lock(mutex_);
   for (auto& [client, box] : boxes_) put_in(box, channel, message);
   return !boxes_.empty() && wake();
 }
 
-void Mailboxes::put_in(Box& box, int channel, const Message& message) {
+void OutgoingQueues::put_in(Box& box, int channel, const Message& message) {
   const auto index = static_cast<std::size_t>(channel);
   if (index >= box.places.size()) box.places.resize(index + 1);
   Place& place = box.places[index];
@@ -39,16 +39,16 @@ void Mailboxes::put_in(Box& box, int channel, const Message& message) {
   place.message = message;
 }
 
-bool Mailboxes::wake() {
+bool OutgoingQueues::wake() {
   return !std::exchange(woken_, true);
 }
 
-void Mailboxes::awake() {
+void OutgoingQueues::awake() {
   const std::lock_guard lock(mutex_);
   woken_ = false;
 }
 
-std::optional<Mailboxes::Message> Mailboxes::take(ClientId client) {
+std::optional<OutgoingQueues::Message> OutgoingQueues::take(ClientId client) {
   const std::lock_guard lock(mutex_);
   const auto found = boxes_.find(client);
   if (found == boxes_.end()) return {};
@@ -67,13 +67,13 @@ std::optional<Mailboxes::Message> Mailboxes::take(ClientId client) {
   return std::exchange(next->message, {});
 }
 
-void Mailboxes::count_received(ClientId client) {
+void OutgoingQueues::count_received(ClientId client) {
   const std::lock_guard lock(mutex_);
   const auto found = boxes_.find(client);
   if (found != boxes_.end()) ++found->second.traffic.received;
 }
 
-LabServer::Traffic Mailboxes::traffic(ClientId client) const {
+LabServer::Traffic OutgoingQueues::traffic(ClientId client) const {
   const std::lock_guard lock(mutex_);
   const auto found = boxes_.find(client);
   return found == boxes_.end() ? LabServer::Traffic{} : found->second.traffic;

@@ -14,7 +14,7 @@
 
 namespace twinarm {
 
-class Mailboxes {
+class OutgoingQueues {
  public:
   struct Message {
     Bytes bytes;

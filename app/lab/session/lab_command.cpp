@@ -13,7 +13,7 @@ namespace {
 using Spoken = LabCommand::Do;
 using Kind = Value::Kind;
 
-constexpr std::size_t kMostNames = 64;
+constexpr std::size_t kMaxNames = 64;
 
 // One key of a command: how it is checked and where it goes.
 struct Field {
@@ -50,7 +50,7 @@ bool take_text(const Value& value, std::string& into) {
 }
 
 bool take_texts(const Value& value, LabCommand& command) {
-  if (value.kind != Kind::list || value.items.size() > kMostNames) return false;
+  if (value.kind != Kind::list || value.items.size() > kMaxNames) return false;
   for (const Value& item : value.items) {
     if (!item.is_text()) return false;
     command.names.push_back(item.text);
@@ -87,7 +87,7 @@ bool take_factor(const Value& value, LabCommand& command) {
   return take_number(value, command.value) && command.value >= 0.001 && command.value <= 10;
 }
 
-constexpr long kMostIndex = 1'000'000;
+constexpr long kMaxIndex = 1'000'000;
 template <long most>
 bool take_index(const Value& value, LabCommand& command) {
   return take_count(value, most, command.count);
@@ -116,9 +116,9 @@ const std::vector<Form>& forms() {
       {"glass",
        Spoken::glass,
        false,
-       {on, {"body", "a body's number", take_index<kMostIndex>, true}}},
+       {on, {"body", "a body's number", take_index<kMaxIndex>, true}}},
       {"take", Spoken::take, false, {}},
-      {"give", Spoken::give, false, {{"to", "a client's number", take_index<kMostIndex>}}},
+      {"give", Spoken::give, false, {{"to", "a client's number", take_index<kMaxIndex>}}},
       {"look", Spoken::look, false, {{"at", "seconds, or null", take_instant}}},
       {"play", Spoken::play, true, {on}},
       {"step", Spoken::step, true, {{"steps", "1 to 100000", take_index<100'000>}}},
@@ -144,7 +144,7 @@ const std::vector<Form>& forms() {
       {"pull",
        Spoken::pull,
        true,
-       {{"body", "a body's number", take_index<kMostIndex>},
+       {{"body", "a body's number", take_index<kMaxIndex>},
         {"point", "three numbers", point},
         {"goal", "three numbers", goal},
         stamp}},
@@ -175,7 +175,7 @@ LabCommand parse_command(const std::string& text) {
   const Value root = parse_json(text, "command");
   const Form& form = form_of(root);
   command.what = form.what;
-  FaultList faults;
+  DiagnosticList faults;
   for (const Field& field : form.fields) {
     const Value* value = root.find(field.key);
     const std::string where = std::string(form.name) + ", " + field.key;
@@ -207,7 +207,7 @@ void Inbox::push(LabCommand command) {
   });
 }
 
-void Inbox::push(Built built) {
+void Inbox::push(BuildResult built) {
   locked([&] { contents_.built.push_back(std::move(built)); });
 }
 

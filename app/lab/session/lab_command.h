@@ -74,7 +74,7 @@ class Inbox {
   // From any thread. What comes after the 4,096th command that waits is dropped; of notes, the
   // oldest.
   void push(LabCommand command);
-  void push(Built built);
+  void push(BuildResult built);
   void push_refused(long number);  // what was asked for, up to this number
   void note(const std::string& level, const std::string& text);
   bool stop();  // false: it was stopped before
@@ -82,7 +82,7 @@ class Inbox {
   // Of the run's thread.
   struct Contents {
     std::deque<LabCommand> commands;
-    std::deque<Built> built;
+    std::deque<BuildResult> built;
     std::optional<long> refused;
   };
   Contents take();

@@ -17,14 +17,14 @@ constexpr auto kIdle = std::chrono::milliseconds(200);
 
 }  // namespace
 
-LabSession::LabSession(Built scene, const std::vector<GalleryScene>& gallery,
-                       std::size_t most_bytes)
-    : state_(most_bytes),
-      commands_(state_, gallery, [this](Order order) { open(std::move(order)); }),
+LabSession::LabSession(BuildResult scene, const std::vector<GalleryScene>& gallery,
+                       std::size_t max_bytes)
+    : state_(max_bytes),
+      commands_(state_, gallery, [this](BuildRequest order) { open(std::move(order)); }),
       reporter_(state_, shown_) {
   commands_.adopt(std::move(scene));
   reporter_.publish();  // from now on there is something to be seen
-  builder_ = std::make_unique<Workshop>(state_.inbox);
+  builder_ = std::make_unique<SceneBuilderThread>(state_.inbox);
   thread_ = std::thread([this] { work(); });
 }
 
@@ -36,15 +36,15 @@ void LabSession::end() {
   if (!state_.inbox.stop()) return;
   thread_.join();
   // Pages may still drop files: taken away under the lock, and waited for without it.
-  std::unique_ptr<Workshop> builder;
+  std::unique_ptr<SceneBuilderThread> builder;
   {
     const std::lock_guard lock(builder_mutex_);
     builder = std::move(builder_);
   }
 }
 
-void LabSession::open(Order order) {
-  std::optional<Order> left;
+void LabSession::open(BuildRequest order) {
+  std::optional<BuildRequest> left;
   const char* why = "something else was asked for before this was begun; try again";
   order.is_shared = state_.timeline.scene()->order.is_shared;
   {
@@ -81,12 +81,12 @@ void LabSession::take_inbox() {
   for (const LabCommand& command : contents.commands) try {
       commands_.act(command);
     } catch (const InputError& error) {
-      for (const Fault& fault : error.faults()) note("error", to_string(fault));
+      for (const Diagnostic& fault : error.faults()) note("error", to_string(fault));
     } catch (const std::exception& error) {
       note("error", error.what());
     }
   if (contents.refused) state_.pending.finish(*contents.refused);
-  for (Built& one : contents.built) {
+  for (BuildResult& one : contents.built) {
     const auto done = one.order.done;
     try {
       commands_.adopt(std::move(one));
@@ -138,8 +138,8 @@ void LabSession::show_end() {
   end.body = found->body;
   if (!found->suspects.empty()) end.spring = found->suspects.front().name;
   end.remedies = remedies_of(state_.loop.run().prepared(), *found);
-  std::erase_if(end.remedies, [this](const Remedy& remedy) {
-    return std::ranges::any_of(remedy.changes, [this](const std::string& text) {
+  std::erase_if(end.remedies, [this](const SuggestedFix& fix) {
+    return std::ranges::any_of(fix.changes, [this](const std::string& text) {
       return is_of_lanes(state_.status, parse_change(text));
     });
   });

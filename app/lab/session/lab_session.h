@@ -22,15 +22,15 @@ namespace twinarm {
 class LabSession {
  public:
   // The gallery must outlive it. At most so much is remembered of a run [bytes].
-  LabSession(Built scene, const std::vector<GalleryScene>& gallery,
-             std::size_t most_bytes = LabHistory::kMostBytes);
+  LabSession(BuildResult scene, const std::vector<GalleryScene>& gallery,
+             std::size_t max_bytes = LabHistory::kMaxBytes);
   ~LabSession();
   void end();  // no thread of its own is left; now() stays as it was
 
   // From any thread.
   void push(LabCommand command) { state_.inbox.push(std::move(command)); }
   void note(const std::string& level, const std::string& text) { state_.inbox.note(level, text); }
-  void open(Order order);
+  void open(BuildRequest order);
   const Publisher& shown() const { return shown_; }
   const Timeline& timeline() const { return state_.timeline; }
   void set_rate(double frames_per_second) { reporter_.set_rate(frames_per_second); }
@@ -50,8 +50,8 @@ class LabSession {
   Publisher shown_;
   StatusReporter reporter_;
   std::mutex builder_mutex_;
-  std::unique_ptr<Workshop> builder_;  // null: the session has ended
-  Clock::time_point next_tick_{};      // of the run's thread alone
+  std::unique_ptr<SceneBuilderThread> builder_;  // null: the session has ended
+  Clock::time_point next_tick_{};                // of the run's thread alone
   std::thread thread_;
 };
 

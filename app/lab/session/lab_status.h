@@ -22,7 +22,7 @@ struct LabEnd {
   double from = 0;  // the last change, or the start: to go on from with a remedy [s]
   std::vector<std::string> words;
   std::string quantity, body, spring;
-  std::vector<Remedy> remedies;
+  std::vector<SuggestedFix> remedies;
 };
 
 struct LabBranch {
@@ -46,7 +46,7 @@ struct LabStatus {
   long scene = 0;               // counts scenes: of frames, meshes, channels
   std::string scene_name;       // of the gallery, or the file's
   std::vector<Change> changes;  // to the scene's file
-  LaneSet lanes;
+  VariantSet lanes;
   std::vector<std::optional<double>> lane_ends;  // from the second on: where one stopped [s]
   bool playing = true;
   double speed = 1;

@@ -14,7 +14,7 @@ constexpr double kMaxCatchUp = 0.05;  // what is further behind is not made up f
 
 }  // namespace
 
-void RunLoop::begin(std::unique_ptr<LabRun> run, LabLanes lanes) {
+void RunLoop::begin(std::unique_ptr<LabRun> run, LabVariants lanes) {
   run_ = std::move(run);
   lanes_ = std::move(lanes);
 }
@@ -67,7 +67,7 @@ RunLoop::Cost RunLoop::take_cost() {
   return cost;
 }
 
-void Timeline::begin(std::shared_ptr<const Built> scene, std::vector<std::size_t> led) {
+void Timeline::begin(std::shared_ptr<const BuildResult> scene, std::vector<std::size_t> led) {
   const std::lock_guard lock(mutex_);
   scene_ = std::move(scene);
   led_ = std::move(led);
@@ -89,7 +89,7 @@ void Timeline::add(const LabInput& input) {
 
 void Timeline::forget() {
   const std::lock_guard lock(mutex_);
-  history_ = before_ = LabHistory(history_.most_bytes());
+  history_ = before_ = LabHistory(history_.max_bytes());
   names_ = {};
 }
 
@@ -134,14 +134,14 @@ std::vector<Timeline::Frame> Timeline::frames(double from) const {
   return frames;
 }
 
-std::shared_ptr<const Built> Timeline::scene() const {
+std::shared_ptr<const BuildResult> Timeline::scene() const {
   const std::lock_guard lock(mutex_);
   return scene_;
 }
 
 void Timeline::save(const std::filesystem::path& file) const {
   LabHistory history;
-  std::shared_ptr<const Built> scene;
+  std::shared_ptr<const BuildResult> scene;
   LabNames names;
   std::vector<std::size_t> led;
   {

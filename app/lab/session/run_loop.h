@@ -27,7 +27,7 @@ class Timeline {
   explicit Timeline(std::size_t max_bytes) : history_(max_bytes), before_(max_bytes) {}
 
   // From now on it is another run; led: LabRun::led().
-  void begin(std::shared_ptr<const Built> scene, std::vector<std::size_t> led);
+  void begin(std::shared_ptr<const BuildResult> scene, std::vector<std::size_t> led);
   void add(LabFrame frame, const LabNames& names);
   void add(const LabInput& input);
   void forget();
@@ -43,25 +43,25 @@ class Timeline {
 
   // The newest instant, or that at t; `before`: the same time in the branch that was left.
   struct View {
-    std::shared_ptr<const Built> scene;
+    std::shared_ptr<const BuildResult> scene;
     double first = 0, last = 0;  // that are remembered [s]
     Frame frame, before;
   };
   View view(std::optional<double> t) const;
   std::vector<Frame> frames(double from) const;
-  std::shared_ptr<const Built> scene() const;
+  std::shared_ptr<const BuildResult> scene() const;
   void save(const std::filesystem::path& file) const;  // throws InputError
 
  private:
   mutable std::mutex mutex_;
   LabHistory history_, before_;
-  std::shared_ptr<const Built> scene_;
+  std::shared_ptr<const BuildResult> scene_;
   LabNames names_;
   std::vector<std::size_t> led_;
 };
 
 // Run time against wall time: how far the run is to be, and how well it keeps up.
-class Pace {
+class RealTimePacer {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
@@ -100,7 +100,7 @@ class RunLoop {
   explicit RunLoop(Timeline& timeline) : timeline_(timeline) {}
 
   // From now on this run, which goes on from `from` (null: from the scene's start).
-  void begin(std::unique_ptr<LabRun> run, LabLanes lanes);
+  void begin(std::unique_ptr<LabRun> run, LabVariants lanes);
   LabRun& run() { return *run_; }
   LabNames& names() { return names_; }
   LabFrame frame();  // of the run and its variants
@@ -126,9 +126,9 @@ class RunLoop {
 
   Timeline& timeline_;
   std::unique_ptr<LabRun> run_;
-  LabLanes lanes_;
+  LabVariants lanes_;
   LabNames names_;
-  Pace pace_;
+  RealTimePacer pace_;
   long steps_left_ = 0;
   bool repeats_ = false;
   double cpu_ = 0, longest_cpu_ = 0;  // [s]

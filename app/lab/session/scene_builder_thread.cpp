@@ -13,7 +13,7 @@
 namespace twinarm {
 namespace {
 
-std::shared_ptr<const LabScene> open_scene(const Order& order) {
+std::shared_ptr<const LabScene> open_scene(const BuildRequest& order) {
   FileRoots roots;
   if (order.is_shared) roots = {find_assets()};
   if (order.file.extension() == ".twinrec")
@@ -26,7 +26,8 @@ std::shared_ptr<const LabScene> open_scene(const Order& order) {
 
 std::string words_of(const InputError& error) {
   std::string words;
-  for (const Fault& fault : error.faults()) words += (words.empty() ? "" : "\n") + to_string(fault);
+  for (const Diagnostic& fault : error.faults())
+    words += (words.empty() ? "" : "\n") + to_string(fault);
   return words;
 }
 
@@ -37,8 +38,8 @@ void put_asked(std::vector<Change>& changes, const Asked& asked) {
 
 }  // namespace
 
-Order order_to_open(const GalleryScene& scene) {
-  Order order;
+BuildRequest order_to_open(const GalleryScene& scene) {
+  BuildRequest order;
   order.file = scene.file;
   order.name = scene.name;
   order.words.title = scene.title;
@@ -48,11 +49,11 @@ Order order_to_open(const GalleryScene& scene) {
   return order;
 }
 
-Built build(Order order) {
-  Built built;
+BuildResult build(BuildRequest order) {
+  BuildResult built;
   for (const Asked& asked : order.asked) put_asked(order.changes, asked);
   if (!order.lanes.empty()) put(order.changes, order.lanes.change(0));
-  built.scene = order.what == Order::What::open ? open_scene(order) : order.scene;
+  built.scene = order.what == BuildRequest::What::open ? open_scene(order) : order.scene;
   built.header = built.scene->header(order.changes, {});
   built.run = built.scene->plan(order.changes);
   built.view = built.scene->plan(order.changes);
@@ -67,9 +68,9 @@ Built build(Order order) {
   return built;
 }
 
-Workshop::Workshop(Inbox& inbox) : inbox_(inbox), thread_([this] { work(); }) {}
+SceneBuilderThread::SceneBuilderThread(Inbox& inbox) : inbox_(inbox), thread_([this] { work(); }) {}
 
-Workshop::~Workshop() {
+SceneBuilderThread::~SceneBuilderThread() {
   {
     const std::lock_guard lock(mutex_);
     stop_ = true;
@@ -78,8 +79,8 @@ Workshop::~Workshop() {
   thread_.join();
 }
 
-std::optional<Order> Workshop::order(Order order) {
-  std::optional<Order> left;
+std::optional<BuildRequest> SceneBuilderThread::order(BuildRequest order) {
+  std::optional<BuildRequest> left;
   {
     const std::lock_guard lock(mutex_);
     left = std::exchange(next_, std::move(order));
@@ -89,7 +90,7 @@ std::optional<Order> Workshop::order(Order order) {
 }
 
 // It was tried already, with an order before this one.
-void Workshop::leave_out_refused(Order& order) const {
+void SceneBuilderThread::leave_out_refused(BuildRequest& order) const {
   std::erase_if(order.asked, [this](const Asked& asked) {
     return std::ranges::find(refused_, asked.number) != refused_.end();
   });
@@ -97,20 +98,20 @@ void Workshop::leave_out_refused(Order& order) const {
 
 // What was asked for while others waited: what is wrong must not take the others with it. Nothing
 // where no part of it holds.
-std::optional<Built> Workshop::build_one_by_one(const Order& order) {
-  std::optional<Built> built;
-  Order good = order;
+std::optional<BuildResult> SceneBuilderThread::build_one_by_one(const BuildRequest& order) {
+  std::optional<BuildResult> built;
+  BuildRequest good = order;
   good.asked.clear();
   for (const Asked& asked : order.asked) {
-    Order with = good;
+    BuildRequest with = good;
     with.asked.push_back(asked);
     try {
       built = build(with);
       good = std::move(with);
     } catch (const InputError& error) {
       refused_.push_back(asked.number);
-      if (&asked == &order.asked.back() && order.what == Order::What::branch && built)
-        built->order.what = Order::What::change;  // the branch was for what is refused
+      if (&asked == &order.asked.back() && order.what == BuildRequest::What::branch && built)
+        built->order.what = BuildRequest::What::change;  // the branch was for what is refused
       inbox_.note("error", words_of(error));
     }
   }
@@ -119,14 +120,14 @@ std::optional<Built> Workshop::build_one_by_one(const Order& order) {
 }
 
 // Nothing of it holds; why was told.
-void Workshop::fail(const Order& order) {
+void SceneBuilderThread::fail(const BuildRequest& order) {
   if (!order.asked.empty()) inbox_.push_refused(order.asked.back().number);
 }
 
-void Workshop::work() {
+void SceneBuilderThread::work() {
   pthread_setname_np(pthread_self(), "lab workshop");
   for (;;) {
-    Order order;
+    BuildRequest order;
     {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [this] { return stop_ || next_; });

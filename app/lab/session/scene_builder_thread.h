@@ -33,7 +33,7 @@ struct Asked {
 };
 
 // What is to be built, and what the run is to do with it.
-struct Order {
+struct BuildRequest {
   enum class What { open, change, branch, reset };
   What what = What::open;
   std::filesystem::path file;  // open: a scene, a robot, a recording
@@ -45,7 +45,7 @@ struct Order {
   std::shared_ptr<const LabScene> scene;  // of all others
   std::vector<Change> changes;            // all that are to stand then, but
   std::vector<Asked> asked;               // these, which nobody has tried yet, oldest first
-  LaneSet lanes;                          // empty: the run alone
+  VariantSet lanes;                       // empty: the run alone
   double at = 0;                          // branch [s]
   std::string hand;                       // open: who moves the robot then; empty: as it is
   // Called when it is built, with nothing, or with all faults, line by line.
@@ -54,8 +54,8 @@ struct Order {
 
 // A scene with its changes, in `order.changes` also what was asked for and held, and those of its
 // first lane: each thread has a plan of its own.
-struct Built {
-  Order order;
+struct BuildResult {
+  BuildRequest order;
   std::shared_ptr<const LabScene> scene;
   RecordingHeader header;
   std::unique_ptr<LabScene::Plan> run;
@@ -66,31 +66,31 @@ struct Built {
 
 class Inbox;
 
-class Workshop {
+class SceneBuilderThread {
  public:
   // What is built goes to the inbox, and so does what is refused, with its faults, line by line.
-  explicit Workshop(Inbox& inbox);
-  ~Workshop();
+  explicit SceneBuilderThread(Inbox& inbox);
+  ~SceneBuilderThread();
   // From any thread. Takes the place of one that has not been begun, which is returned.
-  [[nodiscard]] std::optional<Order> order(Order order);
+  [[nodiscard]] std::optional<BuildRequest> order(BuildRequest order);
 
  private:
   void work();
-  void leave_out_refused(Order& order) const;
-  std::optional<Built> build_one_by_one(const Order& order);
-  void fail(const Order& order);
+  void leave_out_refused(BuildRequest& order) const;
+  std::optional<BuildResult> build_one_by_one(const BuildRequest& order);
+  void fail(const BuildRequest& order);
 
   Inbox& inbox_;
   std::vector<long> refused_;  // numbers of what was asked for; of the workshop's thread alone
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::optional<Order> next_;
+  std::optional<BuildRequest> next_;
   bool stop_ = false;
   std::thread thread_;
 };
 
-Order order_to_open(const GalleryScene& scene);
+BuildRequest order_to_open(const GalleryScene& scene);
 // In the caller's thread. Throws InputError.
-Built build(Order order);
+BuildResult build(BuildRequest order);
 
 }  // namespace twinarm

@@ -47,10 +47,10 @@ void SessionCommands::act(const LabCommand& command) {
     case Do::scene:
       return open_from_gallery(command.name);
     case Do::reset:
-      return order(Order::What::reset);
+      return order(BuildRequest::What::reset);
     case Do::restore:
       s_.pending.add({0, true, {}});
-      return order(Order::What::change);
+      return order(BuildRequest::What::change);
     default:
       return act_on_hand(command);
   }
@@ -122,9 +122,9 @@ void SessionCommands::change(const std::vector<std::string>& texts, std::optiona
     asked.changes.push_back(change);
   }
   s_.pending.add(std::move(asked));
-  if (!at) return order(Order::What::change);
+  if (!at) return order(BuildRequest::What::change);
   s_.status.playing = false;
-  order(Order::What::branch, *at);
+  order(BuildRequest::What::branch, *at);
 }
 
 void SessionCommands::open_preset(const std::string& name) {
@@ -132,7 +132,7 @@ void SessionCommands::open_preset(const std::string& name) {
   if (!preset)
     throw InputError({{"command", 0, "preset", "there is no '" + name + "'",
                        "the state lists them under presets", "lab.unknown-name"}});
-  Order order;
+  BuildRequest order;
   order.file = find_assets() / "scenes" / preset->scene;
   order.name = preset->name;
   order.words.title = preset->what;
@@ -150,9 +150,9 @@ void SessionCommands::open_from_gallery(const std::string& name) {
   open_(order_to_open(*scene));
 }
 
-void SessionCommands::order(Order::What what, double at) {
-  const std::shared_ptr<const Built> now = s_.timeline.scene();
-  Order order;
+void SessionCommands::order(BuildRequest::What what, double at) {
+  const std::shared_ptr<const BuildResult> now = s_.timeline.scene();
+  BuildRequest order;
   order.what = what;
   order.scene = now->scene;
   order.name = now->order.name;
@@ -165,8 +165,9 @@ void SessionCommands::order(Order::What what, double at) {
 }
 
 // Where a run that goes on begins; null where that is no longer remembered.
-Timeline::Frame SessionCommands::start_of(const Order& order) {
-  if (order.what == Order::What::change) return std::make_shared<const LabFrame>(s_.loop.frame());
+Timeline::Frame SessionCommands::start_of(const BuildRequest& order) {
+  if (order.what == BuildRequest::What::change)
+    return std::make_shared<const LabFrame>(s_.loop.frame());
   Timeline::Frame from = s_.timeline.branch(order.at);
   if (!from) return nullptr;
   s_.loop.repeat_inputs(s_.timeline.known_input(from->recorded.step).goes_on);
@@ -180,22 +181,23 @@ Timeline::Frame SessionCommands::start_of(const Order& order) {
   return from;
 }
 
-void SessionCommands::adopt(Built built) {
-  const Order order = built.order;
+void SessionCommands::adopt(BuildResult built) {
+  const BuildRequest order = built.order;
   if (!order.asked.empty()) s_.pending.finish(order.asked.back().number);
-  const bool goes_on = order.what == Order::What::change || order.what == Order::What::branch;
+  const bool goes_on =
+      order.what == BuildRequest::What::change || order.what == BuildRequest::What::branch;
   if (goes_on && built.scene != s_.timeline.scene()->scene) return;  // another one was opened
   Timeline::Frame from;
   if (goes_on && !(from = start_of(order)))
     return s_.inbox.note("error", "that instant is not remembered any more");
   auto run = std::make_unique<LabRun>(std::move(built.run), s_.hand, from.get());
-  LabLanes lanes(order.lanes, std::move(built.lanes), from.get(), s_.loop.names());
+  LabVariants lanes(order.lanes, std::move(built.lanes), from.get(), s_.loop.names());
   if (from) run->keep_books(*from, s_.loop.names());
   for (const std::string& warning : run->warnings())
     if (!goes_on) s_.inbox.note("warning", warning);
   if (!run->begun_anew().empty()) s_.inbox.note("note", run->begun_anew());
   if (!goes_on) forget();
-  if (order.what == Order::What::open) {
+  if (order.what == BuildRequest::What::open) {
     s_.pending.clear();
     ++s_.status.scene;
     s_.status.scene_name = order.name;
@@ -203,7 +205,7 @@ void SessionCommands::adopt(Built built) {
   }
   s_.status.changes = order.changes;
   s_.status.lanes = order.lanes;
-  s_.timeline.begin(std::make_shared<const Built>(std::move(built)), run->led());
+  s_.timeline.begin(std::make_shared<const BuildResult>(std::move(built)), run->led());
   s_.loop.begin(std::move(run), std::move(lanes));
   ++s_.change_number;
   s_.changed_at = s_.loop.run().time();

@@ -15,12 +15,12 @@ namespace twinarm {
 class SessionCommands {
  public:
   SessionCommands(SessionState& state, const std::vector<GalleryScene>& gallery,
-                  std::function<void(Order)> open)
+                  std::function<void(BuildRequest)> open)
       : s_(state), gallery_(gallery), open_(std::move(open)) {}
   // Throws InputError: nothing of it holds.
   void act(const LabCommand& command);
   // The run goes on as it was ordered. Throws what building it throws.
-  void adopt(Built built);
+  void adopt(BuildResult built);
 
  private:
   void act_on_hand(const LabCommand& command);
@@ -29,13 +29,13 @@ class SessionCommands {
   void change(const std::vector<std::string>& texts, std::optional<double> at);
   void open_preset(const std::string& name);
   void open_from_gallery(const std::string& name);
-  void order(Order::What what, double at = 0);
-  Timeline::Frame start_of(const Order& order);
+  void order(BuildRequest::What what, double at = 0);
+  Timeline::Frame start_of(const BuildRequest& order);
   void forget();
 
   SessionState& s_;
   const std::vector<GalleryScene>& gallery_;
-  std::function<void(Order)> open_;
+  std::function<void(BuildRequest)> open_;
 };
 
 }  // namespace twinarm

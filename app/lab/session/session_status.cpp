@@ -97,7 +97,7 @@ void StatusReporter::show(bool with_status) {
   status.last = view.last;
   status.lane_ends.clear();
   if (view.frame)
-    for (const LaneFrame& lane : view.frame->lanes)
+    for (const VariantFrame& lane : view.frame->lanes)
       status.lane_ends.push_back(lane.stopped ? std::optional(lane.frame->recorded.t)
                                               : std::nullopt);
   LabNow now;

@@ -21,7 +21,7 @@ namespace twinarm {
 // What there is to be seen. Nothing in it changes any more.
 struct LabNow {
   std::uint64_t number = 0;  // counts up with whatever changes here
-  std::shared_ptr<const Built> scene;
+  std::shared_ptr<const BuildResult> scene;
   long scene_number = 0, change_number = 0;
   std::shared_ptr<const LabFrame> frame;   // the newest, or the one that is looked back at
   std::shared_ptr<const LabFrame> before;  // at the same time, of the branch that was left

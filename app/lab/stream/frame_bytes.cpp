@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t kFrame = 0x31465754, kHistory = 0x31485754;  // "TWF1", "TWH1"
 constexpr std::uint16_t kNoBody = 65535;
-constexpr std::size_t kPlace = 7;  // numbers of a body's place
-constexpr double kFarthest = 1e9;  // [m]: a run that flies apart
+constexpr std::size_t kPlace = 7;     // numbers of a body's place
+constexpr double kMaxDistance = 1e9;  // [m]: a run that flies apart
 
 class Block {
  public:
@@ -39,7 +39,7 @@ std::uint32_t count_of(std::size_t n) {
 }
 
 bool is_near(const Vector3& v) {
-  return v.cwiseAbs().maxCoeff() < kFarthest && v.allFinite();
+  return v.cwiseAbs().maxCoeff() < kMaxDistance && v.allFinite();
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ namespace {
 constexpr double kRoom = 1.25;  // from one lane to the next, over the width of the scene
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-double energy_of(const Moment& moment) {
+double energy_of(const Snapshot& moment) {
   return moment.kinetic + moment.potential + moment.elastic;
 }
 
@@ -155,7 +155,7 @@ double numerical_work(const LabFrame& frame, const std::vector<std::string>& row
 
 }  // namespace
 
-LaneViews::LaneViews(ViewLanes lanes, const SimulateInput& input, LabChannels& channels)
+VariantViews::VariantViews(ViewVariants lanes, const SimulateInput& input, LabChannels& channels)
     : set_(std::move(lanes.set)) {
   change(std::move(lanes.plans));
   if (set_.empty()) return;
@@ -176,7 +176,7 @@ LaneViews::LaneViews(ViewLanes lanes, const SimulateInput& input, LabChannels& c
   }
 }
 
-void LaneViews::change(std::vector<std::shared_ptr<const SimulatePlan>> plans) {
+void VariantViews::change(std::vector<std::shared_ptr<const SimulatePlan>> plans) {
   moments_.resize(plans.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
     if (moments_[i])
@@ -188,7 +188,7 @@ void LaneViews::change(std::vector<std::shared_ptr<const SimulatePlan>> plans) {
 }
 
 // Along the narrower side, where nobody says otherwise.
-void LaneViews::place(const Extent& start, Extent& extent) {
+void VariantViews::place(const Extent& start, Extent& extent) {
   if (set_.empty() || start.empty()) return;
   const Vector3 size = extent.high() - extent.low();
   const int axis = size.x() < size.y() ? 0 : 1;
@@ -199,15 +199,15 @@ void LaneViews::place(const Extent& start, Extent& extent) {
     for (const Vector3& p : points) extent.add(p + static_cast<double>(lane) * apart_);
 }
 
-void LaneViews::look(const LabFrame& frame) {
+void VariantViews::look(const LabFrame& frame) {
   seen_.clear();
   for (std::size_t i = 0; i < std::min(moments_.size(), frame.lanes.size()); ++i)
     seen_.push_back({moments_[i]->of(*frame.lanes[i].frame), frame.lanes[i]});
 }
 
-void LaneViews::show(const LabFrame* before, Moment& moment) const {
+void VariantViews::show(const LabFrame* before, Snapshot& moment) const {
   for (std::size_t lane = 0; lane < (set_.empty() ? 0 : seen_.size() + 1); ++lane) {
-    ShownLane shown;
+    ShownVariant shown;
     shown.name = set_.values[lane];
     shown.offset_W = static_cast<double>(lane) * apart_;
     shown.above_W = above_ + shown.offset_W;
@@ -223,12 +223,12 @@ void LaneViews::show(const LabFrame* before, Moment& moment) const {
   }
 }
 
-void LaneViews::values(const LabFrame& frame, const Moment& run,
-                       const std::vector<std::string>& rows, std::vector<double>& values) const {
+void VariantViews::values(const LabFrame& frame, const Snapshot& run,
+                          const std::vector<std::string>& rows, std::vector<double>& values) const {
   std::size_t at = first_channel_;
   for (std::size_t lane = 0; lane < set_.values.size(); ++lane) {
     const bool is_known = lane == 0 || (lane <= seen_.size() && !seen_[lane - 1].frame.stopped);
-    const Moment* moment = lane == 0 ? &run : is_known ? &seen_[lane - 1].moment : nullptr;
+    const Snapshot* moment = lane == 0 ? &run : is_known ? &seen_[lane - 1].moment : nullptr;
     for (const NamedJoint& joint : joints_)
       values[at++] = moment ? coordinates_of(joint, moment->x).front() : kNone;
     values[at++] = moment ? energy_of(*moment) : kNone;

@@ -49,15 +49,15 @@ std::string history_bytes(const HistoryColumns& history);
 
 // The lanes of a run (app/lab/run/variants.h) as they are seen: their bodies beside those of the
 // run, and of each its joints and energies as channels.
-struct ViewLanes {
-  LaneSet set;
+struct ViewVariants {
+  VariantSet set;
   std::vector<std::shared_ptr<const SimulatePlan>> plans;  // from the second lane on
 };
 
-class LaneViews {
+class VariantViews {
  public:
   // Adds its channels; all that it says of the run itself is the lane's too.
-  LaneViews(ViewLanes lanes, const SimulateInput& input, LabChannels& channels);
+  VariantViews(ViewVariants lanes, const SimulateInput& input, LabChannels& channels);
   void change(std::vector<std::shared_ptr<const SimulatePlan>> plans);
   // Where they stand, by what is of interest of the run, to which it adds them; their names, above
   // what is there at the start.
@@ -66,18 +66,18 @@ class LaneViews {
   // As they were in that frame of the run.
   void look(const LabFrame& frame);
   // What was looked at; `before`: of the branch that was left, or null.
-  void show(const LabFrame* before, Moment& moment) const;
+  void show(const LabFrame* before, Snapshot& moment) const;
   // `run`: the first lane's; `rows`: names of the ledger's.
-  void values(const LabFrame& frame, const Moment& run, const std::vector<std::string>& rows,
+  void values(const LabFrame& frame, const Snapshot& run, const std::vector<std::string>& rows,
               std::vector<double>& values) const;
 
  private:
   struct Seen {
-    Moment moment;
-    LaneFrame frame;
+    Snapshot moment;
+    VariantFrame frame;
   };
 
-  LaneSet set_;
+  VariantSet set_;
   std::vector<std::shared_ptr<const SimulatePlan>> plans_;
   std::vector<std::unique_ptr<LabMoments>> moments_;
   std::vector<NamedJoint> joints_;

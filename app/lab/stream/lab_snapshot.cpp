@@ -9,8 +9,8 @@ namespace twinarm {
 namespace {
 
 // A hand that stood there all around that time.
-HandStep stand_at(const LabHandFrame& hand, double t) {
-  LiveHand told(1);
+HandStep set_pose(const LabHandFrame& hand, double t) {
+  DeviceMotion told(1);
   told.set({hand.q_K, std::vector<double>(hand.q_K.size(), 0.0), hand.gripper_closed}, t - 2, 4);
   return told.newest();
 }
@@ -22,14 +22,14 @@ bool is_at_zero(const LabHandFrame& hand) {
 }  // namespace
 
 // The scene's couplings, with a lead in place as in the run; but nobody steps it.
-struct LabMoments::Led {
-  Led(const SceneModel& of, double h)
+struct LabMoments::OverriddenSource {
+  OverriddenSource(const SceneModel& of, double h)
       : scene(of), lead(&scene, nobody, h), couplings(scene, h, nullptr, lead.in_place()) {
     lead.attach(couplings);
   }
   SceneModel scene;
   LabHand nobody;
-  HandLead lead;
+  InputOverride lead;
   SceneCouplings couplings;
 };
 
@@ -41,7 +41,7 @@ LabMoments::~LabMoments() = default;
 
 void LabMoments::change(const SimulatePlan& plan) {
   const SceneModel* scene = plan.input.scene.get();
-  led_ = scene ? std::make_unique<Led>(*scene, plan.run.step) : nullptr;
+  led_ = scene ? std::make_unique<OverriddenSource>(*scene, plan.run.step) : nullptr;
   plan_ = &plan;
 }
 
@@ -72,7 +72,7 @@ void LabMoments::tell(const LabFrame& frame) {
   if (!led_) return;
   led_->lead.take_again(std::nullopt);
   const double t = frame.recorded.t;
-  if (frame.hand && frame.hand->leads) led_->lead.take_again(stand_at(*frame.hand, t));
+  if (frame.hand && frame.hand->leads) led_->lead.take_again(set_pose(*frame.hand, t));
   // A kinematic robot does not look again at an instant that it has seen; but the hand may have
   // been elsewhere, in another branch.
   if (t == last_time_)
@@ -80,22 +80,22 @@ void LabMoments::tell(const LabFrame& frame) {
   last_time_ = t;
 }
 
-Moment LabMoments::at_start() {
+Snapshot LabMoments::at_start() {
   last_time_ = plan_->input.robot.state.x.t;
   return moment_of(plan_->input, couplings(), {plan_->input.robot.state.x, {}, {}});
 }
 
-Moment LabMoments::of(const LabFrame& frame) {
+Snapshot LabMoments::of(const LabFrame& frame) {
   tell(frame);
   const Model<double>& model = plan_->input.robot.model;
-  Moment moment = moment_of(plan_->input, couplings(), instant_of(frame.recorded, model));
+  Snapshot moment = moment_of(plan_->input, couplings(), instant_of(frame.recorded, model));
   if (const auto& hand = frame.hand; hand && hand->leads) {
     moment.hands.clear();
     // Without a device all of its angles are zero.
     if (!is_at_zero(*hand)) moment.hands = {{hand->theta, hand->gripper_closed, hand->force_W}};
   }
   if (frame.pull && frame.pull->body > 0 && frame.pull->body < model.body_count()) {
-    const LabPull& pull = *frame.pull;
+    const MousePoint& pull = *frame.pull;
     moment.grip = {static_cast<std::size_t>(pull.body), moment.k.position(pull.body, pull.p_L),
                    pull.goal_W, pull.force_W};
   }
@@ -129,7 +129,7 @@ bool LabChannels::add_pairs(const LabFrame& frame) {
   return any;
 }
 
-void LabChannels::values(const LabFrame& frame, const Moment& moment, SceneCouplings* couplings,
+void LabChannels::values(const LabFrame& frame, const Snapshot& moment, SceneCouplings* couplings,
                          std::vector<double>& values) const {
   channels_.values(frame.recorded, moment, couplings, values);
   if (frame.pull) values[pull_] = frame.pull->force_W.norm();

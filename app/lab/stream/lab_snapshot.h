@@ -21,8 +21,8 @@ class LabMoments {
   ~LabMoments();
   void change(const SimulatePlan& plan);
 
-  Moment at_start();
-  Moment of(const LabFrame& frame);
+  Snapshot at_start();
+  Snapshot of(const LabFrame& frame);
   std::vector<Pose> places(const LabFrame& frame) const;  // of bodies alone
 
   // As the last moment left them; null for a robot alone.
@@ -34,12 +34,12 @@ class LabMoments {
   bool follows_device() const;                         // whether the scene says so of a coupling
 
  private:
-  struct Led;
+  struct OverriddenSource;
   void tell(const LabFrame& frame);
 
   const SimulatePlan* plan_ = nullptr;
-  std::unique_ptr<Led> led_;  // null for a robot alone
-  double last_time_ = 0;      // that the kinematic robots have seen
+  std::unique_ptr<OverriddenSource> led_;  // null for a robot alone
+  double last_time_ = 0;                   // that the kinematic robots have seen
 };
 
 // The numbers of a lab's frame, by channel: those of a recorded run, and what the hand, the mouse
@@ -57,7 +57,7 @@ class LabChannels {
     return channels_.add(name, unit, kind, of);
   }
   const std::vector<RunColumn>& all() const { return channels_.all(); }
-  void values(const LabFrame& frame, const Moment& moment, SceneCouplings* couplings,
+  void values(const LabFrame& frame, const Snapshot& moment, SceneCouplings* couplings,
               std::vector<double>& values) const;
 
  private:

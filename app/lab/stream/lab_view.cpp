@@ -23,7 +23,7 @@ bool is_finite(const State<double>& x) {
 
 struct LabView::Impl {
   Impl(std::uint32_t number, std::shared_ptr<const SimulatePlan> of, const RecordingHeader& header,
-       SceneWords said, ViewLanes beside)
+       SceneWords said, ViewVariants beside)
       : plan(std::move(of)),
         words(std::move(said)),
         moments(*plan),
@@ -33,24 +33,24 @@ struct LabView::Impl {
         lanes(std::move(beside), plan->input, channels) {
     columns.scene = number;
     legends.resize(layer_names().size());
-    const Moment start = moments.at_start();
+    const Snapshot start = moments.at_start();
     look_around(stage, plan->input.robot, start);
     lanes.place(stage.instants.front(), stage.extent);
     set_live_view(stage, start, moments.follows_device());
     store.take(stage.list);
   }
 
-  void draw_layers(const Moment& moment, const std::vector<std::string>& wanted);
+  void draw_layers(const Snapshot& moment, const std::vector<std::string>& wanted);
   void take_legend(std::size_t layer, const Drawn& from, std::size_t end);
-  void take_values(const LabFrame& frame, const Moment& moment);
-  void take_places(const Moment& moment);
+  void take_values(const LabFrame& frame, const Snapshot& moment);
+  void take_places(const Snapshot& moment);
 
   std::shared_ptr<const SimulatePlan> plan;
   SceneWords words;
   LabMoments moments;
-  Stage stage;
+  SceneView stage;
   LabChannels channels;
-  LaneViews lanes;
+  VariantViews lanes;
   MeshStore store;
   std::vector<std::string> rows;
   std::vector<std::vector<LegendLine>> legends;  // by layer
@@ -75,7 +75,7 @@ void LabView::Impl::take_legend(std::size_t layer, const Drawn& from, std::size_
 }
 
 // Layers in their own order, each of which closes in the columns, drawn or not.
-void LabView::Impl::draw_layers(const Moment& moment, const std::vector<std::string>& wanted) {
+void LabView::Impl::draw_layers(const Snapshot& moment, const std::vector<std::string>& wanted) {
   const DrawList& list = stage.list;
   std::vector<Drawn> drawn = draw(stage, moment, wanted);
   drawn.push_back({nullptr, list.instances.size(), list.labels.size(), list.legend.size()});
@@ -97,7 +97,7 @@ void LabView::Impl::draw_layers(const Moment& moment, const std::vector<std::str
   }
 }
 
-void LabView::Impl::take_values(const LabFrame& frame, const Moment& moment) {
+void LabView::Impl::take_values(const LabFrame& frame, const Snapshot& moment) {
   if (channels.add_pairs(frame)) ++revision;
   channels.values(frame, moment, moments.couplings(), columns.channels);
   lanes.values(frame, moment, rows, columns.channels);
@@ -105,12 +105,12 @@ void LabView::Impl::take_values(const LabFrame& frame, const Moment& moment) {
 }
 
 // Of all bodies, and of their kinematic twins.
-void LabView::Impl::take_places(const Moment& moment) {
+void LabView::Impl::take_places(const Snapshot& moment) {
   const std::vector<Pose>& links = moment.k.X_WL;
   columns.link.assign(7 * links.size(), std::numeric_limits<float>::quiet_NaN());
   columns.twin = columns.link;
   put_places(links, 0, links.size(), columns.link);
-  for (const ShownTwin& twin : moment.twins) {
+  for (const ShownTargetRobot& twin : moment.twins) {
     const auto [first, last] = plan->input.scene->bodies_of_robot(twin.robot);
     put_places(twin.X_WL, static_cast<std::size_t>(first), static_cast<std::size_t>(last) + 1,
                columns.twin);
@@ -118,7 +118,7 @@ void LabView::Impl::take_places(const Moment& moment) {
 }
 
 LabView::LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
-                 const RecordingHeader& header, SceneWords words, ViewLanes lanes)
+                 const RecordingHeader& header, SceneWords words, ViewVariants lanes)
     : impl_(std::make_unique<Impl>(number, std::move(plan), header, std::move(words),
                                    std::move(lanes))) {}
 
@@ -160,7 +160,7 @@ std::shared_ptr<const std::string> LabView::texture(const std::string& hash) con
 
 std::string LabView::frame(const LabFrame& now, const LabFrame* before,
                            const std::vector<std::string>& layers, const FrameFacts& facts) {
-  Moment moment = impl_->moments.of(now);
+  Snapshot moment = impl_->moments.of(now);
   if (before) moment.before = impl_->moments.places(*before);
   impl_->lanes.look(now);
   impl_->lanes.show(before, moment);

@@ -43,7 +43,7 @@ class LabView {
   // (header_of()). Of the plan only what no run changes is read. Throws InputError: a mesh of a
   // body that cannot be read.
   LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
-          const RecordingHeader& header, SceneWords words, ViewLanes lanes = {});
+          const RecordingHeader& header, SceneWords words, ViewVariants lanes = {});
   ~LabView();
 
   // The same bodies, couplings and lanes with other numbers. Throws InputError.

@@ -50,19 +50,19 @@ double mirrored(int n, int base) {
   return value;
 }
 
-void add_reach(Stage& stage, const RobotInput& robots, const Moment& start) {
+void add_reach(SceneView& stage, const RobotInput& robots, const Snapshot& start) {
   constexpr std::array<int, 12> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
   const std::vector<JointRange> ranges = ranges_of(robots);
   if (ranges.empty()) return;
-  Cast moved = stage.cast;  // robots alone
+  SceneMeshes moved = stage.cast;  // robots alone
   moved.ties.clear();
-  std::erase_if(moved.parts, [](const CastPart& part) { return part.robot < 0; });
+  std::erase_if(moved.parts, [](const ScenePart& part) { return part.robot < 0; });
   Extent now;
   now.add(moved, start);
   const bool stands =
       !now.empty() && now.low().z() > -0.02 * now.radius() && now.low().z() < 0.05 * now.radius();
   const double lowest = stands ? std::min(0.0, now.low().z()) : -1e300;
-  Moment posture(*stage.model);
+  Snapshot posture(*stage.model);
   posture.x = start.x;
   for (int n = 1; n <= kPostures; ++n) {
     for (std::size_t j = 0; j < ranges.size(); ++j) {
@@ -89,7 +89,7 @@ double round_up(double value) {
 }
 
 // Of a whole that starts with weights alone.
-void set_first_scales(Stage& stage, const Moment& start) {
+void set_first_scales(SceneView& stage, const Snapshot& start) {
   Scales& scales = stage.scales;
   const double g = to_eigen(stage.model->gravity).norm(), length = scales.length;
   double heaviest = 0;
@@ -107,14 +107,14 @@ void set_first_scales(Stage& stage, const Moment& start) {
 
 }  // namespace
 
-void look_around(Stage& stage, const RobotInput& robots, const Moment& start) {
+void look_around(SceneView& stage, const RobotInput& robots, const Snapshot& start) {
   look_at(stage, start);
   settle(stage);
   stage.farthest = 1e300;
   add_reach(stage, robots, start);
 }
 
-void set_live_view(Stage& stage, const Moment& start, bool has_hand) {
+void set_live_view(SceneView& stage, const Snapshot& start, bool has_hand) {
   stage.has_hand = true;  // one may come
   stage.frames_device = has_hand;
   set_view(stage, {}, kAspect);
@@ -122,7 +122,7 @@ void set_live_view(Stage& stage, const Moment& start, bool has_hand) {
   set_first_scales(stage, start);
 }
 
-bool grow_scales(Stage& stage, const Moment& moment) {
+bool grow_scales(SceneView& stage, const Snapshot& moment) {
   Scales seen;
   seen.widen_run(*stage.model, moment);
   seen.widen_contacts(moment);
@@ -142,7 +142,7 @@ bool grow_scales(Stage& stage, const Moment& moment) {
   return any;
 }
 
-void leave_trail(Stage& stage, const Moment& moment) {
+void leave_trail(SceneView& stage, const Snapshot& moment) {
   Trace& trace = stage.trace;
   const double t = moment.x.t;
   if (!std::isfinite(t)) return;

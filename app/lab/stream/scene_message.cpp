@@ -120,7 +120,7 @@ bool MeshStore::take(const DrawList& list) {
   const std::size_t before = mesh_names_.size() + texture_names_.size();
   while (mesh_names_.size() < list.meshes.size())
     mesh_names_.push_back(keep(meshes_, mesh_bytes(*list.meshes[mesh_names_.size()])));
-  while (texture_names_.size() < std::min(list.textures.size(), kMostTextures))
+  while (texture_names_.size() < std::min(list.textures.size(), kMaxTextures))
     texture_names_.push_back(keep(textures_, texture_file(*list.textures[texture_names_.size()])));
   return mesh_names_.size() + texture_names_.size() > before;
 }

@@ -49,7 +49,7 @@ struct SceneFacts {
   const SimulatePlan& plan;
   const SceneWords& words;
   const LabMoments& moments;
-  const Stage& stage;
+  const SceneView& stage;
   const MeshStore& store;
   const std::vector<std::vector<LegendLine>>& legends;  // by layer
   const std::vector<RunColumn>& channels;

@@ -17,9 +17,9 @@
 namespace twinarm {
 namespace {
 
-[[noreturn]] void fail(const std::string& library, const std::string& rule,
-                       const std::string& remedy) {
-  throw InputError({Fault{"", 0, "renderer " + library, rule, remedy, "render.library"}});
+[[noreturn]] void fail(const std::string& library, const std::string& problem,
+                       const std::string& fix) {
+  throw InputError({Diagnostic{"", 0, "renderer " + library, problem, fix, "render.library"}});
 }
 
 // A library opened for good: unloading Mesa and LLVM, which have threads and exit handlers, is not
@@ -30,9 +30,9 @@ class Library {
       : file_(file), handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (handle_ == nullptr) {
       const char* reason = dlerror();
-      std::string rule = "cannot be loaded: ";
-      rule += reason != nullptr ? reason : "unknown reason";
-      fail(file, rule, "install " + package + ", or choose the other renderer");
+      std::string problem = "cannot be loaded: ";
+      problem += reason != nullptr ? reason : "unknown reason";
+      fail(file, problem, "install " + package + ", or choose the other renderer");
     }
   }
   template <class Function>

@@ -47,8 +47,8 @@ void set_attribute(const GlTable& gl, GLuint index, GLint numbers) {
 
 void check_framebuffer(const GlTable& gl, const std::string& what) {
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
-    throw InputError({Fault{"", 0, "renderer", "cannot allocate " + what,
-                            "use a smaller picture or free memory", "render.memory"}});
+    throw InputError({Diagnostic{"", 0, "renderer", "cannot allocate " + what,
+                                 "use a smaller picture or free memory", "render.memory"}});
   }
 }
 
@@ -142,8 +142,8 @@ Canvas::Canvas(const GlTable& gl, int width, int height, bool multisampled)
   if (width < 1 || height < 1 || width > limit || height > limit) {
     const std::string size = std::to_string(width) + " x " + std::to_string(height);
     throw InputError(
-        {Fault{"", 0, "picture", "size is " + size + " pixels",
-               "give 1 to " + std::to_string(limit) + " pixels each way", "render.size"}});
+        {Diagnostic{"", 0, "picture", "size is " + size + " pixels",
+                    "give 1 to " + std::to_string(limit) + " pixels each way", "render.size"}});
   }
   GLint samples = 0;
   gl.GetIntegerv(GL_MAX_SAMPLES, &samples);

@@ -27,8 +27,8 @@ ShaderVariant variant_of(Quality quality) {
 }
 
 void check_camera(const Camera& camera) {
-  const auto refuse = [](const std::string& rule, const std::string& remedy) {
-    throw InputError({Fault{"", 0, "camera", rule, remedy, "render.camera"}});
+  const auto refuse = [](const std::string& problem, const std::string& fix) {
+    throw InputError({Diagnostic{"", 0, "camera", problem, fix, "render.camera"}});
   };
   if (!camera.eye.allFinite() || !camera.target.allFinite() || !camera.up.allFinite())
     refuse("a coordinate is not a finite number", "give metres");

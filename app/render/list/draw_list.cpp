@@ -14,7 +14,7 @@ namespace {
 // Frame with its origin at `from` and its z axis towards `to`.
 Pose pose_along(const Vector3& from_W, const Vector3& to_W) {
   const Vector3 along = to_W - from_W;
-  return {turn_z_to(along), from_W};
+  return {rotation_taking_z_to(along), from_W};
 }
 
 // False for no extent, NaN and infinity alike.

@@ -88,14 +88,14 @@ std::vector<std::vector<Corner>> corners_by_vertex(const std::vector<Facet>& fac
 
 // Where more facets than this meet in one vertex (the middle of a finely cut disc, or a file that
 // means harm) each keeps its own normal: the mean would cost the square of their number.
-constexpr std::size_t kMostAround = 512;
+constexpr std::size_t kMaxAround = 512;
 
 // The mean of the facets around a vertex that lie within the crease angle of the corner's own.
 Vector3 normal_at(const Corner& corner, const std::vector<Corner>& around,
                   const std::vector<Facet>& facets) {
   static const double crease_cosine = std::cos(kCreaseAngle);
   const Facet& facet = facets[corner.facet];
-  if (around.size() > kMostAround) return facet.normal;
+  if (around.size() > kMaxAround) return facet.normal;
   Vector3 sum = Vector3::Zero();
   for (const Corner& other : around) {
     const Facet& neighbour = facets[other.facet];
@@ -169,7 +169,7 @@ DrawMesh make_draw_mesh(const TriangleMesh& mesh, const std::vector<CornerUv>& u
           uv.empty() ? std::array<float, 2>{} : uv[facets[corner.facet].triangle][corner.corner];
       // Corners that came to the same normal, and place in the texture, share one vertex.
       const std::size_t known = result.positions.size();
-      std::size_t index = known - begin > kMostAround ? known - kMostAround : begin;
+      std::size_t index = known - begin > kMaxAround ? known - kMaxAround : begin;
       while (index < result.normals.size() &&
              (result.normals[index] != normal || (!uv.empty() && result.uv[index] != place)))
         ++index;

@@ -23,8 +23,8 @@ namespace {
 
 constexpr int kCompressionLevel = 3;
 
-[[noreturn]] void fail(const std::string& rule, const std::string& remedy) {
-  throw InputError({Fault{"", 0, "picture", rule, remedy, "picture.write"}});
+[[noreturn]] void fail(const std::string& problem, const std::string& fix) {
+  throw InputError({Diagnostic{"", 0, "picture", problem, fix, "picture.write"}});
 }
 
 void check(const Image& image) {
@@ -86,17 +86,17 @@ bool encode(PngWriter& writer, const Image& image, bool opaque) {
   return true;
 }
 
-constexpr int kMostPixels = 1 << 26;   // 8192 x 8192
+constexpr int kMaxPixels = 1 << 26;    // 8192 x 8192
 constexpr int kLongestSide = 1 << 14;  // of a texture, in Mesa
 
-[[noreturn]] void refuse(const std::string& name, const std::string& rule) {
+[[noreturn]] void refuse(const std::string& name, const std::string& problem) {
   throw InputError(
-      {Fault{name, 0, "picture", rule, "save it again as PNG or JPEG", "picture.read"}});
+      {Diagnostic{name, 0, "picture", problem, "save it again as PNG or JPEG", "picture.read"}});
 }
 
 Image sized(const std::string& name, std::int64_t width, std::int64_t height) {
   if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide ||
-      width * height > kMostPixels)
+      width * height > kMaxPixels)
     refuse(name, "has " + std::to_string(width) + " x " + std::to_string(height) +
                      " pixels, must have 1 to 67 million, at most 16384 along a side");
   return make_image(static_cast<int>(width), static_cast<int>(height));
@@ -157,8 +157,8 @@ Image decode_image(const std::string& name, std::string_view bytes) {
 
 Image read_image(const std::filesystem::path& file) {
   std::error_code error;
-  constexpr std::uintmax_t kMostPictureBytes = 64u << 20;
-  if (std::filesystem::file_size(file, error) > kMostPictureBytes && !error)
+  constexpr std::uintmax_t kMaxPictureBytes = 64u << 20;
+  if (std::filesystem::file_size(file, error) > kMaxPictureBytes && !error)
     refuse(file.string(), "has more than 64 MiB");
   std::ifstream in(file, std::ios::binary);
   std::ostringstream bytes;

@@ -179,7 +179,7 @@ std::vector<std::shared_ptr<const Image>> pictures_of(const ModelFile& model,
     try {
       pictures.back() = std::make_shared<const Image>(decode_image(texture.name, texture.bytes));
     } catch (const InputError& error) {
-      notes.push_back("texture '" + texture.name + "' " + error.faults().at(0).rule);
+      notes.push_back("texture '" + texture.name + "' " + error.faults().at(0).problem);
     }
   }
   return pictures;

@@ -159,9 +159,9 @@ class Lettering::Impl {
   }
 
  private:
-  [[noreturn]] static void fail(const std::string& file, const std::string& rule,
-                                const std::string& remedy) {
-    throw InputError({Fault{file, 0, "lettering", rule, remedy, "render.lettering"}});
+  [[noreturn]] static void fail(const std::string& file, const std::string& problem,
+                                const std::string& fix) {
+    throw InputError({Diagnostic{file, 0, "lettering", problem, fix, "render.lettering"}});
   }
 
   FT_Face sized_face(double size_px, Weight weight) {

@@ -137,13 +137,13 @@ void draw_screen_label(Image& image, Lettering& lettering, const Label& label, d
 
 // A thin line from the point to the nearest place beside the text, and a dot on the point.
 void draw_leader(Image& image, const Label& label, const Placed& text, const Vector2d& anchor_px) {
-  constexpr double kShortest = 12, kGap = 5;                       // [px]
+  constexpr double kMinLength = 12, kGap = 5;                      // [px]
   const double middle = text.start_px.y() - 0.35 * label.size_px;  // of the letters' height
   const Vector2d end_px(
       std::clamp(anchor_px.x(), text.start_px.x() - kGap, text.start_px.x() + text.width + kGap),
       std::clamp(anchor_px.y(), middle - 0.5 * label.size_px - kGap,
                  middle + 0.5 * label.size_px + kGap));
-  if ((end_px - anchor_px).norm() < kShortest) return;
+  if ((end_px - anchor_px).norm() < kMinLength) return;
   Color line = label.color;
   line.a *= 0.85f;
   draw_line(image, anchor_px, end_px, 3, kPaper);

@@ -63,9 +63,9 @@ class JsonOutput : public RunOutput {
   }
 
  private:
-  void write_rows(const char* key, const std::vector<LedgerRow>& rows) {
+  void write_rows(const char* key, const std::vector<EnergyRow>& rows) {
     json_.key(key).object([&] {
-      for (const LedgerRow& row : rows) json_.put(row.name, row.work);
+      for (const EnergyRow& row : rows) json_.put(row.name, row.work);
     });
   }
   // The kinematic side of each coupling: joints of its robot, and the end of the spring.
@@ -77,7 +77,7 @@ class JsonOutput : public RunOutput {
   }
   void write_target(std::size_t c, double t) {
     const SceneCoupling& spec = simulated_.couplings->spec(c);
-    const KvrSample& kvr = simulated_.couplings->target(c, t);
+    const TargetSample& kvr = simulated_.couplings->target(c, t);
     const auto body = static_cast<std::size_t>(spec.spring.body);
     const Vector3 p = kvr.k.position(spec.spring.body, spec.spring.p_L);
     const auto q = [&](const NamedJoint& j) { return coordinates_of(j, kvr.x); };
@@ -115,20 +115,22 @@ class JsonOutput : public RunOutput {
                    {"kinetic_energy", found.kinetic_energy}});
     if (found.by_energy) json_.key("energy_bound").number(found.energy_bound);
     json_.members({{"ledger_row", found.row}, {"ledger_growth", found.row_growth}});
-    json_.key("suspects").list(found.suspects, [&](const Suspect& suspect) { write(suspect); });
+    json_.key("suspects").list(found.suspects, [&](const StabilityViolation& suspect) {
+      write(suspect);
+    });
     json_.members({{"recording", found.recording}, {"words", found.words}});
     json_.end_object();
   }
 
-  void write(const Suspect& suspect) {
+  void write(const StabilityViolation& suspect) {
     json_.object({{"name", suspect.name},
                   {"scheme", suspect.scheme},
                   {"w_h", suspect.product},
                   {"limit", suspect.limit},
                   {"step", suspect.step},
-                  {"largest_step", suspect.largest_step},
+                  {"largest_step", suspect.max_step},
                   {"gain", suspect.gain},
-                  {"largest_gain", suspect.largest_gain}});
+                  {"largest_gain", suspect.max_gain}});
   }
 
   const RobotInput& input_;

@@ -16,7 +16,7 @@
 namespace twinarm {
 namespace {
 
-void sum_up(LedgerRow& sum, const LedgerRow& row) {
+void sum_up(EnergyRow& sum, const EnergyRow& row) {
   sum.work += row.work;
 }
 void sum_up(MomentumRow& sum, const MomentumRow& row) {
@@ -25,15 +25,15 @@ void sum_up(MomentumRow& sum, const MomentumRow& row) {
 }
 
 // Of the rows of a kind that are summed where there are many; others have none.
-const char* name_of_sum(LedgerKind kind) {
-  static constexpr std::pair<LedgerKind, const char*> kSums[] = {
-      {LedgerKind::contact, "contact, all"},
-      {LedgerKind::contact_normal, "contact, all/normal"},
-      {LedgerKind::contact_friction, "contact, all/friction"},
-      {LedgerKind::contact_impact, "contact, all/impact"},
-      {LedgerKind::contact_stabilisation, "contact, all/stabilisation"},
-      {LedgerKind::constraint, "constraint, all"},
-      {LedgerKind::constraint_stabilisation, "constraint, all/stabilisation"}};
+const char* name_of_sum(EnergyRowKind kind) {
+  static constexpr std::pair<EnergyRowKind, const char*> kSums[] = {
+      {EnergyRowKind::contact, "contact, all"},
+      {EnergyRowKind::contact_normal, "contact, all/normal"},
+      {EnergyRowKind::contact_friction, "contact, all/friction"},
+      {EnergyRowKind::contact_impact, "contact, all/impact"},
+      {EnergyRowKind::contact_stabilisation, "contact, all/stabilisation"},
+      {EnergyRowKind::constraint, "constraint, all"},
+      {EnergyRowKind::constraint_stabilisation, "constraint, all/stabilisation"}};
   for (const auto& [summed, name] : kSums)
     if (summed == kind) return name;
   return nullptr;
@@ -68,7 +68,7 @@ std::string momentum_table(const SimulateResult& result) {
       for (const double component : v) cells.push_back(cell(component));
     table.add(std::move(cells));
   };
-  MomentumRow sum{LedgerKind::earlier, "change of momentum", Vector3::Zero(), Vector3::Zero()};
+  MomentumRow sum{EnergyRowKind::earlier, "change of momentum", Vector3::Zero(), Vector3::Zero()};
   for (const MomentumRow& row : shortened(result.momentum)) {
     if (!name_of_sum(row.kind) || !row.linear.isZero(0) || !row.angular.isZero(0)) line(row);
     sum_up(sum, row);
@@ -100,7 +100,7 @@ class TableOutput : public RunOutput {
                samples_.str(), left_out());
     TextTable ledger({"work on the bodies, 0 to " + cell(result.end) + " s", "[J]"});
     double sum = 0;
-    for (const LedgerRow& row : shortened(result.ledger)) {
+    for (const EnergyRow& row : shortened(result.ledger)) {
       ledger.add({row.name, cell(row.work)});
       sum += row.work;
     }

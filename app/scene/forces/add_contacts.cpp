@@ -49,7 +49,7 @@ bool locates_events(const SceneModel& scene) {
   return scene.description.contact == ContactMode::event;
 }
 
-void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults) {
+void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticList& faults) {
   const std::string file = scene.description.file.string();
   if (scene.description.contact == ContactMode::event)
     for (const SceneCoupling& coupling : scene.couplings)
@@ -117,9 +117,9 @@ void SceneContacts::add_geometries() {
 }
 
 void SceneContacts::add_rules() {
-  for (const PairRule& rule : scene_.pairs)
-    for (const int a : rule.a)
-      for (const int b : rule.b) {
+  for (const PairOverride& problem : scene_.pairs)
+    for (const int a : problem.a)
+      for (const int b : problem.b) {
         const Surface pair = scene_.surface_of_pair(a, b);
         contacts_->bodies().set_pair(
             a, b, {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
@@ -145,23 +145,24 @@ void SceneContacts::look_at_start(const Simulation& simulation) {
   }
 }
 
-std::vector<LedgerRow> SceneContacts::rows() const {
-  std::vector<LedgerRow> rows;
-  const auto add = [&](LedgerKind kind, const std::string& name, double work) {
+std::vector<EnergyRow> SceneContacts::rows() const {
+  std::vector<EnergyRow> rows;
+  const auto add = [&](EnergyRowKind kind, const std::string& name, double work) {
     if (work != 0) rows.push_back({kind, name, work});
   };
   if (limits_)
     for (const JointLimits::Limit& limit : limits_->limits()) {
       const auto body = static_cast<std::size_t>(limit.body);
-      add(LedgerKind::joint_limit, "joint/" + scene_.model.joint_name[body] + "/limit", limit.work);
+      add(EnergyRowKind::joint_limit, "joint/" + scene_.model.joint_name[body] + "/limit",
+          limit.work);
     }
   if (!contacts_) return rows;
   for (const ContactWork& pair : contacts_->work()) {
     const std::string name = "contact/" + contacts_->bodies().geometry(pair.a).name + "-" +
                              contacts_->bodies().geometry(pair.b).name;
-    add(LedgerKind::contact_normal, name + "/normal", pair.normal);
-    add(LedgerKind::contact_friction, name + "/friction", pair.friction);
-    add(LedgerKind::contact_impact, name + "/impact", pair.impact);
+    add(EnergyRowKind::contact_normal, name + "/normal", pair.normal);
+    add(EnergyRowKind::contact_friction, name + "/friction", pair.friction);
+    add(EnergyRowKind::contact_impact, name + "/impact", pair.impact);
   }
   return rows;
 }

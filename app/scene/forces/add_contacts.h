@@ -16,7 +16,7 @@
 namespace twinarm {
 
 // What this program cannot compute of the scene, with that integrator.
-void check_contacts(const SceneModel& scene, Integrator integrator, FaultList& faults);
+void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticList& faults);
 
 // Position limits go with the semi-implicit integrator alone; with others a run warns of them.
 bool limits_act(const SceneModel& scene, Integrator integrator);
@@ -34,7 +34,7 @@ class SceneContacts {
   // Both must outlive it. Throws InputError for loops that are open at the start.
   SceneContacts(const SceneModel& scene, Simulation& simulation);
   // `contact/A-B/normal|friction|impact` and `joint/NAME/limit`: what did any work.
-  std::vector<LedgerRow> rows() const;
+  std::vector<EnergyRow> rows() const;
   int contact_count() const;  // points that press, at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
   const std::string& deepest_pair() const { return deepest_pair_; }
@@ -44,7 +44,8 @@ class SceneContacts {
   // In the step that was taken last, a side step included: whether joints beyond their limits were
   // moved back, and no bodies apart, which would be one equation.
   bool only_limits_were_passed() const {
-    return limits_ && limits_->wants_separation() && !(contacts_ && contacts_->wants_separation());
+    return limits_ && limits_->needs_position_correction() &&
+           !(contacts_ && contacts_->needs_position_correction());
   }
 
  private:

@@ -11,7 +11,7 @@ namespace twinarm {
 
 // Joint torques: constant as the command line has them, so those of a floating joint in the
 // parent's axes.
-class GivenTorques : public ForceSource, public Rewindable {
+class GivenTorques : public ForceSource, public Checkpointable {
  public:
   GivenTorques(const Model<double>& model, const Coordinates& coordinates,
                const Eigen::VectorXd& tau)
@@ -28,7 +28,7 @@ class GivenTorques : public ForceSource, public Rewindable {
 // A force at a point of a link, and a torque about it. In link axes it turns with the link. In
 // world axes both keep their direction, and the point is the one of the link that stood there at
 // the start: it goes with the link.
-class GivenWrench : public ForceSource, public Rewindable {
+class GivenWrench : public ForceSource, public Checkpointable {
  public:
   GivenWrench(const Wrench& wrench, const Kinematics& start);
   void add_forces(const State<double>& x, const Kinematics& k,

@@ -12,7 +12,7 @@
 namespace twinarm {
 
 // What a row is of. Programs ask for this: the name of a row is for people, JSON and recordings.
-enum class LedgerKind {
+enum class EnergyRowKind {
   gravity,
   actuator,
   wrench,
@@ -41,15 +41,15 @@ enum class LedgerKind {
 // In recordings and JSON; always the last row.
 inline constexpr const char* kNumericalRow = "numerical";
 
-struct LedgerRow {
-  LedgerKind kind = LedgerKind::earlier;
+struct EnergyRow {
+  EnergyRowKind kind = EnergyRowKind::earlier;
   std::string name;
   double work = 0;  // [J]
 };
 
 // A force that no scene knows, such as a mouse's, with books of its own: they are added to those of
 // the run, so that both ledgers close.
-class OutsideForce : public ForceSource, public Rewindable {
+class OutsideForce : public ForceSource, public Checkpointable {
  public:
   virtual std::string name() const = 0;  // of its rows
   // A step of h that went from `start` by way of `inner` to `end`: the states that the ledger looks
@@ -59,15 +59,15 @@ class OutsideForce : public ForceSource, public Rewindable {
   // What it did since the start, by bodies that it acted on.
   struct Given {
     int body = 0;
-    Exchange exchange;
+    EnergyMomentum exchange;
   };
   virtual const std::vector<Given>& given() const = 0;
   // Those, both ways. Until it has acted they have no part in what a run remembers.
-  virtual void visit_books(Memory& memory) = 0;
+  virtual void visit_books(StateArchive& memory) = 0;
 
   bool has_acted() const { return !given().empty(); }
-  Exchange total() const {
-    Exchange sum;
+  EnergyMomentum total() const {
+    EnergyMomentum sum;
     for (const Given& part : given()) sum += part.exchange;
     return sum;
   }

@@ -12,7 +12,7 @@ namespace {
 
 // Steps between two evaluations of a force that is held; 0: none is held.
 int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
-               FaultList& faults) {
+               DiagnosticList& faults) {
   if (coupling.rate == 0) return 0;
   const double steps = 1 / (coupling.rate * h), whole = std::round(steps);
   if (whole >= 1 && std::abs(steps - whole) <= 1e-6 * whole) return static_cast<int>(whole);
@@ -25,7 +25,7 @@ int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
 }
 
 // The matched law measures J_K (q_K - q_D): its rates are J_K qd_K and J_K qd_D.
-CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, const KvrSample& kvr,
+CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, const TargetSample& kvr,
                           const State<double>& x) {
   CouplingEnds ends;
   const Eigen::Matrix3Xd J =
@@ -57,26 +57,26 @@ bool led_alike(const SceneCoupling& a, const SceneCoupling& b) {
 
 // What leads couplings.
 struct SceneCouplings::Twin {
-  Twin(const SceneModel& scene, std::size_t pull, const HandSource* device,
-       const HandInPlace& in_place, FaultList& faults)
+  Twin(const SceneModel& scene, std::size_t pull, const OperatorMotion* device,
+       const HandInPlace& in_place, DiagnosticList& faults)
       : Twin(scene, scene.couplings[pull], make_hand(scene, pull, device, in_place, faults)) {}
-  Twin(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<HandSource> its)
+  Twin(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<OperatorMotion> its)
       : hand(std::move(its)),
         kvr(scene.model, *hand, {}, spec.driven,
-            spec.absolute_damper ? KvrRates::none : KvrRates::from_hand),
+            spec.absolute_damper ? TargetRates::none : TargetRates::from_hand),
         shown(scene.model, *hand, {}, spec.driven) {
-    kvr.stand_at(spec.rest);
-    shown.stand_at(spec.rest);
+    kvr.set_pose(spec.rest);
+    shown.set_pose(spec.rest);
   }
 
-  std::unique_ptr<HandSource> hand;
-  KinematicRobot kvr, shown;
+  std::unique_ptr<OperatorMotion> hand;
+  TargetRobot kvr, shown;
 };
 
 // A coupling at work.
 struct SceneCouplings::Tie {
   Tie(const SceneModel& scene, const SceneCoupling& spec, double h, std::shared_ptr<Twin> leader,
-      FaultList& faults)
+      DiagnosticList& faults)
       : twin(std::move(leader)) {
     law.name = spec.coupling;
     law.type = spec.law;
@@ -95,7 +95,7 @@ struct SceneCouplings::Tie {
     try {
       source = make_coupling(law, scene.model, twin->kvr);
     } catch (const InputError& error) {
-      for (Fault fault : error.faults()) {
+      for (Diagnostic fault : error.faults()) {
         fault.file = scene.description.file.string();
         fault.line = spec.line;
         faults.add(fault);
@@ -108,10 +108,10 @@ struct SceneCouplings::Tie {
   std::unique_ptr<SpringSource> source;  // a Coupling, or of a soft stop JointStops
 };
 
-SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const HandSource* device,
+SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const OperatorMotion* device,
                                const HandInPlace& in_place)
     : scene_(scene) {
-  FaultList faults;
+  DiagnosticList faults;
   const auto twin_of = [&](std::size_t c) {
     for (std::size_t before = 0; before < c; ++before)
       if (led_alike(scene.couplings[before], scene.couplings[c])) return ties_[before]->twin;
@@ -137,7 +137,7 @@ void SceneCouplings::forget_hands() {
     tie->twin->shown.forget();
   }
 }
-const HandSource& SceneCouplings::hand(std::size_t c) const {
+const OperatorMotion& SceneCouplings::hand(std::size_t c) const {
   return *ties_[c]->twin->hand;
 }
 
@@ -145,8 +145,8 @@ const Coupling& SceneCouplings::coupling(std::size_t c) const {
   return dynamic_cast<const Coupling&>(*ties_[c]->source);
 }
 
-const KvrSample& SceneCouplings::target(std::size_t c, double t, Side side) {
-  KinematicRobot& shown = ties_[c]->twin->shown;
+const TargetSample& SceneCouplings::target(std::size_t c, double t, Side side) {
+  TargetRobot& shown = ties_[c]->twin->shown;
   shown.begin_step(t, side == Side::after ? 1e-6 : -1e-6);  // within the motion that is meant
   return shown.start();
 }
@@ -154,7 +154,7 @@ const KvrSample& SceneCouplings::target(std::size_t c, double t, Side side) {
 CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const Kinematics& k,
                                   Side side) {
   const SceneCoupling& spec = scene_.couplings[c];
-  const KvrSample& kvr = target(c, x.t, side);
+  const TargetSample& kvr = target(c, x.t, side);
   const auto i = static_cast<std::size_t>(spec.spring.body);
   CouplingEnds ends;
   if (spec.law == CouplingSpec::Type::matched) {
@@ -163,7 +163,7 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
     const Vector3 p_D = k.position(spec.spring.body, spec.spring.p_L);
     const Vector3 p_K = kvr.k.position(spec.spring.body, spec.spring.p_L);
     ends = {p_K - p_D, k.velocity(spec.spring.body, p_D), kvr.k.velocity(spec.spring.body, p_K)};
-  } else if (spec.measure == Measure::world) {
+  } else if (spec.measure == SpringSpace::world) {
     ends = {rotation_vector(kvr.k.X_WL[i].R * k.X_WL[i].R.transpose()), k.w_WL[i], kvr.k.w_WL[i]};
   } else {
     const std::size_t iq = scene_.model.iq[i], iv = scene_.model.iv[i];
@@ -180,9 +180,9 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
 
 Vector3 SceneCouplings::pull(std::size_t c) const {
   const SceneCoupling& spec = scene_.couplings[c];
-  const SpringReading& reading = ties_[c]->source->readings()[spec.reading(c)];
+  const SpringState& reading = ties_[c]->source->readings()[spec.reading(c)];
   const bool at_joint =
-      spec.type == CouplingDescription::Type::torsional && spec.measure == Measure::joint;
+      spec.type == CouplingDescription::Type::torsional && spec.measure == SpringSpace::joint;
   return at_joint ? Vector3(reading.size, 0, 0) : reading.pull;
 }
 
@@ -190,7 +190,7 @@ const CouplingSpec& SceneCouplings::law(std::size_t c) const {
   return ties_[c]->law;
 }
 
-const KinematicRobot& SceneCouplings::kvr(std::size_t c) const {
+const TargetRobot& SceneCouplings::kvr(std::size_t c) const {
   return ties_[c]->twin->kvr;
 }
 
@@ -208,7 +208,7 @@ void SceneCouplings::hold_still(std::size_t c, const State<double>& x, const Kin
   const int body = given.spring.body;
   if (given.type == CouplingDescription::Type::linear)
     add_point_force(k, body, k.position(body, given.spring.p_L), pull, forces);
-  else if (given.measure == Measure::world)
+  else if (given.measure == SpringSpace::world)
     add_couple(k, body, pull, forces);
   else
     forces.tau[scene_.model.iv[static_cast<std::size_t>(body)]] += pull.x();

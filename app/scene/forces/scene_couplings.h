@@ -19,14 +19,14 @@ namespace twinarm {
 
 // What moves the kinematic side of a pull in place of the hand that the scene gives it, which is
 // handed over to be asked. Pulls with one kinematic robot between them are asked for once.
-using HandInPlace =
-    std::function<std::unique_ptr<HandSource>(std::size_t pull, std::unique_ptr<HandSource> own)>;
+using HandInPlace = std::function<std::unique_ptr<OperatorMotion>(
+    std::size_t pull, std::unique_ptr<OperatorMotion> own)>;
 
 // As the scene says of the pull; `device` is what couplings with target = "device" follow, nullptr
 // where none is connected. Adds a fault for a trace that cannot be read.
-std::unique_ptr<HandSource> make_hand(const SceneModel& scene, std::size_t pull,
-                                      const HandSource* device, const HandInPlace& in_place,
-                                      FaultList& faults);
+std::unique_ptr<OperatorMotion> make_hand(const SceneModel& scene, std::size_t pull,
+                                          const OperatorMotion* device, const HandInPlace& in_place,
+                                          DiagnosticList& faults);
 
 // A spring-damper as it stands in one state. Linear: the points of the link in both robots.
 // Torsional: rotation vectors in the world; at a joint its coordinate, in the first component.
@@ -41,7 +41,7 @@ class SceneCouplings {
   // For steps of h [s]. The scene must outlive it, and so must the hand of a device: what couplings
   // with target = "device" follow; nullptr where none is connected, and they stand still. Throws
   // InputError with all faults: a trace that cannot be read, a rate that is no part of the steps.
-  SceneCouplings(const SceneModel& scene, double h, const HandSource* device = nullptr,
+  SceneCouplings(const SceneModel& scene, double h, const OperatorMotion* device = nullptr,
                  const HandInPlace& in_place = {});
   SceneCouplings(const SceneCouplings&) = delete;
   SceneCouplings& operator=(const SceneCouplings&) = delete;
@@ -50,13 +50,13 @@ class SceneCouplings {
   std::size_t size() const { return ties_.size(); }
   // For Simulation::add; Rewindable. nullptr where an earlier pull has it already.
   ForceSource* source(std::size_t c);
-  const Coupling& coupling(std::size_t c) const;   // not of a soft stop
-  const CouplingSpec& law(std::size_t c) const;    // what it was made of
-  const KinematicRobot& kvr(std::size_t c) const;  // as the last step saw it
+  const Coupling& coupling(std::size_t c) const;  // not of a soft stop
+  const CouplingSpec& law(std::size_t c) const;   // what it was made of
+  const TargetRobot& kvr(std::size_t c) const;    // as the last step saw it
   // The kinematic side at a time, with the velocity of the motion after or before it: they differ
   // at a corner. Not that of the source: asking does not change the run. Valid until the next call.
   enum class Side { after, before };
-  const KvrSample& target(std::size_t c, double t, Side side = Side::after);
+  const TargetSample& target(std::size_t c, double t, Side side = Side::after);
   // The DVR at x and its kinematics k, at the time x.t.
   CouplingEnds ends(std::size_t c, const State<double>& x, const Kinematics& k,
                     Side side = Side::after);
@@ -70,7 +70,7 @@ class SceneCouplings {
   double m_star(std::size_t c) const;
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
   // What moves the kinematic side; of a target that stands still a hand at rest.
-  const HandSource& hand(std::size_t c) const;
+  const OperatorMotion& hand(std::size_t c) const;
   // Hands lead otherwise now, also at times that were looked at.
   void forget_hands();
 

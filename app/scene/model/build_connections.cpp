@@ -52,10 +52,10 @@ class ConstraintBuilder {
     return {given.point.value_or(origin_a), given.point_b.value_or(origin_b)};
   }
 
-  void fault(const SceneConstraint& made, std::string rule, std::string remedy,
+  void fault(const SceneConstraint& made, std::string problem, std::string fix,
              std::string_view code) {
     faults_.add({scene_.description.file.string(), made.line, "constraint '" + made.name + "'",
-                 std::move(rule), std::move(remedy), code});
+                 std::move(problem), std::move(fix), code});
   }
 
   void build_gear(const ConstraintDescription& given, SceneConstraint& made) {
@@ -92,14 +92,14 @@ class ConstraintBuilder {
     }
     Pose X_WC;
     X_WC.p = given.point.value_or(X_WA.p);
-    if (given.axis) X_WC.R = turn_z_to(*given.axis);
+    if (given.axis) X_WC.R = rotation_taking_z_to(*given.axis);
     made.X_AC = X_WA.inverse() * X_WC;
     made.X_BC = X_WB.inverse() * X_WC;
   }
 
   SceneModel& scene_;
   Kinematics k_;
-  FaultList faults_;
+  DiagnosticList faults_;
 };
 
 }  // namespace
@@ -162,10 +162,10 @@ void add_six_dimensions(SceneModel& scene, SceneCoupling made, const Spring& spr
   add_pull(scene, made, "couple", Pull::torsional, turn);
 }
 
-void add_god_object(SceneModel& scene, SceneCoupling made, FaultList& faults) {
+void add_god_object(SceneModel& scene, SceneCoupling made, DiagnosticList& faults) {
   const auto [first, last] = scene.bodies_of_robot(made.robot);
   made.springs = god_object_joints(scene.model, first, last);
-  made.measure = Measure::joint;
+  made.measure = SpringSpace::joint;
   for (const Spring& joint : made.springs)
     add_pull(scene, made, scene.model.joint_name[static_cast<std::size_t>(joint.body)],
              Pull::torsional, joint);
@@ -187,7 +187,7 @@ std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robo
 }
 
 void build_couplings(SceneModel& scene) {
-  FaultList faults;
+  DiagnosticList faults;
   for (std::size_t i = 0; i < scene.description.couplings.size(); ++i) {
     const CouplingDescription& given = scene.description.couplings[i];
     SceneCoupling made = without_pulls(scene, i);
@@ -216,8 +216,8 @@ void build_couplings(SceneModel& scene) {
 }
 
 bool SceneCoupling::needs_semi_implicit() const {
-  return treatment != Treatment::explicit_ || law == CouplingSpec::Type::weld_like ||
-         facts_of(law, printed).treatments == CouplingFacts::Treatments::own;
+  return treatment != Discretization::explicit_ || law == CouplingSpec::Type::weld_like ||
+         facts_of(law, printed).treatments == CouplingFacts::Discretizations::own;
 }
 
 SceneCoupling::ThirdRow SceneCoupling::third_row() const {

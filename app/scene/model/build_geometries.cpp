@@ -149,13 +149,14 @@ Surface SceneModel::surface_of_pair(int a, int b) const {
                std::max(s.rolling_friction, t.rolling_friction),
                soft.stiffness,
                soft.dissipation};
-  for (const PairRule& rule : pairs) {
-    if (!(holds(rule.a, a) && holds(rule.b, b)) && !(holds(rule.a, b) && holds(rule.b, a)))
+  for (const PairOverride& problem : pairs) {
+    if (!(holds(problem.a, a) && holds(problem.b, b)) &&
+        !(holds(problem.a, b) && holds(problem.b, a)))
       continue;
-    pair.friction = rule.friction.value_or(pair.friction);
-    pair.restitution = rule.restitution.value_or(pair.restitution);
-    pair.stiffness = rule.stiffness.value_or(pair.stiffness);
-    pair.dissipation = rule.dissipation.value_or(pair.dissipation);
+    pair.friction = problem.friction.value_or(pair.friction);
+    pair.restitution = problem.restitution.value_or(pair.restitution);
+    pair.stiffness = problem.stiffness.value_or(pair.stiffness);
+    pair.dissipation = problem.dissipation.value_or(pair.dissipation);
   }
   return pair;
 }

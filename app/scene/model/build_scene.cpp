@@ -53,7 +53,7 @@ void check_mesh(const BodyDescription& body, SceneDescription& scene) {
 }
 
 // X(t): the origin moves evenly along a line, the axes turn evenly about a fixed direction.
-MotionLaw steady(const Pose& X_WB, const BodyMotion& motion) {
+MotionFunction steady(const Pose& X_WB, const BodyMotion& motion) {
   const double rate = motion.angular.norm();
   const Vector3 axis = rate > 0 ? Vector3(motion.angular / rate) : Vector3(Vector3::UnitZ());
   return [=](double t) {
@@ -97,7 +97,7 @@ class SceneBuilder {
     try {
       f();
     } catch (const InputError& error) {
-      for (Fault fault : error.faults()) {
+      for (Diagnostic fault : error.faults()) {
         if (fault.file.empty()) {
           fault.file = description().file.string();
           fault.line = line;
@@ -146,7 +146,7 @@ class SceneBuilder {
   }
 
   // A fault of robot r at its line in the robot's file; of the joint at its root, in the scene.
-  void locate(std::size_t r, Fault& fault) const {
+  void locate(std::size_t r, Diagnostic& fault) const {
     const RobotInScene& robot = description().robots[r];
     const std::string prefix = prefix_of(description(), r);
     if (fault.where == joint_called(prefix + root_joint_name(robot.description, robot.floating)))
@@ -166,8 +166,8 @@ class SceneBuilder {
     try {
       scene_.model = builder_.build();
     } catch (const InputError& error) {
-      std::vector<Fault> faults = error.faults();
-      for (Fault& fault : faults) {
+      std::vector<Diagnostic> faults = error.faults();
+      for (Diagnostic& fault : faults) {
         fault.file = description().file.string();
         for (std::size_t r = 0; r < description().robots.size(); ++r) locate(r, fault);
         for (const BodyDescription& body : description().bodies)
@@ -223,7 +223,7 @@ class SceneBuilder {
   ModelOptions options_;
   SceneModel scene_;
   ModelBuilder builder_;
-  FaultList faults_;
+  DiagnosticList faults_;
 };
 
 const NamedJoint& joint_in_model(const SceneModel& scene, const Coordinates& coordinates,

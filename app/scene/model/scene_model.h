@@ -30,14 +30,14 @@ struct SceneGeometry : Surface {
 };
 
 // Takes the place of what the surfaces of a pair give.
-struct PairRule {
+struct PairOverride {
   std::vector<int> a, b;  // geometries, ascending
   std::optional<double> friction, restitution, stiffness, dissipation;
 };
 
 struct SceneMotion {
   int body = 0;  // on a prescribed joint
-  MotionLaw law;
+  MotionFunction law;
 };
 
 // One pull of a coupling. A coupling in six dimensions is two of them, NAME/force and NAME/couple;
@@ -65,7 +65,7 @@ struct SceneCoupling : CouplingTraits {
   // It acts from outside: on the link alone, and not through joints.
   bool is_external() const {
     return law != CouplingSpec::Type::matched &&
-           (type == CouplingDescription::Type::linear || measure == Measure::world);
+           (type == CouplingDescription::Type::linear || measure == SpringSpace::world);
   }
   // It belongs to the semi-implicit step: its treatment, or the law itself, sees the step's end.
   bool needs_semi_implicit() const;
@@ -97,7 +97,7 @@ struct SceneModel {
   // robot, neither of them moved by forces, held together by a constraint, of one group, or so told
   // by [[pair]].
   std::vector<std::pair<int, int>> apart;
-  std::vector<PairRule> pairs;  // the last that fits counts
+  std::vector<PairOverride> pairs;  // the last that fits counts
   std::vector<SceneMotion> motions;
   std::vector<SceneCoupling> couplings;
   std::vector<SceneConstraint> constraints;

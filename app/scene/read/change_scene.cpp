@@ -56,9 +56,9 @@ class PathWalk {
   }
 
  private:
-  [[noreturn]] void fault(const std::string& rule, const std::string& remedy,
+  [[noreturn]] void fault(const std::string& problem, const std::string& fix,
                           std::string_view code) const {
-    throw InputError({{"", 0, where_, rule, remedy, code}});
+    throw InputError({{"", 0, where_, problem, fix, code}});
   }
   bool is_last(std::size_t p) const { return p + 1 == path_.parts.size(); }
   std::string up_to(std::size_t p) const {  // the path before part p, as "the scene" or "body[0]"
@@ -132,7 +132,7 @@ std::vector<PathTarget> find_targets(Value& scene, const ValuePath& path, MadeKe
 }
 
 void set_number(Value& scene, const std::string& text, double value, int line,
-                const std::string& where, FaultList& faults) {
+                const std::string& where, DiagnosticList& faults) {
   const ValuePath path(text);
   const auto found =
       attempt(faults, [&] { return find_targets(scene, path, MadeKeys::last, line, where); });
@@ -195,11 +195,11 @@ Change parse_change(const std::string& text) {
   return {text.substr(0, equal), text.substr(equal + 1)};
 }
 
-void apply(const Change& change, int line, Value& scene, FaultList& faults) {
+void apply(const Change& change, int line, Value& scene, DiagnosticList& faults) {
   const std::string where = "--set " + change.path;
-  const auto fault = [&](const std::string& rule, const std::string& remedy,
+  const auto fault = [&](const std::string& problem, const std::string& fix,
                          std::string_view code) {
-    faults.add({"", 0, where, rule, remedy, code});
+    faults.add({"", 0, where, problem, fix, code});
   };
   constexpr std::size_t kLongestPath = 16;  // each step is a table within a table
   const ValuePath path(change.path);
@@ -213,7 +213,7 @@ void apply(const Change& change, int line, Value& scene, FaultList& faults) {
   if (!scene.find(name))
     return fault("the scene has no '" + name + "'", name_remedy(name, names, "keys"),
                  "change.unknown-key");
-  FaultList of_path;
+  DiagnosticList of_path;
   const auto found = attempt(
       of_path, [&] { return find_targets(scene, path, MadeKeys::all_below_top, line, where); });
   if (!found)

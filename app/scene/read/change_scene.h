@@ -44,7 +44,7 @@ std::vector<PathTarget> find_targets(Value& scene, const ValuePath& path, MadeKe
 // Puts the number there, in `line`, by which later faults are known. Adds a fault at `where` where
 // the path does not lead to numbers.
 void set_number(Value& scene, const std::string& path, double value, int line,
-                const std::string& where, FaultList& faults);
+                const std::string& where, DiagnosticList& faults);
 
 // "coupling[0].stiffness=800", "coupling.stiffness=800" (all), "coupling.NAME.stiffness=800",
 // "robot.q.joint1=0.5", "gravity=0,0,-1.62", "gravity[2]=-1.62".
@@ -57,6 +57,6 @@ Change parse_change(const std::string& text);
 // are missing are made: the reader knows whether there are such. With another `type` a coupling
 // loses the keys that the new one has not (app/scene/read/scene_keys.h). `line`: what it writes
 // stands there.
-void apply(const Change& change, int line, Value& scene, FaultList& faults);
+void apply(const Change& change, int line, Value& scene, DiagnosticList& faults);
 
 }  // namespace twinarm

@@ -10,7 +10,8 @@ namespace {
 // What has no inside has no inertia of its own either.
 const char* why_not_free(const ShapeDescription& shape) {
   if (std::holds_alternative<HalfSpace>(shape)) return "a half-space has no end";
-  if (std::holds_alternative<HollowSphere>(shape) || std::holds_alternative<HollowCylinder>(shape))
+  if (std::holds_alternative<SphericalCavity>(shape) ||
+      std::holds_alternative<CylindricalCavity>(shape))
     return "a hollow shape is the world around something";
   const auto* mesh = std::get_if<MeshGeometry>(&shape);
   return mesh && !mesh->convex ? "contacts of a moving mesh need convex = true" : nullptr;

@@ -36,8 +36,8 @@ void read_link(TableReader& table, const RobotDescription& robot, CouplingDescri
     return table.fault("link", "there is no link '" + coupling.link + "'",
                        name_remedy(coupling.link, names_of(robot.links), "links"),
                        "scene.unknown-name");
-  const bool at_joint =
-      coupling.type == CouplingDescription::Type::torsional && coupling.measure == Measure::joint;
+  const bool at_joint = coupling.type == CouplingDescription::Type::torsional &&
+                        coupling.measure == SpringSpace::joint;
   if (at_joint && !own_joint(robot, coupling.link))
     table.fault("link", "its joint has not one degree of freedom of its own",
                 "name a link on a revolute, prismatic or screw joint, or give measure = \"world\"",
@@ -53,19 +53,20 @@ bool fits(TableReader& table, const char* key, const CouplingFacts& facts) {
 }
 
 void read_treatment(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
-  using Treatments = CouplingFacts::Treatments;
-  if (facts.treatments == Treatments::own) {
-    coupling.treatment = Treatment::semi_implicit;
+  using Discretizations = CouplingFacts::Discretizations;
+  if (facts.treatments == Discretizations::own) {
+    coupling.treatment = Discretization::semi_implicit;
     fits(table, "treatment", facts);
     return;
   }
-  const bool is_explicit = coupling.rate > 0 || facts.treatments == Treatments::explicit_only ||
+  const bool is_explicit = coupling.rate > 0 ||
+                           facts.treatments == Discretizations::explicit_only ||
                            facts.gains == CouplingFacts::Gains::reference;
-  if (is_explicit) coupling.treatment = Treatment::explicit_;
+  if (is_explicit) coupling.treatment = Discretization::explicit_;
   if (const auto chosen = table.choice("treatment", {"explicit", "semi-implicit", "implicit"}))
-    coupling.treatment = static_cast<Treatment>(*chosen);
-  if (coupling.treatment == Treatment::explicit_) return;
-  if (facts.treatments == Treatments::explicit_only)
+    coupling.treatment = static_cast<Discretization>(*chosen);
+  if (coupling.treatment == Discretization::explicit_) return;
+  if (facts.treatments == Discretizations::explicit_only)
     table.fault("treatment", "this type of coupling is explicit: it sees the start of the step",
                 "leave it out, or choose another type", "scene.treatment");
   if (coupling.rate > 0)
@@ -88,10 +89,10 @@ void read_numbers(TableReader& table, const CouplingFacts& facts, CouplingDescri
 void read_pull(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
   coupling.type =
       facts.at_point ? CouplingDescription::Type::linear : CouplingDescription::Type::torsional;
-  if (facts.at_joint) coupling.measure = Measure::joint;
+  if (facts.at_joint) coupling.measure = SpringSpace::joint;
   if (fits(table, "measure", facts))
     if (const auto measure = table.choice("measure", {"world", "joint"}))
-      coupling.measure = static_cast<Measure>(*measure);
+      coupling.measure = static_cast<SpringSpace>(*measure);
   if (fits(table, "point", facts)) coupling.point = table.vector("point").value_or(Vector3::Zero());
   coupling.absolute_damper = facts.gains == CouplingFacts::Gains::reference;
   if (fits(table, "damper", facts))
@@ -106,9 +107,9 @@ void read_outside(TableReader& table, CouplingDescription& coupling) {
   coupling.outside = {(*ends)[0], (*ends)[1]};
   if (!((*ends)[0] <= (*ends)[1]))
     table.fault("outside", "the first is above the second", "give [lower, upper]", "scene.order");
-  const bool at_joint =
-      coupling.type == CouplingDescription::Type::torsional && coupling.measure == Measure::joint;
-  if (!at_joint || coupling.treatment != Treatment::implicit || table.has("target"))
+  const bool at_joint = coupling.type == CouplingDescription::Type::torsional &&
+                        coupling.measure == SpringSpace::joint;
+  if (!at_joint || coupling.treatment != Discretization::implicit || table.has("target"))
     table.fault("outside", "a stop is a torsional coupling at a joint, implicit, without a target",
                 "give type = \"torsional\", measure = \"joint\", and leave the others out",
                 "scene.stop");

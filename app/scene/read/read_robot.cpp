@@ -78,7 +78,7 @@ void SceneReader::read_robot(const Value& value) {
       try {
         robot.description = read_robot_file(*urdf, options);
         readable = true;
-        for (const Fault& warning : robot.description.warnings)
+        for (const Diagnostic& warning : robot.description.warnings)
           scene.warnings.push_back(to_string(warning));
       } catch (const InputError& error) {
         faults.add(error.faults());
@@ -123,8 +123,8 @@ void fix_at(JointDescription& joint, double q) {
 void SceneReader::lock_joints(TableReader& table, RobotInScene& robot) {
   const Value* list = table.find("lock");
   if (!list) return;
-  const auto fault = [&](const std::string& rule, const std::string& remedy,
-                         std::string_view code) { table.fault("lock", rule, remedy, code); };
+  const auto fault = [&](const std::string& problem, const std::string& fix,
+                         std::string_view code) { table.fault("lock", problem, fix, code); };
   if (list->kind != Value::Kind::list)
     return fault("must be a list of joints, is " + describe(*list), "write lock = [\"joint1\"]",
                  "scene.type");

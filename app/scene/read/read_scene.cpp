@@ -11,8 +11,8 @@ namespace twinarm {
 namespace {
 
 // In the order of the lines of the scene; those of other files after them, as they were found.
-std::vector<Fault> in_order(std::vector<Fault> faults, const std::string& file) {
-  std::stable_sort(faults.begin(), faults.end(), [&](const Fault& a, const Fault& b) {
+std::vector<Diagnostic> in_order(std::vector<Diagnostic> faults, const std::string& file) {
+  std::stable_sort(faults.begin(), faults.end(), [&](const Diagnostic& a, const Diagnostic& b) {
     if ((a.file == file) != (b.file == file)) return a.file == file;
     return a.file == file && a.line < b.line;
   });

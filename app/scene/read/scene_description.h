@@ -105,9 +105,9 @@ struct CouplingTraits {
   CouplingSpec::Type law = CouplingSpec::Type::linear;
   bool printed = false;
   Type type = Type::linear;
-  Measure measure = Measure::world;  // of laws that turn
-  WeldReference reference;           // weld
-  Treatment treatment = Treatment::implicit;
+  SpringSpace measure = SpringSpace::world;  // of laws that turn
+  SolrefParameters reference;                // weld
+  Discretization treatment = Discretization::implicit;
   // A soft stop: it acts where the joint's coordinate is not between these two, back to them.
   std::optional<std::pair<double, double>> outside;
   bool absolute_damper = false;  // against the link's own velocity, and not that of the target

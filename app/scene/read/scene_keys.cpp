@@ -84,7 +84,7 @@ const NumberRange kPositive{Sign::positive};
 const std::vector<CouplingKey>& coupling_keys() {
   using C = CouplingDescription;
   using F = CouplingFacts;
-  using W = WeldReference;
+  using W = SolrefParameters;
   // clang-format off
   static const std::vector<CouplingKey> rows{
       {.key = "measure", .has = [](const F& f) { return f.has_measure; },
@@ -127,7 +127,7 @@ const std::vector<CouplingKey>& coupling_keys() {
        .useless = "this type of coupling is computed at every step",
        .unit = "Hz", .range = kPositive, .number = at<&C::rate>,
        .slider = {.meaning = "The force is computed at this rate and held between; explicit."}},
-      {.key = "treatment", .has = [](const F& f) { return f.treatments == F::Treatments::all; },
+      {.key = "treatment", .has = [](const F& f) { return f.treatments == F::Discretizations::all; },
        .useless = "this type of coupling is a treatment of its own"},
       {.key = "link", .has = [](const F& f) { return f.gains != Gains::none; },
        .useless = "a god object drives all joints"},
@@ -175,7 +175,7 @@ std::optional<double> read_number(TableReader& table, const char* key, const Num
                      : range.sign == Sign::not_negative ? table.not_negative(key)
                                                         : table.number(key);
   if (value && range.fits && !range.fits(*value))
-    table.fault(key, range.rule, range.remedy, "scene.range");
+    table.fault(key, range.problem, range.fix, "scene.range");
   return value;
 }
 
@@ -210,7 +210,7 @@ constexpr std::array<std::pair<const char*, const char*>, 15> kOtherUnits{
 std::string unit_of_number(const Value& scene, const std::string& text) {
   Value copy = scene;
   const ValuePath path(text);
-  FaultList ignored;
+  DiagnosticList ignored;
   const auto found =
       attempt(ignored, [&] { return find_targets(copy, path, MadeKeys::last, 0, text); });
   if (!found) return "";
@@ -252,7 +252,7 @@ struct ReferenceRow {
 
 std::string to_markdown(const ReferenceRow& row) {
   std::string range = row.range.sign == Sign::positive ? "> 0" : ">= 0";
-  if (*row.range.rule) range += std::string("; ") + row.range.rule;
+  if (*row.range.problem) range += std::string("; ") + row.range.problem;
   return fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", row.key, row.of, row.unit,
                      row.by_default ? short_number_text(*row.by_default) : "", range, row.meaning);
 }

@@ -17,7 +17,7 @@ namespace twinarm {
 struct NumberRange {
   enum class Sign { any, not_negative, positive } sign = Sign::not_negative;
   bool (*fits)(double) = nullptr;
-  const char *rule = "", *remedy = "";
+  const char *problem = "", *fix = "";
 };
 
 // What the lab offers, without a label nothing; and what the number means.

@@ -15,7 +15,7 @@ struct SceneReader {
   std::filesystem::path path;
   std::string file;  // the same, for faults
   FileRoots roots;   // of the files that it names
-  FaultList faults;
+  DiagnosticList faults;
   SceneDescription scene;
 
   void read(const Value& root);

@@ -87,13 +87,13 @@ std::string live_table(const LiveSummary& summary) {
   TextTable tracking({"|q_K - q_D| [deg]", "largest", "mean"});
   for (std::size_t j = 0; j < summary.joints.size(); ++j)
     tracking.add(
-        {summary.joints[j], fmt::format("{:.3f}", summary.largest_error[j] / kDegree),
+        {summary.joints[j], fmt::format("{:.3f}", summary.max_error[j] / kDegree),
          fmt::format("{:.3f}", summary.sum_error[j] /
                                    static_cast<double>(std::max(1L, summary.ticks)) / kDegree)});
   text += tracking.str();
   text += fmt::format("\nlargest torque of the motors 1, 2, 3: {:.1f}, {:.1f}, {:.1f} mN m\n",
-                      1e3 * summary.largest_torque[0], 1e3 * summary.largest_torque[1],
-                      1e3 * summary.largest_torque[2]);
+                      1e3 * summary.max_torque[0], 1e3 * summary.max_torque[1],
+                      1e3 * summary.max_torque[2]);
   if (summary.real_time) text += "\n" + timing_table(summary.servo);
   if (!summary.servo.refused.empty()) text += "not granted: " + summary.servo.refused + "\n";
   if (!summary.servo.finite) text += "the robot left all bounds: the run ended there\n";
@@ -122,11 +122,10 @@ std::string live_json(const LiveSummary& summary) {
   for (std::size_t j = 0; j < summary.joints.size(); ++j)
     json.key(summary.joints[j])
         .object(
-            {{"max", summary.largest_error[j]},
+            {{"max", summary.max_error[j]},
              {"mean", summary.sum_error[j] / static_cast<double>(std::max(1L, summary.ticks))}});
   json.end_object();
-  json.key("largest_torque")
-      .numbers({summary.largest_torque.begin(), summary.largest_torque.end()});
+  json.key("largest_torque").numbers({summary.max_torque.begin(), summary.max_torque.end()});
   if (summary.real_time) {
     json.key("span").number(summary.servo.span);
     write_figures(json, "timing", summary.servo.run);

@@ -20,10 +20,10 @@ struct LiveSummary {
   double step = 0, duration = 0;           // [s]; the time that the run has reached
   long ticks = 0, held = 0, released = 0;  // ticks of each mode of silence
   long silences = 0;
-  std::array<double, 3> largest_torque{};        // felt [N m]
-  std::vector<double> largest_error, sum_error;  // |q_K - q_D| by joint [rad]
-  std::string log, recording, picture;           // files; empty where there is none
-  bool same_bits = false;                        // the run made again ended in the same state
+  std::array<double, 3> max_torque{};        // felt [N m]
+  std::vector<double> max_error, sum_error;  // |q_K - q_D| by joint [rad]
+  std::string log, recording, picture;       // files; empty where there is none
+  bool same_bits = false;                    // the run made again ended in the same state
   ServoResult servo;
   bool real_time = true;
 };

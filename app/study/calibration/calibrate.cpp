@@ -16,7 +16,7 @@ constexpr int kFitEvaluations = 4000, kTrialEvaluations = 700;
 // The folded law is sensitive to its gains: what half a percent does to a fit is recorded.
 constexpr double kShift = 1.005;
 // A spring must pull back: below this a pure damper would be the "most stable" movement [Hz].
-constexpr double kLeastFrequency = 1;
+constexpr double kMinFrequency = 1;
 
 using Objective = std::function<double(const CalibrationEntry&)>;
 struct Job {
@@ -27,7 +27,7 @@ struct Job {
   std::function<void(CalibrationEntry&)> finish;  // writes the entry's numbers
 };
 
-// Bounds of one k and one b: from a natural frequency of kLeastFrequency up to what a semi-implicit
+// Bounds of one k and one b: from a natural frequency of kMinFrequency up to what a semi-implicit
 // step can carry at all, at the start pose.
 std::vector<Parameter> bounds(const StudyRobot& robot, const RunSpec& spec, double ratio) {
   RunResult unit;
@@ -35,7 +35,7 @@ std::vector<Parameter> bounds(const StudyRobot& robot, const RunSpec& spec, doub
   unit.spec.gains = {1, 0, ratio, 0};
   predict(robot, unit);
   const double h = spec.step(), slow = unit.frequency[0], fast = unit.frequency[1];
-  const double k_low = std::pow(2 * std::numbers::pi * kLeastFrequency / slow, 2);
+  const double k_low = std::pow(2 * std::numbers::pi * kMinFrequency / slow, 2);
   const double k_high = 4 / std::pow(h * fast, 2), b_high = 2 / (h * fast * fast);
   return {{"k", std::min(k_low, 0.1 * k_high), k_high, 0}, {"b", 1e-4 * b_high, b_high, 0}};
 }

@@ -43,9 +43,9 @@ void read_fit(const nlohmann::json& item, const char* objective, CalibrationEntr
 template <class Read>
 auto read_file(const std::filesystem::path& file, const char* article, const std::string& thing,
                const char* option, Read&& read) {
-  const auto fail = [&](const std::string& rule) {
-    return InputError({{file.string(), 0, "", rule, fmt::format("run `twinarm study {}`", option),
-                        "study.calibration"}});
+  const auto fail = [&](const std::string& problem) {
+    return InputError({{file.string(), 0, "", problem,
+                        fmt::format("run `twinarm study {}`", option), "study.calibration"}});
   };
   std::ifstream stream(file);
   if (!stream) throw fail("the " + thing + " cannot be opened");
@@ -216,7 +216,8 @@ RunSpec e3_spec(const std::string& law, double rate) {
   spec.name = "E3";
   spec.coupling.name = law;
   spec.coupling.printed = true;
-  spec.coupling.options.measure = law.starts_with("joint") ? Measure::joint : Measure::world;
+  spec.coupling.options.measure =
+      law.starts_with("joint") ? SpringSpace::joint : SpringSpace::world;
   spec.coupling.options.damping_sign = law.ends_with("+") ? 1 : -1;
   spec.rate = rate;
   return spec;
@@ -253,7 +254,7 @@ RunSpec row_spec(const std::string& law, double rate) {
   RunSpec spec;
   spec.name = law;
   spec.rate = rate;
-  spec.kvr_rates = KvrRates::backward_difference;
+  spec.kvr_rates = TargetRates::backward_difference;
   spec.coupling.name = law;
   if (law.starts_with("linear")) spec.coupling.type = CouplingSpec::Type::linear;
   if (law.starts_with("unsigned") || law.starts_with("older") || law.starts_with("euler")) {

@@ -13,8 +13,8 @@
 namespace twinarm {
 namespace {
 
-FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type type, Measure measure,
-                     Treatment treatment) {
+FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type type,
+                     SpringSpace measure, Discretization treatment) {
   FamilyLaw law{name, words, {}};
   law.coupling.name = name;
   law.coupling.type = type;
@@ -32,22 +32,22 @@ const std::vector<FamilyLaw>& family_laws() {
         {"printed-torsional", "torsional, as printed", e3_spec("world-", 0).coupling},
         {"printed-linear", "linear, as printed", e4_spec(0).coupling},
         consistent("torsional-world", "torsional, world orientation", Type::torsional,
-                   Measure::world, Treatment::explicit_),
-        consistent("torsional-joint", "torsional, joint angle", Type::torsional, Measure::joint,
-                   Treatment::explicit_),
-        consistent("linear", "linear", Type::linear, Measure::world, Treatment::explicit_),
+                   SpringSpace::world, Discretization::explicit_),
+        consistent("torsional-joint", "torsional, joint angle", Type::torsional, SpringSpace::joint,
+                   Discretization::explicit_),
+        consistent("linear", "linear", Type::linear, SpringSpace::world, Discretization::explicit_),
         consistent("torsional-world-implicit", "torsional, world orientation, implicit",
-                   Type::torsional, Measure::world, Treatment::implicit),
+                   Type::torsional, SpringSpace::world, Discretization::implicit),
         consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
-                   Measure::joint, Treatment::implicit),
-        consistent("linear-implicit", "linear, implicit", Type::linear, Measure::world,
-                   Treatment::implicit),
-        consistent("matched", "torsional, full K_q of a linear one", Type::matched, Measure::world,
-                   Treatment::explicit_),
-        consistent("stable-pd", "stable PD at the joints", Type::stable_pd, Measure::joint,
-                   Treatment::explicit_),
-        consistent("weld", "weld of the points, as MuJoCo's", Type::weld_like, Measure::world,
-                   Treatment::explicit_)};
+                   SpringSpace::joint, Discretization::implicit),
+        consistent("linear-implicit", "linear, implicit", Type::linear, SpringSpace::world,
+                   Discretization::implicit),
+        consistent("matched", "torsional, full K_q of a linear one", Type::matched,
+                   SpringSpace::world, Discretization::explicit_),
+        consistent("stable-pd", "stable PD at the joints", Type::stable_pd, SpringSpace::joint,
+                   Discretization::explicit_),
+        consistent("weld", "weld of the points, as MuJoCo's", Type::weld_like, SpringSpace::world,
+                   Discretization::explicit_)};
     return all;
   }();
   return laws;

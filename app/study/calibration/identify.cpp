@@ -76,7 +76,7 @@ RunResult Question::run_with(const CalibrationEntry& entry, double sweep) const 
   spec.name = row_;
   spec.coupling = law_.coupling;
   spec.rate = rate_;
-  if (!law_.coupling.printed) spec.kvr_rates = KvrRates::backward_difference;
+  if (!law_.coupling.printed) spec.kvr_rates = TargetRates::backward_difference;
   if (law_.coupling.type == CouplingSpec::Type::weld_like) {
     spec.coupling.reference.time_constant = entry.value("time_constant");
     spec.coupling.reference.damping_ratio = entry.value("damping_ratio");
@@ -187,9 +187,9 @@ Identification Question::answer() const {
 }  // namespace
 
 Identification ask(const StudyInputs& inputs, const std::string& question) {
-  FaultList faults;
-  const auto fault = [&](std::string rule, std::string remedy) {
-    faults.add({"", 0, "--ask", std::move(rule), std::move(remedy), "study.question"});
+  DiagnosticList faults;
+  const auto fault = [&](std::string problem, std::string fix) {
+    faults.add({"", 0, "--ask", std::move(problem), std::move(fix), "study.question"});
   };
   const std::vector<std::string> parts = split(question, '/');
   if (parts.size() != 3) {

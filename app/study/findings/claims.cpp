@@ -21,10 +21,10 @@ double mode_ratio(const StudyRobot& robot, const std::string& law) {
   Kinematics k(model);
   forward_kinematics(model, x, k);
   const AutomaticMotion hand{HandMapping{}};
-  KinematicRobot kvr(model, hand, HandMapping{}, robot.joints());
+  TargetRobot kvr(model, hand, HandMapping{}, robot.joints());
   CouplingSpec spec;
   spec.type = law == "linear" ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-  spec.measure = law == "joint" ? Measure::joint : Measure::world;
+  spec.measure = law == "joint" ? SpringSpace::joint : SpringSpace::world;
   spec.springs = robot.springs(1, 1, 1, 1);
   const Eigen::VectorXd squares =
       squared_frequencies(mass_matrix(model, x), make_coupling(spec, model, kvr)->joint_space(k).K);
@@ -195,7 +195,7 @@ void add_differences(const StudyInputs& inputs, const StudyResults& results,
     RunSpec spec = row_spec("world", 60);
     spec.gains = results.calibration.entry(fmt::format("row/{}/world/60", name)).gains();
     const ProtocolErrors difference = run_protocol(robot, spec, inputs.settings.sweep_times);
-    spec.kvr_rates = KvrRates::from_hand;
+    spec.kvr_rates = TargetRates::from_hand;
     const ProtocolErrors current = run_protocol(robot, spec, inputs.settings.sweep_times);
     findings.push_back(
         {"differences",

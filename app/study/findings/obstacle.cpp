@@ -40,14 +40,14 @@ void watch_target_radius(const Coupling& coupling, const Model<double>& model,
   const Eigen::MatrixXd M = mass_matrix(model, x);
   for (std::size_t s = 0; s < coupling.springs().size(); ++s) {
     const Spring& spring = coupling.springs()[s];
-    const SpringReading& reading = coupling.readings()[s];
+    const SpringState& reading = coupling.readings()[s];
     for (int body = spring.body; body > 1; body = model.parent[static_cast<std::size_t>(body)]) {
       const auto i = static_cast<std::size_t>(body);
       const auto dof = static_cast<Eigen::Index>(model.iv[i]);
       const Vector3 o = k.X_WL[i].p;
       const double r = (reading.p_D - o).head<2>().norm();
       const double R_K = (reading.p_K - o).head<2>().norm();
-      const double limit = largest_target_radius(M(dof, dof), r, spring.k, spring.b, h);
+      const double limit = max_target_radius(M(dof, dof), r, spring.k, spring.b, h);
       result.target_radius_ratio = std::max(result.target_radius_ratio, R_K / r);
       if (R_K / limit <= nearest) continue;
       nearest = R_K / limit;
@@ -86,7 +86,7 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   CouplingSpec spec;
   spec.name = result.name;
   spec.type = type;
-  spec.treatment = Treatment::implicit;
+  spec.treatment = Discretization::implicit;
   result.gains =
       gains_from_frequency(robot, spec, o.coupling_frequency_hz, o.coupling_damping_ratio);
   spec.springs = robot.springs(result.gains.k1, result.gains.b1, result.gains.k2, result.gains.b2);
@@ -116,7 +116,7 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
       force += reading.normal_force;
       beyond = std::max(beyond, beyond_face(reading, k, system.kvr().at(t).k));
     }
-    for (const SpringReading& reading : system.coupling(0).readings())
+    for (const SpringState& reading : system.coupling(0).readings())
       pull = std::max(pull, reading.size);
     result.pull.push_back(pull);
     result.contact_force.push_back(force);
@@ -134,10 +134,10 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   const auto largest = [](const std::vector<double>& v) {
     return v.empty() ? 0.0 : *std::max_element(v.begin(), v.end());
   };
-  result.largest_penetration = largest(result.penetration);
-  result.largest_beyond = largest(result.beyond);
-  result.largest_pull = largest(result.pull);
-  result.largest_force = largest(result.contact_force);
+  result.max_penetration = largest(result.penetration);
+  result.max_beyond = largest(result.beyond);
+  result.max_pull = largest(result.pull);
+  result.max_force = largest(result.contact_force);
   find_contact_interval(result);
   return result;
 }

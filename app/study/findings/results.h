@@ -31,7 +31,7 @@ struct ObstacleRun {
   std::vector<double> penetration;    // of the DVR [m]
   std::vector<double> beyond;         // of the KVR: how far past the touched face [m]
   std::string pull_unit;              // "N" or "N m"
-  double largest_penetration = 0, largest_beyond = 0, largest_pull = 0, largest_force = 0;
+  double max_penetration = 0, max_beyond = 0, max_pull = 0, max_force = 0;
   double target_radius_ratio = 0;               // largest R_K / r that occurred (linear)
   double target_radius_limit = 0;               // largest stable R_K / r (linear)
   double contact_begin = -1, contact_end = -1;  // [s], of the longest contact

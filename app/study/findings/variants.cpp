@@ -39,7 +39,8 @@ RunSpec with_gains(RunSpec spec, const Gains& gains) {
   return spec;
 }
 
-RunSpec consistent(CouplingSpec::Type type, Measure measure, Treatment treatment, double rate) {
+RunSpec consistent(CouplingSpec::Type type, SpringSpace measure, Discretization treatment,
+                   double rate) {
   RunSpec spec;
   spec.coupling.type = type;
   spec.coupling.measure = measure;
@@ -63,8 +64,8 @@ void add_matched(const StudySettings& s, const Calibration& calibration, Runner&
     const Gains gains = calibration.entry(fmt::format("trial/printed-linear/{:g}", rate)).gains();
     for (const auto& [name, type] : {std::pair{"linear", CouplingSpec::Type::linear},
                                      {"torsional", CouplingSpec::Type::matched}}) {
-      RunSpec spec = consistent(type, Measure::joint, Treatment::explicit_, rate);
-      spec.kvr_rates = KvrRates::backward_difference;
+      RunSpec spec = consistent(type, SpringSpace::joint, Discretization::explicit_, rate);
+      spec.kvr_rates = TargetRates::backward_difference;
       add(fmt::format("matched/{}/{:g}", name, rate), "the same K_q and B_q",
           with_gains(spec, gains));
     }
@@ -75,15 +76,15 @@ void add_implicit(const StudySettings& s, const StudyRobot& robot, Runner& add) 
   struct Law {
     const char* name;
     CouplingSpec::Type type;
-    Measure measure;
+    SpringSpace measure;
   };
-  const Law laws[] = {{"torsional-world", CouplingSpec::Type::torsional, Measure::world},
-                      {"torsional-joint", CouplingSpec::Type::torsional, Measure::joint},
-                      {"linear", CouplingSpec::Type::linear, Measure::world}};
+  const Law laws[] = {{"torsional-world", CouplingSpec::Type::torsional, SpringSpace::world},
+                      {"torsional-joint", CouplingSpec::Type::torsional, SpringSpace::joint},
+                      {"linear", CouplingSpec::Type::linear, SpringSpace::world}};
   for (const Law& law : laws)
     for (double rate : {60.0, 1000.0})
-      for (Treatment treatment :
-           {Treatment::explicit_, Treatment::semi_implicit, Treatment::implicit}) {
+      for (Discretization treatment :
+           {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
         RunSpec spec = consistent(law.type, law.measure, treatment, rate);
         spec.gains = gains_from_frequency(robot, spec.coupling, s.implicit_frequency_hz,
                                           s.implicit_damping_ratio);
@@ -124,7 +125,8 @@ void add_ablations(const Calibration& calibration, Runner& add) {
   spec = base;
   spec.coupling.options.difference = Difference::older;
   add("ablation/older", "difference one frame older", spec);
-  spec = consistent(CouplingSpec::Type::torsional, Measure::world, Treatment::explicit_, rate);
+  spec = consistent(CouplingSpec::Type::torsional, SpringSpace::world, Discretization::explicit_,
+                    rate);
   add("ablation/true-velocities", "current velocities of both robots", with_gains(spec, gains));
   add("ablation/ratio-0.2", "k2 = 0.2 k1, with its own best gains",
       with_gains(trial_spec("signed-torsional-ratio", rate),
@@ -151,7 +153,7 @@ std::vector<RunSpec> reproduction_specs(const Calibration& calibration) {
 }
 
 std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibration& calibration,
-                                        const HandSource& hand) {
+                                        const OperatorMotion& hand) {
   const AutomaticMotion automatic{HandMapping{}};
   std::vector<RunResult> results;
   for (RunSpec& spec : reproduction_specs(calibration)) {

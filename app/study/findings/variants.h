@@ -11,7 +11,7 @@ namespace twinarm {
 std::vector<RunSpec> reproduction_specs(const Calibration& calibration);
 // The same, run; `hand` moves E1 and E2.
 std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibration& calibration,
-                                        const HandSource& hand);
+                                        const OperatorMotion& hand);
 
 std::vector<RunResult> run_variants(const StudyInputs& inputs, const StudyRobot& robot,
                                     const Calibration& calibration, Progress& progress);

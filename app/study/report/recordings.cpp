@@ -86,7 +86,7 @@ RunSpec spec_of(const ObstacleRun& run, double rate) {
   spec.name = "obstacle_" + run.name;
   spec.title = run.name + ", automatic, a box in the way";
   spec.coupling.type = linear ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-  spec.coupling.treatment = Treatment::implicit;
+  spec.coupling.treatment = Discretization::implicit;
   spec.gains = run.gains;
   spec.rate = rate;
   return spec;

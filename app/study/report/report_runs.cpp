@@ -200,12 +200,12 @@ std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
                     : fmt::format("{:.3f} to {:.3f} s", r.contact_begin, r.contact_end);
        }},
       {"largest penetration of the DVR",
-       [](R r) { return fmt::format("{:.3f} mm", 1e3 * r.largest_penetration); }},
+       [](R r) { return fmt::format("{:.3f} mm", 1e3 * r.max_penetration); }},
       {"KVR beyond the touched face, at most",
-       [](R r) { return fmt::format("{:.0f} mm", 1e3 * r.largest_beyond); }},
+       [](R r) { return fmt::format("{:.0f} mm", 1e3 * r.max_beyond); }},
       {"largest pull through the coupling",
-       [](R r) { return fmt::format("{:.0f} {}", r.largest_pull, escaped(r.pull_unit)); }},
-      {"largest contact force", [](R r) { return fmt::format("{:.0f} N", r.largest_force); }},
+       [](R r) { return fmt::format("{:.0f} {}", r.max_pull, escaped(r.pull_unit)); }},
+      {"largest contact force", [](R r) { return fmt::format("{:.0f} N", r.max_force); }},
       {"largest R<sub>K</sub>/r that occurred", [&](R r) { return ratio(r.target_radius_ratio); }},
       {"largest stable R<sub>K</sub>/r", [&](R r) { return ratio(r.target_radius_limit); }}};
   std::string html = "<tr><th></th>";

@@ -118,9 +118,9 @@ CaseResult limit(double off) {  // thickness
 }  // namespace
 
 CaseFamily arch_cases() {
-  const ContactLook crown{
+  const ContactCasePlot crown{
       .readings = {"z of the crown [m]"}, .read = place<10, 2>, .from_start = true};
-  ContactLook still = crown;
+  ContactCasePlot still = crown;
   still.exact = zero;
   return {290,
           {contact_case<stands, -120>("E13-stands", 1e-6, without_steps(still, kResting)),

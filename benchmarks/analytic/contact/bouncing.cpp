@@ -109,10 +109,11 @@ double known_bounces(std::size_t, double t) {
 }  // namespace
 
 CaseFamily bouncing_cases() {
-  const ContactLook height{
+  const ContactCasePlot height{
       .readings = {"height of the ball [m]"}, .read = seen_height<1>, .exact = known_bounces};
-  const ContactLook any{.readings = height.readings, .read = seen_height<1>, .no_steps = kRounding};
-  ContactLook in_steps = height;
+  const ContactCasePlot any{
+      .readings = height.readings, .read = seen_height<1>, .no_steps = kRounding};
+  ContactCasePlot in_steps = height;
   in_steps.about_steps =
       "Flight is exact in any step. One of 0.5 ms would end 1 µm within the floor, ends on it, "
       "0.1 % slower, and the ball bounces in the next one.";

@@ -110,13 +110,13 @@ double known_cradle(double gap, double part, double t) {
 }  // namespace
 
 CaseFamily cradles_cases() {
-  const ContactLook speed{.readings = {"speed of ball 5 [m/s]"},
-                          .read = velocity<5, 0>,
-                          .runs = {"e = 0", "0.5", "0.9", "1"},
-                          .every = 3,
-                          .until = 0.1,
-                          .no_steps = kRounding};
-  ContactLook momentum = speed;
+  const ContactCasePlot speed{.readings = {"speed of ball 5 [m/s]"},
+                              .read = velocity<5, 0>,
+                              .runs = {"e = 0", "0.5", "0.9", "1"},
+                              .every = 3,
+                              .until = 0.1,
+                              .no_steps = kRounding};
+  ContactCasePlot momentum = speed;
   momentum.readings = {"momentum [kg m/s]"}, momentum.read = seen_momentum;
   momentum.exact = [](std::size_t, double) { return 1.; };
   return {190,

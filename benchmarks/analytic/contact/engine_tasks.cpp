@@ -208,12 +208,12 @@ std::vector<double> seen_heights(const ContactScene& s) {
 }
 
 AnalyticCase task_case(const char* name, double tolerance, const Task& task,
-                       const Task& with_mistake, ContactLook look) {
+                       const Task& with_mistake, ContactCasePlot look) {
   AnalyticCase c(name, tolerance, [=](bool mistaken) {
     return CaseResult{error_of(mistaken ? with_mistake : task, task)};
   });
   look.no_steps = kPublished;
-  c.look = std::make_shared<const ContactLook>(std::move(look));
+  c.look = std::make_shared<const ContactCasePlot>(std::move(look));
   return c;
 }
 
@@ -224,9 +224,10 @@ namespace twinarm {
 
 CaseFamily engine_tasks_cases() {
   using namespace engine_tasks;
-  const ContactLook speeds{
+  const ContactCasePlot speeds{
       .readings = {"box [m/s]", "ball [m/s]"}, .read = seen_speeds, .exact = known_box_and_ball};
-  const ContactLook heights{.readings = {"first ball [m]", "last ball [m]"}, .read = seen_heights};
+  const ContactCasePlot heights{.readings = {"first ball [m]", "last ball [m]"},
+                                .read = seen_heights};
   const Task part = first(0.55, pile(false)), elastic = first(2, pile(true));
   return {
       380,

@@ -30,8 +30,9 @@ double frequency(ContactScene& scene, double duration, Reading&& reading) {
 
 CaseResult bowl(const Shape& hollow, const Shape& shape, double reference, double gravity) {
   constexpr double kAngle = 0.02, kArm = 1 - kBallRadius;
-  const Matrix3 R = std::holds_alternative<HollowCylinder>(hollow) ? axis_along_y()
-                                                                   : Matrix3(Matrix3::Identity());
+  const Matrix3 R = std::holds_alternative<CylindricalCavity>(hollow)
+                        ? axis_along_y()
+                        : Matrix3(Matrix3::Identity());
   ContactScene scene(gravity);
   scene.add_fixed(hollow, surface(1), {R, Vector3::Zero()});
   const int body = scene.add(
@@ -41,13 +42,13 @@ CaseResult bowl(const Shape& hollow, const Shape& shape, double reference, doubl
   return {relative(found, reference), scene.drift()};
 }
 CaseResult sphere_in_bowl(double off) {  // gravity
-  return bowl(HollowSphere{1}, Sphere{kBallRadius}, 2.79028928352, off);
+  return bowl(SphericalCavity{1}, Sphere{kBallRadius}, 2.79028928352, off);
 }
 CaseResult sphere_in_trough(double off) {  // gravity
-  return bowl(HollowCylinder{1, 1}, Sphere{kBallRadius}, 2.79028928352, off);
+  return bowl(CylindricalCavity{1, 1}, Sphere{kBallRadius}, 2.79028928352, off);
 }
 CaseResult cylinder_in_trough(double off) {  // gravity
-  return bowl(HollowCylinder{1, 1}, Cylinder{kBallRadius, 0.3}, 2.69567554922, off);
+  return bowl(CylindricalCavity{1, 1}, Cylinder{kBallRadius, 0.3}, 2.69567554922, off);
 }
 
 // Starts with the table's own velocity there, W x r_0, and without spin. From v' = (2/7) W x v the
@@ -94,7 +95,7 @@ CaseResult turntable_circle(double off) {  // the table's rate
 CaseResult upright_tube(double off) {  // inertia
   constexpr double kArm = 0.5 - kBallRadius, kRate = 12;
   ContactScene scene;
-  scene.add_fixed(HollowCylinder{0.5, 4}, surface(2));
+  scene.add_fixed(CylindricalCavity{0.5, 4}, surface(2));
   ContactScene::Body ball{Sphere{kBallRadius}, surface(2), 1, {kArm, 0, 0}};
   ball.inertia = off * 0.4 * kBallRadius * kBallRadius * Matrix3::Identity();
   ball.v = {0, kArm * kRate, 0};
@@ -153,16 +154,16 @@ double known_cylinder_swing(std::size_t, double t) {
 }  // namespace
 
 CaseFamily hollows_cases() {
-  const ContactLook sphere{.readings = {"x [m]"},
-                           .read = place<1, 0>,
-                           .exact = known_sphere_swing,
-                           .until = 6,
-                           .about_steps = kSmallSwings};
-  ContactLook cylinder = sphere;
+  const ContactCasePlot sphere{.readings = {"x [m]"},
+                               .read = place<1, 0>,
+                               .exact = known_sphere_swing,
+                               .until = 6,
+                               .about_steps = kSmallSwings};
+  ContactCasePlot cylinder = sphere;
   cylinder.exact = known_cylinder_swing;
-  const ContactLook circle{
+  const ContactCasePlot circle{
       .readings = {"x [m]", "y [m]"}, .read = seen_ball, .exact = known_circle};
-  ContactLook located = without_steps(circle, kLocated);
+  ContactCasePlot located = without_steps(circle, kLocated);
   located.until = 5.5;
   return {280,
           {contact_case<sphere_in_bowl, 5>("E12-bowl", 1e-3, sphere),

@@ -57,14 +57,14 @@ double known_oblique(std::size_t run, bool after) {
 }  // namespace
 
 CaseFamily oblique_cases() {
-  const ContactLook along{.readings = {"v along the floor [m/s]"},
-                          .read = velocity<1, 0>,
-                          .runs = {"μ = 0.05", "μ = 0.2"}};
-  ContactLook at_once = along, flight = along;
+  const ContactCasePlot along{.readings = {"v along the floor [m/s]"},
+                              .read = velocity<1, 0>,
+                              .runs = {"μ = 0.05", "μ = 0.2"}};
+  ContactCasePlot at_once = along, flight = along;
   at_once.exact = [](std::size_t run, double t) { return known_oblique(run, t > 0); };
   at_once.until = 0.02;
   flight.exact = [](std::size_t run, double t) { return known_oblique(run, t >= 0.1 / 3); };
-  const ContactLook slip{
+  const ContactCasePlot slip{
       .readings = {"slip [m/s]"},
       .read = [](Scene s) { return Values{s.v(1).x() - 0.1 * s.w(1).y()}; },
       .exact = [](std::size_t run,

@@ -14,7 +14,7 @@ constexpr double kRollerIncline = 20 * kDegree;
 
 // Inertia over m R^2, acceleration where it rolls, least friction for that.
 struct Roller {
-  double inertia, acceleration, least_friction;
+  double inertia, acceleration, min_friction;
 };
 constexpr Roller kSphere{0.4, 2.396584004303436, 0.1039914955046292};
 constexpr Roller kDisc{0.5, 2.236811737349874, 0.1213234114220675};
@@ -53,14 +53,14 @@ CaseResult rolling_speeds(double off) {  // gravity
 CaseResult rolling_friction(double off) {  // gravity
   return {relative(roll(kSphere, 0.5, off).friction, 0.9586336017213744)};
 }
-CaseResult least_friction(double off) {  // mu
+CaseResult min_friction(double off) {  // mu
   double error = 0;
   for (const Roller& roller : kRollers) {
     const double limit = threshold(0.05, 0.25, 1e-5, [&](double mu) {
       const AfterASecond end = roll(roller, off * mu);
       return end.v - end.rim < 1e-6;
     });
-    error = std::max(error, std::abs(limit - roller.least_friction));
+    error = std::max(error, std::abs(limit - roller.min_friction));
   }
   return {error};
 }
@@ -104,7 +104,7 @@ CaseFamily rolling_cases() {
            {.readings = {"friction [N]"},
             .read = seen_friction,
             .exact = [](std::size_t, double) { return 0.9586336017213744; }}),
-       contact_case<least_friction, 10>(
+       contact_case<min_friction, 10>(
            "E4-threshold", 1e-3, searched({.readings = {"slip [m/s]"}, .read = seen_slip}, "μ")),
        contact_case<slipping, 2>("E4-slip", 1e-3,
                                  {.readings = {"v of the centre [m/s]", "R ω [m/s]"},

@@ -131,7 +131,7 @@ CaseResult headings(double off) {  // the velocity along y
   return {spread};
 }
 
-CaseResult least_friction_to_hold(double off) {  // mu
+CaseResult min_friction_to_hold(double off) {  // mu
   const double limit = threshold(0.4, 0.8, 1e-5, [off](double mu) {
     ContactScene scene(tilted_gravity(kIncline));
     const int block = add_block(scene, off * mu);
@@ -176,10 +176,11 @@ Values seen_up(Scene s) {
 }  // namespace
 
 CaseFamily sliding_cases() {
-  const ContactLook speed{.readings = {"speed [m/s]"}, .read = velocity<1, 0>};
-  const ContactLook back{.readings = {"way uphill [m]"}, .read = seen_up, .exact = known_uphill};
-  const ContactLook way{.readings = {"way [m]"}, .read = seen_way, .exact = known_stop};
-  ContactLook up = back, stops = of_runs(way, {"0°", "15°", "30°", "45°"});
+  const ContactCasePlot speed{.readings = {"speed [m/s]"}, .read = velocity<1, 0>};
+  const ContactCasePlot back{
+      .readings = {"way uphill [m]"}, .read = seen_up, .exact = known_uphill};
+  const ContactCasePlot way{.readings = {"way [m]"}, .read = seen_way, .exact = known_stop};
+  ContactCasePlot up = back, stops = of_runs(way, {"0°", "15°", "30°", "45°"});
   up.about_steps = stops.about_steps = kPartOfStep;
   return {210,
           {contact_case<creep, -50>("E2-creep", 1e-6,
@@ -207,7 +208,7 @@ CaseFamily sliding_cases() {
            contact_case<stopping, 5>("E2-stop", kStep, stops),
            contact_case<headings, 5>("E2-headings", 1e-3,
                                      of_runs(way, {"0°", "0° again", "15°", "30°", "45°"})),
-           contact_case<least_friction_to_hold, 5>("E2-threshold", 1e-3, searched(speed, "μ"))}};
+           contact_case<min_friction_to_hold, 5>("E2-threshold", 1e-3, searched(speed, "μ"))}};
 }
 
 }  // namespace twinarm

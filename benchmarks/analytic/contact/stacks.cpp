@@ -98,7 +98,7 @@ Values seen_loads(Scene s) {
   return {under(boxes)...};
 }
 
-ContactLook top_box(const std::string& axis, Values (*read)(Scene)) {
+ContactCasePlot top_box(const std::string& axis, Values (*read)(Scene)) {
   return {.readings = {axis + " of the top box [m]"},
           .read = read,
           .exact = zero,

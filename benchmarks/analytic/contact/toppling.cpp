@@ -138,7 +138,7 @@ double known_rocking(std::size_t, double t) {
 }  // namespace
 
 CaseFamily toppling_cases() {
-  const ContactLook lean{.readings = {"lean [rad]"}, .read = seen_lean};
+  const ContactCasePlot lean{.readings = {"lean [rad]"}, .read = seen_lean};
   return {230,
           {contact_case<tilt_limit, 20>("E3-tilt", 0.01, searched(lean, "α/rad")),
            contact_case<push_limit, 20>("E3-push", 0.01, searched(lean, "F/(m g)")),

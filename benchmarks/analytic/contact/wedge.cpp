@@ -70,7 +70,7 @@ CaseResult self_locking(double off) {  // mu
 }  // namespace
 
 CaseFamily wedge_cases() {
-  const ContactLook rises{
+  const ContactCasePlot rises{
       .readings = {"z of the wedge [m]"}, .read = place<2, 2>, .from_start = true};
   return {300, {contact_case<self_locking, 2>("E14", 1e-3, searched(rises, "μ"))}};
 }

@@ -26,7 +26,7 @@ constexpr double kHinge = 0.7, kFrame = 0.01, kLittle = 1e-9;
 constexpr int kHeldSteps = 20;  // steps of the integrator in one held step
 
 // The target: a hand that stands still.
-class StillHand final : public HandSource {
+class StillHand final : public OperatorMotion {
  public:
   HandSample sample(double, double) const override {
     HandSample hand;
@@ -43,20 +43,20 @@ struct Stepping {
   Integrator integrator = Integrator::semi_implicit;
   int substeps = 1;
 };
-Stepping stepping_of(Scheme scheme) {
+Stepping stepping_of(SteppingScheme scheme) {
   Stepping s;
   s.spec.options.damper = Damper::vector_;
   const auto is = [&](auto... one) { return ((scheme == one) || ...); };
-  if (is(Scheme::euler, Scheme::euler_difference)) s.integrator = Integrator::euler;
-  s.spec.printed = is(Scheme::euler_difference, Scheme::semi_implicit_difference,
-                      Scheme::semi_implicit_older, Scheme::hold_difference);
-  if (is(Scheme::semi_implicit_older)) s.spec.options.difference = Difference::older;
-  if (is(Scheme::hold, Scheme::hold_difference)) {
+  if (is(SteppingScheme::euler, SteppingScheme::euler_difference)) s.integrator = Integrator::euler;
+  s.spec.printed = is(SteppingScheme::euler_difference, SteppingScheme::semi_implicit_difference,
+                      SteppingScheme::semi_implicit_older, SteppingScheme::hold_difference);
+  if (is(SteppingScheme::semi_implicit_older)) s.spec.options.difference = Difference::older;
+  if (is(SteppingScheme::hold, SteppingScheme::hold_difference)) {
     s.integrator = Integrator::rk4;
     s.substeps = s.spec.hold_steps = s.spec.options.hold_steps = kHeldSteps;
   }
-  if (is(Scheme::implicit_damper)) s.spec.treatment = Treatment::semi_implicit;
-  if (is(Scheme::implicit)) s.spec.treatment = Treatment::implicit;
+  if (is(SteppingScheme::implicit_damper)) s.spec.treatment = Discretization::semi_implicit;
+  if (is(SteppingScheme::implicit)) s.spec.treatment = Discretization::implicit;
   return s;
 }
 
@@ -79,7 +79,7 @@ bool grows(Stepping stepping, const Setting& at, double inertia) {
                             at.beta * kHinge / kFrame}};
   const Model<double> model = lone_hinge(inertia);
   const StillHand hand;
-  KinematicRobot kvr(model, hand, HandMapping(), {{"joint1"}, "", 0, 0});
+  TargetRobot kvr(model, hand, HandMapping(), {{"joint1"}, "", 0, 0});
   const std::unique_ptr<Coupling> coupling = make_coupling(stepping.spec, model, kvr);
   State<double> start(model);
   start.q[0] = kLittle;
@@ -123,31 +123,31 @@ double missed(const Stepping& stepping, const Edge& edge, double inertia) {
 }
 
 // Its mistake: a hinge of 1.5 % less inertia.
-// The limit is alpha(beta); with alpha = 1, beta is below `largest_beta` (0: without such a limit).
-AnalyticCase edge_case(const char* name, Scheme scheme, const std::array<double, 3>& betas,
-                       double (*alpha)(double beta), double largest_beta = 0) {
+// The limit is alpha(beta); with alpha = 1, beta is below `max_beta` (0: without such a limit).
+AnalyticCase edge_case(const char* name, SteppingScheme scheme, const std::array<double, 3>& betas,
+                       double (*alpha)(double beta), double max_beta = 0) {
   std::vector<Edge> edges;
   for (const double beta : betas) edges.push_back({{alpha(beta), beta}});
-  if (largest_beta > 0) edges.push_back({{1, largest_beta}, &Setting::beta});
+  if (max_beta > 0) edges.push_back({{1, max_beta}, &Setting::beta});
   return {name, 0.01, [=](bool mistaken) {
             CaseResult result;
             for (const Edge& edge : edges)
-              result.error = worse(result.error, missed(stepping_of(scheme), edge,
-                                                        mistaken ? 0.985 * kHinge : kHinge));
+              result.error = nan_max(result.error, missed(stepping_of(scheme), edge,
+                                                          mistaken ? 0.985 * kHinge : kHinge));
             return result;
           }};
 }
 
 // How many settings grow.
-CaseResult unstable(const Stepping& stepping, double most_alpha) {
+CaseResult unstable(const Stepping& stepping, double max_alpha) {
   CaseResult result;
   for (const double alpha : {1e-2, 1.0, 1e2, 1e6, 1e10})
     for (const double beta : {0.0, 0.1, 1e2, 1e6})
-      if (alpha <= most_alpha) result.error += grows(stepping, {alpha, beta}, kHinge) ? 1 : 0;
+      if (alpha <= max_alpha) result.error += grows(stepping, {alpha, beta}, kHinge) ? 1 : 0;
   return result;
 }
 Stepping by_integrator(Integrator integrator) {
-  Stepping s = stepping_of(Scheme::semi_implicit);
+  Stepping s = stepping_of(SteppingScheme::semi_implicit);
   s.integrator = integrator;
   return s;
 }
@@ -165,23 +165,24 @@ CaseFamily stability_cases() {
   const auto semi_implicit_limit = [](double b) { return 4 - 2 * b; };
   return {350,
           {edge_case(
-               "F4-euler", Scheme::euler, {0.2, 0.8, 1.5}, [](double b) { return b; }, 2.5),
-           edge_case("F4-semi", Scheme::semi_implicit, kMiddling, semi_implicit_limit),
-           edge_case("F4-semi-difference", Scheme::semi_implicit_difference, kMiddling,
+               "F4-euler", SteppingScheme::euler, {0.2, 0.8, 1.5}, [](double b) { return b; }, 2.5),
+           edge_case("F4-semi", SteppingScheme::semi_implicit, kMiddling, semi_implicit_limit),
+           edge_case("F4-semi-difference", SteppingScheme::semi_implicit_difference, kMiddling,
                      semi_implicit_limit),
-           edge_case("F4-euler-difference", Scheme::euler_difference, {0.2, 0.5, 0.8},
+           edge_case("F4-euler-difference", SteppingScheme::euler_difference, {0.2, 0.5, 0.8},
                      [](double b) { return b * (1 - b); }),
-           edge_case("F4-semi-older", Scheme::semi_implicit_older, {0.15, 0.5, 0.8},
+           edge_case("F4-semi-older", SteppingScheme::semi_implicit_older, {0.15, 0.5, 0.8},
                      [](double b) { return 1 - b; }),
            edge_case(
-               "F4-hold", Scheme::hold, {0.2, 0.8, 1.5}, [](double b) { return 2 * b; }, 2),
-           edge_case("F4-hold-difference", Scheme::hold_difference, {0.2, 0.8, 1.5},
+               "F4-hold", SteppingScheme::hold, {0.2, 0.8, 1.5}, [](double b) { return 2 * b; }, 2),
+           edge_case("F4-hold-difference", SteppingScheme::hold_difference, {0.2, 0.8, 1.5},
                      [](double b) { return 2 * b * (2 - b) / (2 + b); }),
-           edge_case("F4-implicit-damper", Scheme::implicit_damper, {0.15, 0.8, 3},
+           edge_case("F4-implicit-damper", SteppingScheme::implicit_damper, {0.15, 0.8, 3},
                      [](double b) { return 4 + 2 * b; }),
            {"F4-implicit", 0,
             [](bool mistaken) {
-              const Scheme scheme = mistaken ? Scheme::implicit_damper : Scheme::implicit;
+              const SteppingScheme scheme =
+                  mistaken ? SteppingScheme::implicit_damper : SteppingScheme::implicit;
               return unstable(stepping_of(scheme), 1e10);
             }},
            integrator_case("F4-implicit-euler", Integrator::implicit_euler),

@@ -27,8 +27,8 @@ using namespace smooth_parts;
 enum class Law { world, joint, linear };
 struct TrackedCoupling {
   Law law;
-  double k, b;                                  // of the spring on each link
-  std::array<double, 2> largest_deg, mean_deg;  // |e| of the joints over the 3 s
+  double k, b;                              // of the spring on each link
+  std::array<double, 2> max_deg, mean_deg;  // |e| of the joints over the 3 s
 };
 constexpr std::array<TrackedCoupling, 4> kTracked{{
     {Law::world, 1200, 40, {4.5491672, 3.5904684}, {0.23450014, 0.20688893}},
@@ -96,7 +96,7 @@ CaseReadings followed(const TrackedCoupling& coupling, double t) {
                                      special::Numbers& dx) {
       const ArmPlace D{now[0], now[1], now[2], now[3]};
       const special::Two tau = coupling_torques(coupling, arm, target(sweep, sweep + since), D);
-      const special::Two qdd = accelerations_of(terms_of(arm, D.q2, D.qd1, D.qd2), tau);
+      const special::Two qdd = accelerations_of(discretization_terms(arm, D.q2, D.qd1, D.qd2), tau);
       dx = {D.qd1, D.qd2, qdd.first, qdd.second};
     };
     // The fastest of the dampers takes a link along within 0.5 ms.
@@ -126,14 +126,14 @@ CouplingSpec coupling_spec(const TrackedCoupling& coupling) {
   const PlanarArm arm;
   CouplingSpec spec;
   spec.type = coupling.law == Law::linear ? Type::linear : Type::torsional;
-  spec.measure = coupling.law == Law::joint ? Measure::joint : Measure::world;
+  spec.measure = coupling.law == Law::joint ? SpringSpace::joint : SpringSpace::world;
   spec.springs = {{"arm1", 1, {arm.c1, 0, 0}, coupling.k, coupling.b},
                   {"arm2", 2, {arm.c2, 0, 0}, coupling.k, coupling.b}};
   return spec;
 }
 
 // Target and coupling, which keep the model of the target. They are functions of state and time.
-class Leader final : public ForceSource, public Rewindable {
+class Leader final : public ForceSource, public Checkpointable {
  public:
   explicit Leader(const TrackedCoupling& coupling)
       : model_(model_of(uniform_arm())),
@@ -152,7 +152,7 @@ class Leader final : public ForceSource, public Rewindable {
  private:
   Model<double> model_;
   AutomaticMotion hand_;
-  KinematicRobot kvr_;
+  TargetRobot kvr_;
   std::unique_ptr<Coupling> coupling_;
 };
 
@@ -189,21 +189,19 @@ TrackingError tracked(const TrackedCoupling& coupling, bool mistaken) {
   setup.h = kTrackingStep;
   return tracking_error(TrackingSystem(setup).run());
 }
-double largest_miss(const std::vector<double>& found, const std::array<double, 2>& wanted_deg) {
-  return worse(std::abs(found[0] / kDegree - wanted_deg[0]),
-               std::abs(found[1] / kDegree - wanted_deg[1]));
+double max_miss(const std::vector<double>& found, const std::array<double, 2>& wanted_deg) {
+  return nan_max(std::abs(found[0] / kDegree - wanted_deg[0]),
+                 std::abs(found[1] / kDegree - wanted_deg[1]));
 }
 // A motion, and the largest and the mean errors of its joints.
 void add_coupling(const char* motion, const char* largest, const char* mean,
                   const TrackedCoupling& coupling, std::vector<AnalyticCase>& all) {
   all.push_back({motion, 1e-8, following(coupling)});
   all.push_back({largest, 1e-4, [coupling](bool mistaken) {
-                   return CaseResult{
-                       largest_miss(tracked(coupling, mistaken).max, coupling.largest_deg)};
+                   return CaseResult{max_miss(tracked(coupling, mistaken).max, coupling.max_deg)};
                  }});
   all.push_back({mean, 1e-5, [coupling](bool mistaken) {
-                   return CaseResult{
-                       largest_miss(tracked(coupling, mistaken).mean, coupling.mean_deg)};
+                   return CaseResult{max_miss(tracked(coupling, mistaken).mean, coupling.mean_deg)};
                  }});
 }
 

@@ -115,7 +115,7 @@ TrajectoryCase unit_quaternion() {
         Vector3(x.qd[0], x.qd[1], x.qd[2]).norm()};
   };
   c.reference = [](double) { return CaseReadings{1, kSteady.norm()}; };
-  c.measure = largest_difference;
+  c.measure = max_difference;
   c.of_its_lane = true;
   return c;
 }
@@ -141,7 +141,7 @@ double error_after_a_second(const char* name, CaseMeasure measure, const Lane& l
 }
 
 double double_pendulum_error(const Lane& lane, bool mistaken) {
-  return error_after_a_second("C2", largest_difference, lane, mistaken ? 1 : 0);
+  return error_after_a_second("C2", max_difference, lane, mistaken ? 1 : 0);
 }
 
 // Of schemes of first order the pendulum's angle, while 10 ms halve twice: the worse of two slopes.

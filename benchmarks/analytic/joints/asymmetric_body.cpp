@@ -95,7 +95,7 @@ TrajectoryCase tumbling_invariants() {
   };
   c.reference = [](double) { return CaseReadings{std::sqrt(10.0), 2}; };
   c.lane = dopri5_lane(1e-13);
-  c.measure = largest_difference;
+  c.measure = max_difference;
   return c;
 }
 

@@ -72,8 +72,8 @@ CaseReadings momenta_after(double t, const Vector3& gravity) {
 // |dP| / |P| and |dH| / |H|, the larger.
 double momenta_error(const CaseReadings& seen, const CaseReadings& exact) {
   const Eigen::Map<const Eigen::VectorXd> a(seen.data(), 6), b(exact.data(), 6);
-  return worse((a - b).head<3>().norm() / b.head<3>().norm(),
-               (a - b).tail<3>().norm() / b.tail<3>().norm());
+  return nan_max((a - b).head<3>().norm() / b.head<3>().norm(),
+                 (a - b).tail<3>().norm() / b.tail<3>().norm());
 }
 
 TrajectoryCase momenta() {

@@ -134,7 +134,7 @@ TrajectoryCase folded_energy() {
     const double half = kDown * kFoldedLink;
     return CaseReadings{-kGravity * (2 * half * half / 2 + kFoldedLink * half)};
   };
-  c.measure = largest_difference;
+  c.measure = max_difference;
   c.lane = dopri5_lane(1e-12);
   return c;
 }

@@ -137,7 +137,7 @@ TrajectoryCase no_weight() {
       [](const ArmState&, const PlanarArmTerms&) {
         return CaseReadings{0, 0};
       });
-  c.measure = largest_difference;
+  c.measure = max_difference;
   c.mutant = [](CaseScene& scene) { scene.model.gravity.x = 1e-3 * kGravity; };  // it leans
   return c;
 }

@@ -131,7 +131,7 @@ double relative_by_six(const CaseReadings& seen, const CaseReadings& exact) {
       const auto first = all.begin() + static_cast<std::ptrdiff_t>(i);
       return CaseReadings(first, first + 6);
     };
-    error = worse(error, relative_to_largest(six(seen), six(exact)));
+    error = nan_max(error, relative_to_largest(six(seen), six(exact)));
   }
   return error;
 }
@@ -229,7 +229,7 @@ TrajectoryCase puma_published() {
             joined({puma_torques(model, qn, {}, 1), puma_torques(model, qn, kOnes, 1),
                     puma_accelerations(model)}));
       },
-      in_last_digits({kPublished.begin(), kPublished.end()}), largest_difference);
+      in_last_digits({kPublished.begin(), kPublished.end()}), max_difference);
 }
 
 }  // namespace

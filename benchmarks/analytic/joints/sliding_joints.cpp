@@ -64,7 +64,7 @@ TrajectoryCase screw_motion() {
     const double T = (kScrewInertia + kSlidingMass * kPitch * kPitch) / 0.01;
     return CaseReadings{kSlidingMass * kGravity * kPitch / 0.01 * -std::expm1(-t / T)};
   };
-  c.measure = largest_difference;
+  c.measure = max_difference;
   return c;
 }
 

@@ -43,7 +43,7 @@ Output output(const Model<double>& model, const State<double>& start, double inp
   forward_kinematics(model, x, k);
   LoopClosures bearing(model, {loops[0]});
   bearing.evaluate(x, k);
-  const Eigen::VectorXd rates = shortest_solution(bearing.J().rightCols(2), -bearing.J().col(0));
+  const Eigen::VectorXd rates = min_solution(bearing.J().rightCols(2), -bearing.J().col(0));
   x.qd = {1, rates[0], rates[1]};
   forward_kinematics(model, x, k);
   const Vector3 pin = k.X_WL[2].R.col(1);
@@ -75,7 +75,7 @@ TrajectoryCase plate() {
   const double torque = kGravity / 2;
   return evaluation(
       hanging_plate, {"about the normal [rad/s]", "about the edge [rad/s]"}, small_frequencies,
-      {std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)}, largest_difference);
+      {std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)}, max_difference);
 }
 
 }  // namespace

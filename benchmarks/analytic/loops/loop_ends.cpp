@@ -97,7 +97,7 @@ CaseResult governor_swings(bool mistaken) {
   const double rods = swing(Couplers::rods, Integrator::semi_implicit).last;
   const double struts = swing(Couplers::implicit_struts, Integrator::semi_implicit).last;
   const Swing midpoint = swing(Couplers::springs, Integrator::implicit_midpoint);
-  return {worse(std::abs(struts / rods - 1), std::abs(midpoint.last / midpoint.first - 1))};
+  return {nan_max(std::abs(struts / rods - 1), std::abs(midpoint.last / midpoint.first - 1))};
 }
 
 // The crank held at 60 degrees.
@@ -115,7 +115,7 @@ TrajectoryCase piston_place() {
       [c](const Model<double>& model, const State<double>& x) {
         return CaseReadings{close_loops(model, c->loops, x).q[2]};
       },
-      {0.05 + std::sqrt(0.09 - 0.0075)}, largest_difference);
+      {0.05 + std::sqrt(0.09 - 0.0075)}, max_difference);
   place.mutant = longer_crank;
   return place;
 }

@@ -82,7 +82,7 @@ CaseReadings assembled(const LoopCase& c, const Model<double>& model, const Stat
   forward_kinematics(model, x, k);
   LoopClosures loops(model, {c.loops[0]});
   loops.evaluate(x, k);
-  const Eigen::VectorXd rates = shortest_solution(loops.J().rightCols(2), -10 * loops.J().col(0));
+  const Eigen::VectorXd rates = min_solution(loops.J().rightCols(2), -10 * loops.J().col(0));
   x.qd = {10, rates[0], rates[1]};
   return c.read(x, k);
 }
@@ -107,7 +107,7 @@ TrajectoryCase four_bar_place() {
       },
       c->readings,
       [c](const Model<double>& model, const State<double>& x) { return assembled(*c, model, x); },
-      four_bar_closed_form(), largest_difference);
+      four_bar_closed_form(), max_difference);
   place.mutant = longer_crank;
   return place;
 }

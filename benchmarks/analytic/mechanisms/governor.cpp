@@ -20,7 +20,7 @@ const Vector3 kRodMiddle(0.5, 0, 0);  // of a rod, in its own axes
 constexpr double kSide = 0.05;        // of the slider and of the hinges, from the axis
 
 // Both couplers, as forces along the lines between their ends.
-struct CouplerForces final : ForceSource, Rewindable {
+struct CouplerForces final : ForceSource, Checkpointable {
   std::array<int, 2> rods;
   int slider;
   CouplerForces(std::array<int, 2> rod_bodies, int slider_body)

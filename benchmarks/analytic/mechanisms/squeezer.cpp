@@ -23,7 +23,7 @@ const Vector3 A(-0.06934, -0.00227, 0), B(-0.03635, 0.03273, 0), C(0.014, 0.072,
 constexpr double c0 = 4530, l0 = 0.07785, motor = 0.033;
 
 // Motor on K1, spring from D on K3 to C in the world.
-struct MotorAndSpring final : ForceSource, Rewindable {
+struct MotorAndSpring final : ForceSource, Checkpointable {
   std::size_t crank;
   int k3;
   MotorAndSpring(std::size_t crank_dof, int body) : crank(crank_dof), k3(body) {}

@@ -22,7 +22,7 @@ struct CaseResult {
   std::optional<double> order{};  // of convergence, where it is measured
 };
 
-struct ContactLook;
+struct ContactCasePlot;
 
 struct AnalyticCase {
   const char* name;  // "E1-times"
@@ -30,7 +30,7 @@ struct AnalyticCase {
   std::function<CaseResult()> run{};       // null: a trajectory
   std::function<CaseResult()> mistaken{};  // run() with a mistake in it, which must fail
   std::shared_ptr<const TrajectoryCase> trajectory{};
-  std::shared_ptr<const ContactLook> look{};  // what a page draws; null: nothing
+  std::shared_ptr<const ContactCasePlot> look{};  // what a page draws; null: nothing
   // Of the list, from docs/cases/: "contact"; what is measured, with its unit, against what; and
   // what is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet.
   const char *group = "", *reference = "", *statement = "";

@@ -82,7 +82,7 @@ void ContactScene::start() {
     });
   simulation_->add(*contacts_);
   start_energy_ = lowest_ = energy();
-  most_kinetic_ = kinetic_energy(model_, simulation_->state());
+  max_kinetic_ = kinetic_energy(model_, simulation_->state());
   if (contact_recorder) contact_recorder->begin(*this);
 }
 
@@ -99,7 +99,7 @@ double ContactScene::energy() const {
 void ContactScene::watch() {
   const double kinetic = kinetic_energy(model_, simulation_->state());
   const double now = kinetic + potential_energy(model_, simulation_->state());
-  most_kinetic_ = std::max(most_kinetic_, kinetic);
+  max_kinetic_ = std::max(max_kinetic_, kinetic);
   strayed_ = std::max(strayed_, std::abs(now - start_energy_));
   rise_ = std::max(rise_, now - lowest_);
   lowest_ = std::min(lowest_, now);
@@ -157,9 +157,9 @@ void ContactRecorder::note(const ContactScene& scene, double energy) {
   }
   if (++steps_ % stride_ != 0) return;
   add(scene, energy);
-  constexpr std::size_t kMost = 1200;
+  constexpr std::size_t kMax = 1200;
   ContactRun& run = runs.back();
-  if (run.t.size() <= kMost) return;
+  if (run.t.size() <= kMax) return;
   // Every other one goes; the first stays.
   const auto halve = [](std::vector<double>& values) {
     for (std::size_t i = 0; 2 * i < values.size(); ++i) values[i] = values[2 * i];

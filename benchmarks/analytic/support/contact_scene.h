@@ -125,8 +125,8 @@ class ContactScene {
   double energy() const;          // [J]
   // Over all steps: max |E - E0| over the largest kinetic energy, and the most that E rose above
   // the lowest value before it.
-  double drift() const { return strayed_ / most_kinetic_; }
-  double rise() const { return rise_ / most_kinetic_; }
+  double drift() const { return strayed_ / max_kinetic_; }
+  double rise() const { return rise_ / max_kinetic_; }
   bool ok() const { return ok_; }  // all steps were
 
   Simulation& simulation() { return *simulation_; }
@@ -157,7 +157,7 @@ class ContactScene {
   std::unique_ptr<ContactConstraints> contacts_;
   std::unique_ptr<Simulation> simulation_;
   std::vector<std::unique_ptr<ForceSource>> pushes_;
-  double start_energy_ = 0, lowest_ = 0, strayed_ = 0, rise_ = 0, most_kinetic_ = 0;
+  double start_energy_ = 0, lowest_ = 0, strayed_ = 0, rise_ = 0, max_kinetic_ = 0;
   bool ok_ = true;
 };
 
@@ -191,7 +191,7 @@ inline double relative(double value, double reference) {
 // What a page draws of a contact case: which coordinate of which body, and what is known of it in
 // closed form. Its scenes are made and stepped by the case itself, while a recorder looks on
 // (contact_scene.h).
-struct ContactLook {
+struct ContactCasePlot {
   std::vector<std::string> readings;  // with unit: "height [m]"
   std::vector<double> (*read)(const ContactScene&);
   // Of curve `k` at a time; not a number where it is not known. Curves are readings, or runs.
@@ -249,15 +249,15 @@ inline double zero(std::size_t, double) {
 }
 
 // The same without an error against the step, and why; or as runs on either side of a limit.
-inline ContactLook without_steps(ContactLook look, const char* why) {
+inline ContactCasePlot without_steps(ContactCasePlot look, const char* why) {
   look.no_steps = why;
   return look;
 }
-inline ContactLook searched(ContactLook look, const char* what) {
+inline ContactCasePlot searched(ContactCasePlot look, const char* what) {
   look.search = what;
   return without_steps(look, kSearch);
 }
-inline ContactLook of_runs(ContactLook look, std::vector<std::string> runs) {
+inline ContactCasePlot of_runs(ContactCasePlot look, std::vector<std::string> runs) {
   look.runs = std::move(runs);
   return look;
 }
@@ -267,10 +267,10 @@ inline ContactLook of_runs(ContactLook look, std::vector<std::string> runs) {
 // A case with its mistake: the experiment multiplies one thing in it by `off`, which is 1 in the
 // case; in the mistake it is some thousandths more or less, and the case must fail.
 template <CaseResult (*experiment)(double off), int thousandths>
-AnalyticCase contact_case(const char* name, double tolerance, ContactLook look = {}) {
+AnalyticCase contact_case(const char* name, double tolerance, ContactCasePlot look = {}) {
   AnalyticCase c(name, tolerance,
                  [](bool mistaken) { return experiment(mistaken ? 1 + 1e-3 * thousandths : 1); });
-  if (look.read) c.look = std::make_shared<const ContactLook>(std::move(look));
+  if (look.read) c.look = std::make_shared<const ContactCasePlot>(std::move(look));
   return c;
 }
 

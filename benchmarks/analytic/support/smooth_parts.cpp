@@ -102,14 +102,15 @@ double attitude_and_rate_error(const CaseReadings& seen, const CaseReadings& exa
     return Eigen::Quaterniond(r[0], r[1], r[2], r[3]);
   };
   const auto rate = [](const CaseReadings& r) { return Vector3(r[4], r[5], r[6]); };
-  return worse(attitude(seen).angularDistance(attitude(exact)), (rate(seen) - rate(exact)).norm());
+  return nan_max(attitude(seen).angularDistance(attitude(exact)),
+                 (rate(seen) - rate(exact)).norm());
 }
 
 double relative_each(const CaseReadings& seen, const CaseReadings& exact) {
   if (seen.size() != exact.size()) return std::numeric_limits<double>::quiet_NaN();
   double error = 0;
   for (std::size_t i = 0; i < seen.size(); ++i)
-    error = worse(error, std::abs(seen[i] / exact[i] - 1));
+    error = nan_max(error, std::abs(seen[i] / exact[i] - 1));
   return error;
 }
 

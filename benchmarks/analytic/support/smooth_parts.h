@@ -36,7 +36,7 @@ inline CaseObserver joint_state() {  // all coordinates, then all velocities
 
 // A torque or force on one dof, by time and by the dof's coordinate, which has its number among
 // the velocities.
-class JointEffort : public ForceSource, public Rewindable {
+class JointEffort : public ForceSource, public Checkpointable {
  public:
   using Law = std::function<double(double t, double q)>;
   explicit JointEffort(Law law, std::size_t dof = 0) : law_(std::move(law)), dof_(dof) {}

@@ -74,8 +74,8 @@ class Run {
   }
 
   std::optional<double> energy_drift() const {
-    if (!scene_.conserves || !case_.has_steps() || !(most_kinetic_ > 0)) return {};
-    return strayed_ / most_kinetic_;
+    if (!scene_.conserves || !case_.has_steps() || !(max_kinetic_ > 0)) return {};
+    return strayed_ / max_kinetic_;
   }
   long steps() const { return steps_; }
 
@@ -98,7 +98,7 @@ class Run {
     const State<double>& x = simulation_.state();
     if (!scene_.conserves && !recording_) return 0;
     const double kinetic = kinetic_energy(scene_.model, x);
-    most_kinetic_ = std::max(most_kinetic_, kinetic);
+    max_kinetic_ = std::max(max_kinetic_, kinetic);
     const double stored = scene_.stored ? scene_.stored(x) : 0;
     const double energy = kinetic + potential_energy(scene_.model, x) + stored;
     if (recording_) recording_->push_back({now_, case_.observe(scene_.model, x), energy});
@@ -110,7 +110,7 @@ class Run {
   Lane lane_;
   std::vector<TrajectoryPoint>* recording_;
   Simulation simulation_;
-  double now_ = 0, energy_at_start_ = 0, strayed_ = 0, most_kinetic_ = 0;
+  double now_ = 0, energy_at_start_ = 0, strayed_ = 0, max_kinetic_ = 0;
   long steps_ = 0;
   int sign_ = 0;  // of the event's function, the last that was not zero
 };
@@ -123,7 +123,7 @@ LaneResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& lane,
   Run run(c, scene, lane, recording);
   const auto judge = [&](const CaseReadings& seen, double argument) {
     const double error = c.measure(seen, c.reference(argument));
-    result.error = worse(result.error, error);
+    result.error = nan_max(result.error, error);
   };
   const auto all = [&] {
     for (const double t : c.times) {
@@ -150,7 +150,7 @@ LaneResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& lane,
   return result;
 }
 
-double largest_reference(const TrajectoryCase& c) {
+double max_reference(const TrajectoryCase& c) {
   double largest = 0;
   const auto look = [&](double argument) {
     for (const double value : c.reference(argument)) largest = std::max(largest, std::abs(value));
@@ -162,17 +162,18 @@ double largest_reference(const TrajectoryCase& c) {
 
 }  // namespace
 
-double largest_difference(const CaseReadings& seen, const CaseReadings& exact) {
+double max_difference(const CaseReadings& seen, const CaseReadings& exact) {
   if (seen.size() != exact.size()) return kNothing;
   double error = 0;
-  for (std::size_t i = 0; i < seen.size(); ++i) error = worse(error, std::abs(seen[i] - exact[i]));
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    error = nan_max(error, std::abs(seen[i] - exact[i]));
   return error;
 }
 
 double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact) {
   double largest = 0;
   for (const double value : exact) largest = std::max(largest, std::abs(value));
-  return largest_difference(seen, exact) / largest;
+  return max_difference(seen, exact) / largest;
 }
 
 TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::string> readings,
@@ -187,7 +188,7 @@ TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::str
 
 TrajectoryCase times_of(TrajectoryCase motion, CaseEvents events, CaseReference reference) {
   motion.times = {}, motion.readings = {}, motion.observe = TrajectoryCase{}.observe;
-  motion.reference = std::move(reference), motion.measure = largest_difference;
+  motion.reference = std::move(reference), motion.measure = max_difference;
   motion.events = std::move(events);
   return motion;
 }
@@ -227,7 +228,7 @@ std::optional<double> slope_of(const std::vector<double>& errors, double roundin
 }
 
 double rounding_of(const TrajectoryCase& c) {
-  return 1e-12 * largest_reference(c);
+  return 1e-12 * max_reference(c);
 }
 
 std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane) {

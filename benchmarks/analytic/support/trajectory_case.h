@@ -55,7 +55,7 @@ using CaseReference = std::function<CaseReadings(double)>;
 // One number from what was seen at one time and what should have been.
 using CaseMeasure = double (*)(const CaseReadings& seen, const CaseReadings& exact);
 
-double largest_difference(const CaseReadings& seen, const CaseReadings& exact);
+double max_difference(const CaseReadings& seen, const CaseReadings& exact);
 double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact);
 
 // Mistakes that a case must notice.
@@ -79,7 +79,7 @@ struct TrajectoryCase {
   // Computed in the case at every time; with events, for the number of the event, from 1 on.
   CaseReference reference;
   Lane lane{};  // in which it is judged
-  CaseMeasure measure = largest_difference;
+  CaseMeasure measure = max_difference;
   void (*mutant)(CaseScene&) = more_gravity;  // with this mistake the error is above the tolerance
   CaseEvents events{};
   // The reference is what a scheme gives at its step: no lane but its own.

@@ -146,7 +146,7 @@ toml::table parse(const std::filesystem::path& file) {
 
 }  // namespace
 
-RecipeFile read_recipe_file(const std::filesystem::path& file, std::vector<Fault>& faults) {
+RecipeFile read_recipe_file(const std::filesystem::path& file, std::vector<Diagnostic>& faults) {
   RecipeFile recipe;
   recipe.file = std::filesystem::absolute(file).lexically_normal();
   const toml::table table = parse(recipe.file);

@@ -46,6 +46,6 @@ struct RecipeFile {
 
 // Adds what is wrong to `faults` and goes on with harmless values. Throws InputError at once where
 // the file cannot be read or is no TOML.
-RecipeFile read_recipe_file(const std::filesystem::path& file, std::vector<Fault>& faults);
+RecipeFile read_recipe_file(const std::filesystem::path& file, std::vector<Diagnostic>& faults);
 
 }  // namespace twinarm

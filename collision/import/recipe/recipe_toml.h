@@ -17,13 +17,13 @@ namespace twinarm {
 
 class TomlSource {
  public:
-  TomlSource(std::string file, std::vector<Fault>& faults)
+  TomlSource(std::string file, std::vector<Diagnostic>& faults)
       : file_(std::move(file)), faults_(faults) {}
 
   static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-  void fault(int line, std::string where, std::string rule, std::string remedy) {
+  void fault(int line, std::string where, std::string problem, std::string fix) {
     faults_.push_back(
-        {file_, line, std::move(where), std::move(rule), std::move(remedy), "recipe.value"});
+        {file_, line, std::move(where), std::move(problem), std::move(fix), "recipe.value"});
   }
 
   // A misspelt key would else be left out in silence.
@@ -51,7 +51,7 @@ class TomlSource {
 
  private:
   std::string file_;
-  std::vector<Fault>& faults_;
+  std::vector<Diagnostic>& faults_;
 };
 
 }  // namespace twinarm

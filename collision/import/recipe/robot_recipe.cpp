@@ -26,9 +26,10 @@
 namespace twinarm {
 namespace {
 
-class Maker {
+class RobotFromCad {
  public:
-  explicit Maker(const std::filesystem::path& file) : recipe_(read_recipe_file(file, faults_)) {}
+  explicit RobotFromCad(const std::filesystem::path& file)
+      : recipe_(read_recipe_file(file, faults_)) {}
 
   RecipeResult run() {
     result_.robot.name = recipe_.name;
@@ -45,9 +46,9 @@ class Maker {
   }
 
  private:
-  void fault(int line, std::string where, std::string rule, std::string remedy) {
-    faults_.push_back({recipe_.file.string(), line, std::move(where), std::move(rule),
-                       std::move(remedy), "recipe.robot"});
+  void fault(int line, std::string where, std::string problem, std::string fix) {
+    faults_.push_back({recipe_.file.string(), line, std::move(where), std::move(problem),
+                       std::move(fix), "recipe.robot"});
   }
 
   // Runs f; what it finds wrong is told at the line of the recipe that asked for it.
@@ -56,9 +57,9 @@ class Maker {
     try {
       return f();
     } catch (const InputError& error) {
-      for (const Fault& inner : error.faults())
-        fault(line, where, (inner.file.empty() ? "" : inner.file + ": ") + inner.rule,
-              inner.remedy);
+      for (const Diagnostic& inner : error.faults())
+        fault(line, where, (inner.file.empty() ? "" : inner.file + ": ") + inner.problem,
+              inner.fix);
       return std::nullopt;
     }
   }
@@ -149,7 +150,7 @@ class Maker {
     link.collisions.push_back(std::move(part));
   }
 
-  std::vector<Fault> faults_;  // before recipe_, whose reading fills it
+  std::vector<Diagnostic> faults_;  // before recipe_, whose reading fills it
   RecipeFile recipe_;
   RecipeResult result_;
   std::set<std::string> hull_names_;
@@ -168,7 +169,7 @@ std::string comment_for(const RobotDescription& robot) {
 }  // namespace
 
 RecipeResult read_recipe(const std::filesystem::path& recipe_toml) {
-  return Maker(recipe_toml).run();
+  return RobotFromCad(recipe_toml).run();
 }
 
 void make_robot(const std::filesystem::path& recipe_toml) {

@@ -78,7 +78,7 @@ FilePlace find_named_file(const std::string& kind, const std::string& name, cons
               "upload it with the URDF, and name it relative to the URDF",
               "file.missing"};
     if (is_file(expected)) return {expected, "", "", ""};
-    place.remedy = "expected at " + expected.string();
+    place.fix = "expected at " + expected.string();
   } else {
     const std::size_t slash = name.find('/', scheme + 3);
     const bool is_package = name.starts_with("package://") || name.starts_with("model://");
@@ -91,10 +91,10 @@ FilePlace find_named_file(const std::string& kind, const std::string& name, cons
                                            name.substr(slash + 1), folder);
     if (!found.empty() && may_name(roots, found))
       return {fs::absolute(found).lexically_normal(), "", "", ""};
-    place.remedy = "the package was sought above and beside " + folder.string() +
-                   " and in ROS_PACKAGE_PATH; put it there, or give a path relative to the URDF";
+    place.fix = "the package was sought above and beside " + folder.string() +
+                " and in ROS_PACKAGE_PATH; put it there, or give a path relative to the URDF";
   }
-  place.rule = kind + " file '" + name + "' does not exist";
+  place.problem = kind + " file '" + name + "' does not exist";
   place.code = "file.missing";
   return place;
 }

@@ -27,7 +27,7 @@ struct RobotFileOptions {
 
 struct FilePlace {
   std::filesystem::path file;  // absolute; empty where it was not found
-  std::string rule, remedy;    // then: why not, and what to do
+  std::string problem, fix;    // then: why not, and what to do
   std::string_view code;       // of the fault
 };
 

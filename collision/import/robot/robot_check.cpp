@@ -35,7 +35,8 @@ std::string names_of(std::span<const Type> types) {
 }
 
 template <class Item>
-void unique_names(RuleBook& book, const std::vector<Item>& items, const std::string& kind) {
+void unique_names(ValidationContext& book, const std::vector<Item>& items,
+                  const std::string& kind) {
   std::map<std::string, int> first_line;
   for (const Item& item : items) {
     if (item.name.empty()) {
@@ -60,31 +61,31 @@ constexpr double kRounding = 1e-12;
 
 // A <= B <= C are those of a body of positive density only if A > 0 and A + B >= C: each moment is
 // an integral of two of x^2, y^2, z^2.
-void physical_moments(RuleBook& book, const LinkDescription& link, bool strict) {
+void physical_moments(ValidationContext& book, const LinkDescription& link, bool strict) {
   const Vector3 moments = symmetric_eigenvalues(link.inertia);  // ascending
-  std::string rule;
+  std::string problem;
   if (!(moments[0] > kRounding * moments.cwiseAbs().maxCoeff()))
-    rule = "its inertia is not positive definite";
+    problem = "its inertia is not positive definite";
   else if (moments[0] + moments[1] < moments[2] * (1 - kTriangleSlack))
-    rule = "its inertia breaks the triangle inequality A + B >= C";
+    problem = "its inertia breaks the triangle inequality A + B >= C";
   else
     return;
-  rule += ": principal moments " + short_number_text(moments[0]) + ", " +
-          short_number_text(moments[1]) + ", " + short_number_text(moments[2]) + " kg m^2";
+  problem += ": principal moments " + short_number_text(moments[0]) + ", " +
+             short_number_text(moments[1]) + ", " + short_number_text(moments[2]) + " kg m^2";
   const int line = line_of(link.inertia_line, link.line);
   if (strict)
-    book.fault(line, of(link), rule,
+    book.fault(line, of(link), problem,
                "no rigid body of positive density has it; check units, signs and the order ixx ixy "
                "ixz iyy iyz izz, about the centre of mass",
                "robot.inertia-not-physical");
   else
-    book.warn(line, of(link), rule,
+    book.warn(line, of(link), problem,
               "no rigid body of positive density has it; forward dynamics may still work, MuJoCo "
               "and Drake refuse it",
               "robot.inertia");
 }
 
-void inertia(RuleBook& book, const LinkDescription& link, bool strict) {
+void inertia(ValidationContext& book, const LinkDescription& link, bool strict) {
   if (!link.has_inertia) return;
   const int mass_line = line_of(link.mass_line, link.line);
   if (!std::isfinite(link.mass) || !link.com.allFinite() || !link.inertia.allFinite())
@@ -110,7 +111,7 @@ void inertia(RuleBook& book, const LinkDescription& link, bool strict) {
   physical_moments(book, link, strict);
 }
 
-void values(RuleBook& book, const JointDescription& joint) {
+void values(ValidationContext& book, const JointDescription& joint) {
   const JointDescription::Lines& lines = joint.lines;
   if (joint.has_axis() && !(joint.axis.norm() >= 1e-9))
     book.fault(line_of(lines.axis, joint.line), of(joint), "its axis is zero",
@@ -176,7 +177,7 @@ Type urdf_type_of(Type type, bool limited) {
 }
 
 RobotCheck check_robot(const RobotDescription& robot, bool strict) {
-  RuleBook book{robot, {}};
+  ValidationContext book{robot, {}};
   if (robot.links.empty())
     book.fault(0, "robot '" + robot.name + "'", "it has no link", "give at least one link",
                "robot.empty");
@@ -189,9 +190,9 @@ RobotCheck check_robot(const RobotDescription& robot, bool strict) {
   return std::move(book.found);
 }
 
-void throw_in_line_order(std::vector<Fault> faults) {
+void throw_in_line_order(std::vector<Diagnostic> faults) {
   std::stable_sort(faults.begin(), faults.end(),
-                   [](const Fault& a, const Fault& b) { return a.line < b.line; });
+                   [](const Diagnostic& a, const Diagnostic& b) { return a.line < b.line; });
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 

@@ -21,8 +21,8 @@ bool is_urdf_type(JointDescription::Type type);
 JointDescription::Type urdf_type_of(JointDescription::Type type, bool limited);
 
 struct RobotCheck {
-  std::vector<Fault> faults;    // empty for a good robot
-  std::vector<Fault> warnings;  // what is suspicious, but can be computed with
+  std::vector<Diagnostic> faults;    // empty for a good robot
+  std::vector<Diagnostic> warnings;  // what is suspicious, but can be computed with
 };
 
 // Names, the tree, inertias, axes, limits, damping, mimics. An inertia that no rigid body has is a
@@ -30,7 +30,7 @@ struct RobotCheck {
 RobotCheck check_robot(const RobotDescription& robot, bool strict = false);
 
 // Throws InputError with all faults in the order of their lines; returns if there is none.
-void throw_in_line_order(std::vector<Fault> faults);
+void throw_in_line_order(std::vector<Diagnostic> faults);
 
 // The link that is no joint's child; empty where there is not exactly one.
 std::string find_root(const RobotDescription& robot);
@@ -40,19 +40,19 @@ std::string find_root(const RobotDescription& robot);
 std::vector<std::size_t> joints_from_root(const RobotDescription& robot);
 
 // What robot_check.cpp and tree_checks.cpp share, which alone include it.
-struct RuleBook {
+struct ValidationContext {
   const RobotDescription& robot;
   RobotCheck found;
 
-  void fault(int line, std::string where, std::string rule, std::string remedy,
+  void fault(int line, std::string where, std::string problem, std::string fix,
              std::string_view code) {
-    add_fault(found.faults, {robot.file.string(), line, std::move(where), std::move(rule),
-                             std::move(remedy), code});
+    add_diagnostic(found.faults, {robot.file.string(), line, std::move(where), std::move(problem),
+                                  std::move(fix), code});
   }
-  void warn(int line, std::string where, std::string rule, std::string remedy,
+  void warn(int line, std::string where, std::string problem, std::string fix,
             std::string_view code) {
-    add_fault(found.warnings, {robot.file.string(), line, std::move(where), std::move(rule),
-                               std::move(remedy), code});
+    add_diagnostic(found.warnings, {robot.file.string(), line, std::move(where), std::move(problem),
+                                    std::move(fix), code});
   }
 };
 
@@ -67,7 +67,7 @@ inline int line_of(int element, int owner) {
   return element > 0 ? element : owner;
 }
 
-void check_mimics(RuleBook& book);
-void check_tree(RuleBook& book);
+void check_mimics(ValidationContext& book);
+void check_tree(ValidationContext& book);
 
 }  // namespace twinarm

@@ -142,7 +142,7 @@ struct RobotDescription {
   std::vector<JointDescription> joints;  // in the order of the file
   std::string root;                      // the one link that is no joint's child
   // What was read but is suspicious, or has no effect here; in the order of the lines.
-  std::vector<Fault> warnings;
+  std::vector<Diagnostic> warnings;
 };
 
 }  // namespace twinarm

@@ -33,9 +33,9 @@ BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double ma
 }
 
 // The robot with everything in it that the options ask for, and the faults of these.
-class Weighted {
+class ConfiguredRobot {
  public:
-  Weighted(const RobotDescription& robot, const ModelOptions& options) : robot_(robot) {
+  ConfiguredRobot(const RobotDescription& robot, const ModelOptions& options) : robot_(robot) {
     for (LinkDescription& link : robot_.links) link_[link.name] = &link;
     for (const auto& [name, factor] : options.mass_scale)
       if (LinkDescription* link = find(name, "mass_scale")) {
@@ -75,7 +75,7 @@ class Weighted {
 
   RobotDescription robot_;
   std::map<std::string, LinkDescription*> link_;
-  std::vector<Fault> faults_;
+  std::vector<Diagnostic> faults_;
 };
 
 // The builder knows names only: file and line are added to what it finds.
@@ -83,8 +83,8 @@ Model<double> build(const ModelBuilder& builder, const RobotDescription& robot) 
   try {
     return builder.build();
   } catch (const InputError& error) {
-    std::vector<Fault> faults = error.faults();
-    for (Fault& fault : faults) {
+    std::vector<Diagnostic> faults = error.faults();
+    for (Diagnostic& fault : faults) {
       if (!fault.file.empty()) continue;
       fault.file = robot.file.string();
       for (const LinkDescription& link : robot.links)
@@ -108,7 +108,7 @@ std::string root_joint_name(const RobotDescription& robot, bool floating) {
 
 void add_robot(ModelBuilder& builder, const RobotDescription& description,
                const ModelOptions& options, const std::string& prefix, const Pose& X_WR) {
-  const Weighted weighted(description, options);
+  const ConfiguredRobot weighted(description, options);
   const RobotDescription& robot = weighted.robot();
   std::map<std::string, int> body;  // of the links that are added already
   body[robot.root] = builder.add_body(

@@ -38,7 +38,7 @@ std::vector<std::vector<std::size_t>> loops_of(const std::vector<std::size_t>& n
 
 class TreeRules {
  public:
-  explicit TreeRules(RuleBook& book)
+  explicit TreeRules(ValidationContext& book)
       : book_(book), robot_(book.robot), carrier_(carriers(book.robot)) {}
 
   void run() {
@@ -143,7 +143,7 @@ class TreeRules {
     }
   }
 
-  RuleBook& book_;
+  ValidationContext& book_;
   const RobotDescription& robot_;
   const std::map<std::string, std::size_t> carrier_;
 };
@@ -155,7 +155,8 @@ constexpr const char* kOneCoordinate =
 // follow in turn the one that it leads.
 class MimicRules {
  public:
-  explicit MimicRules(RuleBook& book) : book_(book), leader_(book.robot.joints.size(), kNone) {}
+  explicit MimicRules(ValidationContext& book)
+      : book_(book), leader_(book.robot.joints.size(), kNone) {}
 
   void run() {
     const auto& joints = book_.robot.joints;
@@ -177,10 +178,10 @@ class MimicRules {
   }
 
  private:
-  void fault(std::size_t follower, const std::string& rule, const std::string& remedy,
+  void fault(std::size_t follower, const std::string& problem, const std::string& fix,
              std::string_view code) {
     const JointDescription& joint = book_.robot.joints[follower];
-    book_.fault(line_of(joint.lines.mimic, joint.line), of(joint), rule, remedy, code);
+    book_.fault(line_of(joint.lines.mimic, joint.line), of(joint), problem, fix, code);
   }
 
   void pair(std::size_t follower, std::size_t leader) {
@@ -208,17 +209,17 @@ class MimicRules {
     leader_[follower] = leader;
   }
 
-  RuleBook& book_;
+  ValidationContext& book_;
   std::vector<std::size_t> leader_;
 };
 
 }  // namespace
 
-void check_tree(RuleBook& book) {
+void check_tree(ValidationContext& book) {
   TreeRules(book).run();
 }
 
-void check_mimics(RuleBook& book) {
+void check_mimics(ValidationContext& book) {
   MimicRules(book).run();
 }
 

@@ -12,7 +12,7 @@ namespace twinarm {
 namespace {
 
 constexpr std::size_t kDeepest = 200;
-constexpr std::uintmax_t kMostTomlBytes = 4u << 20;
+constexpr std::uintmax_t kMaxTomlBytes = 4u << 20;
 
 // Goes through the text as far as brackets and dots are concerned. What is no TOML is parsed, and
 // refused, by others.
@@ -78,14 +78,14 @@ class DepthScan {
 }  // namespace
 
 std::string read_toml_text(const std::filesystem::path& file) {
-  const auto refuse = [&](int line, const std::string& rule, const std::string& remedy,
+  const auto refuse = [&](int line, const std::string& problem, const std::string& fix,
                           std::string_view code = "") {
-    throw InputError({{file.string(), line, "", rule, remedy, code}});
+    throw InputError({{file.string(), line, "", problem, fix, code}});
   };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
     refuse(0, "the file does not exist", "check the path", "file.missing");
-  if (std::filesystem::file_size(file, ignored) > kMostTomlBytes)
+  if (std::filesystem::file_size(file, ignored) > kMaxTomlBytes)
     refuse(0, "the file has more than 4 MiB", "meshes and traces stand in files of their own");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) refuse(0, "the file cannot be read", "check its permissions: ls -l shows them");

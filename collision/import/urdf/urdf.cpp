@@ -129,8 +129,8 @@ RobotDescription read_urdf(const std::filesystem::path& file, const RobotFileOpt
   robot.name = source.text(element, "name", "robot");
   const UrdfMaterials materials = read_materials(element, source);
   for (const XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
-    constexpr std::size_t kMostParts = 40000;
-    if (robot.links.size() + robot.joints.size() == kMostParts) {
+    constexpr std::size_t kMaxParts = 40000;
+    if (robot.links.size() + robot.joints.size() == kMaxParts) {
       source.fault(e->GetLineNum(), "", "there are more than 40,000 links and joints",
                    "what does not move belongs to one link", "urdf.too-many");
       source.check();

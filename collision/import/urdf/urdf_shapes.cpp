@@ -28,11 +28,11 @@ MeshGeometry read_mesh(const XMLElement& element, const std::string& where, Urdf
   const FilePlace place =
       find_named_file("mesh", mesh.name, source.folder(), source.options().roots);
   mesh.file = place.file;
-  if (place.rule.empty()) return mesh;
+  if (place.problem.empty()) return mesh;
   if (source.options().geometry == RobotFileOptions::Geometry::required)
-    source.fault(element.GetLineNum(), where, place.rule, place.remedy, place.code);
+    source.fault(element.GetLineNum(), where, place.problem, place.fix, place.code);
   else
-    source.warn_once("mesh", element.GetLineNum(), where, place.rule, place.remedy, "file.missing");
+    source.warn_once("mesh", element.GetLineNum(), where, place.problem, place.fix, "file.missing");
   return mesh;
 }
 
@@ -84,7 +84,7 @@ std::string material_name(const XMLElement& material) {
 // The colour of a <material> element, if it states one. Colours are only to be looked at: a bad one
 // is told and mended.
 std::optional<Vector4> read_color(const XMLElement& material, UrdfSource& source) {
-  const UrdfSource::Softly softly(source, true);
+  const UrdfSource::ErrorsAsWarnings softly(source, true);
   const XMLElement* color = material.FirstChildElement("color");
   if (!color) return std::nullopt;
   const auto rgba = source.numbers(*color, "rgba", material_name(material), 4);
@@ -112,8 +112,8 @@ void read_texture(const XMLElement& material, UrdfMaterial& result, UrdfSource& 
   result.texture_name = name;
   const FilePlace place = find_named_file("texture", name, source.folder(), source.options().roots);
   result.texture = place.file;
-  if (!place.rule.empty())
-    source.warn_once("texture", texture->GetLineNum(), where, place.rule, place.remedy,
+  if (!place.problem.empty())
+    source.warn_once("texture", texture->GetLineNum(), where, place.problem, place.fix,
                      "file.missing");
 }
 
@@ -156,7 +156,7 @@ UrdfMaterials read_materials(const XMLElement& robot, UrdfSource& source) {
     if (material && name) materials.emplace(name, *material);
   };
   for (auto* m = robot.FirstChildElement("material"); m; m = m->NextSiblingElement("material")) {
-    const UrdfSource::Softly softly(source, true);
+    const UrdfSource::ErrorsAsWarnings softly(source, true);
     const std::string name = source.text(*m, "name", "material");
     if (materials.count(name))
       source.warn(m->GetLineNum(), material_name(*m), "it is defined twice", "the first counts",
@@ -171,7 +171,7 @@ UrdfMaterials read_materials(const XMLElement& robot, UrdfSource& source) {
 
 void read_shapes(const XMLElement& link_element, const UrdfMaterials& materials,
                  LinkDescription& link, UrdfSource& source) {
-  const UrdfSource::Softly softly(
+  const UrdfSource::ErrorsAsWarnings softly(
       source, source.options().geometry == RobotFileOptions::Geometry::optional);
   const auto read = [&](const XMLElement& element, auto& part) {
     if (const char* name = element.Attribute("name")) part.name = name;

@@ -54,47 +54,47 @@ std::string shortened(const std::string& value) {
 UrdfSource::UrdfSource(const std::filesystem::path& file, const RobotFileOptions& options)
     : file_(std::filesystem::absolute(file).lexically_normal()), options_(options) {}
 
-void UrdfSource::fault(int line, std::string where, std::string rule, std::string remedy,
+void UrdfSource::fault(int line, std::string where, std::string problem, std::string fix,
                        std::string_view code) {
   if (soft_) ++softened_;
-  add_fault(soft_ ? warnings_ : faults_,
-            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy), code});
+  add_diagnostic(soft_ ? warnings_ : faults_, {file_.string(), line, std::move(where),
+                                               std::move(problem), std::move(fix), code});
 }
 
-void UrdfSource::fault(std::vector<Fault> faults) {
-  for (Fault& fault : faults) add_fault(faults_, std::move(fault));
+void UrdfSource::fault(std::vector<Diagnostic> faults) {
+  for (Diagnostic& fault : faults) add_diagnostic(faults_, std::move(fault));
 }
 
-void UrdfSource::warn(int line, std::string where, std::string rule, std::string remedy,
+void UrdfSource::warn(int line, std::string where, std::string problem, std::string fix,
                       std::string_view code) {
-  add_fault(warnings_,
-            {file_.string(), line, std::move(where), std::move(rule), std::move(remedy), code});
+  add_diagnostic(warnings_, {file_.string(), line, std::move(where), std::move(problem),
+                             std::move(fix), code});
 }
 
-void UrdfSource::warn(std::vector<Fault> warnings) {
-  for (Fault& warning : warnings) add_fault(warnings_, std::move(warning));
+void UrdfSource::warn(std::vector<Diagnostic> warnings) {
+  for (Diagnostic& warning : warnings) add_diagnostic(warnings_, std::move(warning));
 }
 
-void UrdfSource::warn_once(const std::string& kind, int line, std::string where, std::string rule,
-                           std::string remedy, std::string_view code) {
+void UrdfSource::warn_once(const std::string& kind, int line, std::string where,
+                           std::string problem, std::string fix, std::string_view code) {
   Kind& entry = kinds_[kind];
   if (entry.count++ == 0)
-    entry.first = {file_.string(),    line, std::move(where), std::move(rule),
-                   std::move(remedy), code};
+    entry.first = {file_.string(),     line,           std::move(where),
+                   std::move(problem), std::move(fix), code};
 }
 
 void UrdfSource::check() {
   throw_in_line_order(faults_);
 }
 
-std::vector<Fault> UrdfSource::warnings() const {
-  std::vector<Fault> all = warnings_;
+std::vector<Diagnostic> UrdfSource::warnings() const {
+  std::vector<Diagnostic> all = warnings_;
   for (const auto& [name, kind] : kinds_) {
     all.push_back(kind.first);
-    if (kind.count > 1) all.back().rule += " (the first of " + std::to_string(kind.count) + ")";
+    if (kind.count > 1) all.back().problem += " (the first of " + std::to_string(kind.count) + ")";
   }
   std::stable_sort(all.begin(), all.end(),
-                   [](const Fault& a, const Fault& b) { return a.line < b.line; });
+                   [](const Diagnostic& a, const Diagnostic& b) { return a.line < b.line; });
   return all;
 }
 

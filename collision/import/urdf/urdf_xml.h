@@ -29,25 +29,25 @@ class UrdfSource {
   std::filesystem::path folder() const { return file_.parent_path(); }
   const RobotFileOptions& options() const { return options_; }
 
-  void fault(int line, std::string where, std::string rule, std::string remedy,
+  void fault(int line, std::string where, std::string problem, std::string fix,
              std::string_view code);
-  void fault(std::vector<Fault> faults);
-  void warn(int line, std::string where, std::string rule, std::string remedy,
+  void fault(std::vector<Diagnostic> faults);
+  void warn(int line, std::string where, std::string problem, std::string fix,
             std::string_view code);
-  void warn(std::vector<Fault> warnings);
+  void warn(std::vector<Diagnostic> warnings);
   // All warnings of one `kind` become one: that of the first, with their number.
-  void warn_once(const std::string& kind, int line, std::string where, std::string rule,
-                 std::string remedy, std::string_view code);
+  void warn_once(const std::string& kind, int line, std::string where, std::string problem,
+                 std::string fix, std::string_view code);
 
   // While an object of this type lives, faults are taken for warnings.
-  class Softly {
+  class ErrorsAsWarnings {
    public:
-    Softly(UrdfSource& source, bool soft) : source_(source), before_(source.soft_) {
+    ErrorsAsWarnings(UrdfSource& source, bool soft) : source_(source), before_(source.soft_) {
       source.soft_ = soft;
     }
-    ~Softly() { source_.soft_ = before_; }
-    Softly(const Softly&) = delete;
-    Softly& operator=(const Softly&) = delete;
+    ~ErrorsAsWarnings() { source_.soft_ = before_; }
+    ErrorsAsWarnings(const ErrorsAsWarnings&) = delete;
+    ErrorsAsWarnings& operator=(const ErrorsAsWarnings&) = delete;
 
    private:
     UrdfSource& source_;
@@ -57,7 +57,7 @@ class UrdfSource {
 
   // Throws InputError with all faults, in the order of their lines; returns if there is none.
   void check();
-  std::vector<Fault> warnings() const;  // in the order of their lines
+  std::vector<Diagnostic> warnings() const;  // in the order of their lines
 
   // `fallback` is taken where the attribute is missing; without one, a missing attribute is a
   // fault.
@@ -87,13 +87,13 @@ class UrdfSource {
 
  private:
   struct Kind {
-    Fault first;
+    Diagnostic first;
     std::size_t count = 0;
   };
 
   std::filesystem::path file_;
   RobotFileOptions options_;
-  std::vector<Fault> faults_, warnings_;
+  std::vector<Diagnostic> faults_, warnings_;
   std::map<std::string, Kind> kinds_;
   bool soft_ = false;
   std::size_t softened_ = 0;

@@ -29,17 +29,17 @@ struct PullEnds {
   Vec3<S> offset, v_D, v_before, v_after;  // of the target just before and after the moment
 };
 template <class S>
-PullEnds<S> ends_of(const BatchWork<S>& b, const LanePull<S>& pull, const double* row) {
-  if (pull.kind == PullKind::joint)
+PullEnds<S> ends_of(const BatchWork<S>& b, const LaneSpring<S>& pull, const double* row) {
+  if (pull.kind == SpringKind::joint)
     return {{S(row[0]) - b.x.q[pull.iq], S(0), S(0)},
             {b.x.qd[pull.iv], S(0), S(0)},
             {S(row[1]), S(0), S(0)},
             {S(row[2]), S(0), S(0)}};
   const Mat3<S>& E = b.E[pull.body];
   const Motion<S>& v = b.w.v[pull.body];
-  const std::size_t velocity = pull.kind == PullKind::world ? 9 : 3;
+  const std::size_t velocity = pull.kind == SpringKind::world ? 9 : 3;
   const Vec3<S> before = E * spread3<S>(row + velocity), after = E * spread3<S>(row + velocity + 3);
-  if (pull.kind == PullKind::linear)
+  if (pull.kind == SpringKind::linear)
     return {E * (spread3<S>(row) - b.o[pull.body]) - pull.p_B, plus_cross(v.v, v.w, pull.p_B),
             before, after};
   return {turn_between(E, row), v.w, before, after};
@@ -52,7 +52,7 @@ TWINARM_KERNEL void add_works_at_corner(BatchWork<S>& b, std::size_t n) {
   const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
   S hand_before = b.hand_work, hand_after(0), held(0);
   b.lost_work = b.lost_work + (before + after) * b.lost_power;  // in the joints
-  for (const LanePull<S>& pull : b.pulls) {
+  for (const LaneSpring<S>& pull : b.pulls) {
     const PullEnds<S> e = ends_of(b, pull, row + pull.energy);
     const SpringPowers<S> was(pull, e.offset, e.v_D, e.v_before),
         is(pull, e.offset, e.v_D, e.v_after);
@@ -72,8 +72,8 @@ TWINARM_KERNEL void add_works_at_corner(BatchWork<S>& b, std::size_t n) {
 template <class S>
 TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
-  for (const LanePull<S>& pull : b.pulls) {
-    if (pull.kind != PullKind::joint) continue;
+  for (const LaneSpring<S>& pull : b.pulls) {
+    if (pull.kind != SpringKind::joint) continue;
     const double* target = row + pull.energy;
     const S e = S(target[0]) - b.x.q[pull.iq], v_K(target[2]);
     const S& v_D = b.x.qd[pull.iv];
@@ -95,7 +95,7 @@ void start_powers(BatchWork<S>& b) {
 
 // The hook of aba(): what acts by where the bodies are.
 template <class S>
-struct LanePulls {
+struct LaneSprings {
   BatchWork<S>& b;
   const double* row;
   std::size_t n;
@@ -106,7 +106,7 @@ struct LanePulls {
     if (b.has_bias) find_biases(b);
     const bool smooth = b.has_energy && b.is_corner[n] == 0;
     if (b.has_energy) start_powers(b);
-    for (const LanePull<S>& pull : b.pulls)
+    for (const LaneSpring<S>& pull : b.pulls)
       pull_at(b, pull, row + pull.motion,
               smooth ? b.energy + n * b.energy_stride + pull.energy : nullptr);
     if (smooth)
@@ -162,7 +162,7 @@ void run_steps(BatchWork<S>& b) {
       const double* row = b.motion + n * b.motion_stride;
       if (b.has_joint_pulls || b.has_damping) pull_joints(b, row);
       b.model.I = b.model.I_own.data();
-      aba(b.model, b.x, b.forces, b.w, LanePulls<S>{b, row, n});
+      aba(b.model, b.x, b.forces, b.w, LaneSprings<S>{b, row, n});
       integrate(b);
       b.h_before = b.h;
       measure(b, n);
@@ -172,7 +172,7 @@ void run_steps(BatchWork<S>& b) {
   if (!b.has_energy || b.last < b.steps || b.lanes_running == 0) return;
   b.model.I = b.model.I_own.data();  // the powers at the end; the motion's last row will do
   aba(b.model, b.x, b.forces, b.w,
-      LanePulls<S>{b, b.motion + (b.steps - 1) * b.motion_stride, b.steps});
+      LaneSprings<S>{b, b.motion + (b.steps - 1) * b.motion_stride, b.steps});
 }
 
 }  // namespace twinarm::TWINARM_ISA

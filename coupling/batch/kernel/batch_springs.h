@@ -26,13 +26,13 @@ Vec3<S> spread3(const double* a) {
 template <class S>
 struct SpringPowers {
   S hand, lost;
-  SpringPowers(const LanePull<S>& pull, const S& e_vK, const S& vD_vK, const S& vK_vK,
+  SpringPowers(const LaneSpring<S>& pull, const S& e_vK, const S& vD_vK, const S& vK_vK,
                const S& vD_vD) {
     const S across = vK_vK - vD_vK;
     hand = pull.k * e_vK + pull.b_seen * across;
     lost = pull.b * vD_vD + pull.b_seen * (across - vD_vK);
   }
-  SpringPowers(const LanePull<S>& pull, const Vec3<S>& e, const Vec3<S>& v_D, const Vec3<S>& v_K)
+  SpringPowers(const LaneSpring<S>& pull, const Vec3<S>& e, const Vec3<S>& v_D, const Vec3<S>& v_K)
       : SpringPowers(pull, dot(e, v_K), dot(v_D, v_K), dot(v_K, v_K), dot(v_D, v_D)) {}
 };
 template <class S>
@@ -61,7 +61,7 @@ S turn_between(const Turn<S>& D, const double* E_K) {
 
 // `energy`: the spring's row in the table of energies, or null where they are not wanted now.
 template <class S>
-TWINARM_KERNEL void pull_world(BatchWork<S>& b, const LanePull<S>& pull, const double* row,
+TWINARM_KERNEL void pull_world(BatchWork<S>& b, const LaneSpring<S>& pull, const double* row,
                                const double* energy) {
   const Mat3<S>& E = b.E[pull.body];
   Vec3<S> phi = turn_between(E, row), w_K = E * spread3<S>(row + 9);
@@ -70,14 +70,14 @@ TWINARM_KERNEL void pull_world(BatchWork<S>& b, const LanePull<S>& pull, const d
   if (b.has_bias) n += pull.m_star * b.a_bias[pull.body].w;
   b.w.pA[pull.body].n += -n;
   if (!energy) return;
-  if (pull.sees == Sees::end) phi = turn_between(E, energy);
-  if (pull.sees != Sees::start) w_K = E * spread3<S>(energy + 9);
+  if (pull.sees == SampleTime::end) phi = turn_between(E, energy);
+  if (pull.sees != SampleTime::start) w_K = E * spread3<S>(energy + 9);
   add(b, SpringPowers<S>(pull, dot(phi, w_K), dot(w_D, w_K), S(energy[15]), dot(w_D, w_D)));
 }
 
 // Of a turned body, whose bias acceleration turns nothing.
 template <class S>
-TWINARM_KERNEL void pull_turned(BatchWork<S>& b, const LanePull<S>& pull, const double* row,
+TWINARM_KERNEL void pull_turned(BatchWork<S>& b, const LaneSpring<S>& pull, const double* row,
                                 const double* energy) {
   const Turn<S> E(b.E[pull.body]);
   const S &w_D = b.w.v[pull.body].w.z, w_K(row[11]);
@@ -85,14 +85,14 @@ TWINARM_KERNEL void pull_turned(BatchWork<S>& b, const LanePull<S>& pull, const 
   S& n = b.w.pA[pull.body].n.z;
   n = n - (pull.k * phi + pull.b_seen * w_K - pull.kb * w_D);
   if (!energy) return;
-  if (pull.sees == Sees::end) phi = turn_between(E, energy);
+  if (pull.sees == SampleTime::end) phi = turn_between(E, energy);
   const S w(energy[11]);
   add(b, SpringPowers<S>(pull, phi * w, w_D * w, S(energy[15]), w_D * w_D));
 }
 
 // Rotation: Mat3, or Turn.
 template <class S, class Rotation>
-TWINARM_KERNEL void pull_linear(BatchWork<S>& b, const LanePull<S>& pull, const Rotation& E,
+TWINARM_KERNEL void pull_linear(BatchWork<S>& b, const LaneSpring<S>& pull, const Rotation& E,
                                 const double* row, const double* energy) {
   const Motion<S>& v = b.w.v[pull.body];
   const Vec3<S>&p = pull.p_B, &o = b.o[pull.body];
@@ -110,11 +110,11 @@ TWINARM_KERNEL void pull_linear(BatchWork<S>& b, const LanePull<S>& pull, const 
 }
 
 template <class S>
-void pull_at(BatchWork<S>& b, const LanePull<S>& pull, const double* row, const double* energy) {
+void pull_at(BatchWork<S>& b, const LaneSpring<S>& pull, const double* row, const double* energy) {
   const bool turned = b.place[pull.body] == Place::turned;
-  if (pull.kind == PullKind::world && turned) pull_turned(b, pull, row, energy);
-  if (pull.kind == PullKind::world && !turned) pull_world(b, pull, row, energy);
-  if (pull.kind != PullKind::linear) return;
+  if (pull.kind == SpringKind::world && turned) pull_turned(b, pull, row, energy);
+  if (pull.kind == SpringKind::world && !turned) pull_world(b, pull, row, energy);
+  if (pull.kind != SpringKind::linear) return;
   if (turned)
     pull_linear(b, pull, Turn<S>(b.E[pull.body]), row, energy);
   else
@@ -126,8 +126,8 @@ template <class S>
 TWINARM_KERNEL void pull_joints(BatchWork<S>& b, const double* row) {
   for (std::size_t d = 0; d < b.x.qd.size(); ++d)
     b.forces.tau[d] = -(b.model.damping[d] * b.x.qd[d]);
-  for (const LanePull<S>& pull : b.pulls) {
-    if (pull.kind != PullKind::joint) continue;
+  for (const LaneSpring<S>& pull : b.pulls) {
+    if (pull.kind != SpringKind::joint) continue;
     const double* target = row + pull.motion;
     S& tau = b.forces.tau[pull.iv];
     tau = tau + pull.k * (S(target[0]) - b.x.q[pull.iq]) + pull.b_seen * S(target[1]) -

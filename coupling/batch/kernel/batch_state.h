@@ -44,26 +44,26 @@ void visit_joint(const LaneModel<S>& model, std::size_t i, F&& f) {
 // and in a row for the energies likewise, at the step's start whatever the treatment, with the
 // velocities before and after that moment, and then what the target has alone: of a linear one
 // position times velocity after it; of both the square of that velocity.
-enum class PullKind { world, linear, joint };
+enum class SpringKind { world, linear, joint };
 struct RowSizes {
   std::size_t pose, velocity, products;
 };
-constexpr RowSizes row_sizes(PullKind kind) {
-  return kind == PullKind::world    ? RowSizes{9, 3, 1}
-         : kind == PullKind::linear ? RowSizes{3, 3, 2}
-                                    : RowSizes{1, 1, 0};
+constexpr RowSizes row_sizes(SpringKind kind) {
+  return kind == SpringKind::world    ? RowSizes{9, 3, 1}
+         : kind == SpringKind::linear ? RowSizes{3, 3, 2}
+                                      : RowSizes{1, 1, 0};
 }
 // Which moment of the step spring and damper see: its start, its start and its end, its end.
-enum class Sees { start, both, end };
+enum class SampleTime { start, both, end };
 template <class S>
-struct LanePull {
-  PullKind kind = PullKind::world;
+struct LaneSpring {
+  SpringKind kind = SpringKind::world;
   std::size_t body = 0, iq = 0, iv = 0;
   std::size_t motion = 0, energy = 0;  // where its numbers begin in a row of each table
-  S k, b, kb;  // stiffness, damping; k look_ahead + b: what meets the link's own velocity
+  S k, b, kb;  // stiffness, damping; k position_lead + b: what meets the link's own velocity
   S b_seen;    // b, or 0 of an absolute damper, which does not see the target move
   S m_star;    // weightless inertia of the treatment
-  Sees sees = Sees::start;
+  SampleTime sees = SampleTime::start;
   Vec3<S> p_B, kp;  // linear: the point in body axes, and k times it
 };
 
@@ -91,7 +91,7 @@ struct BatchWork {
   std::vector<Mat3<S>> E;
   std::vector<Vec3<S>> o;
   std::vector<Motion<S>> a_bias;
-  std::vector<LanePull<S>> pulls;
+  std::vector<LaneSpring<S>> pulls;
 
   // Tables by step: `motion` has steps rows, the others steps + 1.
   const double *motion = nullptr, *energy = nullptr, *q_K = nullptr;

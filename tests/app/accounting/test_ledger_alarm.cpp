@@ -10,8 +10,8 @@ using namespace twinarm;
 namespace {
 
 // A row that doubles every window, beside a kinetic energy of 1 J.
-std::optional<Alarm> alarm_of(LedgerKind kind, const std::string& name) {
-  LedgerAlarm alarm(1);
+std::optional<Alarm> alarm_of(EnergyRowKind kind, const std::string& name) {
+  EnergyAlarm alarm(1);
   for (int n = 0; n < 20; ++n)
     if (const auto found = alarm.look(0.1 * n, 1, {{kind, name, 1e-3 * std::pow(2, n)}}))
       return found;
@@ -21,9 +21,10 @@ std::optional<Alarm> alarm_of(LedgerKind kind, const std::string& name) {
 }  // namespace
 
 TEST_CASE("ledger alarm: rows of what no law of nature does are watched, whatever their name") {
-  for (const LedgerKind kind :
-       {LedgerKind::numerical, LedgerKind::coupling_implicit, LedgerKind::constraint_stabilisation,
-        LedgerKind::contact_stabilisation, LedgerKind::limit_stabilisation}) {
+  for (const EnergyRowKind kind :
+       {EnergyRowKind::numerical, EnergyRowKind::coupling_implicit,
+        EnergyRowKind::constraint_stabilisation, EnergyRowKind::contact_stabilisation,
+        EnergyRowKind::limit_stabilisation}) {
     const std::optional<Alarm> alarm = alarm_of(kind, "another name");
     REQUIRE(alarm);
     CHECK(alarm->row == "another name");
@@ -31,8 +32,8 @@ TEST_CASE("ledger alarm: rows of what no law of nature does are watched, whateve
 }
 
 TEST_CASE("ledger alarm: forces that may work are not watched, whatever their name") {
-  for (const LedgerKind kind :
-       {LedgerKind::gravity, LedgerKind::actuator, LedgerKind::wrench, LedgerKind::coupling_other})
+  for (const EnergyRowKind kind : {EnergyRowKind::gravity, EnergyRowKind::actuator,
+                                   EnergyRowKind::wrench, EnergyRowKind::coupling_other})
     for (const char* name : {kNumericalRow, "coupling/a/implicit", "contact/stabilisation"})
       CHECK(!alarm_of(kind, name));
 }

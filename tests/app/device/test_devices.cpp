@@ -12,7 +12,7 @@ using namespace twinarm;
 
 namespace {
 
-Fault device_fault(const std::string& spec) {
+Diagnostic device_fault(const std::string& spec) {
   try {
     open_device(spec);
   } catch (const InputError& error) {
@@ -33,7 +33,7 @@ TEST_CASE("devices: each kind and each hand is in the list that people are shown
     CHECK(tells(list, kind.name + kind.argument));
     CHECK(tells(list, kind.help));
   }
-  for (const ScriptedHand& hand : scripted_hands()) CHECK(tells(list, hand.help));
+  for (const ScriptedMotion& hand : scripted_hands()) CHECK(tells(list, hand.help));
   CHECK(device_kinds().size() == 5);
   CHECK(scripted_hands().size() == 6);
 }
@@ -52,7 +52,7 @@ TEST_CASE("devices: every scripted hand moves a virtual Omni within its ranges")
   const std::string trace =
       (std::filesystem::temp_directory_path() / "twinarm-devices-trace.csv").string();
   write_trace(SyntheticOperator(5, 3), 100, trace);
-  for (const ScriptedHand& hand : scripted_hands()) {
+  for (const ScriptedMotion& hand : scripted_hands()) {
     CAPTURE(hand.name);
     const std::string spec = "virtual:" + hand.name + (hand.name == "trace" ? ":" + trace : "");
     const auto device = open_device(spec);
@@ -74,13 +74,13 @@ TEST_CASE("devices: every scripted hand moves a virtual Omni within its ranges")
 }
 
 TEST_CASE("devices: names that are none are refused with the nearest one") {
-  CHECK(tells(device_fault("keybord").remedy, "keyboard"));
-  CHECK(tells(device_fault("virtual:papper").remedy, "paper"));
-  CHECK(tells(device_fault("virtual:synthetic:x").rule, "whole number"));
-  CHECK(tells(device_fault("virtual:step:3").rule, "takes nothing"));
-  CHECK(tells(device_fault("virtual:trace").rule, "no file"));
-  CHECK(tells(device_fault("virtual:trace:/nowhere.csv").rule, "cannot be opened"));
-  CHECK_FALSE(device_fault("").rule.empty());
+  CHECK(tells(device_fault("keybord").fix, "keyboard"));
+  CHECK(tells(device_fault("virtual:papper").fix, "paper"));
+  CHECK(tells(device_fault("virtual:synthetic:x").problem, "whole number"));
+  CHECK(tells(device_fault("virtual:step:3").problem, "takes nothing"));
+  CHECK(tells(device_fault("virtual:trace").problem, "no file"));
+  CHECK(tells(device_fault("virtual:trace:/nowhere.csv").problem, "cannot be opened"));
+  CHECK_FALSE(device_fault("").problem.empty());
 }
 
 TEST_CASE("devices: an address of a VRPN device that is none is refused before any connection") {
@@ -88,17 +88,16 @@ TEST_CASE("devices: an address of a VRPN device that is none is refused before a
        {"", "Phantom0", "@host", "Phantom0@", "Phantom0@:3883", "Phantom0@host:", "Phantom0@host:0",
         "Phantom0@host:65536", "Phantom0@host:12x"}) {
     CAPTURE(address);
-    CHECK(
-        tells(device_fault(std::string("vrpn:") + address).remedy, "vrpn:Phantom0@localhost:3883"));
+    CHECK(tells(device_fault(std::string("vrpn:") + address).fix, "vrpn:Phantom0@localhost:3883"));
   }
-  CHECK(tells(device_fault("vrpn:P@[::1]:1").rule, "no connection"));  // nobody is at port 1
-  CHECK(tells(device_fault("vrpn:P@127.0.0.1:1").rule, "refused"));
+  CHECK(tells(device_fault("vrpn:P@[::1]:1").problem, "no connection"));  // nobody is at port 1
+  CHECK(tells(device_fault("vrpn:P@127.0.0.1:1").problem, "refused"));
 }
 
 TEST_CASE("devices: what is not plugged in or not running says what to do") {
-  CHECK(tells(device_fault("gamepad:/dev/input/no-such-js").remedy, "plug"));
-  CHECK(tells(device_fault("spacemouse:/no/such/socket").remedy, "spacenavd"));
-  CHECK(tells(device_fault("spacemouse:/" + std::string(300, 'x')).rule, "too long"));
-  CHECK(tells(device_fault("keyboard:/dev/null").rule, "no terminal"));
-  CHECK(tells(device_fault("keyboard:/no/such/terminal").remedy, "terminal"));
+  CHECK(tells(device_fault("gamepad:/dev/input/no-such-js").fix, "plug"));
+  CHECK(tells(device_fault("spacemouse:/no/such/socket").fix, "spacenavd"));
+  CHECK(tells(device_fault("spacemouse:/" + std::string(300, 'x')).problem, "too long"));
+  CHECK(tells(device_fault("keyboard:/dev/null").problem, "no terminal"));
+  CHECK(tells(device_fault("keyboard:/no/such/terminal").fix, "terminal"));
 }

@@ -34,8 +34,8 @@ struct Moved {
   Vector3 turn;  // of the stylus, as a rotation vector [rad]
 };
 Moved moved_by(GestureDecoder& decoder, const std::vector<std::uint8_t>& bytes) {
-  const OmniFigures omni;
-  GestureHand hand(omni);
+  const OmniParameters omni;
+  DesktopInput hand(omni);
   const OmniAngles before = hand.sample(0, 1).theta;
   decoder.feed(bytes.data(), bytes.size(), 0, hand);
   const OmniAngles after = hand.sample(0.1, 1).theta;
@@ -103,7 +103,7 @@ TEST_CASE("keys: each moves the place its way at 0.1 m/s, whole or torn") {
 
 TEST_CASE("keys: one that is not repeated is let go of after its time, buttons go to and fro") {
   KeyDecoder decoder(0.2);
-  GestureHand hand{OmniFigures()};
+  DesktopInput hand{OmniParameters()};
   const std::uint8_t key = 'd', space = ' ', clutch = 'c';
   const double start = hand.sample(0, 1).theta[3];
   decoder.feed(&key, 1, 10.0, hand);
@@ -150,7 +150,7 @@ TEST_CASE("game controller: sticks move the place, also those of controllers wit
 
 TEST_CASE("game controller: buttons, and numbers that no controller has") {
   JoystickDecoder decoder;
-  GestureHand hand{OmniFigures()};
+  DesktopInput hand{OmniParameters()};
   const auto feed = [&](const std::vector<std::uint8_t>& bytes) {
     for (const std::uint8_t byte : bytes) decoder.feed(&byte, 1, 0, hand);  // torn
   };
@@ -191,7 +191,7 @@ TEST_CASE(
   SpaceMouseDecoder damaged;
   check_goes(moved_by(damaged, space_mouse({99, 350, 350, 350, 0, 0, 0, 0})), kRight, 0);
   SpaceMouseDecoder decoder;
-  GestureHand hand{OmniFigures()};
+  DesktopInput hand{OmniParameters()};
   const auto press = space_mouse({1, 1, 0, 0, 0, 0, 0, 0});
   decoder.feed(press.data(), press.size(), 0, hand);
   CHECK(hand.sample(0, 1).clutch);
@@ -202,7 +202,7 @@ TEST_CASE("random bytes move hands only to places that are") {
   KeyDecoder keys;
   JoystickDecoder stick;
   SpaceMouseDecoder mouse;
-  GestureHand hand{OmniFigures()};
+  DesktopInput hand{OmniParameters()};
   for (int n = 0; n < 3000; ++n) {
     std::array<std::uint8_t, 40> bytes{};
     for (auto& byte : bytes) byte = static_cast<std::uint8_t>(random());

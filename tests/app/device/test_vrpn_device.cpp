@@ -49,7 +49,7 @@ VrpnSettings quick(Said& said) {
   };
   return settings;
 }
-Fault fault_of(const VrpnAddress& address) {
+Diagnostic fault_of(const VrpnAddress& address) {
   Said said;
   try {
     const VrpnDevice device(address, {}, quick(said));
@@ -174,7 +174,7 @@ TEST_CASE("VRPN device: a server that dies leaves a device that is not alive, an
   });
   Said said;
   auto device = std::make_unique<VrpnDevice>(VrpnAddress{"Phantom0", "127.0.0.1", server->port()},
-                                             OmniFigures{}, quick(said));
+                                             OmniParameters{}, quick(said));
   server.reset();
   CHECK(soon(*device, [](const DeviceState& s) { return !s.alive; }));
   CHECK(soon(*device, [&](const DeviceState&) { return device->counts().broken > 2; }));
@@ -204,23 +204,23 @@ TEST_CASE("VRPN device: one that cannot be had is refused with a remedy") {
     });
     return fault_of({"Phantom", "127.0.0.1", server.port()});
   };
-  CHECK(has(answer(hex("48 54 54 50")).rule, "no VRPN server"));
-  CHECK(has(answer({}).rule, "does not answer"));
+  CHECK(has(answer(hex("48 54 54 50")).problem, "no VRPN server"));
+  CHECK(has(answer({}).problem, "does not answer"));
   Bytes other = cookie;
   other[12] = '6';
-  CHECK(has(answer(other).rule, "06.38"));
-  const Fault unknown = answer(greeting);
-  CHECK(has(unknown.rule, "no device 'Phantom'"));
-  CHECK(has(unknown.remedy, "Phantom0"));
+  CHECK(has(answer(other).problem, "06.38"));
+  const Diagnostic unknown = answer(greeting);
+  CHECK(has(unknown.problem, "no device 'Phantom'"));
+  CHECK(has(unknown.fix, "Phantom0"));
   int port = 0;
   {
     const VrpnServer gone([](const VrpnClient&, int) {});
     port = gone.port();
   }
-  const Fault refused = fault_of({"Phantom0", "127.0.0.1", port});
-  CHECK(has(refused.rule, "refused"));
-  CHECK(has(refused.remedy, "vrpn_server"));
-  CHECK(has(fault_of({"Phantom0", "no.such.host.invalid", 3883}).rule, "not known"));
+  const Diagnostic refused = fault_of({"Phantom0", "127.0.0.1", port});
+  CHECK(has(refused.problem, "refused"));
+  CHECK(has(refused.fix, "vrpn_server"));
+  CHECK(has(fault_of({"Phantom0", "no.such.host.invalid", 3883}).problem, "not known"));
 }
 
 TEST_CASE("VRPN device: forces go out as newtons at the stylus, clamped, and end when let go") {
@@ -276,11 +276,11 @@ TEST_CASE("VRPN device: reports at 60 Hz make a path, not a staircase") {
   Said said;
   VrpnDevice device({"Phantom0", "127.0.0.1", server.port()}, {}, quick(said));
   std::set<double> angles;
-  double last = 0, largest_step = 0;
+  double last = 0, max_step = 0;
   while (!done) {
     const double theta = device.poll(test_clock()).theta[0];
     CHECK_UNARY(theta >= last - 1e-12);  // never back
-    largest_step = std::max(largest_step, theta - last);
+    max_step = std::max(max_step, theta - last);
     angles.insert(last = theta);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }

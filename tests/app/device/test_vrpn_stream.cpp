@@ -9,7 +9,7 @@
 
 using namespace twinarm;
 using namespace vrpn_bytes;
-using StreamFault = VrpnStream::Fault;
+using StreamFault = VrpnStream::Diagnostic;
 
 namespace {
 

@@ -47,10 +47,10 @@ TEST_CASE("curves: a curve that begins late has a gap before, and all are as lon
       "[[body]]\nname = \"b\"\nmass = 1\n"
       "shape = { sphere = { radius = 1 } }\n");
   CurveTrace trace(parse_curves("forces"));
-  Moment moment = moment_of(scene.model, scene.start);
+  Snapshot moment = moment_of(scene.model, scene.start);
   trace.add(&scene, moment);
   moment.x.t = 1;
-  ShownPull pull;
+  ShownCouplingForce pull;
   pull.name = "spring";
   pull.pull_W = Vector3(3, 0, 4);
   moment.pulls.push_back(pull);
@@ -78,7 +78,7 @@ double interest(F&& f) {
     for (const double s : {-1.0, 1.0}) extent.add(Vector3(f(i) + s, s, s));
     instants.push_back(extent);
   }
-  return farthest_of_interest(instants);
+  return max_of_interest(instants);
 }
 
 TEST_CASE("framing: a thrown ball stays of interest, what a diverged run throws away does not") {

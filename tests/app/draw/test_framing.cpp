@@ -98,7 +98,7 @@ TEST_CASE("framing: a floor that is only drawn goes through no body") {
       const SceneModel scene = built(
           "[[body]]\nname = \"table\"\nmass = 1\nshape = { cylinder = { radius = 1, length = " +
           std::to_string(thickness) + " } }\nposition = [0, 0, " + std::to_string(middle) + "]\n");
-      Stage stage = make_stage(scene);
+      SceneView stage = make_stage(scene);
       look_at(stage, moment_of(scene.model, scene.start));
       settle(stage);
       set_view(stage, {}, 1.5);
@@ -111,10 +111,10 @@ TEST_CASE("framing: a camera that does not exist is refused by name") {
   const Model<double> model = built(kBall).model;
   for (const char* name : {"frnt", "follow:bal", "1", "1,2,3,4", "1,95", "1,2,-3", "nan,0"}) {
     CAPTURE(name);
-    const std::vector<Fault> faults = faults_of([&] { parse_camera(name, model); });
+    const std::vector<Diagnostic> faults = faults_of([&] { parse_camera(name, model); });
     REQUIRE(faults.size() == 1);
     CHECK(faults[0].where == "--camera");
-    CHECK(faults[0].rule.find(name) != std::string::npos);
+    CHECK(faults[0].problem.find(name) != std::string::npos);
   }
   CHECK(parse_camera("follow:ball", model).follow == 1);
 }

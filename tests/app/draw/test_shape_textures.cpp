@@ -39,8 +39,8 @@ DrawList with_quarters(UnitShape shape, const Pose& X_WM = {}) {
 }
 
 // Of what a robot's or a scene's file shows, all at its place.
-DrawList list_of(const Cast& cast, DrawList list) {
-  for (const CastPart& part : cast.parts) {
+DrawList list_of(const SceneMeshes& cast, DrawList list) {
+  for (const ScenePart& part : cast.parts) {
     add_mesh_instance(list, part.mesh, part.X_LM, part.color, part.scale);
     list.instances.back().texture = part.texture;
   }
@@ -56,7 +56,7 @@ std::string robot_of(const std::string& visual) {
 
 struct ShownRobot {
   RobotDescription robot;
-  Cast cast;
+  SceneMeshes cast;
   DrawList list;
 };
 
@@ -133,7 +133,7 @@ TEST_CASE("textures: one that is missing or no picture is told, and the link dra
   };
   const ShownRobot missing = robot("none.png"), broken = robot("text.png");
   REQUIRE(missing.robot.warnings.size() == 1);
-  CHECK(missing.robot.warnings[0].rule.find("none.png") != std::string::npos);
+  CHECK(missing.robot.warnings[0].problem.find("none.png") != std::string::npos);
   REQUIRE(broken.cast.notes.size() == 1);
   CHECK(broken.cast.notes[0].find("text.png") != std::string::npos);
   for (const ShownRobot* r : {&missing, &broken})
@@ -148,7 +148,7 @@ TEST_CASE("textures: a body of a scene has its colour, its picture, or both mult
         "[1, 1, 1] } }\n" +
         looks);
     DrawList list;
-    const Cast cast = cast_of(scene, list);
+    const SceneMeshes cast = cast_of(scene, list);
     return seen_quarters(list_of(cast, list), Vector3(6, 0, 0), Vector3::UnitZ());
   };
   const std::string texture =

@@ -36,7 +36,7 @@ Model<double> cylinder_in_box() {
 }
 
 Eigen::MatrixXd value_of(const Inspection& in, std::size_t body, const std::string& name) {
-  for (const Shown& shown : shown_quantities(in, 2, body))
+  for (const DisplayedQuantity& shown : shown_quantities(in, 2, body))
     if (shown.quantity.name == name) return shown.value;
   FAIL("no quantity " << name);
   return {};

@@ -66,7 +66,7 @@ std::optional<Closed> try_closed(Random& random, const std::vector<JointType>& t
   forward_kinematics(c.model, c.x, k);
   loops.evaluate(c.x, k);
   Eigen::Map<VectorXd> qd(c.x.qd.data(), nv);
-  qd -= shortest_solution(loops.J(), loops.rate());
+  qd -= min_solution(loops.J(), loops.rate());
   forward_kinematics(c.model, c.x, k);
   loops.evaluate(c.x, k);
   const Inspection free(c.model, c.x, {});
@@ -75,8 +75,8 @@ std::optional<Closed> try_closed(Random& random, const std::vector<JointType>& t
   const MatrixXd A = J * solve_symmetric(M, J.transpose());
   if (A.norm() == 0 || symmetric_eigenvalues(A)[0] < 1e-6 * A.norm() || loops.rate().norm() > 1e-12)
     return std::nullopt;
-  c.force = J.transpose() * shortest_solution(A, -(J * without + loops.gamma()), 1e-12);
-  c.along = J.transpose() * shortest_solution(A, loops.gamma(), 1e-12);
+  c.force = J.transpose() * min_solution(A, -(J * without + loops.gamma()), 1e-12);
+  c.along = J.transpose() * min_solution(A, loops.gamma(), 1e-12);
   return c;
 }
 Closed random_closed(Random& random, const std::vector<JointType>& types, LoopType type) {

@@ -19,7 +19,8 @@ std::vector<Viewpoint> all_viewpoints(std::size_t last_body) {
 }
 
 // A force in world axes at a point of the world, as body i has it.
-Actor::OnBody at_point(const Inspection& in, std::size_t i, const Vector3& p, const Vector3& f) {
+AppliedForce::OnBody at_point(const Inspection& in, std::size_t i, const Vector3& p,
+                              const Vector3& f) {
   const Matrix3 R_BW = in.k.R_WB[i].transpose();
   const Vector3 n = R_BW * (p - in.k.X_WL[i].p).cross(f), turned = R_BW * f;
   return {i, {from_eigen(n), from_eigen(turned)}, {}};
@@ -57,7 +58,7 @@ TEST_CASE(
   const State<double> x = random_state(random, model);
   const Inspection still(model, x, {});
   const Vector3 p(0.3, 0.9, -0.2), f(3, -4, 12);
-  Actor push{"wrench/0", {at_point(still, 2, p, f)}, {}};
+  AppliedForce push{"wrench/0", {at_point(still, 2, p, f)}, {}};
   push.point_W = p;
   const Inspection in(model, x, {push});
   Viewpoint from;
@@ -86,7 +87,7 @@ TEST_CASE(
   const Inspection still(model, x, {});
   const Vector3 p(0.1, 0.2, 0.3), n = Vector3(2, -1, 2) / 3, slide = Vector3(1, 2, 0);
   const Vector3 f = 30 * n + slide;  // slide is in the plane
-  Actor contact{"contact/a-b", {at_point(still, 3, p, f), at_point(still, 1, p, -f)}, {}};
+  AppliedForce contact{"contact/a-b", {at_point(still, 3, p, f), at_point(still, 1, p, -f)}, {}};
   contact.normal_W = n;
   const Inspection in(model, x, {contact});
   Viewpoint from;

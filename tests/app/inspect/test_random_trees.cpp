@@ -25,7 +25,7 @@ Model<double> tree_with_armatures(Random& random) {
 }
 
 // Torques, wrenches, and what implicit springs and dampers bring.
-std::vector<Actor> random_actors(Random& random, const Model<double>& model, bool implicit) {
+std::vector<AppliedForce> random_actors(Random& random, const Model<double>& model, bool implicit) {
   Forces<double> forces(model);
   const auto vec = [&](double size) {
     return Vec3<double>{random.uniform(-size, size), random.uniform(-size, size),
@@ -144,9 +144,9 @@ TEST_CASE("a body's left sides are the numbers that the passes show of it") {
     const Inspection in(model, random_state(random, model), random_actors(random, model, true));
     for (std::size_t i = 1; i < in.body_count(); ++i)
       for (const int pass : {1, 2, 3}) {
-        const std::vector<Shown> shown = shown_quantities(in, pass, i);
+        const std::vector<DisplayedQuantity> shown = shown_quantities(in, pass, i);
         for (const Equation& equation : equations_of(in, pass, i))
-          for (const Shown& quantity : shown)
+          for (const DisplayedQuantity& quantity : shown)
             if (equation.name == quantity.quantity.name) CHECK(equation.value == quantity.value);
       }
   }

@@ -56,7 +56,7 @@ Inspection at_the_state(const Model<double>& model) {
 std::map<std::string, Eigen::MatrixXd> all_of(const Inspection& in, std::size_t body) {
   std::map<std::string, Eigen::MatrixXd> all;
   for (int pass = 1; pass <= 3; ++pass)
-    for (const Shown& shown : shown_quantities(in, pass, body))
+    for (const DisplayedQuantity& shown : shown_quantities(in, pass, body))
       all[shown.quantity.name] = shown.value;
   return all;
 }

@@ -12,7 +12,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-const PushAt nothing = [](const State<double>&, const Kinematics&, Forces<double>&) {};
+const AppliedForces nothing = [](const State<double>&, const Kinematics&, Forces<double>&) {};
 
 // Point masses on n hinges in a row, all hanging, length 1.
 Model<double> pendulum_of(int n) {
@@ -37,7 +37,7 @@ Model<double> cart_and_pole() {
 }
 
 std::vector<Mode> modes_at(const Model<double>& model, const State<double>& x,
-                           const PushAt& push = nothing) {
+                           const AppliedForces& push = nothing) {
   return modes_of(linearise(model, x, push, model.nv).A);
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("a spring-damper: w = sqrt(k/I), zeta = b / (2 sqrt(k I)); overdamped 
   const double k = 40, I = 0.25;
   for (const double b : {0.0, 0.7, 30.0}) {
     CAPTURE(b);
-    const PushAt spring = [&](const State<double>& x, const Kinematics&, Forces<double>& f) {
+    const AppliedForces spring = [&](const State<double>& x, const Kinematics&, Forces<double>& f) {
       f.tau[0] += -k * x.q[0] - b * x.qd[0];
     };
     const std::vector<Mode> modes = modes_at(model, State<double>(model), spring);
@@ -122,7 +122,7 @@ TEST_CASE("a point pulled to a far target swings with the lever arm it has: geom
                    {1.0, Vector3::Zero(), 0.25 * Matrix3::Identity()});
   const Model<double> model = builder.build();
   const double k = 100, r = 0.3, R = 1.1, I = 0.25;
-  const PushAt pull = [&](const State<double>&, const Kinematics& kin, Forces<double>& f) {
+  const AppliedForces pull = [&](const State<double>&, const Kinematics& kin, Forces<double>& f) {
     const Vector3 arm = kin.X_WL[1].R * Vector3(r, 0, 0);
     const Vector3 force = k * (Vector3(R, 0, 0) - arm);
     f.f_ext[1] += {from_eigen(kin.R_WB[1].transpose() * arm.cross(force)),

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kFall = 9.81;
 
-const PushAt no_push = [](const State<double>&, const Kinematics&, Forces<double>&) {};
+const AppliedForces no_push = [](const State<double>&, const Kinematics&, Forces<double>&) {};
 
 // Slender, hanging from its origin to (0, -length), in the plane of x and y.
 BodyInertia hanging_rod(double mass, double length) {
@@ -137,7 +137,7 @@ TEST_CASE("a hanging parallelogram swings as its energies say, with three rows o
 TEST_CASE("a spring and a damper on one crank of a parallelogram act on all of it") {
   const Model<double> model = parallelogram();
   const double k = 25, b = 0.7, inertia = kSwinging * kCrank * kCrank;
-  const PushAt spring = [&](const State<double>& x, const Kinematics&, Forces<double>& f) {
+  const AppliedForces spring = [&](const State<double>& x, const Kinematics&, Forces<double>& f) {
     f.tau[2] += -k * x.q[2] - b * x.qd[2];
   };
   const LoopedSystem looped = linearise_with_loops(
@@ -198,7 +198,7 @@ TEST_CASE("a gear couples two wheels by its ratio; a locked joint makes two link
   const Model<double> wheels = builder.build();
   LoopClosure gear = closure_of_type(LoopType::gear, 1, {}, 2, {});
   gear.ratio = 3;  // q_a = 3 q_b
-  const PushAt spring = [](const State<double>& x, const Kinematics&, Forces<double>& f) {
+  const AppliedForces spring = [](const State<double>& x, const Kinematics&, Forces<double>& f) {
     f.tau[0] -= 12 * x.q[0];
   };
   const LoopedSystem geared = linearise_with_loops(wheels, State<double>(wheels), spring, {gear});

@@ -78,14 +78,13 @@ std::vector<double> times_of(const std::vector<Tick>& ticks,
 // By a number that each tick has; what is rarer than others goes together at the end.
 void print_by(const char* name, const std::vector<Tick>& ticks,
               const std::function<int(const Tick&)>& number) {
-  constexpr int kMost = 12;
+  constexpr int kMax = 12;
   std::printf("\n");
-  for (int n = 0; n <= kMost; ++n) {
+  for (int n = 0; n <= kMax; ++n) {
     const auto times = times_of(
-        ticks, [&](const Tick& tick) { return n < kMost ? number(tick) == n : number(tick) >= n; });
+        ticks, [&](const Tick& tick) { return n < kMax ? number(tick) == n : number(tick) >= n; });
     if (!times.empty())
-      print_line(std::string(name) + " " + std::to_string(n) + (n < kMost ? "" : " or more"),
-                 times);
+      print_line(std::string(name) + " " + std::to_string(n) + (n < kMax ? "" : " or more"), times);
   }
 }
 

@@ -24,12 +24,12 @@ class TestDevice final : public HandDevice {
     return at;
   }
   void render(const DeviceForce& force) noexcept override { rendered = force; }
-  const OmniFigures& figures() const override { return omni_; }
+  const OmniParameters& figures() const override { return omni_; }
   std::string description() const override { return "a test"; }
   bool has_motors() const override { return true; }
 
  private:
-  OmniFigures omni_;
+  OmniParameters omni_;
 };
 
 DeviceState turned(double theta1) {
@@ -56,7 +56,7 @@ TEST_CASE(
   LiveRun run(scene, device, {});
   double farthest = 0;
   for (int n = 0; n < 2000; ++n) {
-    const TickView view = run.tick();
+    const TickResult view = run.tick();
     CHECK(std::abs(HandMapping{}.robot_angle(view.hand.hand, 0) -
                    2 * 0.3 * std::sin(2 * run.time() - 0.002)) < 1e-3);
     farthest = std::max(farthest, std::abs(view.error[0]));
@@ -79,7 +79,7 @@ position = [0.3, 0.16, 0.3]
   LiveOptions options;
   options.force.passive = false;
   LiveRun run(scene, device, options);
-  TickView view;
+  TickResult view;
   for (int n = 0; n < 3000; ++n) view = run.tick();
   const double spring = 2000 * view.error[0];
   REQUIRE(run.contacts().contact_count() > 0);
@@ -114,14 +114,14 @@ TEST_CASE(
   double last = 0, slack = 1, fastest = 0;
   int held = 0, released = 0;
   for (int n = 0; n < 4000; ++n) {
-    const TickView view = run.tick();
+    const TickResult view = run.tick();
     const double angle = HandMapping{}.robot_angle(view.hand.hand, 0);
     fastest = std::max(fastest, std::abs(angle - last));
     last = angle;
-    held += view.mode == HandWatch::Mode::held ? 1 : 0;
-    released += view.mode == HandWatch::Mode::released ? 1 : 0;
+    held += view.mode == DeviceWatchdog::Mode::held ? 1 : 0;
+    released += view.mode == DeviceWatchdog::Mode::released ? 1 : 0;
     if (n == 2400) slack = std::abs(view.error[0]);
-    if (view.mode != HandWatch::Mode::live) CHECK(view.felt[0] == 0);
+    if (view.mode != DeviceWatchdog::Mode::live) CHECK(view.felt[0] == 0);
   }
   CHECK(held > 990);
   CHECK(held < 1010);
@@ -136,7 +136,7 @@ TEST_CASE("live run: a device that says what is no number leaves the robot where
   TestDevice device;
   device.state = [](double t) { return turned(t < 0.1 ? 0.1 * t : NAN); };
   LiveRun run(scene, device, {});
-  TickView view;
+  TickResult view;
   for (int n = 0; n < 300; ++n) view = run.tick();
   CHECK(view.finite);
   CHECK(std::abs(HandMapping{}.robot_angle(view.hand.hand, 0) - 0.02) < 1e-3);
@@ -152,7 +152,7 @@ TEST_CASE("live run: a robot that has left all bounds stands, and pushes nobody"
   TestDevice device;
   device.state = [](double t) { return turned(0.2 * t); };
   LiveRun run(scene, device, {});
-  TickView view;
+  TickResult view;
   for (int n = 0; n < 2000; ++n) view = run.tick();
   CHECK_FALSE(view.finite);
   CHECK(device.rendered.torque[0] == 0);
@@ -185,7 +185,8 @@ TEST_CASE("live run: what cannot be led by a device is said before the run") {
   TestDevice device;
   const auto codes_of = [&](const SceneModel& scene) {
     std::string all;
-    for (const Fault& fault : faults_of([&] { LiveRun(scene, device, {}); })) all += fault.code;
+    for (const Diagnostic& fault : faults_of([&] { LiveRun(scene, device, {}); }))
+      all += fault.code;
     return all;
   };
   const TemporaryFolder folder;
@@ -213,8 +214,8 @@ TEST_CASE("servo loop: the thread takes as many ticks as asked for, in the time 
   const std::atomic<bool> stop{false};
   long drained = 0;
   const double start = monotonic_time();
-  const ServoResult result = run_servo(run, plan, stop, [&](SpscRing<TickView>& ring) {
-    for (TickView view; ring.pop(view);) {
+  const ServoResult result = run_servo(run, plan, stop, [&](SpscRing<TickResult>& ring) {
+    for (TickResult view; ring.pop(view);) {
       CHECK(view.hand.t == doctest::Approx(0.001 * static_cast<double>(drained)).epsilon(1e-9));
       ++drained;
     }
@@ -235,8 +236,8 @@ TEST_CASE("servo loop: it ends at the next tick when it is told to") {
   plan.duration = HUGE_VAL;
   std::atomic<bool> stop{false};
   long ticks = 0;
-  run_servo(run, plan, stop, [&](SpscRing<TickView>& ring) {
-    for (TickView view; ring.pop(view);) ++ticks;
+  run_servo(run, plan, stop, [&](SpscRing<TickResult>& ring) {
+    for (TickResult view; ring.pop(view);) ++ticks;
     if (ticks > 20) stop = true;
   });
   CHECK(ticks > 20);

@@ -78,7 +78,7 @@ TEST_CASE("a face of which one point lets go by less than a micrometre a second 
 }
 
 TEST_CASE("1000 random runs: cones are obeyed, and no contact does positive work") {
-  double worst_residual = 0, most_work = 0;
+  double worst_residual = 0, max_work = 0;
   int unsolved = 0;
   for (unsigned seed = 0; seed < 1000; ++seed) {
     ContactScene scene = thrown_together(seed, seed % 2 == 0);
@@ -92,13 +92,13 @@ TEST_CASE("1000 random runs: cones are obeyed, and no contact does positive work
       double work = 0;
       for (const ContactPoint& p : scene.contacts().points())
         work += 2e-3 * p.force_W.dot(p.velocity_W);
-      most_work = std::max({most_work, work / energy, -report.impact_loss / energy});
+      max_work = std::max({max_work, work / energy, -report.impact_loss / energy});
     }
     for (const double q : scene.simulation().state().q) REQUIRE(std::isfinite(q));
   }
   CHECK(unsolved == 0);
   CHECK(worst_residual <= 1e-8);
-  CHECK(most_work < 1e-9);
+  CHECK(max_work < 1e-9);
 }
 
 TEST_CASE("bodies that meet in space keep their momentum") {

@@ -125,7 +125,7 @@ TEST_CASE("event steps: a ball that rolls in a bowl keeps its energy, whatever t
     CAPTURE(h);
     ContactScene scene;
     scene.set_gravity({0, 0, -kG});
-    scene.obstacle(HollowSphere{1}, rubbing(1));
+    scene.obstacle(SphericalCavity{1}, rubbing(1));
     scene.body(Sphere{kEventBall}, 1, rubbing(1), {{0.5, 0, -std::sqrt(0.81 - 0.25)}});
     scene.begin().locate_events();
     const double before = scene.energy();
@@ -166,7 +166,7 @@ TEST_CASE("event steps: nothing is taken from the heap once they are warm") {
 TEST_CASE("event steps: what is held a hair apart comes together, and rolls on along its ground") {
   ContactScene scene;
   scene.set_gravity({0, 0, -kG});
-  scene.obstacle(HollowSphere{1}, rubbing(1));
+  scene.obstacle(SphericalCavity{1}, rubbing(1));
   const double hair = 5e-10;
   const Vector3 start = (0.9 - hair) * Vector3(0.6, 0, -0.8);
   const int ball = scene.body(Sphere{kEventBall}, 1, rubbing(1), {start});

@@ -28,15 +28,15 @@ std::vector<Shape> every_shape() {
                                HalfSpace{Vector3(0.36, 0.48, 0.8), 0.05},
                                random_hull(random),
                                Ellipsoid{{0.11, 0.05, 0.07}},
-                               HollowSphere{0.5},
-                               HollowCylinder{0.5, 2},
+                               SphericalCavity{0.5},
+                               CylindricalCavity{0.5, 2},
                                MeshShape{box_mesh({0.3, 0.25, 0.2})}};
   return shapes;
 }
 
 bool is_convex(const Shape& s) {
-  return !std::holds_alternative<HalfSpace>(s) && !std::holds_alternative<HollowSphere>(s) &&
-         !std::holds_alternative<HollowCylinder>(s) && !std::holds_alternative<MeshShape>(s);
+  return !std::holds_alternative<HalfSpace>(s) && !std::holds_alternative<SphericalCavity>(s) &&
+         !std::holds_alternative<CylindricalCavity>(s) && !std::holds_alternative<MeshShape>(s);
 }
 
 // B near the surface of A; `b` is convex.
@@ -48,7 +48,7 @@ Pose placed_near(Random& random, const Shape& a, const Pose& X_WA, const Shape& 
     X_WB.p += n * (n.dot(X_WA.p) + ground->offset + gap - n.dot(lowest));
     return X_WB;
   }
-  if (std::holds_alternative<HollowSphere>(a) || std::holds_alternative<HollowCylinder>(a)) {
+  if (std::holds_alternative<SphericalCavity>(a) || std::holds_alternative<CylindricalCavity>(a)) {
     Pose X_AB{random.rotation(), Vector3::Zero()};
     const double angle = random.uniform(-3, 3);
     const Vector3 out(std::cos(angle), std::sin(angle), 0);

@@ -19,8 +19,8 @@ namespace {
 
 // Of a point of the body from the wall, negative inside the hollow.
 double beyond(const Shape& hollow, const Vector3& p, double tolerance = 0) {
-  if (const auto* sphere = std::get_if<HollowSphere>(&hollow)) return p.norm() - sphere->radius;
-  const auto& tube = std::get<HollowCylinder>(hollow);
+  if (const auto* sphere = std::get_if<SphericalCavity>(&hollow)) return p.norm() - sphere->radius;
+  const auto& tube = std::get<CylindricalCavity>(hollow);
   if (std::abs(p.z()) > tube.length / 2 + tolerance) return -1e300;
   return std::hypot(p.x(), p.y()) - tube.radius;
 }
@@ -32,7 +32,7 @@ TEST_CASE("within a hollow: the depth is that of the farthest of many points of 
   const std::vector<Shape> bodies = {Sphere{0.06},        Box{{0.2, 0.14, 0.1}},
                                      Capsule{0.05, 0.2},  Cylinder{0.06, 0.15},
                                      random_hull(random), Ellipsoid{{0.11, 0.05, 0.07}}};
-  for (const Shape& hollow : {Shape(HollowSphere{0.5}), Shape(HollowCylinder{0.5, 0.7})}) {
+  for (const Shape& hollow : {Shape(SphericalCavity{0.5}), Shape(CylindricalCavity{0.5, 0.7})}) {
     for (const Shape& body : bodies) {
       CAPTURE(shape_name(hollow));
       CAPTURE(shape_name(body));
@@ -42,7 +42,7 @@ TEST_CASE("within a hollow: the depth is that of the farthest of many points of 
       for (int k = 0; k < 100; ++k) {
         const Pose X_WH = random_pose(random);
         Vector3 out = random.direction();
-        if (std::holds_alternative<HollowCylinder>(hollow)) {
+        if (std::holds_alternative<CylindricalCavity>(hollow)) {
           out.z() = 0;
           out.normalize();
           out.z() = random.uniform(-0.4, 0.4);
@@ -79,8 +79,9 @@ TEST_CASE("within a hollow: the depth is that of the farthest of many points of 
 
 TEST_CASE("a ball in a bowl and in a tube, a roller in a tube: depth and normal in closed form") {
   Random random(45);
-  PairScene bowl(HollowSphere{1}, Sphere{0.1}), tube(HollowCylinder{1, 2}, Sphere{0.1});
-  PairScene roller(HollowCylinder{1, 2}, Cylinder{0.1, 0.3}), swapped(Sphere{0.1}, HollowSphere{1});
+  PairScene bowl(SphericalCavity{1}, Sphere{0.1}), tube(CylindricalCavity{1, 2}, Sphere{0.1});
+  PairScene roller(CylindricalCavity{1, 2}, Cylinder{0.1, 0.3}),
+      swapped(Sphere{0.1}, SphericalCavity{1});
   for (int k = 0; k < 500; ++k) {
     const double depth = random.uniform(-9e-4, 1e-3), angle = random.uniform(-3, 3);
     const Vector3 out = random.direction(), across(std::cos(angle), std::sin(angle), 0);
@@ -107,7 +108,7 @@ TEST_CASE("a shaft through a short tube touches at its mouths") {
   for (const Shape& shaft :
        {Shape(Capsule{0.02, 1}), Shape(Cylinder{0.02, 1}), Shape(Box{{0.04, 0.04, 1}})}) {
     CAPTURE(shape_name(shaft));
-    PairScene scene(HollowCylinder{0.1, 0.2}, shaft);
+    PairScene scene(CylindricalCavity{0.1, 0.2}, shaft);
     for (int k = 0; k < 50; ++k) {
       const double angle = std::holds_alternative<Box>(shaft) ? 0 : 0.1 * k;
       // A box has its edge there, at half its diagonal.
@@ -126,14 +127,14 @@ TEST_CASE("a shaft through a short tube touches at its mouths") {
 }
 
 TEST_CASE("a long ellipsoid in a bowl rests on both tips; two hollows are refused") {
-  PairScene scene(HollowSphere{0.2}, Ellipsoid{{0.19, 0.02, 0.03}});
+  PairScene scene(SphericalCavity{0.2}, Ellipsoid{{0.19, 0.02, 0.03}});
   const double height = std::sqrt(0.04 - 0.19 * 0.19);
   for (const double shift : {0.0, 1e-14, -1e-9, 1e-5}) {
     CHECK(scene.touch(origin, {Matrix3::Identity(), {shift, 0, -height}}).size() == 2);
   }
   CollisionWorld world;
-  world.add({"bowl", HollowSphere{1}, 0});
-  CHECK_THROWS_AS(world.add({"tube", HollowCylinder{1, 1}, 0}), InputError);
+  world.add({"bowl", SphericalCavity{1}, 0});
+  CHECK_THROWS_AS(world.add({"tube", CylindricalCavity{1, 1}, 0}), InputError);
   CHECK_THROWS_AS(world.add({"floor", HalfSpace{}, 0}), InputError);
   CHECK_THROWS_AS(world.add({"point", Ellipsoid{{0.1, 0, 0.1}}, 0}), InputError);
 }

@@ -18,7 +18,7 @@ namespace {
 // Of a body that is hardly deep: the deepest of both parts, each by all differences of corners.
 double depth_in_step(const Shape& body, const Pose& X_WB) {
   double depth = -1e300;
-  for (const StepPart& part : step_parts())
+  for (const CoupledTerm& part : step_parts())
     depth = std::max(depth, -oracle_distance(part.box, part.X, body, X_WB));
   return depth;
 }

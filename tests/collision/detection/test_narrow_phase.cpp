@@ -226,12 +226,12 @@ TEST_CASE("curved pairs: no direction, sampled and refined, has less overlap tha
     if (!has_curved(a, b)) return;
     Random random(37);
     PairScene pair(a, b, kWideMargin);
-    const Solid solid_a(a), solid_b(b);
+    const PreparedShape solid_a(a), solid_b(b);
     Worst along_normal, beaten;
     for (int k = 0; k < 200; ++k) {
       const Pose X_WA = random_pose(random);
       const Pose X_WB = pushed_against(random, a, X_WA, b, random.uniform(-0.08, 0.01));
-      const Placed placed_a{solid_a, X_WA}, placed_b{solid_b, X_WB};
+      const PosedShape placed_a{solid_a, X_WA}, placed_b{solid_b, X_WB};
       if (pair.touch(X_WA, X_WB).empty()) continue;
       const double depth = pair.depth();
       along_normal.see(std::abs(overlap(placed_a, placed_b, pair.contacts[0].n_W) - depth));
@@ -265,7 +265,7 @@ TEST_CASE("cylinders deep in each other: found poses whose least overlap is hard
   for (std::size_t i = 0; i < all.size(); ++i) {
     CAPTURE(i);
     PairScene pair(drum, all[i].b, kWideMargin);
-    const Solid solid_a(drum), solid_b(all[i].b);
+    const PreparedShape solid_a(drum), solid_b(all[i].b);
     const Pose X_WA, X_WB{all[i].turn.normalized().toRotationMatrix(), all[i].p_AB};
     const double depth = -pair.world.distance(0, 1, X_WA, X_WB);
     CHECK(depth < sampled_depth(random, {solid_a, X_WA}, {solid_b, X_WB}) + 1e-9);

@@ -24,8 +24,8 @@ std::vector<Shape> every_kind() {
           HalfSpace{},
           random_hull(random),
           Ellipsoid{{0.11, 0.05, 0.07}},
-          HollowSphere{0.3},
-          HollowCylinder{0.3, 1},
+          SphericalCavity{0.3},
+          CylindricalCavity{0.3, 1},
           MeshShape{box_mesh({0.2, 0.3, 0.1})},
           random_hull(random)};
 }

@@ -60,8 +60,8 @@ Outcome try_file(const fs::path& file) {
   } catch (const InputError& error) {
     REQUIRE(error.faults().size() == 1);
     REQUIRE(error.faults()[0].file == file.string());
-    REQUIRE(!error.faults()[0].rule.empty());
-    REQUIRE(!error.faults()[0].remedy.empty());
+    REQUIRE(!error.faults()[0].problem.empty());
+    REQUIRE(!error.faults()[0].fix.empty());
     return Outcome::refused;
   }
 }

@@ -85,7 +85,7 @@ double oracle_distance(const Shape& a, const Pose& X_WA, const Shape& b, const P
   return distance - core_radius(a) - core_radius(b);
 }
 
-double sampled_depth(Random& random, const Placed& a, const Placed& b) {
+double sampled_depth(Random& random, const PosedShape& a, const PosedShape& b) {
   std::vector<std::pair<double, Vector3>> tried;
   for (int k = 0; k < 500; ++k) {
     const Vector3 n = random.direction();

@@ -32,7 +32,7 @@ double oracle_distance(const Shape& a, const Pose& X_WA, const Shape& b, const P
 
 // Least overlap(n) over 500 random directions, the best three of them refined by random steps that
 // shrink. Of any two convex bodies; an upper bound of the depth.
-double sampled_depth(Random& random, const Placed& a, const Placed& b);
+double sampled_depth(Random& random, const PosedShape& a, const PosedShape& b);
 
 // A pose of B in which B is pushed against A along a random direction until their supporting planes
 // there are `gap` apart (negative: overlap).

@@ -95,8 +95,8 @@ TEST_CASE("points without a volume are refused with a remedy") {
       convex_hull(points);
       FAIL("no error");
     } catch (const InputError& error) {
-      CHECK(!error.faults().at(0).rule.empty());
-      CHECK(!error.faults().at(0).remedy.empty());
+      CHECK(!error.faults().at(0).problem.empty());
+      CHECK(!error.faults().at(0).fix.empty());
     }
   }
 }

@@ -67,7 +67,7 @@ void for_all_solids(Visit visit) {
       CAPTURE(i);
       CAPTURE(j);
       Random random(static_cast<unsigned>(41 + i + 100 * j));
-      visit(shapes[i], shapes[j], Solid(shapes[i]), Solid(shapes[j]), random);
+      visit(shapes[i], shapes[j], PreparedShape(shapes[i]), PreparedShape(shapes[j]), random);
     }
   }
 }
@@ -77,13 +77,13 @@ void for_all_solids(Visit visit) {
 TEST_CASE(
     "gjk: along its normal every distance is proven by the supports, and the points have it") {
   int apart = 0;
-  for_all_solids([&](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
-                     Random& random) {
+  for_all_solids([&](const Shape& a, const Shape& b, const PreparedShape& solid_a,
+                     const PreparedShape& solid_b, Random& random) {
     const double radii = solid_a.core.radius + solid_b.core.radius;
     double gap = 0, points = 0;
     for (int k = 0; k < 200; ++k) {
       const Poses x = poses_of_all_kinds(random, a, b, k);
-      const Placed placed_a{solid_a, x.X_WA}, placed_b{solid_b, x.X_WB};
+      const PosedShape placed_a{solid_a, x.X_WA}, placed_b{solid_b, x.X_WB};
       const CoreDistance found = core_distance(placed_a, placed_b);
       if (found.distance == 0) continue;
       ++apart;
@@ -100,8 +100,8 @@ TEST_CASE(
 }
 
 TEST_CASE("gjk: FCL never finds a shorter distance, and none where this finds an overlap") {
-  for_all_solids([](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
-                    Random& random) {
+  for_all_solids([](const Shape& a, const Shape& b, const PreparedShape& solid_a,
+                    const PreparedShape& solid_b, Random& random) {
     const FclShape fcl_a(a, solid_a.core), fcl_b(b, solid_b.core);
     double longer = 0, lost = 0;
     for (int k = 0; k < 50; ++k) {
@@ -120,13 +120,13 @@ TEST_CASE("gjk: FCL never finds a shorter distance, and none where this finds an
 
 TEST_CASE("gjk: where it finds an overlap of the cores, no direction parts them") {
   NarrowPhase narrow_phase;
-  for_all_solids([&](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
-                     Random& random) {
+  for_all_solids([&](const Shape& a, const Shape& b, const PreparedShape& solid_a,
+                     const PreparedShape& solid_b, Random& random) {
     const double radii = solid_a.core.radius + solid_b.core.radius;
     double parted = 0, unlike = 0;
     for (int k = 0; k < 50; ++k) {
       const Poses x = poses_of_all_kinds(random, a, b, k);
-      const Placed placed_a{solid_a, x.X_WA}, placed_b{solid_b, x.X_WB};
+      const PosedShape placed_a{solid_a, x.X_WA}, placed_b{solid_b, x.X_WB};
       const CoreDistance cores = core_distance(placed_a, placed_b);
       const double signed_distance = narrow_phase.distance(placed_a, placed_b);
       if (cores.distance == 0) {
@@ -142,12 +142,12 @@ TEST_CASE("gjk: where it finds an overlap of the cores, no direction parts them"
 }
 
 TEST_CASE("gjk: what is farther than asked for is told to be so, the rest is not cut short") {
-  for_all_solids([](const Shape& a, const Shape& b, const Solid& solid_a, const Solid& solid_b,
-                    Random& random) {
+  for_all_solids([](const Shape& a, const Shape& b, const PreparedShape& solid_a,
+                    const PreparedShape& solid_b, Random& random) {
     int wrong = 0;
     for (int k = 0; k < 50; ++k) {
       const Poses x = poses_of_all_kinds(random, a, b, k);
-      const Placed placed_a{solid_a, x.X_WA}, placed_b{solid_b, x.X_WB};
+      const PosedShape placed_a{solid_a, x.X_WA}, placed_b{solid_b, x.X_WB};
       const double far = 0.01, truth = core_distance(placed_a, placed_b).distance;
       const CoreDistance found = core_distance(placed_a, placed_b, far);
       const double radii = solid_a.core.radius + solid_b.core.radius;

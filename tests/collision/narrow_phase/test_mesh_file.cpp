@@ -61,8 +61,8 @@ std::string refusal(const fs::path& file) {
     load_mesh(file, 1);
   } catch (const InputError& error) {
     CHECK(error.faults().at(0).file == file.string());
-    CHECK(!error.faults().at(0).remedy.empty());
-    return error.faults().at(0).rule;
+    CHECK(!error.faults().at(0).fix.empty());
+    return error.faults().at(0).problem;
   }
   return "accepted";
 }

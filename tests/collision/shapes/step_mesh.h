@@ -29,11 +29,11 @@ inline TriangleMesh step_mesh() {
   return step;
 }
 
-struct StepPart {
+struct CoupledTerm {
   Box box;
   Pose X;
 };
-inline std::array<StepPart, 2> step_parts() {
+inline std::array<CoupledTerm, 2> step_parts() {
   return {{{{{0.15, 0.3, 0.12}}, {Matrix3::Identity(), {-0.075, 0, 0.06}}},
            {{{0.3, 0.3, 0.05}}, {Matrix3::Identity(), {0, 0, 0.025}}}}};
 }

@@ -16,31 +16,31 @@ inline constexpr double kHingeInertia = 0.7, kFrame = 0.01, kSmall = 1e-9;
 inline constexpr int kHeld = 20;  // steps of the integrator in one held step
 
 // The inequality at each Scheme.
-inline bool is_stable(Scheme scheme, double alpha, double beta) {
+inline bool is_stable(SteppingScheme scheme, double alpha, double beta) {
   switch (scheme) {
-    case Scheme::euler:
+    case SteppingScheme::euler:
       return alpha < beta && beta < 2 + alpha / 2;
-    case Scheme::semi_implicit:
-    case Scheme::semi_implicit_difference:
+    case SteppingScheme::semi_implicit:
+    case SteppingScheme::semi_implicit_difference:
       return alpha < 4 - 2 * beta;
-    case Scheme::euler_difference:
+    case SteppingScheme::euler_difference:
       return beta < 1 && alpha < beta * (1 - beta);
-    case Scheme::semi_implicit_older:
+    case SteppingScheme::semi_implicit_older:
       return beta < 1 && alpha < 1 - beta;
-    case Scheme::hold:
+    case SteppingScheme::hold:
       return alpha < 2 * beta && beta < 2;
-    case Scheme::hold_difference:
+    case SteppingScheme::hold_difference:
       return beta < 2 && alpha < 2 * beta * (2 - beta) / (2 + beta);
-    case Scheme::rk4: {
+    case SteppingScheme::rk4: {
       const std::complex<double> root = std::sqrt(std::complex<double>(beta * beta - 4 * alpha));
       const auto grows_by = [](std::complex<double> l) {
         return std::abs(1.0 + l * (1.0 + l / 2.0 * (1.0 + l / 3.0 * (1.0 + l / 4.0))));
       };
       return grows_by((root - beta) / 2.0) < 1 && grows_by((-root - beta) / 2.0) < 1;
     }
-    case Scheme::implicit_damper:
+    case SteppingScheme::implicit_damper:
       return alpha < 4 + 2 * beta;
-    case Scheme::implicit:
+    case SteppingScheme::implicit:
       return true;
   }
   return false;
@@ -53,42 +53,43 @@ struct Stepper {
 };
 
 // The coupling and integrator that make a scheme: torsional on a hinge, or linear on a slide.
-inline Stepper stepper_of(Scheme scheme, CouplingSpec::Type type, std::vector<Spring> springs) {
+inline Stepper stepper_of(SteppingScheme scheme, CouplingSpec::Type type,
+                          std::vector<Spring> springs) {
   Stepper s;
   s.spec.type = type;
   s.spec.springs = std::move(springs);
   s.spec.options.damper = Damper::vector_;
   switch (scheme) {
-    case Scheme::euler:
+    case SteppingScheme::euler:
       s.integrator = Integrator::euler;
       break;
-    case Scheme::semi_implicit:
+    case SteppingScheme::semi_implicit:
       break;
-    case Scheme::euler_difference:
+    case SteppingScheme::euler_difference:
       s.integrator = Integrator::euler;
       s.spec.printed = true;
       break;
-    case Scheme::semi_implicit_difference:
+    case SteppingScheme::semi_implicit_difference:
       s.spec.printed = true;
       break;
-    case Scheme::semi_implicit_older:
+    case SteppingScheme::semi_implicit_older:
       s.spec.printed = true;
       s.spec.options.difference = Difference::older;
       break;
-    case Scheme::hold:
-    case Scheme::hold_difference:
+    case SteppingScheme::hold:
+    case SteppingScheme::hold_difference:
       s.integrator = Integrator::rk4;
       s.substeps = s.spec.hold_steps = s.spec.options.hold_steps = kHeld;
-      s.spec.printed = scheme == Scheme::hold_difference;
+      s.spec.printed = scheme == SteppingScheme::hold_difference;
       break;
-    case Scheme::rk4:
+    case SteppingScheme::rk4:
       s.integrator = Integrator::rk4;
       break;
-    case Scheme::implicit_damper:
-      s.spec.treatment = Treatment::semi_implicit;
+    case SteppingScheme::implicit_damper:
+      s.spec.treatment = Discretization::semi_implicit;
       break;
-    case Scheme::implicit:
-      s.spec.treatment = Treatment::implicit;
+    case SteppingScheme::implicit:
+      s.spec.treatment = Discretization::implicit;
       break;
   }
   return s;
@@ -101,7 +102,7 @@ inline bool grows(const Stepper& stepper, const Model<double>& model, const Stat
   State<double> start = pose;
   for (std::size_t j = 0; j < model.nq; ++j) start.q[j] += j % 2 == 0 ? kSmall : -0.7 * kSmall;
   Coupled system(model, {}, {}, stepper.spec, start, stepper.integrator);
-  system.kvr.stand_at(pose);
+  system.kvr.set_pose(pose);
   double early = 0, late = 0;
   for (int n = 0; n < steps; ++n) {
     for (int m = 0; m < stepper.substeps; ++m) system.simulation.step(h / stepper.substeps);
@@ -116,15 +117,16 @@ inline bool grows(const Stepper& stepper, const Model<double>& model, const Stat
   return late > 1.01 * early;  // undamped motion, seen once a step, seems to by less
 }
 
-inline bool grows(Scheme scheme, CouplingSpec::Type type, double alpha, double beta) {
+inline bool grows(SteppingScheme scheme, CouplingSpec::Type type, double alpha, double beta) {
   const JointType joint =
       type == CouplingSpec::Type::linear ? JointType::prismatic : JointType::revolute;
   const std::vector<Spring> springs{{"spring", 1, Vector3::Zero(),
                                      alpha * kHingeInertia / (kFrame * kFrame),
                                      beta * kHingeInertia / kFrame}};
   const Model<double> model = one_joint(joint, kHingeInertia);
-  return grows(stepper_of(scheme, type, springs), model, State<double>(model), kFrame,
-               scheme == Scheme::hold || scheme == Scheme::hold_difference ? 800 : 4000);
+  return grows(
+      stepper_of(scheme, type, springs), model, State<double>(model), kFrame,
+      scheme == SteppingScheme::hold || scheme == SteppingScheme::hold_difference ? 800 : 4000);
 }
 
 // Where a run begins to grow, to 1e-4 of itself, between 0.9 and 1.1 of a limit.

@@ -19,8 +19,8 @@ struct Law {
   std::string name;
   CouplingType type;
   bool printed;
-  Measure measure;
-  Treatment treatment;
+  SpringSpace measure;
+  Discretization treatment;
   bool own;  // a treatment of its own
   const CouplingFacts& facts;
 
@@ -32,29 +32,30 @@ struct Law {
   bool on_joint() const { return at_joint() && facts.is_spring_damper; }
 
  private:
-  // PrintedOptions have a measure too.
+  // AsPublishedOptions have a measure too.
   bool at_joint() const {
-    return facts.at_joint || (is(CouplingType::torsional) && measure == Measure::joint);
+    return facts.at_joint || (is(CouplingType::torsional) && measure == SpringSpace::joint);
   }
 };
 
 // coupling/laws/coupling_spec.h times treatments times measures.
 inline std::vector<Law> all_laws() {
-  using Treatments = CouplingFacts::Treatments;
+  using Discretizations = CouplingFacts::Discretizations;
   std::vector<Law> laws;
   for (const CouplingFacts& facts : all_couplings)
-    for (const Treatment treatment :
-         {Treatment::explicit_, Treatment::semi_implicit, Treatment::implicit})
-      for (const Measure measure : {Measure::world, Measure::joint}) {
-        if (facts.treatments != Treatments::all && treatment != Treatment::explicit_) continue;
-        if (facts.type != CouplingType::torsional && measure == Measure::joint) continue;
+    for (const Discretization treatment :
+         {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit})
+      for (const SpringSpace measure : {SpringSpace::world, SpringSpace::joint}) {
+        if (facts.treatments != Discretizations::all && treatment != Discretization::explicit_)
+          continue;
+        if (facts.type != CouplingType::torsional && measure == SpringSpace::joint) continue;
         const std::string of =
-            facts.treatments == Treatments::own ? "" : std::string(", ") + name_of(treatment);
+            facts.treatments == Discretizations::own ? "" : std::string(", ") + name_of(treatment);
         const std::string at = facts.type != CouplingType::torsional ? ""
-                               : measure == Measure::world           ? ", world"
+                               : measure == SpringSpace::world       ? ", world"
                                                                      : ", joint";
         laws.push_back({facts.name + at + of, facts.type, facts.printed, measure, treatment,
-                        facts.treatments == Treatments::own, facts});
+                        facts.treatments == Discretizations::own, facts});
       }
   return laws;
 }
@@ -103,12 +104,12 @@ inline State<double> three_state(const Model<double>& model, const Vector3& q, c
 struct Evaluated {
   Kinematics D, K;  // of the DVR; of the KVR at the start of the step
   Forces<double> forces;
-  std::vector<SpringReading> readings;
+  std::vector<SpringState> readings;
 };
 inline Evaluated evaluated(const CouplingSpec& spec, const Model<double>& model,
                            const SteadyHand& hand, const Vector3& q, const Vector3& qd,
-                           double h = 1e-3, KvrRates rates = KvrRates::from_hand) {
-  KinematicRobot kvr(model, hand, SteadyHand::mapping(), {kThreeJoints, "", 0, 0}, rates);
+                           double h = 1e-3, TargetRates rates = TargetRates::from_hand) {
+  TargetRobot kvr(model, hand, SteadyHand::mapping(), {kThreeJoints, "", 0, 0}, rates);
   const auto coupling = make_coupling(spec, model, kvr);
   const State<double> x = three_state(model, q, qd);
   Evaluated all{Kinematics(model), Kinematics(model), Forces<double>(model), {}};

@@ -10,7 +10,7 @@
 namespace twinarm::testing {
 
 // Moves joint j of the robot along angle[j] + rate[j] t.
-class SteadyHand final : public HandSource {
+class SteadyHand final : public OperatorMotion {
  public:
   std::array<double, 3> angle{}, rate{};
   HandSample sample(double t, double) const override {
@@ -41,7 +41,7 @@ inline Model<double> one_joint(JointType type, double inertia) {
 struct Coupled {
   Model<double> model;
   SteadyHand hand;
-  KinematicRobot kvr;
+  TargetRobot kvr;
   std::unique_ptr<Coupling> coupling;
   Simulation simulation;
 

@@ -17,7 +17,7 @@ namespace {
 constexpr double kArm = 0.25, kFore = 0.35, kSpeed = 2.0, kTime = 0.45;  // m, m, rad/s, s
 
 // Turns joint 1 at kSpeed for kTime, then holds.
-class StoppingHand final : public HandSource {
+class StoppingHand final : public OperatorMotion {
  public:
   HandSample sample(double t, double) const override {
     HandSample hand;
@@ -33,13 +33,13 @@ class StoppingHand final : public HandSource {
 
 CouplingSpec coupling_of(int kind) {
   CouplingSpec spec;
-  spec.treatment = Treatment::implicit;
+  spec.treatment = Discretization::implicit;
   if (kind == 0) {
     spec.type = CouplingSpec::Type::linear;
     spec.springs = {{"arm1", 1, {kArm / 2, 0, 0}, 4000, 60}, {"arm2", 2, {0.3, 0, 0}, 1500, 40}};
   } else {
     spec.type = CouplingSpec::Type::torsional;
-    spec.measure = kind == 1 ? Measure::world : Measure::joint;
+    spec.measure = kind == 1 ? SpringSpace::world : SpringSpace::joint;
     spec.springs = {{"arm1", 1, {}, 150, 6}, {"arm2", 2, {}, 40, 1.5}};
   }
   return spec;
@@ -69,7 +69,7 @@ TEST_CASE("an arm pushed against a box stays outside, and rests on it with the c
     CAPTURE(kind);
     const Model<double> model = TwoLink{5, 3, kArm, kFore}.model();
     StoppingHand hand;
-    KinematicRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "joint2"}, "", 0, 0});
+    TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "joint2"}, "", 0, 0});
     const CouplingSpec spec = coupling_of(kind);
     const auto coupling = make_coupling(spec, model, kvr);
     Simulation simulation(model, state_of(model, {-0.9, 0.3}, {kSpeed, 0}));

@@ -41,7 +41,7 @@ double stored(const CouplingSpec& spec, const Law& law, const Model<double>& mod
 TEST_CASE("every coupling refuses negative and undefined gains, all springs at fault at once") {
   const Model<double> model = chain_of_three(1);
   const SteadyHand hand;
-  KinematicRobot kvr(model, hand, SteadyHand::mapping(), {kThreeJoints, "", 0, 0});
+  TargetRobot kvr(model, hand, SteadyHand::mapping(), {kThreeJoints, "", 0, 0});
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Law& law : all_laws()) {
     CAPTURE(law.name);
@@ -88,7 +88,7 @@ TEST_CASE("without damping every coupling with springs pulls with -dU/dq at the 
   Random random(3);
   for (const Law& law : all_laws()) {
     // Over the step, implicit springs lessen their pull: F - m* J qdd.
-    if (law.treatment != Treatment::explicit_ || !law.facts.is_spring_damper) continue;
+    if (law.treatment != Discretization::explicit_ || !law.facts.is_spring_damper) continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, 0));
     for (unsigned seed = 0; seed < 10; ++seed) {
@@ -131,7 +131,7 @@ TEST_CASE("joint_space is how the generalised force changes with the DVR about z
   Random random(6);
   for (const Law& law : all_laws()) {
     // The weld's damping brings an inertia (test_weld_like.cpp), stable PD's looks ahead.
-    if (law.treatment != Treatment::explicit_ || law.is(CouplingType::god_object)) continue;
+    if (law.treatment != Discretization::explicit_ || law.is(CouplingType::god_object)) continue;
     const bool springs_alone = law.printed || law.own || law.is(CouplingType::weld_like);
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, springs_alone ? 0 : 0.6));

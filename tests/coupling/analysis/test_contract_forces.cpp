@@ -55,7 +55,7 @@ TEST_CASE(
   Random random(7);
   for (const Law& law : all_laws()) {
     if (!is_consistent(law) || law.own || law.is(CouplingType::matched) ||
-        law.is(CouplingType::weld_like) || law.treatment != Treatment::explicit_)
+        law.is(CouplingType::weld_like) || law.treatment != Discretization::explicit_)
       continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, 2));
@@ -120,7 +120,7 @@ TEST_CASE("action is minus reaction of a relative damper; between two points but
   Random random(9);
   for (const Law& law : all_laws()) {
     if (!is_consistent(law) || law.is(CouplingType::matched) ||
-        law.treatment != Treatment::explicit_)
+        law.treatment != Discretization::explicit_)
       continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(0, 2));
@@ -175,13 +175,13 @@ TEST_CASE("a relative damper takes energy from the relative motion, whatever mov
       const Vector3 q = random.vector(3), qd = random.vector(10), qd_K = random.vector(10);
       const Evaluated all = evaluated(spec, model, hand_at(q + random.vector(0.5), qd_K), q, qd);
       for (std::size_t r = 0; r < all.readings.size(); ++r) {
-        const SpringReading& reading = all.readings[r];
+        const SpringState& reading = all.readings[r];
         const bool turn = r >= 3 || law.on_orientation();
         const Vector3 pull = law.on_joint() ? Vector3(reading.size, 0, 0) : reading.pull;
         const Vector3 v = relative_velocity(law, model, all, spec.springs[r % 3], qd_K, qd, turn);
         // Targets at the end of the step have turned on by h.
         CHECK(pull.dot(v) < 1e-2 * pull.norm() * v.norm());
-        if (law.treatment == Treatment::explicit_ && !law.own)
+        if (law.treatment == Discretization::explicit_ && !law.own)
           CHECK(pull.dot(v) == doctest::Approx(-pull.norm() * v.norm()).epsilon(1e-12));
       }
     }
@@ -210,11 +210,11 @@ TEST_CASE("the printed torsional damper drives a DVR that follows too fast: powe
 TEST_CASE("the implicit treatments become the explicit one as h -> 0, in first order") {
   Random random(11);
   for (const Law& law : all_laws()) {
-    if (law.treatment == Treatment::explicit_ && !law.is(CouplingType::stable_pd)) continue;
+    if (law.treatment == Discretization::explicit_ && !law.is(CouplingType::stable_pd)) continue;
     CAPTURE(law.name);
     Law plain = law;
-    plain.treatment = Treatment::explicit_;
-    if (law.own) plain.type = CouplingType::torsional, plain.measure = Measure::joint;
+    plain.treatment = Discretization::explicit_;
+    if (law.own) plain.type = CouplingType::torsional, plain.measure = SpringSpace::joint;
     for (unsigned seed = 0; seed < 3; ++seed) {
       const Model<double> model = chain_of_three(seed);
       const Vector3 q_K = random.vector(1), q = q_K + random.vector(0.3), qd = random.vector(2);

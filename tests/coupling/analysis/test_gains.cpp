@@ -76,7 +76,7 @@ TEST_CASE("a solref is what MuJoCo's manual says of it: w = 1/(timeconst damprat
   CHECK(direct.k == doctest::Approx(I * d * 400 * d / (d_max * d_max)));
   CHECK(direct.b == doctest::Approx(I * d * 30 / d_max));
   CHECK(mujoco_static_stiffness(95, {0.95, 0.95}) == doctest::Approx(1900));
-  CHECK(shortest_timeconst(0.002) == 0.004);  // refsafe
+  CHECK(min_timeconst(0.002) == 0.004);  // refsafe
 }
 
 TEST_CASE(

@@ -150,7 +150,7 @@ TEST_CASE("god object: refuses what has no single coordinate, and a robot by hal
   builder.add_body("c", 1, "joint2", JointType::revolute, {}, Vector3::UnitZ(), body);
   const Model<double> model = builder.build();
   const SteadyHand hand;
-  KinematicRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1"}, "", 0, 0});
+  TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1"}, "", 0, 0});
   CHECK_THROWS_AS(make_coupling(god_object(model), model, kvr), InputError);
   CouplingSpec half = god_object(model);
   half.springs = {{"joint1", 1}};

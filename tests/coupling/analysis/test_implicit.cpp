@@ -19,17 +19,18 @@ struct LinearCase {
   const char* name;
   JointType joint;
   CouplingSpec::Type type;
-  Measure measure;
+  SpringSpace measure;
 };
-constexpr LinearCase kCases[] = {
-    {"linear spring on a slide", JointType::prismatic, CouplingSpec::Type::linear, Measure::world},
-    {"joint spring on a slide", JointType::prismatic, CouplingSpec::Type::torsional,
-     Measure::joint},
-    {"joint spring on a hinge", JointType::revolute, CouplingSpec::Type::torsional, Measure::joint},
-    {"world spring on a hinge", JointType::revolute, CouplingSpec::Type::torsional,
-     Measure::world}};
+constexpr LinearCase kCases[] = {{"linear spring on a slide", JointType::prismatic,
+                                  CouplingSpec::Type::linear, SpringSpace::world},
+                                 {"joint spring on a slide", JointType::prismatic,
+                                  CouplingSpec::Type::torsional, SpringSpace::joint},
+                                 {"joint spring on a hinge", JointType::revolute,
+                                  CouplingSpec::Type::torsional, SpringSpace::joint},
+                                 {"world spring on a hinge", JointType::revolute,
+                                  CouplingSpec::Type::torsional, SpringSpace::world}};
 
-CouplingSpec spec_of(const LinearCase& c, Treatment treatment, double k, double b) {
+CouplingSpec spec_of(const LinearCase& c, Discretization treatment, double k, double b) {
   CouplingSpec spec;
   spec.type = c.type;
   spec.measure = c.measure;
@@ -42,18 +43,18 @@ CouplingSpec spec_of(const LinearCase& c, Treatment treatment, double k, double 
 
 TEST_CASE("implicit and semi-implicit: one degree of freedom follows its recurrence to 1e-12") {
   struct {
-    Treatment treatment;
+    Discretization treatment;
     double k, b;
-  } const rows[] = {{Treatment::implicit, 30, 0.05 * std::sqrt(30)},
-                    {Treatment::implicit, 7e3, 0.05 * std::sqrt(7e3)},
-                    {Treatment::implicit, 7e6, 0.05 * std::sqrt(7e6)},
-                    {Treatment::semi_implicit, 3e3, 400}};
+  } const rows[] = {{Discretization::implicit, 30, 0.05 * std::sqrt(30)},
+                    {Discretization::implicit, 7e3, 0.05 * std::sqrt(7e3)},
+                    {Discretization::implicit, 7e6, 0.05 * std::sqrt(7e6)},
+                    {Discretization::semi_implicit, 3e3, 400}};
   for (const LinearCase& c : kCases)
     for (const auto& row : rows) {
       const double k = row.k, b = row.b, h = kStep;
       CAPTURE(c.name);
       CAPTURE(k);
-      const bool implicit = row.treatment == Treatment::implicit;
+      const bool implicit = row.treatment == Discretization::implicit;
       const Model<double> model = one_joint(c.joint, kInertia);
       SteadyHand hand;
       hand.angle[0] = 0.4;
@@ -85,7 +86,7 @@ TEST_CASE("implicit: the two eigenvalues of a step multiply to 1/(1 + alpha + be
         for (Eigen::Index column = 0; column < 2; ++column) {
           const double q = column == 0 ? 1e-3 : 0, qd = column == 1 ? 1e-3 : 0;
           Coupled system(model, {}, {"joint1"},
-                         spec_of(c, Treatment::implicit, alpha * kInertia / (kStep * kStep),
+                         spec_of(c, Discretization::implicit, alpha * kInertia / (kStep * kStep),
                                  beta * kInertia / kStep),
                          state_of(model, {q}, {qd}));
           system.simulation.step(kStep);
@@ -108,9 +109,9 @@ TEST_CASE("a horizontal hinge sags by the same angle in all three treatments: th
   SteadyHand hand;
   hand.angle[0] = 0.3;
   for (const CouplingSpec::Type type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
-    for (const Measure measure : {Measure::joint, Measure::world})
-      for (const Treatment treatment :
-           {Treatment::explicit_, Treatment::semi_implicit, Treatment::implicit}) {
+    for (const SpringSpace measure : {SpringSpace::joint, SpringSpace::world})
+      for (const Discretization treatment :
+           {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
         const bool linear = type == CouplingSpec::Type::linear;
         CouplingSpec spec;
         spec.type = type;
@@ -138,25 +139,25 @@ TEST_CASE("a two-link arm at w h = 85 settles implicitly, where the explicit ver
   hand.angle = {0.5, -0.9, 0};
   const double h = 1e-3;
   for (const bool point : {true, false}) {
-    const auto spec = [&](double k, double b, Treatment treatment) {
+    const auto spec = [&](double k, double b, Discretization treatment) {
       return point ? linear(arm.springs(k, b), treatment)
-                   : torsional(arm.springs(k, b), Measure::world, treatment);
+                   : torsional(arm.springs(k, b), SpringSpace::world, treatment);
     };
     const State<double> start = state_of(model, {0.3, -0.6}, {2, -3});
     State<double> pose(model);
     pose.q = {0.5, -0.9};
-    Coupled unit(model, hand, {"joint1", "joint2"}, spec(1, 0, Treatment::explicit_), pose);
+    Coupled unit(model, hand, {"joint1", "joint2"}, spec(1, 0, Discretization::explicit_), pose);
     const double per_gain =
         squared_frequencies(mass_matrix(model, pose),
                             unit.coupling->joint_space(unit.simulation.kinematics()).K)
             .maxCoeff();
     const double w = 85 / h, k = w * w / per_gain, b = 2 * 0.7 * k / w;
-    Coupled still(model, hand, {"joint1", "joint2"}, spec(k, b, Treatment::implicit), start);
+    Coupled still(model, hand, {"joint1", "joint2"}, spec(k, b, Discretization::implicit), start);
     for (int n = 0; n < 1000; ++n) CHECK_UNARY(still.simulation.step(h).finite);
     CHECK(std::abs(still.simulation.state().q[0] - 0.5) < 1e-9);
     CHECK(std::abs(still.simulation.state().q[1] + 0.9) < 1e-9);
     CHECK(std::abs(still.simulation.state().qd[1]) < 1e-6);
-    Coupled wild(model, hand, {"joint1", "joint2"}, spec(k, b, Treatment::explicit_), start);
+    Coupled wild(model, hand, {"joint1", "joint2"}, spec(k, b, Discretization::explicit_), start);
     bool finite = true;
     for (int n = 0; n < 1000 && finite; ++n)
       finite = wild.simulation.step(h).finite && std::abs(wild.simulation.state().qd[0]) < 1e6;
@@ -177,12 +178,13 @@ TEST_CASE("implicit and semi-implicit near the explicit motion in proportion to 
     return Eigen::Vector2d(system.simulation.state().q[0], system.simulation.state().q[1]);
   };
   for (const bool point : {true, false}) {
-    const auto spec = [&](Treatment treatment) {
+    const auto spec = [&](Discretization treatment) {
       return point ? linear(arm.springs(2000, 60), treatment)
-                   : torsional(arm.springs(100, 3), Measure::world, treatment);
+                   : torsional(arm.springs(100, 3), SpringSpace::world, treatment);
     };
-    const Eigen::Vector2d exact = end(spec(Treatment::explicit_), Integrator::rk4, 1e-4);
-    for (const Treatment treatment : {Treatment::semi_implicit, Treatment::implicit}) {
+    const Eigen::Vector2d exact = end(spec(Discretization::explicit_), Integrator::rk4, 1e-4);
+    for (const Discretization treatment :
+         {Discretization::semi_implicit, Discretization::implicit}) {
       const auto error = [&](double h) {
         return (end(spec(treatment), Integrator::semi_implicit, h) - exact).norm();
       };

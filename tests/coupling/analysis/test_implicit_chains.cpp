@@ -40,7 +40,7 @@ TEST_CASE("a chain of 20 links that moves fast stays bounded implicitly at w h f
       CAPTURE(wh);
       CouplingSpec spec;
       spec.type = point ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-      spec.treatment = Treatment::implicit;
+      spec.treatment = Discretization::implicit;
       for (int i = 1; i <= 20; ++i)
         spec.springs.push_back({"spring" + std::to_string(i), i, {0.1, 0.02, 0}, 1, 0});
       Coupled unit(model, hand, {"joint1", "joint2", "joint3"}, spec, start);
@@ -84,7 +84,7 @@ TEST_CASE("one implicit step of a moving chain solves (M + h B + h^2 K) qdd = ta
       for (double& qd : x.qd) qd = random.uniform(-10, 10);
       CouplingSpec spec;
       spec.type = point ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-      spec.treatment = Treatment::implicit;
+      spec.treatment = Discretization::implicit;
       for (const int body : {4, 11, 20})
         spec.springs.push_back({"spring", body, {0.1, 0.02, -0.05}, k, b});
 
@@ -128,7 +128,7 @@ TEST_CASE("an implicit point spring is stable up to its target's largest radius,
   const Model<double> model = at_origin.build();
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::linear;
-  spec.treatment = Treatment::implicit;
+  spec.treatment = Discretization::implicit;
   const SteadyHand hand;
   for (const auto& gains : {std::pair{1e6, 0.0}, std::pair{1e7, 100.0}, std::pair{1e9, 1e4}}) {
     const double k = gains.first, b = gains.second;
@@ -140,7 +140,7 @@ TEST_CASE("an implicit point spring is stable up to its target's largest radius,
       shifted.add_body("link", 0, "joint1", JointType::revolute,
                        {Matrix3::Identity(), {R_K - r, 0, 0}}, Vector3::UnitZ(), body);
       const Model<double> target_model = shifted.build();
-      KinematicRobot kvr(target_model, hand, SteadyHand::mapping(), {{"joint1"}, "", 0, 0});
+      TargetRobot kvr(target_model, hand, SteadyHand::mapping(), {{"joint1"}, "", 0, 0});
       const auto coupling = make_coupling(spec, model, kvr);
       Simulation simulation(model, state_of(model, {1e-9}, {0}));
       simulation.add(*coupling);
@@ -151,7 +151,7 @@ TEST_CASE("an implicit point spring is stable up to its target's largest radius,
       }
       return largest > 1e-5;
     };
-    const double predicted = largest_target_radius(I, r, k, b, h);
+    const double predicted = max_target_radius(I, r, k, b, h);
     CHECK(predicted > 2 * r);
     CHECK_FALSE(grows(0.995 * predicted));
     CHECK(grows(1.005 * predicted));
@@ -183,7 +183,7 @@ struct HeldTip {
     const State<double> straight(model);
     CouplingSpec spec;
     spec.type = CouplingSpec::Type::linear;
-    spec.treatment = Treatment::implicit;
+    spec.treatment = Discretization::implicit;
     spec.springs = {spring};
     const Coupled unit(model, hand, {"joint1"}, spec, straight);
     const double wh = 100;
@@ -261,5 +261,5 @@ TEST_CASE("the limit of the target's radius is that of the joint that folds: one
   CHECK(found.r == doctest::Approx(r).epsilon(1e-12));
   CHECK(found.R_K == doctest::Approx(r).epsilon(1e-12));
   CHECK(found.largest ==
-        doctest::Approx(largest_target_radius(mass_matrix(model, x)(1, 1), r, 1e6, 30, 1e-3)));
+        doctest::Approx(max_target_radius(mass_matrix(model, x)(1, 1), r, 1e6, 30, 1e-3)));
 }

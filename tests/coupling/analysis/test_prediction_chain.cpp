@@ -20,7 +20,7 @@ using Eigen::VectorXd;
 constexpr double kMoveTime = 0.2;
 
 // Both joints at once, by small angles: a ramp that turns back, or a quintic and then rest.
-class BothJoints final : public HandSource {
+class BothJoints final : public OperatorMotion {
  public:
   BothJoints(bool ramp, Vector2d distance) : ramp_(ramp), D_(std::move(distance)) {}
   HandSample sample(double t, double toward) const override {
@@ -49,8 +49,8 @@ class BothJoints final : public HandSource {
 
 // The largest error of each joint from `from` to `to`, Runge-Kutta at 20 kHz.
 Vector2d run_peaks(const Model<double>& model, const CouplingSpec& spec, const BothJoints& hand,
-                   KvrRates rates, double from, double to) {
-  KinematicRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "joint2"}, "", 0, 0}, rates);
+                   TargetRates rates, double from, double to) {
+  TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "joint2"}, "", 0, 0}, rates);
   const auto coupling = make_coupling(spec, model, kvr);
   Simulation simulation(model, State<double>(model));
   simulation.set_integrator(Integrator::rk4);
@@ -96,10 +96,10 @@ TEST_CASE(
       CAPTURE(absolute);
       const auto springs =
           points ? arm.springs(22000, 400, 9000, 100) : arm.springs(600, 9, 200, 2);
-      const CouplingSpec spec = points ? linear(springs) : torsional(springs, Measure::world);
-      const ChainErrors predicted(follower_of(model, spec, absolute));
-      const KvrRates rates = absolute ? KvrRates::none : KvrRates::from_hand;
-      check_near(predicted.behind(TargetMove::quintic, D, kMoveTime),
+      const CouplingSpec spec = points ? linear(springs) : torsional(springs, SpringSpace::world);
+      const MultiJointTrackingError predicted(follower_of(model, spec, absolute));
+      const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_hand;
+      check_near(predicted.behind(MotionProfile::quintic, D, kMoveTime),
                  run_peaks(model, spec, BothJoints(false, D), rates, 0, 0.6), 0.01);
       check_near(predicted.after_start(v, kMoveTime),
                  run_peaks(model, spec, BothJoints(true, D), rates, 0, kMoveTime), 0.01);
@@ -114,8 +114,8 @@ TEST_CASE("a turn back from the steady lag is a reversal, and K e = A v that lag
   for (const bool absolute : {false, true}) {
     CAPTURE(absolute);
     const ChainFollower follower = follower_of(model, linear(springs), absolute);
-    const ChainErrors predicted(follower);
-    const KvrRates rates = absolute ? KvrRates::none : KvrRates::from_hand;
+    const MultiJointTrackingError predicted(follower);
+    const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_hand;
     check_near(predicted.after_reversal(v, kMoveTime),
                run_peaks(model, linear(springs), BothJoints(true, D), rates, kMoveTime - 1e-4,
                          2 * kMoveTime),
@@ -136,10 +136,12 @@ TEST_CASE("for one joint the errors of a chain are those of one degree of freedo
         CAPTURE(zeta);
         CAPTURE(absolute);
         const double b = 2 * zeta * omega * I;
-        const ChainErrors chain({one(I), one(omega * omega * I), one(b), one(absolute ? b : 0)});
+        const MultiJointTrackingError chain(
+            {one(I), one(omega * omega * I), one(b), one(absolute ? b : 0)});
         const VectorXd distance = VectorXd::Constant(1, D);
-        for (const TargetMove move : {TargetMove::ramp, TargetMove::cubic, TargetMove::quintic,
-                                      TargetMove::cosine, TargetMove::bang_bang}) {
+        for (const MotionProfile move :
+             {MotionProfile::ramp, MotionProfile::cubic, MotionProfile::quintic,
+              MotionProfile::cosine, MotionProfile::bang_bang}) {
           CAPTURE(std::string(name_of(move)));
           const FollowingError closed(
               move, D, T, omega, zeta,
@@ -160,8 +162,8 @@ TEST_CASE("a joint that nothing holds has no error, and leaves the others theirs
   const TwoLink arm;
   const Model<double> model = arm.model();
   const std::vector<Spring> inner{arm.springs(600, 9)[0]};
-  const ChainFollower follower = follower_of(model, torsional(inner, Measure::joint), false);
-  const ChainErrors chain(follower);
+  const ChainFollower follower = follower_of(model, torsional(inner, SpringSpace::joint), false);
+  const MultiJointTrackingError chain(follower);
   CHECK(chain.is_held(0));
   CHECK_FALSE(chain.is_held(1));
   const VectorXd v = chain.after_start(Vector2d(1, 5), 1);
@@ -170,6 +172,6 @@ TEST_CASE("a joint that nothing holds has no error, and leaves the others theirs
   const double I = 1 / inverse_of(follower.M)(0, 0), omega = std::sqrt(600 / I);
   CHECK(v[0] == doctest::Approx(peak_after_jump(1, omega, 9 / (2 * I * omega))).epsilon(1e-3));
   // Springs that push away have no bound.
-  const ChainErrors away({follower.M, -follower.K, follower.B, follower.absolute});
+  const MultiJointTrackingError away({follower.M, -follower.K, follower.B, follower.absolute});
   CHECK(std::isnan(away.after_start(Vector2d(1, 0), 1)[0]));
 }

@@ -25,7 +25,7 @@ Model<double> level_arm(int links) {
 
 // Where it rests under its weight, the target level, after a long time of heavy damping.
 std::vector<double> resting_pose(const Model<double>& model, CouplingSpec spec) {
-  spec.treatment = Treatment::implicit;
+  spec.treatment = Discretization::implicit;
   Coupled system(model, {}, {}, spec, State<double>(model));
   for (int n = 0; n < 40000; ++n) system.simulation.step(1e-3);
   for (const double qd : system.simulation.state().qd) CHECK(std::abs(qd) < 1e-6);
@@ -40,7 +40,7 @@ TEST_CASE(
   const Model<double> model = level_arm(1);
   const double k = 40;
   const double q =
-      resting_pose(model, torsional({{"s", 1, Vector3::Zero(), k, 10}}, Measure::joint))[0];
+      resting_pose(model, torsional({{"s", 1, Vector3::Zero(), k, 10}}, SpringSpace::joint))[0];
   CHECK(q == doctest::Approx(kMass * kG * kLink * std::cos(q) / k).epsilon(1e-6));
   const double k_L = 300, r = 0.3;
   const double p = resting_pose(model, linear({{"s", 1, {r, 0, 0}, k_L, 100}}))[0];
@@ -65,8 +65,8 @@ TEST_CASE("a chain sags by K_q^-1 G, for torsional springs and for linear ones")
   const std::vector<Spring> springs{{"s1", 1, {0.35, 0, 0}, 4e4, 4e4},
                                     {"s2", 2, {0.4, 0, 0}, 3e4, 3e4}};
   const State<double> level(model);
-  for (const CouplingSpec& spec :
-       {torsional(springs, Measure::joint), torsional(springs, Measure::world), linear(springs)}) {
+  for (const CouplingSpec& spec : {torsional(springs, SpringSpace::joint),
+                                   torsional(springs, SpringSpace::world), linear(springs)}) {
     Coupled system(model, {}, {}, spec, level);
     Kinematics k(model);
     forward_kinematics(model, level, k);
@@ -95,8 +95,8 @@ TEST_CASE("a wall feels like k_c k_e/(k_c + k_e) through a coupling") {
   SteadyHand hand;
   hand.angle[0] = d;
   const SteadyHand still;
-  KinematicRobot wall(model, still, SteadyHand::mapping(), {{"joint1"}, "", 0, 0});
-  CouplingSpec spec = linear({{"c", 1, Vector3::Zero(), k_c, 300}}, Treatment::implicit);
+  TargetRobot wall(model, still, SteadyHand::mapping(), {{"joint1"}, "", 0, 0});
+  CouplingSpec spec = linear({{"c", 1, Vector3::Zero(), k_c, 300}}, Discretization::implicit);
   Coupled system(model, hand, {"joint1"}, spec, State<double>(model));
   spec.springs[0].k = k_e;
   const auto at_wall = make_coupling(spec, model, wall);

@@ -13,11 +13,11 @@ using namespace twinarm;
 using namespace twinarm::testing;
 
 TEST_CASE("largest_omega_h is the edge of is_stable at every damping ratio") {
-  for (const Scheme scheme : all_schemes)
+  for (const SteppingScheme scheme : all_schemes)
     for (const double z : {0.0, 0.05, 0.2, 0.5, 0.9, 1.3, 2.0}) {
-      if (z == 0 && scheme == Scheme::semi_implicit_older)
+      if (z == 0 && scheme == SteppingScheme::semi_implicit_older)
         continue;  // its formula has an edge there
-      const double limit = largest_omega_h(scheme, z);
+      const double limit = max_omega_h(scheme, z);
       CAPTURE(name_of(scheme));
       CAPTURE(z);
       const auto at = [&](double wh) { return is_stable(scheme, wh * wh, 2 * z * wh); };
@@ -76,16 +76,16 @@ std::vector<HeldRobot> held_robots() {
 
 TEST_CASE("for the S-103 and the PUMA a run grows at the eigenvalues' step, to 1 percent") {
   for (const HeldRobot& robot : held_robots())
-    for (const Scheme scheme :
-         {Scheme::euler, Scheme::semi_implicit, Scheme::rk4, Scheme::implicit_damper}) {
+    for (const SteppingScheme scheme : {SteppingScheme::euler, SteppingScheme::semi_implicit,
+                                        SteppingScheme::rk4, SteppingScheme::implicit_damper}) {
       Stepper stepper = stepper_of(scheme, robot.type, robot.springs);
-      stepper.spec.measure = Measure::joint;
+      stepper.spec.measure = SpringSpace::joint;
       Kinematics k(robot.model);
       forward_kinematics(robot.model, robot.pose, k);
       Coupled system(robot.model, {}, {}, stepper.spec, robot.pose);
       const Coupling::JointSpace space = system.coupling->joint_space(k);
       const double predicted =
-          largest_stable_step(mass_matrix(robot.model, robot.pose), space.K, space.B, scheme);
+          max_stable_step(mass_matrix(robot.model, robot.pose), space.K, space.B, scheme);
       CAPTURE(robot.name);
       CAPTURE(name_of(scheme));
       CAPTURE(predicted);
@@ -101,15 +101,16 @@ TEST_CASE("how much stiffer a hinge may be: alpha + 2 beta = 4 with b/k or with 
   const double I = 0.7, h = 0.002, k = 400, b = 3;
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
   const double alpha = k * h * h / I, beta = b * h / I;
-  const double by_ratio = largest_stiffness_factor(one(I), one(k), one(b), Scheme::semi_implicit, h,
-                                                   Keep::damping_per_stiffness);
+  const double by_ratio =
+      max_stiffness_factor(one(I), one(k), one(b), SteppingScheme::semi_implicit, h,
+                           HoldConstant::damping_per_stiffness);
   CHECK(by_ratio * (alpha + 2 * beta) == doctest::Approx(4).epsilon(1e-7));
-  const double by_zeta = largest_stiffness_factor(one(I), one(k), one(b), Scheme::semi_implicit, h,
-                                                  Keep::damping_ratio);
+  const double by_zeta = max_stiffness_factor(one(I), one(k), one(b), SteppingScheme::semi_implicit,
+                                              h, HoldConstant::damping_ratio);
   CHECK(by_zeta * alpha + 2 * std::sqrt(by_zeta) * beta == doctest::Approx(4).epsilon(1e-7));
-  CHECK(largest_stiffness_factor(one(I), one(k), one(b), Scheme::implicit, h,
-                                 Keep::damping_ratio) == kNoLimit);
+  CHECK(max_stiffness_factor(one(I), one(k), one(b), SteppingScheme::implicit, h,
+                             HoldConstant::damping_ratio) == kNoLimit);
   // An implicit damper that grows with the spring outruns it.
-  CHECK(largest_stiffness_factor(one(I), one(k), one(100 * b), Scheme::implicit_damper, h,
-                                 Keep::damping_per_stiffness) == kNoLimit);
+  CHECK(max_stiffness_factor(one(I), one(k), one(100 * b), SteppingScheme::implicit_damper, h,
+                             HoldConstant::damping_per_stiffness) == kNoLimit);
 }

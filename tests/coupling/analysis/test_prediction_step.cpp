@@ -12,10 +12,10 @@ using namespace twinarm::testing;
 namespace {
 
 // A part of a two-link arm's couplings, and the coupling itself.
-StepPart part_of(const Model<double>& model, const CouplingSpec& spec) {
+CoupledTerm part_of(const Model<double>& model, const CouplingSpec& spec) {
   Coupled system(model, {}, {}, spec, State<double>(model));
   const Coupling::JointSpace space = system.coupling->joint_space(system.simulation.kinematics());
-  StepPart part{space.K, space.K, space.B, spec.treatment, spec.hold_steps};
+  CoupledTerm part{space.K, space.K, space.B, spec.treatment, spec.hold_steps};
   if (spec.printed) {
     part.law = StepLaw::printed;
     part.hold_steps = spec.options.hold_steps;
@@ -55,8 +55,8 @@ TEST_CASE("couplings of two treatments, rates or laws grow together at the step 
   const TwoLink arm;
   const Model<double> model = arm.model();
   const auto springs = arm.springs(600, 9, 200, 2);
-  const auto of = [&](std::size_t link, Treatment treatment, int hold_steps = 0) {
-    CouplingSpec spec = torsional({springs[link]}, Measure::world);
+  const auto of = [&](std::size_t link, Discretization treatment, int hold_steps = 0) {
+    CouplingSpec spec = torsional({springs[link]}, SpringSpace::world);
     spec.treatment = treatment;
     spec.hold_steps = hold_steps;
     return spec;
@@ -73,7 +73,8 @@ TEST_CASE("couplings of two treatments, rates or laws grow together at the step 
     return Spring{"point", springs[link].body, Vector3(0.2, 0, 0), 900, b};
   };
   using Type = CouplingSpec::Type;
-  constexpr Treatment explicitly = Treatment::explicit_, implicitly = Treatment::implicit;
+  constexpr Discretization explicitly = Discretization::explicit_,
+                           implicitly = Discretization::implicit;
   const CouplingSpec explicit_inner = of(0, explicitly), explicit_outer = of(1, explicitly),
                      implicit_outer = of(1, implicitly);
   const CouplingSpec printed = law(Type::linear, {point(1, 6)}, 1),
@@ -88,7 +89,7 @@ TEST_CASE("couplings of two treatments, rates or laws grow together at the step 
   const CouplingSpec held_2 = of(0, explicitly, 2), held_3 = of(1, explicitly, 3),
                      held_4 = of(0, explicitly, 4), held_5 = of(0, explicitly, 5),
                      outer_5 = of(1, explicitly, 5), implicit_inner = of(0, implicitly),
-                     damped_outer = of(1, Treatment::semi_implicit);
+                     damped_outer = of(1, Discretization::semi_implicit);
   const Mix mixes[] = {{"explicit and implicit", explicit_inner, implicit_outer},
                        {"implicit and semi-implicit", implicit_inner, damped_outer},
                        {"held twice and thrice", held_2, held_3},
@@ -112,7 +113,7 @@ TEST_CASE("couplings of two treatments, rates or laws grow together at the step 
     CAPTURE(std::string(mix.name));
     const Eigen::MatrixXd M = mass_matrix(model, State<double>(model));
     const double predicted =
-        largest_stable_step(M, {part_of(model, mix.a), part_of(model, mix.b)}, mix.integrator);
+        max_stable_step(M, {part_of(model, mix.a), part_of(model, mix.b)}, mix.integrator);
     CAPTURE(predicted);
     REQUIRE(std::isfinite(predicted));
     REQUIRE(predicted > 0);
@@ -127,11 +128,11 @@ TEST_CASE("on one hinge the parts of every law have the closed form of docs/coup
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
   const double I = 0.7, k = 40, b = 0.9;
   const auto growth = [&](StepLaw law, Integrator integrator, double alpha, double beta,
-                          std::vector<StepPart> others = {}) {
+                          std::vector<CoupledTerm> others = {}) {
     const double h = 1e-3;
     others.push_back({one(alpha * I / (h * h)), one(alpha * I / (h * h)), one(beta * I / h),
-                      Treatment::explicit_, 0, law});
-    return growth_per_step(one(I), others, integrator, h);
+                      Discretization::explicit_, 0, law});
+    return spectral_radius(one(I), others, integrator, h);
   };
   // Both sides of the edge in alpha, at three dampings.
   const auto check_edge = [&](double edge, const auto& at) {
@@ -140,15 +141,15 @@ TEST_CASE("on one hinge the parts of every law have the closed form of docs/coup
   };
   struct Printed {
     Integrator integrator;
-    Scheme scheme;
+    SteppingScheme scheme;
   };
   for (const Printed& row :
-       {Printed{Integrator::semi_implicit, Scheme::semi_implicit_difference},
-        Printed{Integrator::euler, Scheme::euler_difference},
-        Printed{Integrator::semi_implicit_xv, Scheme::semi_implicit_difference},
-        Printed{Integrator::verlet, Scheme::hold_difference},
-        Printed{Integrator::midpoint, Scheme::hold_difference},
-        Printed{Integrator::rk4, Scheme::hold_difference}})
+       {Printed{Integrator::semi_implicit, SteppingScheme::semi_implicit_difference},
+        Printed{Integrator::euler, SteppingScheme::euler_difference},
+        Printed{Integrator::semi_implicit_xv, SteppingScheme::semi_implicit_difference},
+        Printed{Integrator::verlet, SteppingScheme::hold_difference},
+        Printed{Integrator::midpoint, SteppingScheme::hold_difference},
+        Printed{Integrator::rk4, SteppingScheme::hold_difference}})
     for (const double beta : {0.1, 0.4, 0.8}) {
       CAPTURE(std::string(integrator_name(row.integrator)));
       double edge = 0;
@@ -162,17 +163,17 @@ TEST_CASE("on one hinge the parts of every law have the closed form of docs/coup
       return growth(StepLaw::stable_pd, Integrator::semi_implicit, alpha, beta);
     });
   // Beside a god object, e' = -alpha e - beta (e - e_before): Jury's test gives alpha < 1 - 2 beta.
-  const StepPart god{one(I), one(0), one(0), Treatment::explicit_, 0, StepLaw::god_object};
+  const CoupledTerm god{one(I), one(0), one(0), Discretization::explicit_, 0, StepLaw::god_object};
   for (const double beta : {0.0, 0.1, 0.4})
     check_edge(1 - 2 * beta, [&](double alpha) {
       return growth(StepLaw::spring_damper, Integrator::semi_implicit, alpha, beta, {god});
     });
   // Alone it is there after one step, whatever its length.
-  CHECK(growth_per_step(one(I), {god}, Integrator::semi_implicit, 0.3) < 1e-6);
-  CHECK(largest_stable_step(one(I), {god}, Integrator::semi_implicit) == kNoLimit);
-  CHECK(largest_stable_step(one(I),
-                            {{one(k), one(k), one(b), Treatment::explicit_, 0, StepLaw::stable_pd}},
-                            Integrator::semi_implicit) ==
+  CHECK(spectral_radius(one(I), {god}, Integrator::semi_implicit, 0.3) < 1e-6);
+  CHECK(max_stable_step(one(I), {god}, Integrator::semi_implicit) == kNoLimit);
+  CHECK(max_stable_step(
+            one(I), {{one(k), one(k), one(b), Discretization::explicit_, 0, StepLaw::stable_pd}},
+            Integrator::semi_implicit) ==
         doctest::Approx((2 * b + std::sqrt(4 * b * b + 48 * k * I)) / (6 * k)).epsilon(1e-7));
 }
 
@@ -180,32 +181,35 @@ TEST_CASE("parts of one treatment have the limit of its scheme, and implicit int
   const TwoLink arm;
   const Model<double> model = arm.model();
   const Eigen::MatrixXd M = mass_matrix(model, State<double>(model));
-  CouplingSpec spec = torsional(arm.springs(600, 9, 200, 2), Measure::world);
-  const auto limit = [&](Treatment treatment, Integrator integrator) {
+  CouplingSpec spec = torsional(arm.springs(600, 9, 200, 2), SpringSpace::world);
+  const auto limit = [&](Discretization treatment, Integrator integrator) {
     spec.treatment = treatment;
-    return largest_stable_step(M, {part_of(model, spec)}, integrator);
+    return max_stable_step(M, {part_of(model, spec)}, integrator);
   };
-  const StepPart part = part_of(model, spec);
-  const auto of = [&](Scheme scheme) { return largest_stable_step(M, part.K, part.B, scheme); };
+  const CoupledTerm part = part_of(model, spec);
+  const auto of = [&](SteppingScheme scheme) { return max_stable_step(M, part.K, part.B, scheme); };
   const auto same = [](double a, double b) { return a == doctest::Approx(b).epsilon(1e-8); };
-  CHECK(same(limit(Treatment::explicit_, Integrator::semi_implicit), of(Scheme::semi_implicit)));
-  CHECK(same(limit(Treatment::explicit_, Integrator::semi_implicit_xv), of(Scheme::semi_implicit)));
-  CHECK(same(limit(Treatment::explicit_, Integrator::euler), of(Scheme::euler)));
-  CHECK(same(limit(Treatment::explicit_, Integrator::rk4), of(Scheme::rk4)));
-  CHECK(same(limit(Treatment::semi_implicit, Integrator::semi_implicit),
-             of(Scheme::implicit_damper)));
-  CHECK(limit(Treatment::implicit, Integrator::semi_implicit) == kNoLimit);
+  CHECK(same(limit(Discretization::explicit_, Integrator::semi_implicit),
+             of(SteppingScheme::semi_implicit)));
+  CHECK(same(limit(Discretization::explicit_, Integrator::semi_implicit_xv),
+             of(SteppingScheme::semi_implicit)));
+  CHECK(same(limit(Discretization::explicit_, Integrator::euler), of(SteppingScheme::euler)));
+  CHECK(same(limit(Discretization::explicit_, Integrator::rk4), of(SteppingScheme::rk4)));
+  CHECK(same(limit(Discretization::semi_implicit, Integrator::semi_implicit),
+             of(SteppingScheme::implicit_damper)));
+  CHECK(limit(Discretization::implicit, Integrator::semi_implicit) == kNoLimit);
   for (const auto integrator :
        {Integrator::implicit_euler, Integrator::implicit_midpoint, Integrator::trapezoid})
-    CHECK(limit(Treatment::explicit_, integrator) == kNoLimit);
+    CHECK(limit(Discretization::explicit_, integrator) == kNoLimit);
 }
 
 TEST_CASE("an implicit point spring off its target has the limit of its geometric stiffness") {
   // R_K past 2 r: h^2 k r R_K = 4 I + 2 r^2 (h^2 k + h b), solved for h.
   const double I = 0.7, r = 0.3, k = 5000, b = 20, R_K = 0.9;
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
-  const StepPart part{one(k * r * R_K), one(k * r * r), one(b * r * r), Treatment::implicit, 0};
-  const double h = largest_stable_step(one(I), {part}, Integrator::semi_implicit);
+  const CoupledTerm part{one(k * r * R_K), one(k * r * r), one(b * r * r), Discretization::implicit,
+                         0};
+  const double h = max_stable_step(one(I), {part}, Integrator::semi_implicit);
   REQUIRE(std::isfinite(h));
-  CHECK(largest_target_radius(I, r, k, b, h) == doctest::Approx(R_K).epsilon(1e-7));
+  CHECK(max_target_radius(I, r, k, b, h) == doctest::Approx(R_K).epsilon(1e-7));
 }

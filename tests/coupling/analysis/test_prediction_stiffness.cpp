@@ -81,10 +81,10 @@ TEST_CASE("about zero offset it is joint_space, for torsional and linear couplin
   const Model<double> model = arm.model();
   const State<double> pose = state_of(model, {0.3, 0.8}, {0, 0});
   for (const CouplingSpec& spec :
-       {torsional(arm.springs(50, 3), Measure::world),
-        torsional(arm.springs(50, 3), Measure::joint), linear(arm.springs(900, 20))}) {
+       {torsional(arm.springs(50, 3), SpringSpace::world),
+        torsional(arm.springs(50, 3), SpringSpace::joint), linear(arm.springs(900, 20))}) {
     Coupled system(model, {}, {}, spec, pose);
-    system.kvr.stand_at(pose);
+    system.kvr.set_pose(pose);
     system.coupling->begin_step(system.simulation.kinematics(), 0, 1e-9);
     const TangentStiffness found = tangent_stiffness(
         model, pose, [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {

@@ -16,14 +16,15 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr TargetMove kMoves[] = {TargetMove::ramp, TargetMove::cubic, TargetMove::quintic,
-                                 TargetMove::cosine, TargetMove::bang_bang};
+constexpr MotionProfile kMoves[] = {MotionProfile::ramp, MotionProfile::cubic,
+                                    MotionProfile::quintic, MotionProfile::cosine,
+                                    MotionProfile::bang_bang};
 constexpr double kTurn = 180 * kDegree, kFollower = 0.7;
 
 // Joint 1 of a hand along such a move, written down from its definition.
-class MovingHand final : public HandSource {
+class MovingHand final : public OperatorMotion {
  public:
-  MovingHand(TargetMove move, double D, double T) : move_(move), D_(D), T_(T) {}
+  MovingHand(MotionProfile move, double D, double T) : move_(move), D_(D), T_(T) {}
   HandSample sample(double t, double toward) const override {
     const double middle = (t + toward) / 2, s = std::clamp(t / T_, 0.0, 1.0);
     const bool moving = middle > 0 && middle < T_;
@@ -39,21 +40,21 @@ class MovingHand final : public HandSource {
   std::pair<double, double> along(double s, bool first_half) const {
     constexpr double pi = std::numbers::pi;
     switch (move_) {
-      case TargetMove::ramp:
+      case MotionProfile::ramp:
         return {s, 1};
-      case TargetMove::cubic:
+      case MotionProfile::cubic:
         return {s * s * (3 - 2 * s), 6 * s * (1 - s)};
-      case TargetMove::quintic:
+      case MotionProfile::quintic:
         return {s * s * s * (10 - 15 * s + 6 * s * s), 30 * s * s * (1 - s) * (1 - s)};
-      case TargetMove::cosine:
+      case MotionProfile::cosine:
         return {(1 - std::cos(pi * s)) / 2, pi / 2 * std::sin(pi * s)};
-      case TargetMove::bang_bang:
+      case MotionProfile::bang_bang:
         break;
     }
     return first_half ? std::pair{2 * s * s, 4 * s}
                       : std::pair{1 - 2 * (1 - s) * (1 - s), 4 * (1 - s)};
   }
-  TargetMove move_;
+  MotionProfile move_;
   double D_, T_;
 };
 
@@ -62,16 +63,16 @@ struct Deviation {
 };
 
 // RK4 at steps of T/8000 of a hinge behind the move, and for half of its time after it.
-Deviation run_behind(TargetMove move, double omega, double zeta, KvrRates rates,
+Deviation run_behind(MotionProfile move, double omega, double zeta, TargetRates rates,
                      const std::function<double(double)>& predicted) {
   const double T = 1, h = T / 8000;
   const Model<double> model = one_joint(JointType::revolute, kFollower);
   const MovingHand hand(move, kTurn, T);
-  KinematicRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1"}, "", 0, 0}, rates);
+  TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1"}, "", 0, 0}, rates);
   const auto coupling = make_coupling(
       torsional(
           {{"spring", 1, Vector3::Zero(), kFollower * omega * omega, 2 * kFollower * zeta * omega}},
-          Measure::joint),
+          SpringSpace::joint),
       model, kvr);
   Simulation simulation(model, State<double>(model));
   simulation.set_integrator(Integrator::rk4);
@@ -91,11 +92,11 @@ Deviation run_behind(TargetMove move, double omega, double zeta, KvrRates rates,
 }  // namespace
 
 TEST_CASE("a run behind every move is the closed form, to 0.1 percent of its peak, at all times") {
-  for (const TargetMove move : kMoves)
+  for (const MotionProfile move : kMoves)
     for (const double zeta : {0.0, 0.2, 0.7, 1.0, 1.6})
       for (const double omega : {12.0, 50.0}) {
         const FollowingError error(move, kTurn, 1, omega, zeta);
-        const Deviation run = run_behind(move, omega, zeta, KvrRates::from_hand,
+        const Deviation run = run_behind(move, omega, zeta, TargetRates::from_hand,
                                          [&](double t) { return error.at(t); });
         CAPTURE(name_of(move));
         CAPTURE(zeta);
@@ -106,16 +107,17 @@ TEST_CASE("a run behind every move is the closed form, to 0.1 percent of its pea
 }
 
 TEST_CASE("with an absolute damper too, and its lag is 2 z v/w") {
-  for (const TargetMove move : kMoves)
+  for (const MotionProfile move : kMoves)
     for (const double zeta : {0.2, 1.0}) {
       const FollowingError error(move, kTurn, 1, 50, zeta, FollowingError::Damper::absolute);
       const Deviation run =
-          run_behind(move, 50, zeta, KvrRates::none, [&](double t) { return error.at(t); });
+          run_behind(move, 50, zeta, TargetRates::none, [&](double t) { return error.at(t); });
       CAPTURE(name_of(move));
       CAPTURE(zeta);
       CHECK(run.largest < 1e-3 * run.peak);
     }
-  const FollowingError steady(TargetMove::ramp, kTurn, 1, 50, 1, FollowingError::Damper::absolute);
+  const FollowingError steady(MotionProfile::ramp, kTurn, 1, 50, 1,
+                              FollowingError::Damper::absolute);
   CHECK(steady.at(0.999) / kDegree == doctest::Approx(7.2).epsilon(1e-9));
   CHECK(absolute_damper_lag(kTurn, 50, 1) / kDegree == doctest::Approx(7.2).epsilon(1e-12));
   CHECK(mocap_weld_lag(kTurn, 1 / 50.0) / kDegree == doctest::Approx(7.2).epsilon(1e-12));
@@ -125,8 +127,8 @@ TEST_CASE("the peak behind a jump of speed is (V/w) exp(-z acos z / sqrt(1 - z^2
   for (const double zeta : {0.0, 0.2, 0.7, 1.0, 1.6}) {
     CAPTURE(zeta);
     const double predicted = peak_after_jump(kTurn, 50, zeta);
-    const Deviation run =
-        run_behind(TargetMove::ramp, 50, zeta, KvrRates::from_hand, [](double) { return 0.0; });
+    const Deviation run = run_behind(MotionProfile::ramp, 50, zeta, TargetRates::from_hand,
+                                     [](double) { return 0.0; });
     // Undamped, the jump at the end meets what is left of the first: see the closed form above.
     if (zeta > 0) CHECK(run.peak == doctest::Approx(predicted).epsilon(0.01));
     const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
@@ -141,20 +143,22 @@ TEST_CASE("the peak behind a jump of speed is (V/w) exp(-z acos z / sqrt(1 - z^2
 // slower follower (w T = 50) reaches 1.43 and 0.94 in place of 1.5 and 1.02.
 TEST_CASE("a_max/w^2 is the peak behind a quintic, and what other moves reach of it") {
   constexpr double kPi = std::numbers::pi;
-  const auto times_rule = [](TargetMove move, double omega, double zeta) {
-    // The largest acceleration of a unit move in unit time, by TargetMove; that of a ramp has none.
+  const auto times_rule = [](MotionProfile move, double omega, double zeta) {
+    // The largest acceleration of a unit move in unit time, by MotionProfile; that of a ramp has
+    // none.
     const std::array largest{0.0, 6.0, 10 / std::sqrt(3.0), kPi * kPi / 2, 4.0};
     return FollowingError(move, kTurn, 1, omega, zeta).peak() * omega * omega /
            (largest[static_cast<std::size_t>(move)] * std::abs(kTurn));
   };
-  CHECK(times_rule(TargetMove::quintic, 200, 0.2) == doctest::Approx(1).epsilon(0.01));
-  CHECK(times_rule(TargetMove::cubic, 200, 0.2) == doctest::Approx(1.5).epsilon(0.01));
-  CHECK(times_rule(TargetMove::cosine, 200, 0.2) == doctest::Approx(1.53).epsilon(0.01));
-  CHECK(times_rule(TargetMove::bang_bang, 200, 0.2) == doctest::Approx(2.05).epsilon(0.01));
-  for (const TargetMove move : {TargetMove::cubic, TargetMove::cosine, TargetMove::bang_bang}) {
+  CHECK(times_rule(MotionProfile::quintic, 200, 0.2) == doctest::Approx(1).epsilon(0.01));
+  CHECK(times_rule(MotionProfile::cubic, 200, 0.2) == doctest::Approx(1.5).epsilon(0.01));
+  CHECK(times_rule(MotionProfile::cosine, 200, 0.2) == doctest::Approx(1.53).epsilon(0.01));
+  CHECK(times_rule(MotionProfile::bang_bang, 200, 0.2) == doctest::Approx(2.05).epsilon(0.01));
+  for (const MotionProfile move :
+       {MotionProfile::cubic, MotionProfile::cosine, MotionProfile::bang_bang}) {
     CHECK(times_rule(move, 200, 0.7) > 1.015);
     CHECK(times_rule(move, 200, 0.7) < 1.095);
   }
-  CHECK(times_rule(TargetMove::cubic, 50, 0.2) == doctest::Approx(1.43).epsilon(0.005));
-  CHECK(times_rule(TargetMove::cubic, 50, 0.7) == doctest::Approx(0.945).epsilon(0.005));
+  CHECK(times_rule(MotionProfile::cubic, 50, 0.2) == doctest::Approx(1.43).epsilon(0.005));
+  CHECK(times_rule(MotionProfile::cubic, 50, 0.7) == doctest::Approx(0.945).epsilon(0.005));
 }

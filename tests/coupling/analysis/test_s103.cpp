@@ -25,7 +25,7 @@ const RobotDescription& s103() {
   return robot;
 }
 
-class PressingHand final : public HandSource {
+class PressingHand final : public OperatorMotion {
  public:
   SteadyHand hand;
   bool pressed = false;
@@ -52,7 +52,7 @@ TEST_CASE("the S-103's KVR stands where the paper's three matrices put it, at ra
     PressingHand hand;
     for (double& angle : hand.hand.angle) angle = random.uniform(-3, 3);
     hand.pressed = n % 2 == 1;
-    KinematicRobot kvr(model, hand, SteadyHand::mapping(), driven);
+    TargetRobot kvr(model, hand, SteadyHand::mapping(), driven);
     const Kinematics& k = kvr.start().k;
 
     const auto& q = hand.hand.angle;
@@ -86,8 +86,7 @@ TEST_CASE("theta1, theta4, theta6 turn the S-103's joints 1, 2, 3 and no other")
   for (std::size_t j = 0; j < 3; ++j) {
     SteadyHand hand;
     hand.rate[j] = 0.7;
-    KinematicRobot kvr(model, hand, SteadyHand::mapping(),
-                       {{"joint1", "joint2", "joint3"}, "", 0, 0});
+    TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "joint2", "joint3"}, "", 0, 0});
     kvr.begin_step(0.5, 0.1);
     for (std::size_t i = 0; i < 3; ++i) {
       const auto body = static_cast<std::size_t>(model.find_joint("joint" + std::to_string(i + 1)));
@@ -103,7 +102,7 @@ TEST_CASE("a robot without the joints that the hand moves is refused, all missin
   const Model<double> model = build_model(s103());
   const SteadyHand hand;
   try {
-    KinematicRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "elbow"}, "claw", 0, 1});
+    TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "elbow"}, "claw", 0, 1});
     FAIL("not refused");
   } catch (const InputError& error) {
     CHECK(error.faults().size() == 2);

@@ -27,7 +27,7 @@ double edge(Stable&& stable, double inside, double outside) {
 
 TEST_CASE("every scheme's edge in alpha is where a run begins to grow, to half a percent") {
   int edges = 0;
-  for (const Scheme scheme : all_schemes)
+  for (const SteppingScheme scheme : all_schemes)
     for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
       for (double beta : {0.15, 0.5, 0.8, 1.3, 3.0}) {
         const auto predicted = [&](double alpha) { return is_stable(scheme, alpha, beta); };
@@ -60,7 +60,7 @@ TEST_CASE("the implicit treatment is stable at every alpha and beta, as it says"
   for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
     for (double alpha : {1e-2, 1.0, 1e2, 1e6, 1e10})
       for (double beta : {0.0, 0.1, 1e2, 1e6})
-        CHECK_FALSE(grows(Scheme::implicit, type, alpha, beta));
+        CHECK_FALSE(grows(SteppingScheme::implicit, type, alpha, beta));
 }
 
 TEST_CASE(
@@ -68,15 +68,16 @@ TEST_CASE(
   const TwoLink arm;
   const Model<double> model = arm.model();
   for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
-    for (const Scheme scheme : {Scheme::euler, Scheme::semi_implicit,
-                                Scheme::semi_implicit_difference, Scheme::implicit_damper}) {
+    for (const SteppingScheme scheme :
+         {SteppingScheme::euler, SteppingScheme::semi_implicit,
+          SteppingScheme::semi_implicit_difference, SteppingScheme::implicit_damper}) {
       const double gain = type == CouplingSpec::Type::linear ? 30 : 1;
       const std::vector<Spring> springs = arm.springs(600 * gain, 9 * gain, 200 * gain, 2 * gain);
       const Stepper stepper = stepper_of(scheme, type, springs);
       Coupled still(model, {}, {}, stepper.spec, State<double>(model), stepper.integrator);
       const Coupling::JointSpace space = still.coupling->joint_space(still.simulation.kinematics());
       const double predicted =
-          largest_stable_step(mass_matrix(model, State<double>(model)), space.K, space.B, scheme);
+          max_stable_step(mass_matrix(model, State<double>(model)), space.K, space.B, scheme);
       CAPTURE(name_of(scheme));
       CAPTURE(predicted);
       const auto stable = [&](double h) {
@@ -87,7 +88,7 @@ TEST_CASE(
       CHECK_FALSE(stable(1.005 * predicted));
     }
   const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(2, 2);
-  CHECK(std::isinf(largest_stable_step(one, 100 * one, one, Scheme::implicit)));
+  CHECK(std::isinf(max_stable_step(one, 100 * one, one, SteppingScheme::implicit)));
 }
 
 namespace {

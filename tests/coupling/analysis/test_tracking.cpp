@@ -19,7 +19,7 @@ Protocol protocol(const TwoLink& arm, const CouplingSpec& spec, double rate) {
   Protocol row;
   for (double T : {0.87, 0.95, 1.0, 1.06, 1.17}) {
     const Tracking run =
-        track(arm, spec, 1 / rate, Integrator::semi_implicit, KvrRates::backward_difference, T);
+        track(arm, spec, 1 / rate, Integrator::semi_implicit, TargetRates::backward_difference, T);
     row.max1 = std::max(row.max1, T * run.error.max[0]);
     row.max2 = std::max(row.max2, T * run.error.max[1]);
     row.mean1 += T * run.error.mean[0] / 5;
@@ -31,7 +31,8 @@ Protocol protocol(const TwoLink& arm, const CouplingSpec& spec, double rate) {
 
 TEST_CASE("60 Hz, best gains: torsional errs 17.2/14.6 deg, linear 4.8/4.4, k2 = 0.2 k1 7.4/2.8") {
   const TwoLink arm;
-  const Protocol world = protocol(arm, torsional(arm.springs(295.1, 3.541), Measure::world), 60);
+  const Protocol world =
+      protocol(arm, torsional(arm.springs(295.1, 3.541), SpringSpace::world), 60);
   CHECK(world.max1 == doctest::Approx(17.24).epsilon(0.002));
   CHECK(world.max2 == doctest::Approx(14.58).epsilon(0.002));
   CHECK(world.mean1 == doctest::Approx(3.97).epsilon(0.005));
@@ -42,7 +43,7 @@ TEST_CASE("60 Hz, best gains: torsional errs 17.2/14.6 deg, linear 4.8/4.4, k2 =
   CHECK(points.mean1 == doctest::Approx(1.735).epsilon(0.005));
   CHECK(points.mean2 == doctest::Approx(2.28).epsilon(0.005));
   const Protocol ratio = protocol(
-      arm, torsional(arm.springs(768.4, 17.41, 0.2 * 768.4, 0.2 * 17.41), Measure::world), 60);
+      arm, torsional(arm.springs(768.4, 17.41, 0.2 * 768.4, 0.2 * 17.41), SpringSpace::world), 60);
   CHECK(ratio.max1 == doctest::Approx(7.44).epsilon(0.002));
   CHECK(ratio.max2 == doctest::Approx(2.75).epsilon(0.02));
   CHECK(ratio.mean1 == doctest::Approx(0.625).epsilon(0.005));
@@ -51,7 +52,7 @@ TEST_CASE("60 Hz, best gains: torsional errs 17.2/14.6 deg, linear 4.8/4.4, k2 =
 
 TEST_CASE("the printed unfolded damper diverges at 1 kHz, the folded one stays bounded") {
   const TwoLink arm;
-  PrintedOptions options;
+  AsPublishedOptions options;
   options.damping_sign = 1;
   const Tracking folded =
       track(arm, printed(Type::torsional, arm.springs(1200, 40), options), 1e-3);
@@ -67,7 +68,7 @@ TEST_CASE("the printed unfolded damper diverges at 1 kHz, the folded one stays b
 
 TEST_CASE("an angle per frame that is not divided by h leaves the coupling almost undamped") {
   const TwoLink arm;
-  PrintedOptions options;
+  AsPublishedOptions options;
   options.damper = Damper::vector_;
   options.difference = Difference::per_frame;
   const Tracking run = track(arm, printed(Type::torsional, arm.springs(1200, 40), options), 1e-3);

@@ -13,8 +13,8 @@ using namespace twinarm::testing;
 
 namespace {
 
-CouplingSpec weld(std::vector<Spring> springs, const WeldReference& reference,
-                  Treatment treatment = Treatment::explicit_) {
+CouplingSpec weld(std::vector<Spring> springs, const SolrefParameters& reference,
+                  Discretization treatment = Discretization::explicit_) {
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::weld_like;
   spec.reference = reference;
@@ -33,7 +33,7 @@ Spring point_alone(Spring spring) {
 
 TEST_CASE("weld: on a slide a step has a = (1 - d) a_0 + d a_ref, to 1e-12") {
   const double h = 1e-3, m = 0.7;
-  const WeldReference reference{0.05, 0.8, 0.9};
+  const SolrefParameters reference{0.05, 0.8, 0.9};
   const double d = 0.9, b_ref = 2 / (d * 0.05), k_ref = 1 / (d * 0.05 * 0.05 * 0.8 * 0.8);
   const Model<double> model = one_joint(JointType::prismatic, m);
   // A push by a second spring, so that there is an a_0.
@@ -78,14 +78,14 @@ TEST_CASE("weld: on a slide a step has a = (1 - d) a_0 + d a_ref, to 1e-12") {
 TEST_CASE("weld: a target at speed V is followed 2 V T z^2 behind, on a slide and on a hinge") {
   for (const JointType joint : {JointType::prismatic, JointType::revolute})
     for (const double z : {1.0, 0.6})
-      for (const Treatment treatment :
-           {Treatment::explicit_, Treatment::semi_implicit, Treatment::implicit}) {
+      for (const Discretization treatment :
+           {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
         const double T = 0.03, V = 1.7, h = 1e-3;
         const Model<double> model = one_joint(joint, 0.7);
         SteadyHand hand;
         hand.rate[0] = V;
         const State<double> start = state_of(model, {0}, {0});
-        const WeldReference reference{T, z, 0.95};
+        const SolrefParameters reference{T, z, 0.95};
         const Spring spring = weld_spring("weld", model, start, 1, Vector3::Zero(), reference);
         Coupled system(model, hand, {"joint1"}, weld({spring}, reference, treatment), start);
         for (int n = 0; n < 1000; ++n) system.simulation.step(h);
@@ -105,7 +105,7 @@ TEST_CASE("weld: its particle has no weight, and other forces are felt (1 - d) a
                    {m, {r, 0, 0}, 1e-12 * Matrix3::Identity()});
   const Model<double> model = builder.build();
   for (const double d : {0.5, 0.9, 0.99}) {
-    const WeldReference reference{0.05, 1, d};
+    const SolrefParameters reference{0.05, 1, d};
     const double part = d / (1 - d) * m;  // m_0 = m: all of the mass moves with the point
     const Spring spring{
         "weld", 1, {r, 0, 0}, part * reference.stiffness(), part * reference.damping()};
@@ -122,7 +122,7 @@ TEST_CASE("weld: with its inertia counted, a chain about a KVR at rest only lose
   Random random(31);
   for (unsigned seed = 0; seed < 4; ++seed) {
     const Model<double> model = chain_of_three(seed);
-    const WeldReference reference{0.1, 0.9, 0.9};
+    const SolrefParameters reference{0.1, 0.9, 0.9};
     const Vector3 q = random.vector(1), qd = random.vector(3);
     const State<double> start = three_state(model, q, qd);
     const Spring spring = weld_spring("weld", model, start, 3, {0.1, 0.2, 0}, reference);
@@ -160,7 +160,7 @@ TEST_CASE("weld: MuJoCo's own trajectories of a weld and of a pin, to 1e-9") {
   // Computed with MuJoCo 2.2.2: step 1 ms, semi-implicit Euler, solref 0.05 0.8, solimp 0.9 0.9
   // 0.001, the Newton solver to 1e-14. A mass of 0.7 kg on three slides, welded to a mocap body
   // that moves at (0.6, -0.3, 0) m/s; a hinge with an arm, pinned to a mocap body at rest.
-  const WeldReference reference{0.05, 0.8, 0.9};
+  const SolrefParameters reference{0.05, 0.8, 0.9};
   const double g = 9.81;
   ModelBuilder slides;
   const Vector3 axes[] = {Vector3::UnitX(), Vector3::UnitY(), Vector3::UnitZ()};

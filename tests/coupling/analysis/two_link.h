@@ -36,7 +36,7 @@ struct Tracking {
 };
 inline Tracking track(const TwoLink& robot, const CouplingSpec& spec, double h,
                       Integrator integrator = Integrator::semi_implicit,
-                      KvrRates rates = KvrRates::from_hand, double sweep_time = 1.0) {
+                      TargetRates rates = TargetRates::from_hand, double sweep_time = 1.0) {
   const Model<double> model = robot.model();
   const HandMapping mapping;
   const AutomaticMotion hand(mapping, sweep_time);
@@ -58,8 +58,8 @@ inline Tracking track(const TwoLink& robot, const CouplingSpec& spec, double h,
   return result;
 }
 
-inline CouplingSpec torsional(std::vector<Spring> springs, Measure measure,
-                              Treatment treatment = Treatment::explicit_) {
+inline CouplingSpec torsional(std::vector<Spring> springs, SpringSpace measure,
+                              Discretization treatment = Discretization::explicit_) {
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::torsional;
   spec.measure = measure;
@@ -68,13 +68,13 @@ inline CouplingSpec torsional(std::vector<Spring> springs, Measure measure,
   return spec;
 }
 inline CouplingSpec linear(std::vector<Spring> springs,
-                           Treatment treatment = Treatment::explicit_) {
-  CouplingSpec spec = torsional(std::move(springs), Measure::world, treatment);
+                           Discretization treatment = Discretization::explicit_) {
+  CouplingSpec spec = torsional(std::move(springs), SpringSpace::world, treatment);
   spec.type = CouplingSpec::Type::linear;
   return spec;
 }
 inline CouplingSpec printed(CouplingSpec::Type type, std::vector<Spring> springs,
-                            PrintedOptions options) {
+                            AsPublishedOptions options) {
   CouplingSpec spec;
   spec.type = type;
   spec.printed = true;

@@ -17,18 +17,18 @@ namespace twinarm::testing {
 struct BatchLaw {
   const char* name;
   CouplingSpec::Type type;
-  Measure measure;
+  SpringSpace measure;
 };
 inline constexpr std::array<BatchLaw, 3> kBatchLaws{
-    {{"world", CouplingSpec::Type::torsional, Measure::world},
-     {"joint", CouplingSpec::Type::torsional, Measure::joint},
-     {"linear", CouplingSpec::Type::linear, Measure::world}}};
-inline constexpr std::array kBatchTreatments{Treatment::explicit_, Treatment::semi_implicit,
-                                             Treatment::implicit};
+    {{"world", CouplingSpec::Type::torsional, SpringSpace::world},
+     {"joint", CouplingSpec::Type::torsional, SpringSpace::joint},
+     {"linear", CouplingSpec::Type::linear, SpringSpace::world}}};
+inline constexpr std::array kBatchTreatments{
+    Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit};
 
 // Smooth, in all three joints, and not small; as it looks where it comes late, and is played
 // faster.
-class WavingHand final : public HandSource {
+class WavingHand final : public OperatorMotion {
  public:
   explicit WavingHand(double speed = 1, double delay = 0) : speed_(speed), delay_(delay) {}
   HandSample sample(double t, double) const override {
@@ -76,7 +76,8 @@ struct CellBench {
   Model<double> model;
   WavingHand hand;
   BatchSetup setup;
-  CellBench(Model<double> of, const BatchLaw& law, Treatment treatment, bool absolute) : model(of) {
+  CellBench(Model<double> of, const BatchLaw& law, Discretization treatment, bool absolute)
+      : model(of) {
     setup.model = &model;
     setup.start = State<double>(model);
     BatchTarget target;
@@ -86,7 +87,7 @@ struct CellBench {
     setup.targets = {target};
     for (int body = 1; body < model.body_count(); ++body) {
       const bool fixed = model.joint[static_cast<std::size_t>(body)] == JointType::fixed;
-      if (fixed && law.measure == Measure::joint) continue;
+      if (fixed && law.measure == SpringSpace::joint) continue;
       BatchSpring spring;
       spring.type = law.type;
       spring.measure = law.measure;
@@ -122,7 +123,7 @@ class OneByOne {
       : setup_(setup), cell_(cell), model_(scaled()), hand_(cell.speed, cell.delay) {
     for (std::size_t s = 0; s < setup.springs.size(); ++s) {
       const BatchSpring& spring = setup.springs[s];
-      kvrs_.push_back(kvr(spring.absolute_damper ? KvrRates::none : KvrRates::from_hand));
+      kvrs_.push_back(kvr(spring.absolute_damper ? TargetRates::none : TargetRates::from_hand));
       CouplingSpec spec;
       spec.type = spring.type;
       spec.measure = spring.measure;
@@ -131,7 +132,7 @@ class OneByOne {
           {"spring", spring.body, cell.springs[s].p_L, cell.springs[s].k, cell.springs[s].b}};
       couplings_.push_back(make_coupling(spec, model_, *kvrs_.back()));
     }
-    shown_ = kvr(KvrRates::from_hand);
+    shown_ = kvr(TargetRates::from_hand);
   }
   OneByOne(const OneByOne&) = delete;
 
@@ -190,16 +191,16 @@ class OneByOne {
     }
     return model;
   }
-  std::unique_ptr<KinematicRobot> kvr(KvrRates rates) const {
-    auto robot = std::make_unique<KinematicRobot>(*setup_.model, hand_, HandMapping{},
-                                                  setup_.targets[0].joints, rates);
-    robot->stand_at(setup_.targets[0].rest);
+  std::unique_ptr<TargetRobot> kvr(TargetRates rates) const {
+    auto robot = std::make_unique<TargetRobot>(*setup_.model, hand_, HandMapping{},
+                                               setup_.targets[0].joints, rates);
+    robot->set_pose(setup_.targets[0].rest);
     return robot;
   }
   bool look(const Simulation& simulation, TrackingSeries& series) {
     const State<double>& x = simulation.state();
     series.t.push_back(x.t);
-    const KvrSample& target = sample(x.t, -1e-6);
+    const TargetSample& target = sample(x.t, -1e-6);
     double error = 0;
     for (std::size_t j = 0; j < 3; ++j) {
       const auto iq = setup_.model->iq[static_cast<std::size_t>(
@@ -210,7 +211,7 @@ class OneByOne {
     }
     return error < setup_.bound;
   }
-  const KvrSample& sample(double t, double toward) {
+  const TargetSample& sample(double t, double toward) {
     shown_->begin_step(t, toward);
     return shown_->start();
   }
@@ -221,7 +222,7 @@ class OneByOne {
   Ends ends(std::size_t s, const Simulation& simulation, double toward) {
     const State<double>& x = simulation.state();
     const Kinematics& k = simulation.kinematics();
-    const KvrSample& K = sample(x.t, toward);
+    const TargetSample& K = sample(x.t, toward);
     const BatchSpring& spring = setup_.springs[s];
     const auto i = static_cast<std::size_t>(spring.body);
     Ends e;
@@ -230,7 +231,7 @@ class OneByOne {
       const Vector3 p_K = K.k.position(spring.body, cell_.springs[s].p_L);
       return {p_K - p_D, k.velocity(spring.body, p_D), K.k.velocity(spring.body, p_K)};
     }
-    if (spring.measure == Measure::world)
+    if (spring.measure == SpringSpace::world)
       return {twinarm::rotation_vector(Matrix3(K.k.X_WL[i].R * k.X_WL[i].R.transpose())), k.w_WL[i],
               K.k.w_WL[i]};
     const std::size_t iq = model_.iq[i], iv = model_.iv[i];
@@ -268,8 +269,8 @@ class OneByOne {
   const BatchCell& cell_;
   Model<double> model_;
   WavingHand hand_;
-  std::vector<std::unique_ptr<KinematicRobot>> kvrs_;
-  std::unique_ptr<KinematicRobot> shown_;
+  std::vector<std::unique_ptr<TargetRobot>> kvrs_;
+  std::unique_ptr<TargetRobot> shown_;
   std::vector<std::unique_ptr<Coupling>> couplings_;
 };
 

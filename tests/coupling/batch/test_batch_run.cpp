@@ -37,7 +37,7 @@ TEST_CASE("runs side by side are those of the scalar simulation, every coupling 
   Random random(81);
   for (const Axes axes : kAxes)
     for (const BatchLaw& law : kBatchLaws)
-      for (const Treatment treatment : kBatchTreatments)
+      for (const Discretization treatment : kBatchTreatments)
         for (const bool absolute : {false, true}) {
           CAPTURE(static_cast<int>(axes));
           CAPTURE(law.name);
@@ -59,7 +59,7 @@ TEST_CASE("runs side by side are those of the scalar simulation, every coupling 
 TEST_CASE("a run that leaves all bounds stops as it does alone, and its neighbours never notice") {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Random random(82);
-  const CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[2], Treatment::explicit_,
+  const CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[2], Discretization::explicit_,
                         false);
   std::vector<BatchCell> cells;
   for (int c = 0; c < 24; ++c) {
@@ -89,8 +89,8 @@ TEST_CASE("a run that leaves all bounds stops as it does alone, and its neighbou
 
 TEST_CASE("cells are computed alike in any order") {
   Random random(83);
-  const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[0], Treatment::implicit,
-                        false);
+  const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[0],
+                        Discretization::implicit, false);
   std::vector<BatchCell> cells;
   for (int c = 0; c < 19; ++c) cells.push_back(bench.random_cell(random));
   std::vector<BatchResult> results(cells.size()), reversed(cells.size());
@@ -143,7 +143,7 @@ TEST_CASE("what cannot run side by side is refused, all reasons at once") {
   setup.start = State<double>(model);
   setup.targets = {{&hand, {}, {{"joint1", "elbow"}, "", 0, 0}, setup.start}};
   setup.springs = {
-      {CouplingSpec::Type::matched, Measure::world, Treatment::explicit_, false, 3, 0}};
+      {CouplingSpec::Type::matched, SpringSpace::world, Discretization::explicit_, false, 3, 0}};
   try {
     const BatchRun run(setup);
     FAIL("not refused");
@@ -159,23 +159,23 @@ TEST_CASE("what cannot run side by side is refused, all reasons at once") {
 
 TEST_CASE("each reason against running side by side is told alone, with what to do") {
   Random random(86);
-  const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[1], Treatment::implicit,
-                        false);
+  const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[1],
+                        Discretization::implicit, false);
   const Model<double>& model = bench.model;
   const std::string fixed = model.joint_name[5], follower = model.joint_name[2];
   REQUIRE(model.joint[5] == JointType::fixed);
   REQUIRE(batch_faults(bench.setup).empty());
-  const auto only = [&](const char* where, const char* rule, const auto& spoil) {
-    CAPTURE(rule);
+  const auto only = [&](const char* where, const char* problem, const auto& spoil) {
+    CAPTURE(problem);
     BatchSetup setup = bench.setup;
     Model<double> own = model;
     spoil(setup, own);
     setup.model = &own;
-    const std::vector<Fault> faults = batch_faults(setup);
+    const std::vector<Diagnostic> faults = batch_faults(setup);
     REQUIRE(faults.size() == 1);
     CHECK(faults[0].where == where);
-    CHECK(faults[0].rule.find(rule) != std::string::npos);
-    CHECK_FALSE(faults[0].remedy.empty());
+    CHECK(faults[0].problem.find(problem) != std::string::npos);
+    CHECK_FALSE(faults[0].fix.empty());
   };
   only(("joint '" + follower + "'").c_str(), "follow others", [](BatchSetup&, Model<double>& own) {
     own.mimics.push_back({own.iv[2], own.iv[1], own.iq[2], own.iq[1], 1, 0});

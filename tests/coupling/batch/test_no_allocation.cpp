@@ -26,7 +26,7 @@ std::vector<Run> runs() {
         law.on_joint() || law.on_orientation() ? arm.springs(1200, 40) : arm.springs(22000, 400);
     for (Spring& spring : springs) spring.k_turn = 1200, spring.b_turn = 40;
     const bool in_stages =
-        law.treatment == Treatment::explicit_ && !law.own && !law.is(CouplingType::weld_like);
+        law.treatment == Discretization::explicit_ && !law.own && !law.is(CouplingType::weld_like);
     for (const Integrator integrator :
          {Integrator::euler, Integrator::semi_implicit, Integrator::rk4})
       if (in_stages || integrator == Integrator::semi_implicit)
@@ -39,7 +39,7 @@ struct System {
   Model<double> model = TwoLink().model();
   AutomaticMotion hand{HandMapping{}, 0.05};  // corners within the run
   std::unique_ptr<TrackingSystem> system;
-  explicit System(const Run& run, KvrRates rates) {
+  explicit System(const Run& run, TargetRates rates) {
     TrackingSetup setup;
     setup.kvr_model = setup.dvr_model = &model;
     setup.hand = &hand;
@@ -55,7 +55,7 @@ struct System {
 
 TEST_CASE("a step with a coupling takes nothing from the heap: all laws, treatments, integrators") {
   for (const Run& run : runs())
-    for (const KvrRates rates : {KvrRates::from_hand, KvrRates::backward_difference}) {
+    for (const TargetRates rates : {TargetRates::from_hand, TargetRates::backward_difference}) {
       System s(run, rates);
       CAPTURE(static_cast<int>(run.integrator));
       CAPTURE(run.spec.name);
@@ -68,16 +68,17 @@ TEST_CASE("a step with a coupling takes nothing from the heap: all laws, treatme
 TEST_CASE("what a coupling remembers, put back into another, lets the run go on with its bits") {
   for (Run run : runs()) {
     CAPTURE(run.spec.name);
-    if (!run.spec.printed && run.spec.treatment == Treatment::explicit_) run.spec.hold_steps = 7;
+    if (!run.spec.printed && run.spec.treatment == Discretization::explicit_)
+      run.spec.hold_steps = 7;
     run.spec.options.hold_steps = 7;
     run.spec.options.difference = Difference::older;  // it needs the last two evaluations
     if (run.integrator != Integrator::semi_implicit) continue;
-    System first(run, KvrRates::from_hand), second(run, KvrRates::from_hand);
+    System first(run, TargetRates::from_hand), second(run, TargetRates::from_hand);
     for (int n = 0; n < 59; ++n) first.system->simulation().step(1e-3);
-    Memory written;
-    first.system->coupling(0).visit_memory(written);
-    Memory read(written.bytes());
-    second.system->coupling(0).visit_memory(read);
+    StateArchive written;
+    first.system->coupling(0).serialize(written);
+    StateArchive read(written.bytes());
+    second.system->coupling(0).serialize(read);
     CHECK(read.at_end());
     second.system->simulation().set_state(first.system->simulation().state());
     for (int n = 0; n < 40; ++n) {
@@ -94,19 +95,20 @@ TEST_CASE("what a coupling remembers, put back into another, lets the run go on 
 TEST_CASE("a coupling that is implicit in the step is refused by rk4 and by explicit Euler") {
   for (const Law& law : all_laws()) {
     const bool in_stages =
-        law.treatment == Treatment::explicit_ && !law.own && !law.is(CouplingType::weld_like);
+        law.treatment == Discretization::explicit_ && !law.own && !law.is(CouplingType::weld_like);
     if (in_stages) continue;
     CAPTURE(law.name);
     for (const Integrator integrator : {Integrator::rk4, Integrator::euler})
       CHECK_THROWS_AS(
-          System({spec_of(law, TwoLink().springs(1, 1)), integrator}, KvrRates::from_hand),
+          System({spec_of(law, TwoLink().springs(1, 1)), integrator}, TargetRates::from_hand),
           std::invalid_argument);
   }
 }
 
 TEST_CASE("runs side by side take nothing from the heap in a step: a longer run takes no more") {
   Random random(86);
-  CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[0], Treatment::implicit, false);
+  CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[0], Discretization::implicit,
+                  false);
   const std::vector<BatchCell> cells(9, bench.random_cell(random));
   std::vector<BatchResult> results(cells.size());
   const auto allocations_over = [&](double duration) {

@@ -16,7 +16,7 @@ namespace {
 const HandMapping kPacedMapping;
 
 // 0.3 + 2 t: not zero at its beginning, and moving there.
-class PacedRamp final : public HandSource {
+class PacedRamp final : public OperatorMotion {
  public:
   HandSample sample(double t, double) const override {
     HandSample hand;
@@ -27,10 +27,10 @@ class PacedRamp final : public HandSource {
   std::string description() const override { return "ramp"; }
 };
 
-double paced_angle(const HandSource& hand, double t, double toward) {
+double paced_angle(const OperatorMotion& hand, double t, double toward) {
   return kPacedMapping.robot_angle(hand.sample(t, toward), 0);
 }
-double paced_rate(const HandSource& hand, double t, double toward) {
+double paced_rate(const OperatorMotion& hand, double t, double toward) {
   return kPacedMapping.robot_rate(hand.sample(t, toward), 0);
 }
 
@@ -43,7 +43,7 @@ TEST_CASE("a paced hand is at s = speed (t - delay) of the other, and moves spee
     const double delay = random.uniform(0, 0.3), speed = random.uniform(0.2, 4);
     const double t = random.uniform(0, 1.5);
     if (std::abs(t - delay) < 1e-6) continue;
-    const HandSample seen = PacedHand(waving, delay, speed).sample(t, t + 1e-3);
+    const HandSample seen = DelayedMotion(waving, delay, speed).sample(t, t + 1e-3);
     const HandSample wanted = WavingHand(speed, delay).sample(t, t + 1e-3);
     for (std::size_t j = 0; j < 3; ++j) {
       CHECK(std::abs(kPacedMapping.robot_angle(seen, j) - kPacedMapping.robot_angle(wanted, j)) <
@@ -55,7 +55,7 @@ TEST_CASE("a paced hand is at s = speed (t - delay) of the other, and moves spee
 }
 
 TEST_CASE("before its delay has passed a paced hand rests at the beginning") {
-  const PacedHand hand(std::make_unique<PacedRamp>(), 0.3, 1.5);
+  const DelayedMotion hand(std::make_unique<PacedRamp>(), 0.3, 1.5);
   for (const double t : {0.0, 0.1, 0.2999}) {
     CHECK(paced_angle(hand, t, t + 1e-4) == doctest::Approx(0.3).epsilon(1e-15));
     CHECK(paced_rate(hand, t, t + 1e-4) == 0);
@@ -72,7 +72,7 @@ TEST_CASE("before its delay has passed a paced hand rests at the beginning") {
 
 TEST_CASE("the corners of a paced hand are those of the other, and each step belongs to its side") {
   const AutomaticMotion motion{kPacedMapping};  // sweeps of a second
-  const PacedHand hand(motion, 0.25, 4);
+  const DelayedMotion hand(motion, 0.25, 4);
   for (const double corner : {1.0, 2.0}) {
     const double t = 0.25 + corner / 4;
     CHECK(paced_rate(hand, t, t - 0.01) ==

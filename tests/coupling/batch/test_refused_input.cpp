@@ -43,9 +43,9 @@ std::string refusal(Make&& make) {
 TEST_CASE("couplings of joint coordinates refuse joints that have not one degree of freedom") {
   const Model<double> model = mixed_chain();
   const SteadyHand hand;
-  KinematicRobot kvr(model, hand, SteadyHand::mapping(), {{"hinge"}, "", 0, 0});
+  TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"hinge"}, "", 0, 0});
   CouplingSpec torsional, pd;
-  torsional.measure = Measure::joint;
+  torsional.measure = SpringSpace::joint;
   pd.type = CouplingType::stable_pd;
   for (CouplingSpec spec : {torsional, pd}) {
     spec.name = "held";
@@ -60,7 +60,7 @@ TEST_CASE("couplings of joint coordinates refuse joints that have not one degree
       CHECK(text.find(words) != std::string::npos);
     }
   }
-  torsional.measure = Measure::world;  // a couple on the link: any joint
+  torsional.measure = SpringSpace::world;  // a couple on the link: any joint
   torsional.springs = {{"s", 2, Vector3::Zero(), 10, 1}, {"t", 3, Vector3::Zero(), 10, 1}};
   CHECK(refusal([&] { make_coupling(torsional, model, kvr); }) == "");
   const std::vector<JointStops::Stop> stops{{2, -1, 1, 10, 1}};
@@ -71,7 +71,7 @@ TEST_CASE("a kinematic robot refuses to move a fixed or a spherical joint, and n
   const Model<double> model = mixed_chain();
   const SteadyHand hand;
   const auto refused = [&](const DrivenJoints& joints) {
-    return refusal([&] { KinematicRobot(model, hand, SteadyHand::mapping(), joints); });
+    return refusal([&] { TargetRobot(model, hand, SteadyHand::mapping(), joints); });
   };
   CHECK(refused({{"hinge"}, "", 0, 0}) == "");
   CHECK(refused({{"hinge"}, "hinge", 0, 0}) == "");
@@ -116,10 +116,11 @@ TEST_CASE("a tracking run and predictions refuse a step size that is not positiv
     CAPTURE(h);
     tracking.h = h;
     CHECK_THROWS_AS(TrackingSystem{tracking}, InputError);
-    CHECK_THROWS_AS(growth_per_step(one, {{one, one, one}}, Integrator::rk4, h), InputError);
-    CHECK_THROWS_AS(largest_stiffness_factor(one, one, one, Scheme::euler, h, Keep::damping_ratio),
-                    InputError);
-    CHECK_THROWS_AS(largest_target_radius(1, 1, 1, 1, h), InputError);
+    CHECK_THROWS_AS(spectral_radius(one, {{one, one, one}}, Integrator::rk4, h), InputError);
+    CHECK_THROWS_AS(
+        max_stiffness_factor(one, one, one, SteppingScheme::euler, h, HoldConstant::damping_ratio),
+        InputError);
+    CHECK_THROWS_AS(max_target_radius(1, 1, 1, 1, h), InputError);
   }
 }
 

@@ -12,13 +12,13 @@
 
 namespace twinarm::testing {
 
-inline DeviceState device_at(const OmniFigures& omni, const OmniAngles& theta) {
+inline DeviceState device_at(const OmniParameters& omni, const OmniAngles& theta) {
   DeviceState device;
   device.theta = theta;
   device.stylus.p = omni_position(omni, theta);
   return device;
 }
-inline OmniAngles random_angles(const OmniFigures& omni, Random& random) {
+inline OmniAngles random_angles(const OmniParameters& omni, Random& random) {
   OmniAngles theta;
   for (std::size_t j = 0; j < 6; ++j) theta[j] = random.uniform(omni.lower[j], omni.upper[j]);
   return theta;

@@ -15,7 +15,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-const OmniFigures kOmni;
+const OmniParameters kOmni;
 constexpr double kLong = 1e3;  // [s] between calls: no joint is too slow
 
 MappingSpec spec_of_kind(MappingKind which) {
@@ -23,7 +23,7 @@ MappingSpec spec_of_kind(MappingKind which) {
   spec.kind = which;
   return spec;
 }
-double largest_change(const std::vector<double>& a, const std::vector<double>& b) {
+double max_change(const std::vector<double>& a, const std::vector<double>& b) {
   double most = 0;
   for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
   return most;
@@ -113,7 +113,7 @@ TEST_CASE("the motors' power is that of the robot's joints: all mappings, all ro
           return mapping->map(device_at(kOmni, at), kLong).q;
         };
         const std::vector<double> plus = moved(1), minus = moved(-1), here = moved(0);
-        if (largest_change(plus, minus) > 1e-3) continue;  // beside a singular place
+        if (max_change(plus, minus) > 1e-3) continue;  // beside a singular place
         const DeviceForce felt = mapping->feel(device_at(kOmni, theta), tau);
         double of_robot = 0, of_hand = 0, size = 0;
         for (std::size_t j = 0; j < q.size(); ++j) {
@@ -142,7 +142,7 @@ TEST_CASE("cartesian: the robot's point is p_start + scale (stylus - start) wher
       const std::vector<double> q = m->random_q(random);
       const DeviceState start = device_at(kOmni, theta);
       mapping->begin(start, q);
-      CHECK(largest_change(mapping->map(start, 0.001).q, q) < 1e-10);
+      CHECK(max_change(mapping->map(start, 0.001).q, q) < 1e-10);
       OmniAngles at = theta;
       for (int s = 1; s <= 40; ++s) {
         for (std::size_t j = 0; j < 6; ++j) at[j] = theta[j] + s / 40.0 * (to[j] - theta[j]);
@@ -165,7 +165,7 @@ TEST_CASE("cartesian: the robot's point is p_start + scale (stylus - start) wher
 TEST_CASE("a goal out of reach: the arm points to it, at the nearest place, and comes back") {
   const PlaneArm plane;
   PointInverse inverse(plane.robot);
-  inverse.stand_at({0.2, 0.9});
+  inverse.set_pose({0.2, 0.9});
   const double reach = plane.reach();
   inverse.reach(Vector3(0.4 * std::cos(0.6), 0.4 * std::sin(0.6), 0), 10);
   std::vector<double> before = inverse.q();
@@ -175,7 +175,7 @@ TEST_CASE("a goal out of reach: the arm points to it, at the nearest place, and 
     const double turn = 0.6 + 1.2 * s;
     const Vector3 goal(r * std::cos(turn), r * std::sin(turn), 0);
     inverse.reach(goal, 1);
-    jump = std::max(jump, largest_change(inverse.q(), before));
+    jump = std::max(jump, max_change(inverse.q(), before));
     before = inverse.q();
     const double nearest = std::max(0.0, r - reach);
     CHECK(std::abs((goal - inverse.position()).norm() - nearest) < 1e-9);
@@ -187,7 +187,7 @@ TEST_CASE("a goal out of reach: the arm points to it, at the nearest place, and 
 TEST_CASE("a stretched arm that is asked to come straight in bends") {
   const PlaneArm plane;
   PointInverse inverse(plane.robot);
-  inverse.stand_at({0.0, 0.0});
+  inverse.set_pose({0.0, 0.0});
   for (const double in : {0.001, 0.01, 0.1, 0.2}) {
     const Vector3 goal(plane.reach() - in, 0, 0);
     for (int n = 0; n < 3; ++n) inverse.reach(goal, 10);
@@ -211,14 +211,14 @@ TEST_CASE("no joint goes faster than it is said to, and the robot catches up") {
   std::vector<double> before = q;
   for (int n = 0; n < 600; ++n) {
     const HandTarget& target = mapping->map(end, 0.001);
-    CHECK(largest_change(target.q, before) < 0.002 * (1 + 1e-9));
+    CHECK(max_change(target.q, before) < 0.002 * (1 + 1e-9));
     for (const double rate : target.qd) CHECK(std::abs(rate) < 2 * (1 + 1e-9));
     before = target.q;
   }
   const Vector3 goal =
       robots[2]->point(q) + spec.scale * world_from_device(end.stylus.p - start.stylus.p);
   PointInverse at_once(robots[2]->robot);
-  at_once.stand_at(q);
+  at_once.set_pose(q);
   for (int n = 0; n < 5; ++n) at_once.reach(goal, 10);
   CHECK((robots[2]->point(before) - at_once.position()).norm() < 1e-7);
 }
@@ -244,7 +244,7 @@ TEST_CASE("a clutch makes no jump, nor does a device that is gone or says what i
       device.alive = away != 2;
       if (away == 3) device.theta[0] = std::nan("");
       const HandTarget& target = mapping->map(device, 0.001);
-      const double way = largest_change(target.q, before);
+      const double way = max_change(target.q, before);
       if (away) {
         CHECK(way == 0);
         for (const double rate : target.qd) CHECK(rate == 0);

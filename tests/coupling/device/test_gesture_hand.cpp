@@ -23,14 +23,14 @@ Vector3 velocity_of(const HandSample& hand) {
 }
 
 // From where it is at the time t.
-void move(GestureHand& hand, const Vector3& by, double t = 0) {
+void move(DesktopInput& hand, const Vector3& by, double t = 0) {
   hand.place(point_of(hand.sample(t, t + 1)) + by);
 }
 
 }  // namespace
 
 TEST_CASE("gestures: the stylus goes to a place, and turns by angles") {
-  GestureHand hand{OmniFigures{}};
+  DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(0, 1));
   CHECK((start - omni_position({}, GestureSettings{}.start)).norm() < 1e-12);
   hand.place(start + Vector3(0.010, 0.005, -0.008));
@@ -43,7 +43,7 @@ TEST_CASE("gestures: the stylus goes to a place, and turns by angles") {
 }
 
 TEST_CASE("gestures: keys and sticks move evenly in the time of the one who asks, until released") {
-  GestureHand hand{OmniFigures{}};
+  DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(5, 6));
   hand.key(HandAxis::right, true, true);
   hand.axes(
@@ -70,8 +70,8 @@ TEST_CASE("gestures: keys and sticks move evenly in the time of the one who asks
 }
 
 TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes back at once") {
-  const OmniFigures omni;
-  GestureHand hand{omni};
+  const OmniParameters omni;
+  DesktopInput hand{omni};
   const Vector3 start = point_of(hand.sample(0, 1));
   move(hand, {2, 0, 0});
   const HandSample edge = hand.sample(0, 1);
@@ -104,7 +104,7 @@ TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes ba
 
 TEST_CASE("gestures: what is not finite is not heard, and nothing takes from the heap") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  GestureHand hand{OmniFigures{}};
+  DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(0, 1));
   const long taken = testing::allocations_in([&] {
     hand.place({nan, 0, 0});
@@ -118,7 +118,7 @@ TEST_CASE("gestures: what is not finite is not heard, and nothing takes from the
 }
 
 TEST_CASE("gestures move the virtual Omni's stylus to the place, through the arm") {
-  const auto hand = std::make_shared<GestureHand>(OmniFigures{});
+  const auto hand = std::make_shared<DesktopInput>(OmniParameters{});
   VirtualOmniSettings settings;
   settings.figures.friction = 0;
   VirtualOmni omni(hand, settings);
@@ -138,7 +138,7 @@ TEST_CASE("newest value: values are never torn, never old after new, and the las
     std::array<long, 30> more;
   };
   constexpr long kLast = 200000;
-  Newest<Pair> newest(Pair{0, 0, {}});
+  TripleBuffer<Pair> newest(Pair{0, 0, {}});
   std::thread writer([&] {
     for (long n = 1; n <= kLast; ++n) {
       Pair next{n, -n, {}};

@@ -38,7 +38,7 @@ struct Pressed {
   Model<double> model = arm.model();
   SteadyHand hand;
   TipWall wall;
-  std::unique_ptr<KinematicRobot> kvr;
+  std::unique_ptr<TargetRobot> kvr;
   std::unique_ptr<Coupling> coupling;
   std::unique_ptr<Simulation> simulation;
   CouplingReaction reaction{model, {1, 2}};
@@ -48,8 +48,8 @@ struct Pressed {
     hand.angle = {0.5, 0.7, 0};
     wall.place = wall_place;
     wall.p_L = {arm.l2, 0, 0};
-    kvr = std::make_unique<KinematicRobot>(model, hand, SteadyHand::mapping(),
-                                           DrivenJoints{{"joint1", "joint2"}, "", 0, 0});
+    kvr = std::make_unique<TargetRobot>(model, hand, SteadyHand::mapping(),
+                                        DrivenJoints{{"joint1", "joint2"}, "", 0, 0});
     coupling = make_coupling(spec, model, *kvr);
     simulation = std::make_unique<Simulation>(model, state_of(model, {0.1, 0.3}, {0, 0}));
     simulation->add(*coupling);
@@ -76,7 +76,7 @@ struct Pressed {
       else if (spec.type == CouplingSpec::Type::bushing)
         sum += 0.5 * s.k * at_point + 0.5 * s.k_turn * turned;
       else
-        sum += 0.5 * s.k * (spec.measure == Measure::joint ? e * e : turned);
+        sum += 0.5 * s.k * (spec.measure == SpringSpace::joint ? e * e : turned);
     }
     return sum;
   }
@@ -84,10 +84,10 @@ struct Pressed {
 
 std::vector<CouplingSpec> felt_laws(const TwoLink& arm) {
   std::vector<CouplingSpec> all;
-  for (const Treatment treatment : {Treatment::explicit_, Treatment::implicit}) {
+  for (const Discretization treatment : {Discretization::explicit_, Discretization::implicit}) {
     all.push_back(linear(arm.springs(2000, 100), treatment));
-    all.push_back(torsional(arm.springs(150, 15), Measure::world, treatment));
-    all.push_back(torsional(arm.springs(150, 15), Measure::joint, treatment));
+    all.push_back(torsional(arm.springs(150, 15), SpringSpace::world, treatment));
+    all.push_back(torsional(arm.springs(150, 15), SpringSpace::joint, treatment));
     CouplingSpec bushing = linear(arm.springs(2000, 100), treatment);
     bushing.type = CouplingSpec::Type::bushing;
     for (Spring& spring : bushing.springs) spring.k_turn = 60, spring.b_turn = 6;
@@ -98,7 +98,7 @@ std::vector<CouplingSpec> felt_laws(const TwoLink& arm) {
 
 // One spring at the tip, and the mapping that moves the tip with the stylus, one to one.
 struct TipHand {
-  OmniFigures omni;
+  OmniParameters omni;
   DeviceState device = device_at(omni, {0.2, 0.6, 0.3, 0, 0, 0});
   std::unique_ptr<DeviceMapping> mapping;
   explicit TipHand(const Pressed& pressed) {
@@ -172,8 +172,8 @@ TEST_CASE("moved slowly and freely the hand feels next to nothing") {
 
 // m a = F: whatever the treatment, over each step.
 TEST_CASE("the reaction of an implicit coupling is the force that really moved the body") {
-  for (const Treatment treatment :
-       {Treatment::explicit_, Treatment::semi_implicit, Treatment::implicit}) {
+  for (const Discretization treatment :
+       {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
     const double m = 0.7, h = 1e-3;
     const Model<double> model = one_joint(JointType::prismatic, m);
     SteadyHand hand;
@@ -181,7 +181,7 @@ TEST_CASE("the reaction of an implicit coupling is the force that really moved t
     for (const bool at_joint : {false, true}) {
       const std::vector<Spring> springs{{"s", 1, {0, 0, 0}, 400, 8}};
       const CouplingSpec spec =
-          at_joint ? torsional(springs, Measure::joint, treatment) : linear(springs, treatment);
+          at_joint ? torsional(springs, SpringSpace::joint, treatment) : linear(springs, treatment);
       Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0.05}, {0}));
       CouplingReaction reaction(model, {1});
       reaction.add(spec, *system.coupling);

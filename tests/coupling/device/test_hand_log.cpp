@@ -34,7 +34,7 @@ bool same_bits(const HandSample& a, const HandSample& b) {
 
 TEST_CASE("live hand: a step goes on by the newest rate, and a hand that is not renewed stands") {
   const HandMapping mapping;
-  LiveHand hand(8);
+  DeviceMotion hand(8);
   CHECK(hand.sample(3, 4).theta[0] == 0);
   hand.set(target_at(0.2, 3), 1, 0.01);
   const auto angle = [&](double t, double toward) {
@@ -55,7 +55,7 @@ TEST_CASE("live hand: a step goes on by the newest rate, and a hand that is not 
 
 TEST_CASE("live hand: at a jump each side of an instant has its own angle") {
   const HandMapping mapping;
-  LiveHand hand(8);
+  DeviceMotion hand(8);
   hand.set(target_at(0, 0), 0, 0.01);
   hand.set(target_at(1, 0), 0.01, 0.01);
   CHECK(mapping.robot_angle(hand.sample(0.01, 0), 1) == 0);
@@ -65,9 +65,9 @@ TEST_CASE("live hand: at a jump each side of an instant has its own angle") {
 }
 
 TEST_CASE("live hand: seen late, it is as it was, as far back as it remembers") {
-  auto live = std::make_unique<LiveHand>(200);
-  LiveHand& hand = *live;
-  const PacedHand late(std::move(live), 0.1, 1);
+  auto live = std::make_unique<DeviceMotion>(200);
+  DeviceMotion& hand = *live;
+  const DelayedMotion late(std::move(live), 0.1, 1);
   for (int n = 0; n < 500; ++n) {
     const double t = 0.001 * n;
     hand.set(target_at(std::sin(t), std::cos(t)), t, 0.001);
@@ -80,7 +80,7 @@ TEST_CASE("live hand: seen late, it is as it was, as far back as it remembers") 
 TEST_CASE("hand log: what was written and read again has the same bits at every instant") {
   std::mt19937 random(4);
   std::normal_distribution<double> draw;
-  LiveHand live(1000);
+  DeviceMotion live(1000);
   std::string text = hand_log_header();
   double t = 0.1;
   for (int n = 0; n < 300; ++n) {
@@ -102,7 +102,7 @@ TEST_CASE("hand log: what was written and read again has the same bits at every 
 }
 
 TEST_CASE("hand log: a torn last line is left out, and every other fault names its line") {
-  LiveHand live(10);
+  DeviceMotion live(10);
   live.set(target_at(1, 2), 0, 0.001);
   const std::string line = hand_log_line(live.newest());
   live.set(target_at(1, 2), 0.001, 0.001);

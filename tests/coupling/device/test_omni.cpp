@@ -20,7 +20,7 @@ namespace {
 
 // The published forward kinematics: theta3 is absolute there.
 template <class T>
-std::array<T, 3> published_point(const OmniFigures& o, T t1, T t2, T t3) {
+std::array<T, 3> published_point(const OmniParameters& o, T t1, T t2, T t3) {
   using std::cos;
   using std::sin;
   const T R = o.L1 * cos(t2) + o.L2 * sin(t3);
@@ -32,7 +32,7 @@ class OmniDraw {
   double operator()(double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
-  OmniAngles in_range(const OmniFigures& o) {
+  OmniAngles in_range(const OmniParameters& o) {
     OmniAngles q;
     for (std::size_t j = 0; j < 6; ++j) q[j] = (*this)(o.lower[j], o.upper[j]);
     return q;
@@ -49,14 +49,14 @@ OmniAngles with_arm(const std::array<double, 3>& arm) {
   return {arm[0], arm[1], arm[2]};
 }
 
-double waist_lever(const OmniFigures& o, const OmniAngles& q) {
+double waist_lever(const OmniParameters& o, const OmniAngles& q) {
   return o.L1 * std::cos(q[1]) + o.L2 * std::sin(q[1] + q[2]);
 }
 
 }  // namespace
 
 TEST_CASE("Omni: at zero the point is at (0, -0.110, -0.035) m; the formula is the published one") {
-  OmniFigures o;
+  OmniParameters o;
   CHECK((omni_position(o, {}) - Vector3(0, -0.110, -0.035)).norm() < 1e-15);
   OmniDraw draw;
   for (int n = 0; n < 2000; ++n) {
@@ -72,7 +72,7 @@ TEST_CASE("Omni: at zero the point is at (0, -0.110, -0.035) m; the formula is t
 }
 
 TEST_CASE("Omni: the Jacobian is the complex-step derivative; det J = -L1 L2 R cos(theta3)") {
-  OmniFigures o;
+  OmniParameters o;
   OmniDraw draw;
   double worst = 0, worst_det = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -96,7 +96,7 @@ TEST_CASE("Omni: the Jacobian is the complex-step derivative; det J = -L1 L2 R c
 }
 
 TEST_CASE("Omni: motors do the work of the force; force and torque are each other's inverse") {
-  const OmniFigures o;
+  const OmniParameters o;
   OmniDraw draw;
   double work = 0, back = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -122,7 +122,7 @@ TEST_CASE("Omni: motors do the work of the force; force and torque are each othe
 }
 
 TEST_CASE("Omni: motors are limited together, to 3.3 N at the stylus") {
-  const OmniFigures o;
+  const OmniParameters o;
   OmniDraw draw;
   const OmniAngles q{0.3, 0.6, 0.2, 0, 0, 0};
   for (int n = 0; n < 500; ++n) {
@@ -134,7 +134,7 @@ TEST_CASE("Omni: motors are limited together, to 3.3 N at the stylus") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(omni_limit(o, q, {0.1, nan, 0}) == std::array<double, 3>{});
   // On the waist's axis its motor has no hold: the others' force is all there is.
-  OmniFigures even = o;
+  OmniParameters even = o;
   const double t2 = 1.2;
   const OmniAngles on_axis{0.4, t2, t2 - std::numbers::pi / 2 - t2, 0, 0, 0};  // sin t3 = -cos t2
   CHECK(std::abs(waist_lever(even, on_axis)) < 1e-15);
@@ -142,7 +142,7 @@ TEST_CASE("Omni: motors are limited together, to 3.3 N at the stylus") {
 }
 
 TEST_CASE("Omni: FK(IK(p)) = p to 1e-12 at every reachable point, the edges of the reach too") {
-  OmniFigures o;
+  OmniParameters o;
   OmniDraw draw;
   double worst = 0;
   int reached = 0, refused = 0;
@@ -172,7 +172,7 @@ TEST_CASE("Omni: FK(IK(p)) = p to 1e-12 at every reachable point, the edges of t
 }
 
 TEST_CASE("Omni: IK(FK(q)) = q within the ranges where R > 0, and only there") {
-  const OmniFigures o;
+  const OmniParameters o;
   OmniDraw draw;
   double worst = 0;
   int beyond = 0;
@@ -194,7 +194,7 @@ TEST_CASE("Omni: IK(FK(q)) = q within the ranges where R > 0, and only there") {
 }
 
 TEST_CASE("Omni: the pose of the stylus turns with each joint about that joint's axis, and back") {
-  const OmniFigures o;
+  const OmniParameters o;
   OmniDraw draw;
   double turned = 0, back = 0, angles = 0;
   for (int n = 0; n < 3000; ++n) {
@@ -227,7 +227,7 @@ TEST_CASE("Omni: the pose of the stylus turns with each joint about that joint's
   CHECK(turned < 1e-14);
   CHECK(back < 1e-11);
   CHECK(angles < 1e-10);
-  OmniFigures square = o;
+  OmniParameters square = o;
   square.gimbal_pitch = 0;
   OmniAngles lock{0.1, 0.5, 0.1, 0.4, -std::numbers::pi / 2, 0.7};  // the stylus along the forearm
   const auto found = omni_inverse(square, omni_stylus(square, lock));
@@ -237,7 +237,7 @@ TEST_CASE("Omni: the pose of the stylus turns with each joint about that joint's
 
 TEST_CASE(
     "Omni: the nearest reachable place is at least as near as any of many within the ranges") {
-  const OmniFigures o;
+  const OmniParameters o;
   OmniDraw draw;
   for (int n = 0; n < 60; ++n) {
     const Vector3 p = draw.vector(0.35) + Vector3(0, 0, -o.back);

@@ -14,16 +14,16 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr double kPeak = 3.3, kFarthest = 1e-3;  // [N], [m] a tick
+constexpr double kPeak = 3.3, kMaxDistance = 1e-3;  // [N], [m] a tick
 
-struct Ledger {
+struct EnergyBalance {
   double E = 0, lowest = 0;
   long in_debt = 0, paid_at_once = 0, unpaid = 0;
 
   // `motion(n, force)` gives the next place from the last force, `wanted(n, x)` the environment's.
   template <class Motion, class Wanted>
   void run(long ticks, Motion&& motion, Wanted&& wanted, bool control = true) {
-    PassivityControl passivity(kPeak * kFarthest);
+    PassivityControl passivity(kPeak * kMaxDistance);
     Vector3 x = Vector3::Zero(), force = Vector3::Zero(), before = x, d = x;
     for (long n = 0; n < ticks; ++n) {
       before = x;
@@ -61,7 +61,7 @@ TEST_CASE("passivity: whatever the hand does, 10^6 random ticks stay above one t
   for (const bool in_space : {false, true}) {
     Random random(11);
     Vector3 x = Vector3::Zero();
-    Ledger ledger;
+    EnergyBalance ledger;
     const auto any = [&](double size) {
       Vector3 v = random.vector(size);
       if (!in_space) v.y() = v.z() = 0;
@@ -70,11 +70,11 @@ TEST_CASE("passivity: whatever the hand does, 10^6 random ticks stay above one t
     ledger.run(
         1000000,
         [&](long, const Vector3&) {
-          if (random.integer(0, 3) > 0) x += any(kFarthest / std::sqrt(3.0));
+          if (random.integer(0, 3) > 0) x += any(kMaxDistance / std::sqrt(3.0));
           return x;
         },
         [&](long, const Vector3&) { return any(2 * kPeak); });
-    CHECK(ledger.lowest >= -kPeak * kFarthest * (1 + 1e-3));
+    CHECK(ledger.lowest >= -kPeak * kMaxDistance * (1 + 1e-3));
     CHECK(ledger.in_debt > 1000);
     CHECK(ledger.unpaid == 0);
   }
@@ -82,16 +82,16 @@ TEST_CASE("passivity: whatever the hand does, 10^6 random ticks stay above one t
 
 TEST_CASE("passivity: a hand that always goes where the force pushes it gets one tick's work") {
   Vector3 x = Vector3::Zero();
-  Ledger ledger;
+  EnergyBalance ledger;
   ledger.run(
       200000,
       [&](long, const Vector3& force) {
-        x.x() += force.x() >= 0 ? kFarthest : -kFarthest;
+        x.x() += force.x() >= 0 ? kMaxDistance : -kMaxDistance;
         return x;
       },
       [&](long n, const Vector3&) { return Vector3(n % 7 < 4 ? 9 : -9, 0, 0); });
-  CHECK(ledger.lowest >= -kPeak * kFarthest * (1 + 1e-3));
-  CHECK(ledger.lowest < -0.9 * kPeak * kFarthest);  // it is tried
+  CHECK(ledger.lowest >= -kPeak * kMaxDistance * (1 + 1e-3));
+  CHECK(ledger.lowest < -0.9 * kPeak * kMaxDistance);  // it is tried
 }
 
 // A hand moves smoothly, with tremor at up to 12 Hz: 10^6 ticks of 1 kHz against a wall whose force
@@ -103,7 +103,7 @@ TEST_CASE("passivity: 10^6 ticks of a hand on a late wall: every debt is paid as
     std::array<double, 6> size{0.02, 0.01, 0.004, 0.0005, 0.0001, 0.0001};
     for (double& p : phase) p = random.uniform(0, 6);
     std::deque<double> late(100, 0.0);
-    Ledger ledger;
+    EnergyBalance ledger;
     ledger.run(
         1000000,
         [&](long n, const Vector3&) {
@@ -123,13 +123,13 @@ TEST_CASE("passivity: 10^6 ticks of a hand on a late wall: every debt is paid as
         control);
     return ledger;
   };
-  const Ledger without = run(false, 0);
+  const EnergyBalance without = run(false, 0);
   CHECK(without.E < -10);  // 10 J and more out of a wall
   for (const double quantum : {0.0, 0.055e-3}) {
     CAPTURE(quantum);
-    const Ledger with = run(true, quantum);
-    CHECK(with.lowest > -kPeak * kFarthest / 2);
-    CHECK(with.E > -kPeak * kFarthest / 2);
+    const EnergyBalance with = run(true, quantum);
+    CHECK(with.lowest > -kPeak * kMaxDistance / 2);
+    CHECK(with.E > -kPeak * kMaxDistance / 2);
     CHECK(with.unpaid == 0);
     MESSAGE("lowest " << with.lowest << " J, ticks in debt that move " << with.in_debt
                       << ", paid at once " << with.paid_at_once);
@@ -149,7 +149,7 @@ TEST_CASE("passivity: the published damping, alpha = -E/(T v^2), where all else 
 }
 
 TEST_CASE("passivity: a passive spring that is pushed and let go is left alone") {
-  PassivityControl passivity(kPeak * kFarthest);
+  PassivityControl passivity(kPeak * kMaxDistance);
   double largest = 0;
   for (int n = 0; n <= 1000; ++n) {
     const double place = 0.004 * std::sin(std::numbers::pi * n / 1000.0);
@@ -163,10 +163,10 @@ TEST_CASE("passivity: a passive spring that is pushed and let go is left alone")
 }
 
 TEST_CASE("passivity: after the worst of hands a steady one feels the force again, in a moment") {
-  PassivityControl passivity(kPeak * kFarthest);
+  PassivityControl passivity(kPeak * kMaxDistance);
   double x = 0, force = 0;
   for (int n = 0; n < 100000; ++n) {
-    x += force >= 0 ? kFarthest : -kFarthest;
+    x += force >= 0 ? kMaxDistance : -kMaxDistance;
     force = passivity.tick({x, 0, 0}, {9, 0, 0}, kPeak).x();
   }
   CHECK(std::abs(force) < 1e-6);

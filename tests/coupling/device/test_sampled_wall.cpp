@@ -74,8 +74,8 @@ TEST_CASE("uncoupled stability: the published device's limits, 2152.5 and 715.7 
   CHECK(exact_stiffness(late, 1) == doctest::Approx(715.7).epsilon(1e-4));
   CHECK(uncoupled_stiffness(now, 1) == doctest::Approx(2200));
   CHECK(uncoupled_stiffness(late, 1) == doctest::Approx(733.33).epsilon(1e-5));
-  CHECK(largest_stable_stiffness(now, 1) == doctest::Approx(2152.5).epsilon(1e-3));
-  CHECK(largest_stable_stiffness(late, 1) == doctest::Approx(715.7).epsilon(1e-3));
+  CHECK(max_stable_stiffness(now, 1) == doctest::Approx(2152.5).epsilon(1e-3));
+  CHECK(max_stable_stiffness(late, 1) == doctest::Approx(715.7).epsilon(1e-3));
 }
 
 TEST_CASE("uncoupled stability by bisection is that of the eigenvalues, by damping, delay, rate") {
@@ -88,8 +88,7 @@ TEST_CASE("uncoupled stability by bisection is that of the eigenvalues, by dampi
           CAPTURE(delay);
           CAPTURE(b);
           CAPTURE(B);
-          CHECK(largest_stable_stiffness(d, B) ==
-                doctest::Approx(exact_stiffness(d, B)).epsilon(2e-3));
+          CHECK(max_stable_stiffness(d, B) == doctest::Approx(exact_stiffness(d, B)).epsilon(2e-3));
         }
 }
 
@@ -101,10 +100,10 @@ TEST_CASE("a wall gives no energy away up to Colgate's line, and beyond it it do
       CAPTURE(rate);
       CAPTURE(part);
       CHECK(law == doctest::Approx(2 * (0.5 - std::abs(B)) * rate));
-      CHECK(largest_passive_stiffness(d, B) == doctest::Approx(law).epsilon(1e-3));
+      CHECK(max_passive_stiffness(d, B) == doctest::Approx(law).epsilon(1e-3));
     }
   const SampledDevice d = sampled(0.045, 0.5, 1000, 0);
-  CHECK(largest_passive_damping(d, 0) == doctest::Approx(0.5).epsilon(1e-3));
+  CHECK(max_passive_damping(d, 0) == doctest::Approx(0.5).epsilon(1e-3));
 }
 
 TEST_CASE("with a delay the wall that gives no energy away is that of its frequency response") {
@@ -113,7 +112,7 @@ TEST_CASE("with a delay the wall that gives no energy away is that of its freque
       const SampledDevice d = sampled(0.045, 0.5, 1000, delay);
       CAPTURE(delay);
       CAPTURE(B);
-      const double K = largest_passive_stiffness(d, B);
+      const double K = max_passive_stiffness(d, B);
       if (needed_damping(d, 1e-9, B) > d.damping) {
         CHECK(K == 0);
         continue;
@@ -131,18 +130,18 @@ TEST_CASE("steps of the encoder cost stiffness: 2 f_c/Delta where the friction i
     CAPTURE(friction);
     CHECK(abbott_okamura_stiffness(d) ==
           doctest::Approx(std::min(4000.0, 2 * friction / 0.055e-3)));
-    CHECK(largest_passive_stiffness(d, 0) ==
+    CHECK(max_passive_stiffness(d, 0) ==
           doctest::Approx(abbott_okamura_stiffness(d)).epsilon(0.02));
   }
   d.friction = 0;
-  CHECK(largest_passive_stiffness(d, 0) < 10);  // none, but for the smallest amplitude tried
+  CHECK(max_passive_stiffness(d, 0) < 10);  // none, but for the smallest amplitude tried
 }
 
 TEST_CASE("a wall without energy is stable, and not the other way round") {
   const SampledDevice d = sampled(0.045, 0.1, 1000, 0);
   for (const double B : {0.0, 0.03, 0.08}) {
-    CHECK(largest_passive_stiffness(d, B) < largest_stable_stiffness(d, B));
-    CHECK(is_stable(d, largest_passive_stiffness(d, B), B));
+    CHECK(max_passive_stiffness(d, B) < max_stable_stiffness(d, B));
+    CHECK(is_stable(d, max_passive_stiffness(d, B), B));
   }
-  CHECK(is_stable(d, 100, 10 * largest_passive_damping(d, 100)));
+  CHECK(is_stable(d, 100, 10 * max_passive_damping(d, 100)));
 }

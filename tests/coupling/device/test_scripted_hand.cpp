@@ -25,37 +25,38 @@ constexpr HandAngles kFrom{-0.3, 0.5, -0.2, 0.4, 0.3, -1}, kTo{0.4, 0.9, 0.3, -0
 // A newcomer among the hands is tested by its line here.
 struct NamedHand {
   std::string name;
-  std::function<std::shared_ptr<HandSource>()> make;
+  std::function<std::shared_ptr<OperatorMotion>()> make;
   double corner = -1;  // an instant at which it jumps
 };
 std::vector<NamedHand> all_hands() {
   const std::string trace = std::string(TWINARM_SOURCE_DIR) + "/assets/traces/synthetic_seed1.csv";
-  return {{"automatic", [] { return std::make_shared<AutomaticMotion>(HandMapping{}); }},
-          {"synthetic", [] { return std::make_shared<SyntheticOperator>(3, 4.0); }},
-          {"trace", [trace] { return std::make_shared<RecordedTrace>(trace); }},
-          {"paced",
-           [] {
-             return std::make_shared<PacedHand>(std::make_unique<SyntheticOperator>(4, 3.0), 0.15,
+  return {
+      {"automatic", [] { return std::make_shared<AutomaticMotion>(HandMapping{}); }},
+      {"synthetic", [] { return std::make_shared<SyntheticOperator>(3, 4.0); }},
+      {"trace", [trace] { return std::make_shared<RecordedTrace>(trace); }},
+      {"paced",
+       [] {
+         return std::make_shared<DelayedMotion>(std::make_unique<SyntheticOperator>(4, 3.0), 0.15,
                                                 1.2);
-           }},
-          {"step", [] { return std::make_shared<StepHand>(kFrom, kTo, 0.5, 3); }, 0.5},
-          {"chirp", [] { return std::make_shared<ChirpHand>(kFrom, HandAngles{0.1}, 0.5, 8, 2); }},
-          {"reach", [] { return std::make_shared<ReachHand>(kFrom, kTo, 0.2, 0.8); }},
-          {"gestures", [] {
-             const auto hand = std::make_shared<GestureHand>(OmniFigures{});
-             hand->axes({0.5, -0.4, 0.3, 0.2, 0.7, -1});
-             return hand;
-           }}};
+       }},
+      {"step", [] { return std::make_shared<StepMotion>(kFrom, kTo, 0.5, 3); }, 0.5},
+      {"chirp", [] { return std::make_shared<ChirpMotion>(kFrom, HandAngles{0.1}, 0.5, 8, 2); }},
+      {"reach", [] { return std::make_shared<ReachMotion>(kFrom, kTo, 0.2, 0.8); }},
+      {"gestures", [] {
+         const auto hand = std::make_shared<DesktopInput>(OmniParameters{});
+         hand->axes({0.5, -0.4, 0.3, 0.2, 0.7, -1});
+         return hand;
+       }}};
 }
 
 // The same of devices, each moved by a hand.
 struct NamedDevice {
   std::string name;
-  std::function<std::unique_ptr<HandDevice>(std::shared_ptr<HandSource>)> make;
+  std::function<std::unique_ptr<HandDevice>(std::shared_ptr<OperatorMotion>)> make;
 };
 std::vector<NamedDevice> all_devices() {
   const auto virtual_omni = [](const VirtualOmniSettings& settings) {
-    return [settings](std::shared_ptr<HandSource> hand) {
+    return [settings](std::shared_ptr<OperatorMotion> hand) {
       return std::make_unique<VirtualOmni>(hand, settings);
     };
   };
@@ -85,7 +86,7 @@ std::vector<double> story(HandDevice& device) {
 }  // namespace
 
 TEST_CASE("step, chirp and reach are what their formulas say, corners on the side asked for") {
-  const StepHand step(kFrom, kTo, 0.5, 3);
+  const StepMotion step(kFrom, kTo, 0.5, 3);
   CHECK(step.sample(0.499, 0.5).theta == kFrom);
   CHECK(step.sample(0.5, 0.499).theta == kFrom);
   CHECK(step.sample(0.5, 0.501).theta == kTo);
@@ -93,7 +94,7 @@ TEST_CASE("step, chirp and reach are what their formulas say, corners on the sid
   CHECK(step.sample(0.5, 0.501).theta_dot == std::array<double, 6>{});
 
   const HandAngles amplitude{0.1, 0, 0, 0.2, 0, 0};
-  const ChirpHand chirp(kFrom, amplitude, 1, 5, 2);
+  const ChirpMotion chirp(kFrom, amplitude, 1, 5, 2);
   // Phase: the integral of the frequency, 1 Hz to 5 Hz in 2 s; 6 turns in all, 1.5 + 0.5 in 1 s.
   CHECK(chirp.sample(2, 3).theta[0] == doctest::Approx(kFrom[0]));
   CHECK(chirp.sample(1, 2).theta[3] == doctest::Approx(kFrom[3]));
@@ -104,7 +105,7 @@ TEST_CASE("step, chirp and reach are what their formulas say, corners on the sid
   CHECK(chirp.sample(2, 1).theta_dot[0] == doctest::Approx(0.1 * 10 * std::numbers::pi));
   CHECK(chirp.sample(2, 3).theta_dot[0] == 0);
 
-  const ReachHand reach(kFrom, kTo, 0.2, 0.8);
+  const ReachMotion reach(kFrom, kTo, 0.2, 0.8);
   CHECK(reach.sample(0.1, 1).theta == kFrom);
   CHECK(reach.sample(0.6, 1).theta[0] == doctest::Approx(0.05));
   CHECK(reach.sample(0.6, 1).theta_dot[0] == doctest::Approx(1.875 * 0.7 / 0.8));  // 15/8 of mean
@@ -145,7 +146,7 @@ TEST_CASE("every device with every hand: within its ranges, time goes on, the sa
       CAPTURE(device.name);
       CAPTURE(hand.name);
       const auto one = device.make(hand.make()), other = device.make(hand.make());
-      const OmniFigures& o = one->figures();
+      const OmniParameters& o = one->figures();
       const std::vector<double> story_one = story(*one), story_other = story(*other);
       CHECK(std::memcmp(story_one.data(), story_other.data(), 8 * story_one.size()) == 0);
       bool good = true;

@@ -52,7 +52,7 @@ TEST_CASE(
   // A chirp of one slow frequency stands for even motion; the relative damper sees its velocity.
   HandAngles to = kPosture;
   to[2] += 0.02;
-  VirtualOmni omni(std::make_shared<StepHand>(kPosture, to, 0.01, 5), closed_form());
+  VirtualOmni omni(std::make_shared<StepMotion>(kPosture, to, 0.01, 5), closed_form());
   const Vector3 from = omni.truth().position;
   omni.poll(0);
   const double k = 300, b = 5, m = 0.145;
@@ -68,7 +68,7 @@ TEST_CASE(
     worst = std::max(worst, (omni.truth().position - g - u * (from - g)).norm());
   }
   CHECK(worst < 1e-12);
-  VirtualOmni slow(std::make_shared<ReachHand>(kPosture, to, 0, 4.0), closed_form());
+  VirtualOmni slow(std::make_shared<ReachMotion>(kPosture, to, 0, 4.0), closed_form());
   double lag = 0;
   for (int n = 0; n < 4000; ++n) {
     slow.poll(n * kTick);
@@ -109,7 +109,7 @@ TEST_CASE("virtual Omni: an arm that creeps takes the stylus along once its spri
   s.arm.damping = 0.5;
   HandAngles to = kPosture;
   to[2] += 0.05;
-  VirtualOmni omni(std::make_shared<ReachHand>(kPosture, to, 0, 10.0), s);
+  VirtualOmni omni(std::make_shared<ReachMotion>(kPosture, to, 0, 10.0), s);
   const Vector3 start = omni.truth().position;
   int moves = -1;
   double most = 0;
@@ -135,7 +135,7 @@ TEST_CASE("virtual Omni: with motors off and a still hand its energy never grows
     s.arm.damping = friction > 0 ? 0 : 5;
     HandAngles away = kPosture;
     away[0] += 0.7, away[2] -= 0.6;  // beyond a stop on its way
-    VirtualOmni omni(std::make_shared<StepHand>(away, kPosture, 0, 2), s);
+    VirtualOmni omni(std::make_shared<StepMotion>(away, kPosture, 0, 2), s);
     const double m = 0.145, k = 300;
     double energy = std::numeric_limits<double>::infinity();
     for (int n = 0; n < 2000; ++n) {
@@ -157,7 +157,7 @@ TEST_CASE("virtual Omni: no stiffness of the arm is too large for its steps") {
   s.arm.damping = 0;
   HandAngles to = kPosture;
   to[0] += 0.01;
-  VirtualOmni omni(std::make_shared<StepHand>(kPosture, to, 0.01, 3), s);
+  VirtualOmni omni(std::make_shared<StepMotion>(kPosture, to, 0.01, 3), s);
   double farthest = 0;
   const Vector3 from = omni.truth().position;
   for (int n = 0; n < 3000; ++n) {

@@ -17,7 +17,7 @@ TEST_CASE(
   VirtualOmniSettings s;
   HandAngles to = kPosture;
   for (double& theta : to) theta += 0.3;
-  VirtualOmni omni(std::make_shared<ReachHand>(kPosture, to, 0, 0.5), s);
+  VirtualOmni omni(std::make_shared<ReachMotion>(kPosture, to, 0, 0.5), s);
   const double count = 0.055e-3 / 0.13335;
   int values = 0;
   double last = 0;
@@ -71,7 +71,7 @@ TEST_CASE("virtual Omni: forces are taken over at its own ticks and held between
 TEST_CASE("virtual Omni: delays shift what is seen and what is felt, by their time") {
   HandAngles to = kPosture;
   for (double& theta : to) theta += 0.2;
-  const auto hand = std::make_shared<ReachHand>(kPosture, to, 0.01, 0.1);
+  const auto hand = std::make_shared<ReachMotion>(kPosture, to, 0.01, 0.1);
   VirtualOmniSettings late = closed_form();
   late.delay_to_host = 0.0073;
   late.delay_to_motors = 0.005;
@@ -97,8 +97,8 @@ TEST_CASE("virtual Omni: joints stop at their ranges, inelastically, and come aw
   HandAngles far = kPosture;
   far = {2.0, 2.5, -1.5, 3, 3, -3};
   VirtualOmniSettings s = closed_form();
-  VirtualOmni omni(std::make_shared<StepHand>(far, kPosture, 0.5, 1), s);
-  const OmniFigures& o = omni.figures();
+  VirtualOmni omni(std::make_shared<StepMotion>(far, kPosture, 0.5, 1), s);
+  const OmniParameters& o = omni.figures();
   OmniAngles goal{};
   std::copy(far.begin(), far.end(), goal.begin());
   for (int n = 0; n < 1500; ++n) {

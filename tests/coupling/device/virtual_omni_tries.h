@@ -13,8 +13,8 @@ namespace twinarm::testing {
 inline constexpr double kTick = 1e-3;
 inline constexpr HandAngles kPosture{0.2, 0.7, 0.15, 0.1, 0.6, -0.2};
 
-inline std::shared_ptr<const HandSource> resting_hand() {
-  return std::make_shared<StepHand>(kPosture, kPosture, 0, 1);
+inline std::shared_ptr<const OperatorMotion> resting_hand() {
+  return std::make_shared<StepMotion>(kPosture, kPosture, 0, 1);
 }
 // No friction, no counts: what has a closed form.
 inline VirtualOmniSettings closed_form() {
@@ -28,7 +28,7 @@ inline VirtualOmniSettings not_held(VirtualOmniSettings s) {
   return s;
 }
 // The motors' torques that hold a force on the stylus' point, J^T F.
-inline std::array<double, 3> omni_torque(const OmniFigures& omni, const OmniAngles& theta,
+inline std::array<double, 3> omni_torque(const OmniParameters& omni, const OmniAngles& theta,
                                          const Vector3& force) {
   const Vector3 tau = omni_jacobian(omni, theta).transpose() * force;
   return {tau.x(), tau.y(), tau.z()};

@@ -16,20 +16,20 @@ namespace {
 const std::string kHeader =
     "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad],button\n";
 
-std::vector<Fault> faults_of(const fs::path& file) {
+std::vector<Diagnostic> faults_of(const fs::path& file) {
   try {
     RecordedTrace trace(file);
   } catch (const InputError& error) {
-    for (const Fault& fault : error.faults()) {
+    for (const Diagnostic& fault : error.faults()) {
       CHECK(fault.file == file.string());
-      CHECK_FALSE(fault.rule.empty());
+      CHECK_FALSE(fault.problem.empty());
     }
     return error.faults();
   }
   return {};
 }
-bool names(const std::vector<Fault>& faults, int line, const std::string& word) {
-  for (const Fault& fault : faults)
+bool names(const std::vector<Diagnostic>& faults, int line, const std::string& word) {
+  for (const Diagnostic& fault : faults)
     if (fault.line == line && to_string(fault).find(word) != std::string::npos) return true;
   return false;
 }
@@ -142,7 +142,7 @@ TEST_CASE("a trace with a hundred bad lines names the first twenty and counts th
   for (int n = 0; n < 100; ++n) body += "x,0,0,0,0,0,0,0\n";
   const auto faults = faults_of(folder.write("trace.csv", body));
   CHECK(faults.size() == 21);
-  CHECK(faults.back().rule.find("80") != std::string::npos);
+  CHECK(faults.back().problem.find("80") != std::string::npos);
 }
 
 TEST_CASE("a trace that cannot be written is refused and leaves nothing behind") {
@@ -208,7 +208,7 @@ TEST_CASE("a trace says its rate, whatever it is, and nothing more when it is ev
     write_trace(SyntheticOperator(2, 3), rate, (folder.path() / "even.csv"));
     const TraceQuality quality = RecordedTrace(folder.path() / "even.csv").quality();
     CHECK(quality.rate == doctest::Approx(rate).epsilon(1e-3));
-    CHECK(quality.largest_gap == doctest::Approx(1 / rate).epsilon(1e-3));
+    CHECK(quality.max_gap == doctest::Approx(1 / rate).epsilon(1e-3));
     CHECK(quality.jitter < 1e-6);  // six decimals of a second in the file
     CHECK(quality.warnings.empty());
   }
@@ -224,7 +224,7 @@ TEST_CASE("gaps and jitter of a trace are measured and said") {
   }
   const TraceQuality quality = RecordedTrace(folder.write("trace.csv", body)).quality();
   CHECK(quality.interval == doctest::Approx(0.014));
-  CHECK(quality.largest_gap == doctest::Approx(0.504));
+  CHECK(quality.max_gap == doctest::Approx(0.504));
   CHECK(quality.gap_start == doctest::Approx(2.0));
   // Of 198 intervals without the gap 99 are the median and 99 are 8 ms less.
   CHECK(quality.jitter == doctest::Approx(0.008 * std::sqrt(99.0 / 198.0)).epsilon(1e-6));

@@ -25,7 +25,7 @@ ModelBuilder started() {
   builder.add_body("arm", 0, "shoulder", JointType::revolute, {}, kAxis, kBody);
   return builder;
 }
-std::vector<Fault> faults_of(const ModelBuilder& builder) {
+std::vector<Diagnostic> faults_of(const ModelBuilder& builder) {
   try {
     builder.build();
   } catch (const InputError& error) {
@@ -33,16 +33,17 @@ std::vector<Fault> faults_of(const ModelBuilder& builder) {
   }
   return {};
 }
-bool tells(const std::vector<Fault>& faults, const std::string& where, const std::string& words) {
-  return std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+bool tells(const std::vector<Diagnostic>& faults, const std::string& where,
+           const std::string& words) {
+  return std::any_of(faults.begin(), faults.end(), [&](const Diagnostic& fault) {
     return fault.where.find(where) != std::string::npos &&
-           (fault.rule + "; " + fault.remedy).find(words) != std::string::npos;
+           (fault.problem + "; " + fault.fix).find(words) != std::string::npos;
   });
 }
 bool only_fault(const ModelBuilder& builder, const std::string& where, const std::string& words) {
-  const std::vector<Fault> faults = faults_of(builder);
+  const std::vector<Diagnostic> faults = faults_of(builder);
   std::string all;
-  for (const Fault& fault : faults) all += to_string(fault) + "\n";
+  for (const Diagnostic& fault : faults) all += to_string(fault) + "\n";
   INFO(all);
   CHECK(faults.size() == 1);
   return faults.size() == 1 && tells(faults, where, words);

@@ -27,7 +27,7 @@ TEST_CASE("the first bad quantity is the cause: pass, body and name") {
     CAPTURE(i);
     State<double> x = good;
     x.qd[model.iv[i]] = nan;
-    BadQuantity bad = found(model, x, none);
+    NonFiniteField bad = found(model, x, none);
     CHECK(bad.body == i);
     CHECK(bad.pass == 1);
     CHECK(std::string(bad.name) == "v");

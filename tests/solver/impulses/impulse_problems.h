@@ -49,27 +49,30 @@ inline ImpulseProblem random_problem(unsigned seed, int bodies, int constraints,
   Matrix3 axes = Matrix3::Identity();
   for (int i = 0; i < constraints; ++i) {
     const int kind = contacts_only ? 0 : i % 5, of = i - i % 5;
-    const ImpulseLaw law = kind == 1   ? ImpulseLaw::disc
-                           : kind == 2 ? ImpulseLaw::at_least
-                           : kind == 3 ? ImpulseLaw::within
-                           : kind == 4 ? ImpulseLaw::equal
-                                       : ImpulseLaw::coulomb;
-    const int rows = law == ImpulseLaw::coulomb ? 3 : law == ImpulseLaw::disc ? 1 + of % 2 : 1;
+    const ConstraintType law = kind == 1   ? ConstraintType::friction_disc
+                               : kind == 2 ? ConstraintType::unilateral
+                               : kind == 3 ? ConstraintType::box
+                               : kind == 4 ? ConstraintType::bilateral
+                                           : ConstraintType::coulomb_cone;
+    const int rows = law == ConstraintType::coulomb_cone    ? 3
+                     : law == ConstraintType::friction_disc ? 1 + of % 2
+                                                            : 1;
     int a = random.integer(0, bodies - 1), b = random.integer(-1, bodies - 1);
     if (a == b) b = ImpulseConstraint::no_tree;
-    if (law == ImpulseLaw::disc)  // of the contact before it
+    if (law == ConstraintType::friction_disc)  // of the contact before it
       a = problem.constraints()[of].tree[0], b = problem.constraints()[of].tree[1];
     else
       axes = random.rotation();
     ImpulseConstraint& c = problem.add(law, rows, a, b);
     for (int side = 0; side < 2; ++side)
-      add_rows(problem, c, side, axes, random.vector(0.2), law == ImpulseLaw::disc);
+      add_rows(problem, c, side, axes, random.vector(0.2), law == ConstraintType::friction_disc);
     c.mu = random.uniform(0.1, 0.9);
     c.low = -random.uniform(0, 0.1);
     c.high = random.uniform(0, 0.1);
     c.radius = 0.005;
     c.of = of;
-    if (law == ImpulseLaw::coulomb || law == ImpulseLaw::at_least) c.b[0] = random.uniform(0, 0.2);
+    if (law == ConstraintType::coulomb_cone || law == ConstraintType::unilateral)
+      c.b[0] = random.uniform(0, 0.2);
   }
   return problem;
 }
@@ -96,7 +99,7 @@ inline ImpulseProblem struck_pyramid(unsigned seed, int levels) {
   Matrix3 axes;
   axes << 0, 1, 0, 0, 0, 1, 1, 0, 0;  // z, x, y
   const auto touch = [&](int a, int b, double x, double y, double z) {
-    ImpulseConstraint& c = problem.add(ImpulseLaw::coulomb, 3, a, b);
+    ImpulseConstraint& c = problem.add(ConstraintType::coulomb_cone, 3, a, b);
     for (int side = 0; side < 2; ++side)
       if (const int t = c.tree[side]; t != ImpulseConstraint::no_tree)
         add_rows(problem, c, side, axes, {x - at[t][0], y, z - at[t][1]}, false);
@@ -140,7 +143,8 @@ inline ImpulseProblem read_problem(const std::string& name) {
     int rows = 0, a = 0, b = 0, of = 0;
     in >> rows >> a >> b >> of;
     const bool disc = word == "disc";
-    ImpulseConstraint& c = problem.add(disc ? ImpulseLaw::disc : ImpulseLaw::coulomb, rows, a, b);
+    ImpulseConstraint& c = problem.add(
+        disc ? ConstraintType::friction_disc : ConstraintType::coulomb_cone, rows, a, b);
     c.of = of;
     in >> (disc ? c.radius : c.mu);
     for (double& x : c.b) in >> x;
@@ -159,29 +163,29 @@ inline double breach(const ImpulseProblem& problem, const ImpulseConstraint& c) 
   const auto at_most_zero = [&](double x) { worst = std::max(worst, x); };
   const auto zero = [&](double x) { worst = std::max(worst, std::abs(x)); };
   switch (c.law) {
-    case ImpulseLaw::equal:
+    case ConstraintType::bilateral:
       for (int r = 0; r < c.rows; ++r) zero(c.u[r]);
       break;
-    case ImpulseLaw::coulomb:
+    case ConstraintType::coulomb_cone:
       at_most_zero(hold - c.mu * c.p[0]);
       // What slips, slips against the force, which is then as large as it may be.
       zero(c.p[1] * c.u[1] + c.p[2] * c.u[2] + c.mu * c.p[0] * slip);
       [[fallthrough]];
-    case ImpulseLaw::at_least:
+    case ConstraintType::unilateral:
       at_most_zero(-c.u[0]), at_most_zero(-c.p[0]), zero(c.u[0] * c.p[0]);
       break;
-    case ImpulseLaw::within:
+    case ConstraintType::box:
       at_most_zero(c.low - c.p[0]), at_most_zero(c.p[0] - c.high);
       zero(std::max(0.0, c.u[0]) * (c.p[0] - c.low) + std::min(0.0, c.u[0]) * (c.p[0] - c.high));
       break;
-    case ImpulseLaw::disc: {
+    case ConstraintType::friction_disc: {
       const double radius = c.radius * problem.constraints()[c.of].p[0];
       const double speed = std::hypot(c.u[0], c.rows > 1 ? c.u[1] : 0);
       at_most_zero(std::hypot(c.p[0], c.rows > 1 ? c.p[1] : 0) - radius);
       zero(c.p[0] * c.u[0] + (c.rows > 1 ? c.p[1] * c.u[1] : 0) + radius * speed);
       break;
     }
-    case ImpulseLaw::compliant:
+    case ConstraintType::compliant:
       break;
   }
   return worst / (1 + std::abs(c.p[0]) + hold);

@@ -76,7 +76,7 @@ TEST_CASE("the blocks of the trees are the mass matrix, and their rows the Jacob
     Workspace<double> w(model);
     const Eigen::MatrixXd M = mass_matrix(model, x);
     kinematics(model, x, w);
-    ModelTrees trees(model);
+    KinematicTrees trees(model);
     ImpulseProblem problem;
     trees.add_to(problem, nullptr, w);
     for (std::size_t a = 0; a < model.nv; ++a)
@@ -126,7 +126,8 @@ TEST_CASE("a small body that rolls fast is solved to 1e-11 m/s by rounds, as a r
     const Vector3 r = radius * random.vector(1).normalized(), w = random.vector(30);
     const Vector3 v =
         -w.cross(r) + 1e-4 * Vector3(random.uniform(-1, 1), random.uniform(-1, 1), -5);
-    ImpulseConstraint& c = problem.add(ImpulseLaw::coulomb, 3, ImpulseConstraint::no_tree, 0);
+    ImpulseConstraint& c =
+        problem.add(ConstraintType::coulomb_cone, 3, ImpulseConstraint::no_tree, 0);
     c.mu = 1.5;
     Eigen::Matrix<double, 3, 6> J;
     for (int row = 0; row < 3; ++row) {
@@ -161,7 +162,8 @@ TEST_CASE("a point that slides on is found in a few steps, however hard its gues
     problem.add_tree(3);
     for (int k = 0; k < 3; ++k) problem.M(0)[4 * k] = mass;
     problem.v0(0)[0] = slides, problem.v0(0)[2] = -falls;
-    ImpulseConstraint& c = problem.add(ImpulseLaw::coulomb, 3, 0, ImpulseConstraint::no_tree);
+    ImpulseConstraint& c =
+        problem.add(ConstraintType::coulomb_cone, 3, 0, ImpulseConstraint::no_tree);
     c.mu = mu;
     problem.J(c, 0)[2] = problem.J(c, 0)[3] = problem.J(c, 0)[7] = 1;
     c.p = {factor * mass * falls, -mu * factor * mass * falls, 0};

@@ -18,7 +18,8 @@ ImpulseProblem point_on_plane(double mu, std::array<double, 3> v) {
   ImpulseProblem problem;
   problem.add_tree(3);
   for (int k = 0; k < 3; ++k) problem.M(0)[4 * k] = 2, problem.v0(0)[k] = v[k];
-  ImpulseConstraint& c = problem.add(ImpulseLaw::coulomb, 3, 0, ImpulseConstraint::no_tree);
+  ImpulseConstraint& c =
+      problem.add(ConstraintType::coulomb_cone, 3, 0, ImpulseConstraint::no_tree);
   c.mu = mu;
   problem.J(c, 0)[2] = problem.J(c, 0)[3] = problem.J(c, 0)[7] = 1;
   return problem;
@@ -179,7 +180,7 @@ TEST_CASE("a bounce in a groove: p = m / (1 - mu), and none from mu = 1 on") {
   for (const double mu : {0.0, 0.5, 0.9, 1.1, 3.0}) {
     CAPTURE(mu);
     ImpulseProblem problem = point_on_plane(std::max(mu, 1e-12), {0, 0, 0});
-    problem.add(ImpulseLaw::coulomb, 3, 0, ImpulseConstraint::no_tree);
+    problem.add(ConstraintType::coulomb_cone, 3, 0, ImpulseConstraint::no_tree);
     ImpulseConstraint &a = problem.constraints()[0], &b = problem.constraints()[1];
     b.mu = a.mu;
     a.b[0] = b.b[0] = -1;

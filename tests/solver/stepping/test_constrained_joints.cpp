@@ -108,7 +108,7 @@ TEST_CASE(
 TEST_CASE(
     "limits: what starts beyond one is pushed back without speed, a fifth of the rest a step") {
   constexpr double g = 9.81, beyond = 1e-3;
-  Slider s(0, kFar, g, {}, {.keep_account = true});
+  Slider s(0, kFar, g, {}, {.enable_constraint_work = true});
   s.start(-beyond, 0);
   double work = 0, wanted = -beyond;
   for (int n = 0; n < 100; ++n) {
@@ -212,7 +212,7 @@ TEST_CASE(
       const Model<double> model = builder.build();
       JointLimits limits(model);
       limits.add(1, -kFar, end);
-      Simulation simulation(model, State<double>(model), {.keep_account = true});
+      Simulation simulation(model, State<double>(model), {.enable_constraint_work = true});
       simulation.add(limits);
       if (located) simulation.locate_events();
       const double s_f = carried ? -1 : -2;

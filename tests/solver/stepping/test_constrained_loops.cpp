@@ -35,8 +35,8 @@ struct Pendulums {
   }
   Pendulums(const Pendulums&) = delete;
   std::string memory() {
-    Memory memory;
-    simulation.visit_memory(memory);
+    StateArchive memory;
+    simulation.serialize(memory);
     return memory.bytes();
   }
 
@@ -80,9 +80,9 @@ TEST_CASE("loops: once removed, steps under constraints are those without them")
 TEST_CASE("loops: memory of a simulation with other loops is refused") {
   Pendulums one({ball()}), other({rod()});
   for (Pendulums* each : {&one, &other}) CHECK(each->simulation.step(1e-3).ok());
-  Memory memory(one.memory()), own(other.memory());
-  CHECK_THROWS_AS(other.simulation.visit_memory(memory), std::runtime_error);
-  CHECK_NOTHROW(other.simulation.visit_memory(own));
+  StateArchive memory(one.memory()), own(other.memory());
+  CHECK_THROWS_AS(other.simulation.serialize(memory), std::runtime_error);
+  CHECK_NOTHROW(other.simulation.serialize(own));
   CHECK(own.at_end());
 }
 
@@ -111,7 +111,7 @@ TEST_CASE("loops: a step under constraints reports by how much one is open") {
     for (int n = 1; n <= 3; ++n) {
       const StepReport report = simulation.step(1e-3);
       const double t = simulation.state().t;
-      CHECK(report.loops_open == doctest::Approx(t * t).epsilon(1e-12));
+      CHECK(report.loop_position_error == doctest::Approx(t * t).epsilon(1e-12));
       CHECK(report.converged);
       CHECK_FALSE(report.ok());
     }

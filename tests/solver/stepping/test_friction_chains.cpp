@@ -125,7 +125,7 @@ TEST_CASE("the box problem: pivoting meets all conditions up to 40 dofs, Gauss-S
     const MatrixXd L =
         MatrixXd::NullaryExpr(index(n), index(n), [&] { return random.uniform(-1, 1); });
     const MatrixXd B = L * L.transpose() + 0.1 * MatrixXd::Identity(index(n), index(n));
-    BoxProblem box(n);
+    BoxLcp box(n);
     for (std::size_t i = 0; i < n; ++i) {
       box.rows.push_back({random.uniform(-5, 5), -random.uniform(0, 1), random.uniform(0, 1)});
       for (std::size_t j = 0; j < n; ++j) box.B(i, j) = B(index(i), index(j));

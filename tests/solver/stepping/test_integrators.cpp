@@ -22,7 +22,7 @@ constexpr int kManySteps = 100000;  // sanitizers are slow
 
 // A torque about the pendulum's hinge, by its angle and rate.
 template <class Law>
-struct HingeTorque final : ForceSource, Rewindable {
+struct HingeTorque final : ForceSource, Checkpointable {
   Law law;
   explicit HingeTorque(Law l) : law(l) {}
   void add_forces(const State<double>& x, const Kinematics&,

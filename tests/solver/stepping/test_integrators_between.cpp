@@ -24,14 +24,14 @@ struct Implicit final : ForceSource {
 };
 
 // A torque that grows with every step that was begun: memory.
-struct Counter final : ForceSource, Rewindable {
+struct Counter final : ForceSource, Checkpointable {
   int steps = 0;
   void begin_step(const Kinematics&, double, double) noexcept override { ++steps; }
   void add_forces(const State<double>&, const Kinematics&,
                   Forces<double>& forces) noexcept override {
     forces.tau.back() += 0.01 * steps;
   }
-  void visit_memory(Memory& memory) override { memory.visit(steps); }
+  void serialize(StateArchive& memory) override { memory.visit(steps); }
 };
 
 }  // namespace

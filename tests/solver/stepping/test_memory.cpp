@@ -17,13 +17,13 @@ using namespace twinarm::testing;
 namespace {
 
 // Pushes harder with every step that was begun.
-struct Growing final : ForceSource, Rewindable {
+struct Growing final : ForceSource, Checkpointable {
   long steps = 0;
   void begin_step(const Kinematics&, double, double) noexcept override { ++steps; }
   void add_forces(const State<double>&, const Kinematics&, Forces<double>& f) noexcept override {
     f.tau.back() += 0.01 * static_cast<double>(steps);
   }
-  void visit_memory(Memory& memory) override { memory.visit(steps); }
+  void serialize(StateArchive& memory) override { memory.visit(steps); }
 };
 
 Model<double> rubbing_chain() {
@@ -53,13 +53,13 @@ struct Run {
     for (int n = 0; n < count; ++n) REQUIRE(simulation.step(4e-3).ok());
   }
   std::string remembered() {
-    Memory memory;
-    simulation.visit_memory(memory);
+    StateArchive memory;
+    simulation.serialize(memory);
     return memory.bytes();
   }
   void take_back(const std::string& bytes) {
-    Memory memory(bytes);
-    simulation.visit_memory(memory);
+    StateArchive memory(bytes);
+    simulation.serialize(memory);
     CHECK(memory.at_end());
   }
   Growing source;
@@ -120,31 +120,31 @@ TEST_CASE("memory: what is cut short anywhere, or is of another mechanism, is re
     one.steps(60);
     const std::string bytes = one.remembered();
     for (std::size_t size = 0; size < bytes.size(); ++size) {
-      Memory memory(bytes.substr(0, size));
-      CHECK_THROWS_AS(one.simulation.visit_memory(memory), std::runtime_error);
+      StateArchive memory(bytes.substr(0, size));
+      CHECK_THROWS_AS(one.simulation.serialize(memory), std::runtime_error);
     }
   }
   Random random(62);
   const Model<double> longer = build(random_bodies(random, 5, {JointType::revolute}));
   Run one(model, Integrator::rk4, false, false), other(longer, Integrator::rk4, false, false);
-  Memory memory(one.remembered());
-  CHECK_THROWS_AS(other.simulation.visit_memory(memory), std::runtime_error);
+  StateArchive memory(one.remembered());
+  CHECK_THROWS_AS(other.simulation.serialize(memory), std::runtime_error);
 }
 
 TEST_CASE("memory: what it holds comes back as it was, and sizes that cannot be are not believed") {
-  const auto visit = [](Memory& memory, auto&... values) { (memory.visit(values), ...); };
+  const auto visit = [](StateArchive& memory, auto&... values) { (memory.visit(values), ...); };
   std::string text = "a\0b";
   bool yes = true;
   Vector3 v(1, -2, 3e300);
   std::vector<double> numbers{1, 2, 3}, none;
-  Memory written;
+  StateArchive written;
   visit(written, text, yes, v, numbers, none);
   CHECK_FALSE(written.reads());
   std::string text_back;
   bool yes_back = false;
   Vector3 v_back = Vector3::Zero();
   std::vector<double> numbers_back, none_back{7};
-  Memory read(written.bytes());
+  StateArchive read(written.bytes());
   visit(read, text_back, yes_back, v_back, numbers_back, none_back);
   CHECK(read.at_end());
   CHECK(text_back == text);
@@ -154,18 +154,18 @@ TEST_CASE("memory: what it holds comes back as it was, and sizes that cannot be 
   CHECK(none_back.empty());
 
   const std::string huge(8, '\xff');  // a size of 2^64 - 1
-  Memory first(huge), second(huge);
+  StateArchive first(huge), second(huge);
   CHECK_THROWS_AS(first.visit(numbers_back), std::runtime_error);
   CHECK_THROWS_AS(second.visit(text_back), std::runtime_error);
-  Memory three;
+  StateArchive three;
   three.visit(numbers);
   std::vector<double> two(2);
-  Memory to_two(three.bytes());
+  StateArchive to_two(three.bytes());
   CHECK_THROWS_AS(to_two.visit_fixed(two), std::runtime_error);
   for (int index : {-1, 3, 4}) {
-    Memory place;
+    StateArchive place;
     place.visit(index);
-    Memory back(place.bytes());
+    StateArchive back(place.bytes());
     CHECK_THROWS_AS(back.visit_index(index, 3), std::runtime_error);
   }
 }

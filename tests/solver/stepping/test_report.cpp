@@ -47,8 +47,8 @@ TEST_CASE("a torque that is not a number is reported with the joint it acts on")
     simulation.add(torque);
     const StepReport report = simulation.step(1e-3);
     CHECK_FALSE(report.finite);
-    CHECK(report.bad_body == joint);
-    CHECK(std::string(report.bad_field) == "tau");
+    CHECK(report.nonfinite_body == joint);
+    CHECK(std::string(report.nonfinite_field) == "tau");
   }
 }
 
@@ -78,8 +78,8 @@ TEST_CASE("a coordinate that overflows is reported with its joint") {
   Simulation simulation(model, x);
   const StepReport report = simulation.step(1);
   CHECK_FALSE(report.finite);
-  CHECK(report.bad_body == 1);
-  CHECK(std::string(report.bad_field ? report.bad_field : "none") == "q");
+  CHECK(report.nonfinite_body == 1);
+  CHECK(std::string(report.nonfinite_field ? report.nonfinite_field : "none") == "q");
 }
 
 TEST_CASE("a tolerance that is not positive, or no number, is refused") {
@@ -144,8 +144,8 @@ TEST_CASE("a source of constraints is refused where it cannot do what is asked o
   CHECK_THROWS_AS(simulation.set_integrator(Integrator::rk4), std::invalid_argument);
   CHECK_THROWS_AS(simulation.locate_events(), std::invalid_argument);
   CHECK_THROWS_AS(side_step(simulation, 1e-3), std::invalid_argument);
-  Memory memory;
-  CHECK_THROWS_AS(simulation.visit_memory(memory), std::invalid_argument);
+  StateArchive memory;
+  CHECK_THROWS_AS(simulation.serialize(memory), std::invalid_argument);
   located.locate_events();
   CHECK_THROWS_AS(located.add(plain), std::invalid_argument);
 }
@@ -197,13 +197,13 @@ TEST_CASE("a law that would open a loop is refused, and the run goes on by the o
 namespace {
 
 // Pushes with every moment that was begun; they can be taken back.
-struct Counting final : ForceSource, Rewindable {
+struct Counting final : ForceSource, Checkpointable {
   double begun = 0;
   void begin_step(const Kinematics&, double, double) noexcept override { ++begun; }
   void add_forces(const State<double>&, const Kinematics&, Forces<double>& f) noexcept override {
     f.tau[0] += begun;
   }
-  void visit_memory(Memory& memory) override { memory.visit(begun); }
+  void serialize(StateArchive& memory) override { memory.visit(begun); }
 };
 
 }  // namespace
@@ -219,7 +219,7 @@ TEST_CASE("what acts at another state is shown by a copy, and the run is left as
   Forces<double> pushed(model);
   pushed.tau[0] = 1;
   aba(model, elsewhere, pushed, w);
-  const Mechanism there = evaluate_at(simulation, elsewhere);
+  const IntegrationState there = evaluate_at(simulation, elsewhere);
   CHECK(there.x.q == elsewhere.q);
   CHECK(there.x.qd == elsewhere.qd);
   CHECK(there.w.qdd == w.qdd);

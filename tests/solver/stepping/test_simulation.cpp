@@ -117,14 +117,14 @@ TEST_CASE("a torque that is not a number is reported in its step and in all late
       simulation.set_integrator(integrator);
       const StepReport good = simulation.step(1e-3);
       CHECK(good.finite);
-      CHECK(good.bad_body == 0);
-      CHECK(good.bad_field == nullptr);
+      CHECK(good.nonfinite_body == 0);
+      CHECK(good.nonfinite_field == nullptr);
       torque.value = bad;
       for (int n = 0; n < 3; ++n) {
         const StepReport report = simulation.step(1e-3);
         CHECK_FALSE(report.finite);
-        CHECK(report.bad_body > 0);
-        CHECK(report.bad_field != nullptr);
+        CHECK(report.nonfinite_body > 0);
+        CHECK(report.nonfinite_field != nullptr);
         torque.value = 0;  // what went wrong stays wrong: nothing is reset
       }
     }

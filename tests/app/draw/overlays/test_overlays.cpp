@@ -10,8 +10,8 @@
 namespace twinarm {
 namespace {
 
-Stage stage_at(const SceneModel& scene, const Moment& moment) {
-  Stage stage = make_stage(scene);
+SceneView stage_at(const SceneModel& scene, const Snapshot& moment) {
+  SceneView stage = make_stage(scene);
   look_ahead(stage, moment);
   settle(stage);
   measure(stage, moment, Measured::of_picture);
@@ -19,7 +19,7 @@ Stage stage_at(const SceneModel& scene, const Moment& moment) {
   return stage;
 }
 
-std::vector<Instance> instances_of(Stage& stage, const Moment& moment, const char* overlay) {
+std::vector<Instance> instances_of(SceneView& stage, const Snapshot& moment, const char* overlay) {
   draw(stage, moment, {});
   const std::size_t bodies = stage.list.instances.size();
   draw(stage, moment, {overlay});
@@ -36,8 +36,8 @@ mass = 1.7
 position = [1, 2, 3]
 orientation = [0.5, 0.5, 0.5, 0.5]
 )");
-  const Moment moment = moment_of(scene.model, scene.start);
-  Stage stage = stage_at(scene, moment);
+  const Snapshot moment = moment_of(scene.model, scene.start);
+  SceneView stage = stage_at(scene, moment);
   const auto found = instances_of(stage, moment, "inertia");
   REQUIRE(found.size() == 1);
   CHECK((found[0].X_WM.p - Vector3(1, 2, 3)).norm() < 1e-12);
@@ -61,7 +61,7 @@ shape = { box = { size = [2, 2, 2] } }
 mass = 1
 position = [0, 0, 1]
 )");
-  Moment moment = moment_of(scene.model, scene.start);
+  Snapshot moment = moment_of(scene.model, scene.start);
   for (const double x : {-1.0, 1.0}) {
     ShownContact contact;
     contact.b = 1;
@@ -71,7 +71,7 @@ position = [0, 0, 1]
     contact.force_W = Vector3(0, 0, x < 0 ? 1.0 : 3.0);  // of 4 in all, at x = 0.5
     moment.contacts.push_back(contact);
   }
-  Stage stage = stage_at(scene, moment);
+  SceneView stage = stage_at(scene, moment);
   const auto found = instances_of(stage, moment, "forces");
   REQUIRE(found.size() == 2);  // shaft and head
   CHECK((found[0].X_WM.p - Vector3(0.5, 0, 0)).norm() < 1e-12);
@@ -89,8 +89,8 @@ name = "ball"
 shape = { sphere = { radius = 0.1 } }
 mass = 1
 )");
-  const Moment moment = moment_of(scene.model, scene.start);
-  Stage stage = stage_at(scene, moment);
+  const Snapshot moment = moment_of(scene.model, scene.start);
+  SceneView stage = stage_at(scene, moment);
   for (const Overlay& overlay : all_overlays()) {
     CAPTURE(overlay.name);
     for (const Instance& instance : instances_of(stage, moment, overlay.name)) {
@@ -108,13 +108,13 @@ shape = { sphere = { radius = 0.4 } }
 mass = 1
 position = [0, 0, 0.4]
 )");
-  Moment moment = moment_of(scene.model, scene.start);
-  Stage none = stage_at(scene, moment);
+  Snapshot moment = moment_of(scene.model, scene.start);
+  SceneView none = stage_at(scene, moment);
   CHECK(instances_of(none, moment, "device").empty());
   moment.hands.push_back({});
   const auto ball_of_stylus = [&](const std::array<double, 6>& theta) {
     moment.hands[0].theta = theta;
-    Stage stage = stage_at(scene, moment);
+    SceneView stage = stage_at(scene, moment);
     const auto found = instances_of(stage, moment, "device");
     REQUIRE(found.size() > 6);
     for (const Instance& part : found) CHECK(part.X_WM.p.x() < -0.4);
@@ -133,9 +133,9 @@ position = [0, 0, 0.4]
 }
 
 TEST_CASE("overlays: all misspelt names are told at once") {
-  const std::vector<Fault> faults = faults_of([] { parse_overlays("forces,contcts,sprngs"); });
+  const std::vector<Diagnostic> faults = faults_of([] { parse_overlays("forces,contcts,sprngs"); });
   REQUIRE(faults.size() == 2);
-  CHECK(faults[0].remedy.find("contacts") != std::string::npos);
+  CHECK(faults[0].fix.find("contacts") != std::string::npos);
   CHECK(parse_overlays("none").empty());
   CHECK(parse_overlays("all").size() == all_overlays().size());
   CHECK(parse_overlays("forces,contacts") == std::vector<std::string>{"forces", "contacts"});

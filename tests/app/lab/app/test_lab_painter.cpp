@@ -33,7 +33,7 @@ struct Painted {
   explicit Painted(const std::string& text)
       : session(built_from(text), gallery),
         painter(session, audience, gallery,
-                [this](ClientId client, LabPainter::Channel channel, Bytes bytes, bool) {
+                [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes, bool) {
                   if (client == 1)
                     take(channel, *bytes);
                   else
@@ -48,10 +48,10 @@ struct Painted {
     painter.end();
   }
 
-  void take(LabPainter::Channel channel, const std::string& bytes) {
+  void take(MessageStreamer::Channel channel, const std::string& bytes) {
     const std::lock_guard lock(mutex);
-    if (channel == LabPainter::state_channel) ++states_;
-    if (channel == LabPainter::frame_channel) frames_.push_back(read(bytes));
+    if (channel == MessageStreamer::state_channel) ++states_;
+    if (channel == MessageStreamer::frame_channel) frames_.push_back(read(bytes));
   }
   static SentFrame read(const std::string& bytes) {
     SentFrame frame;
@@ -62,14 +62,15 @@ struct Painted {
     std::memcpy(&frame.flags, bytes.data() + 44, 4);
     return frame;
   }
-  void take_as_newcomer(ClientId client, LabPainter::Channel channel, const std::string& bytes) {
+  void take_as_newcomer(ClientId client, MessageStreamer::Channel channel,
+                        const std::string& bytes) {
     const std::lock_guard lock(mutex);
     told_newcomers_[client].push_back(
-        {channel, channel == LabPainter::frame_channel ? read(bytes).step : 0});
+        {channel, channel == MessageStreamer::frame_channel ? read(bytes).step : 0});
   }
   // Of each: what it was sent, a frame with its step.
-  std::map<ClientId, std::vector<std::pair<LabPainter::Channel, std::uint64_t>>> told_newcomers()
-      const {
+  std::map<ClientId, std::vector<std::pair<MessageStreamer::Channel, std::uint64_t>>>
+  told_newcomers() const {
     const std::lock_guard lock(mutex);
     return told_newcomers_;
   }
@@ -92,7 +93,7 @@ struct Painted {
     bool is_done = false;
     for (int n = 0; n < 2; ++n) {  // the first time it may be on its way past
       is_done = false;
-      painter.ask([&](LabPainter&) {
+      painter.ask([&](MessageStreamer&) {
         const std::lock_guard lock(mutex);
         is_done = true;
       });
@@ -107,10 +108,11 @@ struct Painted {
   mutable std::mutex mutex;
   std::vector<SentFrame> frames_;
   std::size_t states_ = 0;
-  std::map<ClientId, std::vector<std::pair<LabPainter::Channel, std::uint64_t>>> told_newcomers_;
-  Audience audience;
+  std::map<ClientId, std::vector<std::pair<MessageStreamer::Channel, std::uint64_t>>>
+      told_newcomers_;
+  Clients audience;
   LabSession session;
-  LabPainter painter;
+  MessageStreamer painter;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -121,12 +123,12 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 TEST_CASE("lab frames: so many a second, two at once after a pause, and nothing is made up for") {
   using std::chrono::microseconds;
-  const Allowance::Time start = Allowance::Time{} + std::chrono::hours(1);
+  const RateLimiter::Time start = RateLimiter::Time{} + std::chrono::hours(1);
   const auto sent = [&](int every_us, int count) {
-    Allowance allowance;
+    RateLimiter allowance;
     int went = 0;
     for (int n = 0; n < count; ++n) {
-      const Allowance::Time now = start + n * microseconds(every_us);
+      const RateLimiter::Time now = start + n * microseconds(every_us);
       if (allowance.wait(now) > 0) continue;
       allowance.take(now, 50);
       ++went;
@@ -136,13 +138,13 @@ TEST_CASE("lab frames: so many a second, two at once after a pause, and nothing 
   CHECK(sent(25'000, 400) == 400);  // 40 a second: all
   CHECK(sent(20'000, 500) == 500);
   CHECK(sent(1'000, 10'000) == 501);  // 1000 a second, for 10 s
-  Allowance allowance;
+  RateLimiter allowance;
   allowance.take(start, 50);
   CHECK(allowance.wait(start) == 0);  // the second of two
   allowance.take(start, 50);
   CHECK(allowance.wait(start) == doctest::Approx(0.02));
   CHECK(allowance.wait(start + microseconds(15'000)) == doctest::Approx(0.005));
-  const Allowance::Time later = start + std::chrono::seconds(9);
+  const RateLimiter::Time later = start + std::chrono::seconds(9);
   allowance.take(later, 50);
   allowance.take(later, 50);
   CHECK(allowance.wait(later) == doctest::Approx(0.02));
@@ -214,17 +216,17 @@ TEST_CASE("lab painter: a newcomer is told the scene first, and each frame once"
            std::ranges::all_of(told, [](const auto& entry) { return entry.second.size() > 8; });
   }));
   for (const auto& [client, messages] : lab.told_newcomers()) {
-    CHECK(messages.front().first == LabPainter::scene_channel);
+    CHECK(messages.front().first == MessageStreamer::scene_channel);
     std::set<std::uint64_t> steps;
     for (const auto& [channel, step] : messages)
-      if (channel == LabPainter::frame_channel) CHECK(steps.insert(step).second);
+      if (channel == MessageStreamer::frame_channel) CHECK(steps.insert(step).second);
   }
 }
 
 TEST_CASE("lab painter: a failure while it draws is shown as an error, and frames go on") {
   Painted lab(kSlowlyDriven);
   for (int n = 0; n < 2; ++n)
-    lab.painter.ask([](LabPainter&) { throw std::runtime_error("no such mesh"); });
+    lab.painter.ask([](MessageStreamer&) { throw std::runtime_error("no such mesh"); });
   REQUIRE(comes_true([&] { return !lab.status().notes.empty(); }));
   lab.settle();
   const std::vector<LabNote> notes = lab.status().notes;

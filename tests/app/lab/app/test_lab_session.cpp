@@ -88,7 +88,7 @@ TEST_CASE("lab session: of two changes to one number the later holds, by whichev
 
 TEST_CASE("lab session: a failure in the run's thread pauses the run and is shown as an error") {
   ToldSession lab;
-  Order order;
+  BuildRequest order;
   const TemporaryFolder folder;
   order.file = folder.write("scene.toml", kFreeBox);
   order.done = [](const std::string&) { throw std::runtime_error("nobody is there to answer"); };
@@ -103,7 +103,7 @@ TEST_CASE("lab session: an order that is replaced may ask the session in its ans
   std::promise<void> begun, go_on;
   std::string answer;
   ToldSession lab;
-  Order blocking, replaced, last;
+  BuildRequest blocking, replaced, last;
   blocking.file = "nowhere.toml";
   blocking.done = [&](const std::string&) {
     begun.set_value();
@@ -145,7 +145,7 @@ TEST_CASE("lab session: whoever opens a file is answered, also where others do a
   {
     ToldSession lab;
     for (int n = 0; n < 20; ++n) {
-      Order order;
+      BuildRequest order;
       order.file =
           std::filesystem::path(TWINARM_SOURCE_DIR) / "assets/scenes/hand_and_obstacles.toml";
       order.name = "hand_and_obstacles";
@@ -223,7 +223,7 @@ TEST_CASE("what a page brings is opened by what it is, kept, or refused in clear
 }
 
 TEST_CASE("the first who comes has the hand, and others get it in turn") {
-  Audience audience;
+  Clients audience;
   for (const ClientId client : {11u, 12u, 13u}) audience.opened(client);
   CHECK(audience.has_hand(11));
   audience.take(13);
@@ -246,7 +246,7 @@ TEST_CASE("the first who comes has the hand, and others get it in turn") {
 }
 
 TEST_CASE("all layers that anybody wants are drawn, each once") {
-  Audience audience;
+  Clients audience;
   audience.opened(1);
   audience.opened(2);
   audience.want_layers(1, {"bodies", "frames"});
@@ -260,8 +260,8 @@ TEST_CASE("all layers that anybody wants are drawn, each once") {
 
 TEST_CASE("run time follows wall time, and what was missed is not made up for in a rush") {
   using std::chrono::milliseconds;
-  const Pace::Time start{};
-  Pace pace;
+  const RealTimePacer::Time start{};
+  RealTimePacer pace;
   pace.begin(start, 5.0, 0.5);
   CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
   pace.forgive(start + milliseconds(1000), 5.49, 0.05);  // as good as in time

@@ -40,7 +40,7 @@ inline Told told_of(SimulatePlan plan, long steps) {
       recorded.step = steps;
       recorded.t = view.simulation().state().t;
       recorded.memory = view.memory();
-      for (const LedgerRow& row : view.ledger()) {
+      for (const EnergyRow& row : view.ledger()) {
         recorded.rows.push_back(static_cast<std::uint32_t>(told.ledger.size()));
         recorded.works.push_back(row.work);
         told.ledger.push_back(row.name);

@@ -35,7 +35,7 @@ TEST_CASE("glass: accelerations and contact forces are those that the run's own 
     CAPTURE(name);
     const std::string file = "scenes/" + name + ".toml";
     const Told told = told_of(file, 120);
-    Glass glass(plan_of_asset(file, 1));
+    BodyInspector glass(plan_of_asset(file, 1));
     const SimulatePlan plan = plan_of_asset(file, 1);
     const Model<double>& model = plan.input.robot.model;
     double size = 1;
@@ -69,7 +69,7 @@ TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation")
     CAPTURE(name);
     const std::string file = "scenes/" + name + ".toml";
     const Told told = told_of(file, 77);
-    Glass glass(plan_of_asset(file, 1));
+    BodyInspector glass(plan_of_asset(file, 1));
     const SimulatePlan plan = plan_of_asset(file, 1);
     for (std::size_t body = 1; body < plan.input.robot.model.parent.size(); ++body) {
       const Value message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
@@ -99,7 +99,7 @@ TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger t
   const std::string file = "scenes/hand_and_obstacles.toml";
   const Told told = told_of(file, 50);
   SimulatePlan plan = plan_of_asset(file, 1);
-  Memory memory = simulation_memory(told.frame.recorded.memory);
+  StateArchive memory = simulation_memory(told.frame.recorded.memory);
   Inspected inspected = inspect_scene(plan.input, plan.run.step, &memory);
   const Inspection in(plan.input.robot.model, inspected.x, inspected.actors, inspected.loops);
   JsonWriter json;
@@ -107,7 +107,7 @@ TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger t
   write_passes(json.key("passes"), in, {1, 2, 3}, {2});
   std::string wanted = json.str();
   wanted = wanted.substr(wanted.find("\"passes\""));
-  Glass glass(plan_of_asset(file, 1));
+  BodyInspector glass(plan_of_asset(file, 1));
   for (int again = 0; again < 3; ++again) {  // what was asked before leaves no trace
     const std::string message = glass.message(told.frame, {2, again == 1, 1, &told.ledger});
     CHECK(message.find(wanted) != std::string::npos);
@@ -134,7 +134,7 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   REQUIRE(frame.hand);
   CHECK(frame.hand->leads);
   CHECK(frame.hand->qd_K.at(0) == doctest::Approx(LabHand::kFastest));
-  Glass glass(std::move(scene.plan()->prepared));
+  BodyInspector glass(std::move(scene.plan()->prepared));
   const Model<double>& model = run.prepared().input.robot.model;
   const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
   REQUIRE(run.step());
@@ -153,7 +153,7 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   still.hand->qd_K.assign(still.hand->qd_K.size(), 0);
   CHECK(std::abs(told_by(still) - wanted) > 1e-3 * std::abs(wanted));
   LabFrame pulled = frame;
-  pulled.pull = LabPull{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
+  pulled.pull = MousePoint{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
   const Value message = parsed(glass.message(pulled, {body, false, 1}));
   bool found = false;
   for (const Value& wrench : at(at(message, "balance").items.at(0), "wrenches").items)
@@ -168,7 +168,7 @@ TEST_CASE("glass: where time stands, all bodies come in the order of the call") 
   const SimulatePlan plan = plan_of_asset(file, 1);
   std::vector<std::string> names(plan.input.robot.model.body_name.begin() + 1,
                                  plan.input.robot.model.body_name.end());
-  Glass glass(plan_of_asset(file, 1));
+  BodyInspector glass(plan_of_asset(file, 1));
   CHECK(!parsed(glass.message(told.frame, {1, false, 1, &told.ledger})).find("rows"));
   const Value message = parsed(glass.message(told.frame, {1, true, 1}));
   std::vector<std::pair<int, std::string>> order, wanted;
@@ -187,7 +187,7 @@ TEST_CASE("glass: where time stands, all bodies come in the order of the call") 
 TEST_CASE("glass: a robot alone, without a scene") {
   const std::string file = "robots/s103/s103.urdf";
   const Told told = told_of(file, 40);
-  Glass glass(plan_of_asset(file, 1));
+  BodyInspector glass(plan_of_asset(file, 1));
   const SimulatePlan plan = plan_of_asset(file, 1);
   const Model<double>& model = plan.input.robot.model;
   const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
@@ -201,19 +201,19 @@ TEST_CASE("glass: a robot alone, without a scene") {
 TEST_CASE("glass: numbers that are not finite are told, and a frame of another scene too") {
   const std::string file = "scenes/hand_and_obstacles.toml";
   Told told = told_of(file, 20);
-  Glass glass(plan_of_asset(file, 1));
+  BodyInspector glass(plan_of_asset(file, 1));
   const std::string good = glass.message(told.frame, {1, true, 1, &told.ledger});
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
     CAPTURE(bad);
     LabFrame broken = told.frame;
-    Memory memory = simulation_memory(broken.recorded.memory);
+    StateArchive memory = simulation_memory(broken.recorded.memory);
     const std::size_t head = broken.recorded.memory.size();
     std::vector<double> q;
     memory.visit(q);
     REQUIRE(q.size() > 1);
     // The first coordinate stands behind the run's own numbers and the count of coordinates.
-    Memory written;
+    StateArchive written;
     written.visit(q);
     const std::size_t place = broken.recorded.memory.find(written.bytes()) + sizeof(std::uint64_t);
     REQUIRE(place < head);

@@ -39,7 +39,7 @@ TEST_CASE("glass: the acceleration of an origin is classical: w^2 r on a circle,
     CAPTURE(w);
     options.robot.state =
         folder.write("state.json", "{\"qd\": {\"j1\": " + std::to_string(w) + "}}");
-    Glass glass(prepare_simulation(options));
+    BodyInspector glass(prepare_simulation(options));
     const Told told = told_of(prepare_simulation(options), 0);
     const Value message = parsed(glass.message(told.frame, {2, true, 1}));
     CHECK(acceleration_of(message, "a").norm() < 1e-12);
@@ -49,12 +49,12 @@ TEST_CASE("glass: the acceleration of an origin is classical: w^2 r on a circle,
 
 TEST_CASE("glass: the acceleration of an origin is the second derivative of its position") {
   const std::string file = "robots/s103/s103.urdf";
-  Glass glass(plan_of_asset(file, 1));
+  BodyInspector glass(plan_of_asset(file, 1));
   const SimulatePlan plan = plan_of_asset(file, 1);
   const Model<double>& model = plan.input.robot.model;
   const Told told = told_of(file, 200);
   const Value message = parsed(glass.message(told.frame, {1, true, 1}));
-  Memory memory = simulation_memory(told.frame.recorded.memory);
+  StateArchive memory = simulation_memory(told.frame.recorded.memory);
   State<double> x(model);
   memory.visit(x.q);
   memory.visit(x.qd);

@@ -18,7 +18,7 @@ inline SimulatePlan planned(const std::filesystem::path& file,
   SimulateOptions options;
   options.robot.model = file;
   options.duration = 1;
-  options.change_scene = [&](Value& scene, FaultList& faults) {
+  options.change_scene = [&](Value& scene, DiagnosticList& faults) {
     for (const std::string& change : changes) apply(parse_change(change), 0, scene, faults);
   };
   SimulatePlan plan = prepare_simulation(options);
@@ -55,8 +55,9 @@ inline std::filesystem::path temporary_scene(const std::string& name, const std:
   return folder.write(name + ".toml", text);
 }
 
-inline const Knob& knob_at(const std::vector<Knob>& knobs, const std::string& path) {
-  for (const Knob& knob : knobs)
+inline const LabParameter& knob_at(const std::vector<LabParameter>& knobs,
+                                   const std::string& path) {
+  for (const LabParameter& knob : knobs)
     if (knob.path == path) return knob;
   throw InputError({{"", 0, path, "there is no such knob", "", "test.no-knob"}});
 }

@@ -17,7 +17,7 @@ TEST_CASE("knobs: all, set to the values that they show, change no bit of the ru
     const std::string memory = ran(plan, 20).memory;
     REQUIRE(!memory.empty());
     std::vector<std::string> changes;
-    for (const Knob& knob : knobs_of(plan))
+    for (const LabParameter& knob : knobs_of(plan))
       if (!knob.change().empty()) changes.push_back(knob.change());
     CHECK(changes.size() >= 3);
     CHECK(ran(planned(file, changes, 20), 20).memory == memory);
@@ -28,9 +28,9 @@ TEST_CASE("knobs: each end of a range and each choice makes a scene that runs") 
   const auto folder = read_gallery().front().file.parent_path();
   for (const char* name : {"study.toml", "study_e3.toml", "study_e4.toml", "tracking_map.toml",
                            "pendulum.toml", "incline.toml", "bouncing_ball.toml"})
-    for (const Knob& knob : knobs_of(planned(folder / name, {}))) {
+    for (const LabParameter& knob : knobs_of(planned(folder / name, {}))) {
       std::vector<std::string> values = knob.choices;
-      if (knob.form != Knob::Form::choice) {
+      if (knob.form != LabParameter::Form::choice) {
         CHECK(knob.low < knob.high);
         values = {fmt::format("{}", knob.low), fmt::format("{}", knob.high)};
       }
@@ -45,23 +45,24 @@ TEST_CASE("knobs: each end of a range and each choice makes a scene that runs") 
 
 TEST_CASE("knobs: each has a label, a group, a meaning, and its value among its choices") {
   for (const auto& file : offered_scenes())
-    for (const Knob& knob : knobs_of(planned(file, {}))) {
+    for (const LabParameter& knob : knobs_of(planned(file, {}))) {
       INFO(file.filename().string(), ": ", knob.path);
       CHECK(!knob.label.empty());
       CHECK(!knob.group.empty());
       CHECK(knob.meaning.size() > 20);
-      if (knob.form == Knob::Form::choice && !knob.text.empty())
+      if (knob.form == LabParameter::Form::choice && !knob.text.empty())
         CHECK(std::count(knob.choices.begin(), knob.choices.end(), knob.text) == 1);
-      if (knob.form == Knob::Form::log) CHECK(knob.low > 0);
+      if (knob.form == LabParameter::Form::log) CHECK(knob.low > 0);
     }
 }
 
 namespace {
 
 // Of a scene with changes, with their limits.
-std::vector<Knob> predicted(const std::string& text, const std::vector<std::string>& changes = {}) {
+std::vector<LabParameter> predicted(const std::string& text,
+                                    const std::vector<std::string>& changes = {}) {
   SimulatePlan plan = planned(temporary_scene("predicted", text), changes);
-  std::vector<Knob> knobs = knobs_of(plan);
+  std::vector<LabParameter> knobs = knobs_of(plan);
   predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
   return knobs;
 }
@@ -113,12 +114,12 @@ TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not
     INFO(std::string(c.name), ": ", std::string(c.path));
     std::string text = held_arm(c.top, c.spring);
     if (std::string(c.spring).find("torsional") != std::string::npos) text = pointless(text);
-    const std::vector<Knob> knobs = predicted(text);
-    const Knob& knob = knob_at(knobs, c.path);
+    const std::vector<LabParameter> knobs = predicted(text);
+    const LabParameter& knob = knob_at(knobs, c.path);
     REQUIRE(knob.limit);
     REQUIRE(knob.limit->value);
     const double limit = *knob.limit->value;
-    CHECK(knob.limit->state == KnobLimit::State::ok);
+    CHECK(knob.limit->state == ParameterLimit::State::ok);
     INFO(limit);
     CHECK(dies_out(text, fmt::format("{}={}", c.path, 0.9 * limit)));
     CHECK(!dies_out(text, fmt::format("{}={}", c.path, 1.15 * limit)));
@@ -128,8 +129,8 @@ TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not
 TEST_CASE("knobs: a held force holds at the predicted rate, and not a quarter slower") {
   const std::string text =
       held_arm("", "type = \"linear\"\nstiffness = 4000\ndamping = 40\nrate = 500");
-  const std::vector<Knob> knobs = predicted(text);
-  const Knob& knob = knob_at(knobs, "coupling[1].rate");
+  const std::vector<LabParameter> knobs = predicted(text);
+  const LabParameter& knob = knob_at(knobs, "coupling[1].rate");
   REQUIRE(knob.limit);
   REQUIRE(knob.limit->value);
   const long steps = std::lround(1 / (*knob.limit->value * 1e-3));
@@ -144,20 +145,20 @@ TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would
   const auto limit_at = [&](const std::vector<std::string>& changes) {
     return *knob_at(predicted(text, changes), "coupling.stiffness").limit;
   };
-  const KnobLimit at_start = limit_at({});
+  const ParameterLimit at_start = limit_at({});
   REQUIRE(at_start.value);
   const auto with = [&](double part) {
     return limit_at({fmt::format("coupling.stiffness={}", part * *at_start.value)});
   };
-  CHECK(with(0.70).state == KnobLimit::State::ok);
-  CHECK(with(0.80).state == KnobLimit::State::near);
-  CHECK(with(1.30).state == KnobLimit::State::beyond);
+  CHECK(with(0.70).state == ParameterLimit::State::ok);
+  CHECK(with(0.80).state == ParameterLimit::State::near);
+  CHECK(with(1.30).state == ParameterLimit::State::beyond);
   // Sought from above, it is the same edge.
   CHECK(*with(1.30).value == doctest::Approx(*at_start.value).epsilon(0.02));
   CHECK(!with(1.30).words.empty());
-  const KnobLimit implicit = limit_at({"coupling.treatment=implicit"});
+  const ParameterLimit implicit = limit_at({"coupling.treatment=implicit"});
   CHECK(!implicit.value);
-  CHECK(implicit.state == KnobLimit::State::ok);
+  CHECK(implicit.state == ParameterLimit::State::ok);
   CHECK(!implicit.words.empty());
 }
 
@@ -166,17 +167,17 @@ TEST_CASE("knobs: where it does not hold, those that would mend it alone say so,
   std::string text = held_arm("",
                               "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
                               "treatment = \"explicit\"");
-  const std::vector<Knob> at_start = predicted(text);
+  const std::vector<LabParameter> at_start = predicted(text);
   const double limit = *knob_at(at_start, "coupling[0].stiffness").limit->value;
   const std::string too_stiff = fmt::format("coupling[0].stiffness={}", 3 * limit);
-  const std::vector<Knob> one = predicted(text, {too_stiff});
-  CHECK(knob_at(one, "coupling[0].stiffness").limit->state == KnobLimit::State::beyond);
-  CHECK(knob_at(one, "step").limit->state == KnobLimit::State::beyond);
+  const std::vector<LabParameter> one = predicted(text, {too_stiff});
+  CHECK(knob_at(one, "coupling[0].stiffness").limit->state == ParameterLimit::State::beyond);
+  CHECK(knob_at(one, "step").limit->state == ParameterLimit::State::beyond);
   CHECK(knob_at(one, "step").limit->value);
   CHECK_FALSE(knob_at(one, "coupling[1].stiffness").limit);
   CHECK_FALSE(knob_at(one, "coupling[1].damping").limit);
   // Both beyond: neither alone mends it, a shorter step does.
-  const std::vector<Knob> both =
+  const std::vector<LabParameter> both =
       predicted(text, {too_stiff, fmt::format("coupling[1].stiffness={}", 100 * limit)});
   CHECK_FALSE(knob_at(both, "coupling[0].stiffness").limit);
   CHECK_FALSE(knob_at(both, "coupling[1].stiffness").limit);
@@ -185,15 +186,16 @@ TEST_CASE("knobs: where it does not hold, those that would mend it alone say so,
 
 TEST_CASE("knobs: each tells what the scene's file says, whatever was turned since") {
   const auto file = read_gallery().front().file;
-  const std::vector<Knob> unchanged = knobs_of(planned(file, {}));
-  std::vector<Knob> knobs = knobs_of(
+  const std::vector<LabParameter> unchanged = knobs_of(planned(file, {}));
+  std::vector<LabParameter> knobs = knobs_of(
       planned(file, {"coupling[0].stiffness=123", "step=0.0005", "coupling[0].type=weld"}));
   know_starts(unchanged, knobs);
   std::vector<std::string> back;
-  for (const Knob& knob : knobs) {
+  for (const LabParameter& knob : knobs) {
     INFO(knob.path);
-    const auto before = std::find_if(unchanged.begin(), unchanged.end(),
-                                     [&](const Knob& other) { return other.path == knob.path; });
+    const auto before =
+        std::find_if(unchanged.begin(), unchanged.end(),
+                     [&](const LabParameter& other) { return other.path == knob.path; });
     CHECK(knob.start.has_value() == (before != unchanged.end()));
     if (knob.start) CHECK(knob.path + "=" + *knob.start == before->path + "=" + before->value());
     if (knob.start && knob.start != knob.value()) back.push_back(knob.path);
@@ -219,7 +221,7 @@ link = "arm1"
 stiffness = 500
 damping = 0
 )";
-  const std::vector<Knob> knobs = predicted(text);
+  const std::vector<LabParameter> knobs = predicted(text);
   const std::string lag = knob_at(knobs, "coupling[0].stiffness").lag;
   // The period of a free swing says the inertia: a run from 1e-3 rad, its first zero.
   SimulatePlan swing =
@@ -238,7 +240,7 @@ damping = 0
 
 TEST_CASE("knobs: a coupling's type turns linear into torsional, and its point goes") {
   const auto file = read_gallery().front().file;
-  const std::vector<Knob> knobs = knobs_of(planned(file, {}));
+  const std::vector<LabParameter> knobs = knobs_of(planned(file, {}));
   for (const std::string& type : knob_at(knobs, "coupling[0].type").choices) {
     INFO(type);
     const SimulatePlan plan = planned(file, {"coupling[0].type=" + type}, 10);
@@ -263,7 +265,7 @@ TEST_CASE("presets: each has a scene, and moves its robot as it says") {
 }
 
 TEST_CASE("gallery: the lanes of an entry are read, and what is wrong with them is told") {
-  const LaneSet lanes = find_scene(read_gallery(), "six_integrators")->lanes;
+  const VariantSet lanes = find_scene(read_gallery(), "six_integrators")->lanes;
   CHECK(lanes.path == "integrator");
   CHECK(lanes.values.size() == 6);
   CHECK(lanes.apart.has_value());

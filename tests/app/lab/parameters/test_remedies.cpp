@@ -51,13 +51,13 @@ TEST_CASE("remedies: each that is offered holds for two seconds where the run ha
     const SimulateResult dead = run_plan(plan.input, plan.run, {});
     CHECK(dead.post_mortem);
     if (!dead.post_mortem) continue;
-    const std::vector<Remedy> remedies = remedies_of(plan, *dead.post_mortem);
+    const std::vector<SuggestedFix> remedies = remedies_of(plan, *dead.post_mortem);
     CHECK(!remedies.empty());
-    for (const Remedy& remedy : remedies) {
-      INFO(remedy.words);
-      CHECK(!remedy.words.empty());
+    for (const SuggestedFix& fix : remedies) {
+      INFO(fix.words);
+      CHECK(!fix.words.empty());
       std::vector<std::string> changes = bad.changes;
-      for (const std::string& change : remedy.changes) {
+      for (const std::string& change : fix.changes) {
         INFO(change);
         changes.push_back(change);
       }
@@ -75,7 +75,7 @@ TEST_CASE("remedies: a step, a gain and a treatment are offered for a spring tha
   const BadScene bad = bad_scenes().front();
   const SimulatePlan plan = planned(bad.file, bad.changes, 2000);
   std::vector<std::string> first;
-  for (const Remedy& remedy : remedies_of(plan, PostMortem())) first.push_back(remedy.changes[0]);
+  for (const SuggestedFix& fix : remedies_of(plan, PostMortem())) first.push_back(fix.changes[0]);
   REQUIRE(first.size() == 3);
   CHECK(first[0].find("step=") == 0);
   CHECK(first[1].find("].stiffness=") != std::string::npos);
@@ -87,22 +87,23 @@ TEST_CASE("remedies: they follow from the kind and the place of a suspect, whate
   const SimulatePlan coupled = planned(stiff.file, stiff.changes);
   SimulatePlan damped = planned(stiff.file, {"integrator=euler", "coupling.stiffness=1"});
   damped.input.robot.model.damping.assign(damped.input.robot.model.nv, 1e4);
-  const auto changes_by = [](const SimulatePlan& plan, const std::vector<Suspect>& suspects) {
+  const auto changes_by = [](const SimulatePlan& plan,
+                             const std::vector<StabilityViolation>& suspects) {
     PostMortem dead;
     dead.suspects = suspects;
     std::vector<std::string> changes;
-    for (const Remedy& remedy : remedies_of(plan, dead))
-      changes.insert(changes.end(), remedy.changes.begin(), remedy.changes.end());
+    for (const SuggestedFix& fix : remedies_of(plan, dead))
+      changes.insert(changes.end(), fix.changes.begin(), fix.changes.end());
     return changes;
   };
   for (const auto& [plan, kind, change] :
-       {std::tuple<const SimulatePlan*, Suspect::Kind, std::string>{
-            &coupled, Suspect::Kind::coupling, "coupling[1].treatment=implicit"},
-        {&damped, Suspect::Kind::joint_damper, "integrator=semi-implicit"}}) {
-    std::vector<Suspect> suspects = find_suspects(*plan);
+       {std::tuple<const SimulatePlan*, StabilityViolation::Kind, std::string>{
+            &coupled, StabilityViolation::Kind::coupling, "coupling[1].treatment=implicit"},
+        {&damped, StabilityViolation::Kind::joint_damper, "integrator=semi-implicit"}}) {
+    std::vector<StabilityViolation> suspects = find_suspects(*plan);
     REQUIRE(!suspects.empty());
     CHECK(suspects.front().kind == kind);
-    for (Suspect& suspect : suspects) suspect.name = "another name";
+    for (StabilityViolation& suspect : suspects) suspect.name = "another name";
     const std::vector<std::string> changes = changes_by(*plan, suspects);
     std::string offered;
     for (const std::string& c : changes) offered += c + " ";
@@ -114,8 +115,8 @@ TEST_CASE("remedies: they follow from the kind and the place of a suspect, whate
 TEST_CASE("remedies: where nothing is beyond its limit only a shorter step is offered") {
   const auto folder = read_gallery().front().file.parent_path();
   const SimulatePlan plan = planned(folder / "tracking_map.toml", {});
-  for (const Remedy& remedy : remedies_of(plan, PostMortem())) {
-    REQUIRE(remedy.changes.size() == 1);
-    CHECK(remedy.changes[0].starts_with("step="));
+  for (const SuggestedFix& fix : remedies_of(plan, PostMortem())) {
+    REQUIRE(fix.changes.size() == 1);
+    CHECK(fix.changes[0].starts_with("step="));
   }
 }

@@ -61,8 +61,8 @@ struct Session {
   std::unique_ptr<LabRun> run;
 };
 
-inline double work_of(const std::vector<LedgerRow>& rows, const std::string& name) {
-  for (const LedgerRow& row : rows)
+inline double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
+  for (const EnergyRow& row : rows)
     if (row.name == name) return row.work;
   FAIL("there is no row " << name);
   return 0;

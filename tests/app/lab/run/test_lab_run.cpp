@@ -108,7 +108,7 @@ TEST_CASE("lab run: whoever moves the robot, it never jumps, and goes where it i
   const Vector3 felt = s.run->frame(s.names).hand->force_W;
   const double reach = s.hand.mapping().scale * (0.26 + felt.norm()) / ArmImpedance{}.stiffness;
   CHECK((tip_now() - goal).head<2>().norm() < reach);
-  CHECK(felt.norm() <= OmniFigures{}.peak_force * 1.01);
+  CHECK(felt.norm() <= OmniParameters{}.peak_force * 1.01);
   s.hand.release();
   const Vector3 let_go = tip_now();
   run(300, nothing);
@@ -165,8 +165,8 @@ TEST_CASE("lab run: a body on the mouse is a damped oscillator, and both ledgers
   Session s(kFreeBox);
   const Vector3 goal(0.1, -0.05, 1.2);
   REQUIRE(s.run->pull(1, Vector3::Zero(), goal, 7));
-  const double m = 2, h = 0.001, k = m * MousePull::kOmega * MousePull::kOmega,
-               b = 2 * m * MousePull::kOmega;
+  const double m = 2, h = 0.001, k = m * MouseSpring::kOmega * MouseSpring::kOmega,
+               b = 2 * m * MouseSpring::kOmega;
   Vector3 x(0, 0, 1), v = Vector3::Zero();
   double worst = 0, closed_form = 0;
   for (int n = 1; n <= 400; ++n) {
@@ -175,7 +175,7 @@ TEST_CASE("lab run: a body on the mouse is a damped oscillator, and both ledgers
     x += h * v;
     const Vector3 p = s.run->view().simulation().kinematics().X_WL[1].p;
     worst = std::max(worst, (p - x).norm());
-    const double wt = MousePull::kOmega * n * h;
+    const double wt = MouseSpring::kOmega * n * h;
     const Vector3 exact = goal + (1 + wt) * std::exp(-wt) * (Vector3(0, 0, 1) - goal);
     closed_form = std::max(closed_form, (p - exact).norm());
   }
@@ -237,8 +237,8 @@ TEST_CASE("lab run: a spring beyond its limit stops the run, and says which and 
   REQUIRE(found);
   REQUIRE(!found->suspects.empty());
   CHECK(found->suspects.front().name == "coupling 'one'");
-  CHECK(found->suspects.front().step > found->suspects.front().largest_step);
-  CHECK(!found->suspects.front().remedy.empty());
+  CHECK(found->suspects.front().step > found->suspects.front().max_step);
+  CHECK(!found->suspects.front().fix.empty());
   CHECK(found->words.size() >= 2);
   CHECK(!found->row.empty());
   CHECK(!s.run->step());

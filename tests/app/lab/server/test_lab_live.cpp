@@ -160,7 +160,7 @@ TEST_CASE("lab live: faster than anybody reads, messages come in order, and the 
 TEST_CASE(
     "lab live: of places that are always full, each gets its turn, and the first channel goes "
     "first") {
-  Mailboxes boxes;
+  OutgoingQueues boxes;
   boxes.open(1);
   CHECK(boxes.put(1, 3, {bytes_of("c"), true}));
   CHECK_FALSE(boxes.put(1, 1, {bytes_of("a"), true}));  // has been woken

@@ -200,7 +200,7 @@ TEST_CASE(
 
 TEST_CASE("lab server: what is too long or too slow is cut off") {
   ServerOptions options;
-  options.most_body = 1000;
+  options.max_body = 1000;
   options.patience = 2;  // half a second for a head
   const LabHost lab(options);
   const int port = lab.server.port();
@@ -251,8 +251,8 @@ TEST_CASE("lab server: an address that cannot be listened on is refused with a r
       FAIL("two servers on one port, or an address that is not ours");
     } catch (const InputError& error) {
       REQUIRE(error.faults().size() == 1);
-      CHECK(error.faults()[0].rule.find(address) != std::string::npos);
-      CHECK_FALSE(error.faults()[0].remedy.empty());
+      CHECK(error.faults()[0].problem.find(address) != std::string::npos);
+      CHECK_FALSE(error.faults()[0].fix.empty());
     }
   }
 }

@@ -12,9 +12,9 @@ namespace twinarm {
 // The paper's robot, one joint of it drawn after a hand.
 inline const std::string kSlowlyDriven = test_data("app/lab/session/slowly_driven.toml");
 
-inline Built built_from(const std::string& text) {
+inline BuildResult built_from(const std::string& text) {
   const TemporaryFolder folder;
-  Order order;
+  BuildRequest order;
   order.file = folder.write("scene.toml", text);
   return build(std::move(order));
 }

@@ -24,8 +24,8 @@ LabInput input_at(long step) {
 }
 
 TEST_CASE("session parts: a branch knows the inputs that came after its start, until the last") {
-  Timeline timeline(LabHistory::kMostBytes);
-  timeline.begin(std::make_shared<const Built>(built_from(kSlowlyDriven)), {});
+  Timeline timeline(LabHistory::kMaxBytes);
+  timeline.begin(std::make_shared<const BuildResult>(built_from(kSlowlyDriven)), {});
   for (long step = 1; step <= 5; ++step) {
     timeline.add(frame_at(step), {});
     timeline.add(input_at(step));
@@ -43,8 +43,8 @@ TEST_CASE("session parts: a branch knows the inputs that came after its start, u
 }
 
 TEST_CASE("session parts: an instant before what is remembered begins no branch") {
-  Timeline timeline(LabHistory::kMostBytes);
-  timeline.begin(std::make_shared<const Built>(built_from(kSlowlyDriven)), {});
+  Timeline timeline(LabHistory::kMaxBytes);
+  timeline.begin(std::make_shared<const BuildResult>(built_from(kSlowlyDriven)), {});
   CHECK(timeline.branch(0) == nullptr);
   timeline.add(frame_at(7), {});
   CHECK(timeline.branch(0.05) == nullptr);

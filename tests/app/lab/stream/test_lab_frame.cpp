@@ -237,8 +237,8 @@ TEST_CASE("lab frame: the mouse's spring is drawn from the body's point to the g
   Watched watched = watched_boxes();
   LabFrame frame = watched.after(1);
   const Model<double>& model = watched.plan->prepared.input.robot.model;
-  frame.pull = LabPull{model.find_body("resting"), Vector3(0.2, 0, 0), Vector3(0.9, 0, 0.5),
-                       Vector3(7, 0, 0)};
+  frame.pull = MousePoint{model.find_body("resting"), Vector3(0.2, 0, 0), Vector3(0.9, 0, 0.5),
+                          Vector3(7, 0, 0)};
   const ReadFrame read(watched.view->frame(frame, nullptr, {"pull"}, {}));
   const std::size_t pull = watched.layer("pull");
   const auto [first, last] = read.layer(pull);

@@ -105,7 +105,7 @@ TEST_CASE(
 TEST_CASE("moment: a robot of whose couplings one moves the gripper too has one twin, one hand") {
   const Watched watched = watched_arm();
   const SimulateInput& input = watched.plan->prepared.input;
-  const Moment moment = moment_of(*input.scene, *input.couplings, input.scene->start, {});
+  const Snapshot moment = moment_of(*input.scene, *input.couplings, input.scene->start, {});
   CHECK(moment.twins.size() == 1);
   CHECK(moment.hands.size() == 1);
 }

@@ -20,11 +20,11 @@ LabScene swinging() {
 
 // Held by an explicit spring, which gains energy from 3.96e6 N m/rad on: slowly at 4e6.
 const std::string kRod = test_data("app/lab/stream/rod.toml");
-const LaneSet kOneExplodes{"coupling.stiffness", {"2000", "4e6", "500"}, {}};
+const VariantSet kOneExplodes{"coupling.stiffness", {"2000", "4e6", "500"}, {}};
 
 // A run with its lanes, as the session has them, and what is remembered: a frame each 4 steps.
 struct SideBySide {
-  SideBySide(const LabScene& of, LaneSet lanes, std::vector<Change> with = {})
+  SideBySide(const LabScene& of, VariantSet lanes, std::vector<Change> with = {})
       : scene(of), set(std::move(lanes)), changes(std::move(with)) {
     begin(nullptr);
   }
@@ -38,7 +38,7 @@ struct SideBySide {
     for (std::size_t lane = 1; lane < set.values.size(); ++lane)
       plans.push_back(scene.plan(changes_of(lane)));
     run = std::make_unique<LabRun>(scene.plan(changes_of(0)), hand, from);
-    others = LabLanes(set, std::move(plans), from, names);
+    others = LabVariants(set, std::move(plans), from, names);
     if (from) run->keep_books(*from, names);
     history.begin_segment(changes_of(0));
     history.add(frame());
@@ -60,13 +60,13 @@ struct SideBySide {
   const LabFrame& lane(std::size_t n) const { return *history.newest()->lanes[n - 1].frame; }
 
   const LabScene& scene;
-  LaneSet set;
+  VariantSet set;
   std::vector<Change> changes;
   LabHand hand;
   LabNames names;
   LabHistory history;
   std::unique_ptr<LabRun> run;
-  LabLanes others;
+  LabVariants others;
 };
 
 // All that the next step reads.
@@ -96,7 +96,7 @@ LabFrame alone(SideBySide& s, std::size_t lane, long steps) {
   return run.frame(s.names);
 }
 
-const LaneSet kSix{
+const VariantSet kSix{
     "integrator", {"semi-implicit", "euler", "implicit-euler", "verlet", "rk4", "midpoint"}, {}};
 
 }  // namespace
@@ -170,7 +170,7 @@ TEST_CASE("lanes: one that explodes stays where it was, and the others are as th
   REQUIRE(words.size() == 1);
   CHECK(words[0].find("the lane 4e6 stopped at") == 0);
   CHECK(s.others.take_words().empty());
-  const LaneFrame dead = s.history.newest()->lanes[0];
+  const VariantFrame dead = s.history.newest()->lanes[0];
   CHECK(dead.stopped);
   CHECK(dead.frame->recorded.t < 0.5);
   CHECK(std::isfinite(dead.frame->recorded.values[0]));
@@ -224,7 +224,7 @@ TEST_CASE("lanes: what is remembered of them stays within the bound of bytes") {
   std::size_t memory = 0;
   for (std::size_t n = 0; n < s.history.size(); ++n) {
     memory += s.history.frame(n)->recorded.memory.size();
-    for (const LaneFrame& lane : s.history.frame(n)->lanes)
+    for (const VariantFrame& lane : s.history.frame(n)->lanes)
       memory += lane.frame->recorded.memory.size() + sizeof(LabFrame);
   }
   CHECK(memory < s.history.bytes());
@@ -292,10 +292,10 @@ TEST_CASE("lanes: what names no lanes is refused with what to write") {
   for (const char* text : {"", "integrator", "integrator=rk4", "=a,b", "step=0.1,", "step=1,2,1",
                            "step=1,2,3,4,5,6,7,8"}) {
     CAPTURE(text);
-    const std::vector<Fault> faults = faults_of([&] { parse_lanes(text); });
+    const std::vector<Diagnostic> faults = faults_of([&] { parse_lanes(text); });
     REQUIRE(faults.size() == 1);
     CHECK(faults[0].where == std::string("--lanes ") + text);
-    CHECK_FALSE(faults[0].remedy.empty());
+    CHECK_FALSE(faults[0].fix.empty());
   }
 }
 

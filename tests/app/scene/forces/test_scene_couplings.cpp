@@ -80,10 +80,10 @@ TEST_CASE("scene: a run with any coupling goes on from what it remembers with th
     for (int n = 0; n < 101; ++n) first.simulation.step(1e-3);
     const State<double> aside = side_step(first.simulation, 5e-4);  // leaves no trace
     CHECK(aside.t > 0.101);
-    Memory written;
-    first.simulation.visit_memory(written);
-    Memory read(written.bytes());
-    second.simulation.visit_memory(read);
+    StateArchive written;
+    first.simulation.serialize(written);
+    StateArchive read(written.bytes());
+    second.simulation.serialize(read);
     for (int n = 0; n < 50; ++n) first.simulation.step(1e-3), second.simulation.step(1e-3);
     CHECK(first.simulation.state().q == second.simulation.state().q);
     CHECK(first.simulation.state().qd == second.simulation.state().qd);

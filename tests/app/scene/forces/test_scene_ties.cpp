@@ -88,7 +88,7 @@ TEST_CASE("scene: a coupling without target pulls back to where the robot starte
   REQUIRE(scene.couplings.size() == 1);
   const SceneCoupling& pull = scene.couplings[0];
   CHECK(pull.spring.body == scene.model.find_body("left/arm1"));
-  CHECK(pull.treatment == Treatment::implicit);
+  CHECK(pull.treatment == Discretization::implicit);
   CHECK(pull.driven.turned.empty());
 
   SceneCouplings couplings(scene, 0.001);
@@ -97,7 +97,7 @@ TEST_CASE("scene: a coupling without target pulls back to where the robot starte
   // Turned on by 0.1: the force at the point is k times the chord, against the motion.
   x.q[scene.model.iq[static_cast<std::size_t>(scene.model.find_joint("left/joint1"))]] += 0.1;
   forward_kinematics(scene.model, x, k);
-  const KvrSample& target = couplings.target(0, 0.0);
+  const TargetSample& target = couplings.target(0, 0.0);
   const Vector3 chord = target.k.position(pull.spring.body, pull.spring.p_L) -
                         k.position(pull.spring.body, pull.spring.p_L);
   CHECK(chord.norm() == doctest::Approx(2 * 0.2 * std::sin(0.05)).epsilon(1e-12));
@@ -185,7 +185,7 @@ TEST_CASE("scene: the target of a device that is not there stands still where it
       "stiffness = 10\ntarget = 'device'\n");
   SceneCouplings couplings(scene, 0.001);
   for (const double t : {0.0, 0.5, 3.0}) {
-    const KvrSample& kvr = couplings.target(0, t);
+    const TargetSample& kvr = couplings.target(0, t);
     CHECK(kvr.x.q[0] == doctest::Approx(0.7).epsilon(1e-14));
     CHECK(kvr.x.q[1] == doctest::Approx(-0.3).epsilon(1e-14));
     CHECK(kvr.x.qd[0] == 0);

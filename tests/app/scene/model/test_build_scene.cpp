@@ -276,7 +276,7 @@ TEST_CASE("scene: what only the model shows is told with the line of its robot")
                "<parent link='a'/><child link='b'/></joint></robot>");
   const auto file =
       folder.write("test.toml", "step = 1\n[[robot]]\nname = 'r'\nmodel = 'light.urdf'\n");
-  const std::vector<Fault> faults = faults_of([&] { build_scene(read_scene(file)); });
+  const std::vector<Diagnostic> faults = faults_of([&] { build_scene(read_scene(file)); });
   REQUIRE(faults.size() == 1);
   CHECK(to_string(faults[0]).find("light.urdf") != std::string::npos);
 }

@@ -25,7 +25,7 @@ TEST_CASE("scene: faults of a robot's own file stand beside those of the scene")
   folder.write("bad.urdf", "<robot name='r'>\n<link name='a'/><link name='a'/>\n</robot>\n");
   const auto scene =
       folder.write("test.toml", "step = 0\n[[robot]]\nname = 'r'\nmodel = 'bad.urdf'\n");
-  const std::vector<Fault> faults = faults_of([&] { read_scene(scene); });
+  const std::vector<Diagnostic> faults = faults_of([&] { read_scene(scene); });
   REQUIRE(faults.size() == 2);
   CHECK(faults[0].file == scene.string());
   CHECK(faults[1].file.find("bad.urdf") != std::string::npos);
@@ -33,7 +33,7 @@ TEST_CASE("scene: faults of a robot's own file stand beside those of the scene")
 }
 
 TEST_CASE("scene: a file that is not there is told") {
-  const std::vector<Fault> faults = faults_of([] { read_scene("no/such/scene.toml"); });
+  const std::vector<Diagnostic> faults = faults_of([] { read_scene("no/such/scene.toml"); });
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].code == "file.missing");
 }

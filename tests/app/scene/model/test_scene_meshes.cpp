@@ -23,7 +23,7 @@ class MeshScene {
     return *this;
   }
   SceneModel build() const { return build_scene(read_scene(folder_.write("test.toml", text_))); }
-  std::vector<Fault> faults() const {
+  std::vector<Diagnostic> faults() const {
     return faults_of([&] { build(); });
   }
 
@@ -47,7 +47,7 @@ TEST_CASE("scene: meshes that are open, flipped or degenerate are all told, each
     scene.body(file, kSurface, "fixed = true");
   scene.body("flat.obj", "", "fixed = true").body("flat.obj", "", "mass = 1");
   scene.body("empty.obj", "", "fixed = true");
-  const std::vector<Fault> faults = scene.faults();
+  const std::vector<Diagnostic> faults = scene.faults();
   REQUIRE(faults.size() == 6);
   const std::vector<std::string> parts{"3 edges belong to one triangle alone",
                                        "inside out",
@@ -58,7 +58,7 @@ TEST_CASE("scene: meshes that are open, flipped or degenerate are all told, each
   for (std::size_t i = 0; i < faults.size(); ++i) {
     INFO(to_string(faults[i]));
     CHECK(to_string(faults[i]).find(parts[i]) != std::string::npos);
-    CHECK(!faults[i].remedy.empty());
+    CHECK(!faults[i].fix.empty());
     if (i < 5) CHECK(faults[i].line == 5 + 4 * static_cast<int>(i));
     if (i < 5) CHECK(faults[i].file.find("test.toml") != std::string::npos);
   }

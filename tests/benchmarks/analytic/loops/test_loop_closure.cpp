@@ -219,7 +219,7 @@ TEST_CASE("loop factors: rank and solution of singular systems of any scale, aga
     VectorXd b = G * (scale.cwiseInverse().cwiseAbs2().asDiagonal() *
                       VectorXd(scale.asDiagonal() * VectorXd::NullaryExpr(n, noise)));
     const VectorXd wanted = b;
-    LoopFactors factors(9);
+    PivotedCholesky factors(9);
     CHECK(allocations_in([&] {
             for (Index i = 0; i < n; ++i)
               for (Index j = 0; j < n; ++j)

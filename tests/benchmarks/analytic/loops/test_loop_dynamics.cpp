@@ -58,7 +58,7 @@ struct Both {
     K.bottomLeftCorner(m, n) = A;
     VectorXd right(n + m);
     right << tau - h, -gamma;
-    return shortest_solution(K, right, 1e-10);
+    return min_solution(K, right, 1e-10);
   }
 };
 
@@ -231,7 +231,7 @@ TEST_CASE("loops: a rubbing slider-crank comes to rest, does not creep, and stay
     simulation.set_loops(c.loops);
     simulation.set_integrator(integrator);
     double open = 0;
-    for (int n = 0; n < 2000; ++n) open = std::max(open, simulation.step(2e-3).loops_open);
+    for (int n = 0; n < 2000; ++n) open = std::max(open, simulation.step(2e-3).loop_position_error);
     CHECK(open < 1e-12);
     const std::vector<double> rest = simulation.state().q;
     CHECK(largest(vector_of(simulation.state().qd)) < 1e-20);

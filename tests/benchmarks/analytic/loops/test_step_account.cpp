@@ -14,8 +14,9 @@ using namespace twinarm::testing;
 
 namespace {
 
-Simulation closed_mechanism(const LoopCase& c, Integrator integrator, bool keep_account = true) {
-  Simulation simulation(c.model, c.start, {.keep_account = keep_account});
+Simulation closed_mechanism(const LoopCase& c, Integrator integrator,
+                            bool enable_constraint_work = true) {
+  Simulation simulation(c.model, c.start, {.enable_constraint_work = enable_constraint_work});
   simulation.set_integrator(integrator);
   if (c.source) simulation.add(*c.source);
   simulation.set_loops(c.loops);
@@ -36,8 +37,8 @@ Sums run_with_account(Simulation& simulation, double h, int steps) {
   const double start = energy_now(simulation);
   for (int n = 0; n < steps; ++n) {
     simulation.step(h);
-    for (const Exchange& e : simulation.mechanism().account->loops()) sums.loops += e.work;
-    for (const Exchange& e : simulation.mechanism().account->stabilisation())
+    for (const EnergyMomentum& e : simulation.mechanism().account->loops()) sums.loops += e.work;
+    for (const EnergyMomentum& e : simulation.mechanism().account->stabilisation())
       sums.stabilisation += e.work;
   }
   sums.gained = energy_now(simulation) - start;

@@ -82,8 +82,8 @@ TEST_CASE("the published PUMA 560 loads, and its two inertias that no body has a
   double mass = 0;
   for (const LinkDescription& link : robot.links) mass += link.mass;
   CHECK(mass == doctest::Approx(23.45).epsilon(1e-15));
-  const auto told = [&](const std::vector<Fault>& faults, const std::string& words) {
-    return std::count_if(faults.begin(), faults.end(), [&](const Fault& fault) {
+  const auto told = [&](const std::vector<Diagnostic>& faults, const std::string& words) {
+    return std::count_if(faults.begin(), faults.end(), [&](const Diagnostic& fault) {
       return to_string(fault).find(words) != std::string::npos;
     });
   };

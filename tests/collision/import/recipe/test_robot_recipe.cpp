@@ -143,10 +143,10 @@ TEST_CASE("a spoilt line of a recipe gives a fault with file and line") {
   for (const SpoiltRecipe& spoilt : kSpoiltRecipes) {
     INFO(spoilt.from, " -> ", spoilt.to);
     const fs::path file = folder.recipe(replaced(kCube, spoilt.from, spoilt.to));
-    const std::vector<Fault> faults = faults_of([&] { read_recipe(file); });
+    const std::vector<Diagnostic> faults = faults_of([&] { read_recipe(file); });
     INFO(listing(faults));
     CHECK(tells(faults, spoilt.line, spoilt.words));
-    for (const Fault& fault : faults) CHECK(fault.file == file.string());
+    for (const Diagnostic& fault : faults) CHECK(fault.file == file.string());
   }
 }
 

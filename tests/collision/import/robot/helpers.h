@@ -16,7 +16,7 @@
 
 namespace twinarm {
 
-inline std::vector<Fault> faults_of(const std::function<void()>& f) {
+inline std::vector<Diagnostic> faults_of(const std::function<void()>& f) {
   try {
     f();
   } catch (const InputError& error) {
@@ -25,23 +25,23 @@ inline std::vector<Fault> faults_of(const std::function<void()>& f) {
   return {};
 }
 
-inline std::string listing(const std::vector<Fault>& faults) {
+inline std::string listing(const std::vector<Diagnostic>& faults) {
   std::string text;
-  for (const Fault& fault : faults) text += to_string(fault) + "\n";
+  for (const Diagnostic& fault : faults) text += to_string(fault) + "\n";
   return text;
 }
 
 // Is there a fault at this line whose text contains `words`?
-inline bool tells(const std::vector<Fault>& faults, int line, const std::string& words) {
-  for (const Fault& fault : faults)
+inline bool tells(const std::vector<Diagnostic>& faults, int line, const std::string& words) {
+  for (const Diagnostic& fault : faults)
     if (fault.line == line && to_string(fault).find(words) != std::string::npos) return true;
   return false;
 }
 
 // The same of a fault of that code; `value` is what it names of the user's file, in any language.
-inline bool tells(const std::vector<Fault>& faults, int line, const std::string& code,
+inline bool tells(const std::vector<Diagnostic>& faults, int line, const std::string& code,
                   const std::string& value) {
-  for (const Fault& fault : faults)
+  for (const Diagnostic& fault : faults)
     if (fault.line == line && fault.code == code &&
         to_string(fault).find(value) != std::string::npos)
       return true;
@@ -71,22 +71,22 @@ inline std::vector<ExpectedFault> expected_in(const std::string& text, const std
 }
 
 // These faults and no others, in the order of the file's lines.
-inline void check_faults(const std::vector<Fault>& faults,
+inline void check_faults(const std::vector<Diagnostic>& faults,
                          const std::vector<ExpectedFault>& expected, const fs::path& file) {
   INFO(listing(faults));
   CHECK(faults.size() == expected.size());
   for (const ExpectedFault& one : expected)
-    CHECK(std::any_of(faults.begin(), faults.end(), [&](const Fault& fault) {
+    CHECK(std::any_of(faults.begin(), faults.end(), [&](const Diagnostic& fault) {
       return fault.line == one.line &&
              (one.code.empty() || one.code == "-" || fault.code == one.code) &&
              to_string(fault).find(one.words) != std::string::npos;
     }));
-  for (const Fault& fault : faults) {
+  for (const Diagnostic& fault : faults) {
     CHECK(fault.file == file.string());
-    CHECK(!fault.rule.empty());
+    CHECK(!fault.problem.empty());
   }
   CHECK(std::is_sorted(faults.begin(), faults.end(),
-                       [](const Fault& a, const Fault& b) { return a.line < b.line; }));
+                       [](const Diagnostic& a, const Diagnostic& b) { return a.line < b.line; }));
 }
 
 // Largest difference of two numbers or arrays relative to the size of the array; a tolerance of 0

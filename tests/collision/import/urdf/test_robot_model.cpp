@@ -190,9 +190,9 @@ TEST_CASE("numbers of a description that are not finite are refused, whoever mad
     const auto faults = check_robot(robot).faults;
     INFO(listing(faults));
     CHECK(faults.size() == 5);
-    for (const Fault& fault : faults) {
-      CHECK(fault.rule.find("finite") != std::string::npos);
-      CHECK(fault.remedy.find("give finite numbers") == 0);
+    for (const Diagnostic& fault : faults) {
+      CHECK(fault.problem.find("finite") != std::string::npos);
+      CHECK(fault.fix.find("give finite numbers") == 0);
     }
   }
 }

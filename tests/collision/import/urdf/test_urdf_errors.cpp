@@ -13,12 +13,12 @@ TEST_CASE("each bad or odd URDF gives its faults or warnings, in the order of th
     const fs::path file = entry.path();
     INFO(file.filename().string());
     const std::string text = text_of(file);
-    std::vector<Fault> warnings;
-    const std::vector<Fault> faults = faults_of([&] { warnings = read_urdf(file).warnings; });
+    std::vector<Diagnostic> warnings;
+    const std::vector<Diagnostic> faults = faults_of([&] { warnings = read_urdf(file).warnings; });
     check_faults(faults, expected_in(text, "<!-- fault ", " -->"), file);
     check_faults(warnings, expected_in(text, "<!-- warning ", " -->"), file);
-    for (const std::vector<Fault>& told : {faults, warnings})
-      for (const Fault& fault : told) CHECK(!fault.remedy.empty());
+    for (const std::vector<Diagnostic>& told : {faults, warnings})
+      for (const Diagnostic& fault : told) CHECK(!fault.fix.empty());
     ++files;
   }
   CHECK(files == 111);

@@ -23,7 +23,7 @@ TEST_CASE("elements nested a hundred thousand deep are refused") {
                              repeated(close, 100000) + "<link name=\"a\"/></robot>";
     const auto faults = faults_of([&] { read_urdf(folder.write("deep.urdf", text)); });
     REQUIRE(faults.size() == 1);
-    CHECK(faults[0].rule == "not well-formed XML: element depth exceeded");
+    CHECK(faults[0].problem == "not well-formed XML: element depth exceeded");
   }
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("a file of more than 16 MiB is refused before it is read") {
   fs::resize_file(file, (16u << 20) + 1);  // a hole: takes no room on the disk
   const auto faults = faults_of([&] { read_urdf(file); });
   REQUIRE(faults.size() == 1);
-  CHECK(faults[0].rule.find("16 MiB") != std::string::npos);
+  CHECK(faults[0].problem.find("16 MiB") != std::string::npos);
 }
 
 TEST_CASE("a robot of more than forty thousand links and joints is refused at the first too many") {
@@ -113,7 +113,7 @@ TEST_CASE("a file with bytes exchanged, taken out or doubled is read or refused"
     }
     const auto faults = faults_of([&] { read_urdf(folder.write("arm.urdf", text)); });
     refused += !faults.empty();
-    for (const Fault& fault : faults) CHECK(!fault.rule.empty());
+    for (const Diagnostic& fault : faults) CHECK(!fault.problem.empty());
   }
   CHECK(refused > 0);
 }

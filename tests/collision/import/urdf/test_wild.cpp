@@ -146,8 +146,8 @@ TEST_CASE("files in the wild: what has no effect here is told once for each kind
     INFO(listing(robot.warnings));
     for (const std::string& words : expected) {
       int found = 0;
-      for (const Fault& warning : robot.warnings)
-        found += warning.line > 0 && warning.rule.find(words) != std::string::npos;
+      for (const Diagnostic& warning : robot.warnings)
+        found += warning.line > 0 && warning.problem.find(words) != std::string::npos;
       CHECK_MESSAGE(found == 1, words);
     }
     CHECK(robot.warnings.size() == expected.size());
@@ -171,9 +171,9 @@ TEST_CASE("files in the wild: a mesh that is missing is refused where it is to b
 }
 
 TEST_CASE("files in the wild: a student's first file is told all its faults at once") {
-  const auto lines_of = [](const std::vector<Fault>& faults) {
+  const auto lines_of = [](const std::vector<Diagnostic>& faults) {
     std::vector<int> lines;
-    for (const Fault& fault : faults) lines.push_back(fault.line);
+    for (const Diagnostic& fault : faults) lines.push_back(fault.line);
     return lines;
   };
   const std::string name = "student_two_link";
