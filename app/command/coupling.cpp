@@ -110,7 +110,7 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
                                std::optional<Value> scene = {}) {
   if (robot.model.extension() != ".toml" && !scene)
     faults.add({robot.model.string(), 0, "", "is no scene, and only a scene has couplings",
-                "write a scene with a [[robot]] and a [[coupling]] (docs/scenes.md); or give "
+                "write a scene with a [[robot]] and a [[coupling]] (docs/reference/scene_file.md); or give "
                 "`coupling predict` --link and --stiffness",
                 "file.no-scene"});
   faults.check();
@@ -124,7 +124,7 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
   faults.check();
   if (prepared->input.couplings->size() == 0)
     throw InputError({{robot.model.string(), 0, "scene", "it has no coupling",
-                       "write a [[coupling]] (docs/scenes.md)", "scene.no-coupling"}});
+                       "write a [[coupling]] (docs/reference/scene_file.md)", "scene.no-coupling"}});
   return std::move(*prepared);
 }
 

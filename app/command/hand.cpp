@@ -1,4 +1,4 @@
-// twinarm hand: a scene under a hand device, in real time (docs/hand.md).
+// twinarm hand: a scene under a hand device, in real time (docs/understand/phantom_omni.md).
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>

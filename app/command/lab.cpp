@@ -1,4 +1,4 @@
-// twinarm lab: a laboratory in the browser (docs/lab.md).
+// twinarm lab: a laboratory in the browser (docs/use/lab.md).
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spawn.h>

@@ -1,4 +1,4 @@
-// `twinarm map`: a plane of two numbers of a scene, computed cell by cell (docs/map.md).
+// `twinarm map`: a plane of two numbers of a scene, computed cell by cell (docs/use/parameter_maps.md).
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>

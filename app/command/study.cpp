@@ -1,4 +1,4 @@
-// twinarm study: the paper's experiments from robot to report (docs/study.md).
+// twinarm study: the paper's experiments from robot to report (docs/use/run_the_study.md).
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 

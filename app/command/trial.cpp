@@ -1,4 +1,4 @@
-// twinarm trial: a protocol with a person (docs/trial.md).
+// twinarm trial: a protocol with a person (docs/use/user_study.md).
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// `twinarm zwidth`: checks its options, measures, writes (docs/hand_force.md).
+// `twinarm zwidth`: checks its options, measures, writes (docs/understand/haptic_rendering.md).
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <cmath>

@@ -260,7 +260,7 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
     throw InputError(
         {{scene.description.file.string(), 0, "scene",
           "its couplings are stops, which do not act between their limits",
-          "write a [[coupling]] without 'outside' (docs/scenes.md)", "scene.only-stops"}});
+          "write a [[coupling]] without 'outside' (docs/reference/scene_file.md)", "scene.only-stops"}});
   if (!found.K.allFinite() || !found.M.allFinite())
     throw InputError({{scene.description.file.string(), 0, "",
                        "stiffness or inertia is not finite in this state", "give smaller numbers",

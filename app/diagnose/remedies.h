@@ -22,7 +22,7 @@ struct SuggestedFix {
 // known of. `plan` is that of the run that stopped; `dead` may lack what explain() adds.
 std::vector<SuggestedFix> remedies_of(const SimulatePlan& plan, const PostMortem& dead);
 
-// The list `remedies` of docs/lab_protocol.md.
+// The list `remedies` of docs/reference/lab_protocol.md.
 void write_remedies(const std::vector<SuggestedFix>& remedies, JsonWriter& json);
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// What a map measures of a run (docs/map.md). All but the errors are sums of the run's own ledger.
+// What a map measures of a run (docs/use/parameter_maps.md). All but the errors are sums of the run's own ledger.
 //
 //   max_error   max over the steps of e(t_n), e the largest |q_K - q_D| of a measured joint;
 //   mean_error  (1/T) integral of e of one joint, trapezoidal; the largest of them
@@ -20,7 +20,7 @@
 
 namespace twinarm {
 
-// docs/map.md defines them.
+// docs/use/parameter_maps.md defines them.
 enum class MapMeasure { stable, max_error, mean_error, energy, passivity };
 inline constexpr std::array<const char*, 5> kMapMeasures{"stable", "max_error", "mean_error",
                                                          "energy", "passivity"};

@@ -17,7 +17,7 @@ void require_form(std::string_view form, std::string_view missing, const std::st
 std::string fill_form(std::string_view form, const std::string& title, const JsonWriter& json,
                       const PageBytes& bytes);
 
-// The page of an inspected state: `inspect --json` with the robot beside it (docs/replay_page.md).
+// The page of an inspected state: `inspect --json` with the robot beside it (docs/use/share_a_run.md).
 struct InspectedJson {
   std::string title, state;          // what is looked at, and in which state
   std::vector<std::string> command;  // as it was typed
@@ -29,7 +29,7 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
                          const std::string& inspection, const InspectedJson& words);
 
 // The page of a recorded run: one HTML file with picture, plots, ledger and settings, that needs no
-// server and no network (docs/replay_page.md).
+// server and no network (docs/use/share_a_run.md).
 struct ReplayPage {
   std::string html;
   std::size_t frames = 0;

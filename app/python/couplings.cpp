@@ -61,7 +61,7 @@ py::object predict(const py::object& scene, const py::object& state,
   SimulatePlan prepared = prepare_simulation(options);
   if (!prepared.input.couplings || prepared.input.couplings->size() == 0)
     throw InputError({{options.robot.model.string(), 0, "", "it has no coupling",
-                       "give a scene with a [[coupling]] (docs/scenes.md)", "scene.no-coupling"}});
+                       "give a scene with a [[coupling]] (docs/reference/scene_file.md)", "scene.no-coupling"}});
   const std::string json = predicted_json(predict_couplings(prepared, task), task);
   return py::module_::import("json").attr("loads")(json);
 }
@@ -88,7 +88,7 @@ void add_couplings(py::module_& m) {
       "coupling_types", coupling_types,
       "A row for each type of [[coupling]] in a scene: name; treatments that it can have (of its\n"
       "own: none); at_point, whether it pulls at a point; can_hold, whether its force can be held\n"
-      "at a rate. docs/coupling.md has the laws.");
+      "at a rate. docs/understand/couplings.md has the laws.");
   m.def(
       "schemes",
       [] {
@@ -125,7 +125,7 @@ void add_couplings(py::module_& m) {
       py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("turn") = std::numbers::pi,
       py::arg("time") = 1.0, py::arg("set") = py::none(),
       "What theory says of a scene's couplings before it is run: what `twinarm coupling predict\n"
-      "--json` prints, as a dict (docs/command_line.md): K, B, mass_matrix, modes, limits of each\n"
+      "--json` prints, as a dict (docs/reference/output_formats.md): K, B, mass_matrix, modes, limits of each\n"
       "scheme, sag, and under 'scene' the largest_step [s] of the scene as it is stepped.\n\n"
       "  state       a state file in JSON\n"
       "  step        [s]; as the scene says if left out\n"

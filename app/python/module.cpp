@@ -1,4 +1,4 @@
-// The Python module `twinarm`: docs/python.md. What it takes and gives is said in twinarm.pyi.
+// The Python module `twinarm`: docs/use/python.md. What it takes and gives is said in twinarm.pyi.
 #include "app/python/arrays.h"
 #include "app/support/version.h"
 #include "solver/dynamics/dynamics.h"

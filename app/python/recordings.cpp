@@ -110,7 +110,7 @@ py::dict pulls(const Opened& opened) {
 
 void add_recordings(py::module_& m) {
   py::class_<Opened> recording(m, "Recording",
-                               "A recording as arrays: N frames in rows (docs/recording.md).");
+                               "A recording as arrays: N frames in rows (docs/use/record_and_resume.md).");
   recording.def_property_readonly(
       "t", [](const Opened& o) { return array_of(o.t); }, "(N,) times of the frames [s]");
   recording.def_property_readonly(

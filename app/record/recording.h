@@ -1,4 +1,4 @@
-// A recording of a run (docs/recording.md): what it was of, then frame by frame what it did.
+// A recording of a run (docs/use/record_and_resume.md): what it was of, then frame by frame what it did.
 #pragma once
 
 #include <cstdint>

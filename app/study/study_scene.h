@@ -1,4 +1,4 @@
-// A run of the study as a scene file (docs/scenes.md): what `simulate`, `render`, `lab` and all the
+// A run of the study as a scene file (docs/reference/scene_file.md): what `simulate`, `render`, `lab` and all the
 // others take.
 #pragma once
 

@@ -1,5 +1,5 @@
 // The same scenes in every engine: how far each is from the truth, and what a step costs it. Prints
-// JSON (docs/peers.md says what is in it); table and figure are scripts/measure/peers'.
+// JSON (docs/understand/accuracy_vs_other_engines.md says what is in it); table and figure are scripts/measure/peers'.
 
 #include <algorithm>
 #include <cmath>

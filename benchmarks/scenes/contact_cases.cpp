@@ -1,4 +1,4 @@
-// Scenes with contacts and closed forms (docs/cases.md, group E): free balls and boxes on a floor.
+// Scenes with contacts and closed forms (docs/reference/verification_cases.md, group E): free balls and boxes on a floor.
 #include <algorithm>
 #include <cmath>
 #include <numbers>

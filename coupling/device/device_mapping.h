@@ -1,4 +1,4 @@
-// From a hand device to the kinematic robot, and the force back (docs/hand_force.md).
+// From a hand device to the kinematic robot, and the force back (docs/understand/haptic_rendering.md).
 //
 //   paper      theta1, theta4, theta6 of the device turn joints 1, 2, 3 of the robot. Only theta1
 //              has a motor: of the robot's torques the hand feels that of joint 1 alone.

@@ -4,7 +4,7 @@
 //   -> the mapping's virtual work -> low-pass -> passivity -> clamp -> the motors' torques
 //
 // So a wall, a box that is pushed and the robot's own inertia are felt through the coupling, and
-// nothing is felt of a robot that follows slowly and freely. docs/hand_force.md
+// nothing is felt of a robot that follows slowly and freely. docs/understand/haptic_rendering.md
 #pragma once
 
 #include <vector>

@@ -2,7 +2,7 @@
 //
 // In that plane (out from the waist's axis, up from the shoulder) the elbow is at L1 (cos theta2,
 // sin theta2) and the forearm is L2 (sin t3, -cos t3), t3 = theta2 + theta3. Signs and lengths are
-// those of the published kinematics (docs/hand.md); angles of the triangle shoulder, elbow, point
+// those of the published kinematics (docs/understand/phantom_omni.md); angles of the triangle shoulder, elbow, point
 // are taken from half-angle products of its sides, which keep their digits where the arm is
 // stretched and an arc cosine would lose half of them. Device axes.
 #include "coupling/device/omni.h"

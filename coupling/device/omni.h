@@ -1,4 +1,4 @@
-// The Phantom Omni (today: Touch): its geometry, and what it can do. docs/hand.md has the sources.
+// The Phantom Omni (today: Touch): its geometry, and what it can do. docs/understand/phantom_omni.md has the sources.
 //
 // Six joints: theta1 (waist), theta2 (upper arm) and theta3 (forearm, RELATIVE to the upper arm)
 // carry encoders and motors; theta4..theta6 (yaw, pitch, roll of the stylus) are sensed only.

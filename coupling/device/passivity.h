@@ -1,5 +1,5 @@
 // Passivity observer and controller of what a hand feels (Hannaford and Ryu 2002), with the work
-// that the held force really does (Ryu, Kim and Hannaford 2004; docs/hand_force.md):
+// that the held force really does (Ryu, Kim and Hannaford 2004; docs/understand/haptic_rendering.md):
 //
 //   E_n = E_n-1 - F_n-1 . (x_n - x_n-1)        work of the hand on all that is behind the device
 //
@@ -58,7 +58,7 @@ class PassivityControl {
 };
 
 // A haptic device against a virtual wall, tick by tick: which walls are stable, and which give no
-// energy away. One direction; the wall pulls as well as it pushes (docs/hand_force.md).
+// energy away. One direction; the wall pulls as well as it pushes (docs/understand/haptic_rendering.md).
 //
 //   m x'' = -b x' - f_c sign x' + F,     F held over a tick T = 1/rate:
 //   F_n = -K y - B (y - y_before)/T,     y = x sampled `delay` ticks ago, in steps of `resolution`

@@ -20,7 +20,7 @@ void check_settings(const VirtualOmniSettings& s) {
   const auto demand = [&](bool holds, const char* where, double value, const char* rule) {
     if (!holds)
       faults.add(where, "is " + std::to_string(value) + ", must be " + rule,
-                 std::string("the device's own figure is in docs/hand.md"), "device.figure");
+                 std::string("the device's own figure is in docs/understand/phantom_omni.md"), "device.figure");
   };
   const auto at_least_zero = [&](const char* where, double value) {
     demand(std::isfinite(value) && value >= 0, where, value, "zero or more");

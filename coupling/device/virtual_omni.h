@@ -19,7 +19,7 @@
 // the last tick at or before its time (- delay_to_host). Between ticks the linear part is advanced
 // by its exact exponential, so no stiffness of the arm is too large, and friction by the constant
 // force that stops or slows the point. What the mass of a real Omni does besides (it differs by
-// direction and posture) is not in it. docs/hand.md. Cost: about
+// direction and posture) is not in it. docs/understand/phantom_omni.md. Cost: about
 // 2 us of processor time a tick.
 #pragma once
 
@@ -31,7 +31,7 @@
 
 namespace twinarm {
 
-// The arm of a person who holds the stylus. Assumed; docs/hand.md has measured ones. All zero: a
+// The arm of a person who holds the stylus. Assumed; docs/understand/phantom_omni.md has measured ones. All zero: a
 // device that nobody holds.
 struct ArmImpedance {
   double stiffness = 300;  // [N/m]

@@ -1,4 +1,4 @@
-"""The program's own manual (`twinarm help --man`) as Markdown: what docs/reference_commands.md holds on the site."""
+"""The program's own manual (`twinarm help --man`) as Markdown: what docs/reference/commands.md holds on the site."""
 import html
 import re
 

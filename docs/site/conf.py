@@ -95,7 +95,7 @@ def name_what_is_outside(app, docname, source):
 
 def set_the_commands(app, docname, source):
     """The program's own manual, where it is built; else a line that says so."""
-    if docname != "reference_commands":
+    if docname != "reference/commands":
         return
     program = os.environ.get("TWINARM_PROGRAM", PROGRAM)
     try:
@@ -109,8 +109,8 @@ def set_the_commands(app, docname, source):
 
 def link_the_headers(app, docname, source):
     """To the pages that Doxygen makes of the headers, where scripts/generate/site has them made."""
-    if docname == "headers" and os.environ.get("TWINARM_HEADERS"):
-        source[0] = source[0].replace("<!-- headers -->", '<p><a href="headers/index.html">To the headers</a></p>')
+    if docname == "reference/cpp_api" and os.environ.get("TWINARM_HEADERS"):
+        source[0] = source[0].replace("<!-- headers -->", '<p><a href="../headers/index.html">To the headers</a></p>')
 
 
 def list_the_rest(app, docname, source):

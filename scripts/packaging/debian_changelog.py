@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/changelog.md as Debian has it: debian_changelog.py CHANGELOG.md OUT.
+"""docs/develop/changelog.md as Debian has it: debian_changelog.py CHANGELOG.md OUT.
 
 A version is a heading `## 0.1.0, 22 November 2026`, and its changes a list below it.
 """

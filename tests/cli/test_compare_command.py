@@ -307,7 +307,7 @@ class Page(unittest.TestCase):
 
 class Guide(unittest.TestCase):
     def test_the_worked_example_of_the_guide_is_the_one_that_is_compiled(self):
-        guide = (ROOT / "docs/adding_a_case.md").read_text(encoding="utf-8")
+        guide = (ROOT / "docs/develop/adding_a_case.md").read_text(encoding="utf-8")
         example = (ROOT / "tests/benchmarks/analytic/registry/example_case.cpp").read_text(encoding="utf-8")
         lines = {line.strip() for line in example.splitlines()}
         blocks = re.findall(r"^ +```cpp\n(.*?)^ +```", guide, re.S | re.M)

@@ -118,7 +118,7 @@ class Inspect(RobotCommand):
             self.assertEqual(wide, [])
 
     def test_the_documentation_lists_every_quantity_with_its_equation(self):
-        page = (ROOT / "docs/inspect.md").read_text(encoding="utf-8")
+        page = (ROOT / "docs/use/inspect_a_state.md").read_text(encoding="utf-8")
         page = page.split("## What each quantity is")[1].split("\n## ")[0]
         for step in self.answer(PUMA)["passes"]:
             for quantity in step["quantities"]:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The examples of app/python/examples and of docs/python.md run, and print what they promise."""
+"""The examples of app/python/examples and of docs/use/python.md run, and print what they promise."""
 import importlib.machinery
 import importlib.util
 import os
@@ -37,7 +37,7 @@ LESSONS = runner_of_lessons()
 
 class Examples(unittest.TestCase):
     def test_each_lesson_has_a_script_that_it_links_to(self):
-        lessons = sorted(file.parent for file in (ROOT / "docs" / "lessons").glob("*/lesson.md"))
+        lessons = sorted(file.parent for file in (ROOT / "docs" / "learn" / "lessons").glob("*/lesson.md"))
         self.assertGreater(len(lessons), 9)
         scripts = {file.stem for file in EXAMPLES.glob("*.py")} - {"lesson"}
         self.assertEqual(scripts, {lesson.name for lesson in lessons})
@@ -53,7 +53,7 @@ class Examples(unittest.TestCase):
 
     def compare(self, script, output):
         """The lesson's checks, one by one, with the numbers that say() printed."""
-        lesson = LESSONS.Lesson(ROOT / "docs" / "lessons" / script.stem)
+        lesson = LESSONS.Lesson(ROOT / "docs" / "learn" / "lessons" / script.stem)
         claims = [LESSONS.parts_of(line.strip()) for _, _, checks in lesson.steps
                   for line in (checks or "").splitlines() if line.strip()]
         found = re.findall(r"^(\S.{65,}) = (\S+)$", output, re.MULTILINE)
@@ -62,7 +62,7 @@ class Examples(unittest.TestCase):
             self.assertTrue(LESSONS.holds(float(value), *claim), f"{what.strip()}: {value}; the lesson says {claim}")
 
     def test_the_page_prints_what_it_shows(self):
-        text = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+        text = (ROOT / "docs" / "use" / "python.md").read_text(encoding="utf-8")
         blocks = re.findall(r"```python\n(.*?)```(?:\n+prints\n+```\n(.*?)```)?", text, re.DOTALL)
         self.assertGreater(len(blocks), 0)
         shown = [(code, output) for code, output in blocks if output]

@@ -146,7 +146,7 @@ class Scenes(ProgramTest):
             twinarm.simulate(DOUBLE_PENDULUM, duration=1, set={"step": 0.01})
 
     def test_targets_are_where_the_program_has_them(self):
-        scene = ROOT / "docs" / "lessons" / "04_torsional_or_linear" / "arm_linear.toml"
+        scene = ROOT / "docs" / "learn" / "lessons" / "04_torsional_or_linear" / "arm_linear.toml"
         told = program("simulate", scene, "--duration", 0.4, "--every", 0.1)
         run = twinarm.simulate(scene, duration=0.4, every=0.1)
         self.assertEqual(list(run.targets), ["pull1", "pull2"])
@@ -157,7 +157,7 @@ class Scenes(ProgramTest):
         self.assertEqual(twinarm.simulate("assets/scenes/pendulum.toml", duration=0.1).targets, {})
 
     def test_each_type_of_coupling_is_known_to_scenes(self):
-        text = (ROOT / "docs" / "scenes.md").read_text(encoding="utf-8")
+        text = (ROOT / "docs" / "reference" / "scene_file.md").read_text(encoding="utf-8")
         types = twinarm.coupling_types()
         self.assertGreater(len(types), 5)
         for row in types:

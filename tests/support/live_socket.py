@@ -1,6 +1,6 @@
 """A client of `twinarm lab` that is no browser: HTTP and WebSocket with Python's own library alone.
 
-For tests and measurements. What goes over the wire: docs/lab_protocol.md.
+For tests and measurements. What goes over the wire: docs/reference/lab_protocol.md.
 
     lab = Lab(url)                          # the address that the program has printed, token included
     lab.get("/scene")                       # Reply(status, headers, body)

@@ -67,8 +67,8 @@ class Runner(unittest.TestCase):
 
 class Lessons(unittest.TestCase):
     def test_the_list_names_every_lesson(self):
-        listed = (ROOT / "docs/lessons/README.md").read_text()
-        lessons = sorted((ROOT / "docs/lessons").glob("*/lesson.md"))
+        listed = (ROOT / "docs/learn/lessons/README.md").read_text()
+        lessons = sorted((ROOT / "docs/learn/lessons").glob("*/lesson.md"))
         self.assertGreaterEqual(len(lessons), 10)
         for lesson in lessons:
             self.assertIn(f"({lesson.parent.name}/lesson.md)", listed)

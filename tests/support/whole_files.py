@@ -28,7 +28,7 @@ def recorded_blocks(data):
 
 
 def map_cells(data):
-    """{(ix, iy): line} of the work file of a map (docs/map.md)."""
+    """{(ix, iy): line} of the work file of a map (docs/use/parameter_maps.md)."""
     lines = data.decode().split("\n")
     if lines[0] != "# twinarm map 2" or lines[-1]:
         raise Half("no head, or no end")

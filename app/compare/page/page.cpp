@@ -146,7 +146,7 @@ constexpr const char* kHowToRead =
     "order, or its largest terms cancel. Where an error is as large as "
     "the motion itself, or is rounding, a slope tells nothing.</p>\n"
     "<p><b>The code</b> of all cases stands at the end, as it was compiled. A case of your own is "
-    "one file: docs/adding_a_case.md. What is measured, and how: docs/cases.md.</p>\n";
+    "one file: docs/develop/adding_a_case.md. What is measured, and how: docs/reference/verification_cases.md.</p>\n";
 
 // What the links lead to: each file once, whole, to be unfolded.
 std::string code_of(const std::vector<std::string>& case_names) {

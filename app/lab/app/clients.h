@@ -55,7 +55,7 @@ class Clients {
   std::vector<ClientId> asked_;
 };
 
-// The message `state` of docs/lab_protocol.md.
+// The message `state` of docs/reference/lab_protocol.md.
 
 // For all clients alike, but for `you` and `secret`: addressed() puts them in.
 std::string state_message(const LabStatus& status, const Clients::View& audience,

@@ -1,4 +1,4 @@
-// What the lab answers over HTTP (docs/lab_protocol.md).
+// What the lab answers over HTTP (docs/reference/lab_protocol.md).
 #pragma once
 
 #include <filesystem>

@@ -1,4 +1,4 @@
-// The lab's inspector: one frame, one body, as a `glass` message (docs/lab_glass.md).
+// The lab's inspector: one frame, one body, as a `glass` message (docs/understand/articulated_body_algorithm.md).
 //
 // The frame's memory is put back into a simulation that was built alike, one semi-implicit step is
 // taken there to learn by whose name each force acts, and aba() is asked once more with FullTrace:

@@ -27,7 +27,7 @@ std::vector<GalleryScene> read_gallery();
 // nullptr where there is none of that name.
 const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const std::string& name);
 
-// The list `gallery` of docs/lab_protocol.md.
+// The list `gallery` of docs/reference/lab_protocol.md.
 void write_gallery(const std::vector<GalleryScene>& gallery, JsonWriter& json);
 
 // The paper's four experiments, one click each: a scene of the gallery and what is changed in it.
@@ -42,7 +42,7 @@ struct Preset {
 const std::vector<Preset>& all_presets();
 const Preset* find_preset(const std::string& name);  // nullptr where there is none
 
-// The list `presets` of docs/lab_protocol.md.
+// The list `presets` of docs/reference/lab_protocol.md.
 void write_presets(JsonWriter& json);
 
 }  // namespace twinarm

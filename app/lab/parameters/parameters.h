@@ -65,7 +65,7 @@ void know_starts(const std::vector<LabParameter>& unchanged, std::vector<LabPara
 // Adds limits and lags about `now`. The plan is the caller's own: its state is set to `now`.
 void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<LabParameter>& knobs);
 
-// The list `knobs` of docs/lab_protocol.md.
+// The list `knobs` of docs/reference/lab_protocol.md.
 void write_knobs(const std::vector<LabParameter>& knobs, JsonWriter& json);
 
 }  // namespace twinarm

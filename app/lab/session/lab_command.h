@@ -1,4 +1,4 @@
-// What a page says to the lab: one JSON object each (docs/lab_protocol.md).
+// What a page says to the lab: one JSON object each (docs/reference/lab_protocol.md).
 #pragma once
 
 #include <array>

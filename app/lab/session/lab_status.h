@@ -1,4 +1,4 @@
-// What the page is told of the run besides its frames: the message `state` (docs/lab_protocol.md).
+// What the page is told of the run besides its frames: the message `state` (docs/reference/lab_protocol.md).
 #pragma once
 
 #include <optional>

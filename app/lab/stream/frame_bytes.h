@@ -1,4 +1,4 @@
-// One frame of the run in bytes, and what plots need of many (docs/lab_protocol.md).
+// One frame of the run in bytes, and what plots need of many (docs/reference/lab_protocol.md).
 #pragma once
 
 #include <cstdint>

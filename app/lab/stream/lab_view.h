@@ -1,4 +1,4 @@
-// What pages see of a lab's run: frames to the bytes of docs/lab_protocol.md.
+// What pages see of a lab's run: frames to the bytes of docs/reference/lab_protocol.md.
 //
 // Made once for a scene. Used by one thread, the painter; with the run it shares nothing that
 // changes: it has couplings of its own, and leads their kinematic side by what a frame says.

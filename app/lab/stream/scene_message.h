@@ -1,4 +1,4 @@
-// The message `scene` (docs/lab_protocol.md): what the numbers in frames mean.
+// The message `scene` (docs/reference/lab_protocol.md): what the numbers in frames mean.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-"""What the examples share. Each belongs to the lesson of its own name, docs/lessons/NAME/lesson.md."""
+"""What the examples share. Each belongs to the lesson of its own name, docs/learn/lessons/NAME/lesson.md."""
 import pathlib
 
 import numpy as np
@@ -8,7 +8,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 def folder_of(script):
     """Of the lesson: its scenes and robots."""
-    return ROOT / "docs" / "lessons" / pathlib.Path(script).stem
+    return ROOT / "docs" / "learn" / "lessons" / pathlib.Path(script).stem
 
 
 def say(what, value):

@@ -23,7 +23,7 @@ bool limits_act(const SceneModel& scene, Integrator integrator);
 
 // With the semi-implicit integrator: whether a free body is there that no joint and no constraint
 // ties to anything. Steps under constraints keep its energy and angular momentum in flight
-// (docs/contact.md), so all steps of the scene are such, though nothing may touch.
+// (docs/understand/contact.md), so all steps of the scene are such, though nothing may touch.
 bool steps_for_flight(const SceneModel& scene, Integrator integrator);
 
 // contact = "event": steps locate their events in time, and are adaptive between them.

@@ -208,7 +208,7 @@ void SceneReader::read_coupling(const Value& value, std::size_t index) {
   CouplingDescription coupling;
   coupling.line = table.line();
   coupling.name = read_item_name(table, "coupling", index, scene.couplings);
-  table.missing("type", "give type = \"linear\", \"torsional\" or another of docs/scenes.md");
+  table.missing("type", "give type = \"linear\", \"torsional\" or another of docs/reference/scene_file.md");
   const std::size_t chosen = table.choice("type", names_of(all_couplings)).value_or(0);
   const CouplingFacts& facts = all_couplings[chosen];
   coupling.law = facts.type;

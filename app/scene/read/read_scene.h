@@ -1,4 +1,4 @@
-// Reads a scene file (docs/scenes.md).
+// Reads a scene file (docs/reference/scene_file.md).
 #pragma once
 
 #include <filesystem>

@@ -2,7 +2,7 @@
 //
 // SI units, radians; vectors and positions in world axes unless a comment says otherwise. Defaults
 // stand here and nowhere else. Each item remembers its line, so that whoever refuses it later can
-// still say where it stands. docs/scenes.md tells users the same.
+// still say where it stands. docs/reference/scene_file.md tells users the same.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,6 @@
 // The numbers of a scene file, one row a key. From the rows are made: what the reader takes and
 // refuses, what a change of a coupling's type leaves out, the units of `map`, the sliders of the
-// lab, and the tables of docs/scenes.md. A key more is a row more, and the member that it fills; a
+// lab, and the tables of docs/reference/scene_file.md. A key more is a row more, and the member that it fills; a
 // slider more is `slider` in its row.
 #pragma once
 

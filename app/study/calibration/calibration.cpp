@@ -135,7 +135,7 @@ void write_calibration(const Calibration& calibration, const std::filesystem::pa
   ordered_json root;
   root["about"] =
       "Gains that the paper does not publish, found by search. Made by `twinarm study "
-      "--recalibrate`; objective, bounds and numbers of each entry: docs/study.md.";
+      "--recalibrate`; objective, bounds and numbers of each entry: docs/use/run_the_study.md.";
   root["entries"] = ordered_json::array();
   for (const auto& [name, entry] : calibration.entries) {
     ordered_json item = {{"evaluations", entry.evaluations},
@@ -159,7 +159,7 @@ void write_identifications(const std::vector<Identification>& all,
   ordered_json root;
   root["about"] =
       "What Table 2 leaves open of a coupling's gains. Made by `twinarm study --identify`; what "
-      "stands here: docs/study.md.";
+      "stands here: docs/use/run_the_study.md.";
   root["optimiser"] = optimiser_name();
   root["entries"] = ordered_json::array();
   for (const Identification& found : all) {

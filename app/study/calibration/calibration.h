@@ -86,7 +86,7 @@ struct StudyInputs {
 };
 StudyInputs load_inputs(const std::filesystem::path& assets);
 
-// The searches behind assets/study/calibration.json (docs/study.md):
+// The searches behind assets/study/calibration.json (docs/use/run_the_study.md):
 //
 //   E3/RATE/LAW        the printed torsional law with one k and b for both links, and the mass of
 //                      arm 2 that the paper does not publish, on its E3 row

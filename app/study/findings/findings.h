@@ -1,4 +1,4 @@
-// Every claim about the paper's numbers, derived again in this run (docs/findings.md), and the
+// Every claim about the paper's numbers, derived again in this run (docs/understand/paper_analysis.md), and the
 // answer to its question in five lines.
 #pragma once
 

@@ -1,5 +1,5 @@
 // What is run beside the reproduction: gains by trial, matched gains, implicit couplings, held
-// forces, and one ablation for each choice of the printed law. Names: docs/study.md.
+// forces, and one ablation for each choice of the printed law. Names: docs/use/run_the_study.md.
 #pragma once
 
 #include "app/study/findings/results.h"

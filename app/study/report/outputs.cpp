@@ -158,7 +158,7 @@ ordered_json search_json(const StudyResults& results) {
   return rows;
 }
 
-// What a row leaves open of a law's parameters (docs/study.md).
+// What a row leaves open of a law's parameters (docs/use/run_the_study.md).
 ordered_json identification_json(const Identification& found) {
   ordered_json json = {{"row", found.row},
                        {"law", found.law},

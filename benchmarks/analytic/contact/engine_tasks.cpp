@@ -189,7 +189,7 @@ using contact_looks::place;
 // ---- what a page draws of them ----
 
 constexpr const char* kPublished =
-    "Run in the step of the published figures alone, 1 ms; other engines beside: docs/peers.md.";
+    "Run in the step of the published figures alone, 1 ms; other engines beside: docs/understand/accuracy_vs_other_engines.md.";
 // The box, pulled with 150 N, and the ball in a corner.
 std::vector<double> seen_speeds(const ContactScene& s) {
   return {s.v(1).norm(), s.v(2).norm()};

@@ -1,4 +1,4 @@
-// Mechanisms with closed loops whose motion is known: group D of docs/cases.md.
+// Mechanisms with closed loops whose motion is known: group D of docs/reference/verification_cases.md.
 //
 // Each case holds the mechanism, where it starts, what is read off it, and reference values by
 // time. Those were computed elsewhere in extended precision, in minimal coordinates, or are closed

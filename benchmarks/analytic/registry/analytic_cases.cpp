@@ -7,7 +7,7 @@
 
 namespace twinarm {
 
-const std::vector<EmbeddedFile>& case_documents();  // docs/cases/
+const std::vector<EmbeddedFile>& case_documents();  // docs/reference/cases/
 
 namespace {
 

@@ -10,10 +10,10 @@
 
 namespace twinarm {
 
-// All of them, in the order of docs/cases.md. Names are unique.
+// All of them, in the order of docs/reference/verification_cases.md. Names are unique.
 const std::vector<AnalyticCase>& analytic_cases();
 
-// What docs/cases/GROUP.md says of the cases, for people: a paragraph of what is known, below it
+// What docs/reference/cases/GROUP.md says of the cases, for people: a paragraph of what is known, below it
 // the cases that measure it, as `- NAME, NAME: what is measured`.
 struct CaseText {
   std::string group, reference, statement;

@@ -2,7 +2,7 @@
 //
 // Each case measures ONE number with this project's solver, its error, in the unit of its
 // tolerance. References are closed forms or come from computations in extended precision that share
-// nothing with the solver (docs/cases.md). Two kinds: a motion that is known (trajectory), which
+// nothing with the solver (docs/reference/verification_cases.md). Two kinds: a motion that is known (trajectory), which
 // any integrator can be tried on; and all else, an experiment of its own (run).
 #pragma once
 
@@ -31,7 +31,7 @@ struct AnalyticCase {
   std::function<CaseResult()> mistaken{};  // run() with a mistake in it, which must fail
   std::shared_ptr<const TrajectoryCase> trajectory{};
   std::shared_ptr<const ContactCasePlot> look{};  // what a page draws; null: nothing
-  // Of the list, from docs/cases/: "contact"; what is measured, with its unit, against what; and
+  // Of the list, from docs/reference/cases/: "contact"; what is measured, with its unit, against what; and
   // what is known, for people: one paragraph, formulas in <p>, HTML without a stylesheet.
   const char *group = "", *reference = "", *statement = "";
 
@@ -55,7 +55,7 @@ struct CaseFamily {
 
 // Those of each folder, made by twinarm_registry(): a file NAME.cpp defines `CaseFamily
 // NAME_cases()`.
-const std::vector<CaseFamily>& joint_cases();       // groups A, B, C, F1, F2, G1 of docs/cases.md
+const std::vector<CaseFamily>& joint_cases();       // groups A, B, C, F1, F2, G1 of docs/reference/verification_cases.md
 const std::vector<CaseFamily>& loop_cases();        // D
 const std::vector<CaseFamily>& contact_cases();     // E, H1
 const std::vector<CaseFamily>& coupling_cases();    // F3, F4

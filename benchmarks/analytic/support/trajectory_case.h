@@ -2,7 +2,7 @@
 //
 // One aggregate holds a whole case; run_trajectory() runs it with any integrator. A case of one
 // evaluation (accelerations, torques, energies in one state) is one whose only time is 0: no step
-// is taken, and no integrator is asked. How to add one: docs/adding_a_case.md.
+// is taken, and no integrator is asked. How to add one: docs/develop/adding_a_case.md.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
 // The KVR of the S-103 against the paper's forward kinematics, its offsets in z-up axes
-// (docs/paper.md): each joint's frame is its parent's times its fixed offset times its own rotation
+// (docs/understand/paper.md): each joint's frame is its parent's times its fixed offset times its own rotation
 // about z. One unit of the paper is 25 mm here.
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // The stability edges of coupling/analysis/prediction.h against runs of the real stepper (docs/
-// cases_robots.md, F4), and the closed orbit of the printed, unsigned damper (docs/findings.md, 4
+// cases_robots.md, F4), and the closed orbit of the printed, unsigned damper (docs/understand/paper_analysis.md, 4
 // d).
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-// The coupled two-link arm against the claims about the paper (docs/findings.md). In continuous
+// The coupled two-link arm against the claims about the paper (docs/understand/paper_analysis.md). In continuous
 // time it is benchmarks/analytic/coupling/tracking.cpp, F3.
 #include <doctest/doctest.h>
 

@@ -1,5 +1,5 @@
 // What goes between the lab and its page. TypeScript's types are the description: the page compiles
-// against them, docs/lab_protocol.md shows them, and tests/cli/test_lab_protocol.py holds the
+// against them, docs/reference/lab_protocol.md shows them, and tests/cli/test_lab_protocol.py holds the
 // program's messages and commands against them. World frame: z up; metres, seconds, radians, newtons.
 import type { Equation, Inspection, Neighbour, PassStep } from './inspection';
 import type { Channel, LegendLine, View } from './run';

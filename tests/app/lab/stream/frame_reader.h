@@ -1,4 +1,4 @@
-// Reads a frame of the lab by the table in docs/lab_protocol.md, written down here once more.
+// Reads a frame of the lab by the table in docs/reference/lab_protocol.md, written down here once more.
 #pragma once
 
 #include <doctest/doctest.h>

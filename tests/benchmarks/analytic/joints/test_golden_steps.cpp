@@ -1,4 +1,4 @@
-// Fixed-step integrators against the golden numbers of an independent code (docs/cases.md, G1),
+// Fixed-step integrators against the golden numbers of an independent code (docs/reference/verification_cases.md, G1),
 // which tell at once where an integrator bears another's name; and the order of each, on mechanisms
 // whose forces depend on velocity (C2) and whose coordinates are rotations (A2, A4).
 #include <doctest/doctest.h>

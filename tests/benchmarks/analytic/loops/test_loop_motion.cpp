@@ -1,4 +1,4 @@
-// Motions with closed loops: group D of docs/cases.md, orders, energy, and what every step
+// Motions with closed loops: group D of docs/reference/verification_cases.md, orders, energy, and what every step
 // promises.
 #include <doctest/doctest.h>
 

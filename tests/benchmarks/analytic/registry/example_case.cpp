@@ -1,4 +1,4 @@
-// The worked example of docs/adding_a_case.md: 2 kg hang on a spring of 50 N/m, are
+// The worked example of docs/develop/adding_a_case.md: 2 kg hang on a spring of 50 N/m, are
 // held where it is slack, and let go. With w^2 = k / m,
 //   z = -(g / w^2) (1 - cos w t).
 // A case of the list would stand in benchmarks/analytic/ as it stands here, down to its last line.

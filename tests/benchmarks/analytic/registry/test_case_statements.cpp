@@ -22,7 +22,7 @@ TEST_CASE("cases: every one says what is known of it, with a formula") {
   }
 }
 
-TEST_CASE("cases: docs/cases/ tells of no case that is not there") {
+TEST_CASE("cases: docs/reference/cases/ tells of no case that is not there") {
   std::set<std::string> names;
   for (const AnalyticCase& c : analytic_cases()) names.insert(c.name);
   for (const auto& described : case_texts()) {

@@ -1,5 +1,5 @@
 // The references of the cases against digits that another code found by integrating in 30 digits
-// and more (docs/cases.md): neither knows of the other.
+// and more (docs/reference/verification_cases.md): neither knows of the other.
 #include <doctest/doctest.h>
 
 #include <cmath>
