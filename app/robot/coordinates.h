@@ -1,4 +1,5 @@
-// Joint values as people and files have them (docs/reference/state_file.md), and the way to the solver's.
+// Joint values as people and files have them (docs/reference/state_file.md), and the way to the
+// solver's.
 //
 // Each joint that is neither fixed nor a follower (URDF's mimic) is named once, in the order of the
 // model. Its values are those of the solver, but for joints of six degrees of freedom (URDF's
