@@ -48,7 +48,7 @@ add_custom_command(OUTPUT ${MADE}/twinarm.1.gz ${MADE}/twinarm
   COMMAND ${GZIP} -9nf ${MADE}/twinarm.1
   COMMAND twinarm help --completion > ${MADE}/twinarm
   DEPENDS twinarm)
-set(changelog ${CMAKE_SOURCE_DIR}/docs/changelog.md)
+set(changelog ${CMAKE_SOURCE_DIR}/docs/develop/changelog.md)
 add_custom_command(OUTPUT ${MADE}/changelog.gz
   COMMAND Python3::Interpreter ${PACKAGING}/debian_changelog.py ${changelog} ${MADE}/changelog
   COMMAND ${GZIP} -9nf ${MADE}/changelog

@@ -96,7 +96,7 @@ CaseReadings followed(const TrackedCoupling& coupling, double t) {
                                      special::Numbers& dx) {
       const ArmPlace D{now[0], now[1], now[2], now[3]};
       const special::Two tau = coupling_torques(coupling, arm, target(sweep, sweep + since), D);
-      const special::Two qdd = accelerations_of(discretization_terms(arm, D.q2, D.qd1, D.qd2), tau);
+      const special::Two qdd = accelerations_of(terms_of(arm, D.q2, D.qd1, D.qd2), tau);
       dx = {D.qd1, D.qd2, qdd.first, qdd.second};
     };
     // The fastest of the dampers takes a link along within 0.5 ms.
