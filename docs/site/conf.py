@@ -33,7 +33,7 @@ highlight_language = "none"
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4  # of each heading, as GitHub has them
-suppress_warnings = ["myst.header"]  # README.md of docs begins with the folder's name
+suppress_warnings = ["myst.header"]
 
 html_theme = "furo"
 html_static_path = ["static"]
@@ -82,7 +82,7 @@ def raise_skip():
 
 
 def name_what_is_outside(app, docname, source):
-    """A link to a Markdown file beside docs/ keeps its words alone: that file is in the sources, not on the site."""
+    """A link to a Markdown file outside docs/ becomes plain text: that file is in the sources, not on the site."""
     here = pathlib.Path(app.env.doc2path(docname)).parent
 
     def words(link):
@@ -113,13 +113,22 @@ def link_the_headers(app, docname, source):
         source[0] = source[0].replace("<!-- headers -->", '<p><a href="../headers/index.html">To the headers</a></p>')
 
 
-def list_the_rest(app, docname, source):
-    """Pages that index.md does not name go into a last list, so that none is lost."""
-    if docname == root_doc:
-        named = set(re.split(r"[\s<>]+", source[0]))
-        rest = sorted(name for name in app.env.found_docs - named - {root_doc} if "lessons/" not in name)
-        if rest:
-            source[0] += "\n".join(["", "```{toctree}", ":hidden:", ":caption: More", "", *rest, "```", ""])
+def make_toctrees(app, docname, source):
+    """index.md is the one table of contents: the links of each of its sections become a list of the site. Every page
+    that it does not link is a fault, but for those that belong to a page."""
+    if docname != root_doc:
+        return
+    listed = set()
+    for caption, text in re.findall(r"^## (.+?)\n(.*?)(?=^## |\Z)", source[0], re.M | re.S):
+        pages = re.findall(r"\]\((\w[^)#:]*)\.md\)", text)
+        if "learn/lessons/README" in pages:
+            lessons = sorted(name for name in app.env.found_docs if name.endswith("/lesson"))
+            pages[pages.index("learn/lessons/README") + 1:0] = lessons
+        listed |= set(pages)
+        source[0] += "\n".join(["", "```{toctree}", ":hidden:", f":caption: {caption}", "", *pages, "```", ""])
+    lost = sorted(name for name in app.env.found_docs - listed - {root_doc} if not name.startswith("reference/cases/"))
+    if lost:
+        raise ValueError(f"docs/index.md does not link {', '.join(lost)}")
 
 
 def bring_styles(app, error):
@@ -146,5 +155,5 @@ def setup(app):
     app.connect("source-read", name_what_is_outside)
     app.connect("source-read", set_the_commands)
     app.connect("source-read", link_the_headers)
-    app.connect("source-read", list_the_rest)
+    app.connect("source-read", make_toctrees)
     app.add_html_math_renderer("katex", (visit_inline, None), (visit_block, None))
