@@ -42,7 +42,7 @@ class Examples(unittest.TestCase):
         scripts = {file.stem for file in EXAMPLES.glob("*.py")} - {"lesson"}
         self.assertEqual(scripts, {lesson.name for lesson in lessons})
         for lesson in lessons:
-            link = f"(../../../app/python/examples/{lesson.name}.py)"
+            link = f"(../../../../app/python/examples/{lesson.name}.py)"
             self.assertIn(link, (lesson / "lesson.md").read_text(encoding="utf-8"))
 
     def test_each_script_finds_the_numbers_that_its_lesson_claims(self):
