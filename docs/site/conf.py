@@ -1,7 +1,7 @@
-"""Sphinx makes docs/ a site that needs no network: scripts/generate/site.
+"""Sphinx configuration of the offline documentation site: scripts/generate/site.
 
-Formulas are set by KaTeX while the site is built (katex_lines.js, one process for all of them), so a page
-carries them as HTML and MathML, and no script has to run for them.
+KaTeX renders formulas at build time (katex_lines.js, one process for all pages), so pages contain them as HTML and
+MathML and need no script.
 """
 import atexit
 import json
@@ -19,7 +19,7 @@ import commands  # noqa: E402
 
 PROGRAM = HERE.parents[1] / "build/release/twinarm"
 KATEX = pathlib.Path("/usr/share/javascript/katex")  # Debian's libjs-katex
-NORMALIZE = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")  # that Furo stands on
+NORMALIZE = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")  # imported by Furo
 
 project = "twinarm"
 html_title = "twinarm"
@@ -46,7 +46,7 @@ html_theme_options = {"navigation_with_keys": True}
 
 
 class Katex:
-    """KaTeX in a process of its own: a formula in, its HTML out, a line each."""
+    """KaTeX in a child process: one formula per input line, its HTML per output line."""
 
     process = None
 
@@ -88,13 +88,13 @@ def name_what_is_outside(app, docname, source):
     def words(link):
         target = (here / link[2]).resolve()
         outside = not target.is_relative_to(pathlib.Path(app.srcdir).resolve())
-        return link[1] if outside and target.is_file() else link[0]  # what is not there stays, and is told
+        return link[1] if outside and target.is_file() else link[0]  # a broken link stays, and is reported
 
     source[0] = re.sub(r"\[([^\]]*)\]\((\.\./[^)#]*\.md)(?:#[^)]*)?\)", words, source[0])
 
 
 def set_the_commands(app, docname, source):
-    """The program's own manual, where it is built; else a line that says so."""
+    """Inserts the program's manual; without a built program, a line that says so."""
     if docname != "reference/commands":
         return
     program = os.environ.get("TWINARM_PROGRAM", PROGRAM)
@@ -108,14 +108,14 @@ def set_the_commands(app, docname, source):
 
 
 def link_the_headers(app, docname, source):
-    """To the pages that Doxygen makes of the headers, where scripts/generate/site has them made."""
+    """Links the pages that Doxygen generates from the headers (scripts/generate/site)."""
     if docname == "reference/cpp_api" and os.environ.get("TWINARM_HEADERS"):
         source[0] = source[0].replace("<!-- headers -->", '<p><a href="../headers/index.html">To the headers</a></p>')
 
 
 def make_toctrees(app, docname, source):
-    """index.md is the one table of contents: the links of each of its sections become a list of the site. Every page
-    that it does not link is a fault, but for those that belong to a page."""
+    """index.md is the one table of contents: the links of each section become a toctree. A page that it does not link is
+    an error, except the lessons and the texts of the analytic cases."""
     if docname != root_doc:
         return
     listed = set()
@@ -132,8 +132,8 @@ def make_toctrees(app, docname, source):
 
 
 def bring_styles(app, error):
-    """What the pages' styles ask for: KaTeX's; and what Debian's Furo has lost: the style that it stands on, the
-    module that its script imports (a page on disk can import none), and its colours in a dark browser."""
+    """Adds KaTeX's styles, and what Debian's Furo lacks: its base style, the module that its script imports (a page
+    opened from disk cannot import modules), and dark colours."""
     if error:
         return
     static = pathlib.Path(app.outdir) / "_static"
