@@ -124,9 +124,8 @@ TEST_CASE("couplings of two treatments, rates or laws grow together at the step 
   }
 }
 
-TEST_CASE(
-    "on one hinge the parts of every law have the closed form of "
-    "docs/understand/coupling_laws.md") {
+// docs/understand/coupling_laws.md
+TEST_CASE("on one hinge the parts of every law have their closed form") {
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
   const double I = 0.7, k = 40, b = 0.9;
   const auto growth = [&](StepLaw law, Integrator integrator, double alpha, double beta,
