@@ -86,7 +86,7 @@ class Site(unittest.TestCase):
             self.assertTrue((self.site / page.relative_to(ROOT / "docs")).with_suffix(".html").is_file(), page)
 
     def test_formulas_are_set_and_none_is_left_as_text(self):
-        lesson = (self.site / "lessons/01_six_integrators/lesson.html").read_text()
+        lesson = (self.site / "learn/lessons/01_six_integrators/lesson.html").read_text()
         self.assertGreater(lesson.count('class="katex"'), 20)
         self.assertNotIn("$\\omega", lesson)
 
@@ -94,7 +94,7 @@ class Site(unittest.TestCase):
     def test_it_is_as_light_or_dark_as_the_browser_likes_and_a_click_changes_it(self):
         for dark in (False, True):
             with Browser(width=1500, height=900, dark=dark) as page:
-                page.call("Page.navigate", url=(self.site / "contact.html").as_uri())
+                page.call("Page.navigate", url=(self.site / "understand/contact.html").as_uri())
                 page.wait_for("location.protocol === 'file:' && document.readyState === 'complete'")
                 red = "Number(getComputedStyle(document.body).backgroundColor.match(/[0-9]+/)[0])"
                 self.assertEqual(page.evaluate(red) < 50, dark)

@@ -1,6 +1,6 @@
 // Overlays: what can be laid over the bodies, by name, as entries of the DrawList. A file
 // NAME_overlay.cpp of this folder defines `Overlays NAME_overlay()`, one or those that are alike;
-// --show, the legend, the lab and pages list them (docs/develop/extending_overlay.md).
+// --show, the legend, the lab and pages list them (docs/develop/extending.md).
 #pragma once
 
 #include <string>

@@ -1,6 +1,7 @@
 // F4: a spring-damper k, b holds a hinge of inertia I to a target at rest, in steps of h; alpha =
 // k h^2 / I, beta = b h / I. Where the real stepper begins to grow, by bisection, against the
-// limits of each scheme (the roots of its characteristic polynomial; docs/understand/couplings.md, section 4):
+// limits of each scheme (the roots of its characteristic polynomial;
+// docs/understand/stability_of_spring_dampers.md):
 //   euler                     alpha < beta < 2 + alpha / 2
 //   semi-implicit             alpha < 4 - 2 beta, with the current velocity or a difference
 //   euler, difference         alpha < beta (1 - beta)
