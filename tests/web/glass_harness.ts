@@ -39,7 +39,7 @@ Object.assign(window, {
     get arrows() {
       return arrows;
     },
-    give: (message: unknown) => panel.onGlass?.(message as BodyInspection),
+    give: (message: unknown) => panel.onInspection?.(message as BodyInspection),
     theme: (dark: boolean) => (document.documentElement.dataset.theme = dark ? 'dark' : 'light'),
   },
 });

@@ -1,4 +1,4 @@
-// Layers that are shown, what their colours mean, and views of the camera.
+// Overlay switches, legend, and views of the camera.
 import type { Layer } from '../protocol/run';
 import { button, changeDetector, element, icon, option } from '../ui/dom';
 import type { SceneBody, SceneMessage } from '../source/link';
@@ -9,11 +9,11 @@ type LayerHead = Pick<Layer, 'name' | 'what' | 'shown' | 'legend'>;
 
 export class LayerChoice<L extends LayerHead = Layer> {
   readonly switches = element('fieldset.switches', element('legend', 'Show'));
-  readonly legend = element('ul.legend', { 'aria-label': 'what the colours mean' });
+  readonly legend = element('ul.legend', { 'aria-label': 'legend' });
   private readonly boxes = new Map<string, HTMLInputElement>();
 
   constructor(private readonly layers: L[], private readonly changed: () => void) {
-    // The bodies themselves are always there; what never has an entry needs no switch.
+    // Bodies are always shown; a layer without entries gets no switch.
     const choice = layers.filter((layer) => layer.name !== 'bodies' && mayHaveEntries(layer));
     choice.forEach((layer, i) => this.addSwitch(layer, i < 9 ? String(i + 1) : ''));
     this.fillLegend();
@@ -48,7 +48,6 @@ export class LayerChoice<L extends LayerHead = Layer> {
     this.switches.append(label);
   }
 
-  // After what the colours mean has changed.
   fillLegend(): void {
     this.legend.replaceChildren();
     for (const layer of this.shown)
@@ -61,30 +60,29 @@ export class LayerChoice<L extends LayerHead = Layer> {
   }
 }
 
-// What is still to come has no columns yet.
+// True for layers of a live run.
 function mayHaveEntries(layer: LayerHead): boolean {
   const { instances, labels } = layer as Partial<Layer>;
   if (!instances || !labels) return true;
   return instances.mesh.length > 0 || labels.text.length > 0;
 }
 
-const AT_FIRST = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
+const DEFAULT_LAYERS = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
 type Head = SceneMessage['layers'][number] & { shown: boolean };
 
-// Which overlays are shown: chosen once, kept for all scenes, and told to the lab, which sends no
-// others. Folded away until wanted: there are many of them.
+// Overlays of the lab: the choice holds for all scenes; the lab sends only the chosen layers.
 export class Overlays {
   readonly root = element('div.overlays');
   readonly legend = element('div');
-  readonly shown = new Set(remembered<string[]>('layers', AT_FIRST)); // of other scenes too
+  readonly shown = new Set(remembered<string[]>('layers', DEFAULT_LAYERS)); // of other scenes too
   private choice: LayerChoice<Head> | null = null;
   private readonly toggle: HTMLButtonElement;
   private readonly list = element('div.list', { hidden: '' });
-  private readonly areNew = changeDetector(); // names of layers
+  private readonly areNew = changeDetector(); // layer names
   private heads: Head[] = [];
 
   constructor(private readonly changed: () => void) {
-    this.toggle = button(icon('layers'), 'what is shown (o)', () => this.fold(!this.list.hidden));
+    this.toggle = button(icon('layers'), 'overlays (o)', () => this.fold(!this.list.hidden));
     this.toggle.append(' Show');
     this.toggle.setAttribute('aria-expanded', 'false');
     this.root.append(this.toggle, this.list);
@@ -105,7 +103,7 @@ export class Overlays {
 
   show(scene: SceneMessage): void {
     if (!this.areNew(scene.layers.map(({ name }) => name))) {
-      // What the colours mean changes on the way: scales of arrows grow.
+      // Legends change during a run: scales of arrows grow.
       scene.layers.forEach(({ legend }, l) => (this.heads[l].legend = legend));
       this.choice?.fillLegend();
       return;
@@ -132,19 +130,19 @@ export class Overlays {
 
 const NAMES: ViewName[] = ['start', 'front', 'side', 'top', 'iso'];
 
-// From where the robot is seen, and what the camera goes along with.
+// View directions, and the body that the camera follows.
 export class Views {
   readonly root = element('div.views');
-  private readonly follows = element('select', { title: 'what the camera follows (f)', 'aria-label': 'camera' });
+  private readonly follows = element('select', { title: 'body that the camera follows (f)', 'aria-label': 'camera' });
   private readonly areNew = changeDetector(); // bodies
 
   constructor(look: (name: ViewName) => void, private readonly changed: () => void) {
     const views = NAMES.map((name) => {
-      const [words, title] = name === 'start' ? ['fit', 'all in view (r)'] : [name, `from: ${name} (v)`];
-      return button(words, title, () => look(name));
+      const [label, title] = name === 'start' ? ['fit', 'reset the view (r)'] : [name, `${name} view (v)`];
+      return button(label, title, () => look(name));
     });
     this.root.append(...views, this.follows);
-    this.follows.hidden = true; // until it is known what it may follow
+    this.follows.hidden = true; // until the bodies are known
     this.follows.addEventListener('change', changed);
   }
 
@@ -160,11 +158,11 @@ export class Views {
     const moving = bodies.flatMap(({ name, moves }, i) => (moves ? [{ name, i }] : []));
     if (!this.areNew(moving)) return;
     this.follows.hidden = false;
-    const others = moving.map(({ name, i }) => option(i, `on ${name}`));
+    const others = moving.map(({ name, i }) => option(i, `follow ${name}`));
     this.follows.replaceChildren(option('', 'camera: free'), ...others);
   }
 
-  // The selected one, else the next; then free again.
+  // The selected body, else the next one; then free again.
   next(selected: number | null): void {
     if (selected !== null && this.body !== selected) this.body = selected;
     else {
