@@ -1,5 +1,5 @@
-// Pointer input in the 3-D view. The ring or a link of the target robot: moves the target robot. A link of the
-// robot: applies a spring force. Elsewhere: rotates the view.
+// Pointer input in the 3-D view. The ring or a link of the target robot: moves the target robot. A link of
+// the robot: applies a spring force. Elsewhere: rotates the view.
 import type { Pixel, Stage } from '../view/stage';
 import type { Operator } from './operator';
 import { type AppliedSpring, axisOf, type Handles, inLink, inWorld, type LabView } from './handles';
@@ -204,8 +204,8 @@ export class Drag {
     const hit = pick(stage, frame, 0, at);
     const layer = scene.layers.findIndex(({ name }) => name === 'ghost');
     const target = layer > 0 ? pick(stage, frame, layer, at) : null;
-    const isDriven = ({ body, driven, axis }: SceneJoint) => body === target?.body && driven !== undefined && axis;
-    const joint = target && scene.joints.find(isDriven);
+    const joint =
+      target && scene.joints.find((j) => j.body === target.body && j.driven !== undefined && j.axis);
     if (joint && (!hit || target.distance < hit.distance - 0.03 * scene.view.radius))
       return { kind: 'joint', joint, point: target.point } as const;
     return { kind: 'body', hit } as const;
@@ -223,7 +223,7 @@ export class Drag {
       if (found.kind === 'joint') {
         this.joint = found.joint;
         this.show('joint', `drag: move joint ${found.joint.name} of the target robot`);
-      } else if (body?.moves) this.show('spring', `drag: apply a spring force to ${body.name} · click: select it`);
+      } else if (body?.moves) this.show('spring', `drag: pull ${body.name} by a spring · click: select it`);
       else if (body) this.show('view', `click: select ${body.name} · ${HINTS.view}`);
       else this.show('view', HINTS.view);
     }

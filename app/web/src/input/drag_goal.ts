@@ -6,8 +6,8 @@ import { rayAt } from '../view/pick';
 
 const UP = new THREE.Vector3(0, 0, 1);
 
-// A point moved in the plane through it that faces the camera; with shift vertically only; the wheel moves the
-// plane along the line of sight. The offset between point and pointer is kept.
+// A point moved in the plane through it that faces the camera; with shift vertically only; the wheel moves
+// the plane along the line of sight. The offset between point and pointer is kept.
 export class PointDrag {
   private readonly offset = new THREE.Vector3(); // from the ray's intersection with the plane to the point
   private vertical = false;

@@ -1,5 +1,5 @@
-// Handles over the 3-D view, as SVG: the ring at the tip of the target robot (a button, for touch and keyboard),
-// the range of a joint, the spring of the mouse.
+// Handles over the 3-D view, as SVG: the ring at the tip of the target robot (a button, for touch and
+// keyboard), the range of a joint, the spring of the mouse.
 import './handles.css';
 import * as THREE from 'three';
 import { element, svg } from '../ui/dom';
@@ -128,7 +128,7 @@ export class Handles {
 }
 
 // Perpendicular to the axis, towards the instance of the link that is farthest from the axis.
-function radialDirection(frame: Frame, body: number, axis: THREE.Vector3, origin: THREE.Vector3): THREE.Vector3 {
+function radialDirection(frame: Frame, body: number, axis: THREE.Vector3, origin: THREE.Vector3) {
   const best = new THREE.Vector3();
   for (let i = frame.first[0]; i < frame.first[1]; ++i) {
     if (frame.body[i] !== body) continue;

@@ -1,5 +1,5 @@
-// Keyboard input: arrow keys move the tip of the target robot, one of its joints, or the spring on the selected
-// body, in directions of the view.
+// Keyboard input: arrow keys move the tip of the target robot, one of its joints, or the spring on the
+// selected body, in directions of the view.
 import * as THREE from 'three';
 import type { Operator } from './operator';
 import { type AppliedSpring, type Handles, inWorld, type LabView } from './handles';
@@ -46,11 +46,12 @@ export class KeyInput {
   get hint(): string | null {
     const { mode } = this;
     if (mode?.kind === 'tip')
-      return 'arrows: move the end effector · page up, down: away, toward · shift: rotate the stylus · j: joints';
-    if (mode?.kind === 'spring') return 'arrows: move the spring · page up, down: away, toward · x: release';
+      return 'arrows: move the end effector · page up, down: depth · shift: rotate the stylus · j: joints';
+    if (mode?.kind === 'spring') return 'arrows: move the spring · page up, down: depth · x: release';
     if (!mode) return null;
     const { slides, name } = mode.joint;
-    const text = slides ? `${(1000 * mode.value).toFixed(0)} mm` : `${((180 / Math.PI) * mode.value).toFixed(0)}°`;
+    const [factor, unit] = slides ? [1000, ' mm'] : [180 / Math.PI, '°'];
+    const text = `${(factor * mode.value).toFixed(0)}${unit}`;
     return `joint ${name}, ${text.replace('-', '−')} · arrows: move it · j: next joint · h: end effector`;
   }
 

@@ -1,5 +1,5 @@
-// Two fingers pan and zoom the view. The first one always comes earlier: its drag is cancelled, its rotation of
-// the view is undone.
+// Two fingers pan and zoom the view. The first one always comes earlier: its drag is cancelled, its
+// rotation of the view is undone.
 import * as THREE from 'three';
 import type { Stage } from '../view/stage';
 

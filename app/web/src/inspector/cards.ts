@@ -29,8 +29,8 @@ export function passCards(numbers: BodyInspection, which: number): HTMLElement[]
   const a = step.quantities.find(({ name }) => name === 'a');
   if (!before || !a) return step.quantities.map(card);
   const meaning = 'acceleration for qdd = 0';
-  const withoutJoint = { ...a, name: "a'", meaning, equation: `${before.text}, table 7.1`, value: before.value };
-  return [withoutJoint, ...step.quantities].map(card);
+  const equation = `${before.text}, table 7.1`;
+  return [{ ...a, name: "a'", meaning, equation, value: before.value }, ...step.quantities].map(card);
 }
 
 // For one degree of freedom with the division of qdd.
@@ -49,7 +49,8 @@ function block(equation: Equation, quantity: Quantity, numbers: BodyInspection, 
   return [equationLine("qdd = D^-1 ( u - U^T a' )"), line(parts, value, unit)];
 }
 
-// An equation with its numbers: vectors as columns, one per term; matrices one below the other; scalars in a line.
+// An equation with its numbers: vectors as columns, one per term; matrices one below the other; scalars in
+// a line.
 const ROWS = ['x', 'y', 'z', 'x', 'y', 'z'];
 const TOLERANCE = 1e-9; // larger residuals are shown
 
@@ -101,13 +102,13 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
 // The result, and its terms folded.
 function matrices(equation: Equation, body: string, unit: string): HTMLElement[] {
   const terms = equation.terms.map((term) => {
-    const words = element('p', math(term.symbol), ` ${whose(term, body)}`);
+    const words = element('p.fine', math(term.symbol), ` ${whose(term, body)}`);
     return element('div.term', words, valueOf({ value: term.value, unit }));
   });
   const sum = valueOf({ value: equation.value, unit });
   if (terms.length < 2) return [sum];
   const words = `its ${terms.length} terms`;
-  return [sum, element('details.terms', element('summary', words), ...terms)];
+  return [sum, element('details.terms', element('summary.fine', words), ...terms)];
 }
 
 function inLine({ terms, value }: Equation, unit: string): HTMLElement {

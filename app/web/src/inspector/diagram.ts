@@ -1,5 +1,5 @@
-// Free-body diagram: polygon of all forces on a body, and polygon of all torques. Both close (sum = 0) up to the
-// residual.
+// Free-body diagram: polygon of all forces on a body, and polygon of all torques. Both close (sum = 0) up
+// to the residual.
 import type { Balance } from '../protocol/inspection';
 import { element, short, svg } from '../ui/dom';
 import { niceStep } from '../ui/scale';
@@ -63,7 +63,7 @@ function polygon(vectors: number[][], plane: Plane, unit: string, what: string):
   const max = Math.max(wide, high);
   const label = `polygon of the ${what} on the body, in the plane ${plane}`;
   const host = svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: 'img', 'aria-label': label });
-  const figure = (words: string) => element('figure', host, element('figcaption', words));
+  const figure = (words: string) => element('figure', host, element('figcaption.fine', words));
   if (!(max > 0) || !Number.isFinite(max)) return figure(max === 0 ? `no ${what} in this plane` : what);
   const space = HEIGHT - 2 * MARGIN - 8;
   const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(wide, 1e-9 * max), space / Math.max(high, 1e-9 * max));

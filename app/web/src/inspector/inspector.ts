@@ -1,5 +1,5 @@
-// The inspector of the selected body: quantities of the three ABA passes with their equations, free-body diagram,
-// contacts, energy balance; while paused, a walk through one call of the algorithm.
+// The inspector of the selected body: quantities of the three ABA passes with their equations, free-body
+// diagram, contacts, energy balance; while paused, a walk through one call of the algorithm.
 import './inspector.css';
 import type { BodyInspection, Vector } from '../protocol/messages';
 import {
@@ -46,7 +46,7 @@ export class Inspector implements Panel {
 
   constructor(private readonly page: InspectorPage) {
     const walk = element(
-      'div.walk',
+      'div.walk.fine',
       { role: 'group', 'aria-label': 'one call, step by step' },
       button(icon('back'), 'previous step of the call (,)', () => this.move(-1)),
       button(icon('on'), 'next step of the call (.)', () => this.move(1)),
@@ -147,12 +147,12 @@ export class Inspector implements Panel {
     morph(this.content, element('div.content', ...this.sections(numbers)));
     const { name, t, stands, passes, neighbours } = numbers;
     const joint = passes?.[0]?.joint;
-    const parent = neighbours ? ` · parent: ${neighbours.find(({ is }) => is === 'parent')?.body ?? 'world'}` : '';
+    const parent = neighbours?.find(({ is }) => is === 'parent')?.body ?? 'world';
     const state = stands ? 'paused' : 'pause to step through the algorithm';
     this.heading.replaceChildren(
       element('h2', name ?? ''),
-      element('p', `${joint ? `joint: ${joint}` : 'fixed'}${parent}`),
-      ...(t === undefined ? [] : [element('p', `${short(t)} s: ${state}`)]),
+      element('p.fine', `${joint ? `joint: ${joint}` : 'fixed'}${neighbours ? ` · parent: ${parent}` : ''}`),
+      ...(t === undefined ? [] : [element('p.fine', `${short(t)} s: ${state}`)]),
     );
     this.root.classList.toggle('paused', stands);
     this.showForces(numbers);
@@ -179,7 +179,7 @@ export class Inspector implements Panel {
       element('div.pass-table', ...(rows.length > 0 ? [passTable(rows, name)] : [])),
       element('h3', title, element('span', ` ${contents}`)),
       element('div.cards', ...passCards(numbers, this.pass)),
-      ...(neighbours ? [fold('From parent and children', false, ...orHint(adjacent, 'none in this pass'))] : []),
+      ...(neighbours ? [fold('Parent and children', false, ...orHint(adjacent, 'none in this pass'))] : []),
       fold(
         'Free-body diagram',
         true,
@@ -196,8 +196,8 @@ export class Inspector implements Panel {
     ];
   }
 
-  // Arrows of the forces, from the point about which torques are taken; only while paused, since the inspection
-  // is older than the frame.
+  // Arrows of the forces, from the point about which torques are taken; only while paused, since the
+  // inspection is older than the frame.
   private showForces({ stands, balance, axes }: BodyInspection): void {
     const found = stands && axes === 'world' ? balance?.[0] : undefined;
     if (!found || !this.page.scene) return this.page.arrows('inspector', []);

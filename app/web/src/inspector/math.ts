@@ -23,7 +23,8 @@ const SCRIPTS: Record<string, string> = {
   f_ext: 'f^x', IA: 'I^A', Ia: 'I^a', pA: 'p^A', pa: 'p^a',
 };
 const SYMBOLS: Record<string, () => Node> = {
-  Xup: () => node('mmultiscripts', letter('X'), letter('λ'), node('mrow'), node('mprescripts'), node('mrow'), letter('i')),
+  Xup: () =>
+    node('mmultiscripts', letter('X'), letter('λ'), node('mrow'), node('mprescripts'), node('mrow'), letter('i')),
   qd: () => dotted('˙'),
   qdd: () => dotted('¨'),
   x: () => operator('×'),

@@ -34,8 +34,8 @@ function heat(rows: number[][]): HTMLElement {
   return element('table.heat', element('tbody', ...lines));
 }
 
-// Units of both halves of six numbers. `unit` is "angular; linear"; the coordinates of a free joint are linear
-// first.
+// Units of both halves of six numbers. `unit` is "angular; linear"; the coordinates of a free joint are
+// linear first.
 export function unitOfSix({ value, unit, frame }: Numbers): string {
   const isJoint = frame === 'joint' && Array.isArray(value) && value.length === 6;
   return isJoint ? unit.split(';').reverse().join(';') : unit;
@@ -66,7 +66,7 @@ export function quantityCard(quantity: Quantity, content?: Node[]): HTMLElement 
   return element(
     'article.quantity',
     { tabindex: '0', 'data-quantity': name, 'aria-label': `${name}: ${meaning}` },
-    element('h4', math(name), element('span', meaning)),
+    element('h4', math(name), element('span.fine', meaning)),
     ...(content ?? [valueOf(quantity)]),
     tip,
   );

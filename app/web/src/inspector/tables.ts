@@ -1,5 +1,5 @@
 // Tables of the inspector: joint forces, contacts, energy, results of a pass, wrenches, cross-checks.
-import type { Balance, Check, JointBalance, NamedForce, AdjacentBody, PassStep } from '../protocol/inspection';
+import type { AdjacentBody, Balance, Check, JointBalance, NamedForce, PassStep } from '../protocol/inspection';
 import { NUMERICAL } from '../protocol/run';
 import { EnergyTable, inOrder } from '../panels/balances';
 import { element, largestOf, short, unitText } from '../ui/dom';
@@ -61,7 +61,7 @@ export function energyTable(ledger: Record<string, number>): HTMLElement {
 
 const halves = (v: number[]) => [v.slice(0, 3), v.slice(3)];
 const length = (values: number[]) => Math.hypot(...values);
-const one = (value: unknown) => (typeof value === 'number' ? value : NaN); // of a joint with one degree of freedom
+const one = (value: unknown) => (typeof value === 'number' ? value : NaN); // one degree of freedom
 // Columns of the table of each pass.
 const SUMMARY: Record<number, { of: string; heads: string[]; read: (value: never) => number[] }[]> = {
   1: [{ of: 'v', heads: ['|w| [rad/s]', '|v| [m/s]'], read: (v: number[]) => halves(v).map(length) }],

@@ -1,5 +1,5 @@
-// The lab's page: connects socket, 3-D view, input and panels. Once per picture it takes the newest message of
-// each kind.
+// The lab's page: connects socket, 3-D view, input and panels. Once per picture it takes the newest message
+// of each kind.
 import '../ui/style.css';
 import { Inspector } from '../inspector/inspector';
 import { Controller } from '../input/gamepad';

@@ -123,8 +123,8 @@ export function isKept(event: KeyboardEvent): boolean {
 }
 
 export const MOUSE =
-  'Mouse: drag the ring to move the end effector, a link of the target robot to move its joint, a body of the ' +
-  'robot to apply a spring force; click to select. Elsewhere, or with Alt: drag to rotate the view, right button ' +
-  'to pan, wheel to zoom. While dragging: shift for vertical motion, wheel for depth. Touch: one finger acts as ' +
-  'the mouse, two fingers pan and zoom. Game controller: left stick right and toward, right stick up and yaw, ' +
-  'first button gripper.';
+  'Mouse: drag the ring to move the end effector, a link of the target robot to move its joint, a body ' +
+  'of the robot to apply a spring force; click to select. Elsewhere, or with Alt: drag to rotate the ' +
+  'view, right button to pan, wheel to zoom. While dragging: shift for vertical motion, wheel for depth. ' +
+  'Touch: one finger acts as the mouse, two fingers pan and zoom. Game controller: left stick right and ' +
+  'toward, right stick up and yaw, first button gripper.';

@@ -102,8 +102,8 @@ export abstract class RecordedPage {
 
 export const PAPER = 680; // width when printed, in pixels, as in print.css
 
-// Before printing, view and plots take the size of the paper. The WebGL canvas is blank by the time the browser
-// prints it, so a copy is laid over it.
+// Before printing, view and plots take the size of the paper. The WebGL canvas is blank by the time the
+// browser prints it, so a copy is laid over it.
 function onPaper(host: HTMLElement, paint: (isPaper: boolean) => void): void {
   const copy = element('canvas');
   addEventListener('beforeprint', () => {

@@ -37,7 +37,7 @@ class Page extends RecordedPage {
     this.tabs.add('Energy', ...this.balances.map((panel) => panel.root));
     this.tabs.add('Setup', setup(run));
     this.views.show(run.bodies.map((name) => ({ name, moves: true })));
-    this.views.root.after(element('div.scale', gridText(run)));
+    this.views.root.after(element('div.scale.fine', gridText(run)));
     const title = [element('h1', run.title), element('p', headline(run))];
     this.takeHash();
     this.begin(title, this.bar.root, this.keys(), `${MOUSE} ${PLOTS}`);

@@ -23,13 +23,13 @@ export class BranchDialog {
     private readonly changes: () => string[],
   ) {
     const text =
-      'The run continues from this instant; recorded input is repeated. The previous branch remains visible: ' +
-      'translucent in the view, dotted in the plots.';
+      'The run continues from this instant; recorded input is repeated. The previous branch remains ' +
+      'visible: translucent in the view, dotted in the plots.';
     const form = element(
       'form',
       { method: 'dialog' },
       this.title,
-      element('p', text),
+      element('p.fine', text),
       element('h3', 'Changed parameters'),
       this.list,
       this.none,

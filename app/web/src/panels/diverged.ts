@@ -87,7 +87,7 @@ export class Diverged implements Panel {
       element(
         'div.ends',
         button(`Replay the last second at ${SLOW}×`, 'slow motion up to the divergence', replay),
-        changing('Restart', 'from the start, with the same parameters', () => this.page.send({ do: 'reset' })),
+        changing('Restart', 'with the same parameters', () => this.page.send({ do: 'reset' })),
       ),
     ];
   }

@@ -4,7 +4,7 @@ import { bullets, button, changeDetector, element } from '../ui/dom';
 import type { StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 
-const MESHES = /\.(stl|obj|dae|ply|gltf|glb|bin|png|jpe?g|mtl)$/i; // sent before the robot that refers to them
+const MESHES = /\.(stl|obj|dae|ply|gltf|glb|bin|png|jpe?g|mtl)$/i; // sent before the robot
 const ROBOTS = '.urdf,.xml,.xacro,.toml,.twinrec,.stl,.obj,.dae,.ply,.gltf,.glb,.mtl,.png,.jpg,.jpeg';
 
 export class Gallery implements Panel {
@@ -22,7 +22,7 @@ export class Gallery implements Panel {
       this.input.value = '';
     });
     this.zone.append(
-      element('p', 'Drop a robot (URDF with meshes), a scene or a recording anywhere on this page, or'),
+      'Drop a robot (URDF with meshes), a scene or a recording anywhere on this page, or',
       button('open files …', 'from this computer', () => this.input.click()),
       this.input,
     );
@@ -43,8 +43,8 @@ export class Gallery implements Panel {
     const src = `/gallery/${encodeURIComponent(name)}.png`;
     const image = element('img', { src, alt: '', loading: 'lazy' });
     image.addEventListener('error', () => image.remove());
-    const text = [element('b', title), bullets(look)];
-    const card = element('button.card', { type: 'button', 'data-scene': name }, image, ...text);
+    const head = element('b', title);
+    const card = element('button.card', { type: 'button', 'data-scene': name }, image, head, bullets(look));
     card.addEventListener('click', () => {
       if (this.page.send({ do: 'scene', name })) this.root.close();
     });

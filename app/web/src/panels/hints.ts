@@ -12,8 +12,7 @@ export class Hints {
   readonly again = button('What to look for', 'about this scene', () => this.fold(false));
   readonly hint = element('p.hint-line');
   readonly spoken = element('p.unseen', { role: 'status' }); // messages, for screen readers
-  private readonly lost = element('span');
-  readonly banner = element('div.banner', { role: 'status', hidden: '' }, element('i'), this.lost);
+  readonly banner = element('div.banner', { role: 'status', hidden: '' });
   private message = '';
   private until = 0;
   private shown = '';
@@ -61,6 +60,6 @@ export class Hints {
     const isLost = this.lostAt !== null && now - this.lostAt > PATIENCE;
     if (this.banner.hidden !== isLost) return;
     this.banner.hidden = !isLost;
-    this.lost.textContent = this.lostAt === 0 ? 'Connecting …' : LOST;
+    this.banner.textContent = this.lostAt === 0 ? 'Connecting …' : LOST;
   }
 }

@@ -20,6 +20,7 @@ const MODES: Record<string, string> = {
   held: 'no data from the device: the target robot is held',
   released: 'device lost: the target follows the robot, coupling forces go to 0',
 };
+const NO_TARGET = 'No input device in this scene. Drag a body to apply a force.';
 const NEAR = 0.8; // of the limit
 
 export class InputBar implements Panel {
@@ -31,28 +32,24 @@ export class InputBar implements Panel {
     spellcheck: 'false',
     title: 'value of --device; Enter connects',
   });
-  private readonly facts = element('p.facts');
+  private readonly facts = element('p.fine');
   private readonly control = element('div.control');
-  private readonly fill = element('i');
-  private readonly force = element(
-    'div.force',
-    { role: 'meter', 'aria-valuemin': '0', 'aria-valuemax': String(DEVICE_LIMIT) },
-    { 'aria-label': 'device force in newtons' },
-    this.fill,
-    element('i.mark'),
-  );
+  private readonly force = element('meter', { 'aria-label': 'device force in newtons', optimum: '0' });
   private readonly number = element('output.newtons', { 'aria-live': 'off' });
-  private readonly warning = element('div.warning');
+  private readonly warning = element('div.warning.fine');
   private readonly gripper = button('', 'gripper (g)', () => this.toggleGripper());
   private column = -1;
   private newest: Frame | null = null;
   private drawn = '';
   private readonly isControlNew = changeDetector();
+  private readonly isStateNew = changeDetector();
   private isEditing = false; // the device
 
   constructor(private readonly page: LabPage) {
     this.source.append(...SOURCES.map(({ name, label }) => option(name, label)));
     this.source.addEventListener('change', () => this.choose(this.source.value));
+    this.force.max = DEVICE_LIMIT;
+    this.force.high = NEAR * DEVICE_LIMIT;
     this.spec.hidden = true;
     this.spec.addEventListener('keydown', (event) => {
       if (event.key === 'Enter') this.sendSpec(this.spec.value.trim());
@@ -90,7 +87,7 @@ export class InputBar implements Panel {
     this.gripper.textContent = hand.gripper ? 'closed' : 'grip';
     const device = hand.source === 'device' && hand.felt;
     const facts = [`${hand.mapping} mapping`, device, MODES[hand.mode] ?? hand.mode].filter((fact) => fact);
-    const text = hasTarget ? facts.join(' · ') : 'No target robot in this scene. Drag a body to apply a force.';
+    const text = hasTarget ? facts.join(' · ') : NO_TARGET;
     if (this.facts.textContent !== text) this.facts.textContent = text;
     this.showControl(state);
   }
@@ -109,11 +106,9 @@ export class InputBar implements Panel {
     if (!hasForce) return;
     const share = force / DEVICE_LIMIT;
     const state = share >= 0.999 ? 'beyond' : share > NEAR ? 'near' : 'ok';
-    this.fill.style.width = `${Math.min(1, share) * 100}%`;
+    this.force.value = force;
     this.number.textContent = `${text} of ${DEVICE_LIMIT}`;
-    this.force.setAttribute('aria-valuenow', force.toFixed(2));
-    if (this.force.dataset.state === state) return;
-    this.force.dataset.state = state;
+    if (!this.isStateNew(state)) return;
     const limit = `maximum force of the device: ${DEVICE_LIMIT} N`;
     this.warning.replaceChildren(...(state === 'ok' ? [] : [statusLine(state, limit)]));
   }

@@ -15,7 +15,7 @@ export class SaveMenu {
 
   constructor() {
     const links = FILES.map(([address, name, what]) => {
-      const link = element('a', { href: address, download: '' }, element('b', name), element('span', what));
+      const link = element('a', { href: address, download: '' }, element('b', name), element('span.fine', what));
       link.addEventListener('click', () => (this.root.open = false));
       return link;
     });

@@ -1,8 +1,8 @@
 // Interface between a page and its panels.
 //
-// The page calls the functions that a panel has: onScene, onState and onInspection when a message comes, onFrame
-// and draw when the next picture is made, onFrame with the newest frame only. A hidden panel gets all calls but
-// draw.
+// The page calls the functions that a panel has: onScene, onState and onInspection when a message comes,
+// onFrame and draw when the next picture is made, onFrame with the newest frame only. A hidden panel gets
+// all calls but draw.
 import type { BodyInspection } from '../protocol/messages';
 import type { Arrow } from '../view/arrows';
 import type { Command, Frame, SceneMessage, StateMessage } from '../source/link';

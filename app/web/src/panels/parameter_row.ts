@@ -16,7 +16,7 @@ type SetValue = (path: string, value: string) => void;
 
 export abstract class ParameterRow {
   readonly root = element('div.parameter');
-  protected readonly side = element('div.predicted', { 'aria-live': 'polite' });
+  protected readonly side = element('div.predicted.fine', { 'aria-live': 'polite' });
   private readonly isNew = changeDetector();
   private setAt = -Infinity;
 

@@ -8,12 +8,14 @@ import type { LabPage, Panel } from './panel';
 const PAUSE = 100; // between two messages [ms]
 const VIEW_ONLY = 'View only: another client has control. Request control to change parameters.';
 
+const RESTORE = 'restore all parameters of the scene file (the run continues)';
+
 export class Parameters implements Panel {
   readonly root = element('div.parameters');
   private readonly presets = element('div.presets');
   private readonly viewOnly = element('p.note', VIEW_ONLY);
   private readonly groups = element('div');
-  private readonly restore = button('Restore scene file', 'all parameters as in the scene file; the run continues', () => {
+  private readonly restore = button('Restore all', RESTORE, () => {
     this.takeWaiting();
     this.page.send({ do: 'restore' });
   });
@@ -77,7 +79,7 @@ export class Parameters implements Panel {
   private showPresets(presets: StateMessage['presets']): void {
     if (!this.arePresetsNew(presets)) return;
     const buttons = presets.map(({ name, what }) => {
-      const label = [element('b', name), element('span', what)];
+      const label = [element('b', name), element('span.fine', what)];
       return button(label, what, () => this.page.send({ do: 'preset', name }));
     });
     this.presets.replaceChildren(...buttons);

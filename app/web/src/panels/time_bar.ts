@@ -39,7 +39,7 @@ export class TimeBar {
   readonly play: HTMLButtonElement;
   readonly slider: Slider;
   readonly speed = element('select', { title: 'speed: [ slower, ] faster', 'aria-label': 'speed' });
-  readonly where = element('output.where');
+  readonly where = element('output.where.fine');
   readonly ends = element('div.buttons');
   private readonly clock = element('output.clock', { 'aria-live': 'off' });
 

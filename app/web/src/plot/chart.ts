@@ -53,7 +53,7 @@ export class Chart {
     const legend = element('div.chips');
     for (const curve of spec.curves) legend.append(this.chip(curve, curve.name));
     if (spec.sum !== undefined) legend.append(this.chip(null, 'sum: change in kinetic energy'));
-    if (spec.omitted > 0) legend.append(element('span.omitted', `${spec.omitted} smaller not shown`));
+    if (spec.omitted > 0) legend.append(element('span.fine', `${spec.omitted} smaller not shown`));
     const names = spec.curves.map(({ name }) => name).join(', ');
     this.canvas.setAttribute('aria-label', `${spec.title} over time: ${names}`);
     this.root = element('section.plot', { id: `plot-${spec.id}` }, head, this.canvas, legend);

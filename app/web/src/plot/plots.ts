@@ -212,7 +212,7 @@ class PlotBar {
       this.showPaused(!this.isPaused);
       plots.pause(this.isPaused);
     };
-    this.pause = button(icon('pause'), PAUSE, toggle, 'pause');
+    this.pause = button(icon('pause'), PAUSE, toggle);
     const whole = button('whole run', 'show all of the run (double-click)', () => plots.zoom(null));
     this.root.append(
       ...(isLive ? [this.pause, lengths.root] : [whole]),

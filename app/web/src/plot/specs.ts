@@ -1,5 +1,5 @@
-// The plots of a run and their curves. Quantities without motion or force so far have no curve; a quantity keeps
-// its colour.
+// The plots of a run and their curves. Quantities without motion or force so far have no curve; a quantity
+// keeps its colour.
 import type { SceneChannel } from '../source/link';
 import type { RunRecord } from '../source/run_record';
 

@@ -90,7 +90,7 @@ export function help(keys: Key[], mouse: string): HTMLDialogElement {
   keys.push(key('?', 'this help', toggle));
   for (const { shown, what } of keys)
     list.append(element('dt', element('kbd', shown)), element('dd', what));
-  dialog.append(element('h2', 'Keys'), list, element('p', mouse), close);
+  dialog.append(element('h2', 'Keys'), list, element('p.fine', mouse), close);
   return dialog;
 }
 

@@ -6,7 +6,7 @@ import { type Frame, labelText, placeOf, type SceneMessage } from '../source/lin
 import { MeshStore } from '../source/meshes';
 
 const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // outline of the selected body: the accent colour
-const FINE = new URLSearchParams(location.search).has('fine'); // full detail on slow machines, for screenshots
+const FINE = new URLSearchParams(location.search).has('fine'); // full detail, for screenshots
 const SHADOWS_AFTER = 300; // [ms]
 const NO_DATA = { meshes: [], textures: [] };
 

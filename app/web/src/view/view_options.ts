@@ -133,7 +133,7 @@ const NAMES: ViewName[] = ['start', 'front', 'side', 'top', 'iso'];
 // View directions, and the body that the camera follows.
 export class Views {
   readonly root = element('div.views');
-  private readonly follows = element('select', { title: 'body that the camera follows (f)', 'aria-label': 'camera' });
+  private readonly follows = element('select', { title: 'body to follow (f)', 'aria-label': 'camera' });
   private readonly areNew = changeDetector(); // bodies
 
   constructor(look: (name: ViewName) => void, private readonly changed: () => void) {
