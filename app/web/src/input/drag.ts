@@ -223,7 +223,7 @@ export class Drag {
       if (found.kind === 'joint') {
         this.joint = found.joint;
         this.show('joint', `drag: move joint ${found.joint.name} of the target robot`);
-      } else if (body?.moves) this.show('spring', `drag: pull ${body.name} by a spring · click: select it`);
+      } else if (body?.moves) this.show('spring', `drag: spring force on ${body.name} · click: select it`);
       else if (body) this.show('view', `click: select ${body.name} · ${HINTS.view}`);
       else this.show('view', HINTS.view);
     }

@@ -7,6 +7,7 @@ import {
   wrenchColor,
 } from './tables';
 import { button, element, icon, morph, short } from '../ui/dom';
+import { definition } from '../ui/glossary';
 import { key, listen } from '../ui/keys';
 import type { SceneMessage } from '../source/link';
 import { passCards, unitOf } from './cards';
@@ -164,7 +165,7 @@ export class Inspector implements Panel {
     if (!passes || !balance) return notes;
     const { axes = 'world', about = 'origin', joint_balance = [], neighbours } = numbers;
     const fold = (title: string, open: boolean, ...inside: Node[]) => {
-      const made = element('details', element('summary', title), ...inside);
+      const made = element('details', element('summary', { title: definition(title) }, title), ...inside);
       made.open = open;
       return made;
     };

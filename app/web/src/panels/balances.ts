@@ -3,6 +3,7 @@ import { NUMERICAL, type Run } from '../protocol/run';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
 import { element } from '../ui/dom';
+import { definition } from '../ui/glossary';
 import { numberCell, putNumber, row, table } from '../ui/table';
 import type { Panel } from './panel';
 import type { Player } from '../source/playhead';
@@ -26,7 +27,9 @@ export class EnergyTable {
     this.cells = names.map(() => ({ now: numberCell(0), bar: element('i') }));
     const rows = this.cells.map(({ now, bar }, i) => {
       const below = digits ? [element('small', { 'data-row': names[i], title: 'at the end' }, digits[i])] : [];
-      return row([names[i], ...below], now, element('td.bar', bar));
+      const term = names[i] === NUMERICAL ? 'residual' : names[i];
+      const name = element('span', { title: definition(term) }, names[i]);
+      return row([name, ...below], now, element('td.bar', bar));
     });
     const foot = row('total = change in kinetic energy', this.sum, element('td'));
     this.root = table([head, 'now [J]', ''], rows, { class: 'energy' }, foot);
@@ -56,7 +59,7 @@ export class EnergyPanel implements Panel {
     const hint =
       'Work of each force since the start. The rows sum to the change in kinetic energy; “numerical” ' +
       `is the residual, the error of the integrator. ${DIGITS}`;
-    this.root.append(element('h3', 'Energy balance'), element('p.hint', hint), this.host);
+    this.root.append(element('h3', { title: definition('energy balance') }, 'Energy balance'), element('p.hint', hint), this.host);
     if (source.record) this.take(source.record);
   }
 
@@ -105,7 +108,7 @@ export class MomentumPanel implements Panel {
     const hint = `External impulse on all moving bodies since the start; moments about the world origin. ${DIGITS}`;
     this.root.hidden = rows.length === 0;
     this.root.append(
-      element('h3', 'Momentum balance'),
+      element('h3', { title: definition('momentum balance') }, 'Momentum balance'),
       element('p.hint', hint),
       element('div.wide', table(heads, lines, {}, foot)),
     );

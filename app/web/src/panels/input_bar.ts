@@ -8,11 +8,11 @@ import { DEVICE_LIMIT } from '../plot/specs';
 import type { LabPage, Panel } from './panel';
 
 const SOURCES: { name: string; label: string; spec?: string }[] = [
-  { name: 'scene', label: 'motion of the scene' },
-  { name: 'drag', label: 'drag the end effector' },
-  { name: 'joints', label: 'drag the joints' },
-  { name: 'synthetic', label: 'synthetic operator motion', spec: 'virtual:synthetic' },
-  { name: 'trace', label: 'recorded operator motion', spec: 'virtual:trace:' }, // and a file
+  { name: 'scene', label: 'scene motion' },
+  { name: 'drag', label: 'drag: end effector' },
+  { name: 'joints', label: 'drag: joints' },
+  { name: 'synthetic', label: 'synthetic motion', spec: 'virtual:synthetic' },
+  { name: 'trace', label: 'recorded motion', spec: 'virtual:trace:' }, // and a file
   { name: 'device', label: 'input device …', spec: 'vrpn:Phantom0@localhost' },
 ];
 const MODES: Record<string, string> = {

@@ -3,6 +3,7 @@
 import uPlot from 'uplot';
 import { axesOfTime, drawOver, Gestures } from './chart_parts';
 import { button, element, short } from '../ui/dom';
+import { definition } from '../ui/glossary';
 import { token } from '../ui/preferences';
 import {
   branchCurves, type ChartExtras, colorOf, DASH, lines, lineSeries, rangeOf, stack, stackSeries, usualSize,
@@ -49,7 +50,7 @@ export class Chart {
       return made;
     };
     const files = [file('CSV', () => this.saveCsv()), file('PNG', () => this.savePicture())];
-    const head = element('h3', element('span.name', spec.title), this.title, element('span.space'), ...files);
+    const head = element('h3', { title: definition(spec.title) }, element('span.name', spec.title), this.title, element('span.space'), ...files);
     const legend = element('div.chips');
     for (const curve of spec.curves) legend.append(this.chip(curve, curve.name));
     if (spec.sum !== undefined) legend.append(this.chip(null, 'sum: change in kinetic energy'));

@@ -1,5 +1,6 @@
 // Choice of one option: tabs of the side panel, segmented buttons.
 import { element } from './dom';
+import { definition } from './glossary';
 
 // Tabs of the side panel: one tab stop; arrow keys move between the tabs.
 export class Tabs {
@@ -26,7 +27,7 @@ export class Tabs {
     const at = this.tabs.length;
     const tab = element(
       'button',
-      { type: 'button', role: 'tab', id: `tab-${at}`, 'aria-controls': `panel-${at}` },
+      { type: 'button', role: 'tab', id: `tab-${at}`, 'aria-controls': `panel-${at}`, title: definition(title) },
       title,
     );
     const panel = element(
