@@ -144,7 +144,7 @@ class LabPage(LabCase):
         self.until("document.querySelectorAll('.parameter.changed').length === 3")
         self.picture("changed")
         scene, time_then = self.value(f"[twinarm.page.scene.scene, {STATE}.time]")
-        self.click("Restore all")
+        self.click("Reset")
         self.until(f"{STATE}.changes.length === 0")
         self.assertEqual(self.value(f"{STATE}.knobs.map(k => [k.path, k.value])"), first)
         self.until("document.querySelectorAll('.parameter.changed').length === 0")

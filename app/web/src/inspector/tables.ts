@@ -120,14 +120,13 @@ function swatch(i: number): HTMLElement {
 }
 
 export function balanceTable(balance: Balance, axes: string, about: string): HTMLElement {
-  const { body, wrenches, residual, largest } = balance;
+  const { body, wrenches, largest } = balance;
   const rows = wrenches.map(({ source, force, torque }, i) =>
     row([swatch(i), source], ...[...force, ...torque].map((value) => numberCell(value, largest))),
   );
   const heads = ['', 'Fx', 'Fy', 'Fz [N]', 'Tx', 'Ty', 'Tz [N m]'];
   const title = element('span', ` ${axes} axes, about ${about}`);
-  const sum = element('p.hint', `Sum: ${short(residual)} of the largest (${short(largest)}).`);
-  return element('div', element('h3', `Wrenches on ${body}`, title), table(heads, rows), sum);
+  return element('div', element('h3', `Wrenches on ${body}`, title), table(heads, rows));
 }
 
 export function checkSummary(checks: Check[]): string {

@@ -3,7 +3,7 @@ import { NUMERICAL, type Run } from '../protocol/run';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
 import { element } from '../ui/dom';
-import { definition } from '../ui/glossary';
+import { definition, heading } from '../ui/glossary';
 import { numberCell, putNumber, row, table } from '../ui/table';
 import type { Panel } from './panel';
 import type { Player } from '../source/playhead';
@@ -59,7 +59,7 @@ export class EnergyPanel implements Panel {
     const hint =
       'Work of each force since the start. The rows sum to the change in kinetic energy; “numerical” ' +
       `is the residual, the error of the integrator. ${DIGITS}`;
-    this.root.append(element('h3', { title: definition('energy balance') }, 'Energy balance'), element('p.hint', hint), this.host);
+    this.root.append(heading('Energy balance'), element('p.hint', hint), this.host);
     if (source.record) this.take(source.record);
   }
 
@@ -105,10 +105,10 @@ export class MomentumPanel implements Panel {
     const lines = rows.map((name, i) => row(name, ...this.cells[i]));
     const foot = row('total = change in momentum', ...this.cells[rows.length]);
     const heads = ['', 'x', 'y', 'z [N s]', 'about x', 'y', 'z [N m s]'];
-    const hint = `External impulse on all moving bodies since the start; moments about the world origin. ${DIGITS}`;
+    const hint = `External impulse on all moving bodies since the start; about the world origin. ${DIGITS}`;
     this.root.hidden = rows.length === 0;
     this.root.append(
-      element('h3', { title: definition('momentum balance') }, 'Momentum balance'),
+      heading('Momentum balance'),
       element('p.hint', hint),
       element('div.wide', table(heads, lines, {}, foot)),
     );

@@ -15,7 +15,8 @@ export class SaveMenu {
 
   constructor() {
     const links = FILES.map(([address, name, what]) => {
-      const link = element('a', { href: address, download: '' }, element('b', name), element('span.fine', what));
+      const text = [element('b', name), element('span.fine', what)];
+      const link = element('a', { href: address, download: '' }, ...text);
       link.addEventListener('click', () => (this.root.open = false));
       return link;
     });

@@ -15,7 +15,7 @@ export class Parameters implements Panel {
   private readonly presets = element('div.presets');
   private readonly viewOnly = element('p.note', VIEW_ONLY);
   private readonly groups = element('div');
-  private readonly restore = button('Restore all', RESTORE, () => {
+  private readonly restore = button('Reset', RESTORE, () => {
     this.takeWaiting();
     this.page.send({ do: 'restore' });
   });

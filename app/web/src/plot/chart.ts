@@ -50,7 +50,8 @@ export class Chart {
       return made;
     };
     const files = [file('CSV', () => this.saveCsv()), file('PNG', () => this.savePicture())];
-    const head = element('h3', { title: definition(spec.title) }, element('span.name', spec.title), this.title, element('span.space'), ...files);
+    const name = element('span.name', { title: definition(spec.title) }, spec.title);
+    const head = element('h3', name, this.title, element('span.space'), ...files);
     const legend = element('div.chips');
     for (const curve of spec.curves) legend.append(this.chip(curve, curve.name));
     if (spec.sum !== undefined) legend.append(this.chip(null, 'sum: change in kinetic energy'));

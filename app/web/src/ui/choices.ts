@@ -27,7 +27,7 @@ export class Tabs {
     const at = this.tabs.length;
     const tab = element(
       'button',
-      { type: 'button', role: 'tab', id: `tab-${at}`, 'aria-controls': `panel-${at}`, title: definition(title) },
+      { type: 'button', role: 'tab', title: definition(title), id: `tab-${at}`, 'aria-controls': `panel-${at}` },
       title,
     );
     const panel = element(
