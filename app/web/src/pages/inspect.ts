@@ -36,7 +36,7 @@ class Page extends RecordedPage {
 
   constructor(private readonly robot: InspectedRobot) {
     const isBody = ({ name }: Layer) => name.startsWith('body/');
-    super(robot, robot.layers.filter((layer) => !isBody(layer)));
+    super(robot, robot.layers.filter((layer) => !isBody(layer)), false); // 1 to 3: passes
     this.bodies = robot.layers.filter(isBody);
     this.inspector = new Inspector(this.source());
     const { checks, warnings } = robot.inspection;

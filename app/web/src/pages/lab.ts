@@ -26,6 +26,7 @@ import type { ViewName } from '../view/stage';
 import './lab.css'; // last: overrides for touch screens
 
 const TABS = ['Parameters', 'Plots', 'Inspector', 'Energy'];
+const DEFAULT_LAYERS = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
 const NO_CONTROL = new Set(['layers', 'glass', 'look', 'take']); // commands that need no control
 
 class Page implements LabKeys {
@@ -41,7 +42,8 @@ class Page implements LabKeys {
   private readonly host = element('div.stage', this.over);
   private readonly tabs = new Tabs();
   private readonly theme = new Theme(() => this.recolor());
-  readonly overlays = new Overlays(() => this.sendLayers());
+  private readonly layers = new Set(remembered('layers', DEFAULT_LAYERS));
+  readonly overlays = new Overlays(this.layers, () => this.sendLayers());
   readonly views = new Views((name) => this.look(name), () => this.touch());
   readonly live = new LiveStage(this.host, this.over, () => this.touch());
   private readonly picture = this.live.canDraw ? null : new Picture();
@@ -124,7 +126,7 @@ class Page implements LabKeys {
     header.append(button(icon('panel'), 'hide or show the panel (\\)', () => this.togglePanel()));
     this.host.append(
       ...(this.picture ? [this.picture.root] : []),
-      element('div.corner', this.overlays.root, this.overlays.legend),
+      this.overlays.root,
       this.views.root,
       element('div.foot', hints.look, hints.again, hints.hint, hints.spoken),
       element('div.input-corner', input.root),
@@ -186,6 +188,7 @@ class Page implements LabKeys {
   }
 
   private sendLayers(): void {
+    remember('layers', [...this.layers]);
     this.link.send({ do: 'layers', names: this.overlays.names });
     this.touch();
   }
@@ -228,7 +231,7 @@ class Page implements LabKeys {
     this.title.textContent = scene.title;
     this.file.textContent = scene.file;
     this.views.show(scene.bodies);
-    this.overlays.show(scene);
+    this.overlays.show(scene.layers);
     this.hints.show(scene);
     void this.live.show(scene);
     for (const listener of this.listeners) listener.onScene?.(scene);
@@ -241,7 +244,7 @@ class Page implements LabKeys {
   }
 
   private paint(frame: wire.Frame, now: number): void {
-    this.live.paint(frame, this.overlays.shown, this.selected, this.views.body);
+    this.live.paint(frame, this.overlays, this.selected, this.views.body);
     this.stale = false; // following a body has moved the camera, which is drawn already
     this.drag.draw(this.keys);
     this.operator.measureDelay(frame);

@@ -86,10 +86,9 @@ function viewAndSelectionKeys(page: LabKeys): Key[] {
       orbit: (...by) => live.stage?.orbit(...by),
       look: (name) => page.look(name),
       followNext: () => views.next(page.selected),
-      toggleLayer: (number) => overlays.toggleNumber(number),
+      overlays,
       toggleTheme: () => page.toggleTheme(),
     }),
-    key('o', 'list of overlays', () => overlays.fold(!overlays.folded)),
   ];
 }
 

@@ -5,7 +5,7 @@ import { element } from '../ui/dom';
 import { help, type Key, listen, pageHeader, viewKeys } from '../ui/keys';
 import { Tabs } from '../ui/choices';
 import { Theme } from '../ui/preferences';
-import { LayerChoice, Views } from '../view/view_options';
+import { Overlays, Views } from '../view/view_options';
 import type { Part } from '../view/painter';
 import { Stage, type ViewName } from '../view/stage';
 import './print.css';
@@ -13,17 +13,20 @@ import './print.css';
 export type Instant = Pick<Part, 'a' | 'b' | 'share'>; // of all layers
 
 export abstract class RecordedPage {
-  readonly layers: LayerChoice;
+  protected readonly overlays: Overlays;
   readonly stage: Stage;
   readonly theme = new Theme(() => this.recolor());
   protected readonly tabs = new Tabs();
   protected readonly views = new Views((name) => this.look(name), () => this.release());
   private stale = true; // the 3-D view
 
-  constructor(private readonly data: PageData, layers = data.layers) {
+  constructor(private readonly data: PageData, private readonly layers = data.layers, hasNumbers = true) {
     const host = element('div.stage');
-    this.layers = new LayerChoice(layers, () => this.touch());
-    host.append(this.layers.switches, this.layers.legend, this.views.root);
+    const isUsed = ({ instances, labels }: Layer) => instances.mesh.length > 0 || labels.text.length > 0;
+    const shown = layers.filter((layer) => layer.shown).map(({ name }) => name);
+    this.overlays = new Overlays(new Set(shown), () => this.touch(), hasNumbers);
+    this.overlays.show(layers.filter(isUsed));
+    host.append(this.overlays.root, this.views.root);
     document.body.append(element('main', host, this.tabs.root));
     this.stage = new Stage(host, data.view, data, () => this.touch());
     onPaper(host, (isPaper) => {
@@ -55,12 +58,16 @@ export abstract class RecordedPage {
     return new URLSearchParams(location.hash.slice(1)).get(name);
   }
 
-  protected viewKeys(followNext?: () => void, toggleLayer?: (number: number) => void): Key[] {
+  protected get shownLayers(): Layer[] {
+    return this.layers.filter(({ name }) => this.overlays.isShown(name));
+  }
+
+  protected viewKeys(followNext?: () => void): Key[] {
     return viewKeys({
       orbit: (...by) => this.stage.orbit(...by),
       look: (name) => this.look(name),
       followNext,
-      toggleLayer,
+      overlays: this.overlays,
       toggleTheme: () => this.theme.toggle(),
     });
   }
@@ -80,7 +87,7 @@ export abstract class RecordedPage {
   private paint(): void {
     const instant = this.before();
     this.stale = false; // a move of the camera by before() is drawn now
-    const shown = this.layers.shown;
+    const shown = this.shownLayers;
     this.stage.paint(this.parts(shown, instant));
     this.stage.draw();
     const labels = shown.map((layer) => ({ columns: layer.labels, frame: instant.a }));

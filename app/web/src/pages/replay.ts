@@ -49,7 +49,7 @@ class Page extends RecordedPage {
       time: this.player.at,
       frame: this.player.frame,
       playing: this.player.playing,
-      layers: this.layers.shown.map((layer) => layer.name),
+      layers: this.shownLayers.map(({ name }) => name),
       eye: this.stage.camera.position.toArray(),
     };
   }
@@ -63,7 +63,7 @@ class Page extends RecordedPage {
       key('← →', 'previous, next frame; with shift by ten', { ArrowLeft: step(-1), ArrowRight: step(1) }),
       key('Home', 'to the start', () => player.seek(player.start)),
       key('End', 'to the end', () => player.seek(player.end)),
-      ...this.viewKeys(() => this.views.next(null), (number) => this.layers.toggleNumber(number)),
+      ...this.viewKeys(() => this.views.next(null)),
       key('p, l, u', 'plots, energy, setup', { p: tab(0), l: tab(1), u: tab(2) }),
     ];
   }
@@ -78,7 +78,7 @@ class Page extends RecordedPage {
     const time = Number(this.hashValue('t') ?? NaN);
     if (Number.isFinite(time)) this.player.seek(time);
     const show = this.hashValue('show')?.split(',');
-    if (show) for (const { name } of this.run.layers) this.layers.set(name, show.includes(name));
+    if (show) for (const { name } of this.run.layers) this.overlays.set(name, show.includes(name));
     const tab = TABS.indexOf(this.hashValue('tab') ?? '');
     if (tab >= 0) this.tabs.show(tab);
   }

@@ -1,6 +1,7 @@
 // Keyboard shortcuts and their help.
 import { changeSpeed, type Clock } from '../panels/time_bar';
 import type { ViewName } from '../view/stage';
+import type { Overlays } from '../view/view_options';
 import { button, element, icon } from './dom';
 
 type Act = (event: KeyboardEvent) => void;
@@ -20,16 +21,16 @@ interface ViewTargets {
   orbit(around: number, up: number, closer: number): void;
   look(name: ViewName): void;
   followNext?(): void;
-  toggleLayer?(number: number): void;
+  overlays: Overlays;
   toggleTheme(): void;
 }
 
 const VIEWS: ViewName[] = ['front', 'side', 'top', 'iso'];
 
 // Keys of the 3-D view, on every page.
-export function viewKeys({ orbit, look, followNext, toggleLayer, toggleTheme }: ViewTargets): Key[] {
+export function viewKeys({ orbit, look, followNext, overlays, toggleTheme }: ViewTargets): Key[] {
   let view = 0;
-  const digits = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((n) => [n, () => toggleLayer!(n)]);
+  const digits = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((n) => [n, () => overlays.toggleNumber(n)]);
   const nearer = () => orbit(0, 0, 0.88);
   return [
     ...(followNext ? [key('f', 'follow the selected body, or the next one', followNext)] : []),
@@ -42,7 +43,8 @@ export function viewKeys({ orbit, look, followNext, toggleLayer, toggleTheme }: 
     key('+ −', 'zoom in, out', { '+': nearer, '=': nearer, '-': () => orbit(0, 0, 1 / 0.88) }),
     key('r', 'reset the view', () => look('start')),
     key('v', 'front, side, top, isometric view', () => look(VIEWS[view++ % VIEWS.length])),
-    ...(toggleLayer ? [key('1 – 9', 'toggle an overlay (list: o)', Object.fromEntries(digits))] : []),
+    key('o', 'list of overlays', () => overlays.fold(!overlays.folded)),
+    ...(overlays.hasNumbers ? [key('1 – 9', 'toggle an overlay', Object.fromEntries(digits))] : []),
     key('t', 'light or dark theme', toggleTheme),
   ];
 }

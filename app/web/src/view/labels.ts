@@ -7,6 +7,7 @@ import { element, svg } from '../ui/dom';
 export type Pixel = { x: number; y: number };
 export type Project = (x: number, y: number, z: number) => Pixel | null;
 
+const CONTROLS = ':scope > :not(canvas, .labels, .handles, .corner), .corner > *';
 const LINE = 17; // line height in pixels
 const LAYOUT_INTERVAL = 300; // [ms]: reading positions makes the browser lay out the page
 
@@ -49,8 +50,7 @@ export class Labels {
   private covered(): Box[] {
     const { left, top } = this.root.getBoundingClientRect();
     const boxes: Box[] = [];
-    for (const other of this.root.parentElement?.children ?? []) {
-      if (other === this.root || other.matches('canvas, .handles')) continue;
+    for (const other of this.root.parentElement?.querySelectorAll(CONTROLS) ?? []) {
       const { x, y, width, height } = other.getBoundingClientRect();
       if (width > 0) boxes.push(new DOMRect(x - left, y - top, width, height));
     }

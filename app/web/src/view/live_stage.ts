@@ -1,6 +1,7 @@
 // 3-D view of the live run. Draws the newest frame without interpolation, which would delay it by one frame.
 import { element } from '../ui/dom';
 import type { Part } from './painter';
+import type { Overlays } from './view_options';
 import { Stage } from './stage';
 import { type Frame, labelText, placeOf, type SceneMessage } from '../source/link';
 import { MeshStore } from '../source/meshes';
@@ -66,14 +67,14 @@ export class LiveStage {
     return this.scene !== null && this.meshes === this.scene.meshes.length;
   }
 
-  // `shown`: layer names. `selected`, `followed`: bodies.
-  paint(frame: Frame, shown: Set<string>, selected: number | null, followed: number | null): void {
+  // `selected`, `followed`: bodies.
+  paint(frame: Frame, overlays: Overlays, selected: number | null, followed: number | null): void {
     const { stage, scene } = this;
     if (!stage || !scene) return;
     if (followed !== null) stage.follow(placeOf(frame.link, followed));
     const parts: Part[] = [];
     scene.layers.forEach(({ name }, l) => {
-      if (l >= frame.layers || !(l === 0 || shown.has(name))) return;
+      if (l >= frame.layers || !overlays.isShown(name)) return;
       parts.push({ columns: frame, a: l, b: l, share: 0, shadow: l === 0 });
     });
     const marked = [...parts];

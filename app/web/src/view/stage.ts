@@ -224,7 +224,7 @@ export class Stage {
     box.updateProjectionMatrix();
   }
 
-  // Fits the host; the principal point is the centre of the area beside the overlay switches.
+  // Fits the host.
   resize(): void {
     const { clientWidth, clientHeight } = this.host;
     // While printing, the layout has another size.
@@ -232,9 +232,7 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, DETAILS[this.detail].pixels));
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
-    const covered = this.host.querySelector<HTMLElement>('.switches')?.offsetWidth ?? 0;
-    const shift = clientWidth > 4 * covered ? -0.5 * covered : 0;
-    this.camera.setViewOffset(clientWidth, clientHeight, shift, 0, clientWidth, clientHeight);
+    this.camera.updateProjectionMatrix();
     this.changed();
   }
 }
