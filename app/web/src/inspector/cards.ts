@@ -102,13 +102,12 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
 // The result, and its terms folded.
 function matrices(equation: Equation, body: string, unit: string): HTMLElement[] {
   const terms = equation.terms.map((term) => {
-    const words = element('p.fine', math(term.symbol), ` ${whose(term, body)}`);
-    return element('div.term', words, valueOf({ value: term.value, unit }));
+    const symbol = element('p.fine', math(term.symbol), ` ${whose(term, body)}`);
+    return element('div.term', symbol, valueOf({ value: term.value, unit }));
   });
   const sum = valueOf({ value: equation.value, unit });
   if (terms.length < 2) return [sum];
-  const words = `its ${terms.length} terms`;
-  return [sum, element('details.terms', element('summary.fine', words), ...terms)];
+  return [sum, element('details.terms', element('summary.fine', `${terms.length} terms`), ...terms)];
 }
 
 function inLine({ terms, value }: Equation, unit: string): HTMLElement {
@@ -121,8 +120,7 @@ function inLine({ terms, value }: Equation, unit: string): HTMLElement {
 }
 
 function line(parts: Node[], value: number, unit: string): HTMLElement {
-  const words = element('span.unit', ` ${unitText(unit)}`);
-  return element('p.line', { title: String(value) }, set(...parts), words);
+  return element('p.line', { title: String(value) }, set(...parts), element('span.unit', ` ${unitText(unit)}`));
 }
 
 // Named, since an equation that overflows the panel can have the focus.

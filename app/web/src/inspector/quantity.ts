@@ -13,8 +13,8 @@ const AXES = ['x', 'y', 'z'];
 function six(values: number[], unit: string): HTMLElement {
   const units = unit.split(';').map((text) => text.trim());
   const rows = [values.slice(0, 3), values.slice(3)].map((half, i) => {
-    const words = element('td.unit', unitText(units[i] ?? units[0]));
-    return element('tr', ...half.map((value) => numberCell(value)), words);
+    const unitCell = element('td.unit', unitText(units[i] ?? units[0]));
+    return element('tr', ...half.map((value) => numberCell(value)), unitCell);
   });
   return table([...AXES, ''], rows, { class: 'six' });
 }

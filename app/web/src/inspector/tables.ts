@@ -55,8 +55,7 @@ export function energyTable(ledger: Record<string, number>): HTMLElement {
   const works = rows.map(([, work]) => work);
   made.show(works, largestOf(works));
   const idle = all.length - rows.length;
-  const words = idle > 0 ? `${idle} more rows are zero.` : '';
-  return element('div', made.root, element('p.hint', words));
+  return element('div', made.root, element('p.hint', idle > 0 ? `${idle} more rows are zero.` : ''));
 }
 
 const halves = (v: number[]) => [v.slice(0, 3), v.slice(3)];

@@ -74,8 +74,8 @@ export function start<T extends PageData>(show: (data: T) => object): void {
     document.documentElement.dataset.ready = 'true';
   };
   begin().catch((error: unknown) => {
-    const words = error instanceof Error ? error.message : String(error);
-    const alert = element('p.failed', { role: 'alert' }, `This page cannot be shown: ${words}`);
+    const reason = error instanceof Error ? error.message : String(error);
+    const alert = element('p.failed', { role: 'alert' }, `This page cannot be shown: ${reason}`);
     document.body.replaceChildren(alert);
     console.error(error);
   });
