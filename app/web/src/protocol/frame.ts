@@ -5,7 +5,7 @@ import type { Vector } from './messages';
 // numbers per item.
 const ARRAYS = {
   channels: [Float64Array, 'channels', 1], // NaN: no value at this time
-  works: [Float64Array, 'ledger rows', 1], // [J]
+  works: [Float64Array, 'works', 1], // [J]
   // Poses X_WB of the scene's bodies, and of the same links of the target robot (NaN: none):
   // position x y z [m], then quaternion x y z w.
   link: [Float32Array, 'bodies', 7],
@@ -58,7 +58,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
   const bodies = u32(72);
   const counts = {
     channels: u32(48),
-    'ledger rows': u32(52),
+    'works': u32(52),
     'layers and an end': layers + 1,
     instances: u32(60),
     labels: u32(64),
