@@ -12,16 +12,16 @@
 
 namespace twinarm {
 
-struct LaneRow {
-  Lane lane;
-  LaneResult result;
+struct IntegrationRow {
+  Lane integration;
+  TrajectoryResult result;
   std::optional<double> order;
 };
 struct CompareRow {
   const AnalyticCase* test;
   CaseResult result;
   double seconds;
-  std::vector<LaneRow> lanes;  // those that were asked for; none for a case that takes none
+  std::vector<IntegrationRow> integrations;  // those that were asked for; none for a case that takes none
 };
 
 struct CaseSelection {
@@ -39,19 +39,19 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
 // a tolerance of 1e-10. All that are no integrators or steps are faults.
 std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
                              const std::vector<double>& steps, DiagnosticList& faults);
-std::string lane_name(const Lane& lane);  // "rk4 0.001"
+std::string integration_name(const Lane& integration);  // "rk4 0.001"
 
-// A case is judged in its own lane; the others are beside it.
-CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes);
+// A case is judged in its own integration; the others are beside it.
+CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& integrations);
 
 // How many fell short.
 std::size_t failures(const std::vector<CompareRow>& rows);
 
 // For people: a table, and what fell short below it. For programs: one JSON object;
 // `page` is the file that --html made, or empty.
-std::string compare_table(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
+std::string compare_table(const std::vector<CompareRow>& rows, const std::vector<Lane>& integrations,
                           const std::vector<const SkippedCase*>& skipped);
-std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
+std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& integrations,
                          const std::vector<const SkippedCase*>& skipped, const std::string& page);
 
 }  // namespace twinarm

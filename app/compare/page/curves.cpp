@@ -33,7 +33,7 @@ double end_of(const TrajectoryCase& c) {
 void sample_reference(const TrajectoryCase& c, double until, CaseCurves& curves) {
   std::vector<double> arguments = c.times;
   for (int n = 1; n <= c.events.count; ++n) arguments.push_back(n);
-  if (c.takes_lanes() && c.events.count == 0 && !c.at_times_only) {
+  if (c.takes_any_integrator() && c.events.count == 0 && !c.at_times_only) {
     arguments = {0};
     for (int n = 1; n <= kExactPoints; ++n) arguments.push_back(until * n / kExactPoints);
   }
@@ -70,8 +70,8 @@ void choose_sides(CaseCurves& curves) {
 }
 
 void record(const TrajectoryCase& c, CaseCurves& curves) {
-  const double end = end_of(c), longest = static_cast<double>(kMaxSteps) * c.lane.step;
-  const bool adaptive = c.lane.integrator == Integrator::dopri5;
+  const double end = end_of(c), longest = static_cast<double>(kMaxSteps) * c.integration.step;
+  const bool adaptive = c.integration.integrator == Integrator::dopri5;
   const double until = adaptive ? end : std::min(end, longest);
   curves.cut = until < end;
   curves.names = c.readings;
@@ -90,7 +90,7 @@ void record(const TrajectoryCase& c, CaseCurves& curves) {
     };
   }
   std::vector<TrajectoryPoint> points;
-  const LaneResult run = run_lane(shown, c.lane, &points);
+  const TrajectoryResult run = run_trajectory(shown, c.integration, &points);
   double strayed = 0;
   for (const TrajectoryPoint& p : points)
     strayed = std::max(strayed, std::abs(p.energy - points[0].energy));
@@ -115,7 +115,7 @@ ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double en
   if (integrator == Integrator::dopri5) {
     for (const double tolerance : {1e-12, 1e-10, 1e-8, 1e-6, 1e-4}) {
       check_interrupt();
-      const LaneResult run = run_lane(c, dopri5_lane(tolerance));
+      const TrajectoryResult run = run_trajectory(c, dopri5_with(tolerance));
       if (!std::isfinite(run.error) || run.steps == 0) continue;
       curve.step.push_back(end / static_cast<double>(run.steps));
       curve.error.push_back(run.error);
@@ -128,7 +128,7 @@ ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double en
   double h = finest * (1 << first);
   for (int i = first; i < kSteps; ++i, h *= 2) {
     check_interrupt();
-    all.push_back(run_lane(c, {integrator, h}).error);
+    all.push_back(run_trajectory(c, {integrator, h}).error);
     if (!std::isfinite(all.back())) continue;
     curve.step.push_back(h);
     curve.error.push_back(all.back());
@@ -144,21 +144,21 @@ CaseCurves curves_of(const TrajectoryCase& original, double judged) {
   c.reference = remembered(original.reference);
   CaseCurves curves;
   record(c, curves);
-  if (!c.takes_lanes()) return curves;
+  if (!c.takes_any_integrator()) return curves;
   c.scene = [scene = original.scene] {
     CaseScene all = scene();
     all.conserves = false;  // nobody asks for its energy
     return all;
   };
   const double end = end_of(c);
-  double finest = c.lane.integrator == Integrator::dopri5 ? 1e-3 : c.lane.step;
+  double finest = c.integration.integrator == Integrator::dopri5 ? 1e-3 : c.integration.step;
   while (end / finest > static_cast<double>(kFinestSteps)) finest *= 2;
   if (c.scene().model.nv > kMany) finest *= 4;
   for (const IntegratorFacts& facts : all_integrators) {
     ErrorCurve curve = error_curve(c, facts.integrator, end, finest);
     // Where that would take long the diagram begins with longer steps; the case's own is known.
-    if (facts.integrator == c.lane.integrator && c.lane.step < finest && std::isfinite(judged)) {
-      curve.step.insert(curve.step.begin(), c.lane.step);
+    if (facts.integrator == c.integration.integrator && c.integration.step < finest && std::isfinite(judged)) {
+      curve.step.insert(curve.step.begin(), c.integration.step);
       curve.error.insert(curve.error.begin(), judged);
     }
     curves.errors.push_back(curve);

@@ -1,4 +1,4 @@
-// What the page draws of a known motion: the run in its own lane beside the reference, its energy,
+// What the page draws of a known motion: the run in its own integration beside the reference, its energy,
 // and the error of every integrator against the step.
 #pragma once
 

@@ -134,7 +134,7 @@ constexpr const char* kHowToRead =
     "the step, where three steps agree. Energy drift: the largest change of energy over the "
     "largest kinetic "
     "energy, where energy is kept.</p>\n"
-    "<p><b>Run and reference.</b> Lines are the run in the lane in which the case is judged; "
+    "<p><b>Run and reference.</b> Lines are the run in the integration in which the case is judged; "
     "circles are the reference. Where events are timed, the function whose zeros they are is "
     "drawn, and a "
     "circle lies where the reference has it pass zero.</p>\n"

@@ -27,7 +27,7 @@ CasePlace place_of(const std::string& case_name);
 
 // The section of one case: statement, figures, place of its code. Runs it again to be looked at,
 // and all integrators beside; takes a temporary folder.
-std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes);
+std::string case_section(const CompareRow& row, const std::vector<Lane>& integrations);
 
 // The whole page, from the sections in the order of rows. `command` made it.
 std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std::string>& sections,

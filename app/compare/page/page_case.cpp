@@ -36,10 +36,10 @@ std::string statement_html(const AnalyticCase& c) {
   return "<div class=statement>" + html + "</div>\n";
 }
 
-std::string lane_words(const Lane& lane) {
-  if (lane.integrator == Integrator::dopri5)
-    return fmt::format("dopri5, tolerance {:g}", lane.tolerance);
-  return fmt::format("{}, step {:g} s", integrator_name(lane.integrator), lane.step);
+std::string integration_words(const Lane& integration) {
+  if (integration.integrator == Integrator::dopri5)
+    return fmt::format("dopri5, tolerance {:g}", integration.tolerance);
+  return fmt::format("{}, step {:g} s", integrator_name(integration.integrator), integration.step);
 }
 
 std::string fact(const std::string& name, const std::string& value) {
@@ -54,17 +54,17 @@ std::string facts_of_case(const CompareRow& row, const TrajectoryCase* motion) {
   if (row.result.energy_drift)
     html += fact("energy drift", fmt::format("{:.1e}", *row.result.energy_drift));
   html += fact("time", fmt::format("{:.2f} s", row.seconds));
-  if (motion && motion->has_steps()) html += fact("judged with", lane_words(motion->lane));
+  if (motion && motion->has_steps()) html += fact("judged with", integration_words(motion->integration));
   return html + "</div>\n";
 }
 
-std::string lanes_table(const CompareRow& row) {
-  if (row.lanes.empty()) return "";
+std::string integrations_table(const CompareRow& row) {
+  if (row.integrations.empty()) return "";
   std::string html =
       "<table class=readings><thead><tr><th>beside it<th>error<th>order<th>energy drift<th>time"
       "</thead><tbody>\n";
-  for (const LaneRow& r : row.lanes)
-    html += fmt::format("<tr><td>{}<td>{:.3g}<td>{}<td>{}<td>{:.2f} s\n", lane_words(r.lane),
+  for (const IntegrationRow& r : row.integrations)
+    html += fmt::format("<tr><td>{}<td>{:.3g}<td>{}<td>{}<td>{:.2f} s\n", integration_words(r.integration),
                         r.result.error, r.order ? fmt::format("{:.2f}", *r.order) : "–",
                         r.result.energy_drift ? fmt::format("{:.1e}", *r.result.energy_drift) : "–",
                         r.result.seconds);
@@ -87,7 +87,7 @@ std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
   const std::string name = row.test->name;
   const CaseCurves curves = curves_of(c, row.result.error);
   Gnuplot gnuplot{std::filesystem::path()};
-  std::string caption = "Run (" + lane_words(c.lane) + ") and reference.";
+  std::string caption = "Run (" + integration_words(c.integration) + ") and reference.";
   if (c.events.count > 0) caption += " Known are the events: times, and what is read at them.";
   if (curves.cut) caption += " Only the beginning is drawn.";
   const std::string pair =
@@ -123,12 +123,12 @@ std::string contact_figures(const CompareRow& row) {
          note + "</div>\n";
 }
 
-std::string command_of(const CompareRow& row, const std::vector<Lane>& lanes) {
+std::string command_of(const CompareRow& row, const std::vector<Lane>& integrations) {
   std::string command = std::string("twinarm compare ") + row.test->name;
   const TrajectoryCase* c = row.test->trajectory.get();
-  if (c && c->takes_lanes() && lanes.empty() && c->lane.integrator != Integrator::dopri5)
+  if (c && c->takes_any_integrator() && integrations.empty() && c->integration.integrator != Integrator::dopri5)
     command += fmt::format(" --integrator {},dopri5 --step {:g},{:g}",
-                           integrator_name(c->lane.integrator), c->lane.step, 2 * c->lane.step);
+                           integrator_name(c->integration.integrator), c->integration.step, 2 * c->integration.step);
   return "<pre class=command>" + escaped(command) + "</pre>\n";
 }
 
@@ -142,17 +142,17 @@ std::string link_to_code(const std::string& case_name) {
 
 }  // namespace
 
-std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes) {
+std::string case_section(const CompareRow& row, const std::vector<Lane>& integrations) {
   const AnalyticCase& c = *row.test;
   const bool pass = passes(c, row.result);
   std::string html =
       fmt::format("<section class=case id=\"{0}\"><h3>{0}{1}<span class=what>{2}</span></h3>\n",
                   escaped(c.name), yes_no(pass, "pass", "short"), in_unicode(c.reference));
   const TrajectoryCase* motion = c.trajectory.get();
-  html += statement_html(c) + facts_of_case(row, motion) + lanes_table(row);
+  html += statement_html(c) + facts_of_case(row, motion) + integrations_table(row);
   if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
   if (!motion) html += contact_figures(row);
-  return html + command_of(row, lanes) + link_to_code(c.name) + "</section>\n";
+  return html + command_of(row, integrations) + link_to_code(c.name) + "</section>\n";
 }
 
 }  // namespace twinarm::compare_page

@@ -1,4 +1,4 @@
-// The bouncing ball (E1), by Newton's law of impact.
+// E1: bouncing ball, by Newton's law of impact.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,15 +8,14 @@
 namespace twinarm {
 namespace {
 
-using namespace contact_looks;
+using namespace contact_plots;
 
 constexpr double kZeno = 4.063712768871578;  // t1 (1 + e) / (1 - e)
 
-// A ball that falls from 1 m onto the floor.
+// Ball 1 m above the floor.
 int add_falling_ball(ContactScene& scene, double restitution) {
   scene.add_floor(surface(0, restitution));
-  const int ball = scene.add({Sphere{kBallRadius}, surface(0, 1), 1, {0, 0, 1 + kBallRadius}});
-  scene.start();
+  const int ball = scene.start({Sphere{kBallRadius}, surface(0, 1), 1, {0, 0, 1 + kBallRadius}});
   return ball;
 }
 
@@ -25,8 +24,8 @@ constexpr std::array kTimes = {0.4515236409857309, 1.1739614665629,   1.75191172
 constexpr std::array kSpeeds = {4.42944691807002, 3.543557534456016, 2.834846027564813,
                                 2.26787682205185, 1.81430145764148};
 
-// When and how fast the ball reaches the floor: from where it stands before the step that turns it
-// round, in free fall.
+// Times and speeds of the impacts: free fall from the state before the step in which the velocity
+// changes its sign.
 struct Bounces {
   double time_error = NAN, speed_error = NAN;
 };
@@ -49,23 +48,22 @@ Bounces bounce(bool located, double gravity, double e) {
   }
   return impacts == kTimes.size() ? errors : Bounces{};
 }
-CaseResult bounce_times(double off) {  // gravity
-  return {bounce(true, off, 0.8).time_error};
+CaseResult bounce_times(double scale) {  // gravity
+  return {bounce(true, scale, 0.8).time_error};
 }
-CaseResult bounce_speeds(double off) {  // gravity
-  return {bounce(true, off, 0.8).speed_error};
+CaseResult bounce_speeds(double scale) {  // gravity
+  return {bounce(true, scale, 0.8).speed_error};
 }
-CaseResult bounce_fixed(double off) {  // e
-  return {bounce(false, 1, off * 0.8).speed_error};
+CaseResult bounce_fixed(double scale) {  // e
+  return {bounce(false, 1, scale * 0.8).speed_error};
 }
 
-// Both with steps that locate the impacts, whose number is beyond counting, and with steps of fixed
-// size.
-CaseResult rest_after_bounces(double off) {  // e
+// With located impacts, of which there are infinitely many, and with fixed steps.
+CaseResult rest_after_bounces(double scale) {  // e
   double fastest = 0;
   for (const bool located : {false, true}) {
     ContactScene scene;
-    const int ball = add_falling_ball(scene, off * 0.8);
+    const int ball = add_falling_ball(scene, scale * 0.8);
     if (located) scene.locate_events();
     while (scene.t() < 6) {
       scene.step(kStep);
@@ -75,56 +73,53 @@ CaseResult rest_after_bounces(double off) {  // e
   return {fastest};
 }
 
-CaseResult bounce_energy(double off) {  // the weight; the energy counts it as it should be
+CaseResult bounce_energy(double scale) {  // weight; energy() uses the correct one
   double rise = 0;
   for (const double e : {0.0, 0.3, 0.5, 0.8, 0.95, 1.0}) {
     ContactScene scene;
     const int ball = add_falling_ball(scene, e);
-    scene.push(ball, {0, 0, (1 - off) * kGravity});
+    scene.apply_force(ball, {0, 0, (1 - scale) * kGravity});
     scene.run(5, kStep);
     rise = std::max(rise, scene.rise());
   }
   return {rise};
 }
 
-// ---- what a page draws of them ----
+// ---- plots ----
 
-// Body by body, from 1 on.
-template <int body>
-Values seen_height(Scene s) {
-  return {s.p(body).z() - 0.1};
+Values read_height(Scene s) {
+  return {s.p(1).z() - 0.1};
 }
-// The gap of a ball that falls from 1 m.
-double known_bounce(double e, double t) {
+double exact_bounce(double e, double t) {
   const double fall = std::sqrt(2 / kGravity);
   if (t < fall) return 1 - kGravity * t * t / 2;
   double speed = e * kGravity * fall, since = t - fall;
   while (speed > 1e-6 && since > 2 * speed / kGravity) since -= 2 * speed / kGravity, speed *= e;
   return speed > 1e-6 ? speed * since - kGravity * since * since / 2 : 0;
 }
-double known_bounces(std::size_t, double t) {
-  return known_bounce(0.8, t);
+double exact_bounces(std::size_t, double t) {
+  return exact_bounce(0.8, t);
 }
 
 }  // namespace
 
 CaseFamily bouncing_cases() {
-  const ContactCasePlot height{
-      .readings = {"height of the ball [m]"}, .read = seen_height<1>, .exact = known_bounces};
-  const ContactCasePlot any{
-      .readings = height.readings, .read = seen_height<1>, .no_steps = kRounding};
-  ContactCasePlot in_steps = height;
-  in_steps.about_steps =
-      "Flight is exact in any step. One of 0.5 ms would end 1 µm within the floor, ends on it, "
-      "0.1 % slower, and the ball bounces in the next one.";
-  return {180,
-          {contact_case<bounce_times, 1>("E1-times", 1e-9, without_steps(height, kLocated)),
-           contact_case<bounce_speeds, 1>("E1-speeds", 1e-9, without_steps(height, kLocated)),
-           contact_case<bounce_fixed, 1>("E1-fixed", 1e-3, in_steps),
-           contact_case<rest_after_bounces, 1>(
-               "E1-rest", 1e-6, without_steps(of_runs(height, {"located", "1 ms"}), kRounding)),
-           contact_case<bounce_energy, 10>(
-               "E1-energy", 1e-10, of_runs(any, {"e = 0", "0.3", "0.5", "0.8", "0.95", "1"}))}};
+  const Plot height{{"height of the ball [m]"}, read_height, exact_bounces};
+  const Plot conserved = height.without_convergence(kRounding);
+  return {
+      180,
+      {contact_case<bounce_times, 1>("E1-times", 1e-9, height.without_convergence(kLocated)),
+       contact_case<bounce_speeds, 1>("E1-speeds", 1e-9, height.without_convergence(kLocated)),
+       contact_case<bounce_fixed, 1>(
+           "E1-fixed", 1e-3,
+           height.with(&Plot::convergence_note,
+                       "Flight is exact in any step. One step of 0.5 ms would end 1 µm below the "
+                       "floor; it ends on the floor, 0.1 % slower, and the ball bounces in the "
+                       "next step.")),
+       contact_case<rest_after_bounces, 1>("E1-rest", 1e-6, conserved.of_runs({"located", "1 ms"})),
+       contact_case<bounce_energy, 10>("E1-energy", 1e-10,
+                                       conserved.with(&Plot::exact, nullptr)
+                                           .of_runs({"e = 0", "0.3", "0.5", "0.8", "0.95", "1"}))}};
 }
 
 }  // namespace twinarm

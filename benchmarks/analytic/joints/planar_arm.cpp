@@ -22,9 +22,9 @@ Model<double> model_of(const PlanarArm& arm) {
   return builder.build();
 }
 
-PlanarArmTerms terms_of(const PlanarArm& arm, long double q2, long double qd1, long double qd2) {
-  const long double m1 = arm.m1, m2 = arm.m2, l1 = arm.l1, c1 = arm.c1, c2 = arm.c2;
-  const long double cosine = std::cos(q2), h = m2 * l1 * c2 * std::sin(q2);
+PlanarArmTerms terms_of(const PlanarArm& arm, Real q2, Real qd1, Real qd2) {
+  const Real m1 = arm.m1, m2 = arm.m2, l1 = arm.l1, c1 = arm.c1, c2 = arm.c2;
+  const Real cosine = std::cos(q2), h = m2 * l1 * c2 * std::sin(q2);
   return {.M11 = arm.I1 + m1 * c1 * c1 + arm.I2 + m2 * (l1 * l1 + c2 * c2 + 2 * l1 * c2 * cosine),
           .M12 = arm.I2 + m2 * (c2 * c2 + l1 * c2 * cosine),
           .M22 = arm.I2 + m2 * c2 * c2,
@@ -44,12 +44,12 @@ constexpr int kArmStates = 10;
 struct ArmState {
   double q1, q2, qd1, qd2, tau1, tau2;
 };
-ArmState arm_state(int n) {  // all over the place
+ArmState arm_state(int n) {  // well distributed
   return {3 * std::sin(3. * n + 1), 3 * std::sin(5. * n + 2),   4 * std::sin(7. * n + 3),
           6 * std::sin(11. * n),    20 * std::sin(13. * n + 5), 10 * std::sin(17. * n + 6)};
 }
 
-// What each state gives, one after the other.
+// Readings of all states, concatenated.
 template <class F>
 CaseReadings in_all_states(F&& readings) {
   CaseReadings all;
@@ -70,8 +70,8 @@ State<double> state_of(const Model<double>& model, const ArmState& s) {
   return x;
 }
 
-// The lower link's centre of mass 0.1 % further out.
-void further_out(CaseScene& scene) {
+// Mutant: the centre of mass of link 2 0.1 % further out.
+void shift_com(CaseScene& scene) {
   scene.model.I.back().h = 1.001 * scene.model.I.back().h;
 }
 
@@ -86,7 +86,7 @@ TrajectoryCase arm_case(const std::vector<std::string>& readings, ArmReadings se
                  in_all_states([exact](const ArmState& s) {
                    return exact(s, terms_of({}, s.q2, s.qd1, s.qd2));
                  }));
-  c.mutant = further_out;
+  c.mutant = shift_com;
   return c;
 }
 CaseReadings torques_at_rate(const Model<double>& model, const ArmState& s) {
@@ -138,7 +138,7 @@ TrajectoryCase no_weight() {
         return CaseReadings{0, 0};
       });
   c.measure = max_difference;
-  c.mutant = [](CaseScene& scene) { scene.model.gravity.x = 1e-3 * kGravity; };  // it leans
+  c.mutant = [](CaseScene& scene) { scene.model.gravity.x = 1e-3 * kGravity; };
   return c;
 }
 

@@ -1,9 +1,8 @@
-// B4, a screw on a vertical axis, p = 0.1 m / 2 pi, 2 kg, 0.05 kg m^2: q'' = m g p / (I + m p^2),
-// held by m g p; with damping b the rate tends to m g p / b.
-// B5, 2 kg on an incline of 30 degrees with damping c: x = v (t - T (1 - exp(-t/T))), T = m / c,
-// v = m g sin 30 / c.
-// B9, cylindrical, planar and free joints: each coordinate for itself, parabolas in time, on which
-// every scheme of second order is exact.
+// B4, a screw joint on a vertical axis, p = 0.1 m / 2 pi, 2 kg, 0.05 kg m^2: q'' = m g p / (I + m
+// p^2), holding torque m g p; with damping b the rate tends to m g p / b. B5, 2 kg on an incline of
+// 30 degrees with damping c: x = v (t - T (1 - exp(-t/T))), T = m / c, v = m g sin 30 / c. B9,
+// cylindrical, planar and free joints: uncoupled coordinates, parabolas in time, for which every
+// second-order scheme is exact.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -18,7 +17,7 @@ using namespace smooth_parts;
 
 constexpr double kPitch = 0.1 / (2 * std::numbers::pi), kSlidingMass = 2, kScrewInertia = 0.05;
 
-// Its axis points down: gravity turns it forward.
+// The axis points down: gravity drives it forward.
 CaseScene screw(double damping) {
   return at_rest(one_body(JointType::screw, -Vector3::UnitZ(),
                           {kSlidingMass, Vector3::Zero(), kScrewInertia * Matrix3::Identity()},
@@ -29,7 +28,7 @@ TrajectoryCase screw_at_rest() {
   const double qdd =
       kSlidingMass * kGravity * kPitch / (kScrewInertia + kSlidingMass * kPitch * kPitch);
   return evaluation([] { return screw(0); },
-                    {"turning [rad/s2]", "sinking [m/s2]", "holding torque [N m]"},
+                    {"rotation [rad/s2]", "translation [m/s2]", "holding torque [N m]"},
                     [](const Model<double>& model, const State<double>& x) {
                       const Workspace<double> w = evaluate(model, x);
                       return CaseReadings{w.qdd[0], -point_acceleration(model, w, 1, {}).z,
@@ -37,7 +36,7 @@ TrajectoryCase screw_at_rest() {
                     },
                     {qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch}, relative_each);
 }
-// Accelerations at rest and at a rate, in which they are linear.
+// Accelerations at rest and at a rate, of which they are a linear function.
 std::array<double, 2> accelerations(const Model<double>& model, const State<double>& x,
                                     double rate) {
   State<double> moving = x;
@@ -45,7 +44,7 @@ std::array<double, 2> accelerations(const Model<double>& model, const State<doub
   return {evaluate(model, x).qdd[0], evaluate(model, moving).qdd[0]};
 }
 
-// With damping: the rate at which nothing accelerates, and how it is come near.
+// Damped: terminal rate, and the approach to it.
 TrajectoryCase screw_terminal() {
   return evaluation([] { return screw(0.01); }, {"terminal rate [rad/s]"},
                     [](const Model<double>& model, const State<double>& x) {
@@ -59,7 +58,7 @@ TrajectoryCase screw_motion() {
   c.scene = [] { return not_conserving(screw(0.01)); };
   c.times = {1, 10, 30};
   c.readings = {"rate [rad/s]"};
-  c.observe = [](const Model<double>&, const State<double>& x) { return x.qd; };
+  c.observe = observe(velocity(0));
   c.reference = [](double t) {
     const double T = (kScrewInertia + kSlidingMass * kPitch * kPitch) / 0.01;
     return CaseReadings{kSlidingMass * kGravity * kPitch / 0.01 * -std::expm1(-t / T)};
@@ -80,8 +79,8 @@ TrajectoryCase incline() {
           .observe = joint_state(),
           .reference =
               [](double t) {
-                const double T = 2 / 0.8, v = kGravity / 2 * T, gone = -std::expm1(-t / T);
-                return CaseReadings{v * (t - T * gone), v * gone};
+                const double T = 2 / 0.8, v = kGravity / 2 * T, part = -std::expm1(-t / T);
+                return CaseReadings{v * (t - T * part), v * part};
               }};
 }
 TrajectoryCase incline_start() {
@@ -99,10 +98,9 @@ TrajectoryCase incline_start() {
 TrajectoryCase cylindrical() {
   return {.scene =
               [] {
-                CaseScene scene =
+                CaseScene scene = not_conserving(
                     at_rest(one_body(JointType::cylindrical, Vector3::UnitZ(),
-                                     {1.5, Vector3::Zero(), 0.02 * Matrix3::Identity()}));
-                scene.conserves = false;
+                                     {1.5, Vector3::Zero(), 0.02 * Matrix3::Identity()})));
                 scene.sources = {std::make_shared<JointEffort>([](double, double) { return 0.3; })};
                 return scene;
               },
@@ -156,15 +154,11 @@ TrajectoryCase thrown() {
           .measure = relative_to_largest};
 }
 
-TrajectoryCase by(Lane lane, TrajectoryCase c) {
-  c.lane = lane;
-  return c;
-}
-
 }  // namespace
 
 CaseFamily sliding_joints_cases() {
-  const Lane verlet{Integrator::verlet, 1e-2};
+  TrajectoryCase verlet = planar();
+  verlet.integration = {Integrator::verlet, 1e-2};
   return {70,
           {{"B4", 1e-12, screw_at_rest()},
            {"B4-terminal", 1e-12, screw_terminal()},
@@ -174,7 +168,7 @@ CaseFamily sliding_joints_cases() {
            {"B9-cylindrical", 1e-12, cylindrical()},
            {"B9-planar", 1e-12, planar()},
            {"B9-free", 1e-12, thrown()},
-           {"B9-verlet", 1e-12, by(verlet, planar())}}};
+           {"B9-verlet", 1e-12, verlet}}};
 }
 
 }  // namespace twinarm

@@ -34,9 +34,9 @@ TEST_CASE("analytic cases: every experiment has a mistake, with which it fails")
   for (const AnalyticCase& c : analytic_cases()) {
     if (c.trajectory) continue;
     CAPTURE(std::string(c.name));
-    const bool has_one = c.mistaken != nullptr;
+    const bool has_one = c.mutant != nullptr;
     REQUIRE(has_one);
-    const double error = c.mistaken().error;
+    const double error = c.mutant().error;
     CHECK(std::isfinite(error));
     CHECK(error > c.tolerance);
   }

@@ -34,7 +34,7 @@ const AnalyticCase& case_named(const std::string& name) {
 
 TEST_CASE("known motions: every case keeps its tolerance") {
   for_each_trajectory([](const AnalyticCase& c, const TrajectoryCase& motion) {
-    const LaneResult result = run_lane(motion, motion.lane);
+    const TrajectoryResult result = run_trajectory(motion, motion.integration);
     CAPTURE(result.seconds);
     CHECK(result.error <= c.tolerance);
   });
@@ -66,8 +66,8 @@ TEST_CASE("known motions: times between two steps are met to the order of the sc
   for (const auto& [integrator, factor] :
        {std::pair{Integrator::rk4, 16.0}, {Integrator::verlet, 4.0}}) {
     const TrajectoryCase& swing = *case_named("B2").trajectory;  // times of whole seconds
-    const double coarse = run_lane(swing, {integrator, 0.0124}).error;
-    const double fine = run_lane(swing, {integrator, 0.0062}).error;
+    const double coarse = run_trajectory(swing, {integrator, 0.0124}).error;
+    const double fine = run_trajectory(swing, {integrator, 0.0062}).error;
     CHECK(std::abs(coarse / fine / factor - 1) < 0.1);
     const double order = observed_order(swing, {integrator, 0.0031}).value_or(0);
     CHECK(std::abs(order - std::log2(factor)) < 0.1);
@@ -77,20 +77,20 @@ TEST_CASE("known motions: times between two steps are met to the order of the sc
 TEST_CASE("known motions: no event, a reading too few or not a number are no success") {
   TrajectoryCase swing = *case_named("B1-90").trajectory;
   swing.events.until = 1;
-  CHECK(std::isnan(run_lane(swing, swing.lane).error));
+  CHECK(std::isnan(run_trajectory(swing, swing.integration).error));
   TrajectoryCase fewer = *case_named("B2").trajectory;
   fewer.observe = [](const Model<double>&, const State<double>& x) { return x.q; };
-  CHECK(std::isnan(run_lane(fewer, fewer.lane).error));
+  CHECK(std::isnan(run_trajectory(fewer, fewer.integration).error));
   fewer.observe = [](const Model<double>&, const State<double>& x) {
     return CaseReadings{std::nan(""), x.qd[0]};
   };
-  CHECK(std::isnan(run_lane(fewer, fewer.lane).error));
+  CHECK(std::isnan(run_trajectory(fewer, fewer.integration).error));
 }
 
 TEST_CASE("known motions: a recording has the start and every step, with the energy") {
   const TrajectoryCase& swing = *case_named("B2").trajectory;
   std::vector<TrajectoryPoint> points;
-  const LaneResult result = run_lane(swing, {Integrator::euler, 0.01}, &points);
+  const TrajectoryResult result = run_trajectory(swing, {Integrator::euler, 0.01}, &points);
   REQUIRE(points.size() == 1001);
   CHECK(points.back().t == 10);
   double strayed = 0;
