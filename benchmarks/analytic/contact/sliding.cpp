@@ -146,9 +146,6 @@ Values read_forces(Scene s) {
   if (s.t() == 0) return {NAN, NAN};
   return {-s.force(1).x(), s.force(1).z()};
 }
-Values read_distance(Scene s) {
-  return {std::hypot(s.p(1).x(), s.p(1).y())};
-}
 // Constant deceleration until it stops, then constant acceleration downhill.
 double exact_uphill(std::size_t, double t) {
   const double up = kGravity * (std::sin(kSlope) + 0.5 * std::cos(kSlope));
@@ -176,7 +173,7 @@ CaseFamily sliding_cases() {
   const Plot speed{{"speed [m/s]"}, velocity<1, 0>};
   const Plot place_x{{"x downhill [m]"}, place<1, 0>, exact_slide};
   const Plot uphill{{"distance uphill [m]"}, read_up, exact_uphill};
-  const Plot distance{{"distance [m]"}, read_distance, exact_stop};
+  const Plot distance{{"distance [m]"}, horizontal_distance, exact_stop};
   const auto exact_forces = [](std::size_t k, double) {
     return 2 * kGravity * (k == 0 ? std::sin(kSlope) : std::cos(kSlope));
   };

@@ -127,9 +127,6 @@ CaseResult no_reversal(double scale) {  // Ixy: the mutant has the opposite chir
 Values read_jellett(Scene s) {
   return {-s.w(1).dot(0.003 * s.R(1).col(2) - 0.015 * Vector3::UnitZ())};
 }
-Values read_distance(Scene s) {
-  return {std::hypot(s.p(1).x(), s.p(1).y())};
-}
 Values read_cosine(Scene s) {
   return {s.R(1)(2, 2)};
 }
@@ -143,7 +140,7 @@ CaseFamily spinning_cases() {
   return {
       260,
       {contact_case<coin, 20>("E8", 1e-3,
-                              Plot{{"distance from the start [m]"}, read_distance, zero}
+                              Plot{{"distance from the start [m]"}, horizontal_distance, zero}
                                   .with(&Plot::until, 0.2)
                                   .without_convergence(kLocated)),
        contact_case<jellett, 10>("E9-jellett", 1e-4,

@@ -45,10 +45,9 @@ TrajectoryCase invariant(Integrator integrator) {
   return {.scene = undamped_oscillator,
           .times = {1, 100, 10000},
           .readings = {"invariant [m2/s2]"},
-          .observe =
-              [integrator](const Model<double>&, const State<double>& x) {
-                return CaseReadings{invariant_of(integrator, x.q[0], x.qd[0])};
-              },
+          .observe = [integrator](
+                         ModelRef,
+                         StateRef x) { return values(invariant_of(integrator, x.q[0], x.qd[0])); },
           .reference = constantly({invariant_of(integrator, 0.1, 0.5)}),
           .integration = {integrator, kGoldenStep},
           .measure = relative_each,
@@ -85,11 +84,8 @@ CaseResult trend(Integrator integrator, bool is_mutant) {
 const Vector3 kSteady(0.6, -1.2, 2.0);  // [rad/s]
 
 TrajectoryCase steady_rotation() {
-  return {.scene =
-              [] {
-                return start_at(free_body(1, {0.1, 0.1, 0.1}), {0, 0, 0, 1, 0, 0, 0},
-                                {kSteady.x(), kSteady.y(), kSteady.z(), 0, 0, 0});
-              },
+  return {.scene = fixed(start_at(free_body(1, {0.1, 0.1, 0.1}), {0, 0, 0, 1, 0, 0, 0},
+                                  {kSteady.x(), kSteady.y(), kSteady.z(), 0, 0, 0})),
           .times = {0.1, 1, 10},
           .readings = {"qw", "qx", "qy", "qz", "wx [rad/s]", "wy [rad/s]", "wz [rad/s]"},
           .observe = observe_attitude_and_rate,
@@ -108,10 +104,9 @@ TrajectoryCase unit_quaternion() {
   c.scene = [scene = c.scene] { return not_conserving(scene()); };
   c.times = {10000};
   c.readings = {"|q|", "rate [rad/s]"};
-  c.observe = [](const Model<double>&, const State<double>& x) {
-    return CaseReadings{
-        std::sqrt(x.q[3] * x.q[3] + x.q[4] * x.q[4] + x.q[5] * x.q[5] + x.q[6] * x.q[6]),
-        Vector3(x.qd[0], x.qd[1], x.qd[2]).norm()};
+  c.observe = [](ModelRef, StateRef x) {
+    return values(std::sqrt(x.q[3] * x.q[3] + x.q[4] * x.q[4] + x.q[5] * x.q[5] + x.q[6] * x.q[6]),
+                  Vector3(x.qd[0], x.qd[1], x.qd[2]).norm());
   };
   c.reference = constantly({1, kSteady.norm()});
   c.measure = max_difference;

@@ -71,11 +71,11 @@ TrajectoryCase cart_pole_centre() {
   TrajectoryCase c = cart_pole_motion();
   c.times = {0.5, 1, 1.5, 2, 3, 4, 5};
   c.readings = {"x of the centre [m]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const Kinematics k = kinematics_at(model, x);
     const double cart = model.I[1].m, pole = model.I[2].m;
     const double at = k.position(2, {0, 0, -kPlain.com}).x();
-    return CaseReadings{(cart * x.q[0] + pole * at) / (cart + pole)};
+    return values((cart * x.q[0] + pole * at) / (cart + pole));
   };
   c.reference =
       constantly({kPlain.pole * kPlain.com * std::sin(2.0) / (kPlain.cart + kPlain.pole)});
@@ -91,14 +91,14 @@ TrajectoryCase cart_pole_centre() {
 TrajectoryCase cart_pole_frequencies() {
   return evaluation(
       [] { return kPlain.scene(0); }, {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         State<double> above = x;
         above.q[1] = std::numbers::pi;
         CaseScene point = kPoint.scene(0);
         point.model.gravity = model.gravity;
-        return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
-                            std::sqrt(-squared_frequencies_of(model, above).front()),
-                            std::sqrt(squared_frequencies_of(point.model, point.start).back())};
+        return values(std::sqrt(squared_frequencies_of(model, x).back()),
+                      std::sqrt(-squared_frequencies_of(model, above).front()),
+                      std::sqrt(squared_frequencies_of(point.model, point.start).back()));
       },
       {kPlain.frequency(), kPlain.frequency(), kPoint.frequency()}, relative_each);
 }
@@ -108,8 +108,8 @@ TrajectoryCase chrono_slider() {
           .times = {1, 2, 5},
           .readings = {"x [m]", "angle from level [rad]", "speed [m/s]", "rate [rad/s]"},
           .observe =
-              [](const Model<double>&, const State<double>& x) {
-                return CaseReadings{x.q[0], x.q[1] - std::numbers::pi / 2, x.qd[0], x.qd[1]};
+              [](ModelRef, StateRef x) {
+                return values(x.q[0], x.q[1] - std::numbers::pi / 2, x.qd[0], x.qd[1]);
               },
           .reference =
               [](double t) {

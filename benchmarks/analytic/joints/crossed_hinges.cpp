@@ -59,17 +59,16 @@ TrajectoryCase furuta_motion() {
 TrajectoryCase furuta_evaluation() {
   special::Numbers dx(4);
   furuta_rates()(0, {0, 1, 2, 3}, dx);
-  return evaluation(
-      [] { return furuta(1, 2, 3); }, {"arm [rad/s2]", "pendulum [rad/s2]"},
-      [](const Model<double>& model, const State<double>& x) { return evaluate(model, x).qdd; },
-      {static_cast<double>(dx[2]), static_cast<double>(dx[3])});
+  return evaluation([] { return furuta(1, 2, 3); }, {"arm [rad/s2]", "pendulum [rad/s2]"},
+                    [](ModelRef model, StateRef x) { return evaluate(model, x).qdd; },
+                    {static_cast<double>(dx[2]), static_cast<double>(dx[3])});
 }
 // About hanging and upright w^2 = +-m g l / (Jp - (m L l)^2 / (J0 + m L^2)); with the arm at a rate
 // W the pendulum is in equilibrium where the moments of weight and centrifugal force cancel.
 TrajectoryCase furuta_special() {
   const double weight = kBob * kGravity * kBobCom;
   const double w = std::sqrt(weight / (kPivot - kMixed * kMixed / kAbout));
-  const CaseObserver observe = [](const Model<double>& model, const State<double>& x) {
+  const CaseObserver observe = [](ModelRef model, StateRef x) {
     State<double> above = x, round = x;
     above.q[1] = std::numbers::pi;
     round.qd[0] = kWhirl;
@@ -78,8 +77,8 @@ TrajectoryCase furuta_special() {
       round.q[1] = middle;
       (evaluate(model, round).qdd[1] > 0 ? low : high) = middle;
     }
-    return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
-                        std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low)};
+    return values(std::sqrt(squared_frequencies_of(model, x).back()),
+                  std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low));
   };
   return evaluation([] { return furuta(0, 0, 0); },
                     {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"}, observe,
@@ -125,7 +124,7 @@ TrajectoryCase babyboot_motion() {
   return {.scene = babyboot_scene,
           .times = {5, 10},
           .readings = {"rod [deg]", "plate [deg]"},
-          .observe = [](const Model<double>&, const State<double>& x) { return in_degrees(x.q); },
+          .observe = [](ModelRef, StateRef x) { return in_degrees(x.q); },
           .reference = [solved](double t) { return in_degrees(solved(t)); }};
 }
 TrajectoryCase babyboot_fine() {
@@ -137,9 +136,9 @@ TrajectoryCase babyboot_rates_at_end() {
   TrajectoryCase c = babyboot_motion();
   c.times = {10};
   c.readings = {"rod [rad/s]", "plate [rad/s]", "rod [rad/s2]", "plate [rad/s2]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const std::vector<double> qdd = evaluate(model, x).qdd;
-    return CaseReadings{x.qd[0], x.qd[1], qdd[0], qdd[1]};
+    return values(x.qd[0], x.qd[1], qdd[0], qdd[1]);
   };
   c.reference = [](double t) {
     special::Numbers dx(4);

@@ -39,10 +39,7 @@ template <int degrees1, int degrees2>
 TrajectoryCase two_points() {
   static constexpr double a1 = degrees1 * kDegree, a2 = degrees2 * kDegree;
   const ChainLink link = point_link(1, 1);
-  return {.scene =
-              [link] {
-                return start_at(plane_chain(link, 2), {a1, a2 - a1}, {0, 0});
-              },
+  return {.scene = fixed(start_at(plane_chain(link, 2), {a1, a2 - a1}, {0, 0})),
           .times = {1, 2, 5, 10},
           .readings = kAnglesAndRates,
           .observe = absolute_angles(),
@@ -53,18 +50,14 @@ TrajectoryCase two_rods() {
   const ChainLink link = rod_link(1, 1);
   const auto absolute =
       solution_of(double_pendulum_rates(link, link, 9.81L), {kPi / 2, kPi / 2, 0, 0});
-  return {.scene =
-              [link] {
-                return start_at(plane_chain(link, 2), {kRightAngle, 0}, {0, 0});
-              },
+  return {.scene = fixed(start_at(plane_chain(link, 2), {kRightAngle, 0}, {0, 0})),
           .times = {1, 2},
           .readings = kAnglesAndRates,
           .observe = joint_state(),
-          .reference =
-              [absolute](double t) {
-                const CaseReadings x = absolute(t);
-                return CaseReadings{x[0], x[1] - x[0], x[2], x[3] - x[2]};
-              }};
+          .reference = [absolute](double t) {
+            const CaseReadings x = absolute(t);
+            return values(x[0], x[1] - x[0], x[2], x[3] - x[2]);
+          }};
 }
 TrajectoryCase two_rods_until(std::vector<double> times, const Lane& integration) {
   TrajectoryCase c = two_rods();
@@ -87,24 +80,17 @@ TrajectoryCase two_plates() {
   const auto solved = solution_of(double_pendulum_rates(link, link, 10), {kPi / 2, kPi / 2, 0, 0});
   // From absolute angles and rates: angles from x, rates, centre of the second link.
   const auto converted = [](const CaseReadings& a) {
-    return CaseReadings{a[0] - kRightAngle,
-                        a[1] - kRightAngle,
-                        a[2],
-                        a[3],
-                        std::sin(a[0]) + std::sin(a[1]) / 2,
-                        -std::cos(a[0]) - std::cos(a[1]) / 2};
+    return values(a[0] - kRightAngle, a[1] - kRightAngle, a[2], a[3],
+                  std::sin(a[0]) + std::sin(a[1]) / 2, -std::cos(a[0]) - std::cos(a[1]) / 2);
   };
-  return {.scene =
-              [link] {
-                return start_at(plane_chain(std::vector<ChainLink>{link, link}, 10),
-                                {kRightAngle, 0}, {0, 0});
-              },
-          .times = {1, 2, 5},
-          .readings = {"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]", "rate 2 [rad/s]",
-                       "x 2 [m]", "y 2 [m]"},
-          .observe = [=](const Model<double>& model,
-                         const State<double>& x) { return converted(absolute_angles()(model, x)); },
-          .reference = [=](double t) { return converted(solved(t)); }};
+  return {
+      .scene = fixed(
+          start_at(plane_chain(std::vector<ChainLink>{link, link}, 10), {kRightAngle, 0}, {0, 0})),
+      .times = {1, 2, 5},
+      .readings = {"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]", "rate 2 [rad/s]", "x 2 [m]",
+                   "y 2 [m]"},
+      .observe = [=](ModelRef model, StateRef x) { return converted(absolute_angles()(model, x)); },
+      .reference = [=](double t) { return converted(solved(t)); }};
 }
 
 }  // namespace

@@ -48,14 +48,14 @@ struct TreeMomenta {
   Vector3 P, H, com;
   double mass;
 };
-TreeMomenta momenta_of(const Model<double>& model, const State<double>& x) {
+TreeMomenta momenta_of(ModelRef model, StateRef x) {
   Workspace<double> w(model);
   kinematics(model, x, w);
   const Force<double> all = momentum(model, w);
   const MassAndCom<double> total = mass_and_com(model, w);
   return {to_eigen(all.f), to_eigen(all.n), to_eigen(total.com), total.mass};
 }
-CaseReadings observe_momenta(const Model<double>& model, const State<double>& x) {
+CaseReadings observe_momenta(ModelRef model, StateRef x) {
   const TreeMomenta all = momenta_of(model, x);
   return {all.P.x(), all.P.y(), all.P.z(), all.H.x(), all.H.y(), all.H.z()};
 }
@@ -76,15 +76,12 @@ double momenta_error(const CaseReadings& seen, const CaseReadings& exact) {
 }
 
 TrajectoryCase momenta() {
+  CaseScene scene = not_conserving(tumbling(Vector3::Zero()));
+  for (const std::size_t dof : {6, 9, 11})
+    scene.sources.push_back(
+        std::make_shared<JointEffort>([](double t, double) { return 0.1 * std::cos(2 * t); }, dof));
   return {
-      .scene =
-          [] {
-            CaseScene scene = not_conserving(tumbling(Vector3::Zero()));
-            for (const std::size_t dof : {6, 9, 11})
-              scene.sources.push_back(std::make_shared<JointEffort>(
-                  [](double t, double) { return 0.1 * std::cos(2 * t); }, dof));
-            return scene;
-          },
+      .scene = fixed(scene),
       .times = {2, 5, 10},
       .readings = {"Px [N s]", "Py [N s]", "Pz [N s]", "Hx [N m s]", "Hy [N m s]", "Hz [N m s]"},
       .observe = observe_momenta,
@@ -110,26 +107,22 @@ TrajectoryCase energy() {
       const CaseScene scene = tumbling(kG);
       return kinetic_energy(scene.model, scene.start) + potential_energy(scene.model, scene.start);
     }();
-    return CaseReadings{at_start};
+    return values(at_start);
   };
   c.measure = relative_to_largest;
   return c;
 }
 
 TrajectoryCase ballistic() {
-  return {
-      .scene =
-          [] {
-            Model<double> model = free_body(2, {0.1, 0.2, 0.25});
-            model.gravity = {0, 0, -kGravity};
-            return not_conserving(at_rest(std::move(model)));
-          },
-      .times = {0.5, 1, 2},
-      .readings = {"energy [J]"},
-      .observe = observe_energy,
-      .reference = [](double t) { return CaseReadings{-2 * kGravity * kGravity * 1e-3 * t / 2}; },
-      .integration = {Integrator::semi_implicit, 1e-3},
-      .needs_its_integrator = true};
+  Model<double> model = free_body(2, {0.1, 0.2, 0.25});
+  model.gravity = {0, 0, -kGravity};
+  return {.scene = fixed(not_conserving(at_rest(std::move(model)))),
+          .times = {0.5, 1, 2},
+          .readings = {"energy [J]"},
+          .observe = observe_energy,
+          .reference = [](double t) { return values(-2 * kGravity * kGravity * 1e-3 * t / 2); },
+          .integration = {Integrator::semi_implicit, 1e-3},
+          .needs_its_integrator = true};
 }
 
 }  // namespace

@@ -63,12 +63,12 @@ TrajectoryCase at_start() {
   const double across = kAcross * kRate.x(), along = kAxial * kRate.z();
   TrajectoryCase c = evaluation(
       symmetric_body, {"kinetic energy [J]", "|H| [N m s]", "angle of e3 to H [rad]"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         Workspace<double> w(model);
         kinematics(model, x, w);
         const Vec3<double> H = momentum(model, w).n;
-        return CaseReadings{kinetic_energy(model, x), std::sqrt(dot(H, H)),
-                            std::atan2(std::hypot(H.x, H.y), H.z)};
+        return values(kinetic_energy(model, x), std::sqrt(dot(H, H)),
+                      std::atan2(std::hypot(H.x, H.y), H.z));
       },
       {(across * kRate.x() + along * kRate.z()) / 2, std::hypot(across, along),
        std::atan2(across, along)},
@@ -146,10 +146,10 @@ TrajectoryCase tumbling() {
 TrajectoryCase tumbling_invariants() {
   TrajectoryCase c = tumbling();
   c.readings = {"|H| [N m s]", "kinetic energy [J]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const Inertia<double>& inertia = model.I[1];
     const Vector3 h(inertia.I.xx * x.qd[0], inertia.I.yy * x.qd[1], inertia.I.zz * x.qd[2]);
-    return CaseReadings{h.norm(), kinetic_energy(model, x)};
+    return values(h.norm(), kinetic_energy(model, x));
   };
   c.reference = constantly({std::sqrt(10.0), 2});
   c.integration = dopri5_with(1e-13);
@@ -172,7 +172,7 @@ TrajectoryCase flip() {
 // w2 is zero at odd multiples of K / n.
 TrajectoryCase flip_time() {
   return times_of(flip(), {velocity(1), 2, 60},
-                  [](double k) { return rounded({(2 * k - 1) * flipping().u0 / flipping().n}); });
+                  [](double k) { return values((2 * k - 1) * flipping().u0 / flipping().n); });
 }
 
 // Near a steady spin w2 the other rates grow as exp(n t): n^2 = (I3 - I2) (I2 - I1) / (I1 I3).
@@ -182,9 +182,9 @@ TrajectoryCase flip_growth() {
         return asymmetric_body({0, 1, 0});
       },
       {"growth rate [1/s]"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         const Eigen::MatrixXd d = forward_dynamics_derivatives(model, x, Forces<double>(model)).dqd;
-        return CaseReadings{std::sqrt(d(0, 2) * d(2, 0))};
+        return values(std::sqrt(d(0, 2) * d(2, 0)));
       },
       {1 / std::sqrt(3.0)});
   c.mutant = more_inertia;

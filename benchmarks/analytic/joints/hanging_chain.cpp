@@ -57,7 +57,7 @@ std::vector<std::string> mode_names(std::size_t count) {
 TrajectoryCase chain_modes(const ChainLink& link, int n, const CaseReadings& exact) {
   const std::size_t count = exact.size();
   return evaluation([link, n] { return at_rest(plane_chain(link, n)); }, mode_names(count),
-                    [count](const Model<double>& model, const State<double>& x) {
+                    [count](ModelRef model, StateRef x) {
                       CaseReadings all = small_frequencies(model, x);
                       all.resize(count);
                       return all;
@@ -96,7 +96,7 @@ void add_damping(CaseScene& scene) {
   for (double& damping : scene.model.damping) damping = 1e-4;
 }
 
-double tip_depth(const Model<double>& model, const State<double>& x) {
+double tip_depth(ModelRef model, StateRef x) {
   const Kinematics k = kinematics_at(model, x);
   return -k.position(kFoldedLinks, {0, 0, -kFoldedLink}).z();
 }
@@ -113,13 +113,10 @@ Real folded_fall_time(Real depth) {
 
 TrajectoryCase folded_fall() {
   return {.scene = folded_chain,
-          .reference = [](double) { return rounded({folded_fall_time(kDeep)}); },
+          .reference = [](double) { return values(folded_fall_time(kDeep)); },
           .measure = relative_each,
           .mutant = add_damping,
-          .events = {[](const Model<double>& model, const State<double>& x) {
-                       return tip_depth(model, x) - kDeep;
-                     },
-                     1, 1}};
+          .events = {[](ModelRef model, StateRef x) { return tip_depth(model, x) - kDeep; }, 1, 1}};
 }
 TrajectoryCase folded_energy() {
   TrajectoryCase c = folded_fall();

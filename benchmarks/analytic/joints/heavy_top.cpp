@@ -89,7 +89,7 @@ const Nutation& nutation() {
   return n;
 }
 
-CaseReadings observe_axis(const Model<double>&, const State<double>& x) {
+CaseReadings observe_axis(ModelRef, StateRef x) {
   const Vector3 e = attitude(x) * Vector3::UnitZ();
   return {e.x(), e.y(), e.z()};
 }
@@ -102,7 +102,7 @@ TrajectoryCase top_motion(double step) {
           .reference =
               [](double t) {
                 const Vector3 e = nutation().axis(t);
-                return CaseReadings{e.x(), e.y(), e.z()};
+                return values(e.x(), e.y(), e.z());
               },
           .integration = rk4_with(step)};
 }
@@ -111,10 +111,10 @@ TrajectoryCase top_motion(double step) {
 TrajectoryCase rates() {
   TrajectoryCase c = top_motion(1e-4);
   c.readings = {"w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"};
-  c.observe = [](const Model<double>&, const State<double>& x) { return x.qd; };
+  c.observe = [](ModelRef, StateRef x) { return x.qd; };
   c.reference = [](double t) {
     const Vector3 w = nutation().rate(t);
-    return CaseReadings{w.x(), w.y(), w.z()};
+    return values(w.x(), w.y(), w.z());
   };
   return c;
 }
@@ -124,19 +124,18 @@ TrajectoryCase top_bounds() {
   TrajectoryCase c = top_motion(1e-4);
   c.times = {};
   c.readings = {"tilt [rad]", "azimuth [rad]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const CaseReadings e = observe_axis(model, x);
-    return CaseReadings{std::acos(e[2]), std::atan2(e[0], -e[1])};
+    return values(std::acos(e[2]), std::atan2(e[0], -e[1]));
   };
   c.reference = [](double k) {
     const Nutation& n = nutation();
     const Real t = n.period() * Real(k) / 2;
-    return CaseReadings{double(t), double(std::acos(n.height(t))), double(n.azimuth(t))};
+    return values(double(t), double(std::acos(n.height(t))), double(n.azimuth(t)));
   };
-  c.events = {[](const Model<double>&, const State<double>& x) {
-                return (attitude(x) * rate(x).cross(Vector3::UnitZ())).z();
-              },
-              2, 1};
+  c.events = {
+      [](ModelRef, StateRef x) { return (attitude(x) * rate(x).cross(Vector3::UnitZ())).z(); }, 2,
+      1};
   return c;
 }
 
@@ -144,10 +143,10 @@ TrajectoryCase invariants() {
   TrajectoryCase c = top_motion(1e-3);
   c.integration = dopri5_with(1e-12);
   c.readings = {"Lz [N m s]", "w3 [rad/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     Workspace<double> w(model);
     kinematics(model, x, w);
-    return CaseReadings{momentum(model, w).n.z, x.qd[2]};
+    return values(momentum(model, w).n.z, x.qd[2]);
   };
   c.reference = constantly({I3 * kSpin * std::cos(kTilt), kSpin});
   c.mutant = more_inertia;
@@ -169,11 +168,11 @@ double residual(const Model<double>& model, double W) {
 }
 
 TrajectoryCase steady() {
-  const auto observe = [](const Model<double>& model, const State<double>&) {
+  const auto observe = [](ModelRef model, StateRef) {
     const double C = residual(model, 0), plus = residual(model, 20), minus = residual(model, -20);
     const double A = (plus + minus - 2 * C) / 800, B = (plus - minus) / 40;
     const double fast = (-B + (B < 0 ? 1 : -1) * std::sqrt(B * B - 4 * A * C)) / (2 * A);
-    return CaseReadings{C / (A * fast), fast, kSpin * std::sqrt(4 * A * C) / std::abs(B)};
+    return values(C / (A * fast), fast, kSpin * std::sqrt(4 * A * C) / std::abs(B));
   };
   const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
   const double fast = (B + std::sqrt(root)) / (2 * A);
@@ -190,9 +189,9 @@ TrajectoryCase sleeping() {
         return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin});
       },
       {"minimum spin [rad/s]"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
-        return CaseReadings{2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2])};
+        return values(2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2]));
       },
       {2 * std::sqrt(kMoment * I1) / I3});
 }

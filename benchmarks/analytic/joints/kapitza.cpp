@@ -35,7 +35,7 @@ CaseScene shaken(double w, double from_top) {
   };
   return scene;
 }
-double from_top(const Model<double>& model, const State<double>& x) {
+double from_top(ModelRef model, StateRef x) {
   return x.q[model.iq[2]] - std::numbers::pi;
 }
 // Angle and rate at t, from those at `from`.
@@ -54,11 +54,10 @@ TrajectoryCase shaken_motion(double w, double until) {
   return {.scene = [w] { return shaken(w, kFromTop); },
           .times = times,
           .readings = {"angle from upright [rad]"},
-          .observe = [](const Model<double>& model,
-                        const State<double>& x) { return CaseReadings{from_top(model, x)}; },
+          .observe = [](ModelRef model, StateRef x) { return values(from_top(model, x)); },
           .reference =
               [w](double t) {
-                return rounded({shaken_solution(w, {kFromTop, 0}, 0, t)[0]});
+                return values(shaken_solution(w, {kFromTop, 0}, 0, t)[0]);
               },
           .integration = rk4_with(2e-4)};
 }
@@ -68,9 +67,7 @@ TrajectoryCase stays_up(double w) {
   TrajectoryCase c = shaken_motion(w, 20);
   c.times.clear();
   for (int k = 1; k <= 10000; ++k) c.times.push_back(20.0 * k / 10000);
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{std::abs(from_top(model, x))};
-  };
+  c.observe = [](ModelRef model, StateRef x) { return values(std::abs(from_top(model, x))); };
   c.reference = constantly({0});
   c.mutant = [](CaseScene& scene) { scene.model.gravity = 1.05 * scene.model.gravity; };
   c.needs_its_integrator = true;  // the reference is a bound, not a motion
@@ -79,30 +76,27 @@ TrajectoryCase stays_up(double w) {
 
 // Time at which it passes 1 rad.
 TrajectoryCase falls(double w, double about) {
-  return times_of(shaken_motion(w, about),
-                  {[](const Model<double>& model, const State<double>& x) {
-                     return std::abs(from_top(model, x)) - 1;
-                   },
-                   1, 20},
-                  [w, about](double) {
-                    // The first of several passages, for it oscillates about its path.
-                    Real t = about - 0.5L, end = t;
-                    special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
-                    for (; std::abs(next[0]) < 1 && end < 20;
-                         next = shaken_solution(w, x, t, end)) {
-                      x = next;
-                      t = end;
-                      end = t + 2e-4L;
-                    }
-                    for (Real middle; (middle = (t + end) / 2) > t && middle < end;) {
-                      const special::Numbers there = shaken_solution(w, x, t, middle);
-                      if (std::abs(there[0]) < 1)
-                        x = there, t = middle;
-                      else
-                        end = middle;
-                    }
-                    return rounded({end});
-                  });
+  return times_of(
+      shaken_motion(w, about),
+      {[](ModelRef model, StateRef x) { return std::abs(from_top(model, x)) - 1; }, 1, 20},
+      [w, about](double) {
+        // The first of several passages, for it oscillates about its path.
+        Real t = about - 0.5L, end = t;
+        special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
+        for (; std::abs(next[0]) < 1 && end < 20; next = shaken_solution(w, x, t, end)) {
+          x = next;
+          t = end;
+          end = t + 2e-4L;
+        }
+        for (Real middle; (middle = (t + end) / 2) > t && middle < end;) {
+          const special::Numbers there = shaken_solution(w, x, t, middle);
+          if (std::abs(there[0]) < 1)
+            x = there, t = middle;
+          else
+            end = middle;
+        }
+        return values(end);
+      });
 }
 
 // By symmetry the trace is twice the final angle of a period that starts at 1 at rest: on the
@@ -113,9 +107,7 @@ TrajectoryCase floquet() {
   c.scene = [] { return shaken(kFloquet, small); };
   c.times = {2 * std::numbers::pi / kFloquet};
   c.readings = {"angle after a period, of the initial one"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{from_top(model, x) / small};
-  };
+  c.observe = [](ModelRef model, StateRef x) { return values(from_top(model, x) / small); };
   c.reference = constantly({1});
   c.integration = rk4_with(1e-5);
   return c;

@@ -57,7 +57,7 @@ TrajectoryCase driven() {
   c.reference = [](double t) {
     const std::complex<double> a = response(), now = a * std::polar(1.0, kDrive * t);
     const CaseReadings start = free_motion(2, -a.real(), kDrive * a.imag(), t);
-    return CaseReadings{now.real() + start[0], -kDrive * now.imag() + start[1]};
+    return values(now.real() + start[0], -kDrive * now.imag() + start[1]);
   };
   return c;
 }
@@ -68,10 +68,10 @@ TrajectoryCase resonance() {
   c.times = {40};
   c.at_times_only = true;
   c.readings = {"amplitude [m]", "phase lag [rad]"};
-  c.observe = [](const Model<double>&, const State<double>& x) {
+  c.observe = [](ModelRef, StateRef x) {
     const std::complex<double> phasor(x.q[0], -x.qd[0] / kDrive);
     const std::complex<double> amplitude = phasor * std::polar(1.0, -kDrive * 40);
-    return CaseReadings{std::abs(amplitude), -std::arg(amplitude)};
+    return values(std::abs(amplitude), -std::arg(amplitude));
   };
   c.reference = constantly({std::abs(response()), -std::arg(response())});
   return c;
@@ -85,7 +85,7 @@ TrajectoryCase reversals() {
   c.observe = observe(coordinate(0));
   c.reference = [](double n) {
     const double sign = std::fmod(n, 2) == 0 ? 1 : -1;
-    return CaseReadings{n * std::numbers::pi / 10, sign * (0.097 - 0.01 * n)};
+    return values(n * std::numbers::pi / 10, sign * (0.097 - 0.01 * n));
   };
   c.events = {velocity(0), 9, 4};
   return c;

@@ -30,9 +30,9 @@ TrajectoryCase motion(std::function<CaseScene()> scene, std::vector<double> time
 // From a release at rest with k = sin(th0 / 2), k2 = k^2.
 CaseReadings swinging(Real w0, Real k, Real k2, double t) {
   const special::Jacobi j = special::jacobi(w0 * Real(t), k2);
-  return rounded({2 * std::asin(k * j.cn / j.dn), -2 * k * std::sqrt(1 - k2) * w0 * j.sn / j.dn});
+  return values(2 * std::asin(k * j.cn / j.dn), -2 * k * std::sqrt(1 - k2) * w0 * j.sn / j.dn);
 }
-double period_at_rest(const Model<double>& model, const State<double>& x) {
+double period_at_rest(ModelRef model, StateRef x) {
   return 2 * std::numbers::pi / small_frequencies(model, x)[0];
 }
 
@@ -54,7 +54,7 @@ TrajectoryCase swing_time() {
                 static const Real mean =
                     special::arithmetic_geometric_mean(1, std::cos(amplitude / 2));
                 static const Real quarter = 2 * kPi / (point_w0 * mean) / 4;
-                return rounded({(2 * Real(k) - 1) * quarter});
+                return values((2 * Real(k) - 1) * quarter);
               },
           .events = {coordinate(0), 3, 30}};
 }
@@ -66,11 +66,9 @@ TrajectoryCase swing() {
 // The same motion in Cartesian coordinates: benchmark A01 of the IFToMM library.
 TrajectoryCase swing_in_plane() {
   TrajectoryCase c = swing();
-  const auto position = [](double angle) {
-    return CaseReadings{-std::sin(angle), -std::cos(angle)};
-  };
+  const auto position = [](double angle) { return values(-std::sin(angle), -std::cos(angle)); };
   c.readings = {"x [m]", "y [m]"};
-  c.observe = [position](const Model<double>&, const State<double>& x) { return position(x.q[0]); };
+  c.observe = [position](ModelRef, StateRef x) { return position(x.q[0]); };
   c.times = {10};
   c.reference = [position, angle = c.reference](double t) { return position(angle(t)[0]); };
   return c;
@@ -85,16 +83,14 @@ TrajectoryCase full_turns() {
                   const Real within = std::atan2(j.sn, j.cn);
                   const Real about = u * kPi / (2 * special::quarter_period(m));
                   const Real turns = std::round((about - within) / (2 * kPi));
-                  return rounded({2 * (within + 2 * kPi * turns), kOver * j.dn});
+                  return values(2 * (within + 2 * kPi * turns), kOver * j.dn);
                 });
 }
 TrajectoryCase turn_time() {
-  const auto half_angle_sine = [](const Model<double>&, const State<double>& x) {
-    return std::sin(x.q[0] / 2);
-  };
+  const auto half_angle_sine = [](ModelRef, StateRef x) { return std::sin(x.q[0] / 2); };
   return times_of(full_turns(), {half_angle_sine, 3, 30}, [](double k) {
     const Real m = 4 * point_w0 * point_w0 / (kOver * kOver);
-    return rounded({4 * special::quarter_period(m) / kOver * Real(k)});
+    return values(4 * special::quarter_period(m) / kOver * Real(k));
   });
 }
 
@@ -102,7 +98,7 @@ TrajectoryCase separatrix() {
   return motion([] { return released(0, static_cast<double>(2 * point_w0)); }, {0.25, 0.5, 1},
                 [](double t) {
                   const Real u = point_w0 * Real(t);
-                  return rounded({4 * std::atan(std::exp(u)) - kPi, 2 * point_w0 / std::cosh(u)});
+                  return values(4 * std::atan(std::exp(u)) - kPi, 2 * point_w0 / std::cosh(u));
                 });
 }
 
@@ -136,7 +132,7 @@ TrajectoryCase rod_swing_time() {
           .reference =
               [](double k) {
                 const Real root = special::arithmetic_geometric_mean(1, std::cos(amplitude / 2));
-                return rounded({(2 * Real(k) - 1) * kPi / (2 * rod_w0 * root), 0});
+                return values((2 * Real(k) - 1) * kPi / (2 * rod_w0 * root), 0);
               },
           .events = {coordinate(0), 3, 30}};
 }
@@ -148,14 +144,14 @@ TrajectoryCase fall() {
   c.observe = observe(velocity(0));
   c.reference = [](double) {
     const Real root = special::arithmetic_geometric_mean(1, std::cos(kPi / 4));
-    return rounded({kPi / (2 * rod_w0 * root), -std::sqrt(3 * 9.81L)});
+    return values(kPi / (2 * rod_w0 * root), -std::sqrt(3 * 9.81L));
   };
   c.events.count = 1;
   return c;
 }
 
 // sqrt(c c') for c = 0.5 m, by bisection for the other hinge of the same period.
-double reversible(const Model<double>& model, const State<double>& x) {
+double reversible(ModelRef model, StateRef x) {
   const auto frequency = [&](double c) { return small_frequencies(rod(c), x)[0]; };
   const double c = 0.5, target = small_frequencies(model, x)[0];
   double low = 0.01, high = 0.28;
@@ -167,12 +163,8 @@ double reversible(const Model<double>& model, const State<double>& x) {
 }  // namespace
 
 CaseFamily pendulum_cases() {
-  const auto acceleration = [](const Model<double>& model, const State<double>& x) {
-    return -evaluate(model, x).qdd[0];
-  };
-  const auto load = [](const Model<double>& model, const State<double>& x) {
-    return reaction(model, x).z();
-  };
+  const auto acceleration = [](ModelRef model, StateRef x) { return -evaluate(model, x).qdd[0]; };
+  const auto load = [](ModelRef model, StateRef x) { return reaction(model, x).z(); };
   const auto small_swings =
       evaluation([] { return released(0, 0); }, {"period [s]"}, observe(period_at_rest),
                  {static_cast<double>(2 * kPi / point_w0)});

@@ -80,7 +80,7 @@ TrajectoryCase arm_case(const std::vector<std::string>& readings, ArmReadings se
                         CaseReadings (*exact)(const ArmState& s, const PlanarArmTerms& terms)) {
   TrajectoryCase c =
       evaluation([] { return at_rest(model_of({})); }, names_in_all_states(readings),
-                 [seen](const Model<double>& model, const State<double>&) {
+                 [seen](ModelRef model, StateRef) {
                    return in_all_states([&](const ArmState& s) { return seen(model, s); });
                  },
                  in_all_states([exact](const ArmState& s) {
@@ -98,18 +98,17 @@ TrajectoryCase arm_mass_matrix() {
       {"M11 [kg m^2]", "M12 [kg m^2]", "M22 [kg m^2]"},
       [](const Model<double>& model, const ArmState& s) {
         const Eigen::MatrixXd M = mass_matrix(model, state_of(model, s));
-        return CaseReadings{M(0, 0), M(0, 1), M(1, 1)};
+        return values(M(0, 0), M(0, 1), M(1, 1));
       },
       [](const ArmState&, const PlanarArmTerms& terms) {
-        return rounded({terms.M11, terms.M12, terms.M22});
+        return values(terms.M11, terms.M12, terms.M22);
       });
 }
 
 TrajectoryCase velocity_terms() {
-  return arm_case({"C1 [N m]", "C2 [N m]"}, torques_at_rate,
-                  [](const ArmState&, const PlanarArmTerms& terms) {
-                    return rounded({terms.C1, terms.C2});
-                  });
+  return arm_case(
+      {"C1 [N m]", "C2 [N m]"}, torques_at_rate,
+      [](const ArmState&, const PlanarArmTerms& terms) { return values(terms.C1, terms.C2); });
 }
 
 TrajectoryCase arm_accelerations() {
@@ -124,7 +123,7 @@ TrajectoryCase arm_accelerations() {
       },
       [](const ArmState& s, const PlanarArmTerms& terms) {
         const special::Two qdd = accelerations_of(terms, {s.tau1, s.tau2});
-        return rounded({qdd.first, qdd.second});
+        return values(qdd.first, qdd.second);
       });
 }
 
@@ -134,9 +133,7 @@ TrajectoryCase no_weight() {
       [](const Model<double>& model, const ArmState& s) {
         return torques_at_rate(model, {s.q1, s.q2, 0, 0, 0, 0});
       },
-      [](const ArmState&, const PlanarArmTerms&) {
-        return CaseReadings{0, 0};
-      });
+      [](const ArmState&, const PlanarArmTerms&) { return values(0, 0); });
   c.measure = max_difference;
   c.mutant = [](CaseScene& scene) { scene.model.gravity.x = 1e-3 * kGravity; };
   return c;

@@ -145,9 +145,7 @@ std::vector<std::string> puma_names(const std::vector<std::string>& rows, const 
 using PumaReadings = CaseReadings (*)(const Model<double>& model);
 TrajectoryCase puma_case(std::vector<std::string> readings, PumaReadings seen, CaseReadings exact,
                          CaseMeasure measure = relative_by_six) {
-  const CaseObserver observe = [seen](const Model<double>& model, const State<double>&) {
-    return seen(model);
-  };
+  const CaseObserver observe = [seen](ModelRef model, StateRef) { return seen(model); };
   return evaluation([] { return at_rest(puma()); }, std::move(readings), observe, std::move(exact),
                     measure);
 }

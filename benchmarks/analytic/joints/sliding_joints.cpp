@@ -29,10 +29,10 @@ TrajectoryCase screw_at_rest() {
       kSlidingMass * kGravity * kPitch / (kScrewInertia + kSlidingMass * kPitch * kPitch);
   return evaluation([] { return screw(0); },
                     {"rotation [rad/s2]", "translation [m/s2]", "holding torque [N m]"},
-                    [](const Model<double>& model, const State<double>& x) {
+                    [](ModelRef model, StateRef x) {
                       const Workspace<double> w = evaluate(model, x);
-                      return CaseReadings{w.qdd[0], -point_acceleration(model, w, 1, {}).z,
-                                          -inverse_dynamics(model, x, {0})[0]};
+                      return values(w.qdd[0], -point_acceleration(model, w, 1, {}).z,
+                                    -inverse_dynamics(model, x, {0})[0]);
                     },
                     {qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch}, relative_each);
 }
@@ -47,9 +47,9 @@ std::array<double, 2> accelerations(const Model<double>& model, const State<doub
 // Damped: terminal rate, and the approach to it.
 TrajectoryCase screw_terminal() {
   return evaluation([] { return screw(0.01); }, {"terminal rate [rad/s]"},
-                    [](const Model<double>& model, const State<double>& x) {
+                    [](ModelRef model, StateRef x) {
                       const auto [rest, fast] = accelerations(model, x, 32);
-                      return CaseReadings{32 * rest / (rest - fast)};
+                      return values(32 * rest / (rest - fast));
                     },
                     {kSlidingMass * kGravity * kPitch / 0.01}, relative_each);
 }
@@ -61,34 +61,31 @@ TrajectoryCase screw_motion() {
   c.observe = observe(velocity(0));
   c.reference = [](double t) {
     const double T = (kScrewInertia + kSlidingMass * kPitch * kPitch) / 0.01;
-    return CaseReadings{kSlidingMass * kGravity * kPitch / 0.01 * -std::expm1(-t / T)};
+    return values(kSlidingMass * kGravity * kPitch / 0.01 * -std::expm1(-t / T));
   };
   c.measure = max_difference;
   return c;
 }
 
 TrajectoryCase incline() {
-  return {.scene =
-              [] {
-                return not_conserving(
-                    at_rest(one_body(JointType::prismatic, {std::sqrt(3.0) / 2, 0, -0.5},
-                                     {2, Vector3::Zero(), Matrix3::Identity()}, {0, 0, 0.8})));
-              },
+  const BodyInertia body{2, Vector3::Zero(), Matrix3::Identity()};
+  const Vector3 downhill(std::sqrt(3.0) / 2, 0, -0.5);
+  return {.scene = fixed(
+              not_conserving(at_rest(one_body(JointType::prismatic, downhill, body, {0, 0, 0.8})))),
           .times = {0.5, 2, 10},
           .readings = {"x [m]", "v [m/s]"},
           .observe = joint_state(),
-          .reference =
-              [](double t) {
-                const double T = 2 / 0.8, v = kGravity / 2 * T, part = -std::expm1(-t / T);
-                return CaseReadings{v * (t - T * part), v * part};
-              }};
+          .reference = [](double t) {
+            const double T = 2 / 0.8, v = kGravity / 2 * T, part = -std::expm1(-t / T);
+            return values(v * (t - T * part), v * part);
+          }};
 }
 TrajectoryCase incline_start() {
   return evaluation(
       incline().scene, {"start [m/s2]", "terminal speed [m/s]"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         const auto [rest, fast] = accelerations(model, x, 10);
-        return CaseReadings{rest, 10 * rest / (rest - fast)};
+        return values(rest, 10 * rest / (rest - fast));
       },
       {4.905, 12.2625}, relative_each);
 }
@@ -96,61 +93,44 @@ TrajectoryCase incline_start() {
 // ---- B9 ----
 
 TrajectoryCase cylindrical() {
-  return {.scene =
-              [] {
-                CaseScene scene = not_conserving(
-                    at_rest(one_body(JointType::cylindrical, Vector3::UnitZ(),
-                                     {1.5, Vector3::Zero(), 0.02 * Matrix3::Identity()})));
-                scene.sources = {std::make_shared<JointEffort>([](double, double) { return 0.3; })};
-                return scene;
-              },
+  CaseScene scene =
+      not_conserving(at_rest(one_body(JointType::cylindrical, Vector3::UnitZ(),
+                                      {1.5, Vector3::Zero(), 0.02 * Matrix3::Identity()})));
+  scene.sources = {std::make_shared<JointEffort>([](double, double) { return 0.3; })};
+  return {.scene = fixed(scene),
           .times = {1},
           .readings = {"angle [rad]", "z [m]", "rate [rad/s]", "speed [m/s]"},
           .observe = joint_state(),
           .reference =
               [](double t) {
-                return CaseReadings{7.5 * t * t, -kGravity / 2 * t * t, 15 * t, -kGravity * t};
+                return values(7.5 * t * t, -kGravity / 2 * t * t, 15 * t, -kGravity * t);
               },
           .measure = relative_to_largest};
 }
 
 TrajectoryCase planar() {
-  return {
-      .scene =
-          [] {
-            const double slope = 20 * kDegree;
-            return start_at(one_body(JointType::planar, {std::sin(slope), 0, std::cos(slope)},
-                                     {1, Vector3::Zero(), 0.1 * Matrix3::Identity()}),
-                            {0, 0, 0}, {1, 2, 3});
-          },
-      .times = {3},
-      .readings = {"x [m]", "y [m]", "angle [rad]"},
-      .observe = [](const Model<double>&, const State<double>& x) { return x.q; },
-      .reference =
-          [](double t) {
-            return CaseReadings{t + kGravity * std::sin(20 * kDegree) / 2 * t * t, 2 * t, 3 * t};
-          },
-      .measure = relative_to_largest};
+  const double slope = 20 * kDegree;
+  const Vector3 normal(std::sin(slope), 0, std::cos(slope));
+  const BodyInertia body{1, Vector3::Zero(), 0.1 * Matrix3::Identity()};
+  return {.scene = fixed(start_at(one_body(JointType::planar, normal, body), {0, 0, 0}, {1, 2, 3})),
+          .times = {3},
+          .readings = {"x [m]", "y [m]", "angle [rad]"},
+          .observe = [](ModelRef, StateRef x) { return x.q; },
+          .reference =
+              [](double t) {
+                return values(t + kGravity * std::sin(20 * kDegree) / 2 * t * t, 2 * t, 3 * t);
+              },
+          .measure = relative_to_largest};
 }
 
 TrajectoryCase thrown() {
-  return {.scene =
-              [] {
-                return start_at(
-                    one_body(JointType::free, Vector3::UnitZ(),
-                             {1, Vector3::Zero(), Vector3(0.1, 0.2, 0.25).asDiagonal()}),
-                    {0, 0, 1, 1, 0, 0, 0}, {0, 0, 0, 3, 0, 4});
-              },
+  const BodyInertia body{1, Vector3::Zero(), Vector3(0.1, 0.2, 0.25).asDiagonal()};
+  return {.scene = fixed(start_at(one_body(JointType::free, Vector3::UnitZ(), body),
+                                  {0, 0, 1, 1, 0, 0, 0}, {0, 0, 0, 3, 0, 4})),
           .times = {1.5},
           .readings = {"x [m]", "y [m]", "z [m]"},
-          .observe =
-              [](const Model<double>&, const State<double>& x) {
-                return CaseReadings{x.q[0], x.q[1], x.q[2]};
-              },
-          .reference =
-              [](double t) {
-                return CaseReadings{3 * t, 0, 1 + 4 * t - kGravity / 2 * t * t};
-              },
+          .observe = [](ModelRef, StateRef x) { return values(x.q[0], x.q[1], x.q[2]); },
+          .reference = [](double t) { return values(3 * t, 0, 1 + 4 * t - kGravity / 2 * t * t); },
           .measure = relative_to_largest};
 }
 

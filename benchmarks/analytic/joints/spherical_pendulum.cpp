@@ -70,12 +70,12 @@ struct ConeMotion {
   Real half_period() const { return special::quarter_period(m) / k; }
 };
 
-CaseReadings observe_place(const Model<double>& model, const State<double>& x) {
+CaseReadings observe_place(ModelRef model, StateRef x) {
   const Kinematics k = kinematics_at(model, x);
   const Vector3 p = k.position(1, kRod), v = k.velocity(1, p);
   return {p.x(), p.y(), p.z(), v.x(), v.y(), v.z()};
 }
-double vertical_velocity(const Model<double>& model, const State<double>& x) {
+double vertical_velocity(ModelRef model, StateRef x) {
   return observe_place(model, x)[5];
 }
 const ConeMotion& wide() {
@@ -96,14 +96,14 @@ TrajectoryCase cone_bounds() {
   TrajectoryCase c = cone_swing(JointType::spherical);
   c.times = {};
   c.readings = {"x [m]", "y [m]", "z [m]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const CaseReadings all = observe_place(model, x);
     return CaseReadings(all.begin(), all.begin() + 3);
   };
   c.reference = [](double n) {
     const Real t = wide().half_period() * Real(n);
     const CaseReadings all = wide().place(t);
-    return rounded({t, all[0], all[1], all[2]});
+    return values(t, all[0], all[1], all[2]);
   };
   c.events = {vertical_velocity, 2, 3};
   return c;
@@ -112,10 +112,10 @@ TrajectoryCase cone_bounds() {
 TrajectoryCase momentum_kept() {
   TrajectoryCase c = cone_swing(JointType::spherical);
   c.readings = {"Lz [N m s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const CaseReadings p = observe_place(model, x);
     // About the vertical, of the point mass.
-    return CaseReadings{model.I[1].m * (p[0] * p[4] - p[1] * p[3])};
+    return values(model.I[1].m * (p[0] * p[4] - p[1] * p[3]));
   };
   c.reference = constantly({1.5});
   c.integration = dopri5_with(1e-13);
@@ -132,7 +132,7 @@ TrajectoryCase conical() {
   c.reference = [](double t) {
     const double r = std::sin(kCone), z = -std::cos(kCone), C = std::cos(kRound * t);
     const double S = std::sin(kRound * t), v = kRound * r;
-    return CaseReadings{r * C, r * S, z, -v * S, v * C, 0};
+    return values(r * C, r * S, z, -v * S, v * C, 0);
   };
   return c;
 }
@@ -146,7 +146,7 @@ TrajectoryCase near_conical() {
   };
   return times_of(c, {vertical_velocity, 4, 5}, [](double n) {
     const double w = kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
-    return CaseReadings{n * std::acos(-1.0) / w};
+    return values(n * std::acos(-1.0) / w);
   });
 }
 

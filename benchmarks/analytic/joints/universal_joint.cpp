@@ -55,10 +55,10 @@ TrajectoryCase hooke() {
   TrajectoryCase all = evaluation(
       [] { return at_rest(shafts(kAngle)); },
       {"angle out at 30 degrees in [rad]", "ratio there", "ratio at 0", "ratio at 90 degrees"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         const Output at_30 = output(model, x, 30 * kDegree);
-        return CaseReadings{at_30.angle, at_30.ratio, output(model, x, 0).ratio,
-                            output(model, x, 90 * kDegree).ratio};
+        return values(at_30.angle, at_30.ratio, output(model, x, 0).ratio,
+                      output(model, x, 90 * kDegree).ratio);
       },
       {std::atan(std::tan(in) / c), c / (C * C + S * S), 1 / c, c}, relative_each);
   all.mutant = [](CaseScene& scene) { scene.model = shafts(1.001 * kAngle); };

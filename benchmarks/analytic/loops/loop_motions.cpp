@@ -46,9 +46,7 @@ TrajectoryCase loop_motion(LoopCase (*make)()) {
   motion.scene = [make] { return scene_of(make()); };
   for (const LoopCase::Sample& sample : c->reference) motion.times.push_back(sample.t);
   motion.readings = c->readings;
-  motion.observe = [c](const Model<double>& model, const State<double>& x) {
-    return c->read(x, kinematics_at(model, x));
-  };
+  motion.observe = [c](ModelRef model, StateRef x) { return c->read(x, kinematics_at(model, x)); };
   motion.reference = [c](double t) { return tabulated(*c, t); };
   motion.at_times_only = true;
   motion.integration = rk4_with(c->step);
@@ -90,7 +88,7 @@ CaseReadings swinging(double t) {  // from 90 degrees at rest
   const Real w0 = std::sqrt(9.81L), m = 0.5L, k = std::sqrt(m);
   const special::Jacobi j = special::jacobi(special::quarter_period(m) - w0 * Real(t), m);
   const Real angle = 2 * std::asin(k * j.sn);
-  return rounded({-std::sin(angle), -std::cos(angle), -2 * k * w0 * j.cn});
+  return values(-std::sin(angle), -std::cos(angle), -2 * k * w0 * j.cn);
 }
 
 // ---- D2 ----
@@ -104,7 +102,7 @@ TrajectoryCase windows_motion(double step) {
         const Real W = std::sqrt(1 + 4 * a), m = 4 * a / (W * W);
         const special::Jacobi j = special::jacobi(W * Real(t) / 2 - special::quarter_period(m), m);
         const Real sine = -2 * j.sn * j.cn, cosine = 2 * j.sn * j.sn - 1, rate = W * j.dn;
-        return rounded({sine, cosine, cosine * rate, -sine * rate});
+        return values(sine, cosine, cosine * rate, -sine * rate);
       });
   motion.times = {1, 10};
   motion.integration = rk4_with(step);
@@ -125,7 +123,7 @@ TrajectoryCase squeezer_rates() {
       read_at(squeezer, 0.03,
               {"beta [rad/s]", "Theta [rad/s]", "gamma [rad/s]", "Phi [rad/s]", "delta [rad/s]",
                "Omega [rad/s]", "epsilon [rad/s]"},
-              [c](const Model<double>& model, const State<double>& x) {
+              [c](ModelRef model, StateRef x) {
                 State<double> rates = x;
                 rates.q = x.qd;
                 return c->read(rates, Kinematics(model));
@@ -139,9 +137,9 @@ TrajectoryCase squeezer_rates() {
 
 TrajectoryCase bricard_velocity() {
   return read_at(bricard, 10, {"vx [m/s]", "vy [m/s]", "vz [m/s]"},
-                 [](const Model<double>& model, const State<double>& x) {
+                 [](ModelRef model, StateRef x) {
                    const Vector3 v = kinematics_at(model, x).v_WLo[3];
-                   return CaseReadings{v.x(), v.y(), v.z()};
+                   return values(v.x(), v.y(), v.z());
                  },
                  {-0.03245328022227769, 8.726822183481425e-06, -0.03244454987786557});
 }
@@ -155,9 +153,7 @@ LoopCase governor_with() {
 // Dofs of the governor: shaft, slider, rods.
 TrajectoryCase governor_end() {
   return read_at(governor_with<Couplers::springs>, 10, {"alpha [rad]", "omega [rad/s]"},
-                 [](const Model<double>&, const State<double>& x) {
-                   return CaseReadings{x.q[2], x.qd[0]};
-                 },
+                 [](ModelRef, StateRef x) { return values(x.q[2], x.qd[0]); },
                  {22.349576814742957 * std::numbers::pi / 180, 5.548203622654942});
 }
 
@@ -204,11 +200,10 @@ TrajectoryCase piston_place() {
   input.offset = std::numbers::pi / 3;
   c->loops.push_back(input);
   c->start.q = {1.0, -1.2, 0.34};
-  return assembled(c, {"piston [m]"},
-                   [c](const Model<double>& model, const State<double>& x) {
-                     return CaseReadings{close_loops(model, c->loops, x).q[2]};
-                   },
-                   {0.05 + std::sqrt(0.09 - 0.0075)});
+  return assembled(
+      c, {"piston [m]"},
+      [c](ModelRef model, StateRef x) { return values(close_loops(model, c->loops, x).q[2]); },
+      {0.05 + std::sqrt(0.09 - 0.0075)});
 }
 
 TrajectoryCase crank_energy() {
@@ -232,12 +227,12 @@ CaseReadings four_bar_closed_form() {
       std::atan2(a * std::sin(th2) + b * std::sin(th3), a * std::cos(th2) + b * std::cos(th3) - d);
   const Real w3 = -a * w2 * std::sin(th2 - th4) / (b * std::sin(th3 - th4));
   const Real w4 = a * w2 * std::sin(th2 - th3) / (c * std::sin(th4 - th3));
-  return rounded({th3, th4, w3, w4});
+  return values(th3, th4, w3, w4);
 }
 // Assembled from an open state; rates from J qd = 0 with the crank's given.
 TrajectoryCase four_bar_place() {
   const auto c = std::make_shared<const LoopCase>(four_bar());
-  const auto observer = [c](const Model<double>& model, const State<double>& nearby) {
+  const auto observer = [c](ModelRef model, StateRef nearby) {
     State<double> x = close_loops(model, c->loops, nearby);
     const Kinematics k = kinematics_at(model, x);
     LoopClosures loops(model, {c->loops[0]});

@@ -265,6 +265,9 @@ template <int radius_mm10>
 Values speed_and_rim(Scene s) {
   return {s.v(1).x(), 1e-4 * radius_mm10 * s.w(1).y()};
 }
+inline Values horizontal_distance(Scene s) {
+  return {std::hypot(s.p(1).x(), s.p(1).y())};
+}
 inline Values slip(Scene s) {  // of a ball of kBallRadius
   return {s.v(1).x() - 0.1 * s.w(1).y()};
 }

@@ -14,6 +14,8 @@
 
 namespace twinarm::smooth_parts {
 
+using ModelRef = const Model<double>&;
+using StateRef = const State<double>&;
 using Real = long double;  // of references
 inline constexpr Real kPi = std::numbers::pi_v<Real>;
 
@@ -31,6 +33,10 @@ CaseScene at_rest(Model<double> model);
 // The same, marked as one whose energy changes.
 CaseScene not_conserving(CaseScene scene);
 CaseScene start_at(Model<double> model, std::vector<double> q, std::vector<double> qd);
+// The same scene for every run; its sources must have no internal state.
+inline std::function<CaseScene()> fixed(CaseScene scene) {
+  return [scene = std::move(scene)] { return scene; };
+}
 
 // Torque or force on one dof as a function of time and of its coordinate, which must have the same
 // index among the coordinates.
@@ -50,27 +56,25 @@ class JointEffort : public ForceSource, public Checkpointable {
 
 // ---- observers ----
 
-inline Kinematics kinematics_at(const Model<double>& model, const State<double>& x) {
+inline Kinematics kinematics_at(ModelRef model, StateRef x) {
   Kinematics k(model);
   forward_kinematics(model, x, k);
   return k;
 }
 
 // One number of a state: reading, or function whose zeros are events.
-using Observed = std::function<double(const Model<double>&, const State<double>&)>;
+using Observed = std::function<double(ModelRef, StateRef)>;
 inline Observed coordinate(std::size_t i) {
-  return [i](const Model<double>&, const State<double>& x) { return x.q[i]; };
+  return [i](ModelRef, StateRef x) { return x.q[i]; };
 }
 inline Observed velocity(std::size_t i) {
-  return [i](const Model<double>&, const State<double>& x) { return x.qd[i]; };
+  return [i](ModelRef, StateRef x) { return x.qd[i]; };
 }
 inline CaseObserver observe(Observed number) {
-  return [number](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{number(model, x)};
-  };
+  return [number](ModelRef model, StateRef x) { return CaseReadings{number(model, x)}; };
 }
 inline CaseObserver joint_state() {  // all coordinates, then all velocities
-  return [](const Model<double>&, const State<double>& x) {
+  return [](ModelRef, StateRef x) {
     CaseReadings all = x.q;
     all.insert(all.end(), x.qd.begin(), x.qd.end());
     return all;
@@ -81,21 +85,21 @@ inline CaseReference constantly(CaseReadings values) {
 }
 
 // Positions, velocities, and accelerations under gravity and joint friction.
-Workspace<double> evaluate(const Model<double>& model, const State<double>& x);
+Workspace<double> evaluate(ModelRef model, StateRef x);
 std::vector<double> inverse_dynamics(const Model<double>& model, const State<double>& x,
                                      const std::vector<double>& qdd);
 // Reaction force of the joint of body 1, world axes [N].
-Vector3 reaction(const Model<double>& model, const State<double>& x);
+Vector3 reaction(ModelRef model, StateRef x);
 // Eigenvalues of -d(qdd)/dq, ascending: squared frequencies, negative if unstable.
-std::vector<double> squared_frequencies_of(const Model<double>& model, const State<double>& x);
+std::vector<double> squared_frequencies_of(ModelRef model, StateRef x);
 // Undamped frequencies about a state at rest, ascending [rad/s].
-std::vector<double> small_frequencies(const Model<double>& model, const State<double>& x);
+std::vector<double> small_frequencies(ModelRef model, StateRef x);
 
 // Of a free body 1: quaternion w, x, y, z, and angular velocity in body axes.
 CaseReadings attitude_and_rate(const Eigen::Quaterniond& attitude, const Vector3& rate);
-CaseReadings observe_attitude_and_rate(const Model<double>&, const State<double>& x);
+CaseReadings observe_attitude_and_rate(ModelRef, StateRef x);
 
-inline CaseReadings observe_energy(const Model<double>& model, const State<double>& x) {
+inline CaseReadings observe_energy(ModelRef model, StateRef x) {
   return {kinetic_energy(model, x) + potential_energy(model, x)};
 }
 

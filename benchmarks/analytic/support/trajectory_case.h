@@ -6,7 +6,6 @@
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,8 +46,9 @@ inline Lane dopri5_with(double tolerance = 1e-10) {
 }
 
 using CaseReadings = std::vector<double>;
-inline CaseReadings rounded(std::initializer_list<long double> values) {
-  return {values.begin(), values.end()};
+template <class... Number>
+CaseReadings values(Number... numbers) {
+  return {static_cast<double>(numbers)...};
 }
 using CaseObserver = std::function<CaseReadings(const Model<double>&, const State<double>&)>;
 using CaseReference = std::function<CaseReadings(double)>;
