@@ -1,8 +1,7 @@
-// What would have held, as changes that a button applies.
+// Scene changes that would have kept a diverged run stable.
 //
-// From the limits of linear theory about the start (app/diagnose/post_mortem.h) and the run's last
-// good state: a shorter step, a softer gain, an implicit treatment, the integrator that goes with
-// it. Half of a limit in w h is offered, as the post-mortem's words do.
+// By linear theory about the initial state (app/diagnose/post_mortem.h): shorter step, softer gain,
+// implicit discretization with its integrator. Suggested values are at half the limit of omega h.
 #pragma once
 
 #include <string>
@@ -18,9 +17,9 @@ struct SuggestedFix {
   std::vector<std::string> changes;  // PATH=VALUE, all together
 };
 
-// Best first; each makes a scene that builds. Empty where nothing in the scene is to blame that is
-// known of. `plan` is that of the run that stopped; `dead` may lack what explain() adds.
-std::vector<SuggestedFix> remedies_of(const SimulatePlan& plan, const PostMortem& dead);
+// Best first; each gives a valid scene. Empty where no cause was found. `plan` is that of the
+// diverged run; `post_mortem` may lack what explain() adds.
+std::vector<SuggestedFix> remedies_of(const SimulatePlan& plan, const PostMortem& post_mortem);
 
 // The list `remedies` of docs/reference/lab_protocol.md.
 void write_remedies(const std::vector<SuggestedFix>& remedies, JsonWriter& json);
