@@ -1,7 +1,5 @@
 // Violations come from find_suspects(), coupling by coupling; the fixes are tested on all couplings
 // together (app/diagnose/coupled_step.h) in the initial pose.
-#include "app/diagnose/remedies.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
