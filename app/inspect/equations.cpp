@@ -77,7 +77,7 @@ class BodyEquations {
          size_of(axes_.show(in_.w.v[i_]), axes_.show(in_.model.I[i_] * in_.w.v[i_]))}};
     const Vector6 f_ext = axes_.show(in_.forces.f_ext[i_]);
     if (!f_ext.isZero(0)) own.push_back({"- f_ext", "external wrench, subtracted", i_, -f_ext});
-    all.push_back(sum_of("p", std::move(own), axes_.show(own_force(in_, i_))));
+    all.push_back(sum_of("p", std::move(own), axes_.show(bias_force(in_, i_))));
     return all;
   }
 
@@ -89,7 +89,7 @@ class BodyEquations {
       inertias.push_back({"impedance", "added inertia of implicit spring-dampers", i_,
                           axes_.show(in_.forces.impedance[i_])});
     std::vector<EquationTerm> forces{
-        {"p", "bias force of the body", i_, axes_.show(own_force(in_, i_))}};
+        {"p", "bias force of the body", i_, axes_.show(bias_force(in_, i_))}};
     for (const std::size_t child : in_.children(i_)) {
       const LinkAxes its(in_, child);
       const Matrix6 X = its.show(in_.w.Xup[child]);

@@ -175,7 +175,7 @@ Eigen::MatrixXd LinkAxes::square(const std::vector<double>& D) const {
   return T_.transpose() * Eigen::Map<const RowMajor>(D.data() + in_.w.iD[body_], nv, nv) * T_;
 }
 
-Force<double> own_force(const Inspection& in, std::size_t body) {
+Force<double> bias_force(const Inspection& in, std::size_t body) {
   return crf(in.w.v[body], in.model.I[body] * in.w.v[body]) - in.forces.f_ext[body];
 }
 
@@ -201,7 +201,7 @@ std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, 
     all.push_back({{"p", 1, By::body, "bias force of the body alone", "N m; N",
                     "p = v x* I v - f_ext, table 7.1; (2.32)"},
                    kLinkFrame,
-                   converter.axes.show(own_force(in, body))});
+                   converter.axes.show(bias_force(in, body))});
     return all;
   }
   in.w.describe(take);

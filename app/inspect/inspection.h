@@ -131,6 +131,6 @@ struct DisplayedQuantity {
 std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, std::size_t body);
 
 // Bias force p = v x* I v - f_ext.
-Force<double> own_force(const Inspection& in, std::size_t body);
+Force<double> bias_force(const Inspection& in, std::size_t body);
 
 }  // namespace twinarm
