@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/diagnose/remedies.h"
+#include "app/diagnose/post_mortem.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

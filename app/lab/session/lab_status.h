@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/diagnose/remedies.h"
+#include "app/diagnose/post_mortem.h"
 #include "app/lab/run/variants.h"
 #include "app/record/unpack.h"
 

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "app/diagnose/post_mortem.h"
-#include "app/diagnose/remedies.h"
 #include "tests/app/lab/parameters/knob_scenes.h"
 
 using namespace twinarm;
