@@ -57,7 +57,7 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
   const Model<double>& model = input.robot.model;
   SceneView stage = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
   const Snapshot moment = scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
-  position_lead(stage, moment);
+  look_ahead(stage, moment);
   look_at(stage, moment);
   settle(stage);
   measure(stage, moment, Measured::of_picture);
@@ -111,7 +111,7 @@ FilmedRun open_film(const std::filesystem::path& file, Progress& progress) {
 SceneView stage_of(const FilmedRun& run) {
   SceneView stage = run.plan.input.scene ? make_stage(*run.plan.input.scene)
                                          : make_stage(run.plan.input.robot.robot, run.model());
-  for (const RunInstant& instant : run.around) position_lead(stage, run.moment(instant));
+  for (const RunInstant& instant : run.around) look_ahead(stage, run.moment(instant));
   for (const RunInstant& instant : run.shown) look_at(stage, run.moment(instant));
   settle(stage);
   for (const RunInstant& instant : run.around)

@@ -34,23 +34,24 @@ TrackingSeries track(const StudyRobot& robot, const OperatorMotion& hand, const 
   return system.run();
 }
 
-Scheme scheme_of(const RunSpec& run) {
+SteppingScheme scheme_of(const RunSpec& run) {
   const CouplingSpec& spec = run.coupling;
   const bool older = spec.printed && spec.options.difference == Difference::older;
-  if (run.held_substeps > 1) return spec.printed ? Scheme::hold_difference : Scheme::hold;
+  if (run.held_substeps > 1)
+    return spec.printed ? SteppingScheme::hold_difference : SteppingScheme::hold;
   if (run.integrator == Integrator::euler)
-    return spec.printed ? Scheme::euler_difference : Scheme::euler;
-  if (older) return Scheme::semi_implicit_older;
-  if (spec.printed) return Scheme::semi_implicit_difference;
+    return spec.printed ? SteppingScheme::euler_difference : SteppingScheme::euler;
+  if (older) return SteppingScheme::semi_implicit_older;
+  if (spec.printed) return SteppingScheme::semi_implicit_difference;
   switch (spec.treatment) {
     case Discretization::explicit_:
-      return Scheme::semi_implicit;
+      return SteppingScheme::semi_implicit;
     case Discretization::semi_implicit:
-      return Scheme::implicit_damper;
+      return SteppingScheme::implicit_damper;
     case Discretization::implicit:
       break;
   }
-  return Scheme::implicit;
+  return SteppingScheme::implicit;
 }
 
 void measure(const TrackingSeries& series, RunResult& result) {

@@ -41,7 +41,7 @@ std::string body(const std::string& joint, const std::string& more = "") {
 }
 
 struct Row {
-  Scheme scheme;
+  SteppingScheme scheme;
   const char* integrator;
   bool actuator;
 };
@@ -85,9 +85,9 @@ bool tell(const std::string& what, double predicted, double measured, double tol
 }
 
 bool limits() {
-  const Row rows[] = {{Scheme::semi_implicit, "Euler", true},
-                      {Scheme::implicit_damper, "Euler", false},
-                      {Scheme::rk4, "RK4", true}};
+  const Row rows[] = {{SteppingScheme::semi_implicit, "Euler", true},
+                      {SteppingScheme::implicit_damper, "Euler", false},
+                      {SteppingScheme::rk4, "RK4", true}};
   bool good = true;
   for (const Row& row : rows)
     for (const double zeta : {0.0, 0.7, 1.0}) {
