@@ -1,5 +1,5 @@
 // Input devices by name, as of `--device`. A file NAME_kind.cpp of this folder defines
-// `DeviceKind NAME_kind()` (docs/develop/extending_device.md).
+// `DeviceKind NAME_kind()` (docs/develop/extending.md).
 #pragma once
 
 #include <charconv>
