@@ -1,5 +1,4 @@
-// What is struck within a step: it may meet what was out of its reach, be unable to bounce, or spin
-// fast.
+// Impacts within a step: contacts outside the initial margin, blocked rebounds, fast spin.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,9 +22,9 @@ constexpr double r = 0.05;
 
 }  // namespace
 
-// At rest it looks half a millimetre ahead. It was found 5 mm deep in a wall before sources looked
-// again after a blow.
-TEST_CASE("a ball at rest that is struck does not enter the wall behind it, near or far") {
+// At rest the speculative margin is 0.5 mm. Before detection was repeated after an impact, the
+// sphere ended 5 mm deep in the wall.
+TEST_CASE("a sphere at rest that is hit by another does not enter the wall behind it, near or far") {
   for (const double e : {0.0, 0.3, 1.0})
     for (const double gap : {1e-3, 4e-3, 9e-3, 17e-3}) {
       CAPTURE(e);
@@ -46,14 +45,13 @@ TEST_CASE("a ball at rest that is struck does not enter the wall behind it, near
         CHECK(scene.energy() <= start * (1 + 1e-9));
       }
       CHECK(deepest < 1e-8);
-      CHECK(scene.velocity(striker).x() > -19);  // of 20 m/s: it has struck
+      CHECK(scene.velocity(striker).x() > -19);  // of 20 m/s: the impact has occurred
     }
 }
 
-// Two walls at right angles, from both of which a ball is to bounce: with friction mu each impulse
-// p leaves m v = (1 - mu) p along either wall's normal, which is nothing to leave with from mu = 1
-// on.
-TEST_CASE("a ball in a groove bounces as far as friction lets it, and another by itself") {
+// A sphere bounces off two perpendicular walls: with friction mu each impulse p leaves m v = (1 -
+// mu) p along either wall's normal, zero from mu = 1 on.
+TEST_CASE("a sphere in a groove bounces as far as friction permits, and another independently") {
   for (const double mu : {0.3, 0.7, 1.2, 2.0}) {
     CAPTURE(mu);
     constexpr double e = 0.5;
@@ -75,9 +73,9 @@ TEST_CASE("a ball in a groove bounces as far as friction lets it, and another by
   }
 }
 
-// With the gyroscopic moment of the step's start its nutation grew by h^2 W^2 / 2 in each step: a
-// capsule that had been struck came from 170 to 4400 rad/s in half a second.
-TEST_CASE("a capsule that spins fast nutates by the mean of its velocities, and no faster") {
+// With the gyroscopic moment of the step's start the nutation grew by h^2 W^2 / 2 in each step: a
+// capsule accelerated from 170 to 4400 rad/s in half a second.
+TEST_CASE("a fast spinning capsule nutates with the mean of its velocities") {
   constexpr double h = 1e-3;
   ContactScene scene;
   scene.set_gravity(Vector3::Zero());
@@ -88,7 +86,7 @@ TEST_CASE("a capsule that spins fast nutates by the mean of its velocities, and 
   const double energy = scene.energy();
   scene.run(h, 2000);
   CHECK(scene.energy() == doctest::Approx(energy).epsilon(1e-12));
-  // d(w_x + i w_y)/dt = i W (w_x + i w_y), of which each step takes the mean.
+  // d(w_x + i w_y)/dt = i W (w_x + i w_y), with the mean over a step.
   const double W = (body.I.zz - body.I.xx) / body.I.xx * w.z(), angle = 2 * std::atan(0.5 * h * W);
   const std::vector<double>& qd = simulation.state().qd;
   CHECK(qd[0] == doctest::Approx(w.x() * std::cos(2000 * angle)).scale(w.x()).epsilon(1e-9));
@@ -96,7 +94,7 @@ TEST_CASE("a capsule that spins fast nutates by the mean of its velocities, and 
   CHECK(qd[2] == doctest::Approx(w.z()).epsilon(1e-12));
 }
 
-TEST_CASE("a box that tumbles keeps its energy, and its momentum in second order of the step") {
+TEST_CASE("a tumbling box keeps its energy exactly and its momentum with order 2 in the step") {
   const auto astray = [](double h) {
     ContactScene scene;
     scene.set_gravity(Vector3::Zero());
@@ -120,7 +118,7 @@ TEST_CASE("a box that tumbles keeps its energy, and its momentum in second order
   CHECK(coarse / fine == doctest::Approx(4).epsilon(0.05));
 }
 
-TEST_CASE("spinning bodies that fall on a floor never have more energy than before") {
+TEST_CASE("the energy of spinning bodies that fall onto a floor never increases") {
   for (const double e : {0.0, 0.5})
     for (const double spin : {50.0, 170.0, 400.0}) {
       CAPTURE(e);

@@ -1,4 +1,4 @@
-// Which of many points lies farthest: against asking them one by one.
+// Vectorised support index against a plain loop.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -17,30 +17,30 @@ std::size_t one_by_one(const std::vector<Vector3>& points, const Vector3& d) {
   return best;
 }
 
-TEST_CASE("a table of points names the first of the farthest") {
+TEST_CASE("the support index is that of the first point with the maximum") {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
   std::uniform_int_distribution<int> few(-2, 2);
   for (const int count : {1, 2, 31, 32, 33, 170}) {
-    std::vector<Vector3> points, corners;  // corners: many are equally far along a direction
+    std::vector<Vector3> points, corners;  // vertices of a cube: many ties
     for (int i = 0; i < count; ++i) {
       points.emplace_back(normal(random), normal(random), normal(random));
       corners.emplace_back(few(random), few(random), few(random));
     }
-    const VertexTable of_points(points), of_corners(corners);
+    const SupportVertices of_points(points), of_corners(corners);
     for (int k = 0; k < 500; ++k) {
       const Vector3 d(normal(random), normal(random), normal(random));
-      CHECK(of_points.farthest(d) == one_by_one(points, d));
+      CHECK(of_points.support_index(d) == one_by_one(points, d));
       const Vector3 along(few(random), few(random), few(random));
-      CHECK(of_corners.farthest(along) == one_by_one(corners, along));
+      CHECK(of_corners.support_index(along) == one_by_one(corners, along));
     }
   }
 }
 
-TEST_CASE("of a direction that is no number a table names its first point") {
+TEST_CASE("the support index of a NaN direction is 0") {
   const std::vector<Vector3> points(40, Vector3::Ones());
   const Vector3 d = Vector3::Constant(std::numeric_limits<double>::quiet_NaN());
-  CHECK(VertexTable(points).farthest(d) == 0);
+  CHECK(SupportVertices(points).support_index(d) == 0);
 }
 
 }  // namespace

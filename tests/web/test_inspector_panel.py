@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The glass of the lab, alone in a browser: numbers, equations, diagram, the walk through a call.
+"""The inspector alone in a browser: numbers, equations, diagram, walk through a call.
 
-    test_glass_panel.py FOLDER_OF_NODE_MODULES [FOLDER_FOR_PICTURES]
+    test_inspector_panel.py FOLDER_OF_NODE_MODULES [FOLDER_FOR_PICTURES]
 """
 import json
 import math
@@ -18,8 +18,8 @@ from waiting import TIMEOUT
 HERE = pathlib.Path(__file__).resolve().parent
 MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
 PICTURES = pathlib.Path(sys.argv.pop(1)) if len(sys.argv) > 1 else None
-# Of the arm in hand_and_obstacles.toml as it leans on a box, written by Glass::message().
-TOLD = json.loads((HERE / "glass_message.json").read_text(encoding="utf-8"))
+# Of the arm in hand_and_obstacles.toml in contact with a box, written by the program.
+MESSAGE = json.loads((HERE / "inspector_message.json").read_text(encoding="utf-8"))
 NODE = shutil.which("node") or shutil.which("nodejs")
 
 BUNDLE = """
@@ -35,7 +35,7 @@ STYLE = "body.harness{display:block;height:auto;padding:12px;background:var(--su
 
 
 def flat(value):
-    """All numbers of a quantity, in the order in which they are told."""
+    """All numbers of a quantity, in their order."""
     if isinstance(value, list):
         return [number for item in value for number in flat(item)]
     return [value]
@@ -44,15 +44,15 @@ def flat(value):
 @unittest.skipUnless(find_browser(), NO_BROWSER)
 @unittest.skipUnless(NODE and (MODULES / "esbuild").is_dir(),
                      "the program was built without its pages: scripts/setup --web, then build")
-class GlassPanel(unittest.TestCase):
+class InspectorPanel(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        done = subprocess.run([NODE, "-e", BUNDLE, str(MODULES), str(HERE / "glass_harness.ts")],
+        done = subprocess.run([NODE, "-e", BUNDLE, str(MODULES), str(HERE / "inspector_harness.ts")],
                               capture_output=True, text=True, check=True, timeout=TIMEOUT)
         script, style = json.loads(done.stdout)
         cls.folder = tempfile.TemporaryDirectory()
-        cls.page = pathlib.Path(cls.folder.name) / "glass.html"
-        cls.names = ["world"] + [row["body"] for row in TOLD["rows"] if row["pass"] == 1]
+        cls.page = pathlib.Path(cls.folder.name) / "inspector.html"
+        cls.names = ["world"] + [row["body"] for row in MESSAGE["rows"] if row["pass"] == 1]
         cls.page.write_text(
             f'<!doctype html><html data-theme="light" data-bodies="{",".join(cls.names)}"><meta charset="utf-8">'
             f"<style>{style}{STYLE}</style><body><script>"
@@ -67,45 +67,45 @@ class GlassPanel(unittest.TestCase):
 
     def setUp(self):
         self.browser.open(self.page.as_uri())
-        self.browser.wait_for("glass.sent.length > 0")
+        self.browser.wait_for("inspector.sent.length > 0")
 
     def tearDown(self):
         self.assertEqual(self.browser.errors, [])
 
-    def give(self, told):
-        self.browser.evaluate(f"glass.give({json.dumps(told)})")
+    def give(self, message):
+        self.browser.evaluate(f"inspector.give({json.dumps(message)})")
 
     def go_to(self, pass_, body):
-        """By clicks on the passes and on the body's name."""
+        """Clicks on the pass and on the body."""
         self.browser.evaluate(f"document.querySelectorAll('.stepper .pass')[{pass_ - 1}].click()")
         self.browser.evaluate("[...document.querySelectorAll('.stepper .current button')].find("
                               f"b => b.textContent === {json.dumps(body)}).click()")
 
-    def test_it_asks_for_the_first_body_of_the_robot_and_follows_the_selection(self):
-        self.assertEqual(self.browser.evaluate("glass.sent.at(-1)"),
+    def test_requests_the_first_body_of_the_robot_and_follows_the_selection(self):
+        self.assertEqual(self.browser.evaluate("inspector.sent.at(-1)"),
                          {"do": "glass", "on": True, "body": 2})
-        self.browser.evaluate("glass.panel.onSelect(3)")
-        self.assertEqual(self.browser.evaluate("glass.sent.at(-1)"),
+        self.browser.evaluate("inspector.panel.onSelect(3)")
+        self.assertEqual(self.browser.evaluate("inspector.sent.at(-1)"),
                          {"do": "glass", "on": True, "body": 3})
 
-    def test_keys_walk_through_one_call_outward_inward_outward(self):
+    def test_keys_step_through_one_call(self):
         links = self.names[1:]
         wanted = [(p, b) for p in (1, 2, 3) for b in (links[::-1] if p == 2 else links)]
         self.go_to(1, links[0])
         walked = []
         for _ in wanted:
-            state = self.browser.evaluate("glass.panel.state")
+            state = self.browser.evaluate("inspector.panel.state")
             walked.append((state["pass"], state["body"]))
             self.browser.press(".")
         self.assertEqual(walked, wanted)
         self.browser.press(",")
-        state = self.browser.evaluate("glass.panel.state")
+        state = self.browser.evaluate("inspector.panel.state")
         self.assertEqual((state["pass"], state["body"]), wanted[-2])
 
-    def test_every_number_of_every_pass_stands_in_its_card_with_all_digits(self):
-        for step in TOLD["passes"]:
-            self.go_to(step["pass"], TOLD["name"])
-            self.give(TOLD)
+    def test_cards_have_all_digits_of_each_quantity(self):
+        for step in MESSAGE["passes"]:
+            self.go_to(step["pass"], MESSAGE["name"])
+            self.give(MESSAGE)
             shown = self.browser.evaluate(
                 "Object.fromEntries([...document.querySelectorAll('.cards > [data-quantity]')].map("
                 "card => [card.dataset.quantity, [...card.querySelectorAll('[title]')].map(e => e.title)]))")
@@ -114,13 +114,13 @@ class GlassPanel(unittest.TestCase):
                 for number in flat(quantity["value"]):
                     self.assertIn(number, digits, quantity["name"])
 
-    def test_equations_are_set_and_their_terms_stand_beside_the_sum(self):
-        self.go_to(1, TOLD["name"])
-        self.give(TOLD)
+    def test_equations_and_their_terms(self):
+        self.go_to(1, MESSAGE["name"])
+        self.give(MESSAGE)
         self.assertGreater(self.browser.evaluate(
             "Math.min(...[...document.querySelectorAll('.set math')].map("
             "m => m.getBoundingClientRect().width))"), 60)
-        v = next(e for e in TOLD["equations"] if e["name"] == "v")
+        v = next(e for e in MESSAGE["equations"] if e["name"] == "v")
         rows = self.browser.evaluate(
             "[...document.querySelectorAll('.cards > [data-quantity=v] tbody tr')].map("
             "row => [...row.querySelectorAll('.number')].map(cell => Number(cell.title)))")
@@ -128,22 +128,22 @@ class GlassPanel(unittest.TestCase):
             self.assertEqual(row, [term["value"][k] for term in v["terms"]] + [v["value"][k]])
             self.assertAlmostEqual(sum(row[:-1]), row[-1], delta=1e-9)
 
-    def test_the_table_of_pass_3_shows_classical_accelerations_of_the_origins(self):
+    def test_table_of_pass_3_has_classical_accelerations_of_the_origins(self):
         self.go_to(3, self.names[-1])
-        self.give({**TOLD, "name": self.names[-1]})  # the last step of the pass: all rows are known
+        self.give({**MESSAGE, "name": self.names[-1]})  # the last step of the pass: all rows are known
         shown = self.browser.evaluate(
-            "[...document.querySelectorAll('.so-far tbody tr')].map("
+            "[...document.querySelectorAll('.pass-table tbody tr')].map("
             "row => [row.querySelector('button').textContent, row.querySelector('td:last-child').title])")
-        rows = [row for row in TOLD["rows"] if row["pass"] == 3]
+        rows = [row for row in MESSAGE["rows"] if row["pass"] == 3]
         self.assertEqual([name for name, _ in shown], [row["body"] for row in rows])
         for (name, length), row in zip(shown, rows):
             values = {q["name"]: q["value"] for q in row["quantities"]}
             self.assertAlmostEqual(float(length), math.hypot(*values["acceleration"]), delta=1e-12)
-        heads = self.browser.evaluate("document.querySelector('.so-far thead').textContent")
+        heads = self.browser.evaluate("document.querySelector('.pass-table thead').textContent")
         self.assertIn("|acceleration| [m/s²]", heads)
 
-    def test_the_diagram_comes_back_to_where_it_began(self):
-        self.give(TOLD)
+    def test_polygons_of_the_diagram_close(self):
+        self.give(MESSAGE)
         for plane in ("xz", "yz", "xy"):
             self.browser.evaluate(f"document.querySelector('[data-plane={plane}]').click()")
             for figure in (0, 1):
@@ -156,25 +156,25 @@ class GlassPanel(unittest.TestCase):
                     ".map(Number) : null]; })()" % figure)
                 if tip:
                     self.assertLess(math.dist(dot, tip), 2)  # of 200; the shortest are not drawn
-        self.assertEqual(len(self.browser.evaluate("glass.arrows")),
-                         len(TOLD["balance"][0]["wrenches"]))
+        self.assertEqual(len(self.browser.evaluate("inspector.arrows")),
+                         len(MESSAGE["balance"][0]["wrenches"]))
 
-    def test_what_a_quantity_is_shows_by_keyboard_focus_and_stays_while_numbers_change(self):
-        self.go_to(3, TOLD["name"])
-        self.give(TOLD)
+    def test_tooltip_shows_on_focus_and_stays_while_numbers_change(self):
+        self.go_to(3, MESSAGE["name"])
+        self.give(MESSAGE)
         self.browser.evaluate("document.querySelector('.cards > [data-quantity=a]').focus({focusVisible: true})")
         for t in (1, 2):
-            self.give({**TOLD, "t": t, "stands": False})
+            self.give({**MESSAGE, "t": t, "stands": False})
             tip = self.browser.evaluate(
                 "(() => { const tip = document.querySelector('.cards > [data-quantity=a] .tip');"
                 "return [getComputedStyle(tip).visibility, tip.textContent]; })()")
             self.assertEqual(tip[0], "visible")
             self.assertIn("rad/s²; m/s²", tip[1])
             self.assertIn("table 7.1", tip[1])
-        self.assertEqual(self.browser.evaluate("glass.arrows"), [])  # they would lag behind
+        self.assertEqual(self.browser.evaluate("inspector.arrows"), [])  # only while paused
 
-    def test_what_is_not_a_number_breaks_nothing(self):
-        broken = json.loads(json.dumps(TOLD))
+    def test_values_that_are_not_finite(self):
+        broken = json.loads(json.dumps(MESSAGE))
         for step in broken["passes"]:
             for quantity in step["quantities"]:
                 quantity["value"] = nothing(quantity["value"])
@@ -185,26 +185,26 @@ class GlassPanel(unittest.TestCase):
         for wrench in broken["balance"][0]["wrenches"]:
             wrench["force"] = wrench["torque"] = [None] * 3
         for pass_ in (1, 2, 3):
-            self.go_to(pass_, TOLD["name"])
+            self.go_to(pass_, MESSAGE["name"])
             self.give(broken)
         self.give({"kind": "glass", "scene": 1, "t": 1, "stands": True,
-                   "warnings": ["cannot be looked into"]})
-        self.assertIn("cannot be looked into", self.browser.evaluate("document.body.textContent"))
+                   "warnings": ["cannot be inspected"]})
+        self.assertIn("cannot be inspected", self.browser.evaluate("document.body.textContent"))
 
     def test_pictures(self):
         if not PICTURES:
-            return  # no test, but a way to look at them
+            return  # for visual checks
         PICTURES.mkdir(parents=True, exist_ok=True)
         for width in (400, 1100):
             self.browser.resize(width, 1500)
             for pass_ in (1, 2, 3):
                 for dark in (False, True):
-                    self.browser.evaluate(f"glass.theme({json.dumps(dark)})")
-                    self.go_to(pass_, TOLD["name"])
-                    self.give(TOLD)
+                    self.browser.evaluate(f"inspector.theme({json.dumps(dark)})")
+                    self.go_to(pass_, MESSAGE["name"])
+                    self.give(MESSAGE)
                     self.browser.frames(2)
                     theme = "dark" if dark else "light"
-                    self.browser.picture(PICTURES / f"glass_{width}_{pass_}_{theme}.png")
+                    self.browser.picture(PICTURES / f"inspector_{width}_{pass_}_{theme}.png")
         self.browser.resize(420, 900)
 
 

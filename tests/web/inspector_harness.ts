@@ -1,4 +1,4 @@
-// The inspector without the lab around it: messages are given by hand, commands kept.
+// The inspector without the lab: messages come from the test, commands are recorded.
 import '../../app/web/src/ui/style.css';
 import { Inspector } from '../../app/web/src/inspector/inspector';
 import type { BodyInspection } from '../../app/web/src/protocol/messages';
@@ -33,13 +33,13 @@ const panel = new Inspector(page as unknown as LabPage);
 document.body.className = 'harness';
 document.body.append(panel.root);
 Object.assign(window, {
-  glass: {
+  inspector: {
     panel,
     sent,
     get arrows() {
       return arrows;
     },
-    give: (message: unknown) => panel.onGlass?.(message as BodyInspection),
+    give: (message: unknown) => panel.onInspection?.(message as BodyInspection),
     theme: (dark: boolean) => (document.documentElement.dataset.theme = dark ? 'dark' : 'light'),
   },
 });

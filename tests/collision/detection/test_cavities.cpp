@@ -1,4 +1,4 @@
-// The insides of spheres and tubes: against sampled points, and in closed form.
+// Cavities (inside of spheres and tubes): against sampled points, and closed forms.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ using namespace twinarm::test;
 
 namespace {
 
-// Of a point of the body from the wall, negative inside the hollow.
+// Distance of a point of the body from the wall, negative with penetration.
 double beyond(const Shape& hollow, const Vector3& p, double tolerance = 0) {
   if (const auto* sphere = std::get_if<SphericalCavity>(&hollow)) return p.norm() - sphere->radius;
   const auto& tube = std::get<CylindricalCavity>(hollow);
@@ -27,7 +27,7 @@ double beyond(const Shape& hollow, const Vector3& p, double tolerance = 0) {
 
 }  // namespace
 
-TEST_CASE("within a hollow: the depth is that of the farthest of many points of the body") {
+TEST_CASE("cavity: the depth is that of the farthest of many points of the body") {
   Random random(44);
   const std::vector<Shape> bodies = {Sphere{0.06},        Box{{0.2, 0.14, 0.1}},
                                      Capsule{0.05, 0.2},  Cylinder{0.06, 0.15},
@@ -61,7 +61,8 @@ TEST_CASE("within a hollow: the depth is that of the farthest of many points of 
         }
         ++touched;
         const Contact& deepest = scene.deepest();
-        // Corners are found by any direction; the points of smooth bodies are a few mm apart.
+        // Vertices are found from any direction; sampled points of smooth bodies are a few mm
+        // apart.
         too_shallow = std::max(too_shallow, oracle - deepest.depth);
         if (oracle > -margin) too_deep = std::max(too_deep, deepest.depth - oracle);
         for (const Contact& c : scene.contacts) {  // on the wall, normal inward
@@ -77,7 +78,7 @@ TEST_CASE("within a hollow: the depth is that of the farthest of many points of 
   }
 }
 
-TEST_CASE("a ball in a bowl and in a tube, a roller in a tube: depth and normal in closed form") {
+TEST_CASE("sphere in a bowl and in a tube, cylinder in a tube: closed forms of depth and normal") {
   Random random(45);
   PairScene bowl(SphericalCavity{1}, Sphere{0.1}), tube(CylindricalCavity{1, 2}, Sphere{0.1});
   PairScene roller(CylindricalCavity{1, 2}, Cylinder{0.1, 0.3}),
@@ -103,7 +104,7 @@ TEST_CASE("a ball in a bowl and in a tube, a roller in a tube: depth and normal 
   }
 }
 
-TEST_CASE("a shaft through a short tube touches at its mouths") {
+TEST_CASE("a shaft through a short tube has contacts at its ends") {
   const double depth = 1e-5;
   for (const Shape& shaft :
        {Shape(Capsule{0.02, 1}), Shape(Cylinder{0.02, 1}), Shape(Box{{0.04, 0.04, 1}})}) {
@@ -111,7 +112,7 @@ TEST_CASE("a shaft through a short tube touches at its mouths") {
     PairScene scene(CylindricalCavity{0.1, 0.2}, shaft);
     for (int k = 0; k < 50; ++k) {
       const double angle = std::holds_alternative<Box>(shaft) ? 0 : 0.1 * k;
-      // A box has its edge there, at half its diagonal.
+      // Edge of a box, at half its diagonal.
       const double reach = std::holds_alternative<Box>(shaft) ? 0.02 * std::numbers::sqrt2 : 0.02;
       const double turned = std::holds_alternative<Box>(shaft) ? std::numbers::pi / 4 : 0.3 * k;
       const Vector3 across(std::cos(angle), std::sin(angle), 0);
@@ -126,12 +127,11 @@ TEST_CASE("a shaft through a short tube touches at its mouths") {
   }
 }
 
-TEST_CASE("a long ellipsoid in a bowl rests on both tips; two hollows are refused") {
+TEST_CASE("a long ellipsoid in a bowl rests on both tips; two cavities are rejected") {
   PairScene scene(SphericalCavity{0.2}, Ellipsoid{{0.19, 0.02, 0.03}});
   const double height = std::sqrt(0.04 - 0.19 * 0.19);
-  for (const double shift : {0.0, 1e-14, -1e-9, 1e-5}) {
+  for (const double shift : {0.0, 1e-14, -1e-9, 1e-5})
     CHECK(scene.touch(origin, {Matrix3::Identity(), {shift, 0, -height}}).size() == 2);
-  }
   CollisionWorld world;
   world.add({"bowl", SphericalCavity{1}, 0});
   CHECK_THROWS_AS(world.add({"tube", CylindricalCavity{1, 1}, 0}), InputError);

@@ -1,6 +1,5 @@
-// A ghost is a thin shell: clear where it is looked through, dense at its silhouette. It is blended
-// in linear light: the canvas encodes, and the noise is that much smaller where its slope is
-// larger.
+// Translucent body: a thin shell, clear in the middle, dense at its silhouette. Blended in linear
+// light: the dither noise is scaled by the slope of the canvas's encoding.
 in vec3 p_world, n_world;
 uniform vec3 eye;
 uniform vec4 color;

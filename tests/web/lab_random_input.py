@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""A stranger at the lab's page: in a headless Chromium somebody who has read nothing drags, turns,
-types, drops and clicks, at random but by a seed, for some minutes. At the end the page must still be
-the one that was opened, show frames that go on, have said nothing on its console, and have kept its
-memory within bounds.
+"""Random input to the lab's page in a headless Chromium, reproducible by its seed: drags, keys, text, dropped
+files, clicks. At the end the page must not have reloaded, must draw new frames, must not have logged errors,
+and its memory must be bounded.
 
-    lab_stranger.py [PATH/TO/twinarm] --minutes 10 --seed 1
+    lab_random_input.py [PATH/TO/twinarm] --minutes 10 --seed 1
 """
 import argparse
 import json
@@ -18,12 +17,12 @@ from browser import Browser
 from lab_case import ROOT, STATE, Program, why_no_page
 from test_lab_page import ROD
 
-HEAP = 12e6  # bytes that a page may have grown by, after its garbage is collected
+HEAP = 12e6  # allowed growth after garbage collection, in bytes
 SKIPPED = 77  # as tests/support/run_test.py
-REFUSED = ("422", "status of 4")  # the browser's own words for a file that the lab refuses
+REFUSED = ("422", "status of 4")  # the browser's messages for a rejected file
 
 
-class Stranger:
+class RandomUser:
     def __init__(self, page, chance, say):
         self.page, self.chance, self.say = page, chance, say
         self.acts = {act[4:]: getattr(self, act) for act in dir(self) if act.startswith("act_")}
@@ -43,7 +42,7 @@ class Stranger:
         self.value(f"twinarm.page.send({json.dumps(command)})")
 
     def click_one_of(self, selector):
-        """A real click, on one that is seen."""
+        """Clicks a random visible element."""
         at = self.value("""(all => { const at = all[Math.floor(%r * all.length)]; at?.scrollIntoView({block: 'nearest'});
             const box = at?.getBoundingClientRect();
             return box ? [box.x + box.width / 2, box.y + box.height / 2] : null; })(
@@ -67,7 +66,7 @@ class Stranger:
             })(document.querySelector('button.grip'))"""))
 
     def act_drag_a_body_or_a_joint(self):
-        self.drag_from(self.value("""((u) => { const {drag, frame, scene} = twinarm.page, seen = drag.seen();
+        self.drag_from(self.value("""((u) => { const {drag, frame, scene} = twinarm.page, seen = drag.view();
             if (!seen) return null;
             const moving = scene.bodies.flatMap(({moves}, i) => moves ? [i] : []);
             const body = moving[Math.floor(u * moving.length)];
@@ -81,23 +80,23 @@ class Stranger:
             return
         self.page.drag(at, (at[0] + self.chance.gauss(0, 80), at[1] + self.chance.gauss(0, 60)))
 
-    def act_knob(self):
-        """Also far beyond what its slider offers."""
-        knobs = self.value(f"{STATE}.knobs")
-        if not knobs:
+    def act_parameter(self):
+        """Also far outside the range of the slider."""
+        parameters = self.value(f"{STATE}.knobs")
+        if not parameters:
             return
-        knob = self.chance.choice(knobs)
-        if knob["form"] == "choice":
-            value = self.chance.choice(knob["choices"] or ["nonsense"])
+        parameter = self.chance.choice(parameters)
+        if parameter["form"] == "choice":
+            value = self.chance.choice(parameter["choices"] or ["nonsense"])
         else:
-            low, high = (knob["low"], knob["high"]) if knob["high"] > knob["low"] else (-10, 10)
+            low, high = (parameter["low"], parameter["high"]) if parameter["high"] > parameter["low"] else (-10, 10)
             value = self.chance.uniform(low, high)
-            if knob["form"] == "log" and low > 0:
+            if parameter["form"] == "log" and low > 0:
                 value = low * (high / low) ** self.chance.uniform(-0.1, 1.1)
-        self.send(do="set", changes=[f"{knob['path']}={value}"])
+        self.send(do="set", changes=[f"{parameter['path']}={value}"])
 
     def act_type_into_a_field(self):
-        if self.click_one_of(".knob input[type=text]"):
+        if self.click_one_of(".parameter input[type=text]"):
             for letter in self.chance.choice(("800", "1e9", "-1", "abc", "", "0", "3 ms", "NaN")):
                 self.page.press(letter)
             self.page.press(self.chance.choice(("Enter", "Escape", "Tab")))
@@ -111,7 +110,7 @@ class Stranger:
         self.click_one_of("main button, main summary, header button, .post-mortem button")
 
     def act_take_a_remedy(self):
-        self.click_one_of(".remedies button") or self.click_one_of(".knobs > button")
+        self.click_one_of(".remedies button") or self.click_one_of(".parameters > button")
 
     def act_key(self):
         keys = list(" .,[]bhjxgcmMfadws+-rvo123456789npil\\et?") + ["Escape", "Tab", "End", "Enter",
@@ -168,33 +167,33 @@ class Stranger:
 
 
 def visit(program, seconds, seed, say):
-    """What was wrong, in words; empty: nothing."""
+    """Descriptions of all failures."""
     faults = []
     lab = Program(program)
     with tempfile.TemporaryDirectory() as folder, Browser(width=1280, height=720, scale=0.25) as page:
         page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
         page.open(lab.url)
-        page.evaluate("window.sameStranger = true")
-        stranger = Stranger(page, random.Random(seed), say)
+        page.evaluate("window.isSamePage = true")
+        user = RandomUser(page, random.Random(seed), say)
         first, most = page.heap(), 0
-        begin = told = time.monotonic()
+        begin = reported_at = time.monotonic()
         while time.monotonic() - begin < seconds:
-            stranger.one()
-            if time.monotonic() - told > 20:
-                told = time.monotonic()
+            user.one()
+            if time.monotonic() - reported_at > 20:
+                reported_at = time.monotonic()
                 now = page.heap()
                 most = max(most, now)
-                say(f"{told - begin:4.0f} s of {seconds:.0f}: {sum(stranger.done.values())} acts, "
+                say(f"{reported_at - begin:4.0f} s of {seconds:.0f}: {sum(user.done.values())} acts, "
                     f"heap {now / 1e6:.0f} MB, frames {page.evaluate('twinarm.page.link.received')}")
-        faults += still_there(page, stranger)
+        faults += still_there(page, user)
         last = page.heap()
         most = max(most, last)
         if most - first > HEAP:
             faults.append(f"the page's memory grew from {first / 1e6:.0f} to {most / 1e6:.0f} MB")
-        said = [error for error in page.errors if not any(words in error for words in REFUSED)]
-        faults += [f"console: {error}" for error in said[:5]]
-        say(f"{sum(stranger.done.values())} acts: " +
-            ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in stranger.done.items()))
+        logged = [error for error in page.errors if not any(words in error for words in REFUSED)]
+        faults += [f"console: {error}" for error in logged[:5]]
+        say(f"{sum(user.done.values())} acts: " +
+            ", ".join(f"{name.replace('_', ' ')} {count}" for name, count in user.done.items()))
         say(f"heap {first / 1e6:.1f} MB at first, {last / 1e6:.1f} at last, {most / 1e6:.1f} at most")
     code, words = lab.end()
     if code != 0:
@@ -202,20 +201,20 @@ def visit(program, seconds, seed, say):
     return faults
 
 
-def still_there(page, stranger):
-    """The page that was opened, with frames that come and are painted."""
-    if not page.evaluate("window.sameStranger === true"):
-        return ["the page was loaded anew"]
-    stranger.send(do="scene", name="pendulum")
+def still_there(page, user):
+    """The page has not reloaded and draws new frames."""
+    if not page.evaluate("window.isSamePage === true"):
+        return ["the page was reloaded"]
+    user.send(do="scene", name="pendulum")
     page.wait_for(f"{STATE}.name === 'pendulum' && twinarm.page.frame?.scene === twinarm.page.scene.scene")
-    stranger.send(do="speed", factor=1)
-    stranger.send(do="play", on=True)
+    user.send(do="speed", factor=1)
+    user.send(do="play", on=True)
     page.wait_for(f"{STATE}.playing")
     time_then, pictures = page.evaluate("[twinarm.page.frame.time, twinarm.page.pace.pictures]")
-    try:  # a large page on a slow machine takes its time for each picture
+    try:  # slow for a large page on a slow machine
         page.wait_for(f"twinarm.page.frame.time > {time_then} + 0.5 && twinarm.page.pace.pictures > {pictures} + 2")
     except TimeoutError as late:
-        return [f"no new frames, or they are not painted: {late}"]
+        return [f"no new frames, or they are not drawn: {late}"]
     return []
 
 
@@ -226,14 +225,14 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     if not pathlib.Path(given.program).exists():
-        parser.error(f"{given.program} is not there: scripts/build release twinarm")
+        parser.error(f"{given.program} does not exist: scripts/build release twinarm")
     if reason := why_no_page(given.program):
         print(f"skipped: {reason}")
         return SKIPPED
     faults = visit(given.program, 60 * given.minutes, given.seed, lambda words: print(words, flush=True))
     for fault in faults:
-        print(f"fault: {fault}")
-    print(f"seed {given.seed}: {'the page is as it was' if not faults else f'{len(faults)} faults'}")
+        print(f"failure: {fault}")
+    print(f"seed {given.seed}: {'passed' if not faults else f'{len(faults)} failures'}")
     return 1 if faults else 0
 
 
