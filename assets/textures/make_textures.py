@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""Makes the textures of the scenes anew: boards.png and crate.png, beside this file.
+"""Generates the textures of the scenes: boards.png and crate.png, beside this file.
 
-Painted wood, made of nothing but this text: boards of a tone of their own each, with a grain that
-is drawn out along them. 256 x 256 pixels of 16 colours. Python's own library alone; the same bytes
-each time.
+Procedural wood: boards with one tone each and a grain that is stretched along them. 256 x 256 pixels
+of 16 colours. Uses the standard library only; the output is the same bytes each time.
 """
 import math
 import pathlib

@@ -2,8 +2,8 @@
 """The articulated-body algorithm by hand, compared with the workspace of the solver.  Lesson 3, from Python.
 
 A double pendulum, RBDA table 7.1 in numpy: every quantity is compared with model.workspace(). Write down before you
-run: 1 N pushes the box along x, then along y: which accelerations? The two rods are let go level: which at the
-shoulder, which at the elbow?
+run: 1 N acts on the box along x, then along y: what are the accelerations? The two rods are released
+horizontally: what are the accelerations of shoulder and elbow?
 """
 import numpy as np
 import twinarm
@@ -12,7 +12,7 @@ from lesson import folder_of, picture, say
 
 HERE = folder_of(__file__)
 
-# %% Each body's own: two rods of 0.5 m and 1 kg
+# %% Inertias of the bodies: two rods of 0.5 m and 1 kg
 length, com, mass, I_com, gravity = 0.5, np.array([0, 0, -0.25]), 1.0, np.diag([1 / 48, 1 / 48, 1e-5]), 9.81
 
 
@@ -68,7 +68,7 @@ def aba_by_hand(q, qd, tau):
     return {"v": v, "c": c, "IA": np.array(IA), "pA": pA, "U": U, "D": np.diag(D), "u": u, "qdd": qdd, "a": a}
 
 
-# %% Beside the solver, in a state of no symmetry
+# %% Comparison with the solver, in a state without symmetry
 model = twinarm.load("assets/robots/teaching/double_pendulum.urdf")
 bodies = [model.bodies.index(name) for name in ("upper", "lower")]
 BY_BODY = {"v", "c", "IA", "pA", "a"}
@@ -89,7 +89,7 @@ def compare(q, qd, tau):
 
 compare(np.array([0.4, -0.9]), np.array([1.5, -2.0]), np.array([0.3, 0.1]))
 
-# %% The box with a cylinder in it: 1 N along x, then along y; nothing weighs anything
+# %% The box with a cylinder in it: 1 N along x, then along y, without gravity
 box = twinarm.load(HERE / "box.urdf", floating=True)
 box.gravity = [0, 0, 0]
 for axis in (0, 1):
@@ -98,15 +98,15 @@ for axis in (0, 1):
     qdd = twinarm.aba(box, box.q, np.zeros(box.nv), np.zeros(box.nv), push)
     say(f"box: acceleration along {'xy'[axis]} [m/s^2]", qdd[3 + axis])
 
-# %% The two rods, level, at rest
+# %% The two rods, horizontal, at rest
 level = np.array([np.pi / 2, 0])
 hand = compare(level, np.zeros(2), np.zeros(2))
 say("D of the elbow [kg m^2]", hand["D"][1, 1])
 say("D of the shoulder [kg m^2]", hand["D"][0, 0])
-say("shoulder, let go [rad/s^2]", hand["qdd"][0])
-say("elbow, let go [rad/s^2]", hand["qdd"][1])
+say("shoulder, released [rad/s^2]", hand["qdd"][0])
+say("elbow, released [rad/s^2]", hand["qdd"][1])
 
-# %% The trap: M11 holds the elbow still, what is felt holds it free
+# %% The trap: M11 is the inertia with the elbow locked, D that with the elbow free
 say("M11 [kg m^2]", twinarm.crba(model, level)[0, 0])
 falls = {elbow: twinarm.simulate(HERE / f"{elbow}.toml", every=0.005) for elbow in ("free", "locked")}
 shoulder = {elbow: run.q[:, run.model.q_of["shoulder"]][:, 0] for elbow, run in falls.items()}

@@ -2,7 +2,7 @@
 """Haptic walls, stability and passivity: how stiff can a virtual wall be?  Lesson 5, from Python.
 
 A device of 45 g and 0.1 N s/m renders F = -K y - B (y - y_before)/T, held for a tick. Write down before you run: what
-becomes of the largest K at 4 kHz, and at 500 Hz?
+is the largest K at 4 kHz, and at 500 Hz?
 """
 import pathlib
 import tempfile
@@ -42,7 +42,7 @@ def bisect(holds):
     return low
 
 
-# %% Nobody holds it: it is quiet if no eigenvalue of a tick leaves the unit circle
+# %% Stability without an operator: all eigenvalues of a tick lie inside the unit circle
 def stable_stiffness(rate, delay, B):
     T = 1 / rate
     xv = tick(T)
@@ -63,33 +63,33 @@ def stable_stiffness(rate, delay, B):
     return bisect(is_quiet)
 
 
-# %% Any hand moves it to and fro, at each frequency up to half the rate: who gets work out of it?
+# %% Passivity: work of an operator in a cycle, at each frequency up to half the rate
 def passive_stiffness(rate, B):
     T, N = 1 / rate, 512
     n, m = np.arange(N), np.arange(1, N // 2 + 1)[:, None]
     before, x, after = (np.cos(2 * np.pi * m * k / N) for k in (n - 1, n, n + 1))
     way = after - x
-    by_K = (x * way).sum(axis=1)  # the hand's work in a cycle is K by_K + rest, by frequency
+    by_K = (x * way).sum(axis=1)  # the operator's work in a cycle is K by_K + rest, by frequency
     rest = ((B * (x - before) + DAMPING * way) * way / T).sum(axis=1)
     return max(0.0, (rest[by_K < 0] / -by_K[by_K < 0]).min())
 
 
 # %% Walls
-say("1 kHz, nobody holds it, B = 1 [N/m]", stable_stiffness(1000, 0, 1.0))
+say("1 kHz, stable, B = 1 [N/m]", stable_stiffness(1000, 0, 1.0))
 say("1 kHz and one tick of delay [N/m]", stable_stiffness(1000, 1, 1.0))
-say("1 kHz, no hand gets energy, B = 0 [N/m]", passive_stiffness(1000, 0.0))
+say("1 kHz, passive, B = 0 [N/m]", passive_stiffness(1000, 0.0))
 for rate in (4000, 500):
-    say(f"{rate} Hz, nobody holds it, B = 1 [N/m]", stable_stiffness(rate, 0, 1.0))
-    say(f"{rate} Hz, no hand gets energy, B = 0 [N/m]", passive_stiffness(rate, 0.0))
+    say(f"{rate} Hz, stable, B = 1 [N/m]", stable_stiffness(rate, 0, 1.0))
+    say(f"{rate} Hz, passive, B = 0 [N/m]", passive_stiffness(rate, 0.0))
 
 # %% Through a coupling of 1000 N/m
 for wall in (2000, 20000):
     say(f"a wall of {wall} N/m behind a coupling of 1000 N/m [N/m]", 1 / (1 / 1000 + 1 / wall))
 
-# %% The trap: the wall's damping, which is passive only as far as the device's own
+# %% The trap: the wall's damping, passive only below the damping of the device
 dampings = np.linspace(0, 0.12, 25)
 passive = np.array([passive_stiffness(1000, B) for B in dampings])
-say("the largest B of which some K is passive [N s/m]", dampings[passive > 1e-3].max())
+say("the largest B with a passive K [N s/m]", dampings[passive > 1e-3].max())
 
 # %% Picture
 picture(__file__, "damping of the wall [N s/m]", ("K [N/m]", {

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Closed loops and constraint forces: which forces act in a joint of a loop?  Lesson 6, from Python.
 
-A slider-crank is a chain that a pin closes. Write down before you run: the force in the pin, and whether it pulls or
-pushes the piston; whether the four-bar linkage moves, of which Gruebler's count says -5 freedoms.
+A slider-crank is a chain that is closed by a pin. Write down before you run: the force in the pin, and whether it
+pulls or pushes the piston; whether the four-bar linkage moves, for which Gruebler's count gives -5 degrees of freedom.
 """
 import numpy as np
 import twinarm
@@ -33,7 +33,7 @@ system = np.block([[M, -J.T], [J, np.zeros((3, 3))]])
 on_rod = np.linalg.lstsq(system, np.concatenate([-C, -Jdot_qd]), rcond=None)[0][chain.nv:]
 say("force of the pin on the piston, along x [N]", -on_rod[0])
 
-# %% The engine runs: the loop stays closed, the energy stays
+# %% The engine runs: the loop stays closed, the energy is constant
 run = twinarm.simulate(ENGINE, every=0.02)
 x = np.array([twinarm.poses(chain, row)[chain.bodies.index("piston"), 0, 3] for row in run.q])
 theta = run.q[:, chain.q_of["crank"]][:, 0]
@@ -43,12 +43,12 @@ energy = run.kinetic_energy + run.potential_energy
 say("change of the engine's energy in 5 s [J]", abs(energy[-1] - energy[0]))
 say("piston at 60 degrees [m]", 0.1 * np.cos(np.pi / 3) + np.sqrt(0.09 - (0.1 * np.sin(np.pi / 3)) ** 2))
 
-# %% The four-bar linkage comes round
+# %% Period of the four-bar linkage
 bars = twinarm.simulate("assets/scenes/four_bar.toml", duration=4, every=0.02)
 beam = bars.model.bodies.index("beam0")
 z = np.array([twinarm.poses(bars.model, row)[beam, 2, 3] for row in bars.q])
 passes = crossings(bars.t, z)
-say("the linkage comes round in [s]", passes[2] - passes[0])
+say("period of the linkage [s]", passes[2] - passes[0])
 
 # %% Picture
 picture(__file__, "t [s]", ("piston [m]", {"engine": (run.t, x)}), ("beam [m]", {"four-bar": (bars.t, z)}))

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Friction and impact: when does a block slide, and which balls move?  Lesson 7, from Python.
 
-Write down before you run: a block on 30 degrees, does it stay with friction 0.577, and with 0.578? One ball meets two
-that rest and touch: what happens?
+Write down before you run: a block on 30 degrees, does it stay at rest with friction 0.577, and with 0.578? One ball hits two
+that are at rest and touch: what happens?
 """
 import numpy as np
 import twinarm
@@ -16,7 +16,7 @@ def place(run, row, body):
     return twinarm.poses(run.model, run.q[row])[run.model.bodies.index(body), :3, 3]
 
 
-# %% The block: how far down the slope
+# %% The block: displacement down the slope
 def slide(friction):
     run = twinarm.simulate(HERE / "incline.toml", every=0.01, set={"body.friction": friction})
     return run.t, np.array([(place(run, n, "block")[0] - 0.025) / np.cos(np.pi / 6) for n in range(len(run.t))])
@@ -24,9 +24,9 @@ def slide(friction):
 
 slides = {f"friction {mu}": slide(mu) for mu in (0.5, 0.577, 0.578)}
 for name, (_, way) in slides.items():
-    say(f"{name}: slid after 1 s [m]", abs(way[-1]))
+    say(f"{name}: displacement after 1 s [m]", abs(way[-1]))
 
-# %% What holds it: the force that inverse dynamics asks for, along the slope's normal and across it
+# %% Contact force from inverse dynamics, along the slope's normal and perpendicular to it
 incline = twinarm.load(HERE / "incline.toml")
 held = twinarm.rnea(incline, incline.q, np.zeros(incline.nv), np.zeros(incline.nv))[3:]
 normal = twinarm.poses(incline, incline.q)[incline.bodies.index("block"), :3, 2]
@@ -46,7 +46,7 @@ for scene in ("balls_apart.toml", "balls_touching.toml"):
     for n, speed in enumerate(balls(scene)):
         say(f"{scene}: ball {n + 1} [m/s]", speed)
 
-# %% The trap: a gap that nobody can measure decides; contacts that are springs have no such gap
+# %% The trap: the result depends on a very small gap; with springs as contacts it does not
 for gap in (0.040002, 0.0400009):
     say(f"a gap of {1e6 * (gap - 0.04):.1f} um: ball 3 [m/s]",
         balls("balls_apart.toml", set={"body.ball3.position": [gap, 0, 0]})[2])
@@ -54,4 +54,4 @@ for n, speed in enumerate(balls("balls_touching.toml", contact="compliant", step
     say(f"springs in the contacts: ball {n + 1} [m/s]", speed)
 
 # %% Picture
-picture(__file__, "t [s]", ("slid [m]", slides))
+picture(__file__, "t [s]", ("displacement [m]", slides))

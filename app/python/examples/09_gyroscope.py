@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Gyroscopic precession and nutation: what does the torque of the weight change?  Lesson 9, from Python.
 
-A wheel spins at the end of a level arm. Write down before you run: with half the spin, does it go round faster or
-slower? Pushed in the direction in which it goes round anyway, does it go round faster?
+A wheel spins at the end of a horizontal arm. Write down before you run: with half the spin, is the precession faster
+or slower? Pushed in the direction of the precession, does it precess faster?
 """
 import numpy as np
 import twinarm
@@ -20,22 +20,22 @@ def wheel(state=None, **change):
     return run.t, np.array([twinarm.poses(run.model, q)[number, :3, 3] for q in run.q])
 
 
-def round_by(place):
+def azimuth(place):
     return np.arctan2(place[80, 1], place[80, 0])
 
 
 # %% Four runs
-runs = {"given its turn": wheel(), "let go at rest": wheel(pivot=[0, 0, 0]),
+runs = {"precession rate": wheel(), "released at rest": wheel(pivot=[0, 0, 0]),
         "half the spin": wheel(pivot=[0, 0, 7.63], axle=75), "pushed": wheel(state=HERE / "push.json")}
-say("given its turn: round by, after 0.4 s [rad]", round_by(runs["given its turn"][1]))
-say("given its turn: farthest from level [m]", np.abs(runs["given its turn"][1][:, 2]).max())
-say("half the spin: round by, after 0.4 s [rad]", round_by(runs["half the spin"][1]))
-t, place = runs["let go at rest"]
-say("let go at rest: lowest [deg]", -np.degrees(np.arcsin(place[:, 2].min() / 0.1)))
-say("let go at rest: first time back up [s]", t[30 + place[30:70, 2].argmax()])
+say("precession rate: azimuth after 0.4 s [rad]", azimuth(runs["precession rate"][1]))
+say("precession rate: largest height error [m]", np.abs(runs["precession rate"][1][:, 2]).max())
+say("half the spin: azimuth after 0.4 s [rad]", azimuth(runs["half the spin"][1]))
+t, place = runs["released at rest"]
+say("released at rest: lowest [deg]", -np.degrees(np.arcsin(place[:, 2].min() / 0.1)))
+say("released at rest: first return to the top [s]", t[30 + place[30:70, 2].argmax()])
 
-# %% The trap: pushed forward it climbs
-say("pushed: above level after 1 s [rad]", np.arcsin(runs["pushed"][1][-1, 2] / 0.1))
+# %% The trap: pushed in the direction of the precession it rises
+say("pushed: elevation after 1 s [rad]", np.arcsin(runs["pushed"][1][-1, 2] / 0.1))
 
 # %% Picture
 picture(__file__, "t [s]", ("height [m]", {name: (t, place[:, 2]) for name, (t, place) in runs.items()}))

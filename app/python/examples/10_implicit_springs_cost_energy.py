@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Numerical dissipation of implicit springs: how much energy do they remove?  Lesson 10, from Python.
 
-A spring of 10 rad/s without a damper, stepped implicitly. Write down before you run: the amplitude that is left after
-2 s at 20 ms; and with weight, does the implicit spring sag less, more, or as the explicit one?
+A spring of 10 rad/s without a damper, stepped implicitly. Write down before you run: the remaining amplitude after
+2 s at 20 ms; and with gravity, is the static deflection smaller, larger or equal to that with an explicit spring?
 """
 import numpy as np
 import twinarm
@@ -11,23 +11,23 @@ from lesson import folder_of, picture, say
 
 SCENE = folder_of(__file__) / "swing.toml"
 
-# %% Three steps; the ledger says who took it
+# %% Three steps; the energy balance lists the dissipation
 runs = {h: twinarm.simulate(SCENE, step=h, every=0.02) for h in (0.001, 0.01, 0.02)}
 left = {}
 for h, run in runs.items():
     energy = run.kinetic_energy + 0.5 * 100.144 * run.q[:, 0] ** 2
     left[h] = energy[-1] / energy[0]
-    say(f"step {h} s: taken by the treatment [J]", run.ledger["coupling/hold/implicit"])
+    say(f"step {h} s: removed by the discretization [J]", run.ledger["coupling/hold/implicit"])
     say(f"step {h} s: energy left", left[h])
 
-# %% With weight and a damper, towards the level: what does not move does not feel it
+# %% With gravity and a damper, target horizontal: the static deflection does not depend on it
 for treatment in ("explicit", "implicit"):
     sagged = twinarm.simulate(SCENE, duration=10, set={
         "coupling.treatment": treatment, "coupling.damping": 20, "coupling.target.q.hinge": np.pi / 2,
         "gravity": [0, 0, -9.81]})
-    say(f"{treatment}: sags by [rad]", np.pi / 2 - sagged.q[-1, 0])
+    say(f"{treatment}: static deflection [rad]", np.pi / 2 - sagged.q[-1, 0])
 
-# %% The trap: a damping ratio that is not the robot's
+# %% The trap: a damping ratio that is not a property of the robot
 say("damping ratio at 10 ms", -np.log(left[0.01]) / (2 * 10 * 2))
 
 # %% Picture

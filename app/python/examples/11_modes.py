@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Mass matrix and normal modes: when is an eigenvalue the frequency of an oscillation?  Lesson 11, from Python.
 
-Two equal rods hang one below the other. Write down before you run: let go in the slow shape, what does the elbow do
-while the shoulder swings? Upside down, which "frequencies" will be printed?
+Two equal rods hang one below the other. Write down before you run: released in the slow mode shape, what does the
+elbow do while the shoulder oscillates? Upside down, which "frequencies" will be printed?
 """
 import numpy as np
 import twinarm
@@ -12,7 +12,7 @@ from lesson import crossings, folder_of, picture, say
 arm = twinarm.load("assets/robots/teaching/double_pendulum.urdf")
 
 
-# %% Small motions about q: M x'' + K x = 0, K the derivative of what inverse dynamics asks for
+# %% Small motions about q: M x'' + K x = 0, K the derivative of the inverse dynamics
 def weight(q):
     return twinarm.rnea(arm, q, np.zeros(2), np.zeros(2))
 
@@ -27,29 +27,29 @@ def modes(q, d=0.05):
     return values[order], vectors[:2, order]
 
 
-# %% Hanging: frequencies and shapes
+# %% Hanging: frequencies and mode shapes
 values, shapes = modes(np.zeros(2))
-slow, fast = 0, 2  # each frequency is there twice, as +i and -i
+slow, fast = 0, 2  # each frequency occurs twice, as +i and -i
 say("slow [rad/s]", abs(values[slow]))
 say("fast [rad/s]", abs(values[fast]))
 for name, n in (("slow", slow), ("fast", fast)):
     say(f"{name}: elbow over shoulder", (shapes[1, n] / shapes[0, n]).real)
 
-# %% Let go in the slow shape, small and large
+# %% Released in the slow mode shape, at small and large amplitude
 SCENE = folder_of(__file__) / "slow.toml"
 small = twinarm.simulate(SCENE, every=0.005)
 large = twinarm.simulate(SCENE, every=0.005, set={"robot.q.shoulder": 1.0, "robot.q.elbow": 0.43052})
 say("small: the shoulder crosses zero first at [s]", crossings(small.t, small.q[:, 0])[0])
 
-# %% The trap: upside down the same numbers, and nothing swings
+# %% The trap: upside down the same numbers, without oscillation
 values, _ = modes(np.array([np.pi, 0]))
 print("upside down:", np.round(values, 4))
 say("upside down: size of the slow eigenvalue [rad/s]", abs(values[0]))
-say("upside down: its growing one [1/s]", values[:2].real.max())
-say("upside down: the fast one that dies out [1/s]", values[2:].real.min())
+say("upside down: the growing one [1/s]", values[:2].real.max())
+say("upside down: the fast one that decays [1/s]", values[2:].real.min())
 level = np.array([np.pi / 2, 0])
 say("level: 'frequency' [rad/s]", np.abs(modes(level)[0]).max())
-say("level: joints whose weight nothing holds", np.sum(np.abs(weight(level)) > 1e-9))
+say("level: joints that are not in equilibrium", np.sum(np.abs(weight(level)) > 1e-9))
 
 # %% Picture
 picture(__file__, "t [s]", *((f"{name} [rad]", {joint: (run.t, run.q[:, run.model.q_of[joint]][:, 0])

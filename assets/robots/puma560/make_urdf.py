@@ -4,12 +4,12 @@
     python3 make_urdf.py > puma560.urdf
 
 Standard Denavit-Hartenberg: A_i = Rz(q_i) Tz(d_i) Tx(a_i) Rx(alpha_i) leads from frame i-1 to frame i.
-A URDF joint turns first and shifts afterwards, so URDF link i is frame i-1 turned by q_i about its z;
-what is left of A_i, C_i = Tz(d_i) Tx(a_i) Rx(alpha_i), is fixed in link i. It is the origin of joint
+A URDF joint applies its fixed origin first and rotates afterwards, so URDF link i is frame i-1 rotated by
+q_i about its z; the rest of A_i, C_i = Tz(d_i) Tx(a_i) Rx(alpha_i), is fixed in link i. It is the origin of joint
 i+1, and it carries the published inertia (in axes of frame i, about the centre of mass) into link i.
 The motor's constants are referred to the joint: armature G^2 Jm, damping G^2 B, Coulomb |G| Tc.
 
-Products are taken in decimal, so what is written is exact; alpha is a quarter turn rounded to a double.
+Products are computed in decimal arithmetic, so the written values are exact; alpha is pi/2 rounded to a double.
 """
 from dataclasses import dataclass
 from decimal import Decimal as D
@@ -49,8 +49,8 @@ TABLE = [
         "33e-6", "76.686", "36.7e-6", ("3.96e-3", "-10.5e-3"), (-266, 266), "21.3"),
 ]
 
-# What is drawn, in link axes: (material, shape, xyz, rpy). No published number, and no part in the
-# dynamics; the drawing only has to show what turns about what. The joints' zeros put the shoulder at
+# Visual geometry in link axes: (material, shape, xyz, rpy). Not published, and without effect on the
+# dynamics. The joints' zeros put the shoulder at
 # the origin, the floor 0.672 m below it.
 H = "1.5707963267948966"
 DRAWN = [

@@ -6,7 +6,7 @@ set grid lc rgb "#dddddd"
 set multiplot layout 2,1
 set xlabel "t [s]"
 set ylabel "tracking error of joint 1 [deg]"
-error(twin, own) = (twin - own) * 180 / pi
+error(target, own) = (target - own) * 180 / pi
 plot "out/torsional.dat" using 1:2 with lines lw 2 lc 7 title "torsional", \
      "out/linear.dat" using 1:2 with lines lw 2 lc 6 title "linear"
 set key center right
