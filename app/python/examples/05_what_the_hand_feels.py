@@ -47,7 +47,7 @@ def stable_stiffness(rate, delay, B):
     T = 1 / rate
     xv = tick(T)
 
-    def is_quiet(K):
+    def is_stable(K):
         n = delay + 3  # x, v, and x one tick ago, two ...
         step = np.zeros((n, n))
         read, before = [0, *range(2, n)][delay], [0, *range(2, n)][delay + 1]
@@ -60,7 +60,7 @@ def stable_stiffness(rate, delay, B):
         step[range(3, n), range(2, n - 1)] = 1
         return np.abs(np.linalg.eigvals(step)).max() <= 1
 
-    return bisect(is_quiet)
+    return bisect(is_stable)
 
 
 # %% Passivity: work of an operator in a cycle, at each frequency up to half the rate
@@ -93,5 +93,5 @@ say("the largest B with a passive K [N s/m]", dampings[passive > 1e-3].max())
 
 # %% Picture
 picture(__file__, "damping of the wall [N s/m]", ("K [N/m]", {
-    "no hand gets energy": (dampings, passive),
-    "nobody holds it": (dampings, [stable_stiffness(1000, 0, B) for B in dampings])}))
+    "passive": (dampings, passive),
+    "stable": (dampings, [stable_stiffness(1000, 0, B) for B in dampings])}))

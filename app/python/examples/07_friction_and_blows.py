@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Friction and impact: when does a block slide, and which balls move?  Lesson 7, from Python.
 
-Write down before you run: a block on 30 degrees, does it stay at rest with friction 0.577, and with 0.578? One ball hits two
-that are at rest and touch: what happens?
+Write down before you run: a block on 30 degrees, does it stay at rest with friction 0.577, and with 0.578? One ball
+hits two that are at rest and touch: what happens?
 """
 import numpy as np
 import twinarm
