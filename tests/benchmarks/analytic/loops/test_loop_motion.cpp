@@ -1,5 +1,5 @@
-// Motions with closed loops: group D of docs/reference/verification_cases.md, orders, energy, and what every step
-// promises.
+// Motions with closed loops: group D of docs/reference/verification_cases.md, orders, energy, and
+// what every step promises.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -178,7 +178,7 @@ TEST_CASE("loops: a slightly open start is assembled; one that cannot be closed 
   } catch (const InputError& e) {
     what = e.what();
   }
-  CHECK(what.find("loop 'wrist': it is open by ") == 0);
+  CHECK(what.find("loop 'wrist': position error is ") == 0);
 }
 
 TEST_CASE("loops: a state that opens a loop is refused, and the run goes on where it was") {
