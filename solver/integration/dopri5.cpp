@@ -21,7 +21,7 @@ double largest(double a, double b) {
 
 Dopri5::Dopri5(const IntegrationState& m)
     : rk_(m.model.nv),
-      margin_(m.dynamics.families().size()),
+      margin_(m.dynamics.groups().size()),
       size_(m.model.nv),
       size_new_(m.model.nv) {}
 
