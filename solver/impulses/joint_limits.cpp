@@ -21,7 +21,7 @@ void JointLimits::add(int body, double lower, double upper) {
   rows_.reserve(2 * limits_.size());
 }
 
-// Limits within reach at twice the current speed plus an acceleration of 2e4 rad/s^2.
+// Limits within reach at twice the current speed plus an acceleration of 1e4 rad/s^2 or m/s^2.
 void JointLimits::begin_step(const Kinematics&, const State<double>& x, double h) noexcept {
   rows_.clear();
   for (std::size_t i = 0; i < limits_.size(); ++i) {

@@ -26,7 +26,7 @@ struct PrescribedMotion {
   Vector3 angular_velocity = Vector3::Zero();      // [rad/s]
   Vector3 angular_acceleration = Vector3::Zero();  // [rad/s^2]
 };
-// Must not throw. Steps allocate if it does.
+// Must not throw. If it allocates, so do steps.
 using MotionFunction = std::function<PrescribedMotion(double t)>;
 
 // Writes pose, velocity and acceleration of the prescribed joint of `body` to x.
