@@ -14,7 +14,7 @@
 
 namespace twinarm {
 
-// Time discretization of a spring-damper in a step of size h (docs/understand/couplings.md).
+// Time discretization of a spring-damper in a step of size h (docs/understand/coupling_laws.md).
 enum class Discretization {
   explicit_,      // force at the start of the step
   semi_implicit,  // spring at the start, damper at the end: m* = h b
