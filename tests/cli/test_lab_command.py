@@ -270,7 +270,7 @@ class LabLanes(ProgramTest):
         self.assertTrue(state["playing"])
         self.assertIn("1e8 stopped at", " ".join(n["text"] for n in state["notes"]))
         self.live.do("set", changes=["coupling[0].stiffness=7"])
-        self.state(lambda s: "lanes differ" in " ".join(n["text"] for n in s["notes"]))
+        self.state(lambda s: "varied between the variants" in " ".join(n["text"] for n in s["notes"]))
         # Stable with damping, from a time before it diverged.
         self.live.do("look", at=0.0)
         self.state(lambda s: s["at"] == 0 and s["lanes"]["stopped"] == [None] * 3)

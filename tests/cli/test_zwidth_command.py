@@ -82,7 +82,7 @@ class Zwidth(unittest.TestCase):
 
     def test_the_picture_is_drawn_with_labels(self):
         answer()
-        self.assertIn("walls that a hand device can render", ANSWERS["svg"])
+        self.assertIn("Virtual walls of a haptic device", ANSWERS["svg"])
         self.assertIn("Colgate", ANSWERS["svg"])
 
 
