@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "app/diagnose/post_mortem.h"
-#include "tests/app/lab/parameters/knob_scenes.h"
+#include "tests/app/lab/parameters/parameter_scenes.h"
 
 using namespace twinarm;
 

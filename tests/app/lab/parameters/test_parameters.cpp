@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "tests/app/lab/parameters/knob_scenes.h"
+#include "tests/app/lab/parameters/parameter_scenes.h"
 #include "tests/collision/import/robot/helpers.h"
 
 using namespace twinarm;

@@ -1,7 +1,7 @@
 // The acceleration of a body's origin in the lab's inspector: classical, not spatial.
 #include <doctest/doctest.h>
 
-#include "tests/app/lab/inspector/glass_messages.h"
+#include "tests/app/lab/inspector/inspection_messages.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;

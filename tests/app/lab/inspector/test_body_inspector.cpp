@@ -8,7 +8,7 @@
 #include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/lab/run/lab_run.h"
-#include "tests/app/lab/inspector/glass_messages.h"
+#include "tests/app/lab/inspector/inspection_messages.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
