@@ -54,14 +54,14 @@ MatrixXd exponential(const MatrixXd& A) {
 
 }  // namespace
 
-MultiJointTrackingError::MultiJointTrackingError(ChainFollower follower)
-    : follower_(std::move(follower)) {
-  const SpringModes modes = spring_modes(follower_.M, follower_.K, follower_.B);
+MultiJointTrackingError::MultiJointTrackingError(ChainDynamics dynamics)
+    : chain_(std::move(dynamics)) {
+  const SpringModes modes = spring_modes(chain_.M, chain_.K, chain_.B);
   shapes_ = modes.shapes;
   damping_ = modes.damping;
   squares_ = modes.squares;
   // e_j is determined by the modes if row j of their projection is a unit row.
-  const MatrixXd spanned = shapes_ * shapes_.transpose() * follower_.M;
+  const MatrixXd spanned = shapes_ * shapes_.transpose() * chain_.M;
   for (Index j = 0; j < spanned.rows(); ++j) {
     VectorXd rest = spanned.row(j);
     rest[j] -= 1;
@@ -83,7 +83,7 @@ VectorXd MultiJointTrackingError::restrict_to_held(VectorXd by_joint, double oth
 VectorXd MultiJointTrackingError::behind(MotionProfile move, const VectorXd& distance,
                                          double time) const {
   const double end = time + (slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
-  return peaks(pieces_of(move, 1, time), distance, VectorXd::Zero(distance.size()), end,
+  return peaks(segments_of(move, 1, time), distance, VectorXd::Zero(distance.size()), end,
                std::numbers::pi / time);
 }
 
@@ -98,7 +98,7 @@ VectorXd MultiJointTrackingError::after_reversal(const VectorXd& v, double time)
 }
 
 VectorXd MultiJointTrackingError::lag(const VectorXd& v) const {
-  const VectorXd load = shapes_.transpose() * (follower_.absolute * restrict_to_held(v, 0));
+  const VectorXd load = shapes_.transpose() * (chain_.absolute * restrict_to_held(v, 0));
   VectorXd y = VectorXd::Zero(load.size());
   for (Index i = 0; i < y.size(); ++i)
     if (std::abs(load[i]) > 1e-10 * load.cwiseAbs().maxCoeff())
@@ -114,12 +114,12 @@ VectorXd MultiJointTrackingError::peaks(const std::vector<ProfileSegment>& piece
   const Index m = squares_.size();
   if (m == 0 || squares_.minCoeff() < 0) return VectorXd::Constant(along.size(), kNone);
   const VectorXd D = restrict_to_held(along, 0);
-  const VectorXd by_a = shapes_.transpose() * (follower_.M * D);
-  const VectorXd by_v = shapes_.transpose() * (follower_.absolute * D);
+  const VectorXd by_a = shapes_.transpose() * (chain_.M * D);
+  const VectorXd by_v = shapes_.transpose() * (chain_.absolute * D);
   const double samples =
       std::clamp(kPerPeriod * end * fastest_ / (2 * std::numbers::pi), kMin, kMax);
   VectorXd z = VectorXd::Zero(2 * m + kTerms), peak = VectorXd::Zero(along.size());
-  z.head(m) = shapes_.transpose() * (follower_.M * restrict_to_held(e, 0));
+  z.head(m) = shapes_.transpose() * (chain_.M * restrict_to_held(e, 0));
   MatrixXd A = MatrixXd::Zero(z.size(), z.size());
   A.block(0, m, m, m).setIdentity();
   A.block(m, 0, m, m).diagonal() = -squares_;

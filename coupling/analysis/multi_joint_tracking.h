@@ -16,7 +16,7 @@
 
 namespace twinarm {
 
-struct ChainFollower {
+struct ChainDynamics {
   Eigen::MatrixXd M, K, B;
   Eigen::MatrixXd absolute;  // A
 };
@@ -25,7 +25,7 @@ struct ChainFollower {
 // unstable.
 class MultiJointTrackingError {
  public:
-  explicit MultiJointTrackingError(ChainFollower follower);
+  explicit MultiJointTrackingError(ChainDynamics dynamics);
   // Whether springs or dampers determine the joint.
   bool is_held(Eigen::Index joint) const { return held_[static_cast<std::size_t>(joint)]; }
   // For a target that moves by `distance` in `time` [s], all joints simultaneously, from rest.
@@ -42,7 +42,7 @@ class MultiJointTrackingError {
                         const Eigen::VectorXd& e, double end, double W) const;
   Eigen::VectorXd restrict_to_held(Eigen::VectorXd by_joint, double others) const;
 
-  ChainFollower follower_;
+  ChainDynamics chain_;
   Eigen::MatrixXd shapes_, damping_;
   Eigen::VectorXd squares_;
   std::vector<bool> held_;

@@ -137,7 +137,7 @@ const char* name_of(MotionProfile move) {
   return names[static_cast<std::size_t>(move)];
 }
 
-std::vector<ProfileSegment> pieces_of(MotionProfile move, double D, double T) {
+std::vector<ProfileSegment> segments_of(MotionProfile move, double D, double T) {
   const double v = D / T, a = v / T, j = a / T, s = j / T, c = s / T;  // by powers of 1/T
   const double W = std::numbers::pi / T;
   std::vector<ProfileSegment> pieces;
@@ -165,7 +165,7 @@ std::vector<ProfileSegment> pieces_of(MotionProfile move, double D, double T) {
 FollowingError::FollowingError(MotionProfile move, double D, double T, double omega, double zeta,
                                Damper damper)
     : time_(T), omega_(omega), zeta_(zeta), W_(std::numbers::pi / T), damper_(damper) {
-  for (const ProfileSegment& piece : pieces_of(move, D, T)) add_piece(piece);
+  for (const ProfileSegment& piece : segments_of(move, D, T)) add_piece(piece);
   solve();
 }
 

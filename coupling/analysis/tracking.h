@@ -110,7 +110,7 @@ struct ProfileSegment {
   double start = 0, jump = 0;  // time, and velocity step of the target at it
   Series acceleration, velocity;
 };
-std::vector<ProfileSegment> pieces_of(MotionProfile move, double distance, double time);
+std::vector<ProfileSegment> segments_of(MotionProfile move, double distance, double time);
 
 // Closed-form error for such a profile, from rest with e = 0.
 class FollowingError {

@@ -56,21 +56,21 @@ template <class S>
 void load_spring(BatchWork<S>& work, std::size_t s, std::size_t lane, const BatchSpring& spring,
                  const BatchCell::Gains& gains, double h, const Vec3<double>& p,
                  Inertia<double>& effective) {
-  LaneSpring<S>& pull = work.springs[s];
+  LaneSpring<S>& lane_spring = work.springs[s];
   const double position_lead = spring.treatment == Discretization::implicit ? h : 0;
   const double m = m_star(spring.treatment, h, gains);
-  set_lane(pull.k, lane, gains.k);
-  set_lane(pull.b, lane, gains.b);
-  set_lane(pull.kb, lane, gains.k * position_lead + gains.b);
-  set_lane(pull.b_seen, lane, spring.absolute_damper ? 0 : gains.b);
-  set_lane(pull.m_star, lane, m);
-  set_lane(pull.p_B, lane, p);
-  set_lane(pull.kp, lane, gains.k * p);
-  if (pull.kind == SpringKind::joint) {
-    S& armature = work.forces.armature[pull.iv];
+  set_lane(lane_spring.k, lane, gains.k);
+  set_lane(lane_spring.b, lane, gains.b);
+  set_lane(lane_spring.kb, lane, gains.k * position_lead + gains.b);
+  set_lane(lane_spring.b_seen, lane, spring.absolute_damper ? 0 : gains.b);
+  set_lane(lane_spring.m_star, lane, m);
+  set_lane(lane_spring.p_B, lane, p);
+  set_lane(lane_spring.kp, lane, gains.k * p);
+  if (lane_spring.kind == SpringKind::joint) {
+    S& armature = work.forces.armature[lane_spring.iv];
     set_lane(armature, lane, lane_of(armature, lane) + m);
   } else {
-    add_congruence(Transform<double>{}, added_inertia(pull.kind, m, p), effective);
+    add_congruence(Transform<double>{}, added_inertia(lane_spring.kind, m, p), effective);
   }
 }
 

@@ -138,10 +138,11 @@ class LaneLoader {
   }
   // Stops the lane at the start state, without springs.
   void park(std::size_t lane) {
-    for (LaneSpring<S>& pull : work_.springs) {
-      for (S* gain : {&pull.k, &pull.b, &pull.kb, &pull.b_seen, &pull.m_star})
+    for (LaneSpring<S>& lane_spring : work_.springs) {
+      for (S* gain : {&lane_spring.k, &lane_spring.b, &lane_spring.kb, &lane_spring.b_seen,
+                      &lane_spring.m_star})
         set_lane(*gain, lane, 0);
-      set_lane(pull.kp, lane, Vec3<double>{});
+      set_lane(lane_spring.kp, lane, Vec3<double>{});
     }
     for (S& armature : work_.forces.armature) set_lane(armature, lane, 0);
     for (std::size_t i = 0; i < inertias_[lane].size(); ++i)
@@ -169,24 +170,25 @@ class LaneLoader {
     for (std::size_t s = 0; s < setup_.springs.size(); ++s) {
       const BatchSpring& spring = setup_.springs[s];
       const auto body = static_cast<std::size_t>(spring.body);
-      LaneSpring<S> pull;
-      pull.kind = kind_of(spring);
-      pull.body = merged_.carrier[body];
-      pull.iq = setup_.model->iq[body];
-      pull.iv = setup_.model->iv[body];
-      pull.motion = motion.places[s].motion;
-      pull.energy = motion.places[s].energy;
-      pull.time = time_of(spring.treatment);
-      work_.springs.push_back(pull);
-      const bool at_joint = pull.kind == SpringKind::joint;
+      LaneSpring<S> lane_spring;
+      lane_spring.kind = kind_of(spring);
+      lane_spring.body = merged_.carrier[body];
+      lane_spring.iq = setup_.model->iq[body];
+      lane_spring.iv = setup_.model->iv[body];
+      lane_spring.motion = motion.places[s].motion;
+      lane_spring.energy = motion.places[s].energy;
+      lane_spring.time = time_of(spring.treatment);
+      work_.springs.push_back(lane_spring);
+      const bool at_joint = lane_spring.kind == SpringKind::joint;
       work_.has_joint_springs |= at_joint;
-      for (std::size_t i = at_joint ? 0 : pull.body; i > 0; i = parent_of(i)) choose_frame(i);
-      const bool planar = work_.frames[pull.body] == Frame::planar;
+      for (std::size_t i = at_joint ? 0 : lane_spring.body; i > 0; i = parent_of(i))
+        choose_frame(i);
+      const bool planar = work_.frames[lane_spring.body] == Frame::planar;
       work_.needs_rotations |= !at_joint;
-      work_.needs_origins |= pull.kind == SpringKind::linear;
-      work_.needs_bias |=
-          spring.treatment != Discretization::explicit_ &&
-          (pull.kind == SpringKind::linear || (pull.kind == SpringKind::world && !planar));
+      work_.needs_origins |= lane_spring.kind == SpringKind::linear;
+      work_.needs_bias |= spring.treatment != Discretization::explicit_ &&
+                          (lane_spring.kind == SpringKind::linear ||
+                           (lane_spring.kind == SpringKind::world && !planar));
     }
   }
   std::size_t parent_of(std::size_t i) const {

@@ -35,7 +35,7 @@ class DeviceMotion final : public OperatorMotion {
   // At rest before the first step and after the newest one.
   HandSample sample(double t, double toward) const override;
   double duration() const override;  // to the end of the newest step [s]
-  std::string description() const override { return "a hand device"; }
+  std::string description() const override { return "an input device"; }
 
  private:
   const HandStep& at(std::size_t n) const { return steps_[n % steps_.size()]; }

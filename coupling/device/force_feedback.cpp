@@ -19,10 +19,11 @@ void CouplingReaction::add(const CouplingSpec& spec, const Coupling& coupling) {
   const CouplingFacts& facts = facts_of(spec.type, spec.printed);
   const Kind kind = facts.acts_at_joint(spec.measure) ? Kind::joint
                     : facts.at_point                  ? Kind::point
-                                                      : Kind::turn;
+                                                      : Kind::orientation;
   const std::size_t n = coupling.springs().size();
   for (std::size_t r = 0; r < coupling.readings().size(); ++r)  // forces, then torques
-    parts_.push_back({&coupling, r, r % n, r < n ? kind : Kind::turn, Vector3::Zero(), false});
+    parts_.push_back(
+        {&coupling, r, r % n, r < n ? kind : Kind::orientation, Vector3::Zero(), false});
 }
 
 Vector3 CouplingReaction::velocity_of(const Part& part, const State<double>& x,
@@ -32,7 +33,7 @@ Vector3 CouplingReaction::velocity_of(const Part& part, const State<double>& x,
   switch (part.kind) {
     case Kind::point:
       return D.velocity(spring.body, D.position(spring.body, spring.p_L));
-    case Kind::turn:
+    case Kind::orientation:
       return D.w_WL[i];
     case Kind::joint:
       break;
@@ -50,13 +51,13 @@ void CouplingReaction::add_reaction(const Part& part, const Vector3& force, doub
     return;
   }
   const Vector3& p = part.coupling->readings()[part.reading].p_K;
-  for_each_dof_below(model_, K, spring.body,
-                     [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
-                       if (driven_.joint[dof] < 0) return;
-                       const Vector3 J = part.kind == Kind::turn ? w : Vector3(v + w.cross(p - o));
-                       tau_[static_cast<std::size_t>(driven_.joint[dof])] -=
-                           driven_.ratio[dof] * J.dot(force);
-                     });
+  for_each_dof_below(
+      model_, K, spring.body,
+      [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+        if (driven_.joint[dof] < 0) return;
+        const Vector3 J = part.kind == Kind::orientation ? w : Vector3(v + w.cross(p - o));
+        tau_[static_cast<std::size_t>(driven_.joint[dof])] -= driven_.ratio[dof] * J.dot(force);
+      });
 }
 
 const std::vector<double>& CouplingReaction::after_step(const TargetSample& kvr,

@@ -27,7 +27,7 @@ class CouplingReaction {
                                         const Kinematics& D, double h) noexcept;
 
  private:
-  enum class Kind { point, turn, joint };
+  enum class Kind { point, orientation, joint };
   struct Part {  // a spring state of a coupling
     const Coupling* coupling;
     std::size_t reading, spring;

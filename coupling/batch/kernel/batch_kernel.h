@@ -28,19 +28,20 @@ struct SpringEnds {
   Vec3<S> offset, v_D, v_before, v_after;  // of the target before and after the jump
 };
 template <class S>
-SpringEnds<S> spring_ends(const BatchWork<S>& b, const LaneSpring<S>& pull, const double* row) {
-  if (pull.kind == SpringKind::joint)
-    return {{S(row[0]) - b.x.q[pull.iq], S(0), S(0)},
-            {b.x.qd[pull.iv], S(0), S(0)},
+SpringEnds<S> spring_ends(const BatchWork<S>& b, const LaneSpring<S>& lane_spring,
+                          const double* row) {
+  if (lane_spring.kind == SpringKind::joint)
+    return {{S(row[0]) - b.x.q[lane_spring.iq], S(0), S(0)},
+            {b.x.qd[lane_spring.iv], S(0), S(0)},
             {S(row[1]), S(0), S(0)},
             {S(row[2]), S(0), S(0)}};
-  const Mat3<S>& E = b.E[pull.body];
-  const Motion<S>& v = b.w.v[pull.body];
-  const std::size_t velocity = pull.kind == SpringKind::world ? 9 : 3;
+  const Mat3<S>& E = b.E[lane_spring.body];
+  const Motion<S>& v = b.w.v[lane_spring.body];
+  const std::size_t velocity = lane_spring.kind == SpringKind::world ? 9 : 3;
   const Vec3<S> before = E * spread3<S>(row + velocity), after = E * spread3<S>(row + velocity + 3);
-  if (pull.kind == SpringKind::linear)
-    return {E * (spread3<S>(row) - b.o[pull.body]) - pull.p_B, plus_cross(v.v, v.w, pull.p_B),
-            before, after};
+  if (lane_spring.kind == SpringKind::linear)
+    return {E * (spread3<S>(row) - b.o[lane_spring.body]) - lane_spring.p_B,
+            plus_cross(v.v, v.w, lane_spring.p_B), before, after};
   return {rotation_between(E, row), v.w, before, after};
 }
 
@@ -51,14 +52,14 @@ TWINARM_KERNEL void add_work_at_jump(BatchWork<S>& b, std::size_t n) {
   const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
   S hand_before = b.hand_work, hand_after(0), held(0);
   b.dissipated_work = b.dissipated_work + (before + after) * b.dissipated_power;  // in the joints
-  for (const LaneSpring<S>& pull : b.springs) {
-    const SpringEnds<S> e = spring_ends(b, pull, row + pull.energy);
-    const SpringPowers<S> was(pull, e.offset, e.v_D, e.v_before),
-        is(pull, e.offset, e.v_D, e.v_after);
+  for (const LaneSpring<S>& lane_spring : b.springs) {
+    const SpringEnds<S> e = spring_ends(b, lane_spring, row + lane_spring.energy);
+    const SpringPowers<S> was(lane_spring, e.offset, e.v_D, e.v_before),
+        is(lane_spring, e.offset, e.v_D, e.v_after);
     b.dissipated_work = b.dissipated_work + before * was.dissipated + after * is.dissipated;
     hand_before = hand_before + before * was.operator_;
     hand_after = hand_after + after * is.operator_;
-    held = held + S(0.5) * pull.k * dot(e.offset, e.offset);
+    held = held + S(0.5) * lane_spring.k * dot(e.offset, e.offset);
   }
   b.hand_work_least = select(hand_before < b.hand_work_least, hand_before, b.hand_work_least);
   b.hand_work = hand_before + hand_after;
@@ -70,12 +71,12 @@ TWINARM_KERNEL void add_work_at_jump(BatchWork<S>& b, std::size_t n) {
 template <class S>
 TWINARM_KERNEL void add_work(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
-  for (const LaneSpring<S>& pull : b.springs) {
-    if (pull.kind != SpringKind::joint) continue;
-    const double* target = row + pull.energy;
-    const S e = S(target[0]) - b.x.q[pull.iq], v_K(target[2]);
-    const S& v_D = b.x.qd[pull.iv];
-    add(b, SpringPowers<S>(pull, e * v_K, v_D * v_K, v_K * v_K, v_D * v_D));
+  for (const LaneSpring<S>& lane_spring : b.springs) {
+    if (lane_spring.kind != SpringKind::joint) continue;
+    const double* target = row + lane_spring.energy;
+    const S e = S(target[0]) - b.x.q[lane_spring.iq], v_K(target[2]);
+    const S& v_D = b.x.qd[lane_spring.iv];
+    add(b, SpringPowers<S>(lane_spring, e * v_K, v_D * v_K, v_K * v_K, v_D * v_D));
   }
   b.dissipated_work = b.dissipated_work + b.h * b.dissipated_power;
   const S half = S(0.5) * b.h * b.operator_power, before = b.hand_work + half;
@@ -104,9 +105,9 @@ struct LaneSprings {
     if (b.needs_bias) update_bias(b);
     const bool smooth = b.has_energy && b.is_velocity_jump[n] == 0;
     if (b.has_energy) start_powers(b);
-    for (const LaneSpring<S>& pull : b.springs)
-      apply_spring(b, pull, row + pull.motion,
-                   smooth ? b.energy + n * b.energy_stride + pull.energy : nullptr);
+    for (const LaneSpring<S>& lane_spring : b.springs)
+      apply_spring(b, lane_spring, row + lane_spring.motion,
+                   smooth ? b.energy + n * b.energy_stride + lane_spring.energy : nullptr);
     if (smooth)
       add_work(b, n);
     else if (b.has_energy)

@@ -26,14 +26,15 @@ Vec3<S> spread3(const double* a) {
 template <class S>
 struct SpringPowers {
   S operator_, dissipated;
-  SpringPowers(const LaneSpring<S>& pull, const S& e_vK, const S& vD_vK, const S& vK_vK,
+  SpringPowers(const LaneSpring<S>& lane_spring, const S& e_vK, const S& vD_vK, const S& vK_vK,
                const S& vD_vD) {
     const S across = vK_vK - vD_vK;
-    operator_ = pull.k * e_vK + pull.b_seen * across;
-    dissipated = pull.b * vD_vD + pull.b_seen * (across - vD_vK);
+    operator_ = lane_spring.k * e_vK + lane_spring.b_seen * across;
+    dissipated = lane_spring.b * vD_vD + lane_spring.b_seen * (across - vD_vK);
   }
-  SpringPowers(const LaneSpring<S>& pull, const Vec3<S>& e, const Vec3<S>& v_D, const Vec3<S>& v_K)
-      : SpringPowers(pull, dot(e, v_K), dot(v_D, v_K), dot(v_K, v_K), dot(v_D, v_D)) {}
+  SpringPowers(const LaneSpring<S>& lane_spring, const Vec3<S>& e, const Vec3<S>& v_D,
+               const Vec3<S>& v_K)
+      : SpringPowers(lane_spring, dot(e, v_K), dot(v_D, v_K), dot(v_K, v_K), dot(v_D, v_D)) {}
 };
 template <class S>
 void add(BatchWork<S>& b, const SpringPowers<S>& powers) {
@@ -61,65 +62,66 @@ S rotation_between(const RotationAboutZ<S>& D, const double* E_K) {
 
 // `energy`: the spring's row in the energy table, or null.
 template <class S>
-TWINARM_KERNEL void apply_world(BatchWork<S>& b, const LaneSpring<S>& pull, const double* row,
-                                const double* energy) {
-  const Mat3<S>& E = b.E[pull.body];
+TWINARM_KERNEL void apply_world(BatchWork<S>& b, const LaneSpring<S>& lane_spring,
+                                const double* row, const double* energy) {
+  const Mat3<S>& E = b.E[lane_spring.body];
   Vec3<S> phi = rotation_between(E, row), w_K = E * spread3<S>(row + 9);
-  const Vec3<S> w_D = b.w.v[pull.body].w;
-  Vec3<S> n = pull.k * phi + pull.b_seen * w_K - pull.kb * w_D;
-  if (b.needs_bias) n += pull.m_star * b.a_bias[pull.body].w;
-  b.w.pA[pull.body].n += -n;
+  const Vec3<S> w_D = b.w.v[lane_spring.body].w;
+  Vec3<S> n = lane_spring.k * phi + lane_spring.b_seen * w_K - lane_spring.kb * w_D;
+  if (b.needs_bias) n += lane_spring.m_star * b.a_bias[lane_spring.body].w;
+  b.w.pA[lane_spring.body].n += -n;
   if (!energy) return;
-  if (pull.time == SpringTime::end) phi = rotation_between(E, energy);
-  if (pull.time != SpringTime::start) w_K = E * spread3<S>(energy + 9);
-  add(b, SpringPowers<S>(pull, dot(phi, w_K), dot(w_D, w_K), S(energy[15]), dot(w_D, w_D)));
+  if (lane_spring.time == SpringTime::end) phi = rotation_between(E, energy);
+  if (lane_spring.time != SpringTime::start) w_K = E * spread3<S>(energy + 9);
+  add(b, SpringPowers<S>(lane_spring, dot(phi, w_K), dot(w_D, w_K), S(energy[15]), dot(w_D, w_D)));
 }
 
 // Planar body: no angular bias acceleration.
 template <class S>
-TWINARM_KERNEL void apply_planar(BatchWork<S>& b, const LaneSpring<S>& pull, const double* row,
-                                 const double* energy) {
-  const RotationAboutZ<S> E(b.E[pull.body]);
-  const S &w_D = b.w.v[pull.body].w.z, w_K(row[11]);
+TWINARM_KERNEL void apply_planar(BatchWork<S>& b, const LaneSpring<S>& lane_spring,
+                                 const double* row, const double* energy) {
+  const RotationAboutZ<S> E(b.E[lane_spring.body]);
+  const S &w_D = b.w.v[lane_spring.body].w.z, w_K(row[11]);
   S phi = rotation_between(E, row);
-  S& n = b.w.pA[pull.body].n.z;
-  n = n - (pull.k * phi + pull.b_seen * w_K - pull.kb * w_D);
+  S& n = b.w.pA[lane_spring.body].n.z;
+  n = n - (lane_spring.k * phi + lane_spring.b_seen * w_K - lane_spring.kb * w_D);
   if (!energy) return;
-  if (pull.time == SpringTime::end) phi = rotation_between(E, energy);
+  if (lane_spring.time == SpringTime::end) phi = rotation_between(E, energy);
   const S w(energy[11]);
-  add(b, SpringPowers<S>(pull, phi * w, w_D * w, S(energy[15]), w_D * w_D));
+  add(b, SpringPowers<S>(lane_spring, phi * w, w_D * w, S(energy[15]), w_D * w_D));
 }
 
 // Rotation: Mat3 or RotationAboutZ.
 template <class S, class Rotation>
-TWINARM_KERNEL void apply_linear(BatchWork<S>& b, const LaneSpring<S>& pull, const Rotation& E,
-                                 const double* row, const double* energy) {
-  const Motion<S>& v = b.w.v[pull.body];
-  const Vec3<S>&p = pull.p_B, &o = b.o[pull.body];
+TWINARM_KERNEL void apply_linear(BatchWork<S>& b, const LaneSpring<S>& lane_spring,
+                                 const Rotation& E, const double* row, const double* energy) {
+  const Motion<S>& v = b.w.v[lane_spring.body];
+  const Vec3<S>&p = lane_spring.p_B, &o = b.o[lane_spring.body];
   const Vec3<S> v_D = plus_cross(v.v, v.w, p);
-  const Vec3<S> force_W = pull.k * (spread3<S>(row) - o) + pull.b_seen * spread3<S>(row + 3);
-  Vec3<S> f = E * force_W - pull.kp - pull.kb * v_D;
-  if (b.needs_bias) f += pull.m_star * bias_at(p, E, b.a_bias[pull.body]);
-  Force<S>& pA = b.w.pA[pull.body];
+  const Vec3<S> force_W =
+      lane_spring.k * (spread3<S>(row) - o) + lane_spring.b_seen * spread3<S>(row + 3);
+  Vec3<S> f = E * force_W - lane_spring.kp - lane_spring.kb * v_D;
+  if (b.needs_bias) f += lane_spring.m_star * bias_at(p, E, b.a_bias[lane_spring.body]);
+  Force<S>& pA = b.w.pA[lane_spring.body];
   pA.n = minus_cross(pA.n, p, f);
   pA.f = pA.f - f;
   if (!energy) return;
   const Vec3<S> v_W = spread3<S>(energy + 3), v_K = E * v_W;  // e v_K; p_K v_K is in the table
   const S e_vK = S(energy[9]) - dot(o, v_W) - dot(p, v_K);
-  add(b, SpringPowers<S>(pull, e_vK, dot(v_D, v_K), S(energy[10]), dot(v_D, v_D)));
+  add(b, SpringPowers<S>(lane_spring, e_vK, dot(v_D, v_K), S(energy[10]), dot(v_D, v_D)));
 }
 
 template <class S>
-void apply_spring(BatchWork<S>& b, const LaneSpring<S>& pull, const double* row,
+void apply_spring(BatchWork<S>& b, const LaneSpring<S>& lane_spring, const double* row,
                   const double* energy) {
-  const bool planar = b.frames[pull.body] == Frame::planar;
-  if (pull.kind == SpringKind::world && planar) apply_planar(b, pull, row, energy);
-  if (pull.kind == SpringKind::world && !planar) apply_world(b, pull, row, energy);
-  if (pull.kind != SpringKind::linear) return;
+  const bool planar = b.frames[lane_spring.body] == Frame::planar;
+  if (lane_spring.kind == SpringKind::world && planar) apply_planar(b, lane_spring, row, energy);
+  if (lane_spring.kind == SpringKind::world && !planar) apply_world(b, lane_spring, row, energy);
+  if (lane_spring.kind != SpringKind::linear) return;
   if (planar)
-    apply_linear(b, pull, RotationAboutZ<S>(b.E[pull.body]), row, energy);
+    apply_linear(b, lane_spring, RotationAboutZ<S>(b.E[lane_spring.body]), row, energy);
   else
-    apply_linear(b, pull, b.E[pull.body], row, energy);
+    apply_linear(b, lane_spring, b.E[lane_spring.body], row, energy);
 }
 
 // Joint springs, and joint damping.
@@ -127,12 +129,12 @@ template <class S>
 TWINARM_KERNEL void apply_joint_springs(BatchWork<S>& b, const double* row) {
   for (std::size_t d = 0; d < b.x.qd.size(); ++d)
     b.forces.tau[d] = -(b.model.damping[d] * b.x.qd[d]);
-  for (const LaneSpring<S>& pull : b.springs) {
-    if (pull.kind != SpringKind::joint) continue;
-    const double* target = row + pull.motion;
-    S& tau = b.forces.tau[pull.iv];
-    tau = tau + pull.k * (S(target[0]) - b.x.q[pull.iq]) + pull.b_seen * S(target[1]) -
-          pull.kb * b.x.qd[pull.iv];
+  for (const LaneSpring<S>& lane_spring : b.springs) {
+    if (lane_spring.kind != SpringKind::joint) continue;
+    const double* target = row + lane_spring.motion;
+    S& tau = b.forces.tau[lane_spring.iv];
+    tau = tau + lane_spring.k * (S(target[0]) - b.x.q[lane_spring.iq]) +
+          lane_spring.b_seen * S(target[1]) - lane_spring.kb * b.x.qd[lane_spring.iv];
   }
 }
 

@@ -24,7 +24,8 @@ constexpr double r = 0.05;
 
 // At rest the speculative margin is 0.5 mm. Before detection was repeated after an impact, the
 // sphere ended 5 mm deep in the wall.
-TEST_CASE("a sphere at rest that is hit by another does not enter the wall behind it, near or far") {
+TEST_CASE(
+    "a sphere at rest that is hit by another does not enter the wall behind it, near or far") {
   for (const double e : {0.0, 0.3, 1.0})
     for (const double gap : {1e-3, 4e-3, 9e-3, 17e-3}) {
       CAPTURE(e);

@@ -31,7 +31,8 @@ double deepest_on_the_way(const Model<double>& model, double friction, double sp
   const State<double> start = state_of(model, {q1, q2}, {w1, w2});
   Coupled system(model, hand, {"joint1", "joint2"}, spec, start);
   system.simulation.add(contact);
-  if (contact.deepest(system.simulation.kinematics()) > 0) return 0;  // initial penetration: not a case
+  if (contact.deepest(system.simulation.kinematics()) > 0)
+    return 0;  // initial penetration: not a case
   double deepest = 0;
   for (int n = 0; n < static_cast<int>(3200 / speed); ++n) {
     system.simulation.step(1e-3);
@@ -42,8 +43,7 @@ double deepest_on_the_way(const Model<double>& model, double friction, double sp
 
 }  // namespace
 
-TEST_CASE(
-    "a fast arm that hits a post with friction penetrates by less than a millimetre") {
+TEST_CASE("a fast arm that hits a post with friction penetrates by less than a millimetre") {
   const Model<double> model = TwoLink{5, 3, 0.25, 0.35}.model();
   double worst = 0;
   for (double speed : {3.0, 6.0, 12.0})

@@ -68,7 +68,7 @@ Vector2d run_peaks(const Model<double>& model, const CouplingSpec& spec, const B
   return peaks;
 }
 
-ChainFollower follower_of(const Model<double>& model, const CouplingSpec& spec, bool absolute) {
+ChainDynamics dynamics_of(const Model<double>& model, const CouplingSpec& spec, bool absolute) {
   Coupled system(model, {}, {}, spec, State<double>(model));
   const Coupling::JointSpace space = system.coupling->joint_space(system.simulation.kinematics());
   const MatrixXd none = MatrixXd::Zero(2, 2);
@@ -96,7 +96,7 @@ TEST_CASE(
       const auto springs =
           points ? arm.springs(22000, 400, 9000, 100) : arm.springs(600, 9, 200, 2);
       const CouplingSpec spec = points ? linear(springs) : torsional(springs, SpringSpace::world);
-      const MultiJointTrackingError predicted(follower_of(model, spec, absolute));
+      const MultiJointTrackingError predicted(dynamics_of(model, spec, absolute));
       const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_hand;
       check_near(predicted.behind(MotionProfile::quintic, D, kMoveTime),
                  run_peaks(model, spec, BothJoints(false, D), rates, 0, 0.6), 0.01);
@@ -112,15 +112,15 @@ TEST_CASE("a reversal from the steady state agrees with after_reversal, and K e 
   const auto springs = arm.springs(60000, 2400, 30000, 800);  // settled at the reversal
   for (const bool absolute : {false, true}) {
     CAPTURE(absolute);
-    const ChainFollower follower = follower_of(model, linear(springs), absolute);
-    const MultiJointTrackingError predicted(follower);
+    const ChainDynamics dynamics = dynamics_of(model, linear(springs), absolute);
+    const MultiJointTrackingError predicted(dynamics);
     const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_hand;
     check_near(predicted.after_reversal(v, kMoveTime),
                run_peaks(model, linear(springs), BothJoints(true, D), rates, kMoveTime - 1e-4,
                          2 * kMoveTime),
                0.01);
-    CHECK((follower.K * predicted.lag(v) - follower.absolute * v).norm() <
-          1e-9 * (1 + (follower.absolute * v).norm()));
+    CHECK((dynamics.K * predicted.lag(v) - dynamics.absolute * v).norm() <
+          1e-9 * (1 + (dynamics.absolute * v).norm()));
     CHECK((predicted.lag(v).norm() > 1e-4) == absolute);
   }
 }
@@ -161,16 +161,16 @@ TEST_CASE("a joint without coupling has no error, and does not affect the others
   const TwoLink arm;
   const Model<double> model = arm.model();
   const std::vector<Spring> inner{arm.springs(600, 9)[0]};
-  const ChainFollower follower = follower_of(model, torsional(inner, SpringSpace::joint), false);
-  const MultiJointTrackingError chain(follower);
+  const ChainDynamics dynamics = dynamics_of(model, torsional(inner, SpringSpace::joint), false);
+  const MultiJointTrackingError chain(dynamics);
   CHECK(chain.is_held(0));
   CHECK_FALSE(chain.is_held(1));
   const VectorXd v = chain.after_start(Vector2d(1, 5), 1);
   CHECK(std::isnan(v[1]));
   // The outer link is free: the inner joint has the apparent inertia 1/(M^-1)_11.
-  const double I = 1 / inverse_of(follower.M)(0, 0), omega = std::sqrt(600 / I);
+  const double I = 1 / inverse_of(dynamics.M)(0, 0), omega = std::sqrt(600 / I);
   CHECK(v[0] == doctest::Approx(peak_after_jump(1, omega, 9 / (2 * I * omega))).epsilon(1e-3));
   // Negative stiffness: unbounded.
-  const MultiJointTrackingError away({follower.M, -follower.K, follower.B, follower.absolute});
+  const MultiJointTrackingError away({dynamics.M, -dynamics.K, dynamics.B, dynamics.absolute});
   CHECK(std::isnan(away.after_start(Vector2d(1, 0), 1)[0]));
 }

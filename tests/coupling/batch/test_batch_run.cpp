@@ -162,7 +162,7 @@ TEST_CASE("each unsupported feature of a batched run is reported with a fix") {
   const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[1],
                         Discretization::implicit, false);
   const Model<double>& model = bench.model;
-  const std::string fixed = model.joint_name[5], follower = model.joint_name[2];
+  const std::string fixed = model.joint_name[5], mimic_joint = model.joint_name[2];
   REQUIRE(model.joint[5] == JointType::fixed);
   REQUIRE(batch_faults(bench.setup).empty());
   const auto only = [&](const char* where, const char* code, const auto& spoil) {
@@ -177,7 +177,7 @@ TEST_CASE("each unsupported feature of a batched run is reported with a fix") {
     CHECK(faults[0].code == code);
     CHECK_FALSE(faults[0].fix.empty());
   };
-  only(("joint '" + follower + "'").c_str(), "batch.mimic", [](BatchSetup&, Model<double>& own) {
+  only(("joint '" + mimic_joint + "'").c_str(), "batch.mimic", [](BatchSetup&, Model<double>& own) {
     own.mimics.push_back({own.iv[2], own.iv[1], own.iq[2], own.iq[1], 1, 0});
   });
   only("targets", "batch.targets", [](BatchSetup& setup, Model<double>&) {

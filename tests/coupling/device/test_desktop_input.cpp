@@ -42,7 +42,8 @@ TEST_CASE("desktop input: the stylus moves to a point, and rotates by angles") {
   CHECK(turned.theta[5] == doctest::Approx(-0.12));
 }
 
-TEST_CASE("desktop input: keys and sticks move at constant rates in the reader's time, until released") {
+TEST_CASE(
+    "desktop input: keys and sticks move at constant rates in the reader's time, until released") {
   DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(5, 6));
   hand.key(HandAxis::right, true, true);

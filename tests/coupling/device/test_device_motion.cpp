@@ -46,7 +46,7 @@ TEST_CASE("device motion: a step is extrapolated with the newest rate; without r
   CHECK(angle(1, 1.01) == 0.2);
   CHECK(angle(1.01, 1) == doctest::Approx(0.23).epsilon(1e-14));
   CHECK(rate(1, 1.01) == 3);
-  CHECK(rate(1.01, 1) == 3);  // the step's end, from inside
+  CHECK(rate(1.01, 1) == 3);     // the step's end, from inside
   CHECK(rate(1.01, 1.02) == 0);  // from a step without data
   CHECK(angle(5, 6) == doctest::Approx(0.23).epsilon(1e-14));
   CHECK(angle(0.5, 0.6) == 0.2);

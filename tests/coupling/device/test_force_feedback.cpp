@@ -198,8 +198,7 @@ TEST_CASE("the reaction of an implicit coupling is the mean force on the body") 
   }
 }
 
-TEST_CASE(
-    "the force is at most the device's peak, with the specified low-pass") {
+TEST_CASE("the force is at most the device's peak, with the specified low-pass") {
   const Pressed pressed(at_tip(40), 0.42, 20);
   TipHand hand(pressed);
   HandForceSpec spec;

@@ -108,7 +108,8 @@ TEST_CASE("step, chirp and reach agree with their formulas, one-sided at jumps")
   const ReachMotion reach(kFrom, kTo, 0.2, 0.8);
   CHECK(reach.sample(0.1, 1).theta == kFrom);
   CHECK(reach.sample(0.6, 1).theta[0] == doctest::Approx(0.05));
-  CHECK(reach.sample(0.6, 1).theta_dot[0] == doctest::Approx(1.875 * 0.7 / 0.8));  // 15/8 of the mean
+  CHECK(reach.sample(0.6, 1).theta_dot[0] ==
+        doctest::Approx(1.875 * 0.7 / 0.8));  // 15/8 of the mean
   for (std::size_t j = 0; j < 6; ++j)
     CHECK(reach.sample(1.5, 2).theta[j] == doctest::Approx(kTo[j]));
 }
