@@ -205,13 +205,11 @@ void TraceReader::measure_intervals(std::vector<double> intervals) {
   double sum = 0, count = 0;
   long gaps = 0;
   for (double interval : intervals) {
-    const double off = interval - quality.interval;
-    if (interval > kGapIntervals * quality.interval) {
+    const double deviation = interval - quality.interval;
+    if (interval > kGapIntervals * quality.interval)
       ++gaps;
-    } else {
-      sum += off * off;
-      ++count;
-    }
+    else
+      sum += deviation * deviation, ++count;
   }
   quality.jitter = std::sqrt(sum / count);
   if (gaps > 0)
