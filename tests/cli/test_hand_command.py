@@ -44,7 +44,7 @@ class Hand(ProgramTest):
     def test_each_mapping_describes_its_force(self):
         words = [self.twinarm("hand", SCENE, "--simulated", "--duration", 0.2, "--mapping", mapping, "--out",
                               self.out).stdout for mapping in ("paper", "arm", "cartesian")]
-        self.assertIn("joint 1 alone", words[0])
+        self.assertIn("joint 1 only", words[0])
         self.assertEqual(len(set(line.split("\n")[2] for line in words)), 3)
 
     def test_ctrl_c_ends_a_run_in_real_time_with_a_complete_log(self):
