@@ -1,4 +1,4 @@
-// set={"coupling.pull.stiffness": 800}: what a call changes in a scene before it is read.
+// set={"coupling.pull.stiffness": 800}: changes of a scene before it is read.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -7,9 +7,8 @@
 
 namespace twinarm::python {
 
-// Puts it into the options, whose model is named already. `set`: None, or a dict by path; values
-// are numbers, texts, flags, or lists of numbers. TypeError for others, ValueError for a robot
-// that is no scene.
+// Adds the changes to options with a model. `set`: None, or a dict by path of numbers, texts,
+// booleans or lists of numbers. TypeError for other values, ValueError if the model is not a scene.
 void change_scene(const pybind11::object& set, SimulateOptions& options);
 
 }  // namespace twinarm::python

@@ -87,7 +87,7 @@ class Predict(CouplingCommand):
         slower = self.predict(self.scene(HINGE, self.torsional(k, b)), "--turn", "90", "--time", "2")
         self.close(slower["modes"][0]["errors"]["start"], v / 4 / (math.e * w), 1e-6)
 
-    def test_a_scene_beyond_its_limit_is_warned_of_and_runs_away_at_the_limit_told(self):
+    def test_a_scene_beyond_its_limit_is_warned_of_and_diverges_at_the_predicted_limit(self):
         scene = self.scene(HINGE, self.torsional(3e5, 300, treatment="explicit"))
         limit = self.predict(scene)["scene"]["largest_step"]
         bad = self.predict(scene, "--step", str(1.02 * limit))
@@ -121,7 +121,7 @@ class Predict(CouplingCommand):
         over = self.predict(scene, state={"q": {"hinge": 2.0}})
         self.assertIn("push away", "".join(over["warnings"]))
 
-    def test_the_sag_is_torque_over_stiffness_and_what_nothing_holds_has_none(self):
+    def test_the_static_deflection_is_torque_over_stiffness_and_what_no_coupling_holds_has_none(self):
         k = 600.0
         scene = self.scene(PENDULUM, coupling(name="pull", type="torsional", measure="joint",
                                               link="bob", stiffness=k))
@@ -155,7 +155,7 @@ class Predict(CouplingCommand):
                  for i in range(4)]
         self.close(total, found["K"], 1e-9)
 
-    def test_a_robot_and_a_coupling_in_words_are_the_scene_that_says_the_same(self):
+    def test_a_robot_and_a_coupling_in_options_are_the_scene_that_says_the_same(self):
         urdf = str(self.write("test.urdf", HINGE))
         state = {"q": {"hinge": 0.4}}
         words = ("--link", "rod", "--stiffness", "400", "--damping", "3", "--point", "0.3,0,0",
@@ -170,7 +170,7 @@ class Predict(CouplingCommand):
             found["couplings"][0]["name"] = wanted["couplings"][0]["name"]
             self.assertEqual(found, wanted)
 
-    def test_the_joints_go_the_parts_of_the_move_that_are_told(self):
+    def test_the_joints_go_the_given_factors_of_the_move(self):
         found = self.predict(BESIDE, "--along", "joint1=-1,joint2=0.5")["joint_errors"]
         self.close([found["distance"][j] for j in ("joint1", "joint2", "joint3", "gripper_lift")],
                    [-math.pi, math.pi / 2, 0, 0])

@@ -103,7 +103,7 @@ class Inspect(RobotCommand):
                         "j4": [0.1, 0.2, 0.3], "j5": [1, 2, 3, 0.3, 0.2, 0.1], "j7": 0.7}}
         self.check_sums(self.answer(robot(*parts), state=state))
 
-    def test_pass_and_body_narrow_what_is_told(self):
+    def test_pass_and_body_narrow_the_output(self):
         found = self.answer(S103, "--pass", "2", "--body", "arm2")
         self.assertEqual([(p["pass"], p["body"]) for p in found["passes"]], [(2, "arm2")])
         self.assertEqual([b["body"] for b in found["balance"]], ["arm2"])

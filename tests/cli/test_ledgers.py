@@ -134,7 +134,7 @@ class Ledgers(RecordingCommand):
             self.assertGreater(abs(rows["joint/hinge/limit/stabilisation"]), 1e-3)
             self.assertNotIn("contact/stabilisation", rows)
 
-    def test_with_dormand_prince_the_ledgers_close_where_the_scene_is_smooth(self):
+    def test_with_dormand_prince_the_energy_balances_close_where_the_scene_is_smooth(self):
         for name in ("four_bar", "slider_crank"):
             found = self.balance(program.SCENES / f"{name}.toml", "--integrator",
                                  "dopri5", "--tolerance", 1e-11, "--duration", 0.5)

@@ -54,7 +54,7 @@ class Modes(RobotCommand):
         modes = self.answer(two, "--floating", "--gravity", "0,0,0")["modes"]
         self.assertEqual([m["frequency"] for m in modes], [0] * 14)
 
-    def test_a_follower_counts_through_its_ratio(self):
+    def test_a_mimic_joint_counts_through_its_ratio(self):
         # Leader and follower slide along x: (m1 + ratio^2 m2) with the leader's spring.
         both = robot('<link name="base"/>', link("a", 2, (0, 0, 0)), link("b", 3, (0, 0, 0)),
                      joint("j1", "prismatic", "base", "a", axis="1 0 0"),

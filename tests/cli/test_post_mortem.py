@@ -32,7 +32,7 @@ class Instants(RecordingCommand):
         self.assertTrue(any(w["source"].startswith("contact/")
                             for w in by_body["low"]["wrenches"]))
 
-    def test_an_instant_has_the_ledger_up_to_it(self):
+    def test_an_instant_has_the_energy_balance_up_to_it(self):
         file = self.record(BOXES, "--duration", 0.4)
         frame = [f for f in self.exported(file)["frames"] if f["t"] <= 0.3 + 1e-9][-1]
         answer = self.json_of("inspect", file, "--at", 0.3)
@@ -48,7 +48,7 @@ class Instants(RecordingCommand):
 
 
 class PostMortems(RecordingCommand):
-    def test_a_spring_above_its_limit_is_named_and_the_remedy_holds(self):
+    def test_a_spring_above_its_limit_is_named_and_the_fix_is_stable(self):
         """One spring on I = 0.5 without damper: semi-implicit Euler holds up to w h = 2."""
         inertia, h, k = 0.5, 0.001, 4e6
         file = self.folder / "last.twinrec"
@@ -119,7 +119,7 @@ class PostMortems(RecordingCommand):
         steps = int(re.search(r"its last (\d+) steps are in", words)[1])
         self.assertLessEqual(steps, answer["post_mortem"]["step"])
 
-    def test_a_method_that_always_gains_is_told_by_an_alarm_alone(self):
+    def test_a_method_that_always_gains_is_reported_by_an_alarm_alone(self):
         """Explicit Euler on a spring: energy grows by 1 + (w h)^2 in each step, and runs on."""
         self.record(held(100, 0), "--duration", 20, "--integrator", "euler")
         answer = json.loads(self.simulated.stdout)

@@ -67,7 +67,7 @@ class Render(ProgramTest):
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[0], pictures[2])
 
-    def test_a_film_has_its_pictures_at_the_rate_and_slowness_that_are_asked_for(self):
+    def test_a_video_has_its_pictures_at_the_rate_and_slowness_that_are_asked_for(self):
         out = self.folder / "film"
         told = self.rendered(self.ball, "--frames", out, "--size", "64x48", "--quality", "draft",
                              "--from", 0.1, "--to", 0.3, "--slow", 2, "--fps", 10)
@@ -77,7 +77,7 @@ class Render(ProgramTest):
         self.assertEqual(sorted(p.name for p in out.iterdir()),
                          [f"frame_{i:05}.png" for i in range(5)])
 
-    def test_a_recording_gives_the_film_of_its_run(self):
+    def test_a_recording_gives_the_video_of_its_run(self):
         out = self.folder / "film"
         told = self.rendered(self.record("run"), "--frames", out, "--size", "64x48", "--quality", "draft",
                              "--fps", 10, "--show", "all")
@@ -118,7 +118,7 @@ class Render(ProgramTest):
         self.assertAlmostEqual(columns[1] - columns[0], columns[2] - columns[1], delta=1.01)
         self.assertGreater(columns[1] - columns[0], 80)  # a fifth of the panel
 
-    def test_ffmpeg_is_given_all_pixels_and_the_film_gets_its_name_at_the_end(self):
+    def test_ffmpeg_is_given_all_pixels_and_the_video_gets_its_name_at_the_end(self):
         path = self.fake_ffmpeg()
         for option, format_word in (("--mp4", "mp4"), ("--gif", "gif")):
             out = self.folder / f"film.{format_word}"
@@ -138,13 +138,13 @@ class Render(ProgramTest):
         self.refusals(self.ball, "--mp4", out, "--size", "64x48", path=self.fake_ffmpeg(), FAIL="1")
         self.assertEqual(list(self.folder.glob("film*")), [])
 
-    def test_ctrl_c_leaves_no_half_film(self):
+    def test_ctrl_c_leaves_no_partial_video(self):
         self.interrupted("render", self.ball, "--mp4", self.folder / "film.mp4", "--fps", 1000,
                          env=self.environment(self.fake_ffmpeg()),
                          is_ready=lambda _: (self.folder / "film.mp4.part").exists())
         self.assertEqual(list(self.folder.glob("film*")), [])
 
-    def test_what_cannot_be_is_told_by_the_words_that_were_typed_and_before_the_work(self):
+    def test_what_cannot_be_is_reported_by_the_words_that_were_typed_and_before_the_work(self):
         run, out, film = self.record("a"), self.folder / "b.png", self.folder / "film"
         for words in (["--to", "9"], ["--from", "7", "--to", "9"]):
             faults = self.refusals(run, "--frames", film, *words)
@@ -155,7 +155,7 @@ class Render(ProgramTest):
         self.assertIn("--gravity", self.refusals(run, "--png", out, "--gravity", "0,0,-1")[0]["where"])
         self.assertEqual(len(self.refusals(self.ball, "--frames", run, path=self.fake_ffmpeg())), 1)
 
-    def test_a_link_whose_mesh_is_missing_is_drawn_by_its_collision_shapes_and_that_is_said(self):
+    def test_a_link_whose_mesh_is_missing_is_drawn_by_its_collision_shapes_with_a_message(self):
         urdf = self.folder / "rod.urdf"
         urdf.write_text("""<robot name="rod"><link name="base"><inertial><mass value="1"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>

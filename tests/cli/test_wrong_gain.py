@@ -24,7 +24,7 @@ class WrongGain(ProgramTest):
             SPRING.format(name="hard", link="arm2", joint="joint2", k=k, b=0, treatment=treatment))
         return run("simulate", scene, "--duration", duration, "--json", *options)
 
-    def test_the_right_spring_is_named_and_what_it_says_would_hold_holds(self):
+    def test_the_right_spring_is_named_and_the_suggested_fix_is_stable(self):
         file = self.folder / "last.twinrec"
         broken = self.run_with(9e5, "--post-mortem", file, "--energy-bound", 1e6)
         self.assertEqual(broken.returncode, 3, broken.stderr)
@@ -95,7 +95,7 @@ class WrongGainOfALaw(ProgramTest):
         self.assertEqual(done.returncode, 0, f"{keys} {step}: {done.stderr}")
         self.assertLess(abs(json.loads(done.stdout)["samples"][-1]["q"]["hinge"]), 3e-4)
 
-    def test_every_law_is_named_with_a_remedy_that_holds(self):
+    def test_every_law_is_named_with_a_stable_fix(self):
         for name, (keys, beside) in LAWS.items():
             with self.subTest(name):
                 broken = self.run_with(keys, beside)
