@@ -89,7 +89,7 @@ void add_couplings(py::module_& m) {
         "A row for each type of [[coupling]] in a scene: name; treatments, its discretizations "
         "(none\n"
         "for its own); at_point, whether it acts at a point; can_hold, whether its force can be\n"
-        "evaluated at a rate. Laws: docs/understand/couplings.md.");
+        "evaluated at a rate. Laws: docs/understand/coupling_laws.md.");
   m.def(
       "schemes",
       [] {

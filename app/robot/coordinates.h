@@ -1,4 +1,4 @@
-// Joint values as in files and output (docs/reference/output_formats.md), and their conversion to
+// Joint values as in files and output (docs/reference/state_file.md), and their conversion to
 // the solver's.
 //
 // Each joint that is neither fixed nor a mimic joint is listed once, in the order of the model. Its

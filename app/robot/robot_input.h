@@ -23,7 +23,7 @@ struct Wrench {
   Vector3 point = Vector3::Zero(), force = Vector3::Zero(), torque = Vector3::Zero();
 };
 
-// Contents of a state file (docs/reference/output_formats.md).
+// Contents of a state file (docs/reference/state_file.md).
 struct GivenState {
   State<double> x;            // mimic joints included
   Eigen::VectorXd tau, qdd;   // by rows of the mass matrix; in qdd the base first
