@@ -53,7 +53,7 @@ const CLI::App* find_subcommand(const CLI::App& parent, const std::string& name)
 // A Markdown cell as plain text: links by their names, formulas by their letters.
 std::string plain(const std::string& cell) {
   std::string text = std::regex_replace(cell, std::regex(R"(\[([^\]]*)\]\([^)]*\))"), "$1");
-  text = std::regex_replace(text, std::regex(R"([\\$`*]|^ +| +$)"), "");
+  text = std::regex_replace(text, std::regex(R"([\\$`]|^ +| +$)"), "");
   return text;
 }
 
