@@ -7,7 +7,7 @@
 
 #include "app/coupling/prediction.h"
 #include "app/python/arrays.h"
-#include "app/python/scene_change.h"
+#include "app/python/robots.h"
 #include "coupling/analysis/gains.h"
 #include "coupling/laws/coupling_spec.h"
 #include "solver/support/number_text.h"

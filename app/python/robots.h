@@ -1,11 +1,14 @@
 // A robot, or the bodies of a scene, with workspaces for Python.
 #pragma once
 
+#include <pybind11/pybind11.h>
+
 #include <cstddef>
 #include <string>
 #include <vector>
 
 #include "app/robot/robot_input.h"
+#include "app/run/simulate_input.h"
 #include "solver/model/configuration.h"
 #include "solver/model/workspace.h"
 
@@ -39,5 +42,10 @@ class Robot {
   std::string size_of_q() const { return "nq = " + std::to_string(nq()); }
   std::string size_of_qd() const { return "nv = " + std::to_string(model.nv); }
 };
+
+// Adds set={"coupling.pull.stiffness": 800}, changes of a scene before it is read, to options with
+// a model. `set`: None, or a dict by path of numbers, texts, booleans or lists of numbers.
+// TypeError for other values, ValueError if the model is not a scene.
+void change_scene(const pybind11::object& set, SimulateOptions& options);
 
 }  // namespace twinarm::python

@@ -1,4 +1,4 @@
-#include "app/python/scene_change.h"
+#include "app/python/robots.h"
 
 #include <utility>
 #include <vector>

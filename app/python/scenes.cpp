@@ -7,7 +7,6 @@
 
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
-#include "app/python/scene_change.h"
 #include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"
 

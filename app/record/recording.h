@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/run/simulate_input.h"
 #include "solver/spatial/pose.h"
 #include "solver/support/state_archive.h"
 
@@ -24,14 +23,8 @@ struct RecordedColumn {
   std::string with_unit() const { return name + "[" + unit + "]"; }
 };
 
-// Options of the run, as given.
-struct RecordedRun {
-  std::filesystem::path model, state;  // absolute; state may be empty
-  std::string gravity;                 // "x,y,z"; empty: the model's
-  bool floating = false, friction = true, armature = true, strict = false;
-  std::optional<double> duration, step, tolerance, energy_bound;  // [s], [s], 1, [J]
-  std::string integrator, contact;                                // empty: the scene's
-};
+// Options of the run, as given, with absolute paths.
+struct RecordedRun : RobotOptions, RunSettings {};
 
 struct RecordingHeader {
   std::string program;  // its version

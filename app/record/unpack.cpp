@@ -27,31 +27,19 @@ int line_of_change(std::size_t change) {
 
 SimulateOptions options_of(const RecordedRun& run) {
   SimulateOptions options;
-  options.robot.model = run.model;
-  options.robot.state = run.state;
-  options.robot.gravity = run.gravity;
-  options.robot.floating = run.floating;
-  options.robot.friction = run.friction;
-  options.robot.armature = run.armature;
-  options.robot.strict = run.strict;
-  options.duration = run.duration;
-  options.step = run.step;
-  options.tolerance = run.tolerance;
-  options.energy_bound = run.energy_bound;
-  options.integrator = run.integrator;
-  options.contact = run.contact;
+  options.robot = run;
+  static_cast<RunSettings&>(options) = run;
   return options;
 }
 
 RecordedRun recorded_run(const SimulateOptions& options) {
-  const auto absolute = [](const std::filesystem::path& path) {
-    return path.empty() ? path : std::filesystem::absolute(path).lexically_normal();
-  };
-  const RobotOptions& robot = options.robot;
-  return {absolute(robot.model), absolute(robot.state), robot.gravity,        robot.floating,
-          robot.friction,        robot.armature,        robot.strict,         options.duration,
-          options.step,          options.tolerance,     options.energy_bound, options.integrator,
-          options.contact};
+  RecordedRun run;
+  static_cast<RobotOptions&>(run) = options.robot;
+  static_cast<RunSettings&>(run) = options;
+  run.roots = {};
+  for (std::filesystem::path* path : {&run.model, &run.state})
+    if (!path->empty()) *path = std::filesystem::absolute(*path).lexically_normal();
+  return run;
 }
 
 UnpackedRun::Folder::Folder() : path(make_temporary_folder("twinarm-replay")) {}

@@ -17,20 +17,23 @@
 
 namespace twinarm {
 
-// Options of `twinarm simulate`.
-struct SimulateOptions {
-  RobotOptions robot;
-  // Defaults: the scene's; else 0.001 s and semi-implicit.
+// Options on which the results of a run depend. Defaults: the scene's; else 0.001 s, semi-implicit.
+struct RunSettings {
   std::optional<double> duration, step;  // [s]
+  std::optional<double> tolerance;       // of dopri5, relative and absolute
+  std::optional<double> energy_bound;    // of kinetic energy [J]; default: RunPlan::energy_bound
   std::string integrator;                // as in solver/integration/integrator.h; may be empty
   std::string contact;                   // "rigid" ..; may be empty
-  std::optional<double> tolerance;       // of dopri5, relative and absolute
-  std::optional<double> every;           // output interval [s]
-  std::string at;                        // output times "t1,t2,.." [s]
+};
+
+// Options of `twinarm simulate`.
+struct SimulateOptions : RunSettings {
+  RobotOptions robot;
+  std::optional<double> every;  // output interval [s]
+  std::string at;               // output times "t1,t2,.." [s]
   bool json = false, csv = false;
   std::filesystem::path record;        // recording; may be empty
   std::optional<double> record_every;  // [s]; default: each step
-  std::optional<double> energy_bound;  // of kinetic energy [J]; default: RunPlan::energy_bound
   std::filesystem::path post_mortem;   // recording of a diverged run; empty: in out/
   std::function<void(Value&, DiagnosticList&)> change_scene;  // before it is read; may be empty
   std::optional<Value> scene;                                 // instead of the file robot.model
