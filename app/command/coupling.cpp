@@ -85,10 +85,6 @@ void add_options(CLI::App& command, CouplingGainsOptions& options) {
   add_json_option(command, options.json);
 }
 
-void check_positive(const std::string& option, double value, DiagnosticList& faults) {
-  if (value > 0 && std::isfinite(value)) return;
-  faults.add(option, "must be positive, is " + number_text(value), "", "option.not-positive");
-}
 void check_not_negative(const std::string& option, double value, DiagnosticList& faults) {
   if (value >= 0 && std::isfinite(value)) return;
   faults.add(option, "must not be negative, is " + number_text(value), "", "option.negative");

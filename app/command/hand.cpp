@@ -11,6 +11,7 @@
 #include "app/command/parser/shared_options.h"
 #include "app/device/devices.h"
 #include "app/plot/gnuplot.h"
+#include "app/robot/robot_input.h"
 #include "app/scene/read/read_scene.h"
 #include "app/servo/output/servo_output.h"
 #include "app/support/files.h"
@@ -69,12 +70,9 @@ void add_options(CLI::App& command, HandOptions& options) {
 
 MappingSpec mapping_of(const HandOptions& options, DiagnosticList& faults) {
   MappingSpec spec;
-  const auto found = std::ranges::find(kMappingNames, options.mapping);
-  if (found == kMappingNames.end())
-    faults.add("--mapping", "'" + options.mapping + "' is not a mapping",
-               "give paper, arm or cartesian", "option.choice");
-  else
-    spec.kind = static_cast<MappingKind>(found - kMappingNames.begin());
+  const std::vector<std::string> names(kMappingNames.begin(), kMappingNames.end());
+  if (const auto kind = choose("--mapping", options.mapping, names, "mappings", faults))
+    spec.kind = static_cast<MappingKind>(*kind);
   if (options.scale) spec.scale = *options.scale;
   if (options.force_scale) spec.force_scale = *options.force_scale;
   return spec;
@@ -98,9 +96,7 @@ SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
   if (options.scene.extension() != ".toml")
     faults.add({options.scene.string(), 0, "scene", "is not a scene",
                 "give a TOML file with couplings whose target is \"device\"", "file.no-scene"});
-  if (options.duration && !(*options.duration > 0))
-    faults.add("--duration", "must be a positive number of seconds", "give --duration 60",
-               "option.not-positive");
+  if (options.duration) check_positive("--duration", *options.duration, faults, " [s]");
   if (options.control && options.simulated)
     faults.add("--control", "measures real time, which --simulated does not keep",
                "leave --simulated out", "option.conflict");

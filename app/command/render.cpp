@@ -162,8 +162,7 @@ RenderPlan read_render_options(const RenderOptions& options) {
     plan.picture.curves = *curves;
   plan.picture.camera = options.camera;
   plan.rate = options.fps.value_or(options.gif.empty() ? 30 : 25);  // GIF: units of 1/100 s
-  if (!(options.slow > 0) || !std::isfinite(options.slow))
-    faults.add("--slow", "must be positive", "give 4 to show 1 s in 4 s", "option.not-positive");
+  check_positive("--slow", options.slow, faults);
   if (!(plan.rate > 0 && plan.rate <= 1000))
     faults.add("--fps", "must be above 0 and at most 1000", "", "option.range");
   if (!options.beside.empty() && plan.picture.width < 64)

@@ -83,14 +83,6 @@ std::vector<std::string> read_words(const std::string& text, const std::vector<s
   return words;
 }
 
-MappingKind mapping_kind(const std::string& name, DiagnosticList& faults) {
-  if (name == "paper") return MappingKind::paper;
-  if (name == "arm") return MappingKind::arm;
-  faults.add("--mapping", "'" + name + "' is not a mapping of a trial", "give paper or arm",
-             "option.choice");
-  return MappingKind::paper;
-}
-
 // Scenes of the paper's experiments with the device as input. The kinematic condition shows the
 // target robot of the torsional one.
 std::vector<TrialCondition> write_conditions(const std::vector<std::string>& names,
@@ -201,7 +193,8 @@ int run_trial(const TrialOptions& options) {
   const auto names = read_words(options.conditions, kConditions, "--conditions", faults);
   const auto tasks = read_words(options.tasks, kTasks, "--tasks", faults);
   MappingSpec mapping;
-  mapping.kind = mapping_kind(options.mapping, faults);
+  if (const auto kind = choose("--mapping", options.mapping, {"paper", "arm"}, "mappings", faults))
+    mapping.kind = static_cast<MappingKind>(*kind);
   mapping.force_scale = options.feel ? 1 : 0;
   if (options.simulated && !options.device.starts_with("virtual"))
     faults.add("--simulated", "needs a virtual device",

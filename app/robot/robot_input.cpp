@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "app/data/value.h"
@@ -58,6 +59,14 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
     }
   }
   return values;
+}
+
+bool check_positive(const std::string& option, double value, DiagnosticList& faults,
+                    const char* unit) {
+  if (value > 0 && std::isfinite(value)) return true;
+  faults.add(option, fmt::format("must be positive{}, is {}", unit, number_text(value)), "",
+             "option.not-positive");
+  return false;
 }
 
 std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults) {

@@ -65,6 +65,10 @@ RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults =
 // --gravity: three numbers, or a diagnostic.
 std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults);
 
+// Adds a diagnostic and returns false if the value is not positive and finite; `unit`: " [s]".
+bool check_positive(const std::string& option, double value, DiagnosticList& faults,
+                    const char* unit = "");
+
 // Numbers separated by commas; empty, with a diagnostic, if one is not a number.
 std::vector<double> parse_list(const std::string& option, const std::string& text,
                                DiagnosticList& faults);

@@ -19,15 +19,6 @@ namespace {
 
 constexpr double kMaxSteps = 1e10, kMaxSamples = 1e7;
 
-// Adds a diagnostic if the option is not positive and finite.
-bool check_positive_option(const char* option, double value, const char* unit,
-                           DiagnosticList& faults) {
-  if (value > 0 && std::isfinite(value)) return true;
-  faults.add(option, fmt::format("must be positive{}, is {}", unit, number_text(value)), "",
-             "option.not-positive");
-  return false;
-}
-
 std::vector<double> every(double interval, double duration) {
   std::vector<double> times;
   for (double n = 0; n * interval < duration * (1 - 1e-12); ++n) times.push_back(n * interval);
@@ -55,7 +46,7 @@ void choose_integrator(const SimulateOptions& options, RunPlan& plan, Diagnostic
            "run.integrator");
   if (!options.tolerance) return;
   plan.tolerance = *options.tolerance;
-  check_positive_option("--tolerance", plan.tolerance, "", faults);
+  check_positive("--tolerance", plan.tolerance, faults);
   if (!plan.is_adaptive())
     faults.add("--tolerance",
                std::string("integrator ") + integrator_name(plan.integrator) + " has a fixed step",
@@ -77,7 +68,7 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults,
   plan.step_is_given = options.step.has_value();
   plan.step = options.step.value_or(plan.is_adaptive() ? plan.duration : defaults.step);
   const auto positive = [&](const char* option, double value) {
-    return check_positive_option(option, value, " [s]", faults);
+    return check_positive(option, value, faults, " [s]");
   };
   const bool good_duration = positive("--duration", plan.duration);
   const bool good_step = !options.step || positive("--step", *options.step);
