@@ -33,8 +33,7 @@ void add_options(CLI::App& command, CouplingPredictOptions& options) {
   add_robot_options(command, options.robot,
                     "scene (TOML) with couplings; or URDF with --link and --stiffness");
   begin_group(command, "Coupling of a URDF");
-  command.add_option("--type", options.type, "type of the coupling, as in a scene")
-      ->capture_default_str();
+  command.add_option("--type", options.type, "type of the coupling, as in a scene");
   command.add_option("--link", options.link, "link on which the coupling acts");
   command.add_option("--point", options.point, "point x,y,z in link axes [m]; default 0,0,0");
   command.add_option("--measure", options.measure, "torsional coupling: world or joint");
@@ -44,9 +43,8 @@ void add_options(CLI::App& command, CouplingPredictOptions& options) {
   command.add_option("--damping", options.damping, "damping [N s/m or N m s/rad]");
   begin_group(command, "Prediction");
   add_scene_step_options(command, options.step, options.integrator);
-  command.add_option("--turn", options.turn, "move of the target [deg, or mm]")
-      ->capture_default_str();
-  command.add_option("--time", options.time, "duration of the move [s]")->capture_default_str();
+  command.add_option("--turn", options.turn, "move of the target [deg, or mm]");
+  command.add_option("--time", options.time, "duration of the move [s]");
   command.add_option("--along", options.along,
                      "joint=factor,..: factor of the move for each joint; default: 1 for all");
   command.add_option("--wall", options.wall, "stiffness of a wall that the robot touches [N/m]");
@@ -75,8 +73,7 @@ void add_options(CLI::App& command, CouplingGainsOptions& options) {
                      "inertia that the spring moves, without a scene [kg or kg m^2]");
   command.add_option("--stiffness", options.stiffness,
                      "stiffness, without a scene [N/m or N m/rad]");
-  command.add_option("--damping", options.damping,
-                     "damping, without a scene [N s/m or N m s/rad]; default 0");
+  command.add_option("--damping", options.damping, "damping, without a scene [N s/m or N m s/rad]");
   command.add_option("--solref", options.solref,
                      "MuJoCo solref, without a scene: timeconst,dampratio or -stiffness,-damping");
   command.add_option("--impedance", options.impedance,

@@ -36,12 +36,9 @@ void add_options(CLI::App& command, HandOptions& options) {
   add_input_option(command, "scene", options.scene,
                    "scene (TOML) with couplings whose target is \"device\"");
   begin_group(command, "Device");
-  command.add_option("--device", options.device, "input device; `--device list` lists them")
-      ->capture_default_str();
-  command
-      .add_option("--mapping", options.mapping,
-                  "device to joints: paper (theta1, 4, 6), arm (theta1, 2, 3) or cartesian")
-      ->capture_default_str();
+  command.add_option("--device", options.device, "input device; `--device list` lists them");
+  command.add_option("--mapping", options.mapping,
+                     "device to joints: paper (theta1, 4, 6), arm (theta1, 2, 3) or cartesian");
   command
       .add_option("--scale", options.scale,
                   "motion scaling of the cartesian mapping, robot over device; default 4")
@@ -63,8 +60,7 @@ void add_options(CLI::App& command, HandOptions& options) {
   command.add_flag("--timing", options.picture, "write OUT/timing.svg: histograms of the ticks");
   command.add_flag("--record", options.record,
                    "simulate again from the log and write the recording OUT/run.twinrec");
-  add_file_option(command, "--out", options.out, "folder of the log hand.csv and of other output")
-      ->capture_default_str();
+  add_file_option(command, "--out", options.out, "folder of the log hand.csv and of other output");
   add_json_option(command, options.json);
 }
 

@@ -22,16 +22,12 @@ void add_options(CLI::App& command, InspectOptions& options) {
   begin_group(command, "Selection");
   command.add_option("--pass", options.passes, "passes of ABA: 1, 2 or 3; default: all");
   command.add_option("--body", options.bodies, "names of links and bodies; default: all");
-  command
-      .add_option("--axes", options.axes,
-                  "axes of the wrenches: world, link (each body's own), or the name of a body")
-      ->capture_default_str();
-  command
-      .add_option(
-          "--about", options.about,
-          "reference point of torques: origin or com (each body's own), the name of a body, "
-          "or a point x,y,z of the world")
-      ->capture_default_str();
+  command.add_option("--axes", options.axes,
+                     "axes of the wrenches: world, link (each body's own), or the name of a body");
+  command.add_option(
+      "--about", options.about,
+      "reference point of torques: origin or com (each body's own), the name of a body, "
+      "or a point x,y,z of the world");
   command.add_option("--force", options.forces,
                      "show only these forces: coupling/NAME, contact/A-B, constraint/NAME ..");
   begin_group(command, "Output");

@@ -41,16 +41,14 @@ void add_options(CLI::App& command, LabOptions& options) {
   command
       .add_option("--remember", options.remember,
                   "memory for the timeline [MB]; 256 MB hold some minutes")
-      ->check(between(1, 65536))
-      ->capture_default_str();
+      ->check(between(1, 65536));
   begin_group(command, "Server");
   command.add_option("--port", options.port, "port of the server; default: any free port")
-      ->check(between(0, 65535));
-  command
-      .add_option("--listen", options.listen,
-                  "address to bind; anything but loopback can be reached by others who have the "
-                  "page's address with its token")
-      ->capture_default_str();
+      ->check(between(0, 65535))
+      ->default_str("");
+  command.add_option("--listen", options.listen,
+                     "address to bind; anything but loopback can be reached by others who have the "
+                     "page's address with its token");
   command.add_flag("--no-browser", options.no_browser, "only print the address");
   command.add_flag("--json", options.json, "print {\"url\": \"..\"} as the first line");
 }

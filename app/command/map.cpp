@@ -26,17 +26,17 @@ void add_options(CLI::App& command, MapOptions& options) {
       "--x", options.x,
       "PATH:MIN:MAX:N[:log]: parameter of the scene along x, range, number of cells");
   command.add_option("--y", options.y, "PATH:MIN:MAX:N[:log]: parameter along y, upward");
-  command
-      .add_option("--measure", options.measure,
-                  "result to print and draw: stable, max_error, mean_error, energy or passivity")
-      ->capture_default_str();
+  command.add_option(
+      "--measure", options.measure,
+      "result to print and draw: stable, max_error, mean_error, energy or passivity");
   command.add_option("--of", options.of,
                      "coupling whose tracking error is measured; default: the first");
   begin_group(command, "Run");
   command.add_option("--duration", options.duration, "[s]; default: the scene's");
   add_scene_step_options(command, options.step, options.integrator);
   command.add_flag("--alone", options.alone, "run cells one at a time, not in SIMD batches");
-  command.add_option("--threads", options.threads, "number of threads; default: all processors");
+  command.add_option("--threads", options.threads, "number of threads; default: all processors")
+      ->default_str("");
   begin_group(command, "Output");
   add_file_option(command, "--svg", options.svg, "write the map as SVG, with predicted limits");
   add_file_option(command, "--png", options.png, "write the map as PNG, with predicted limits");
@@ -50,8 +50,9 @@ void add_options(CLI::App& command, MapOptions& options) {
   begin_group(command, "Resume and share");
   add_file_option(command, "--work", options.work,
                   "checkpoint file, from which an interrupted map resumes; default: in out/map");
-  command.add_option("--tiles", options.tiles, "number of jobs that share the map");
-  command.add_option("--tile", options.tile, "index of this job, from 0");
+  command.add_option("--tiles", options.tiles, "number of jobs that share the map")
+      ->default_str("");
+  command.add_option("--tile", options.tile, "index of this job, from 0")->default_str("");
   add_file_option(command, "--merge", options.merge, "merge these files of --tile");
 }
 

@@ -46,33 +46,26 @@ void add_options(CLI::App& command, RenderOptions& options) {
                      "time of the picture [s]; default: end of a recording, else the start");
   command.add_option("--from", options.from, "start of the video [s]; default: the start");
   command.add_option("--to", options.to, "end of the video [s]; default: the end");
-  command.add_option("--slow", options.slow, "slow-motion factor")->capture_default_str();
+  command.add_option("--slow", options.slow, "slow-motion factor");
   command.add_option("--fps", options.fps, "frames per second; default 30, GIF 25");
   begin_group(command, "Content");
-  command
-      .add_option("--camera", options.camera,
-                  "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] "
-                  "[deg, m]")
-      ->capture_default_str();
-  command
-      .add_option(
-          "--show", options.show,
-          fmt::format("none, all, or some of: {}", fmt::join(names_of(all_overlays()), ", ")))
-      ->capture_default_str();
-  command
-      .add_option("--plot", options.plot,
-                  "curves below the picture: none, or some of: energy, forces, couples, contacts, "
-                  "lag")
-      ->capture_default_str();
+  command.add_option("--camera", options.camera,
+                     "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] "
+                     "[deg, m]");
+  command.add_option(
+      "--show", options.show,
+      fmt::format("none, all, or some of: {}", fmt::join(names_of(all_overlays()), ", ")));
+  command.add_option(
+      "--plot", options.plot,
+      "curves below the picture: none, or some of: energy, forces, couples, contacts, "
+      "lag");
   add_file_option(command, "--beside", options.beside,
                   "second recording, shown to the right of the first in sync");
   begin_group(command, "Picture");
-  command.add_option("--size", options.size, "size [pixels]")->capture_default_str();
-  command.add_option("--quality", options.quality, "draft, normal or studio")
-      ->capture_default_str();
-  command.add_option("--background", options.background, "studio, sky or white")
-      ->capture_default_str();
-  command.add_option("--gl", options.gl, "OpenGL back end: osmesa or egl")->capture_default_str();
+  command.add_option("--size", options.size, "size [pixels]");
+  command.add_option("--quality", options.quality, "draft, normal or studio");
+  command.add_option("--background", options.background, "studio, sky or white");
+  command.add_option("--gl", options.gl, "OpenGL back end: osmesa or egl");
   add_json_option(command, options.json);
 }
 

@@ -54,8 +54,7 @@ void add_options(CLI::App& command, StudyOptions& options) {
       "--ask", options.ask,
       "ROW/LAW/RATE, such as E4/linear/60: print one identification as JSON and stop");
   begin_group(command, "Output");
-  add_file_option(command, "--out", options.out, "folder for report, figures, CSV")
-      ->capture_default_str();
+  add_file_option(command, "--out", options.out, "folder for report, figures, CSV");
   command.add_flag("--paper-view", options.paper_view,
                    "hide the target robot in pictures, as the paper does");
   add_json_option(command, options.json);

@@ -17,13 +17,10 @@ struct TraceOptions {
 };
 
 void add_options(CLI::App& command, TraceOptions& options) {
-  command.add_option("--seed", options.seed, "random seed of the motion")->capture_default_str();
-  command.add_option("--duration", options.duration, "[s]")
-      ->check(above_zero())
-      ->capture_default_str();
-  command.add_option("--rate", options.rate, "sampling rate [Hz]")
-      ->check(above_zero())
-      ->capture_default_str();
+  begin_group(command, "Motion");
+  command.add_option("--seed", options.seed, "random seed of the motion");
+  command.add_option("--duration", options.duration, "[s]")->check(above_zero());
+  command.add_option("--rate", options.rate, "sampling rate [Hz]")->check(above_zero());
   add_file_option(command, "--out", options.out, "CSV file to write")->required();
 }
 

@@ -36,35 +36,28 @@ struct TrialOptions {
 
 void add_options(CLI::App& command, TrialOptions& options) {
   begin_group(command, "Device");
-  command
-      .add_option("--device", options.device, "input device, as in `twinarm hand --device list`")
-      ->capture_default_str();
-  command
-      .add_option("--mapping", options.mapping,
-                  "device to joints: paper (theta1, 4, 6) or arm (theta1, 2, 3)")
-      ->capture_default_str();
+  command.add_option("--device", options.device,
+                     "input device, as in `twinarm hand --device list`");
+  command.add_option("--mapping", options.mapping,
+                     "device to joints: paper (theta1, 4, 6) or arm (theta1, 2, 3)");
   command.add_flag("--feel", options.feel,
                    "force feedback, on a device with motors (the paper has none)");
   command.add_flag("--simulated", options.simulated,
                    "run without countdown and pacing, for a virtual device");
   begin_group(command, "Protocol");
-  command.add_option("--conditions", options.conditions, "conditions, in this order")
-      ->capture_default_str();
-  command.add_option("--tasks", options.tasks, "tasks for each condition")->capture_default_str();
+  command.add_option("--conditions", options.conditions, "conditions, in this order");
+  command.add_option("--tasks", options.tasks, "tasks for each condition");
   command.add_option("--seed", options.seed,
                      "randomise the order of the conditions with this seed");
   command.add_option("--subject", options.subject,
                      "anonymous code of the participant; default: S1, S2, ...");
   command.add_option("--seconds", options.seconds, "duration of free motion [s]")
-      ->check(above_zero())
-      ->capture_default_str();
+      ->check(above_zero());
   command.add_option("--most", options.most, "time limit of pick-and-place [s]")
-      ->check(above_zero())
-      ->capture_default_str();
+      ->check(above_zero());
   command.add_flag("--yes", options.yes, "start without waiting for Enter");
   begin_group(command, "Output");
-  add_file_option(command, "--out", options.out, "folder of results.csv and of the logs")
-      ->capture_default_str();
+  add_file_option(command, "--out", options.out, "folder of results.csv and of the logs");
   add_json_option(command, options.json);
   add_assets_option(command, options.assets);
 }

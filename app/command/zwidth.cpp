@@ -27,23 +27,16 @@ struct ZwidthOptions {
 
 void add_options(CLI::App& command, ZwidthOptions& options) {
   begin_group(command, "Device");
-  command.add_option("--mass", options.mass, "effective mass at the handle [kg]")
-      ->capture_default_str();
-  command.add_option("--damping", options.damping, "viscous friction [N s/m]")
-      ->capture_default_str();
-  command.add_option("--friction", options.friction, "Coulomb friction [N]")->capture_default_str();
-  command.add_option("--resolution", options.resolution, "resolution of the encoder [m]")
-      ->capture_default_str();
-  command.add_option("--rate", options.rate, "rate of the haptic loop [Hz]")->capture_default_str();
-  command.add_option("--delay", options.delay, "delay from sensor to motor [ticks]")
-      ->capture_default_str();
+  command.add_option("--mass", options.mass, "effective mass at the handle [kg]");
+  command.add_option("--damping", options.damping, "viscous friction [N s/m]");
+  command.add_option("--friction", options.friction, "Coulomb friction [N]");
+  command.add_option("--resolution", options.resolution, "resolution of the encoder [m]");
+  command.add_option("--rate", options.rate, "rate of the haptic loop [Hz]");
+  command.add_option("--delay", options.delay, "delay from sensor to motor [ticks]");
   begin_group(command, "Measurement");
-  command
-      .add_option("--wall-damping", options.wall_damping,
-                  "wall damping B for which the maximum stiffness is measured [N s/m]")
-      ->capture_default_str();
-  command.add_option("--seed", options.seed, "random seed of network and operator motion")
-      ->capture_default_str();
+  command.add_option("--wall-damping", options.wall_damping,
+                     "wall damping B for which the maximum stiffness is measured [N s/m]");
+  command.add_option("--seed", options.seed, "random seed of network and operator motion");
   begin_group(command, "Output");
   add_file_option(command, "--svg", options.svg, "write the K-B plane and the energies as SVG");
   add_file_option(command, "--png", options.png, "write the K-B plane and the energies as PNG");

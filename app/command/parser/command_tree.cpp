@@ -18,6 +18,12 @@ std::vector<std::string> paragraphs(const std::string& text) {
   return found;
 }
 
+// "[]" is that of an empty list.
+std::string default_text(const CLI::Option& option) {
+  const std::string text = option.get_default_str();
+  return text == "[]" ? "" : text;
+}
+
 OptionInfo describe(CLI::Option& option) {
   OptionInfo result;
   result.is_positional = option.get_positional();
@@ -29,7 +35,7 @@ OptionInfo describe(CLI::Option& option) {
   }
   if (option.get_items_expected_max() > 0) {
     result.value = value_word(option);
-    result.preset = option.get_default_str();
+    result.preset = default_text(option);
   }
   result.help = option.get_description();
   if (const std::string limits = value_limits(option); !limits.empty())
@@ -85,7 +91,7 @@ class HelpFormatter : public CLI::Formatter {
       if (!words.empty()) notes += (notes.empty() ? "" : "; ") + words;
     };
     note(value_limits(*option));
-    const std::string preset = option->get_default_str();
+    const std::string preset = default_text(*option);
     if (option->get_items_expected_max() > 0 && !preset.empty()) note("default " + preset);
     for (const CLI::Option* other : option->get_needs()) note("with " + other->get_name());
     for (const CLI::Option* other : option->get_excludes()) note("not with " + other->get_name());

@@ -22,7 +22,7 @@ CLI::Option* reject_empty(CLI::Option* option) {
 }  // namespace
 
 void begin_group(CLI::App& command, const char* heading) {
-  command.option_defaults()->group(heading);
+  command.option_defaults()->group(heading)->always_capture_default();
 }
 
 CLI::Option* add_file_option(CLI::App& command, const char* name, std::filesystem::path& file,

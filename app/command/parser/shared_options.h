@@ -18,7 +18,7 @@ struct RobotOptions;
 
 inline constexpr const char* kFileWord = "PATH";  // their values in help texts
 
-// The options added after this call appear under this heading in the help.
+// The options added after this call appear under this heading in the help, with their defaults.
 void begin_group(CLI::App& command, const char* heading);
 
 // An option or positional argument that names a file or folder. An empty name is an error: an unset
