@@ -30,7 +30,7 @@ class Hand(ProgramTest):
                          (self.out / "again/hand.csv").read_bytes())
         self.assertEqual(first["tracking"], again["tracking"])
 
-    def test_reported_errors_are_those_of_log_and_recording(self):
+    def test_the_reported_errors_are_those_of_the_log_and_the_recording(self):
         told = self.simulated("--duration", 1, "--record")["tracking"]
         lines = (self.out / "hand.csv").read_text().splitlines()
         self.assertEqual(len(lines), 1001)
@@ -41,7 +41,7 @@ class Hand(ProgramTest):
         largest = max(abs(k - d) for k, d in zip(kinematic, dynamic))
         self.assertAlmostEqual(largest, told["joint1"]["max"], delta=1e-9)
 
-    def test_each_mapping_describes_its_force(self):
+    def test_each_mapping_says_its_force_feedback(self):
         words = [self.twinarm("hand", SCENE, "--simulated", "--duration", 0.2, "--mapping", mapping, "--out",
                               self.out).stdout for mapping in ("paper", "arm", "cartesian")]
         self.assertIn("joint 1 only", words[0])

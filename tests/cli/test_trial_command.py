@@ -75,7 +75,7 @@ class Trial(ProgramTest):
         self.assertAlmostEqual(result["seconds"], 12, delta=0.01)
         self.assertAlmostEqual(result["off_mm"], 1e3 * math.hypot(0.03, 0.13), delta=10)
 
-    def test_the_table_of_all_subjects_grows_without_names(self):
+    def test_the_table_of_all_subjects_grows_and_has_no_names(self):
         self.carries()
         first = self.trial("--tasks", "free", "--seconds", 1)
         self.assertEqual(first["subject"], "S1")

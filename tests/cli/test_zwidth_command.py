@@ -53,7 +53,7 @@ class Zwidth(unittest.TestCase):
             seen += law < 2 * row["damping"] * row["rate"]
         self.assertGreater(seen, 0)
 
-    def test_a_wall_through_a_coupling_is_two_springs_in_series(self):
+    def test_a_wall_through_a_coupling_acts_like_both_springs_in_series(self):
         self.assertEqual(len(answer()["series"]), 9)
         for row in answer()["series"]:
             law = row["coupling"] * row["wall"] / (row["coupling"] + row["wall"])
