@@ -21,7 +21,8 @@ Eigen::VectorXd chain_sag(const Eigen::MatrixXd& K, const Eigen::VectorXd& G);
 double series_stiffness(double k_c, double k_e);
 
 // A point spring at lever arm r, treated implicitly with step h on an inertia I about the joint, is
-// stable only while its target's radius R_K stays below this [m] (docs/understand/couplings.md, 3):
+// stable only while its target's radius R_K stays below this [m]
+// (docs/understand/stability_of_spring_dampers.md):
 //   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b).
 double max_target_radius(double I, double r, double k, double b, double h);
 

@@ -1,4 +1,5 @@
-// What theory says of a coupling before it is run (docs/understand/couplings.md). One door to
+// What theory says of a coupling before it is run (docs/understand/stability_of_spring_dampers.md).
+// One door to
 //   joint_space_stiffness.h  K_q and B_q of what pushes, its geometric part; modes; sag and
 //                            series stiffness against a wall
 //   gains.h                  the largest stable step and stiffness of each scheme; conversions

@@ -10,8 +10,8 @@
 // K has the geometric stiffness in it, K_zero has not: m* knows only the latter, which is why a
 // point spring has a limit even where it is implicit.
 //
-// Laws that are no such spring-damper (docs/understand/couplings.md, 7, 10, 11): as printed, the rate that a
-// held force sees is (e - e at the evaluation before)/n, n steps between the two; stable PD has
+// Laws that are no such spring-damper (docs/understand/coupling_laws.md): as printed, the rate that
+// a held force sees is (e - e at the evaluation before)/n, n steps between the two; stable PD has
 // `ahead`, and felt = 1 + h B alone; a god object has a_u = -(e + h v)/h^2, so what it adds is
 // -M_r (e + h v), with M_r the rows of M that belong to its robot. As printed with a difference one
 // frame older, it is (e at the evaluation before - e at the one before that)/n.

@@ -18,9 +18,9 @@
 //
 // So the weld is a spring-damper k = m_R k_ref, b = m_R b_ref with a damper that does not see the
 // target, and an inertia m_R that opposes the acceleration: the weightless particle (and flywheel)
-// of docs/understand/couplings.md, 2, in O(n), but one that feels velocity products too. All other forces are
-// felt (1 - d) as much. m_0 is the effective mass of the link, as MuJoCo takes it: once, at the
-// pose that is given, 3/trace(J M^-1 J^T) of its centre of mass, and of its orientation.
+// of docs/understand/coupling_laws.md, in O(n), but one that feels velocity products too. All other
+// forces are felt (1 - d) as much. m_0 is the effective mass of the link, as MuJoCo takes it: once,
+// at the pose that is given, 3/trace(J M^-1 J^T) of its centre of mass, and of its orientation.
 //
 // MuJoCo's orientation offset is sin(angle/2) about the axis; here it is the rotation vector.
 //

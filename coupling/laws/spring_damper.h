@@ -11,7 +11,8 @@
 // taken off the offset, and a weightless particle (point), flywheel (orientation) or armature
 // (joint) of m* = h b + h^2 k. What stays explicit: of a point the geometric stiffness, the turning
 // of the lever arm, so that a point at radius r whose target lies at radius R_K is stable only if
-//   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b)    (docs/understand/couplings.md; coupling/analysis/prediction.h)
+//   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b)    (docs/understand/stability_of_spring_dampers.md;
+//   coupling/analysis/prediction.h)
 // and of an orientation the change of the axis of phi with it, which vanishes where the axes of all
 // joints are parallel.
 #pragma once

@@ -12,7 +12,8 @@
 //        alpha < (4 + 2 beta)/3
 //   x' = x + h v   (explicit Euler):  alpha < 4 + 2 beta
 //
-// The derivation is in docs/understand/couplings.md. It is a treatment of its own: there is no other.
+// The derivation is in docs/understand/stability_of_spring_dampers.md. It is a treatment of its
+// own: there is no other.
 #include "coupling/laws/coupling_spec.h"
 
 namespace twinarm {

@@ -1,6 +1,6 @@
 // Overlays: named layers of the DrawList over the bodies. A file NAME_overlay.cpp of this folder
 // defines `Overlays NAME_overlay()`, one or several related; --show, the legend, the lab and pages
-// list them (docs/develop/extending_overlay.md).
+// list them (docs/develop/extending.md).
 #pragma once
 
 #include <string>

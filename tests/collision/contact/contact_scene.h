@@ -1,4 +1,4 @@
-// A few free bodies and obstacles, made in a line each.
+// A scene of free bodies and obstacles.
 #pragma once
 
 #include <memory>
@@ -38,7 +38,7 @@ class ContactScene {
   }
   void floor(const ContactSurface& surface) { obstacle(HalfSpace{}, surface); }
 
-  // After the last of the above.
+  // Call after adding all bodies.
   Simulation& begin(const SimulationOptions& options = {}) {
     model_ = std::make_unique<Model<double>>(builder_.build());
     State<double> x(*model_);

@@ -1,7 +1,7 @@
 // Contracts of the forces themselves: the consistent laws are what they say, action is minus
 // reaction, dampers take energy, and the implicit treatments become the explicit one as h -> 0.
 // Each law that breaks one of them is named with what it does instead: a finding, not a flaw of the
-// program (docs/understand/couplings.md, 12).
+// program (docs/understand/coupling_laws.md).
 #include <doctest/doctest.h>
 
 #include "tests/coupling/analysis/laws.h"

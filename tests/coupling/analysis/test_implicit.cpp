@@ -1,5 +1,5 @@
 // Spring-dampers treated semi-implicitly and implicitly, on mechanisms whose discrete motion is
-// known: docs/understand/couplings.md, solver/forces/spring.h.
+// known: docs/understand/coupling_laws.md, solver/forces/spring.h.
 #include <doctest/doctest.h>
 
 #include "coupling/analysis/prediction.h"

@@ -1,5 +1,6 @@
 // The limits of coupling/analysis/gains.h and step_matrix.h: against the closed forms of
-// docs/understand/couplings.md, and against where runs of the real stepper begin to grow, by bisection.
+// docs/understand/stability_of_spring_dampers.md, and against where runs of the real stepper begin
+// to grow, by bisection.
 #include <doctest/doctest.h>
 
 #include "collision/import/robot/robot_model.h"

@@ -124,7 +124,9 @@ TEST_CASE("couplings of two treatments, rates or laws grow together at the step 
   }
 }
 
-TEST_CASE("on one hinge the parts of every law have the closed form of docs/understand/couplings.md, 4 to 11") {
+TEST_CASE(
+    "on one hinge the parts of every law have the closed form of "
+    "docs/understand/coupling_laws.md") {
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
   const double I = 0.7, k = 40, b = 0.9;
   const auto growth = [&](StepLaw law, Integrator integrator, double alpha, double beta,

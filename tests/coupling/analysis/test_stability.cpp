@@ -1,6 +1,6 @@
-// The stability edges of coupling/analysis/prediction.h against runs of the real stepper (docs/
-// cases_robots.md, F4), and the closed orbit of the printed, unsigned damper (docs/understand/paper_analysis.md, 4
-// d).
+// The stability limits of coupling/analysis/prediction.h against runs of the real integrator
+// (docs/understand/stability_of_spring_dampers.md), and the closed orbit of the as-published, unsigned
+// damper (docs/understand/coupling_laws.md).
 #include <doctest/doctest.h>
 
 #include <numbers>

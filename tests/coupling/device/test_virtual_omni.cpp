@@ -74,7 +74,8 @@ TEST_CASE(
     slow.poll(n * kTick);
     lag = std::max(lag, (slow.truth().position - slow.truth().goal).norm());
   }
-  // a_max / w^2 of the reach, 5.77 D / T^2 (docs/understand/couplings.md); an absolute damper: b v / k = 30 um.
+  // a_max / w^2 of the reach, 5.77 D / T^2 (docs/understand/tracking_error.md); an absolute damper:
+  // b v / k = 30 um.
   CHECK(lag < 2 * 5.7735 * 0.02 * 0.13335 / 16 / (w * w));
 }
 
@@ -169,8 +170,8 @@ TEST_CASE("virtual Omni: no stiffness of the arm is too large for its steps") {
 
 TEST_CASE("virtual Omni: a wall is stable up to the exact limit of the held force, 2152.5 N/m") {
   // m = 45 g, b = 0.1, wall damping B = 1 N s/m by backward differences, T = 1 ms; one tick of
-  // delay: 715.7 N/m. The eigenvalues of the sampled system (docs/understand/phantom_omni.md), not this device, gave
-  // the two.
+  // delay: 715.7 N/m. The eigenvalues of the sampled system (docs/understand/phantom_omni.md), not
+  // this device, gave the two.
   struct Limit {
     double K, delay;
   };

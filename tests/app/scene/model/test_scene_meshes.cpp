@@ -49,9 +49,9 @@ TEST_CASE("scene: meshes that are open, flipped or degenerate are all told, each
   scene.body("empty.obj", "", "fixed = true");
   const std::vector<Diagnostic> faults = scene.faults();
   REQUIRE(faults.size() == 6);
-  const std::vector<std::string> parts{"3 edges belong to one triangle alone",
-                                       "inside out",
-                                       "1 triangles are there twice",
+  const std::vector<std::string> parts{"3 edges belong to one triangle only",
+                                       "inverted",
+                                       "1 triangles are duplicates",
                                        "hull",
                                        "hull",
                                        "empty.obj"};
