@@ -11,8 +11,8 @@
 //
 // X_i (Xup) transforms motion vectors from parent p to body i. All quantities are in body axes,
 // about the body's origin. Added to the book's algorithm: rotor inertia (model.armature) on the
-// diagonal of D; for implicit spring-dampers (docs/understand/coupling_laws.md) forces.armature on the
-// diagonal of D and forces.impedance in IA. Interface: solver/dynamics/dynamics.h.
+// diagonal of D; for implicit spring-dampers (docs/understand/coupling_laws.md) forces.armature on
+// the diagonal of D and forces.impedance in IA. Interface: solver/dynamics/dynamics.h.
 #pragma once
 
 #include "solver/model/joint_slice.h"
