@@ -65,7 +65,9 @@ class WatchedContacts final : public ConstraintSource {
     contacts_.begin_step(k, x, h);
     detection += now() - start;
   }
-  bool closes(const ConstraintFrame& frame) noexcept override { return contacts_.closes(frame); }
+  bool has_closing_contact(const ConstraintFrame& frame) noexcept override {
+    return contacts_.has_closing_contact(frame);
+  }
   bool extend_detection(const Kinematics& k, double h) noexcept override {
     return contacts_.extend_detection(k, h);
   }

@@ -17,8 +17,8 @@ ContactWork& ContactWorks::of(int a, int b) {
 }
 
 void ContactWorks::serialize(StateArchive& memory, std::size_t count) {
-  constexpr std::size_t kWork = 9 * sizeof(double);  // bytes, at least
-  memory.resize(all, kWork);
+  constexpr std::size_t kMinBytes = 9 * sizeof(double);  // of one entry
+  memory.resize(all, kMinBytes);
   for (ContactWork& work : all) {
     for (int* id : {&work.a, &work.b}) memory.visit_index(*id, count);
     for (double* joules : {&work.normal, &work.friction, &work.impact}) memory.visit(*joules);
@@ -26,14 +26,14 @@ void ContactWorks::serialize(StateArchive& memory, std::size_t count) {
   }
 }
 
-void ContactActiveSet::hold(const ConstraintFrame& frame, bool struck) noexcept {
-  bodies_.locates = true;
+void ContactActiveSet::hold(const ConstraintFrame& frame, bool impact) noexcept {
+  bodies_.locates_events = true;
   held_pairs_.clear();
   for (ContactPoint& p : points_) {
-    const Vector3 velocity = bodies_.approach(p.contact, frame.k);
+    const Vector3 velocity = bodies_.relative_velocity(p.contact, frame.k);
     const double u = p.contact.n_W.dot(velocity);
-    const bool goes_on = p.is_held && !p.opens && !struck;
-    p.is_held = goes_on || (p.contact.depth >= -kClosed && u <= kRest);
+    const bool stays_held = p.is_held && !p.opens && !impact;
+    p.is_held = stays_held || (p.contact.depth >= -kClosed && u <= kRest);
     p.opens = false;
     p.slip_W = velocity - u * p.contact.n_W;
     const std::pair pair(p.contact.a, p.contact.b);
@@ -52,16 +52,17 @@ void ContactActiveSet::restore_active_set() noexcept {
 void ContactActiveSet::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
   for (const ContactPoint& p : points_)
     if (!p.is_held)
-      nearest.see(-p.contact.depth, p.contact.n_W.dot(bodies_.approach(p.contact, frame.k)));
+      nearest.see(-p.contact.depth,
+                  p.contact.n_W.dot(bodies_.relative_velocity(p.contact, frame.k)));
 }
 
 void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c, double h,
                                  double normal, double friction) {
   const bool moves = std::hypot(c.u[1], c.u[2]) > kMoves;
   const bool slid = c.law == ConstraintType::coulomb_cone && point.slip_W.norm() > kMoves;
-  const bool goes_on = moves && point.slip_W.dot(point.velocity_W) > 0;
+  const bool same_direction = moves && point.slip_W.dot(point.velocity_W) > 0;
   char mode = moves ? slides : rests;
-  if (slid && !goes_on) mode = turns;
+  if (slid && !same_direction) mode = turns;
   point.opens = c.u[0] > kMoves;
   if (point.opens) mode = opens;
   modes_.push_back(mode);
@@ -70,7 +71,7 @@ void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c
   double* sums = &flow_works_[kFlowNumbers * static_cast<std::size_t>(pair - held_pairs_.begin())];
   sums[0] += normal, sums[1] += friction;
   const Vector3 impulse_W = h * point.force_W;
-  const Vector3 moment_W = bodies_.moment_of(point.contact, impulse_W) + h * point.couple_W;
+  const Vector3 moment_W = bodies_.impulse_moment(point.contact, impulse_W) + h * point.couple_W;
   for (int i = 0; i < 3; ++i) sums[2 + i] += impulse_W[i], sums[5 + i] += moment_W[i];
 }
 

@@ -1,5 +1,5 @@
-// Which contacts are held during a smooth piece of the motion, where steps locate their events in
-// time (solver/impulses/event_source.h), and the work of these.
+// Active set of an event-driven step (solver/impulses/event_source.h): the contacts that are
+// constraints during a smooth segment, and their work.
 #pragma once
 
 #include <span>
@@ -12,12 +12,12 @@
 
 namespace twinarm {
 
-// Work and impulses of all contacts so far, by pair of geometries.
+// Accumulated work and impulses of contacts, by pair of geometries.
 class ContactWorks {
  public:
-  ContactWorks() { all.reserve(256); }  // so that a pair that touches for the first time takes none
+  ContactWorks() { all.reserve(256); }  // a step does not allocate
 
-  // Those of pairs that have worked before are found, others come in.
+  // Inserts the pair if it is new.
   ContactWork& of(int a, int b);
   void serialize(StateArchive& memory, std::size_t geometries);
 
@@ -26,7 +26,7 @@ class ContactWorks {
 
 class ContactActiveSet final : public EventSource {
  public:
-  // `points`: the contacts found last; `works` takes what commit_work() counts.
+  // `points`: the detected contacts; commit_work() adds to `works`.
   ContactActiveSet(ContactBodies& bodies, std::vector<ContactPoint>& points, ContactWorks& works)
       : bodies_(bodies), points_(points), works_(works) {}
 
@@ -37,22 +37,22 @@ class ContactActiveSet final : public EventSource {
   std::span<double> works() noexcept override { return flow_works_; }
   void commit_work() noexcept override;
 
-  // A solution in Phase::flow: what each held one does, and its works.
+  // Reads a solution of Phase::flow: contact modes and work of the active contacts.
   void begin_flow() { modes_.clear(); }
   void take_flow(ContactPoint& point, const ImpulseConstraint& c, double h, double normal,
                  double friction);
 
  private:
-  // Of each pair: works of normal force and friction, impulse, moment.
+  // By pair: work of the normal force, work of friction, impulse (3), moment (3).
   static constexpr std::size_t kFlowNumbers = 8;
 
   ContactBodies& bodies_;
   std::vector<ContactPoint>& points_;
   ContactWorks& works_;
-  std::vector<ContactPoint> held_;               // the points as hold() left them
+  std::vector<ContactPoint> held_;               // copy of the points after hold()
   std::vector<std::pair<int, int>> held_pairs_;  // ascending
   std::vector<double> flow_works_;
-  std::vector<char> modes_;  // of the held, after a flow
+  std::vector<char> modes_;  // of the active contacts, after Phase::flow
 };
 
 }  // namespace twinarm

@@ -27,21 +27,26 @@ int ContactBodies::add(const ContactGeometry& geometry) {
   const ContactSurface& s = geometry.surface;
   DiagnosticList faults;
   const std::string where = "geometry '" + geometry.name + "'";
-  const auto check = [&](bool good, const char* what, const char* fix) {
+  const auto check = [&](bool good, const std::string& what, const std::string& fix) {
     if (!good) faults.add(where, what, fix, "contact.geometry");
   };
-  check(geometry.body >= 0 && geometry.body < model_->body_count(), "it hangs on no body",
-        "name a body of the model, or the world");
-  check(s.friction >= 0 && std::isfinite(s.friction), "friction is negative or not a number",
+  check(geometry.body >= 0 && geometry.body < model_->body_count(),
+        "body index " + std::to_string(geometry.body) + " does not exist",
+        "give an index from 0 (world) to " + std::to_string(model_->body_count() - 1));
+  check(s.friction >= 0 && std::isfinite(s.friction),
+        "friction is " + std::to_string(s.friction) + ", must be a finite number >= 0",
         "give 0 or more");
-  check(s.restitution >= 0 && s.restitution <= 1, "restitution is not within 0 and 1",
-        "give 0 (no bounce) to 1 (all of the speed)");
+  check(s.restitution >= 0 && s.restitution <= 1,
+        "restitution is " + std::to_string(s.restitution) + ", must be from 0 to 1",
+        "give 0 (inelastic) to 1 (elastic)");
   check(s.torsional >= 0 && s.rolling >= 0, "torsional or rolling friction is negative",
         "give a length of 0 m or more");
-  check(s.stiffness > 0 && std::isfinite(s.stiffness), "stiffness is not a positive number",
-        "give it in N/m, above 0");
+  check(s.stiffness > 0 && std::isfinite(s.stiffness),
+        "stiffness is " + std::to_string(s.stiffness) + " N/m, must be positive and finite",
+        "give a stiffness above 0 N/m");
   check(s.dissipation >= 0 && std::isfinite(s.dissipation),
-        "dissipation is negative or not a number", "give it in s/m, 0 or more");
+        "dissipation is " + std::to_string(s.dissipation) + " s/m, must be a finite number >= 0",
+        "give 0 s/m or more");
   faults.check();
   const int id = world_.add({geometry.name, geometry.shape, geometry.group, geometry.body == 0});
   geometries_.push_back(geometry);
@@ -52,40 +57,41 @@ int ContactBodies::add(const ContactGeometry& geometry) {
   return id;
 }
 
-void ContactBodies::set_pair(int a, int b, const ContactMaterialPair& law) {
-  rules_.push_back({std::min(a, b), std::max(a, b), law});
+void ContactBodies::set_pair(int a, int b, const ContactMaterialPair& material) {
+  overrides_.push_back({std::min(a, b), std::max(a, b), material});
 }
 
-ContactMaterialPair ContactBodies::law_of(int id_a, int id_b) const {
+ContactMaterialPair ContactBodies::material_of(int id_a, int id_b) const {
   const ContactSurface &a = geometry(id_a).surface, &b = geometry(id_b).surface;
-  ContactMaterialPair law{std::sqrt(a.friction * b.friction), a.restitution * b.restitution,
-                          in_series({a.stiffness, a.dissipation}, {b.stiffness, b.dissipation})};
-  for (const PairOverride& problem : rules_)
-    if (problem.a == id_a && problem.b == id_b) law = problem.law;
-  return law;
+  ContactMaterialPair material{
+      std::sqrt(a.friction * b.friction), a.restitution * b.restitution,
+      in_series({a.stiffness, a.dissipation}, {b.stiffness, b.dissipation})};
+  for (const PairOverride& pair : overrides_)
+    if (pair.a == id_a && pair.b == id_b) material = pair.material;
+  return material;
 }
 
-double ContactBodies::way(std::size_t geometry, const Kinematics& k, double h) const {
+double ContactBodies::max_displacement(std::size_t geometry, const Kinematics& k, double h) const {
   const auto body = static_cast<std::size_t>(geometries_[geometry].body);
   return h * (k.v_WLo[body].norm() + k.w_WL[body].norm() * radius_[geometry]);
 }
 
-Vector3 ContactBodies::point_on(const Contact& c, int body) const {
+Vector3 ContactBodies::application_point(const Contact& c, int body) const {
   const int a = geometry(c.a).body, b = geometry(c.b).body;
-  const double gap = locates ? -c.depth : std::max(0.0, -c.depth);
+  const double gap = locates_events ? -c.depth : std::max(0.0, -c.depth);
   if (body == b && is_immovable(a)) return c.p_WC + 0.5 * gap * c.n_W;
   if (body == a && is_immovable(b)) return c.p_WC - 0.5 * gap * c.n_W;
   return c.p_WC;
 }
 
-Vector3 ContactBodies::approach(const Contact& c, const Kinematics& k) const {
+Vector3 ContactBodies::relative_velocity(const Contact& c, const Kinematics& k) const {
   const int a = geometry(c.a).body, b = geometry(c.b).body;
-  return k.velocity(b, point_on(c, b)) - k.velocity(a, point_on(c, a));
+  return k.velocity(b, application_point(c, b)) - k.velocity(a, application_point(c, a));
 }
 
-Vector3 ContactBodies::moment_of(const Contact& c, const Vector3& impulse_W) const {
+Vector3 ContactBodies::impulse_moment(const Contact& c, const Vector3& impulse_W) const {
   const int a = geometry(c.a).body, b = geometry(c.b).body;
-  return point_on(c, is_immovable(b) ? a : b).cross(impulse_W);
+  return application_point(c, is_immovable(b) ? a : b).cross(impulse_W);
 }
 
 }  // namespace twinarm

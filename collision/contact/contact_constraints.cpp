@@ -6,7 +6,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kSlowestBounce = 1e-3;  // [m/s]
+constexpr double kMinBounceSpeed = 1e-3;  // [m/s]
 
 }  // namespace
 
@@ -31,11 +31,11 @@ bool ContactConstraints::has_closing_contact(const ConstraintFrame& frame) noexc
   bool any = false;
   for (ContactPoint& p : found_.points) {
     p.has_closing_contact = false;
-    if (p.restitution <= 0 && !located) continue;  // those are for the second phase
-    const double u = p.contact.n_W.dot(bodies_.approach(p.contact, frame.k));
+    if (p.restitution <= 0 && !located) continue;  // handled in the second phase
+    const double u = p.contact.n_W.dot(bodies_.relative_velocity(p.contact, frame.k));
     p.has_closing_contact =
         located ? u < -EventSource::kRest && p.contact.depth >= -EventSource::kClosed
-                : u < -kSlowestBounce && frame.h * u < p.contact.depth;
+                : u < -kMinBounceSpeed && frame.h * u < p.contact.depth;
     any = any || p.has_closing_contact;
   }
   return any;
@@ -67,10 +67,10 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
     if (frame.phase != Phase::flow) {
       ContactWork& work = works_.of(point.contact.a, point.contact.b);
       work.impulse_W += impulse_W;
-      work.moment_W += bodies_.moment_of(point.contact, impulse_W);
+      work.moment_W += bodies_.impulse_moment(point.contact, impulse_W);
     }
     if (jumps) {
-      // Work on what moves freely: over J v alone, without what moves by a law.
+      // Work on the free degrees of freedom: J v without prescribed motion.
       std::array<double, 3> before, after;
       problem.velocity(c, problem.v(0), after);
       problem.velocity(c, problem.v0(0), before);
@@ -82,15 +82,14 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
   }
 }
 
-// Of the second phase: forces, what the gap becomes, and work, over the mean of the velocities
-// before and after; of what rests that is nothing.
+// Second phase: forces, gap at the end of the step, and work p . (u_before + u_after)/2.
 void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
                                    const ContactRows::Part& part, const Matrix3& axes) {
   const ImpulseConstraint& c = problem.constraints()[part.row];
   ContactPoint& point = found_.points[part.point];
   const Vector3 p(c.p[0], c.p[1], c.p[2]);
   const double closing = rows_.allowed_closing_speed(frame, point);
-  const Vector3 start = axes.transpose() * bodies_.approach(point.contact, frame.k);
+  const Vector3 start = axes.transpose() * bodies_.relative_velocity(point.contact, frame.k);
   std::array<double, 3> before, after;
   problem.velocity(c, problem.v(0), after);
   for (std::size_t r = 0; r < 3; ++r)
@@ -103,7 +102,7 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
   double friction = 0;
   for (const std::size_t r : {1, 2}) friction += 0.5 * c.p[r] * (before[r] + after[r]);
   if (c.law ==
-      ConstraintType::compliant) {  // what the force says of the bristles; slipping sets it
+      ConstraintType::compliant) {  // bristle deflection from the force (also while sliding)
     const double stiff = c.h * c.k_t, damp = c.h * c.b_t;
     Vector3 anchor = Vector3::Zero();
     for (int r = 1; r < 3; ++r) anchor += axes.col(r) * (-(p[r] + damp * c.u[r]) / stiff);
@@ -119,14 +118,13 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
   if (frame.phase == Phase::flow) return active_.take_flow(point, c, frame.h, normal, friction);
   ContactWork& work = works_.of(point.contact.a, point.contact.b);
   work.moment_W += frame.h * point.couple_W;
-  const bool hits = c.p[0] > 0 && start[0] < -kSlowestBounce && u_n > start[0];
-  (hits ? work.impact : work.normal) += normal;
+  const bool is_impact = c.p[0] > 0 && start[0] < -kMinBounceSpeed && u_n > start[0];
+  (is_impact ? work.impact : work.normal) += normal;
   work.friction += friction;
 }
 
-// What contacts remember from step to step (solver/support/state_archive.h).
 void ContactConstraints::serialize(StateArchive& memory) {
-  memory.visit(bodies_.locates);
+  memory.visit(bodies_.locates_events);
   found_.serialize(memory);
   works_.serialize(memory, bodies_.size());
 }

@@ -1,14 +1,14 @@
-// Contacts of everything with everything, as constraints of the solver
+// Contacts between all geometries as constraints of the solver
 // (solver/stepping/constrained_step.h).
 //
-// Two responses, chosen for all contacts of an instance:
+// Response, the same for all contacts of an instance:
 //   rigid      no penetration, restitution e (Newton's law, impacts faster than 1 mm/s), exact
 //              Coulomb cones; optional torsional and rolling friction
-//   compliant  Hunt-Crossley normal force, N = k d (1 + c s), and bristles that stick at rest and
-//              slip at mu N; both at the end of the step, so stable at any stiffness. The bound mu
-//              N is that of the last round, which at the end is this step's own.
-// Moving bodies are found as far ahead as they move within a step, and gaps may close but not more:
-// nothing tunnels, whatever its speed. What is struck is looked for again at its new speed.
+//   compliant  Hunt-Crossley normal force N = k d (1 + c s), and bristle friction that sticks below
+//              mu N and slides at mu N; both at the end of the step: stable at any stiffness
+// Detection uses a speculative margin of the distance that bodies move within a step, and the
+// constraint is that a gap closes at most: no tunnelling at any speed. After an impact, detection
+// is repeated with the new velocities.
 #pragma once
 
 #include <vector>
@@ -24,7 +24,7 @@ namespace twinarm {
 class ContactConstraints final : public ConstraintSource, public Checkpointable {
  public:
   ContactConstraints(const Model<double>& model, ContactResponse response);
-  ContactConstraints(const ContactConstraints&) = delete;  // its parts know each other
+  ContactConstraints(const ContactConstraints&) = delete;  // parts hold references to each other
   ContactConstraints& operator=(const ContactConstraints&) = delete;
 
   ContactBodies& bodies() { return bodies_; }
@@ -41,7 +41,7 @@ class ContactConstraints final : public ConstraintSource, public Checkpointable 
   void serialize(StateArchive& memory) override;
 
   const std::vector<ContactPoint>& points() const { return found_.points; }
-  // Of all steps so far, ascending by (a, b).
+  // Sum over all steps, ascending by (a, b).
   const std::vector<ContactWork>& work() const { return works_.all; }
 
   static constexpr double kSlop = ContactRows::kSlop;

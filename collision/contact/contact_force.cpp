@@ -12,15 +12,8 @@ namespace twinarm {
 namespace {
 
 constexpr int kObstacleGroup = 0, kLinkGroup = 1;
-constexpr std::size_t kMaxContacts = 256;  // reserved, so that a step does not allocate
-// Speculative contacts reach as far as a link may move in a step, and at least this [m].
-constexpr double kMinMargin = 1e-3;
-
-// Two unit vectors across n.
-std::pair<Vector3, Vector3> tangents(const Vector3& n) {
-  const Vector3 t = n.unitOrthogonal();
-  return {t, n.cross(t)};
-}
+constexpr std::size_t kMaxContacts = 256;  // reserved: a step does not allocate
+constexpr double kMinForceMargin = 1e-3;   // of speculative contacts [m]
 
 }  // namespace
 
@@ -36,8 +29,10 @@ ContactForce::ContactForce(const Model<double>& model, const ContactLaw& law)
 
 void ContactForce::add(int body, const Pose& X_LG, const std::string& name, const Shape& shape) {
   if (body < 0 || body >= model_.body_count())
-    throw InputError({{"", 0, "geometry '" + name + "'", "it hangs on no link of the robot",
-                       "name a link of the robot, or the world", "contact.no-link"}});
+    throw InputError({{"", 0, "geometry '" + name + "'",
+                       "body index " + std::to_string(body) + " does not exist",
+                       "give an index from 0 (world) to " + std::to_string(model_.body_count() - 1),
+                       "contact.no-link"}});
   world_.add({name, shape, body == 0 ? kObstacleGroup : kLinkGroup});
   pieces_.push_back({body, X_LG});
   X_WG_.push_back(X_LG);
@@ -67,10 +62,10 @@ double ContactForce::last_normal_force(const Contact& contact) const {
 
 void ContactForce::begin_step(const Kinematics& k, double /*t*/, double h) noexcept {
   h_ = h;
-  double fastest = 0;  // of the corners of any link, roughly: origin speed plus a metre's turning
+  double max_speed = 0;  // estimate for the points of a link: |v| + |w| 1 m
   for (std::size_t i = 1; i < k.v_WLo.size(); ++i)
-    fastest = std::max(fastest, k.v_WLo[i].norm() + k.w_WL[i].norm());
-  find_contacts(k, std::max(kMinMargin, 2 * h * fastest));
+    max_speed = std::max(max_speed, k.v_WLo[i].norm() + k.w_WL[i].norm());
+  find_contacts(k, std::max(kMinForceMargin, 2 * h * max_speed));
 
   std::swap(readings_, last_readings_);
   readings_.clear();
@@ -112,8 +107,8 @@ void ContactForce::add_forces(const State<double>&, const Kinematics& k,
 
     const double factor =
         law_.friction * point.N_last / std::hypot(point.v_t0.norm(), law_.stiction_speed);
-    const auto [t1, t2] = tangents(reading.normal_W);
-    for (const Vector3& t : {t1, t2}) {
+    const Matrix3 axes = contact_axes(reading.normal_W);
+    for (const Vector3& t : {Vector3(axes.col(1)), Vector3(axes.col(2))}) {
       add_point_force(k, reading.body, reading.p_W, -factor * t.dot(point.v_n) * t, forces);
       add_particle_along(k, reading.body, reading.p_W, t, h_ * factor, forces);
     }

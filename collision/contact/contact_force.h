@@ -1,19 +1,20 @@
-// Contact of moving links with fixed obstacles: Hunt-Crossley normal force, regularised Coulomb
-// friction, both at the END of the step, so stable at any stiffness (solver/forces/spring.h).
+// Contact of moving links with fixed obstacles: Hunt-Crossley normal force and regularised Coulomb
+// friction, both evaluated at the end of the step: stable at any stiffness
+// (solver/forces/spring.h).
 //
-// d: depth at a contact point, s = d' its rate, positive when closing. After the step d' = d + h s.
+// d: penetration depth, s = d' its rate, positive while closing. After the step d' = d + h s.
 //   normal     N = k d' (1 + c s)           where d' > 0 and 1 + c s > 0, else 0
 //              (Hunt and Crossley 1975, exponent 1: flat faces). An impact at speed v has the
 //              restitution e of  c v - ln(1 + c v) = -c e v - ln(1 - c e v),
 //              which is 1 - (2/3) c v to first order
-//   friction   T = -mu N_last v_t / sqrt(|v_t|^2 + v_s^2), N_last the normal force of the same
-//   contact
-//              one step before: a bound of this step's own N makes the two chase each other
-// N is linearised about the rate s0 of the last round, N = N0 + N' (s - s0), and s = s_n + h J qdd:
-// an explicit force and a weightless particle m* = h N' along the normal. Friction has its factor
-// mu N_last / sqrt(|v_t0|^2 + v_s^2) from the last round and acts as an implicit damper. Rounds of
-// forces and ABA go on until s stands still: Newton's method. A contact that is still apart takes
-// part if the step would close it, so a fast link does not enter the obstacle for a step.
+//   friction   T = -mu N_last v_t / sqrt(|v_t|^2 + v_s^2)
+//              N_last: normal force of the same contact one step before (with N of this step the
+//              fixed-point iteration would oscillate)
+// N is linearised about the rate s0 of the last iteration, N = N0 + N' (s - s0), with s = s_n + h J
+// qdd: an explicit force and an added mass m* = h N' along the normal. Friction is an implicit
+// damper with the factor mu N_last / sqrt(|v_t0|^2 + v_s^2) of the last iteration. Forces and ABA
+// are iterated until s converges (Newton's method). A contact that is still open takes part if the
+// step would close it.
 #pragma once
 
 #include <vector>
@@ -32,7 +33,7 @@ struct ContactLaw {
 
 struct ContactReading {
   Contact contact;  // at the start of the step
-  int body = 0;     // the moving link
+  int body = 0;     // moving link
   Vector3 p_W = Vector3::Zero();
   Vector3 normal_W = Vector3::Zero();    // out of the obstacle
   double normal_force = 0;               // N at the end of the step [N]
@@ -43,7 +44,7 @@ class ContactForce final : public ForceSource {
  public:
   ContactForce(const Model<double>& model, const ContactLaw& law);
 
-  // A piece of a link (body > 0), or a fixed obstacle (body 0), at X_LG in its link.
+  // A shape of a link (body > 0) or of a fixed obstacle (body 0), at X_LG in its link.
   void add(int body, const Pose& X_LG, const std::string& name, const Shape& shape);
 
   void begin_step(const Kinematics& k, double t, double h) noexcept override;
@@ -54,7 +55,7 @@ class ContactForce final : public ForceSource {
   bool needs_rounds() const override { return true; }
 
   const std::vector<ContactReading>& readings() const { return readings_; }  // of the last step
-  // Largest depth of any contact at a pose, 0 where nothing penetrates [m].
+  // Maximum penetration depth at a pose, 0 without penetration [m].
   double deepest(const Kinematics& k);
 
  private:
@@ -62,11 +63,11 @@ class ContactForce final : public ForceSource {
     int body;
     Pose X_LG;
   };
-  struct Point {                     // one contact in the course of a step
-    double s_n = 0, s0 = 0;          // closing rate at the start, and of the last round [m/s]
-    Vector3 v_t0 = Vector3::Zero();  // sliding velocity of the last round [m/s]
+  struct Point {                     // state of a contact during a step
+    double s_n = 0, s0 = 0;          // closing rate at the start and at the last iteration [m/s]
+    Vector3 v_t0 = Vector3::Zero();  // sliding velocity at the last iteration [m/s]
     Vector3 v_n = Vector3::Zero();   // velocity of the link's point at the start [m/s]
-    double N_last = 0;               // of the same contact, one step before [N]
+    double N_last = 0;               // normal force one step before [N]
   };
   void find_contacts(const Kinematics& k, double margin);
   double last_normal_force(const Contact& contact) const;

@@ -7,33 +7,33 @@
 namespace twinarm {
 namespace {
 
-constexpr double kMinReach = 5e-4;   // [m]
+constexpr double kMinMargin = 5e-4;  // [m]
 constexpr double kSamePoint = 0.01;  // [m]
 
-std::tuple<int, int, int> name_of(const Contact& c) {
+std::tuple<int, int, int> key_of(const Contact& c) {
   return {c.a, c.b, c.feature};
 }
 
 }  // namespace
 
 ContactManifolds::ContactManifolds(ContactBodies& bodies) : bodies_(bodies) {
-  constexpr std::size_t kRoom = 256;  // so that a pair that touches for the first time takes none
-  points.reserve(kRoom);
+  points.reserve(256);  // a step does not allocate
 }
 
-// As far as it is looked for others, forces within the step included.
-double ContactManifolds::reach(std::size_t geometry, const Kinematics& k, double h) const {
+// The factor allows for the acceleration within the step.
+double ContactManifolds::speculative_margin(std::size_t geometry, const Kinematics& k,
+                                            double h) const {
   const bool is_fixed = bodies_.geometry(static_cast<int>(geometry)).body == 0;
-  return is_fixed ? 0 : kMinReach + 1.25 * bodies_.way(geometry, k, h);
+  return is_fixed ? 0 : kMinMargin + 1.25 * bodies_.max_displacement(geometry, k, h);
 }
 
 ContactPoint ContactManifolds::start(const Contact& contact) const {
   ContactPoint point;
   point.contact = contact;
-  const ContactMaterialPair law = bodies_.law_of(contact.a, contact.b);
-  point.friction = law.friction;
-  point.restitution = law.restitution;
-  point.compliance = law.compliance;
+  const ContactMaterialPair material = bodies_.material_of(contact.a, contact.b);
+  point.friction = material.friction;
+  point.restitution = material.restitution;
+  point.compliance = material.compliance;
   if (const ContactPoint* before = last_of(contact)) {
     point.force_W = before->force_W;
     point.couple_W = before->couple_W;
@@ -44,55 +44,56 @@ ContactPoint ContactManifolds::start(const Contact& contact) const {
   return point;
 }
 
-// The same point one step before: by its name, else the nearest of the pair (where edges lie on one
-// another rounding decides which of them names a corner).
+// The same point one step before: by its feature, else the nearest of the pair (for coincident
+// edges, rounding decides which of them identifies a vertex).
 const ContactPoint* ContactManifolds::last_of(const Contact& contact) const {
   const auto pair = std::pair(contact.a, contact.b);
   auto p = std::lower_bound(last_.begin(), last_.end(), pair, [](const ContactPoint& q, auto ab) {
     return std::pair(q.contact.a, q.contact.b) < ab;
   });
   const ContactPoint* nearest = nullptr;
-  double least = kSamePoint;
+  double min_distance = kSamePoint;
   for (; p != last_.end() && std::pair(p->contact.a, p->contact.b) == pair; ++p) {
     if (p->contact.feature == contact.feature) return &*p;
     const double distance = (p->contact.p_WC - contact.p_WC).norm();
-    if (distance < least) least = distance, nearest = &*p;
+    if (distance < min_distance) min_distance = distance, nearest = &*p;
   }
   return nearest;
 }
 
 void ContactManifolds::begin_step(const Kinematics& k, double h) noexcept {
-  reach_.resize(bodies_.size());
+  margins_.resize(bodies_.size());
   X_WG_.resize(bodies_.size());
   for (std::size_t g = 0; g < bodies_.size(); ++g) {
     const ContactGeometry& geometry = bodies_.geometry(static_cast<int>(g));
     X_WG_[g] = k.X_WL[static_cast<std::size_t>(geometry.body)] * geometry.X_LG;
-    reach_[g] = reach(g, k, h);
+    margins_[g] = speculative_margin(g, k, h);
   }
-  bodies_.world().detect(X_WG_, reach_, contacts_);
+  bodies_.world().detect(X_WG_, margins_, contacts_);
   std::swap(points, last_);
   points.clear();
   for (const Contact& contact : contacts_)
-    if (bodies_.moves(contact)) points.push_back(start(contact));
+    if (bodies_.has_moving_body(contact)) points.push_back(start(contact));
 }
 
 bool ContactManifolds::extend_detection(const Kinematics& k, double h) noexcept {
   bool farther = false;
   for (std::size_t g = 0; g < bodies_.size(); ++g)
-    if (bodies_.way(g, k, h) > reach_[g]) farther = true, reach_[g] = reach(g, k, h);
+    if (bodies_.max_displacement(g, k, h) > margins_[g])
+      farther = true, margins_[g] = speculative_margin(g, k, h);
   if (!farther) return false;
-  bodies_.world().detect(X_WG_, reach_, contacts_);
+  bodies_.world().detect(X_WG_, margins_, contacts_);
   const auto before = [](const ContactPoint& p, const ContactPoint& q) {
-    return name_of(p.contact) < name_of(q.contact);
+    return key_of(p.contact) < key_of(q.contact);
   };
   const std::size_t known = points.size();
   for (const Contact& contact : contacts_) {
     const auto end = points.begin() + static_cast<std::ptrdiff_t>(known);
     const auto p = std::lower_bound(
         points.begin(), end, contact,
-        [](const ContactPoint& q, const Contact& c) { return name_of(q.contact) < name_of(c); });
-    if (p != end && name_of(p->contact) == name_of(contact)) continue;
-    if (bodies_.moves(contact)) points.push_back(start(contact));
+        [](const ContactPoint& q, const Contact& c) { return key_of(q.contact) < key_of(c); });
+    if (p != end && key_of(p->contact) == key_of(contact)) continue;
+    if (bodies_.has_moving_body(contact)) points.push_back(start(contact));
   }
   if (points.size() == known) return false;
   std::sort(points.begin(), points.end(), before);
@@ -100,11 +101,10 @@ bool ContactManifolds::extend_detection(const Kinematics& k, double h) noexcept 
   return true;
 }
 
-// Bristles, guesses, what is held.
 void ContactManifolds::serialize(StateArchive& memory) {
-  constexpr std::size_t kPoint = 28 * sizeof(double);  // bytes, at least
+  constexpr std::size_t kMinBytes = 28 * sizeof(double);  // of a point
   const std::size_t count = bodies_.size();
-  memory.resize(points, kPoint);
+  memory.resize(points, kMinBytes);
   for (ContactPoint& p : points) {
     for (int* id : {&p.contact.a, &p.contact.b}) memory.visit_index(*id, count);
     memory.visit(p.contact.feature);

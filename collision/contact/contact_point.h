@@ -1,4 +1,5 @@
-// Contacts as plain data: what can touch, with which surfaces; a point of contact; its work.
+// Contacts as plain data: geometries and their surface parameters, contact points, work of
+// contacts.
 #pragma once
 
 #include <string>
@@ -11,11 +12,11 @@ namespace twinarm {
 enum class ContactResponse { rigid, compliant };
 
 struct ContactSurface {
-  double friction = 0.5;   // a pair takes the geometric mean
-  double restitution = 0;  // a pair takes the product
-  double torsional = 0;    // radius of the patch that resists a turn about the normal [m]
-  double rolling = 0;      // arm of the normal force when it rolls [m]
-  double stiffness = 1e6;  // compliant: of one contact point; a pair: in_series [N/m]
+  double friction = 0.5;   // mu; of a pair: geometric mean
+  double restitution = 0;  // e; of a pair: product
+  double torsional = 0;    // coefficient of torsional friction [m]
+  double rolling = 0;      // coefficient of rolling friction [m]
+  double stiffness = 1e6;  // compliant: of one contact point; of a pair: in_series [N/m]
   double dissipation = 1;  // compliant: c [s/m]
 };
 
@@ -23,23 +24,23 @@ struct Compliance {
   double stiffness;    // [N/m]
   double dissipation;  // [s/m]
 };
-// Two springs between one force: 1/k = 1/ka + 1/kb. Each gives way by its share k/ka, k/kb of the
-// depth, and so of its rate: c = ca k/ka + cb k/kb. The softer one says more.
+// Two springs in series: 1/k = 1/ka + 1/kb. Their shares of the depth and of its rate are k/ka and
+// k/kb, so c = ca k/ka + cb k/kb.
 inline Compliance in_series(const Compliance& a, const Compliance& b) {
   const double k = 1 / (1 / a.stiffness + 1 / b.stiffness);
   return {k, a.dissipation * (k / a.stiffness) + b.dissipation * (k / b.stiffness)};
 }
 
-// What holds between two geometries.
+// Contact parameters of a pair of geometries.
 struct ContactMaterialPair {
   double friction, restitution;
   Compliance compliance;
 };
 
 struct ContactGeometry {
-  std::string name;  // for messages and readings
-  int body = 0;      // of the model; 0: fixed in the world
-  Pose X_LG;         // in the axes of its link
+  std::string name;
+  int body = 0;  // of the model; 0: the world
+  Pose X_LG;     // pose in its link
   Shape shape;
   ContactSurface surface;
   int group = 0;  // CollisionWorld::set_group_filter
@@ -50,19 +51,19 @@ struct ContactPoint {
   Contact contact;  // at the start of the step
   double friction = 0, restitution = 0;
   Compliance compliance{};
-  Vector3 impulse_W = Vector3::Zero();   // on b, over the step, impacts included [N s]
+  Vector3 impulse_W = Vector3::Zero();   // on b, over the step, with impacts [N s]
   Vector3 force_W = Vector3::Zero();     // on b, without impacts [N]
   Vector3 couple_W = Vector3::Zero();    // on b: torsional and rolling friction [N m]
-  Vector3 anchor_W = Vector3::Zero();    // compliant: how far the bristles are bent [m]
-  Vector3 velocity_W = Vector3::Zero();  // of b against a, at the end of the step [m/s]
+  Vector3 anchor_W = Vector3::Zero();    // compliant: bristle deflection [m]
+  Vector3 velocity_W = Vector3::Zero();  // of b relative to a, at the end of the step [m/s]
   bool is_held = false, opens = false;   // event_source.h
-  Vector3 slip_W = Vector3::Zero();      // of what is held: at the start of the piece [m/s]
+  Vector3 slip_W = Vector3::Zero();  // if held: sliding velocity at the start of the segment [m/s]
   // Within a step:
-  bool has_closing_contact = false;  // takes part in the first phase, with its restitution
-  double gap_after = 0;              // as the second phase leaves it [m]
+  bool has_closing_contact = false;  // in the first phase: impact with restitution
+  double gap_after = 0;              // after the second phase [m]
 };
 
-// Of all points of two geometries, on what they belong to.
+// Work and impulses of all contact points of a pair of geometries.
 struct ContactWork {
   int a, b;
   double normal = 0, friction = 0, impact = 0;  // [J]
@@ -70,7 +71,7 @@ struct ContactWork {
   Vector3 moment_W = Vector3::Zero();           // on b, about the world's origin [N m s]
 };
 
-// The normal and two directions across it, as columns.
+// Contact frame as columns: normal and two tangents.
 inline Matrix3 contact_axes(const Vector3& n) {
   Matrix3 axes;
   axes.col(0) = n;

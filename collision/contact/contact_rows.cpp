@@ -9,8 +9,9 @@
 namespace twinarm {
 namespace {
 
-constexpr double kTouching = 1e-6;  // takes part in an impact of others [m]
-constexpr double kFastestSeparation = 0.5, kSeparationPart = 0.2;  // [m/s], of the depth per step
+constexpr double kTouching = 1e-6;  // maximum gap of contacts that take part in an impact [m]
+// Of the position correction: maximum speed [m/s], share of the depth per step.
+constexpr double kMaxSeparationSpeed = 0.5, kSeparationShare = 0.2;
 constexpr double kBristleRatio = 1;  // tangential over normal stiffness
 
 void set_compliance(const ContactPoint& point, double h, const Matrix3& axes,
@@ -53,9 +54,9 @@ bool ContactRows::takes_part(const ConstraintFrame& frame, const ContactPoint& p
   }
 }
 
-// The impact is computed at the start of the step, a gap before it happens. With the acceleration A
-// towards the surface the speed u becomes U, U^2 = u^2 + 2 A gap; e U is left after the impact; and
-// on the way back to where the body is now it becomes w, w^2 = e^2 U^2 - 2 A gap.
+// The impact is computed at the start of the step, when a gap is still open. With the acceleration
+// A towards the surface, the approach speed u is U at the impact: U^2 = u^2 + 2 A gap. The rebound
+// speed there is e U, which at the present position is w: w^2 = e^2 U^2 - 2 A gap.
 double ContactRows::bounce_speed(const ContactPoint& point, double u, const ConstraintFrame& frame,
                                  const ImpulseProblem& problem, const ImpulseConstraint& c) const {
   if (frame.phase == Phase::hit) return point.restitution * std::abs(u);
@@ -92,20 +93,20 @@ void ContactRows::add_contact(const ConstraintFrame& frame, const ContactPoint& 
                                      : soft    ? ConstraintType::compliant
                                                : ConstraintType::coulomb_cone,
                                      rows, tree_a, tree_b);
-  frame.trees.add_point_rows(frame.k, a, bodies_.point_on(contact, a), axes, rows, -1,
+  frame.trees.add_point_rows(frame.k, a, bodies_.application_point(contact, a), axes, rows, -1,
                              problem.J(c, 0));
-  frame.trees.add_point_rows(frame.k, b, bodies_.point_on(contact, b), axes, rows, 1,
+  frame.trees.add_point_rows(frame.k, b, bodies_.application_point(contact, b), axes, rows, 1,
                              problem.J(c, one_tree ? 0 : 1));
   c.mu = point.friction;
   if (separate) {
     const double gap = point.gap_after, h = frame.h;
     c.b[0] = gap >= 0 ? gap
-                      : std::max(std::min(0.0, kSeparationPart * (gap + kSlop)),
-                                 -kFastestSeparation * h);
+                      : std::max(std::min(0.0, kSeparationShare * (gap + kSlop)),
+                                 -kMaxSeparationSpeed * h);
     return;
   }
-  const Vector3 u = axes.transpose() * bodies_.approach(contact, frame.k);
-  if (has_drives_) {  // what moves by a law is not in J
+  const Vector3 u = axes.transpose() * bodies_.relative_velocity(contact, frame.k);
+  if (has_drives_) {  // prescribed motion is not in J
     problem.velocity(c, frame.v, c.b);
     for (int r = 0; r < rows; ++r) c.b[r] = u[r] - c.b[r];
   }
@@ -127,15 +128,14 @@ void ContactRows::add_friction_couples(const ConstraintFrame& frame, const Conta
   const ContactSurface &a = bodies_.geometry(contact.a).surface,
                        &b = bodies_.geometry(contact.b).surface;
   const int of = static_cast<int>(parts_.back().row);
+  const int body_a = bodies_.geometry(contact.a).body, body_b = bodies_.geometry(contact.b).body;
   const auto add_couple = [&](double radius, const Matrix3& about, int rows) {
     if (radius <= 0) return;
     const auto tree = problem.constraints()[parts_.back().row].tree;
-    const bool one_tree = frame.trees.tree_of(bodies_.geometry(contact.a).body) ==
-                          frame.trees.tree_of(bodies_.geometry(contact.b).body);
+    const bool one_tree = frame.trees.tree_of(body_a) == frame.trees.tree_of(body_b);
     ImpulseConstraint& c = problem.add(ConstraintType::friction_disc, rows, tree[0], tree[1]);
     c.radius = radius;
     c.of = of;
-    const int body_a = bodies_.geometry(contact.a).body, body_b = bodies_.geometry(contact.b).body;
     frame.trees.add_turn_rows(frame.k, body_a, about, rows, -1, problem.J(c, 0));
     frame.trees.add_turn_rows(frame.k, body_b, about, rows, 1, problem.J(c, one_tree ? 0 : 1));
     if (has_drives_) {

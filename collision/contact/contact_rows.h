@@ -1,4 +1,4 @@
-// Contact points as rows of the impulse problem, in each phase of a step.
+// Contact points as constraints (rows) of the impulse problem, by phase of a step.
 #pragma once
 
 #include <vector>
@@ -12,20 +12,20 @@ class ContactRows {
  public:
   ContactRows(const Model<double>& model, const ContactBodies& bodies, ContactResponse response);
 
-  struct Part {  // a contact's share of the problem
+  struct Part {  // constraints of one contact point
     std::size_t point;
-    std::size_t row;  // of its constraint
-    int extra;        // constraints for torsional and rolling friction behind it
+    std::size_t row;  // index of its first constraint
+    int extra;        // number of torsional and rolling friction constraints that follow
   };
   void add(const ConstraintFrame& frame, const std::vector<ContactPoint>& points,
            ImpulseProblem& problem);
-  const std::vector<Part>& parts() const { return parts_; }  // as they were added
+  const std::vector<Part>& parts() const { return parts_; }  // in the order of addition
 
-  // How fast the gap may close: in a step by what is left of it, in a smooth piece not at all but
-  // for the rest that integration leaves.
+  // Allowed closing speed: gap/h in a fixed step; in a smooth segment only a correction of the
+  // integration error.
   double allowed_closing_speed(const ConstraintFrame& frame, const ContactPoint& point) const;
 
-  static constexpr double kSlop = 1e-6;  // penetration that is let be [m]
+  static constexpr double kSlop = 1e-6;  // penetration without position correction [m]
 
  private:
   bool takes_part(const ConstraintFrame& frame, const ContactPoint& point) const;

@@ -1,14 +1,10 @@
-// One detection: boxes -> broad phase -> filter -> narrow phase -> sorted contacts.
-// Cost: O(n log n) for the boxes, plus the narrow phase of the pairs whose boxes overlap.
+// Detection: bounding boxes -> broad phase -> pair filter -> narrow phase -> sorted contacts.
 #include "collision/detection/collision_world.h"
-
-#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
-#include <fcl/geometry/shape/box.h>
-#include <fcl/narrowphase/collision_object.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
+#include <numeric>
 #include <tuple>
 
 #include "collision/narrow_phase/narrow_phase.h"
@@ -25,33 +21,49 @@ bool is_finite(const Pose& X) {
   return X.R.allFinite() && X.p.allFinite();
 }
 
-// The box of a body, grown by its margin: two boxes overlap if the bodies can be that near.
-Aabb bounding_box(const PosedShape& body, double margin) {
-  constexpr std::size_t kSmallCount =
-      7;  // vertices, of which the least box is as cheap as any other
-  Aabb box;
+// Axis-aligned bounding box, grown by the margin.
+Aabb broad_phase_box(const PosedShape& body, double margin) {
+  constexpr std::size_t kSmallHull = 7;  // vertices: the tight box is as cheap
   const Polytope& core = body.solid.core;
-  if (body.solid.surface || (core.exists && core.hull.vertices.size() > kSmallCount)) {
-    // Around the box in the body's own axes, which does not ask every vertex: wider, but of a box.
+  if (body.solid.surface || (core.exists && core.hull.vertices.size() > kSmallHull)) {
+    // Box around the body's local bounding box: independent of the number of vertices, but wider.
     const Vector3 centre = body.X_WG * body.solid.centre;
     const Vector3 half = body.X_WG.R.cwiseAbs() * body.solid.half;
-    box = {centre - half, centre + half};
-  } else if (core.exists) {
-    box.low = box.high = body.X_WG * core.hull.vertices[0];
-    for (const Vector3& v : core.hull.vertices) {
-      const Vector3 p = body.X_WG * v;
-      box.low = box.low.cwiseMin(p);
-      box.high = box.high.cwiseMax(p);
-    }
-    margin += core.radius;
-  } else {
-    for (int axis = 0; axis < 3; ++axis) {
-      const Vector3 e = Vector3::Unit(axis);
-      box.high[axis] = body.support_W(e)[axis];
-      box.low[axis] = body.support_W(-e)[axis];
-    }
+    return {centre - half - Vector3::Constant(margin), centre + half + Vector3::Constant(margin)};
   }
-  return {box.low.array() - margin, box.high.array() + margin};
+  if (!core.exists) return bounding_box(body, margin);
+  Aabb box;
+  for (const Vector3& v : core.hull.vertices) box.extend(body.X_WG * v);
+  const Vector3 grown = Vector3::Constant(margin + core.radius);
+  return {box.min() - grown, box.max() + grown};
+}
+
+void check_group(const std::string& where, int group, DiagnosticList& faults) {
+  constexpr int kCount = CollisionWorld::kGroupCount;
+  if (group < 0 || group >= kCount)
+    faults.add(where, "group is " + std::to_string(group),
+               "give a group from 0 to " + std::to_string(kCount - 1), "contact.group");
+}
+
+// Broad phase: all pairs of overlapping boxes, by sort and sweep along the axis with the largest
+// variance of the box centres. `order` avoids allocation.
+void find_overlaps(std::span<const Aabb> boxes, std::vector<int>& order,
+                   std::vector<std::pair<int, int>>& pairs) {
+  Vector3 sum = Vector3::Zero(), squares = Vector3::Zero();
+  for (const Aabb& box : boxes) {
+    sum += box.center();
+    squares += box.center().cwiseAbs2();
+  }
+  int axis = 0;
+  (squares * static_cast<double>(boxes.size()) - sum.cwiseAbs2()).maxCoeff(&axis);
+  order.resize(boxes.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return boxes[i].min()[axis] < boxes[j].min()[axis]; });
+  pairs.clear();
+  for (auto a = order.begin(); a != order.end(); ++a)
+    for (auto b = a + 1; b != order.end() && boxes[*b].min()[axis] <= boxes[*a].max()[axis]; ++b)
+      if (boxes[*a].intersects(boxes[*b])) pairs.emplace_back(std::min(*a, *b), std::max(*a, *b));
 }
 
 }  // namespace
@@ -63,9 +75,7 @@ int CollisionWorld::add(Geometry geometry) {
   if (!fault.empty())
     faults.add(where, shape_name(geometry.shape) + ": " + fault, "correct the shape",
                "shape.numbers");
-  if (geometry.group < 0 || geometry.group >= group_count)
-    faults.add(where, "group is " + std::to_string(geometry.group),
-               "give a group from 0 to " + std::to_string(group_count - 1), "contact.group");
+  check_group(where, geometry.group, faults);
   faults.check();
 
   const int id = size();
@@ -77,12 +87,7 @@ int CollisionWorld::add(Geometry geometry) {
     geometries_.pop_back();
     throw;
   }
-  if (is_half_space(geometries_.back().shape)) {
-    half_spaces_.push_back(id);
-  } else {
-    bounded_.push_back(id);
-    broad_phase_.add();
-  }
+  (is_half_space(geometries_.back().shape) ? half_spaces_ : bounded_).push_back(id);
   return id;
 }
 
@@ -99,18 +104,14 @@ void CollisionWorld::check_pair(int a, int b) const {
 void CollisionWorld::disable_pair(int a, int b) {
   assert(a >= 0 && b >= 0 && a < size() && b < size());
   const std::pair pair(std::min(a, b), std::max(a, b));
-  const auto place = std::lower_bound(disabled_pairs_.begin(), disabled_pairs_.end(), pair);
-  if (place == disabled_pairs_.end() || *place != pair) disabled_pairs_.insert(place, pair);
+  const auto at = std::lower_bound(disabled_pairs_.begin(), disabled_pairs_.end(), pair);
+  if (at == disabled_pairs_.end() || *at != pair) disabled_pairs_.insert(at, pair);
 }
 
 void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {
-  for (int group : {group_a, group_b}) {
-    if (group < 0 || group >= group_count) {
-      throw InputError(
-          {{"", 0, "group filter", "group is " + std::to_string(group),
-            "give a group from 0 to " + std::to_string(group_count - 1), "contact.group"}});
-    }
-  }
+  DiagnosticList faults;
+  for (int group : {group_a, group_b}) check_group("group filter", group, faults);
+  faults.check();
   const auto before = mask_;
   const std::uint32_t bit_a = 1u << group_a, bit_b = 1u << group_b;
   mask_[group_a] = collide ? mask_[group_a] | bit_b : mask_[group_a] & ~bit_b;
@@ -132,16 +133,13 @@ bool CollisionWorld::may_collide(int a, int b) const {
                              std::pair(std::min(a, b), std::max(a, b)));
 }
 
-// Fills pairs_ with what may touch, ascending.
+// Fills pairs_ with the collision pairs, ascending.
 void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const double> margins) {
   boxes_.clear();
-  for (int id : bounded_) {
-    // What is nowhere goes far away: a box that is not a number would unsettle the whole tree.
-    const Aabb nowhere{Vector3::Constant(1e30), Vector3::Constant(1e30)};
-    boxes_.push_back(is_finite(X_WG[id]) ? bounding_box({solids_[id], X_WG[id]}, margins[id])
-                                         : nowhere);
-  }
-  broad_phase_.overlaps(boxes_, pairs_);
+  for (int id : bounded_)
+    boxes_.push_back(is_finite(X_WG[id]) ? broad_phase_box({solids_[id], X_WG[id]}, margins[id])
+                                         : Aabb());
+  find_overlaps(boxes_, sweep_, pairs_);
   for (auto& [a, b] : pairs_) {
     a = bounded_[a];
     b = bounded_[b];
@@ -154,9 +152,8 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const doub
       if (half_space_distance(half_space, boxes_[i]) > margins[ground]) continue;
       if (!may_collide(ground, body) || !is_finite(X_WG[body])) continue;
       const PosedShape other{solids_[body], X_WG[body]};
-      if (half_space_distance(half_space, other) < margins[ground] + margins[body]) {
+      if (half_space_distance(half_space, other) < margins[ground] + margins[body])
         pairs_.emplace_back(std::min(ground, body), std::max(ground, body));
-      }
     }
   }
   std::erase_if(pairs_, [&](const auto& pair) {
@@ -168,9 +165,8 @@ void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const doub
 
 NarrowPhase::Result CollisionWorld::narrow(const PosedShape& a, const PosedShape& b,
                                            double margin) {
-  if (a.solid.surface != nullptr) {
+  if (a.solid.surface != nullptr)
     return {Vector3::Zero(), &mesh_contact_.contacts(narrow_phase_, a, b, margin)};
-  }
   if (b.solid.surface == nullptr) return narrow_phase_.contacts(a, b, margin);
   points_ = mesh_contact_.contacts(narrow_phase_, b, a, margin);
   swap_roles(points_);
@@ -207,95 +203,11 @@ void CollisionWorld::detect(std::span<const Pose> X_WG, double margin, std::vect
 double CollisionWorld::distance(int a, int b, const Pose& X_WA, const Pose& X_WB) {
   assert(is_supported(geometry(a).shape, geometry(b).shape));
   const PosedShape placed_a{solids_[a], X_WA}, placed_b{solids_[b], X_WB};
-  if (solids_[a].surface != nullptr) {
+  if (solids_[a].surface != nullptr)
     return mesh_contact_.distance(narrow_phase_, placed_a, placed_b);
-  }
-  if (solids_[b].surface != nullptr) {
+  if (solids_[b].surface != nullptr)
     return mesh_contact_.distance(narrow_phase_, placed_b, placed_a);
-  }
   return narrow_phase_.distance(placed_a, placed_b);
-}
-
-// Broad phase: of few boxes each with each, O(n^2), of many by FCL's dynamic tree, O(n log n +
-// pairs). Both find the same pairs.
-//
-// To refit and to ask the tree of an arm's 18 hulls and nine obstacles took a ninth of the
-// instructions of a servo tick and a seventh of the cache lines that it touched, which counts where
-// a thread has slept in between; each with each is 351 comparisons in a row.
-//
-// FCL would bound a turned body by its bounding sphere. We know tighter boxes and hand them over:
-// each object is a stand-in at the identity whose local box is rewritten each step. One instance
-// per thread: FCL writes to its objects here.
-namespace {
-
-struct StandIn {
-  std::shared_ptr<fcl::Boxd> geometry = std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0);
-  std::unique_ptr<fcl::CollisionObjectd> object = std::make_unique<fcl::CollisionObjectd>(geometry);
-};
-
-using Pairs = std::vector<std::pair<int, int>>;
-
-constexpr std::size_t kSmallCount = 64;  // boxes
-
-bool meet(const Aabb& a, const Aabb& b) {
-  return (a.low.array() <= b.high.array()).all() && (b.low.array() <= a.high.array()).all();
-}
-
-void each_with_each(std::span<const Aabb> boxes, Pairs& pairs) {
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    for (std::size_t j = i + 1; j < boxes.size(); ++j)
-      if (meet(boxes[i], boxes[j])) pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
-}
-
-int index_of(const fcl::CollisionObjectd* object) {
-  return static_cast<int>(reinterpret_cast<std::intptr_t>(object->getUserData()));
-}
-
-bool collect(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
-  const int i = index_of(a), j = index_of(b);
-  static_cast<Pairs*>(data)->emplace_back(std::min(i, j), std::max(i, j));
-  return false;  // go on
-}
-
-}  // namespace
-
-struct BroadPhase::Impl {
-  std::vector<StandIn> objects;
-  fcl::DynamicAABBTreeCollisionManagerd manager;  // after the objects: goes before them
-  bool is_new = true;
-};
-
-BroadPhase::BroadPhase() : impl_(std::make_unique<Impl>()) {}
-BroadPhase::~BroadPhase() = default;
-BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
-BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
-
-int BroadPhase::add() {
-  const auto index = static_cast<std::intptr_t>(impl_->objects.size());
-  impl_->objects.emplace_back();
-  // NOLINTNEXTLINE(performance-no-int-to-ptr): FCL keeps a pointer for us, nothing else
-  impl_->objects.back().object->setUserData(reinterpret_cast<void*>(index));
-  impl_->is_new = true;
-  return static_cast<int>(index);
-}
-
-void BroadPhase::overlaps(std::span<const Aabb> boxes, Pairs& pairs) {
-  pairs.clear();
-  if (boxes.size() <= kSmallCount) return each_with_each(boxes, pairs);
-  for (std::size_t i = 0; i < impl_->objects.size(); ++i) {
-    StandIn& stand_in = impl_->objects[i];
-    stand_in.geometry->aabb_local = fcl::AABBd(boxes[i].low, boxes[i].high);
-    stand_in.object->computeAABB();
-  }
-  if (impl_->is_new) {  // built over boxes that are already in their places
-    impl_->manager.clear();
-    for (StandIn& stand_in : impl_->objects) impl_->manager.registerObject(stand_in.object.get());
-    impl_->manager.setup();
-    impl_->is_new = false;
-  } else {
-    impl_->manager.update();
-  }
-  impl_->manager.collide(&pairs, collect);
 }
 
 }  // namespace twinarm

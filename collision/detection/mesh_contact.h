@@ -1,4 +1,4 @@
-// A triangle mesh against a convex body.
+// Contacts of a triangle mesh with a convex body.
 #pragma once
 
 #include <vector>
@@ -11,34 +11,34 @@ namespace twinarm {
 
 class MeshContact {
  public:
-  // Contacts with depth > -margin, each with its own normal, from the mesh (A) to the body (B). Of
-  // a closed mesh only the sides that face the body's origin count: it is taken to be outside. Up
-  // to four for each direction in which the body touches.
+  // Contacts with depth > -margin, each with its own normal, from the mesh (A) to the body (B); up
+  // to four for each normal. Of a closed mesh only triangles that face the body's origin count.
   const std::vector<ManifoldPoint>& contacts(NarrowPhase& narrow_phase, const PosedShape& mesh,
                                              const PosedShape& body, double margin);
   // Distance of the nearest triangle, or minus the largest depth [m].
   double distance(NarrowPhase& narrow_phase, const PosedShape& mesh, const PosedShape& body);
 
  private:
-  void touch_triangle(NarrowPhase& narrow_phase, const PosedShape& mesh, int t,
-                      const PosedShape& body, double margin);
-  enum class Along { front, leaning };  // the triangle's own normal, or over a side or corner
-  void take(const std::vector<ManifoldPoint>& points, Along along, const Vector3& n_W, int t,
-            double margin);
-  bool is_false(const PosedShape& mesh, const ManifoldPoint& point) const;
+  void collide_triangle(NarrowPhase& narrow_phase, const PosedShape& mesh, int t,
+                        const PosedShape& body, double margin);
+  enum class NormalKind { face, edge };  // the triangle's normal, or that of an edge or vertex
+  void add_points(const std::vector<ManifoldPoint>& points, NormalKind along, const Vector3& n_W,
+                  int t, double margin);
+  bool is_ghost(const PosedShape& mesh, const ManifoldPoint& point) const;
   void remove_ghost_contacts(const PosedShape& mesh);
   void reduce_contacts();
 
-  struct Touch {  // of one triangle
+  struct TriangleContact {
     int triangle;
-    Along along;
+    NormalKind along;
     double deepest;
-    std::size_t first, last;  // of all_
+    std::size_t first, last;  // range of all_
   };
 
   Manifold manifold_;
-  std::vector<int> near_;              // triangles
-  std::vector<Touch> touches_, true_;  // true_: those that count, ascending in depth
+  std::vector<int> near_;  // triangles
+  std::vector<TriangleContact> triangle_contacts_,
+      accepted_;  // accepted_: no ghosts, ascending in depth
   std::vector<ManifoldPoint> all_, group_, kept_;
 };
 

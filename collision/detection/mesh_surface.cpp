@@ -1,5 +1,4 @@
-// Builds and searches the tree: halves by the median of the triangles' middles along the longest
-// axis. See mesh_surface.h.
+// Bounding-volume hierarchy: split at the median of the box centres along the longest axis.
 #include "collision/detection/mesh_surface.h"
 
 #include <Eigen/Geometry>
@@ -11,9 +10,9 @@
 namespace twinarm {
 namespace {
 
-constexpr int leaf_size = 4;
+constexpr int kLeafSize = 4;
 
-// A triangle as a hull without thickness: two faces, back to back.
+// A triangle as a flat hull with two opposite faces.
 ConvexHull thin_hull(const Vector3& a, const Vector3& b, const Vector3& c) {
   ConvexHull hull;
   hull.vertices = {a, b, c};
@@ -25,30 +24,18 @@ ConvexHull thin_hull(const Vector3& a, const Vector3& b, const Vector3& c) {
   return hull;
 }
 
-Aabb box_of(const std::vector<Vector3>& points) {
-  Aabb box{points[0], points[0]};
-  for (const Vector3& p : points) {
-    box.low = box.low.cwiseMin(p);
-    box.high = box.high.cwiseMax(p);
-  }
-  return box;
-}
-
 int build_node(MeshSurface& surface, const std::vector<Aabb>& boxes, int first, int count) {
-  Aabb box = boxes[surface.order[first]];
-  for (int i = first; i < first + count; ++i) {
-    box.low = box.low.cwiseMin(boxes[surface.order[i]].low);
-    box.high = box.high.cwiseMax(boxes[surface.order[i]].high);
-  }
+  Aabb box;
+  for (int i = first; i < first + count; ++i) box.extend(boxes[surface.order[i]]);
   const int index = static_cast<int>(surface.nodes.size());
   surface.nodes.push_back({box, first, count});
-  if (count <= leaf_size) return index;
+  if (count <= kLeafSize) return index;
   int axis = 0;
-  (box.high - box.low).maxCoeff(&axis);
+  box.sizes().maxCoeff(&axis);
   const auto begin = surface.order.begin() + first;
   std::nth_element(begin, begin + count / 2, begin + count, [&](int i, int j) {
-    const double x = boxes[i].low[axis] + boxes[i].high[axis];
-    const double y = boxes[j].low[axis] + boxes[j].high[axis];
+    const double x = boxes[i].min()[axis] + boxes[i].max()[axis];
+    const double y = boxes[j].min()[axis] + boxes[j].max()[axis];
     return std::pair(x, i) < std::pair(y, j);
   });
   const int left = build_node(surface, boxes, first, count / 2);
@@ -61,8 +48,8 @@ int build_node(MeshSurface& surface, const std::vector<Aabb>& boxes, int first, 
 void find_neighbours(const TriangleMesh& mesh, MeshSurface& surface) {
   std::map<std::pair<int, int>, Vector3> outward;  // of each directed edge
   const auto side_of = [&](std::size_t t, int i) {
-    const auto& corners = mesh.triangles[t];
-    return std::pair(corners[i], corners[(i + 1) % 3]);
+    const auto& vertices = mesh.triangles[t];
+    return std::pair(vertices[i], vertices[(i + 1) % 3]);
   };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     for (int i = 0; i < 3; ++i) {
@@ -84,16 +71,12 @@ void find_neighbours(const TriangleMesh& mesh, MeshSurface& surface) {
 }  // namespace
 
 void MeshSurface::find(const Aabb& box, std::vector<int>& found) const {
-  const auto meets = [&](const Aabb& other) {
-    return (box.low.array() <= other.high.array()).all() &&
-           (box.high.array() >= other.low.array()).all();
-  };
-  std::array<int, 64> stack;  // the tree is balanced: no deeper than the bits of a number
+  std::array<int, 64> stack;  // the tree is balanced
   std::size_t size = 0;
   if (!nodes.empty()) stack[size++] = 0;
   while (size > 0) {
     const Node& node = nodes[stack[--size]];
-    if (!meets(node.box)) continue;
+    if (!box.intersects(node.box)) continue;
     if (node.left >= 0) {
       stack[size++] = node.left;
       stack[size++] = node.right;
@@ -113,7 +96,7 @@ std::shared_ptr<const MeshSurface> make_mesh_surface(const Shape& shape) {
   std::vector<Aabb> boxes;
   for (const auto& [i, j, k] : mesh.triangles) {
     const ConvexHull hull = thin_hull(mesh.vertices[i], mesh.vertices[j], mesh.vertices[k]);
-    boxes.push_back(box_of(hull.vertices));
+    boxes.push_back(bounding_box(hull.vertices));
     surface->normals.push_back(hull.normals[0]);
     surface->triangles.emplace_back(Shape(hull));
   }

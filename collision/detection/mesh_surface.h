@@ -1,22 +1,21 @@
-// A triangle mesh as a collision shape: its triangles as thin polytopes, their neighbours, and a
-// tree of their boxes.
+// A triangle mesh prepared for collision: triangles as flat polytopes, neighbours, bounding-volume
+// hierarchy.
 #pragma once
 
 #include <array>
 #include <vector>
 
 #include "collision/narrow_phase/gjk.h"
-#include "collision/shapes/aabb.h"
 
 namespace twinarm {
 
-// Made by make_mesh_surface() (gjk.h), in O(n log n).
+// Built by make_mesh_surface() (gjk.h) in O(n log n).
 struct MeshSurface {
-  struct Side {            // of a triangle, from corner i to i + 1
+  struct Side {            // of a triangle, from vertex i to i + 1
     Vector3 outward;       // unit, in the plane of the triangle
-    Vector3 of_neighbour;  // the same of the triangle beyond, or zero at a border
+    Vector3 of_neighbour;  // the neighbour's, or zero at a border
   };
-  struct Node {  // of the tree
+  struct Node {  // of the hierarchy
     Aabb box;
     int first, count;           // range of `order`
     int left = -1, right = -1;  // -1: a leaf
@@ -28,7 +27,7 @@ struct MeshSurface {
   std::vector<Node> nodes;  // root first; empty for no triangles
   bool is_open = false;
 
-  // Appends the triangles whose boxes meet `box` (in the frame of the mesh), ascending.
+  // Appends the triangles whose boxes overlap `box` (mesh frame), ascending.
   void find(const Aabb& box, std::vector<int>& found) const;
 };
 

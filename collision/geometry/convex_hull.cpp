@@ -2,10 +2,10 @@
 // convex hulls", ACM Trans. Math. Software 22 (1996). O(n log n). The only file that includes
 // qhull.
 //
-// qhull merges facets whose centrums lie within a given distance of their neighbours' planes (its
-// option C-d) and hands a merged facet out as an unordered set of vertices; they are put in order
-// here. The planes are computed anew from the polygons, with the offset of the outermost input
-// point: so no input point is outside any plane, whatever was merged.
+// qhull merges facets whose centrums lie within a given distance of their neighbours' planes
+// (option C-d) and returns the vertices of a merged facet unordered; they are ordered here. The
+// planes are recomputed from the polygons, with the offset of the outermost input point: no input
+// point is outside a plane.
 
 #include "collision/geometry/convex_hull.h"
 
@@ -32,26 +32,16 @@ namespace {
                      "give at least 4 finite points that do not lie in one plane", "hull.points"}});
 }
 
-double extent_of(std::span<const Vector3> points) {
-  Vector3 low = points[0], high = points[0];
-  for (const Vector3& p : points) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  return (high - low).maxCoeff();
-}
-
-// Area vector of a loop (Newell): its direction is the normal even where a corner is nearly flat.
+// Area vector of a polygon (Newell): robust if consecutive edges are nearly parallel.
 Vector3 area_vector(const ConvexHull& hull, const std::vector<int>& loop) {
   const Vector3& base = hull.vertices[loop[0]];
   Vector3 sum = Vector3::Zero();
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i)
     sum += (hull.vertices[loop[i]] - base).cross(hull.vertices[loop[i + 1]] - base);
-  }
   return sum;
 }
 
-// Puts the corners of a facet in order, by angle about their mean, seen against its normal.
+// Sorts the vertices of a facet counter-clockwise about the normal.
 void order_loop(const ConvexHull& hull, const Vector3& normal, std::vector<int>& loop) {
   Vector3 mean = Vector3::Zero();
   for (int v : loop) mean += hull.vertices[v] / static_cast<double>(loop.size());
@@ -63,14 +53,14 @@ void order_loop(const ConvexHull& hull, const Vector3& normal, std::vector<int>&
   }
   std::sort(by_angle.begin(), by_angle.end());
   for (std::size_t i = 0; i < loop.size(); ++i) loop[i] = by_angle[i].second;
-  // Start at the smallest index: the same polygon is then always the same list.
+  // Start at the smallest index: a unique representation.
   std::rotate(loop.begin(), std::min_element(loop.begin(), loop.end()), loop.end());
 }
 
 using Loops = std::vector<std::pair<Vector3, std::vector<int>>>;  // normal, indices into the input
 
-// A run of qhull, which frees what it holds. Its C interface: the C++ one does not compile as
-// C++20. An error inside qhull comes back as an exit code (it jumps no farther than qh_new_qhull).
+// Owner of qhull's memory. The C interface is used: the C++ one does not compile as C++20.
+// qh_new_qhull returns errors as an exit code.
 struct QhullRun {
   QhullRun() : silence(std::fopen("/dev/null", "w")) { qh_zero(&state, silence); }
   QhullRun(const QhullRun&) = delete;
@@ -81,7 +71,7 @@ struct QhullRun {
     qh_memfreeshort(&state, &kept, &total);
     if (silence != nullptr) std::fclose(silence);
   }
-  std::FILE* silence;  // its messages are a page of geometry each
+  std::FILE* silence;  // qhull's messages are long
   qhT state;
 };
 
@@ -90,8 +80,8 @@ Loops run_qhull(std::span<const Vector3> points, double tolerance) {
   flat.reserve(3 * points.size());
   for (const Vector3& p : points) flat.insert(flat.end(), {p.x(), p.y(), p.z()});
   QhullRun run;
-  qhT* const qh = &run.state;  // the name that qhull's macros look for
-  char digits[32];             // std::to_string() would write a comma where the locale has one
+  qhT* const qh = &run.state;  // qhull's macros use this name
+  char digits[32];             // std::to_string() depends on the locale
   const auto end =
       std::to_chars(digits, std::end(digits), tolerance * 1e9, std::chars_format::fixed, 6).ptr;
   std::string command = "qhull C-" + std::string(digits, end) + "e-9";
@@ -129,9 +119,8 @@ void complete_faces(ConvexHull& hull) {
     for (const Vector3& v : hull.vertices) offset = std::max(offset, n.dot(v));
     hull.normals.push_back(n);
     hull.offsets.push_back(offset);
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i)
       hull.triangles.push_back({loop[0], loop[i], loop[i + 1]});
-    }
   }
 }
 
@@ -140,24 +129,23 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   for (const Vector3& p : points) {
     if (!p.allFinite()) refuse("a point is not finite");
   }
-  const double extent = extent_of(points);
+  const double extent = bounding_box(points).sizes().maxCoeff();
   if (!(extent > 0)) refuse("all points are the same");
-  // qhull works on points about their own origin and of size one: its option text then has the same
-  // number of digits for a screw and for a bridge.
+  // Points are scaled to size one: the tolerance in qhull's option text then has enough digits.
   std::vector<Vector3> scaled(points.begin(), points.end());
   for (Vector3& p : scaled) p = (p - points[0]) / extent;
   Loops loops = run_qhull(scaled, flatness);
 
-  // Each plane is held against each point.
+  // Each plane is compared with each point.
   constexpr double kMaxPlaneChecks = 4e9;
   if (static_cast<double>(loops.size()) * static_cast<double>(points.size()) > kMaxPlaneChecks)
     throw InputError(
         {{"", 0, "convex hull",
-          "there are " + std::to_string(points.size()) + " points, and " +
-              std::to_string(loops.size()) + " faces about them: too many",
-          "simplify the mesh: a body that is to be touched needs some hundred", "hull.faces"}});
+          "there are " + std::to_string(points.size()) + " points, and their hull has " +
+              std::to_string(loops.size()) + " faces: too many",
+          "simplify the mesh: some hundred faces are enough for collision", "hull.faces"}});
 
-  // Number the corners in the order of the input.
+  // Vertices are numbered in the order of the input.
   std::map<int, int> index;
   for (const auto& [normal, loop] : loops) {
     for (int v : loop) index[v] = 0;
@@ -175,14 +163,12 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   std::sort(hull.faces.begin(), hull.faces.end());
   complete_faces(hull);
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
-    for (const Vector3& p : points) {
+    for (const Vector3& p : points)
       hull.offsets[f] = std::max(hull.offsets[f], hull.normals[f].dot(p));
-    }
   }
   return hull;
 }
 
-// Edges and slabs of a polyhedron.
 namespace {
 
 std::vector<Polytope::Slab> slabs_of(const ConvexHull& hull) {
@@ -203,38 +189,31 @@ std::vector<Polytope::Slab> slabs_of(const ConvexHull& hull) {
 
 }  // namespace
 
-// Finds the edges of a polyhedron: each is walked once by either of its two faces.
+// Each edge is traversed once by each of its two faces, in opposite directions.
 Polytope polyhedron(ConvexHull hull) {
   Polytope polytope;
-  std::map<std::pair<int, int>, int> face_of;  // directed edge -> face that walks it
+  std::map<std::pair<int, int>, int> face_of;  // by directed edge
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
     const std::vector<int>& loop = hull.faces[f];
-    for (std::size_t i = 0; i < loop.size(); ++i) {
+    for (std::size_t i = 0; i < loop.size(); ++i)
       face_of[{loop[i], loop[(i + 1) % loop.size()]}] = static_cast<int>(f);
-    }
   }
   for (const auto& [edge, face] : face_of) {
-    const auto twin = face_of.find({edge.second, edge.first});
-    if (edge.first < edge.second && twin != face_of.end()) {
-      polytope.edges.push_back({edge.first, edge.second, face, twin->second});
-    }
+    const auto opposite = face_of.find({edge.second, edge.first});
+    if (edge.first < edge.second && opposite != face_of.end())
+      polytope.edges.push_back({edge.first, edge.second, face, opposite->second});
   }
   polytope.slabs = slabs_of(hull);
   polytope.hull = std::move(hull);
-  constexpr std::size_t few = 64;  // are as soon asked one by one
-  if (polytope.hull.vertices.size() > few) polytope.table = VertexTable(polytope.hull.vertices);
+  constexpr std::size_t kSmallHull = 64;  // up to so many vertices a plain loop is as fast
+  if (polytope.hull.vertices.size() > kSmallHull)
+    polytope.table = SupportVertices(polytope.hull.vertices);
   return polytope;
 }
 
-int Polytope::farthest(const Vector3& d) const {
-  if (!table.empty()) return static_cast<int>(table.farthest(d));
-  int best = 0;
-  double height = hull.vertices[0].dot(d);
-  for (std::size_t i = 1; i < hull.vertices.size(); ++i) {
-    const double h = hull.vertices[i].dot(d);
-    if (h > height) best = static_cast<int>(i), height = h;
-  }
-  return best;
+int Polytope::support_index(const Vector3& d) const {
+  return static_cast<int>(table.empty() ? twinarm::support_index(hull.vertices, d)
+                                        : table.support_index(d));
 }
 
 Polytope ConvexHull::polytope() const {
@@ -243,7 +222,7 @@ Polytope ConvexHull::polytope() const {
 
 ConvexHull box_hull(const Vector3& size) {
   ConvexHull hull;
-  for (int i = 0; i < 8; ++i) {  // bit k of i: the side along axis k
+  for (int i = 0; i < 8; ++i) {  // bit k of i: side along axis k
     const Vector3 sides(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
     hull.vertices.push_back(0.5 * sides.cwiseProduct(size));
   }

@@ -1,7 +1,7 @@
-// Convex hull of a set of points: vertices, outward planes, and the polygons that lie in them.
+// Convex hulls and polytopes.
 //
-// A flat side is ONE polygon, not a fan of coplanar triangles: contact manifolds are clipped
-// against whole sides, and the number of separating axes is the number of different normals.
+// A face is one polygon, not a fan of coplanar triangles: manifolds are clipped against whole
+// faces, and there is one separating axis for each normal.
 #pragma once
 
 #include <array>
@@ -17,96 +17,92 @@ namespace twinarm {
 struct MassProperties;
 struct Polytope;
 
-// A convex polyhedron in the frame of the points that it was made from. [m]
+// A convex polyhedron in the frame of its input points [m].
 struct ConvexHull {
   std::vector<Vector3> vertices;
-  std::vector<std::vector<int>> faces;        // loops of vertices, counter-clockwise from outside
-  std::vector<Vector3> normals;               // of each face, unit, outward
-  std::vector<double> offsets;                // of each face: inside is normal . x <= offset
-  std::vector<std::array<int, 3>> triangles;  // the faces cut into fans
+  std::vector<std::vector<int>> faces;        // vertex loops, counter-clockwise from outside
+  std::vector<Vector3> normals;               // by face: unit, outward
+  std::vector<double> offsets;                // by face: inside is normal . x <= offset
+  std::vector<std::array<int, 3>> triangles;  // triangulated faces
 
-  // As a shape (collision/shapes/shape.h).
+  // Interface of a shape (collision/shapes/shape.h).
   static constexpr const char* name = "convex hull";
-  Vector3 support(const Vector3& d) const { return max_along(vertices, d); }
+  Vector3 support(const Vector3& d) const { return support_point(vertices, d); }
   std::string fault() const;
   MassProperties solid(double density) const;
   Polytope polytope() const;
 };
 
-// Throws InputError where the points span no volume (fewer than 4, all in a plane, not finite).
-// Facets whose planes agree to `flatness` times the extent of the points become one polygon; the
-// default is what the coordinates of a single-precision mesh file scatter.
+// Throws InputError if the points span no volume (fewer than 4, coplanar, not finite). Facets whose
+// planes agree to `flatness` times the extent are merged; the default is the rounding of
+// single-precision mesh files.
 ConvexHull convex_hull(std::span<const Vector3> points, double flatness = 1e-7);
 
 // Fills `normals`, `offsets` and `triangles` from `vertices` and `faces`.
 void complete_faces(ConvexHull& hull);
 
-// Shapes as polytopes with a radius, which makes one exact narrow phase of most pairs:
-//   sphere = point + r, capsule = segment + r, box and hull = polyhedron + 0,
-// so that depth(A, B) = r_A + r_B - signed distance of the cores. Cylinders, ellipsoids:
-// Patches below.
+// Shapes as polytopes with a radius: sphere = point + r, capsule = segment + r, box and hull =
+// polyhedron + 0, so that depth(A, B) = r_A + r_B - signed distance of the cores. Cylinders and
+// ellipsoids: BoundaryFeatures.
 struct Polytope {
   struct Edge {
-    int v0, v1;  // its ends
-    int f0, f1;  // the faces on both sides; -1 for a bare segment
+    int v0, v1;  // vertices
+    int f0, f1;  // adjacent faces; -1 for a segment
   };
-  struct Slab {  // a face, and the parallel one opposite if there is one
+  struct Slab {  // a face, with the opposite parallel face if there is one
     Vector3 normal;
     double low, high;  // solid where low <= normal . x <= high [m]
     bool is_double;    // false: no face at `low`
   };
-  ConvexHull hull;  // of a point or a segment: vertices only
+  ConvexHull hull;  // point and segment: vertices only
   std::vector<Edge> edges;
   std::vector<Slab> slabs;
-  double radius = 0;   // [m]
-  bool exists = true;  // false for curved shapes and half-spaces
-  VertexTable table;   // of the hull's vertices, where they are more than a few
+  double radius = 0;      // [m]
+  bool exists = true;     // false for curved shapes and half-spaces
+  SupportVertices table;  // for hulls with many vertices
 
-  // The vertex that is farthest along d, in the body's frame.
-  int farthest(const Vector3& d) const;
+  // Index of the support vertex in direction d (body frame).
+  int support_index(const Vector3& d) const;
 };
 
-// With its edges and slabs.
+// Computes edges and slabs.
 Polytope polyhedron(ConvexHull hull);
 
-// The box as a hull: 8 vertices, 6 faces.
 ConvexHull box_hull(const Vector3& size);
 
-// The surface of a convex shape in smooth pieces, each with a support function of one line:
-//   flat    faces and caps                    one normal
-//   ridge   edges, centre lines, cylinder     normals across the line:  h(n) = n . p + radius
-//           sides
-//   round   corners, rims, ellipsoids         normals all round:  h(n) = n . p + sqrt(n' Q n)
-// A spherical rounding is added on top of all of them. For every n the support of the shape is at
-// least that of each piece, and equals that of the piece that faces n.
-struct Patches {
-  struct Ridge {
+// The boundary of a convex shape as smooth features, each with its support function:
+//   face       faces and caps                      one normal
+//   line       edges, cylinder sides and axes      normals perpendicular to it: h(n) = n . p +
+//   radius quadric    vertices, rims, ellipsoids          all normals:  h(n) = n . p + sqrt(n' Q n)
+// A spherical rounding is added to all of them. For every n the support of the shape is at least
+// that of each feature, and equals that of the feature with normal n.
+struct BoundaryFeatures {
+  struct Line {
     Vector3 start, end;  // [m]
-    double radius;       // of a cylinder's side, else 0 [m]
+    double radius;       // of a cylinder, else 0 [m]
   };
-  struct Round {
+  struct Quadric {
     Vector3 p;  // centre [m]
-    Matrix3 Q;  // square of the half axes, zero for a corner [m^2]
+    Matrix3 Q;  // squared semi-axes, zero for a vertex [m^2]
   };
-  std::vector<Vector3> flats;  // outward unit normals
-  std::vector<Ridge> ridges;   // of a polytope: its edges, in their order
-  std::vector<Round> rounds;   // of a polytope: its corners, in their order
-  double roundness = 0;        // [m]
-  double sharpest = 1e300;  // of a curved body: least radius of curvature, or half a thickness [m]
+  std::vector<Vector3> face_normals;  // outward, unit
+  std::vector<Line> lines;            // of a polytope: its edges, in their order
+  std::vector<Quadric> quadrics;      // of a polytope: its vertices, in their order
+  double rounding_radius = 0;         // [m]
+  double min_radius = 1e300;          // minimum radius of curvature or half thickness [m]
 };
 
-// In the frame of the core; empty where it does not exist.
-inline Patches make_patches(const Polytope& core) {
-  Patches patches;
-  if (!core.exists) return patches;
+// Empty if the core does not exist.
+inline BoundaryFeatures make_boundary(const Polytope& core) {
+  BoundaryFeatures boundary;
+  if (!core.exists) return boundary;
   const std::vector<Vector3>& vertices = core.hull.vertices;
-  patches.flats = core.hull.normals;
-  for (const Polytope::Edge& edge : core.edges) {
-    patches.ridges.push_back({vertices[edge.v0], vertices[edge.v1], 0});
-  }
-  for (const Vector3& v : vertices) patches.rounds.push_back({v, Matrix3::Zero()});
-  patches.roundness = core.radius;
-  return patches;
+  boundary.face_normals = core.hull.normals;
+  for (const Polytope::Edge& edge : core.edges)
+    boundary.lines.push_back({vertices[edge.v0], vertices[edge.v1], 0});
+  for (const Vector3& v : vertices) boundary.quadrics.push_back({v, Matrix3::Zero()});
+  boundary.rounding_radius = core.radius;
+  return boundary;
 }
 
 }  // namespace twinarm

@@ -12,7 +12,7 @@
 // the 3-D tetrahedron inertia tensor in terms of its vertex coordinates", J. Math. Stat. 1(1),
 // 2004.
 //
-// o is the mean of the vertices, not the origin: a part far from its frame loses no digits.
+// o is the mean of the vertices, not the origin: no cancellation for parts far from their frame.
 #include "collision/geometry/mass_properties.h"
 
 #include <Eigen/Geometry>
@@ -82,7 +82,7 @@ MassProperties mass_properties(const TriangleMesh& mesh, double density) {
   }
   if (!(volume > 0)) {
     refuse("the mesh encloses " + std::to_string(volume) + " m^3, must be positive",
-           "turn the triangles counter-clockwise seen from outside");
+           "orient the triangles counter-clockwise seen from outside");
   }
   const Vector3 com = first / volume;  // from o
   return {density * volume, o + com, density * inertia_of(second - volume * outer(com))};

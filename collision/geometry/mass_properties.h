@@ -1,4 +1,4 @@
-// Mass, centre of mass and inertia of solids. Those of shapes: collision/shapes/shape.h.
+// Mass, centre of mass and inertia of solids (of shapes: collision/shapes/shape.h).
 #pragma once
 
 #include <span>
@@ -14,23 +14,23 @@ struct MassProperties {
   Matrix3 inertia = Matrix3::Zero();  // about com, along the axes of that frame [kg m^2]
 };
 
-// Of the solid of constant `density` [kg/m^3]. A cavity is a closed part of the mesh that is turned
-// inside out. Throws InputError if the mesh is not closed or encloses no positive volume.
+// Of a solid of constant `density` [kg/m^3]. A cavity is a closed part of the mesh with inward
+// orientation. Throws InputError if the mesh is not closed or its volume is not positive.
 MassProperties mass_properties(const TriangleMesh& mesh, double density);
 
-// About its centre, with the principal moments xx, yy, zz.
+// With the centre of mass at the origin and principal moments xx, yy, zz.
 inline MassProperties centred_solid(double mass, double xx, double yy, double zz) {
   return {mass, Vector3::Zero(), Matrix3(Vector3(xx, yy, zz).asDiagonal())};
 }
 
-// The same solid with this mass [kg] instead.
+// Scaled to a given mass [kg].
 MassProperties with_mass(MassProperties properties, double mass);
 
 // Throws InputError unless the density is positive.
 void check_density(double density);
 
-// Of several parts, all given in one frame. A part may have a negative mass (a hole); the sum may
-// not: then it throws InputError.
+// Sum of parts in one frame. A part may have negative mass (a hole); throws InputError if the sum
+// is not positive.
 MassProperties combine(std::span<const MassProperties> parts);
 
 }  // namespace twinarm

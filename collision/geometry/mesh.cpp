@@ -6,17 +6,22 @@
 
 namespace twinarm {
 
-Vector3 max_along(const std::vector<Vector3>& points, const Vector3& d) {
+Aabb bounding_box(std::span<const Vector3> points) {
+  Aabb box;
+  for (const Vector3& p : points) box.extend(p);
+  return box;
+}
+
+Vector3 support_point(const std::vector<Vector3>& points, const Vector3& d) {
+  return points[support_index(points, d)];
+}
+
+std::size_t support_index(const std::vector<Vector3>& points, const Vector3& d) {
   std::size_t best = 0;
   double height = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double h = points[i].dot(d);
-    if (h > height) {
-      height = h;
-      best = i;
-    }
-  }
-  return points[best];
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (const double h = points[i].dot(d); h > height) best = i, height = h;
+  return best;
 }
 
 bool is_closed(const TriangleMesh& mesh) {
@@ -30,23 +35,23 @@ bool is_closed(const TriangleMesh& mesh) {
   });
 }
 
-VertexTable::VertexTable(std::span<const Vector3> points) {
+SupportVertices::SupportVertices(std::span<const Vector3> points) {
   const auto count = static_cast<Eigen::Index>(points.size());
-  points_.resize((count + block - 1) / block * block, 3);
+  points_.resize((count + kBlock - 1) / kBlock * kBlock, 3);
   for (Eigen::Index i = 0; i < points_.rows(); ++i)
     points_.row(i) = points[static_cast<std::size_t>(std::min(i, count - 1))].transpose();
 }
 
-std::size_t VertexTable::farthest(const Vector3& d) const {
-  using Pair = Eigen::Array2d;  // a register
+std::size_t SupportVertices::support_index(const Vector3& d) const {
+  using Pair = Eigen::Array2d;  // one SSE register
   const Pair dx = Pair::Constant(d.x()), dy = Pair::Constant(d.y()), dz = Pair::Constant(d.z());
   const double *x = points_.col(0).data(), *y = points_.col(1).data(), *z = points_.col(2).data();
   const auto pair = [](const double* at) { return Pair::Map(at); };
   Eigen::Index best = 0;
   double highest = -std::numeric_limits<double>::infinity();
-  for (Eigen::Index first = 0; first < points_.rows(); first += block) {
+  for (Eigen::Index first = 0; first < points_.rows(); first += kBlock) {
     Pair even = Pair::Constant(highest), odd = even;
-    for (Eigen::Index i = first; i < first + block; i += 4) {
+    for (Eigen::Index i = first; i < first + kBlock; i += 4) {
       even = even.max(pair(x + i) * dx + pair(y + i) * dy + pair(z + i) * dz);
       odd = odd.max(pair(x + i + 2) * dx + pair(y + i + 2) * dy + pair(z + i + 2) * dz);
     }
@@ -55,7 +60,7 @@ std::size_t VertexTable::farthest(const Vector3& d) const {
       best = first;
     }
   }
-  for (Eigen::Index i = best; i < best + block; ++i)
+  for (Eigen::Index i = best; i < best + kBlock; ++i)
     if (x[i] * d.x() + y[i] * d.y() + z[i] * d.z() == highest) return static_cast<std::size_t>(i);
   return 0;
 }

@@ -1,7 +1,7 @@
-// A triangle mesh: closed and outward-oriented where it bounds a solid.
+// Triangle meshes and support points.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -12,32 +12,35 @@
 namespace twinarm {
 
 struct TriangleMesh {
-  std::vector<Vector3> vertices;              // [m], in the frame of the link that owns it
+  std::vector<Vector3> vertices;              // [m], link frame
   std::vector<std::array<int, 3>> triangles;  // counter-clockwise seen from outside
 };
 
-// The first of the points that lie farthest along d (any length but zero).
-Vector3 max_along(const std::vector<Vector3>& points, const Vector3& d);
+using Aabb = Eigen::AlignedBox3d;  // axis-aligned bounding box [m]
+Aabb bounding_box(std::span<const Vector3> points);
 
-// Each directed edge occurs once and its reverse occurs once: the surface has no border, and all
-// triangles agree on which side is outside. O(n log n).
+// Support point in direction d (d != 0): the first of the points that maximise p . d.
+Vector3 support_point(const std::vector<Vector3>& points, const Vector3& d);
+std::size_t support_index(const std::vector<Vector3>& points, const Vector3& d);
+
+// Whether each directed edge and its reverse occur exactly once: no border, consistent orientation.
+// O(n log n).
 bool is_closed(const TriangleMesh& mesh);
 
-// Points by coordinate: which of them lies farthest along a direction is asked more often than
-// anything else of a hull, and this way a vector register has coordinates of one kind.
-class VertexTable {
+// Vertices of a hull as a structure of arrays, for a vectorised support function.
+class SupportVertices {
  public:
-  VertexTable() = default;
-  explicit VertexTable(std::span<const Vector3> points);
+  SupportVertices() = default;
+  explicit SupportVertices(std::span<const Vector3> points);
 
   bool empty() const { return points_.rows() == 0; }
-  // The number of the first point with the largest points[i] . d, to the bit; 0 where d is no
-  // number. Some 0.6 ns a point with SSE2.
-  std::size_t farthest(const Vector3& d) const;
+  // Index of the first point that maximises points[i] . d, bit-identical to a plain loop; 0 if d is
+  // NaN. About 0.6 ns per point with SSE2.
+  std::size_t support_index(const Vector3& d) const;
 
  private:
-  static constexpr int block = 32;  // points of which the highest is found before it is asked which
-  Eigen::Array<double, Eigen::Dynamic, 3> points_;  // the last one repeated up to a whole block
+  static constexpr int kBlock = 32;  // maximum first by block, then the index within the best block
+  Eigen::Array<double, Eigen::Dynamic, 3> points_;  // padded with the last point to whole blocks
 };
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// All parts of a model in one mesh, welded by equal coordinates: O(n log n).
+// All parts of a model in one mesh; vertices with equal coordinates are merged. O(n log n).
 #include "collision/mesh_files/mesh_file.h"
 
 #include <cmath>
@@ -35,9 +35,9 @@ class Welder {
     const Vector3 p = scale_ * Vector3(v[0], v[1], v[2]);
     // Adding zero makes -0 and 0 the same vertex.
     const auto key = std::tuple(p.x() + 0.0, p.y() + 0.0, p.z() + 0.0);
-    const auto [place, is_new] = index_.try_emplace(key, static_cast<int>(mesh.vertices.size()));
+    const auto [at, is_new] = index_.try_emplace(key, static_cast<int>(mesh.vertices.size()));
     if (is_new) mesh.vertices.push_back(p);
-    return place->second;
+    return at->second;
   }
 
   double scale_;
@@ -56,7 +56,7 @@ TriangleMesh load_mesh(const std::filesystem::path& file, double scale) {
   Welder welder(scale);
   for (const ModelPart& part : read_model(file).parts) welder.add(part);
   if (welder.mesh.triangles.empty())
-    refuse("there is no triangle in it that has three corners", "export the mesh again");
+    refuse("the mesh has no triangle with three different vertices", "export the mesh again");
   return std::move(welder.mesh);
 }
 

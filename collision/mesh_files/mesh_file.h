@@ -7,9 +7,9 @@
 
 namespace twinarm {
 
-// The mesh in `file` with all its parts in one list, vertices welded, coordinates times `scale`
-// (0.001 for a file in millimetres). The axes are those of the file; so a glTF file is y-up.
-// Throws InputError where read_model() (model_file.h) does, or where nothing has three corners.
+// All parts of `file` as one mesh in the axes of the file (glTF: y up), vertices merged,
+// coordinates times `scale` (0.001 for millimetres). Throws InputError as read_model()
+// (model_file.h), or without a triangle of three different vertices.
 TriangleMesh load_mesh(const std::filesystem::path& file, double scale);
 
 }  // namespace twinarm

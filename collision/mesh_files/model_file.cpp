@@ -1,12 +1,12 @@
-// Models through assimp 5.2, and never more of it than needed. The only file that includes assimp.
+// Models by assimp 5.2. The only file that includes assimp.
 //
-// Measured on mutated files, several of assimp's sixty readers crash or never end: those of PLY and
-// Collada among them, those of STL, OBJ and glTF 2 not. So only these five stay registered, a file
-// is capped in size, the reading is done in a child process with limits (sandboxed_process.h), and
-// whatever comes out is checked as if it were hostile: finite, indices in range, not empty.
-// Not used: JoinIdenticalVertices, which joins what is closer than 1e-5 units, and FindDegenerates,
-// which drops triangles below 1e-6 square units: in a file in metres those are real edges and real
-// square millimetres.
+// On mutated files several of assimp's sixty readers crash or do not terminate, among them PLY and
+// Collada, but not STL, OBJ and glTF 2. So only these five are registered, the file size is
+// limited, a child process with limits reads the file (sandboxed_process.h), and the result is
+// checked: finite, indices in range, not empty.
+// Not used: JoinIdenticalVertices, which merges what is closer than 1e-5 units, and
+// FindDegenerates, which drops triangles below 1e-6 square units: in metres those are real edges
+// and real square millimetres.
 #include "collision/mesh_files/model_file.h"
 
 #include <assimp/BaseImporter.h>
@@ -33,17 +33,18 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t max_bytes = 64u << 20;
-constexpr const char* formats = "give an STL, OBJ, PLY, DAE, glTF or GLB file";
-constexpr std::array<const char*, 5> readers = {"Wavefront Object", "Stereolithography", "glTF2",
-                                                "Collada", "Stanford Polygon Library (PLY)"};
-constexpr std::array<const char*, 6> extensions = {".stl", ".obj", ".ply", ".dae", ".gltf", ".glb"};
+constexpr std::uintmax_t kMaxBytes = 64u << 20;
+constexpr const char* kFormats = "give an STL, OBJ, PLY, DAE, glTF or GLB file";
+constexpr std::array<const char*, 5> kReaders = {"Wavefront Object", "Stereolithography", "glTF2",
+                                                 "Collada", "Stanford Polygon Library (PLY)"};
+constexpr std::array<const char*, 6> kExtensions = {".stl", ".obj",  ".ply",
+                                                    ".dae", ".gltf", ".glb"};
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& problem, const std::string& fix) {
   throw InputError({{file.string(), 0, "mesh", problem, fix, "mesh.file"}});
 }
 
-// Files of the model's own folder (and below), up to the size cap, for reading only.
+// Read-only access to files in the model's folder (and below), up to the size limit.
 class FolderIO : public Assimp::DefaultIOSystem {
  public:
   explicit FolderIO(const fs::path& file) : folder_(fs::weakly_canonical(file).parent_path()) {}
@@ -55,7 +56,7 @@ class FolderIO : public Assimp::DefaultIOSystem {
     if (!allowed(name) || mode == nullptr || mode[0] != 'r') return nullptr;
     return DefaultIOSystem::Open(name, mode);
   }
-  // The bytes of a file that the model names; nothing where there is none that it may read.
+  // The bytes of a file that the model refers to; empty if it does not exist or is not allowed.
   std::optional<std::string> read(std::string name) const {
     std::replace(name.begin(), name.end(), '\\', '/');
     const fs::path path = folder_ / name;
@@ -69,12 +70,12 @@ class FolderIO : public Assimp::DefaultIOSystem {
  private:
   bool allowed(const char* name) const {
     std::error_code error;
-    const fs::path path = fs::weakly_canonical(name, error);  // follows "..", and links
+    const fs::path path = fs::weakly_canonical(name, error);  // resolves ".." and links
     if (error) return false;
     const auto [end, unused] =
         std::mismatch(folder_.begin(), folder_.end(), path.begin(), path.end());
     return end == folder_.end() && fs::is_regular_file(path, error) &&
-           fs::file_size(path, error) <= max_bytes && !error;
+           fs::file_size(path, error) <= kMaxBytes && !error;
   }
   fs::path folder_;
 };
@@ -82,12 +83,12 @@ class FolderIO : public Assimp::DefaultIOSystem {
 void keep_trusted_readers(Assimp::Importer& importer) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const std::string name = importer.GetImporterInfo(i)->mName;
-    if (std::any_of(readers.begin(), readers.end(),
+    if (std::any_of(kReaders.begin(), kReaders.end(),
                     [&](const char* one) { return name.starts_with(one); }))
       continue;
     Assimp::BaseImporter* const reader = importer.GetImporter(i);
     importer.UnregisterLoader(reader);
-    delete reader;  // unregistering hands the ownership over
+    delete reader;  // unregistering transfers the ownership
   }
 }
 
@@ -97,10 +98,10 @@ std::string lower_extension(const fs::path& file) {
   return extension;
 }
 
-// The reader of PLY looks for the end of the header for ever.
+// assimp's PLY reader does not terminate without an end of the header.
 bool has_whole_ply_header(const fs::path& file) {
-  constexpr std::size_t longest = 1u << 16;
-  std::string head(longest, '\0');
+  constexpr std::size_t kMaxHeader = 1u << 16;
+  std::string head(kMaxHeader, '\0');
   std::ifstream in(file, std::ios::binary);
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   return head.find("\nend_header") != std::string::npos;
@@ -108,24 +109,25 @@ bool has_whole_ply_header(const fs::path& file) {
 
 void check_file(const fs::path& file) {
   std::error_code error;
-  if (!fs::exists(file, error)) refuse(file, "there is no such file", "check the path");
-  if (!fs::is_regular_file(file, error)) refuse(file, "this is not a file", formats);
+  if (!fs::exists(file, error)) refuse(file, "the file does not exist", "check the path");
+  if (!fs::is_regular_file(file, error)) refuse(file, "this is not a regular file", kFormats);
   const std::string extension = lower_extension(file);
-  if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end())
-    refuse(file, "'" + extension + "' is not a mesh format that is read here", formats);
-  if (fs::file_size(file, error) > max_bytes)
-    refuse(file, "the file has more than 64 MiB", "simplify the mesh");
-  if (!std::ifstream(file)) refuse(file, "cannot be opened", "check the permissions of the file");
+  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
+    refuse(file, "'" + extension + "' is not a supported mesh format", kFormats);
+  if (fs::file_size(file, error) > kMaxBytes)
+    refuse(file, "the file is larger than 64 MiB", "simplify the mesh");
+  if (!std::ifstream(file))
+    refuse(file, "the file cannot be opened", "check the permissions of the file");
   if (extension == ".ply" && !has_whole_ply_header(file))
-    refuse(file, "its header does not end", "export the mesh again");
+    refuse(file, "the PLY header has no end_header line", "export the mesh again");
 }
 
-// IEC 61966-2-1; glTF states colours linearly, the others as they are seen.
-float encoded(float linear) {
+// Linear to sRGB (IEC 61966-2-1): glTF has linear colours, the other formats sRGB.
+float srgb(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-// Takes assimp's scene apart, with its textures read.
+// From assimp's scene to a ModelFile.
 class AssimpConverter {
  public:
   AssimpConverter(const aiScene& scene, const FolderIO& folder, bool linear_colors)
@@ -151,16 +153,16 @@ class AssimpConverter {
       for (unsigned i = 0; i < mesh.mNumVertices; ++i)
         part.uv.push_back({mesh.mTextureCoords[0][i].x, 1 - mesh.mTextureCoords[0][i].y});
     if (mesh.mMaterialIndex < scene_.mNumMaterials)
-      add_looks(mesh, *scene_.mMaterials[mesh.mMaterialIndex], part);
+      add_material(mesh, *scene_.mMaterials[mesh.mMaterialIndex], part);
     model.parts.push_back(std::move(part));
   }
 
  private:
-  void add_looks(const aiMesh& mesh, const aiMaterial& material, ModelPart& part) {
+  void add_material(const aiMesh& mesh, const aiMaterial& material, ModelPart& part) {
     aiString name;
     if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS &&
         std::string(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME)
-      return;  // the reader's own, where the file has none
+      return;  // assimp's default: the file has none
     aiColor4D c;
     if (material.Get(AI_MATKEY_COLOR_DIFFUSE, c) == aiReturn_SUCCESS) {
       part.has_color = 1;
@@ -168,7 +170,7 @@ class AssimpConverter {
       material.Get(AI_MATKEY_OPACITY, opacity);
       part.color = {c.r, c.g, c.b, opacity};
       for (std::size_t k = 0; k < 4; ++k) {
-        if (linear_ && k < 3) part.color[k] = encoded(part.color[k]);
+        if (linear_ && k < 3) part.color[k] = srgb(part.color[k]);
         part.color[k] = std::isfinite(part.color[k]) ? std::clamp(part.color[k], 0.0f, 1.0f) : 1;
       }
     }
@@ -179,20 +181,20 @@ class AssimpConverter {
   }
 
   std::int32_t texture_of(const std::string& name) {
-    const auto [place, is_new] = texture_.try_emplace(name, -1);
-    if (!is_new) return place->second;
+    const auto [at, is_new] = texture_.try_emplace(name, -1);
+    if (!is_new) return at->second;
     const aiTexture* const inside = scene_.GetEmbeddedTexture(name.c_str());
     std::optional<std::string> bytes;
-    if (inside && inside->mHeight == 0)  // a file within the file, mWidth bytes long
+    if (inside && inside->mHeight == 0)  // embedded file of mWidth bytes
       bytes = std::string(reinterpret_cast<const char*>(inside->pcData), inside->mWidth);
     else if (!inside)
       bytes = folder_.read(name);
     if (!bytes) {
-      model.notes.push_back("texture '" + name + "' is not to be found in the model's folder");
+      model.notes.push_back("texture '" + name + "' does not exist in the model's folder");
       return -1;
     }
     model.textures.push_back({name, std::move(*bytes)});
-    return place->second = static_cast<std::int32_t>(model.textures.size()) - 1;
+    return at->second = static_cast<std::int32_t>(model.textures.size()) - 1;
   }
 
   const aiScene& scene_;
@@ -201,7 +203,7 @@ class AssimpConverter {
   std::map<std::string, std::int32_t> texture_;
 };
 
-// What the child does. A message in place of a model begins with '!'.
+// Runs in the child process. Returns ' ' and the packed model, or '!' and an error message.
 std::string read_packed(const fs::path& file) {
   Assimp::Importer importer;
   keep_trusted_readers(importer);
@@ -218,9 +220,9 @@ std::string read_packed(const fs::path& file) {
                          aiProcess_PreTransformVertices | aiProcess_ValidateDataStructure);
   if (scene == nullptr) return std::string("!") + importer.GetErrorString();
   const std::string extension = lower_extension(file);
-  AssimpConverter taker(*scene, *folder, extension == ".gltf" || extension == ".glb");
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) taker.add(*scene->mMeshes[i]);
-  return " " + pack(std::move(taker.model));
+  AssimpConverter converter(*scene, *folder, extension == ".gltf" || extension == ".glb");
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) converter.add(*scene->mMeshes[i]);
+  return " " + pack(std::move(converter.model));
 }
 
 void check_parts(const fs::path& file, const ModelFile& model) {
@@ -232,16 +234,16 @@ void check_parts(const fs::path& file, const ModelFile& model) {
     const auto count = static_cast<std::int32_t>(part.positions.size());
     for (const auto& t : part.triangles)
       for (const std::int32_t v : t)
-        if (v < 0 || v >= count) refuse(file, "a triangle names a vertex that does not exist", fix);
+        if (v < 0 || v >= count) refuse(file, "a vertex index is out of range", fix);
     for (const auto& uv : part.uv)
       if (!std::isfinite(uv[0]) || !std::isfinite(uv[1]))
         refuse(file, "a texture coordinate is not a finite number", fix);
     if (!part.uv.empty() && part.uv.size() != part.positions.size())
-      refuse(file, "texture coordinates are not as many as vertices", fix);
+      refuse(file, "the numbers of texture coordinates and vertices differ", fix);
     if (part.texture >= static_cast<std::int32_t>(model.textures.size()))
-      refuse(file, "a part names a texture that does not exist", fix);
+      refuse(file, "a texture index is out of range", fix);
   }
-  if (model.parts.empty()) refuse(file, "there is no triangle in it", formats);
+  if (model.parts.empty()) refuse(file, "the file has no triangle", kFormats);
 }
 
 }  // namespace
@@ -250,12 +252,12 @@ ModelFile read_model(const fs::path& file, const ChildLimits& limits) {
   check_file(file);
   const ChildResult result = run_limited([&] { return read_packed(file); }, limits);
   if (!result.fault.empty())
-    refuse(file, "the reader of this format " + result.fault + " on it",
-           "export the mesh again, best as STL, OBJ or GLB");
+    refuse(file, "the reader of this format " + result.fault,
+           "export the mesh again, preferably as STL, OBJ or GLB");
   if (result.bytes.starts_with('!'))
-    refuse(file, "cannot be read: " + result.bytes.substr(1), "export the mesh again");
+    refuse(file, "the file cannot be read: " + result.bytes.substr(1), "export the mesh again");
   std::optional<ModelFile> model = unpack_model(result.bytes.substr(1));
-  if (!model) refuse(file, "the reader of this format fails on it", "export the mesh again");
+  if (!model) refuse(file, "the reader of this format fails", "export the mesh again");
   check_parts(file, *model);
   return std::move(*model);
 }

@@ -1,5 +1,4 @@
-// What a file of meshes holds: parts with their colours and textures. STL, OBJ, PLY, Collada (DAE),
-// glTF and GLB.
+// Contents of mesh files with colours and textures: STL, OBJ, PLY, Collada (DAE), glTF and GLB.
 #pragma once
 
 #include <array>
@@ -13,37 +12,35 @@
 
 namespace twinarm {
 
-// Triangles of one material, in the file's axes and units (Collada: metres, by the unit that the
-// file declares; its up axis is left alone, as readers of URDF expect). Parts that the file places
-// by nodes stand where those say.
+// Triangles of one material, in the file's axes and units (Collada: converted to metres, its up
+// axis ignored as URDF readers do). Transformations of nodes are applied.
 struct ModelPart {
   std::vector<std::array<float, 3>> positions;  // finite
-  std::vector<std::array<float, 2>> uv;  // by position, (0, 0) at the picture's top left; or empty
+  std::vector<std::array<float, 2>> uv;  // by position, (0, 0) at the image's top left; or empty
   std::vector<std::array<std::int32_t, 3>> triangles;
-  std::int32_t has_color = 0;    // 1 where the file states a colour:
+  std::int32_t has_color = 0;    // 1: the file has a colour
   std::array<float, 4> color{};  // sRGB and opacity, in [0, 1]
   std::int32_t texture = -1;     // index into ModelFile::textures
 };
 struct ModelTexture {
-  std::string name;   // as the file names it
-  std::string bytes;  // of the picture's file, PNG or JPEG, not yet decoded
+  std::string name;   // as in the file
+  std::string bytes;  // of the image file, PNG or JPEG
 };
 struct ModelFile {
   std::vector<ModelPart> parts;  // each with triangles
   std::vector<ModelTexture> textures;
-  std::vector<std::string> notes;  // what was left out, for the user to know
+  std::vector<std::string> notes;  // warnings: what was left out
 };
 
-// Throws InputError (file, rule, remedy) if the file is missing, unreadable, too large (64 MiB), of
-// another format, malformed, without triangles, or holds a coordinate that is not finite; or if the
-// reader crashes on it or goes beyond its limits. Files that the model names (buffers, materials,
-// textures) are opened only inside its own folder.
+// Throws InputError if the file is missing, unreadable, larger than 64 MiB, of another format,
+// malformed, without triangles, or has a coordinate that is not finite; or if the reader crashes or
+// exceeds its limits. Files that the model refers to (buffers, materials, textures) are opened only
+// inside its own folder.
 ModelFile read_model(const std::filesystem::path& file, const ChildLimits& limits = {});
 
-// A ModelFile as bytes, to be sent from the process that read it.
+// Serialisation, for the transfer between processes.
 std::string pack(ModelFile model);
-// Empty where the bytes are no such model: whoever sent them may have been broken. Indices are not
-// looked at.
+// Empty if the bytes are not a packed model. Does not check indices.
 std::optional<ModelFile> unpack_model(std::string bytes);
 
 }  // namespace twinarm

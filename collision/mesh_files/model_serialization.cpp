@@ -7,7 +7,6 @@
 namespace twinarm {
 namespace {
 
-// Rows of so many numbers each.
 template <class Rows>
 void visit_rows(StateArchive& memory, Rows& rows) {
   memory.resize(rows, sizeof(rows[0]));
@@ -15,7 +14,6 @@ void visit_rows(StateArchive& memory, Rows& rows) {
     for (auto& number : row) memory.visit(number);
 }
 
-// The one order of all fields, for both ways.
 void visit_model(StateArchive& memory, ModelFile& model) {
   memory.resize(model.parts, 1);
   for (ModelPart& part : model.parts) {
@@ -48,7 +46,7 @@ std::optional<ModelFile> unpack_model(std::string bytes) {
   ModelFile model;
   try {
     visit_model(memory, model);
-  } catch (const std::runtime_error&) {  // too few bytes
+  } catch (const std::runtime_error&) {  // truncated
     return std::nullopt;
   }
   return memory.at_end() ? std::optional(std::move(model)) : std::nullopt;

@@ -1,4 +1,3 @@
-// fork, three limits, and a pipe that carries the result home. See sandboxed_process.h.
 #include "collision/mesh_files/sandboxed_process.h"
 
 #include <fcntl.h>
@@ -20,11 +19,11 @@
 namespace twinarm {
 namespace {
 
-// How the child ends, where no signal ends it.
+// Exit codes of the child.
 constexpr int kDone = 0, kOutOfMemory = 3, kThrew = 4, kCannotSend = 5;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kSanitized = true;  // sanitizers reserve terabytes of addresses
+constexpr bool kSanitized = true;  // sanitizers reserve terabytes of address space
 #elif defined(__has_feature)
 #if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
 constexpr bool kSanitized = true;
@@ -39,13 +38,12 @@ constexpr bool kSanitized = false;
   throw std::system_error(errno, std::generic_category(), what);
 }
 
-void limit(int what, rlim_t most) {
-  const rlimit both{most, most};
+void limit(int what, rlim_t max) {
+  const rlimit both{max, max};
   setrlimit(static_cast<__rlimit_resource_t>(what), &both);
 }
 
-// Of this process [bytes].
-std::size_t addresses_in_use() {
+std::size_t address_space_in_use() {  // [bytes]
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
@@ -61,25 +59,24 @@ bool send(int pipe, std::string_view bytes) {
   return true;
 }
 
-// Libraries may complain before they give up; what is to be said the parent says. A sanitizer's
-// words are another matter.
-void be_silent() {
-  const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  if (nowhere < 0) return;
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(nowhere, STDERR_FILENO);
+// Suppresses messages of libraries; the parent reports the error.
+void discard_output() {
+  const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  if (null < 0) return;
+  dup2(null, STDOUT_FILENO);
+  dup2(null, STDERR_FILENO);
 }
 
-[[noreturn]] void be_child(const std::function<std::string()>& work, const ChildLimits& limits,
-                           int pipe) {
-  // Whatever the program does with signals, the child ends at once and without a word.
+[[noreturn]] void run_child(const std::function<std::string()>& work, const ChildLimits& limits,
+                            int pipe) {
+  // Default signal handlers: the child ends at once.
   for (const int each :
        {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
     std::signal(each, SIG_DFL);
-  if (!kSanitized) be_silent();
+  if (!kSanitized) discard_output();
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.cpu_seconds);
-  if (!kSanitized) limit(RLIMIT_AS, addresses_in_use() + limits.bytes);
+  if (!kSanitized) limit(RLIMIT_AS, address_space_in_use() + limits.bytes);
   int end = kDone;
   try {
     if (!send(pipe, work())) end = kCannotSend;
@@ -88,12 +85,12 @@ void be_silent() {
   } catch (...) {
     end = kThrew;
   }
-  _exit(end);  // neither destructors nor buffers of the parent's program
+  _exit(end);  // no destructors, no flushing of the parent's buffers
 }
 
 using Clock = std::chrono::steady_clock;
 
-// Waits for bytes, or the end of them, until `end`; false: there was neither.
+// Waits until `end` for bytes or end of file; false on timeout.
 bool wait_for_bytes(int pipe, Clock::time_point end) {
   while (true) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
@@ -103,7 +100,7 @@ bool wait_for_bytes(int pipe, Clock::time_point end) {
   }
 }
 
-// Nothing: the child has not closed its end by then.
+// Empty on timeout.
 std::optional<std::string> receive(int pipe, Clock::time_point end) {
   std::string bytes;
   std::array<char, 1 << 16> some;
@@ -120,7 +117,7 @@ std::string fault_of(int status, const ChildLimits& limits) {
   if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     if (signal == SIGXCPU || signal == SIGKILL)
-      return "takes more than " + std::to_string(limits.cpu_seconds) + " s of computing";
+      return "needs more than " + std::to_string(limits.cpu_seconds) + " s of CPU time";
     if (signal == SIGINT || signal == SIGTERM || signal == SIGHUP) return "was interrupted";
     return "crashes";
   }
@@ -128,7 +125,7 @@ std::string fault_of(int status, const ChildLimits& limits) {
     case kDone:
       return "";
     case kOutOfMemory:
-      return "takes more than " + std::to_string(limits.bytes >> 30) + " GiB of memory";
+      return "needs more than " + std::to_string(limits.bytes >> 30) + " GiB of memory";
     default:
       return "fails";
   }
@@ -146,7 +143,7 @@ ChildResult run_limited(const std::function<std::string()>& work, const ChildLim
   }
   if (child == 0) {
     close(ends[0]);
-    be_child(work, limits, ends[1]);
+    run_child(work, limits, ends[1]);
   }
   close(ends[1]);
   const auto bytes = receive(ends[0], Clock::now() + std::chrono::seconds(limits.wall_seconds));

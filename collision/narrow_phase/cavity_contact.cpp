@@ -1,16 +1,15 @@
-// A body within touches with the points that are farthest from the centre or the axis, each with
-// the normal of the wall there: corners (with the radius of a sphere or capsule), rims, the
-// farthest points of an ellipsoid. The distance from a centre is convex, so nothing between corners
-// is farther than they are. All in the frame H of the hollow.
+// A body in a cavity touches at its points of maximum distance from the centre or axis, each with
+// the normal of the wall there: vertices (with the radius of a sphere or capsule), rims, tips of an
+// ellipsoid. The distance is convex, so no point between two vertices is farther. All in the frame
+// H of the cavity. Cost: 0.1-1 us.
 //
-// Rims, sections of a cylinder by the mouths of a tube, and the outline of an ellipsoid seen along
-// a tube are rings x(t) = m + u cos t + w sin t; where the square distance of a ring from the axis
-// is greatest is a question about a0 + a1 cos t + b1 sin t + a2 cos 2t + b2 sin 2t.
-// Farthest point of an ellipsoid from the centre of a sphere, y the centre in the ellipsoid's
-// frame: x_i = -y_i s_i^2 / (mu - s_i^2), where sum x_i^2 / s_i^2 = 1; the largest root mu is the
-// farthest point, the next one below the largest s_i^2 the other tip (D. Eberly, "Distance from a
-// point to an ellipse, an ellipsoid, or a hyperellipsoid", 2013, for the nearest).
-// Cost: 0.1-1 us.
+// Rims, sections of a cylinder by the end planes of a tube, and the outline of an ellipsoid seen
+// along a tube are rings x(t) = m + u cos t + w sin t; their squared distance from the axis is a0 +
+// a1 cos t + b1 sin t + a2 cos 2t + b2 sin 2t. Farthest point of an ellipsoid from the centre of a
+// sphere, y the centre in the ellipsoid's frame: x_i = -y_i s_i^2 / (mu - s_i^2) with sum x_i^2 /
+// s_i^2 = 1. The largest root mu is the farthest point, the next one below the largest s_i^2 the
+// opposite tip (D. Eberly, "Distance from a point to an ellipse, an ellipsoid, or a
+// hyperellipsoid", 2013, for the nearest point).
 #include "collision/narrow_phase/closed_forms.h"
 #include "collision/narrow_phase/narrow_phase.h"
 
@@ -25,19 +24,18 @@
 namespace twinarm {
 namespace {
 
-// A ring whose points are equally far to this share is all in touch.
-constexpr double equally_far = 1e-6;
+// Relative variation below which all points of a ring are equally far.
+constexpr double kEquallyFar = 1e-6;
 
 struct Ring {
   Vector3 m, u, w;
   Vector3 at(double t) const { return m + u * std::cos(t) + w * std::sin(t); }
 };
 
-// One body in one hollow.
-class Within {
+class CavityContact {
  public:
-  Within(const PosedShape& hollow, const PosedShape& body, double margin,
-         std::vector<ManifoldPoint>& out)
+  CavityContact(const PosedShape& hollow, const PosedShape& body, double margin,
+                std::vector<ManifoldPoint>& out)
       : X_WH_(hollow.X_WG), X_HB_(hollow.X_WG.inverse() * body.X_WG), margin_(margin), out_(out) {
     if (const auto* tube = std::get_if<CylindricalCavity>(&hollow.solid.shape)) {
       radius_ = tube->radius;
@@ -57,7 +55,7 @@ class Within {
     for (int i = 0; i < count; ++i) add_point(X_HB_ * vertices[i], core.radius, i);
     for (int e = 0; is_tube_ && e < static_cast<int>(core.edges.size()); ++e) {
       const Vector3 p = X_HB_ * vertices[core.edges[e].v0], q = X_HB_ * vertices[core.edges[e].v1];
-      for (const int side : {0, 1}) {  // where the edge passes a mouth
+      for (const int side : {0, 1}) {  // where the edge crosses an end plane
         const double z = side == 0 ? -half_ : half_;
         if ((p.z() < z) == (q.z() < z)) continue;
         Vector3 x = p + (q - p) * ((z - p.z()) / (q.z() - p.z()));
@@ -70,56 +68,57 @@ class Within {
  private:
   Vector3 across(const Vector3& x) const { return is_tube_ ? Vector3(x.x(), x.y(), 0) : x; }
 
-  void add_point(const Vector3& x, double roundness, int name) {
+  void add_point(const Vector3& x, double rounding_radius, int name) {
     if (is_tube_ && std::abs(x.z()) > half_) return;
     const Vector3 r = across(x);
-    const double rho = r.norm(), depth = rho + roundness - radius_;
+    const double rho = r.norm(), depth = rho + rounding_radius - radius_;
     if (!(depth > -margin_)) return;
     const Vector3 out = rho > 0 ? Vector3(r / rho) : Vector3(Vector3::UnitX());
-    const Vector3 p_B = x + roundness * out;
+    const Vector3 p_B = x + rounding_radius * out;
     out_.push_back(
         {X_WH_ * Vector3(p_B - depth * out), X_WH_ * p_B, depth, name, -(X_WH_.R * out)});
   }
 
-  // Its points farthest from the axis (or centre), those for which `is_there` holds.
+  // Adds the points of a ring farthest from the axis (or centre) that satisfy `is_there`.
   template <class IsThere>
   void add_ring(const Ring& ring, int name, IsThere is_there) {
     const Vector3 m = across(ring.m), u = across(ring.u), w = across(ring.w);
     const double a1 = 2 * m.dot(u), b1 = 2 * m.dot(w);
     const double a2 = 0.5 * (u.squaredNorm() - w.squaredNorm()), b2 = u.dot(w);
-    const double swing = std::hypot(a1, b1) + std::hypot(a2, b2);
+    const double variation = std::hypot(a1, b1) + std::hypot(a2, b2);
     const auto add_at = [&](double t, int part) {
       const Vector3 x = ring.at(t);
       if (is_there(x)) add_point(x, 0, name + part);
     };
-    if (swing < equally_far * (u.squaredNorm() + w.squaredNorm())) {
-      // All round: four, fixed in the body.
+    if (variation < kEquallyFar * (u.squaredNorm() + w.squaredNorm())) {
+      // All points: four, fixed in the body.
       for (int k = 0; k < 4; ++k) add_at(0.5 * std::numbers::pi * k, k);
       return;
     }
     const auto value = [&](double t) {
       return a1 * std::cos(t) + b1 * std::sin(t) + a2 * std::cos(2 * t) + b2 * std::sin(2 * t);
     };
-    constexpr int count = 24;
-    const double spacing = 2 * std::numbers::pi / count;
+    constexpr int kSamples = 24;
+    const double spacing = 2 * std::numbers::pi / kSamples;
     std::array<double, 2> peaks{};
     int found = 0;
-    for (int k = 0; k < count && found < 2; ++k) {
+    for (int k = 0; k < kSamples && found < 2; ++k) {
       double t = spacing * k;
       if (value(t) < value(t - spacing) || value(t) <= value(t + spacing)) continue;
       for (int i = 0; i < 30; ++i) {
         const double slope = -a1 * std::sin(t) + b1 * std::cos(t) - 2 * a2 * std::sin(2 * t) +
                              2 * b2 * std::cos(2 * t);
-        const double bend = -a1 * std::cos(t) - b1 * std::sin(t) - 4 * a2 * std::cos(2 * t) -
-                            4 * b2 * std::sin(2 * t);
-        const double step = std::clamp(slope / std::max(std::abs(bend), 1e-300), -spacing, spacing);
+        const double curvature = -a1 * std::cos(t) - b1 * std::sin(t) - 4 * a2 * std::cos(2 * t) -
+                                 4 * b2 * std::sin(2 * t);
+        const double step =
+            std::clamp(slope / std::max(std::abs(curvature), 1e-300), -spacing, spacing);
         t += step;
         if (std::abs(step) < 1e-15) break;
       }
       peaks[static_cast<std::size_t>(found++)] = t;
     }
-    // Two are told apart by where they are, seen from the middle of the ring: farther out and
-    // farther in, or left and right. That lasts while the body turns.
+    // Persistent order of two peaks, by their bearing from the middle of the ring: outer and inner,
+    // or left and right.
     if (found == 2) {
       const auto bearing = [&](double t) {
         const Vector3 r = across(ring.at(t)) - m;
@@ -128,14 +127,13 @@ class Within {
       };
       const double first = bearing(peaks[0]), second = bearing(peaks[1]);
       const bool is_in_and_out = std::abs(std::abs(first) - std::abs(second)) > 0.5;
-      if (is_in_and_out ? std::abs(first) > std::abs(second) : first > second) {
+      if (is_in_and_out ? std::abs(first) > std::abs(second) : first > second)
         std::swap(peaks[0], peaks[1]);
-      }
     }
     for (int i = 0; i < found; ++i) add_at(peaks[static_cast<std::size_t>(i)], i);
   }
 
-  // Across which the ring is seen, always the same way round.
+  // Consistently oriented normal of the projected ring.
   Vector3 normal_of(const Ring& ring) const {
     return is_tube_ ? Vector3(Vector3::UnitZ()) : Vector3(ring.u.cross(ring.w));
   }
@@ -147,22 +145,22 @@ class Within {
       add_ring({m, u, w}, 8 * side, [](const Vector3&) { return true; });
     }
     if (!is_tube_ || std::abs(z.z()) < 1e-3) return;
-    for (const int side : {0, 1}) {  // the section by a mouth, where the body passes it
-      const double mouth = side == 0 ? -half_ : half_;
+    for (const int side : {0, 1}) {  // section by an end plane
+      const double end = side == 0 ? -half_ : half_;
       const auto slid = [&](const Vector3& x, double to) {
         return Vector3(x + z * ((to - x.z()) / z.z()));
       };
       const auto is_on_body = [&](const Vector3& x) {
         return std::abs(z.dot(x - X_HB_.p)) < c.length / 2;
       };
-      const Ring ring{slid(X_HB_.p, mouth), slid(u, 0), slid(w, 0)};
+      const Ring ring{slid(X_HB_.p, end), slid(u, 0), slid(w, 0)};
       add_ring(ring, 16 + 8 * side, is_on_body);
     }
   }
 
   void add(const Ellipsoid& e) {
     if (!is_tube_) return add_tips(e);
-    // Normals across the axis: n = (L^-T k, 0) with L L' the block of Q across it, |k| = 1.
+    // Normals perpendicular to the axis: n = (L^-T k, 0) with L L' the xy block of Q, |k| = 1.
     const Matrix3 Q = X_HB_.R * e.semi_axes.cwiseAbs2().asDiagonal() * X_HB_.R.transpose();
     const double l00 = std::sqrt(Q(0, 0)), l10 = Q(1, 0) / l00;
     const double l11 = std::sqrt(Q(1, 1) - l10 * l10);
@@ -175,16 +173,16 @@ class Within {
     int longest = 0;
     const double top = squares.maxCoeff(&longest);
     const double middle = squares.sum() - top - squares.minCoeff();
-    Vector3 y = -(X_HB_.R.transpose() * X_HB_.p);  // centre of the hollow in the ellipsoid's frame
+    Vector3 y = -(X_HB_.R.transpose() * X_HB_.p);  // centre of the cavity in the ellipsoid's frame
     if (std::abs(y[longest]) < 1e-12 * e.semi_axes[longest]) {
-      y[longest] = 1e-12 * e.semi_axes[longest];  // midway between two tips: both are found
+      y[longest] = 1e-12 * e.semi_axes[longest];  // equidistant tips: find both
     }
-    // x with mu = top + shift; the surface is where excess() = 0.
+    // x with mu = top + shift.
     const auto point = [&](double shift) {
       return Vector3(-y.cwiseProduct(squares).array() / (shift + (top - squares.array())));
     };
     for (const double side : {1.0, -1.0}) {
-      // From next to the pole outward: excess falls and is convex there, so Newton never
+      // Starting next to the pole: the function is decreasing and convex, so Newton never
       // overshoots.
       double shift = side * std::abs(y[longest]) * e.semi_axes[longest];
       bool found = false;
@@ -216,20 +214,20 @@ bool is_hollow(const Shape& shape) {
          std::holds_alternative<CylindricalCavity>(shape);
 }
 
-void hollow_contacts(const PosedShape& hollow, const PosedShape& body, double margin,
+void cavity_contacts(const PosedShape& hollow, const PosedShape& body, double margin,
                      std::vector<ManifoldPoint>& out) {
   out.clear();
-  Within(hollow, body, margin, out).add_body(body);
+  CavityContact(hollow, body, margin, out).add_body(body);
   if (out.empty()) return;
   Vector3 mean = Vector3::Zero();
   for (const ManifoldPoint& point : out) mean += point.n_W;
   reduce_to_four(mean.norm() > 0.1 ? Vector3(mean.normalized()) : out[0].n_W, out);
 }
 
-double hollow_distance(const PosedShape& hollow, const PosedShape& body,
+double cavity_distance(const PosedShape& hollow, const PosedShape& body,
                        std::vector<ManifoldPoint>& points) {
   points.clear();
-  Within(hollow, body, 1e300, points).add_body(body);
+  CavityContact(hollow, body, 1e300, points).add_body(body);
   double distance = 1e300;
   for (const ManifoldPoint& point : points) distance = std::min(distance, -point.depth);
   return distance;

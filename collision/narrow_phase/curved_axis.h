@@ -1,4 +1,4 @@
-// The direction of least overlap where one of two bodies is a cylinder or an ellipsoid.
+// Direction of minimum overlap if one of the bodies is a cylinder or an ellipsoid.
 #pragma once
 
 #include <vector>
@@ -9,29 +9,30 @@
 
 namespace twinarm {
 
-// Keeps its arrays from call to call, so that a step does not allocate.
+// Keeps its arrays: a step does not allocate.
 class CurvedAxis {
  public:
-  // False if it is certain that the bodies are more than `margin` apart.
+  // False if the bodies are more than `margin` apart.
   bool nearest(const PosedShape& a, const PosedShape& b, double margin, NearestPair& pair);
 
  private:
-  struct Posed {  // patches in W, from the origin of A, that may carry the optimum
-    std::vector<Patches::Ridge> ridges;
-    std::vector<Vector3> along;  // of each ridge, unit
-    std::vector<Patches::Round> rounds;
+  struct Posed {  // features in W, from the origin of A, that can be the optimum
+    std::vector<BoundaryFeatures::Line> lines;
+    std::vector<Vector3> along;  // by line, unit
+    std::vector<BoundaryFeatures::Quadric> quadrics;
   };
-  void place(const PosedShape& body, const PosedShape& other, double reach, Posed& posed);
-  void offer(const Vector3& n_W, double handicap);
-  void offer_round(const Vector3& n_W, const Patches::Round& round, bool is_of_a);
+  void pose_features(const PosedShape& body, const PosedShape& other, double reach, Posed& posed);
+  void try_candidate(const Vector3& n_W, double min_gain);
+  void try_quadric_direction(const Vector3& n_W, const BoundaryFeatures::Quadric& quadric,
+                             bool is_of_a);
   double limit() const;
   void try_flats();
   void try_seeds();
-  void try_patches(double reach);
-  void try_ridges();
-  void try_rounds_on_ridges(const Posed& rounds, const Posed& ridges, bool rounds_are_a);
-  void try_rounds();
-  void search_sphere(const SupportSum& f, const Patches::Round& round, bool is_of_a);
+  void try_feature_pairs(double reach);
+  void try_line_pairs();
+  void try_quadrics_on_lines(const Posed& quadrics, const Posed& lines, bool quadrics_are_a);
+  void try_quadric_pairs();
+  void search_sphere(const SupportSum& f, const BoundaryFeatures::Quadric& quadric, bool is_of_a);
 
   const PosedShape* body_a_ = nullptr;
   const PosedShape* body_b_ = nullptr;
@@ -39,8 +40,8 @@ class CurvedAxis {
   bool overlaps_ = false, is_deep_ = false;
   NearestPair seed_, best_;
   Posed a_, b_;
-  std::vector<Vector3> found_, corners_;
-  std::vector<double> bounds_;  // by flat
+  std::vector<Vector3> found_, vertices_;
+  std::vector<double> bounds_;  // by face
 };
 
 }  // namespace twinarm

@@ -1,8 +1,6 @@
-// A half-space is touched by corners, so the manifold is the list of those that are deep enough:
-// vertices of a polyhedron, ends of a capsule, centre of a sphere (each with the radius), points of
-// the rims of a cylinder, the lowest point of an ellipsoid. depth = offset - n . p. FCL gives one
-// point here, which jumps from the middle of a face to a corner when the body tilts by 1e-9.
-// O(vertices).
+// Contact points with a half-space: vertices of a polyhedron, ends of a capsule, centre of a sphere
+// (each with the radius), rim points of a cylinder, lowest point of an ellipsoid; depth = offset -
+// n . p. O(vertices).
 #include "collision/narrow_phase/closed_forms.h"
 #include "collision/narrow_phase/narrow_phase.h"
 
@@ -21,8 +19,7 @@ double half_space_distance(const PosedShape& half_space, const PosedShape& body)
 
 double half_space_distance(const PosedShape& half_space, const Aabb& box) {
   const Vector3 n = outward_W(half_space);
-  const Vector3 centre = (box.low + box.high) / 2, half = (box.high - box.low) / 2;
-  return n.dot(centre - half_space.X_WG.p) - n.cwiseAbs().dot(half) -
+  return n.dot(box.center() - half_space.X_WG.p) - n.cwiseAbs().dot(box.sizes() / 2) -
          std::get<HalfSpace>(half_space.solid.shape).offset;
 }
 
@@ -38,15 +35,15 @@ void half_space_contacts(const PosedShape& half_space, const PosedShape& body, d
   };
   const Polytope& core = body.solid.core;
   if (core.exists) {
-    for (std::size_t i = 0; i < core.hull.vertices.size(); ++i) {
+    for (std::size_t i = 0; i < core.hull.vertices.size(); ++i)
       add(body.X_WG * core.hull.vertices[i] - core.radius * n, static_cast<int>(i));
-    }
   } else {
     std::visit(
         [&](const auto& shape) {
-          if constexpr (requires { shape.max_points(n, add); })
-            shape.max_points(-(body.X_WG.R.transpose() * n),
-                             [&](const Vector3& p_G, int name) { add(body.X_WG * p_G, name); });
+          if constexpr (requires { shape.plane_contact_points(n, add); })
+            shape.plane_contact_points(
+                -(body.X_WG.R.transpose() * n),
+                [&](const Vector3& p_G, int name) { add(body.X_WG * p_G, name); });
           else
             add(body.support_W(-n), 0);
         },

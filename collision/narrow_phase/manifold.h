@@ -1,4 +1,4 @@
-// The contact points of one pair whose normal is known.
+// Contact manifold of a pair with known normal.
 #pragma once
 
 #include <vector>
@@ -8,21 +8,22 @@
 
 namespace twinarm {
 
-constexpr int max_manifold_points = 4;
+constexpr int kMaxManifoldPoints = 4;
 
 class Manifold {
  public:
-  // The points where the features along the axis lie behind each other, whatever their depth.
+  // Clipped support features along the axis, of any depth.
   const std::vector<ManifoldPoint>& features(const PosedShape& a, const PosedShape& b,
                                              const PenetrationDirection& axis);
-  // Finds them, and says whether they prove that no direction has less overlap.
-  bool settles(const PosedShape& a, const PosedShape& b, const PenetrationDirection& axis);
-  // After settles(): up to four of these points with depth > -margin.
+  // Computes them; true if they prove that no direction has a smaller overlap.
+  bool certify_face_contact(const PosedShape& a, const PosedShape& b,
+                            const PenetrationDirection& axis);
+  // After certify_face_contact(): at most four of these points, with depth > -margin.
   const std::vector<ManifoldPoint>& points(const PenetrationDirection& axis, double margin);
 
-  // Up to four points along the given axis, with depth > -margin, the deepest among them.
-  // `p_W` is a point between the surfaces where they are nearest: it is used where the features
-  // have no common area (a rim, crossing edges, a corner).
+  // At most four points along the axis, with depth > -margin, including the deepest. `p_W`: point
+  // midway between the surfaces at the deepest point, used if the features have no common area
+  // (rim, crossing edges, vertex).
   const std::vector<ManifoldPoint>& between(const PosedShape& a, const PosedShape& b,
                                             const PenetrationDirection& axis, const Vector3& p_W,
                                             double margin);
@@ -36,8 +37,8 @@ class Manifold {
   std::vector<ManifoldPoint> points_;
 };
 
-// Keeps the four points that hold best: the deepest, the farthest from it, the one that spans the
-// largest triangle with these, and the one farthest outside that triangle.
+// Manifold reduction: keeps the deepest point, the farthest from it, the one that spans the largest
+// triangle with these, and the one farthest outside that triangle.
 void reduce_to_four(const Vector3& n_W, std::vector<ManifoldPoint>& points);
 
 }  // namespace twinarm

@@ -1,16 +1,16 @@
-// Narrow phase. In this order:
-//   1. closed forms: half-space or hollow with anything, sphere and capsule pairs, sphere-box,
+// Narrow phase, in this order:
+//   1. closed forms: half-space or cavity with any shape, sphere and capsule pairs, sphere-box,
 //      sphere-cylinder;
-//   2. the best face normal, if the contact area along it proves that no other direction has less
-//      overlap (manifold.cpp): bodies that rest on each other end here, without GJK;
-//   3. polytopes with a radius: GJK distance of the cores, which settles those that are well apart;
-//      else all separating axes, which are exact when they overlap; the smaller overlap wins;
-//   4. cylinders and ellipsoids: see curved_axis.h.
-// Every direction, wherever it comes from, is judged by overlap(n) of the true shapes: an upper
-// bound of the depth for any n. So a search that ends early can cost optimality, never consistency,
-// and the difference between distance and bound (the duality gap) tells that it happened. Cost: 0.1
-// us in closed form, 0.6 us for boxes face on face, 2-30 us otherwise; hulls with hundreds of
-// vertices 10-100 us.
+//   2. the best face normal, if the contact area proves that no other direction has a smaller
+//   overlap
+//      (manifold.cpp): resting contacts end here, without GJK;
+//   3. polytopes with a radius: GJK distance of the cores; if they touch or overlap, all separating
+//      axes; the smaller overlap counts;
+//   4. cylinders and ellipsoids: curved_axis.h.
+// Every direction is evaluated by overlap(n) of the true shapes, an upper bound of the depth for
+// any n: a search that ends early costs optimality, not consistency, and is detected by the duality
+// gap. Cost: closed forms 0.1 us, boxes face on face 0.6 us, otherwise 2-30 us; hulls with hundreds
+// of vertices 10-100 us.
 #include "collision/narrow_phase/narrow_phase.h"
 #include "collision/narrow_phase/closed_forms.h"
 
@@ -21,7 +21,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double well_apart = 1e-6;  // from here nearest points tell the direction to rounding [m]
+constexpr double kWellApart = 1e-6;  // above it the nearest points define the direction [m]
 
 bool is_half_space(const PosedShape& body) {
   return std::holds_alternative<HalfSpace>(body.solid.shape);
@@ -47,25 +47,23 @@ bool NarrowPhase::nearest(const PosedShape& a, const PosedShape& b, double margi
     pair = *closed;
     return pair.axis.overlap > -margin;
   }
-  if (!a.solid.core.exists || !b.solid.core.exists) {
-    return curved_.nearest(a, b, margin, pair);
-  }
+  if (!a.solid.core.exists || !b.solid.core.exists) return curved_.nearest(a, b, margin, pair);
   const double radii = radii_of(a, b);
   const CoreDistance cores = core_distance(a, b, margin + radii);
-  const bool apart = cores.distance > gjk_floor;
+  const bool apart = cores.distance > kMinGjkDistance;
   PenetrationDirection best;  // of the cores, until the end
   if (apart) {
     best = {cores.n_W, overlap(a, b, cores.n_W) - radii};
     if (best.overlap + radii < -margin) return false;
   }
-  const bool is_known = cores.distance > well_apart && !has_gap(cores.distance, best.overlap);
+  const bool is_known =
+      cores.distance > kWellApart && !has_duality_gap(cores.distance, best.overlap);
   if (!is_known) separating_axis_.improve(a, b, cores.distance, best);
   best.overlap += radii;
   pair.axis = best;
   pair.p_W = mean_of_supports(a, b, best.n_W);
-  if (apart && cores.n_W.dot(best.n_W) > 0.99) {
+  if (apart && cores.n_W.dot(best.n_W) > 0.99)
     pair.p_W = midway(a, b, best.n_W, 0.5 * (cores.p_WA + cores.p_WB));
-  }
   return pair.axis.overlap > -margin;
 }
 
@@ -79,7 +77,7 @@ NarrowPhase::Result NarrowPhase::contacts(const PosedShape& a, const PosedShape&
   }
   if (is_hollow(a.solid.shape) || is_hollow(b.solid.shape)) {
     const bool a_is_hollow = is_hollow(a.solid.shape);
-    hollow_contacts(a_is_hollow ? a : b, a_is_hollow ? b : a, margin, points_);
+    cavity_contacts(a_is_hollow ? a : b, a_is_hollow ? b : a, margin, points_);
     if (!a_is_hollow) swap_roles(points_);
     return {Vector3::Zero(), &points_};
   }
@@ -89,10 +87,9 @@ NarrowPhase::Result NarrowPhase::contacts(const PosedShape& a, const PosedShape&
     if (!(pair.axis.overlap > -margin)) return {};
   } else {
     PenetrationDirection flat;
-    if (!flat_axis_.best(a, b, margin, flat)) return {};
-    if (!flat.n_W.isZero(0) && manifold_.settles(a, b, flat)) {
+    if (!face_axis_.best(a, b, margin, flat)) return {};
+    if (!flat.n_W.isZero(0) && manifold_.certify_face_contact(a, b, flat))
       return {flat.n_W, &manifold_.points(flat, margin)};
-    }
     if (!nearest(a, b, margin, pair)) return {};
   }
   return {pair.axis.n_W, &manifold_.between(a, b, pair.axis, pair.p_W, margin)};
@@ -101,8 +98,8 @@ NarrowPhase::Result NarrowPhase::contacts(const PosedShape& a, const PosedShape&
 double NarrowPhase::distance(const PosedShape& a, const PosedShape& b) {
   if (is_half_space(a)) return half_space_distance(a, b);
   if (is_half_space(b)) return half_space_distance(b, a);
-  if (is_hollow(a.solid.shape)) return hollow_distance(a, b, points_);
-  if (is_hollow(b.solid.shape)) return hollow_distance(b, a, points_);
+  if (is_hollow(a.solid.shape)) return cavity_distance(a, b, points_);
+  if (is_hollow(b.solid.shape)) return cavity_distance(b, a, points_);
   NearestPair pair;
   nearest(a, b, 1e300, pair);
   return -pair.axis.overlap;

@@ -1,4 +1,4 @@
-// Two solids -> the normal, the depth and the contact points.
+// Narrow phase: normal, depth and contact points of two shapes.
 #pragma once
 
 #include <vector>
@@ -12,14 +12,13 @@
 
 namespace twinarm {
 
-// Two surfaces without a body behind them (half-spaces, hollows) have no contacts that could be
-// listed, nor have two meshes; all other pairs have. Meshes against convex bodies: mesh_contact.h.
+// All pairs except two of half-space, cavity and mesh. Meshes against convex bodies:
+// mesh_contact.h.
 bool is_supported(const Shape& a, const Shape& b);
 
 class NarrowPhase {
  public:
-  // The normal from A to B (zero where each point has its own), and the contacts with depth >
-  // -margin. Empty if there are none.
+  // Normal from A to B (zero if each point has its own), and contacts with depth > -margin.
   struct Result {
     Vector3 n_W = Vector3::Zero();
     const std::vector<ManifoldPoint>* points = nullptr;  // valid until the next call
@@ -27,15 +26,14 @@ class NarrowPhase {
   };
   Result contacts(const PosedShape& a, const PosedShape& b, double margin);
 
-  // Signed distance: how far the surfaces are apart, or minus the least overlap [m].
+  // Signed distance; negative: penetration depth [m].
   double distance(const PosedShape& a, const PosedShape& b);
 
-  // Direction and amount of the least overlap; false if it is certain that they are more than
-  // `margin` apart.
+  // Minimum overlap and its direction; false if the bodies are more than `margin` apart.
   bool nearest(const PosedShape& a, const PosedShape& b, double margin, NearestPair& pair);
 
  private:
-  FlatAxis flat_axis_;
+  FaceAxis face_axis_;
   SeparatingAxis separating_axis_;
   CurvedAxis curved_;
   Manifold manifold_;

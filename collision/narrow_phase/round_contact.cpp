@@ -1,5 +1,5 @@
 // Closed forms: nearest points of two segments (C. Ericson, Real-Time Collision Detection, 2005,
-// 5.1.9), and signed distance of a point from shapes that know it (box, cylinder).  < 0.1 us.
+// 5.1.9), and signed distance of a point from a box or cylinder. < 0.1 us.
 #include "collision/narrow_phase/closed_forms.h"
 #include "collision/narrow_phase/narrow_phase.h"
 
@@ -27,7 +27,7 @@ std::pair<double, double> nearest_parameters(const Segment& a, const Segment& b)
   if (aa == 0 && bb == 0) return {0, 0};
   if (aa == 0) return {0, std::clamp(br / bb, 0.0, 1.0)};
   if (bb == 0) return {std::clamp(-ar / aa, 0.0, 1.0), 0};
-  const double sine2 = aa * bb - ab * ab;  // parallel: any s; the clamps below mend it
+  const double sine2 = aa * bb - ab * ab;  // parallel: any s, corrected by the clamps
   double s = sine2 > 1e-12 * aa * bb ? std::clamp((ab * br - ar * bb) / sine2, 0.0, 1.0) : 0.0;
   const double t = std::clamp((ab * s + br) / bb, 0.0, 1.0);
   s = std::clamp((ab * t - ar) / aa, 0.0, 1.0);
@@ -40,7 +40,7 @@ NearestPair segments(const PosedShape& a, const PosedShape& b) {
   const Vector3 p_a = u.start + s * u.along, p_b = w.start + t * w.along;
   const double distance = (p_b - p_a).norm();
   Vector3 n = p_b - p_a;
-  if (distance < SignedPoint::touching) {  // crossing centre lines: out across both
+  if (distance < SignedPoint::kTouching) {  // crossing centre lines: normal to both
     n = u.along.cross(w.along);
     const double scale = u.along.norm() * w.along.norm();
     if (!(n.norm() > 1e-9 * scale)) {
@@ -54,7 +54,7 @@ NearestPair segments(const PosedShape& a, const PosedShape& b) {
   return {{n, r_a + r_b - distance}, middle};
 }
 
-// The sphere is B. Empty if A has no closed form of its distance from a point.
+// B is the sphere. Empty if A has no closed-form distance from a point.
 std::optional<NearestPair> sphere_at(const PosedShape& a, const PosedShape& b) {
   const Vector3 p = a.X_WG.inverse() * b.X_WG.p;
   SignedPoint at{};

@@ -1,10 +1,9 @@
-// Least overlap of two convex polytopes by enumeration.
+// Minimum overlap of two convex polytopes by enumeration (separating-axis theorem).
 //
-// The bodies overlap by d along n if and only if the plane with normal n at distance d supports the
-// Minkowski difference A - B, and the origin is nearest to one of its FACES when they penetrate.
-// Its faces are: the faces of A, the faces of -B, and one parallelogram for each edge pair (e_a,
-// e_b) whose arcs on the Gauss sphere cross. With the normals p, q beside e_a and -r, -s beside
-// e_b:
+// The bodies overlap by d along n iff the plane with normal n at distance d supports the Minkowski
+// difference A - B; with penetration the origin is nearest to one of its faces. These are the faces
+// of A, the faces of -B, and one parallelogram for each edge pair (e_a, e_b) whose arcs on the
+// Gauss sphere cross. With the normals p, q adjacent to e_a and -r, -s adjacent to e_b:
 //   the arcs p-q and (-r)-(-s) cross  <=>  opposite signs of (-r).(q x p), (-s).(q x p), opposite
 //   signs of p.(s x r), q.(s x r), and the same hemisphere,
 // where q x p is along e_a and s x r along e_b.
@@ -23,13 +22,10 @@
 namespace twinarm {
 namespace {
 
-constexpr double sine_of_parallel_edges =
-    1e-7;  // sine below which the cross product of two edges says nothing
+constexpr double kParallelEdgesSine = 1e-7;  // below it two edges count as parallel
 
 double highest(const std::vector<Vector3>& points, const Vector3& n) {
-  double h = -1e300;
-  for (const Vector3& p : points) h = std::max(h, p.dot(n));
-  return h;
+  return support_point(points, n).dot(n);
 }
 
 }  // namespace
@@ -43,23 +39,18 @@ void SeparatingAxis::place(const PosedShape& body, Posed& posed) {
   posed.near_edges.reserve(body.solid.core.edges.size());
 }
 
-// An edge that carries the optimum is within `reach` of the other body, and so of its bounding box.
+// The edges of the optimum are within `reach` of the other body's bounding box.
 void SeparatingAxis::find_near_edges(const Polytope& core, const Posed& other, double reach,
                                      Posed& posed) {
-  Vector3 low = other.vertices[0], high = other.vertices[0];
-  for (const Vector3& v : other.vertices) {
-    low = low.cwiseMin(v);
-    high = high.cwiseMax(v);
-  }
-  low.array() -= reach;
-  high.array() += reach;
+  Aabb box = bounding_box(other.vertices);
+  box.min().array() -= reach;
+  box.max().array() += reach;
   posed.near_edges.clear();
   for (std::size_t i = 0; i < core.edges.size(); ++i) {
     const Vector3& v0 = posed.vertices[core.edges[i].v0];
     const Vector3& v1 = posed.vertices[core.edges[i].v1];
-    const bool apart = (v0.cwiseMin(v1).array() > high.array()).any() ||
-                       (v0.cwiseMax(v1).array() < low.array()).any();
-    if (!apart) posed.near_edges.push_back(static_cast<int>(i));
+    if (box.intersects(Aabb(v0.cwiseMin(v1), v0.cwiseMax(v1))))
+      posed.near_edges.push_back(static_cast<int>(i));
   }
 }
 
@@ -80,8 +71,9 @@ void SeparatingAxis::try_faces(const PosedShape& body, const Posed& own, const P
 bool SeparatingAxis::is_difference_face(const Polytope::Edge& ea, const Vector3& da,
                                         const Polytope::Edge& eb, const Vector3& db, const Posed& a,
                                         const Posed& b) {
-  if (ea.f0 < 0 || eb.f0 < 0) return true;  // a bare segment has normals all round
-  // f0 walks the edge forward: n(f0) x n(f1) is along it, for either body.
+  if (ea.f0 < 0 || eb.f0 < 0)
+    return true;  // a segment has all normals f0 traverses the edge forward: n(f0) x n(f1) is along
+                  // it, for either body.
   const double r = -b.normals[eb.f0].dot(da), s = -b.normals[eb.f1].dot(da);
   const double p = a.normals[ea.f0].dot(db), q = a.normals[ea.f1].dot(db);
   return r * s < 0 && p * q < 0 && r * q > 0;
@@ -100,10 +92,10 @@ void SeparatingAxis::try_edges(const Polytope& a, const Polytope& b,
       if (!is_difference_face(ea, da, eb, db, a_, b_)) continue;
       Vector3 n = da.cross(db);
       const double length = n.norm();
-      if (length < sine_of_parallel_edges * da.norm() * db.norm()) continue;
+      if (length < kParallelEdgesSine * da.norm() * db.norm()) continue;
       n /= length;
       for (const double sign : {1.0, -1.0}) {
-        // Cheap first: along n the overlap is no less than that of these two edges.
+        // Lower bound: overlap of these two edges along n.
         if (sign * n.dot(p_a - p_b) >= best.overlap) continue;
         const double value = overlap_along(sign * n);
         if (value < best.overlap) best = {sign * n, value};
@@ -124,13 +116,13 @@ void SeparatingAxis::improve(const PosedShape& a, const PosedShape& b, double re
   try_edges(a.solid.core, b.solid.core, best);
 }
 
-// Polytopes: the corners of one body in the frame of the other, and one pass over them for each
-// slab (a face with the face opposite to it, if it is parallel) that may be better than the best
-// before.  Box-box: at most 48 products, 0.1 us.
-// Against a curved body: overlap(n), of a face only where it can be better than the best before.
+// Polytopes: vertices of one body in the frame of the other, and one pass over them for each slab
+// that can improve the result. Box-box: at most 48 products, 0.1 us.  Box-box: at most 48 products,
+// 0.1 us. Against a curved body: overlap(n), of a face only where it can be better than the best
+// before.
 namespace {
 
-// The points lowest and highest along n.
+// Points with minimum and maximum p . n.
 std::pair<const Vector3*, const Vector3*> extremes(const std::vector<Vector3>& points,
                                                    const Vector3& n) {
   double low = 1e300, high = -1e300;
@@ -145,38 +137,38 @@ std::pair<const Vector3*, const Vector3*> extremes(const std::vector<Vector3>& p
 
 }  // namespace
 
-bool FlatAxis::best(const PosedShape& a, const PosedShape& b, double margin,
+bool FaceAxis::best(const PosedShape& a, const PosedShape& b, double margin,
                     PenetrationDirection& axis) {
   if (a.solid.core.exists && b.solid.core.exists) return best_of_polytopes(a, b, margin, axis);
   return try_flats(a, b, a, 1, margin, axis) && try_flats(a, b, b, -1, margin, axis);
 }
 
-// Of `own`, which is a with sign 1 or b with -1.
-bool FlatAxis::try_flats(const PosedShape& a, const PosedShape& b, const PosedShape& own,
+// `own` is a with sign 1 or b with sign -1.
+bool FaceAxis::try_flats(const PosedShape& a, const PosedShape& b, const PosedShape& own,
                          double sign, double margin, PenetrationDirection& axis) {
-  const std::vector<Vector3>& flats = own.solid.patches.flats;
+  const std::vector<Vector3>& face_normals = own.solid.boundary.face_normals;
   const PosedShape& other = sign > 0 ? b : a;
   const std::size_t first = face_depth_lower_bounds(own, other, bounds_);
-  for (std::size_t k = 0; k < flats.size(); ++k) {
-    const std::size_t f = (first + k) % flats.size();
+  for (std::size_t k = 0; k < face_normals.size(); ++k) {
+    const std::size_t f = (first + k) % face_normals.size();
     if (bounds_[f] > axis.overlap) continue;
-    const Vector3 out = own.X_WG.R * flats[f];
-    if (bound_flat(own, f, out, other) > axis.overlap) continue;
-    consider(a, b, sign * out, 0, axis);
+    const Vector3 out = own.X_WG.R * face_normals[f];
+    if (face_depth_lower_bound(own, f, out, other) > axis.overlap) continue;
+    try_direction(a, b, sign * out, 0, axis);
     if (!(axis.overlap > -margin)) return false;
   }
   return true;
 }
 
-bool FlatAxis::try_slabs(const Polytope& own, const Polytope& other, const Pose& X_own_other,
+bool FaceAxis::try_slabs(const Polytope& own, const Polytope& other, const Pose& X_own_other,
                          double sign, double margin, const Matrix3& R_W_own, double radii,
                          PenetrationDirection& axis) {
   const std::vector<Vector3>& vertices = other.hull.vertices;
   vertices_.resize(vertices.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) vertices_[i] = X_own_other * vertices[i];
-  const Vector3* deepest = vertices_.data();  // along the best direction before
+  const Vector3* deepest = vertices_.data();  // along the best direction so far
   for (const Polytope::Slab& slab : own.slabs) {
-    // One corner bounds what all of them give, to the bit: sums of doubles are monotone.
+    // One vertex gives a bound; exact in floating point, since rounding is monotone.
     const double one = slab.normal.dot(*deepest);
     if (slab.high - one + radii >= axis.overlap &&
         (!slab.is_double || one - slab.low + radii >= axis.overlap))
@@ -197,7 +189,7 @@ bool FlatAxis::try_slabs(const Polytope& own, const Polytope& other, const Pose&
   return true;
 }
 
-bool FlatAxis::best_of_polytopes(const PosedShape& a, const PosedShape& b, double margin,
+bool FaceAxis::best_of_polytopes(const PosedShape& a, const PosedShape& b, double margin,
                                  PenetrationDirection& axis) {
   const Polytope &core_a = a.solid.core, &core_b = b.solid.core;
   const double radii = core_a.radius + core_b.radius;

@@ -1,5 +1,4 @@
-// The direction of least overlap: the best of those known beforehand, and the exact one of two
-// polytopes.
+// Direction of minimum overlap: of the face normals, and of two polytopes (separating axes).
 #pragma once
 
 #include <vector>
@@ -10,12 +9,11 @@
 
 namespace twinarm {
 
-// The best of the directions that are known beforehand: normals of faces and caps. Keeps its arrays
-// from call to call, so that a step does not allocate.
-class FlatAxis {
+// Minimum over the normals of faces and caps. Keeps its arrays: a step does not allocate.
+class FaceAxis {
  public:
-  // Least overlap among all flats of both bodies; n stays zero where there are none. False if one
-  // of them parts the bodies by more than `margin`.
+  // Over all faces of both bodies; n stays zero without faces. False if one of them separates the
+  // bodies by more than `margin`.
   bool best(const PosedShape& a, const PosedShape& b, double margin, PenetrationDirection& axis);
 
  private:
@@ -27,17 +25,15 @@ class FlatAxis {
                  double margin, const Matrix3& R_W_own, double radii, PenetrationDirection& axis);
 
   std::vector<Vector3> vertices_;
-  std::vector<double> bounds_;  // by flat
+  std::vector<double> bounds_;  // by face
 };
 
-// The exact direction of least overlap of two polytopes. Keeps its arrays from call to call, so
-// that a step does not allocate.
+// Minimum over all separating axes of two polytopes. Keeps its arrays: a step does not allocate.
 class SeparatingAxis {
  public:
-  // Improves `best` (any known direction with its overlap, or the default) to the direction of
-  // least overlap among all face normals of both cores and all cross products of their edges. Radii
-  // are left out. Only edges within `reach` of the other core are tried: at least the depth or the
-  // distance of the cores.
+  // Improves `best` (any direction with its overlap, or the default) over all face normals of both
+  // cores and all cross products of their edges; without radii. Only edges within `reach` of the
+  // other core are tried (at least the depth or distance of the cores).
   void improve(const PosedShape& a, const PosedShape& b, double reach, PenetrationDirection& best);
 
  private:

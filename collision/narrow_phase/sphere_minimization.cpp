@@ -15,10 +15,10 @@
 namespace twinarm {
 namespace {
 
-constexpr int max_steps = 60;
-constexpr double longest_step = 0.4;  // [rad]
-constexpr double done = 1e-15;        // [rad]
-constexpr double trusted = 1e-6;      // steps below this are not checked: f cannot tell [rad]
+constexpr int kMaxSteps = 60;
+constexpr double kMaxStep = 0.4;       // [rad]
+constexpr double kConverged = 1e-15;   // [rad]
+constexpr double kTrustedStep = 1e-6;  // smaller steps are below the resolution of f [rad]
 
 struct Local {
   Vector3 gradient = Vector3::Zero();  // point of support
@@ -43,7 +43,7 @@ Local at(const SupportSum& f, const Vector3& n) {
   return local;
 }
 
-// -|H|^-1 g for a symmetric 2 x 2 Hessian: downhill also where it is not convex.
+// -|H|^-1 g for a symmetric 2 x 2 Hessian: a descent direction also where f is not convex.
 Eigen::Vector2d downhill(double h00, double h01, double h11, const Eigen::Vector2d& g) {
   const double mean = 0.5 * (h00 + h11), half = 0.5 * (h00 - h11), r = std::hypot(half, h01);
   const double scale = 1e-12 * (std::abs(mean) + r) + 1e-300;
@@ -65,7 +65,7 @@ Vector3 newton_step(const SupportSum& f, const Vector3& n) {
   return s.x() * u + s.y() * w;
 }
 
-// The step across `axis` on the circle; downhill also where f is not convex.
+// Newton step on the circle; a descent direction also where f is not convex.
 double newton_angle(const SupportSum& f, const Vector3& n, const Vector3& t) {
   const Local local = at(f, n);
   const double slope = t.dot(local.gradient);
@@ -82,15 +82,15 @@ double SupportSum::operator()(const Vector3& n) const {
 Vector3 minimise_on_sphere(const SupportSum& f, const Vector3& start) {
   Vector3 n = start;
   double value = f(n);
-  for (int k = 0; k < max_steps; ++k) {
+  for (int k = 0; k < kMaxSteps; ++k) {
     Vector3 step = newton_step(f, n);
     const double length = step.norm();
-    if (!(length > done)) break;
-    if (length > longest_step) step *= longest_step / length;
-    if (length < trusted) {  // quadratic from here: the next step is below rounding
+    if (!(length > kConverged)) break;
+    if (length > kMaxStep) step *= kMaxStep / length;
+    if (length < kTrustedStep) {  // quadratic convergence
       n = (n + step).normalized();
       const Vector3 last = newton_step(f, n);
-      if (last.norm() < trusted) n = (n + last).normalized();
+      if (last.norm() < kTrustedStep) n = (n + last).normalized();
       break;
     }
     bool better = false;
@@ -111,27 +111,27 @@ void minimise_on_circle(const SupportSum& f, const Vector3& axis, bool is_deep,
   const auto direction = [&](double angle) {
     return Vector3(std::cos(angle) * u + std::sin(angle) * w);
   };
-  if (f.A.isZero(0) && f.B.isZero(0)) {  // two lines, or a corner and a side: one wave
+  if (f.A.isZero(0) && f.B.isZero(0)) {  // two lines, or a vertex and a side: one minimum
     const Vector3 across = f.c - axis * axis.dot(f.c);
     if (across.norm() > 0) out.push_back(-across.normalized());
     return;
   }
-  constexpr int most = 64;
-  const int count = is_deep ? most : 16;
-  std::array<double, most> fan;
+  constexpr int kMaxSamples = 64;
+  const int count = is_deep ? kMaxSamples : 16;
+  std::array<double, kMaxSamples> fan;
   const double spacing = 2 * std::numbers::pi / count;
   for (int k = 0; k < count; ++k) fan[k] = f(direction(spacing * k));
   for (int k = 0; k < count; ++k) {
     if (fan[k] > fan[(k + 1) % count] || fan[k] > fan[(k + count - 1) % count]) continue;
     Vector3 n = direction(spacing * k);
     double value = fan[k];
-    for (int i = 0; i < max_steps; ++i) {
+    for (int i = 0; i < kMaxSteps; ++i) {
       const Vector3 t = axis.cross(n);
       double step = std::clamp(newton_angle(f, n, t), -0.5 * spacing, 0.5 * spacing);
-      if (std::abs(step) < trusted) {
+      if (std::abs(step) < kTrustedStep) {
         n = (n + step * t).normalized();
         const double last = newton_angle(f, n, axis.cross(n));
-        if (std::abs(last) < trusted) n = (n + last * axis.cross(n)).normalized();
+        if (std::abs(last) < kTrustedStep) n = (n + last * axis.cross(n)).normalized();
         break;
       }
       bool better = false;

@@ -1,8 +1,8 @@
-// Minima of the sum of two support functions over directions: the smooth part of the narrow phase.
+// Minima of the sum of two support functions over directions.
 //
 //   f(n) = n . c + sqrt(n' A n) + sqrt(n' B n),   A, B symmetric, positive or zero
-// f is convex and homogeneous, so on the unit sphere a minimum below zero is the only one (bodies
-// apart: minus their distance); minima above zero (bodies overlap) are local.
+// f is convex and homogeneous: on the unit sphere a minimum below zero is unique (separated bodies:
+// minus their distance); minima above zero (overlapping bodies) are local.
 #pragma once
 
 #include <array>
@@ -19,23 +19,23 @@ struct SupportSum {
   double operator()(const Vector3& n) const;
 };
 
-// Newton's method on the sphere from n, down to the local minimum, to rounding. About 1 us.
+// Newton's method on the sphere from n to a local minimum. About 1 us.
 Vector3 minimise_on_sphere(const SupportSum& f, const Vector3& n);
 
-// All minima over the unit circle across `axis`, one of each wave that a fan of directions shows,
-// appended to `out`. The fan is finer if `is_deep`: beyond the radius of curvature minima may lie
-// close together. About 0.5 us, deep 2 us.
+// Appends all minima over the unit circle normal to `axis` that a sampling shows; finer sampling if
+// `is_deep` (beyond the radius of curvature minima can lie close together). About 0.5 us, deep 2
+// us.
 void minimise_on_circle(const SupportSum& f, const Vector3& axis, bool is_deep,
                         std::vector<Vector3>& out);
 
-// Directions from which the sphere is searched.
+// Start directions of a search on the sphere.
 struct Starts {
   std::array<Vector3, 42> n;
   std::size_t count = 0;
   void add(const Vector3& direction) {
-    constexpr double none = 1e-9;
+    constexpr double kMinLength = 1e-9;
     const double length = direction.norm();
-    if (length > none) n[count++] = direction / length;
+    if (length > kMinLength) n[count++] = direction / length;
   }
   void add_axes(const Matrix3& R) {
     for (int i = 0; i < 3; ++i) {

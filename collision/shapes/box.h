@@ -1,4 +1,4 @@
-// A box: its support, mass, polytope and distance from a point.
+// A box, centred, with edges along the axes.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ struct Box {
   static constexpr const char* name = "box";
   static constexpr const char* key = "box";
   static constexpr bool is_in_urdf = true;
-  Vector3 size = Vector3::Ones();  // full edge lengths [m], centred, along the axes
+  Vector3 size = Vector3::Ones();  // edge lengths, along the axes, centred [m]
   static constexpr auto lengths() { return std::make_tuple(std::pair("size", &Box::size)); }
 
   Vector3 support(const Vector3& d) const {
@@ -31,7 +31,7 @@ struct Box {
   SignedPoint nearest(const Vector3& p) const {
     const Vector3 half = size / 2;
     const Vector3 outside = p - p.cwiseMax(-half).cwiseMin(half);
-    if (outside.norm() > SignedPoint::touching) return {outside.norm(), outside.normalized()};
+    if (outside.norm() > SignedPoint::kTouching) return {outside.norm(), outside.normalized()};
     int axis = 0;
     const double inside = (half - p.cwiseAbs()).minCoeff(&axis);
     return {-inside, std::copysign(1.0, p[axis]) * Vector3::Unit(axis)};

@@ -1,4 +1,4 @@
-// A capsule: a segment with a radius.
+// A capsule (a segment with a radius).
 #pragma once
 
 #include "collision/shapes/cylinder.h"
@@ -12,7 +12,7 @@ struct Capsule {
   static constexpr const char* key = "capsule";
   static constexpr bool is_in_urdf = true;
   double radius = 1;  // [m]
-  double length = 1;  // between the centres of the two end spheres [m], along z, centred
+  double length = 1;  // of the segment, along z, centred [m]
   static constexpr auto lengths() {
     return std::make_tuple(std::pair("radius", &Capsule::radius),
                            std::pair("length", &Capsule::length));
@@ -21,7 +21,7 @@ struct Capsule {
   Vector3 support(const Vector3& d) const {
     return d.normalized() * radius + Vector3(0, 0, std::copysign(length / 2, d.z()));
   }
-  // A cylinder and two half balls, whose centres of mass are 3 r / 8 beyond its ends.
+  // A cylinder and two hemispheres, whose centres of mass are 3 r / 8 beyond its ends.
   MassProperties solid(double density) const {
     const MassProperties side = Cylinder{radius, length}.solid(density);
     const MassProperties ball = Sphere{radius}.solid(density);

@@ -1,4 +1,4 @@
-// An ellipsoid: one smooth patch.
+// An ellipsoid, centred, with semi-axes along the axes.
 #pragma once
 
 #include <numbers>
@@ -13,7 +13,7 @@ namespace twinarm {
 struct Ellipsoid {
   static constexpr const char* name = "ellipsoid";
   static constexpr const char* key = "ellipsoid";
-  Vector3 semi_axes = Vector3::Ones();  // half the extents along the axes [m], centred
+  Vector3 semi_axes = Vector3::Ones();  // along the axes, centred [m]
   static constexpr auto lengths() {
     return std::make_tuple(std::pair("semi_axes", &Ellipsoid::semi_axes));
   }
@@ -27,11 +27,11 @@ struct Ellipsoid {
     const Vector3 q = m / 5 * semi_axes.cwiseAbs2();
     return centred_solid(m, q.y() + q.z(), q.x() + q.z(), q.x() + q.y());
   }
-  Patches patches() const {
-    Patches patches;
-    patches.rounds = {{Vector3::Zero(), Matrix3(semi_axes.cwiseAbs2().asDiagonal())}};
-    patches.sharpest = semi_axes.minCoeff() * semi_axes.minCoeff() / semi_axes.maxCoeff();
-    return patches;
+  BoundaryFeatures boundary() const {
+    BoundaryFeatures boundary;
+    boundary.quadrics = {{Vector3::Zero(), Matrix3(semi_axes.cwiseAbs2().asDiagonal())}};
+    boundary.min_radius = semi_axes.minCoeff() * semi_axes.minCoeff() / semi_axes.maxCoeff();
+    return boundary;
   }
 };
 Ellipsoid numbered(ShapeNumber<5>);

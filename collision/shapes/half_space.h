@@ -1,4 +1,4 @@
-// A half-space: a plane that is solid on one side.
+// A half-space: solid on one side of a plane.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@ struct HalfSpace {
   Vector3 normal = Vector3::UnitZ();  // outward, unit
   double offset = 0;                  // solid where normal . x <= offset [m]
 
-  // Infinity, except along its normal.
+  // Infinite, except along the normal.
   Vector3 support(const Vector3& d) const {
     if (d.normalized().dot(normal) > 1 - 1e-12) return offset * normal;
     return d * std::numeric_limits<double>::infinity();

@@ -1,4 +1,4 @@
-// A triangle mesh that is collided with.
+// A triangle mesh as a collision shape.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@ namespace twinarm {
 
 struct MeshShape {
   static constexpr const char* name = "triangle mesh";
-  TriangleMesh mesh;        // closed, outward; its inside is solid
-  bool is_open = false;     // said to have borders: then touched from both sides
-  double max_extent = 100;  // a wider mesh is taken for one in millimetres [m]
+  TriangleMesh mesh;        // closed, outward orientation, solid inside
+  bool is_open = false;     // declared as open: contacts from both sides
+  double max_extent = 100;  // a wider mesh is probably in millimetres [m]
 
-  Vector3 support(const Vector3& d) const { return max_along(mesh.vertices, d); }
+  Vector3 support(const Vector3& d) const { return support_point(mesh.vertices, d); }
   MassProperties solid(double density) const { return mass_properties(mesh, density); }
-  // All that is wrong with it: empty, indices, not finite, degenerate triangles, the same ones
-  // twice, open or flipped surface, millimetres. Empty text if nothing.
+  // All errors: empty, invalid indices, not finite, degenerate or duplicate triangles, open or
+  // inverted surface, millimetres. Empty if valid.
   std::string fault() const;
 };
 

@@ -1,4 +1,3 @@
-// What is asked of all shapes. See shape.h.
 #include "collision/shapes/shape.h"
 
 #include <cmath>
@@ -63,13 +62,13 @@ Polytope make_polytope(const Shape& shape) {
       shape);
 }
 
-Patches make_patches(const Shape& shape, const Polytope& core) {
+BoundaryFeatures make_boundary(const Shape& shape, const Polytope& core) {
   return std::visit(
       [&](const auto& s) {
-        if constexpr (requires { s.patches(); })
-          return s.patches();
+        if constexpr (requires { s.boundary(); })
+          return s.boundary();
         else
-          return make_patches(core);
+          return make_boundary(core);
       },
       shape);
 }

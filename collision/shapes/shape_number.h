@@ -1,6 +1,5 @@
-// A shape that is stated by a few numbers has a number of its own, said in its file by a function
-// that is only declared:  Wedge numbered(ShapeNumber<8>);
-// Those from 0 to the first that is free are the shapes of shape.h, in this order.
+// Registration of a shape: its file declares  Wedge numbered(ShapeNumber<8>);  without a
+// definition. The numbers from 0 to the first free one are the shapes of shape.h, in this order.
 #pragma once
 
 namespace twinarm {

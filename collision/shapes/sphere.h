@@ -1,4 +1,4 @@
-// A sphere: a point with a radius.
+// A sphere (a point with a radius).
 #pragma once
 
 #include "collision/geometry/convex_hull.h"

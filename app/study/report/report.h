@@ -26,7 +26,7 @@ void write_figures(const StudyResults& results, const std::filesystem::path& fol
 // same double. Throws InputError if the folder cannot be written.
 void write_csv(const StudyResults& results, const std::filesystem::path& folder);
 
-// The study as one JSON object (docs/reference/output_formats.md).
+// The study as one JSON object (docs/reference/study_files.md).
 // {"runs": {"E1": {"max_deg": {"joint1", "joint2"}, "mean_deg", "paper", "gains", "step", ...}},
 //  "variants": [..], "findings": [..], "obstacle": [..], "answer": [..], "report": PATH, ...}.
 // Lengths in m, times in s, rates in Hz; angles in degrees for keys that end with _deg. Numbers

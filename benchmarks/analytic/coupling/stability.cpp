@@ -1,6 +1,6 @@
 // F4: a spring-damper k, b couples a hinge of inertia I to a target at rest, in steps of h; alpha =
 // k h^2 / I, beta = b h / I. Stability limit of the stepper, by bisection, against that of each
-// scheme (roots of its characteristic polynomial; docs/understand/couplings.md, section 4):
+// scheme (roots of its characteristic polynomial; docs/understand/stability_of_spring_dampers.md):
 //   euler                     alpha < beta < 2 + alpha / 2
 //   semi-implicit             alpha < 4 - 2 beta, with the current velocity or a difference
 //   euler, difference         alpha < beta (1 - beta)

@@ -1,4 +1,4 @@
-// The formats of robot files.
+// Registered formats of robot files.
 #pragma once
 
 #include <filesystem>
@@ -11,14 +11,14 @@ namespace twinarm {
 
 // The file NAME_format.cpp defines `RobotFormat NAME_format()`.
 struct RobotFormat {
-  const char* extension;  // of its files, with the dot
-  // Throws InputError with all faults of the file, each with its line. The robot has passed
-  // check_robot (robot_check.h) and has its root.
+  const char* extension;  // with the dot
+  // Throws InputError with all errors of the file, each with its line. The robot has passed
+  // check_robot (robot_check.h).
   RobotDescription (*read)(const std::filesystem::path& file, const RobotFileOptions& options);
 };
 const std::vector<RobotFormat>& robot_formats();
 
-// By the format that has this extension, else as URDF.
+// By the format of the extension, else as URDF.
 RobotDescription read_robot_file(const std::filesystem::path& file,
                                  const RobotFileOptions& options = {});
 

@@ -1,4 +1,4 @@
-// The text of a recipe as plain data. Its keys are told in collision/import/README.md.
+// Reads the TOML file of a recipe; its keys: collision/import/README.md.
 #include "collision/import/recipe/recipe_file.h"
 
 #include <algorithm>
@@ -55,7 +55,7 @@ RecipeLink read_link(const toml::table& table, TomlSource& source) {
   return link;
 }
 
-// From [paper], in its unit; or `origin` in metres; or the parent's own origin.
+// From [paper] in its unit, or `origin` in metres; default: the parent's origin.
 Vector3 read_origin(const toml::table& table, const std::string& where, const std::string& name,
                     const toml::table* paper, TomlSource& source) {
   const bool in_paper = paper && paper->contains(name);
@@ -109,7 +109,7 @@ JointDescription read_joint(const toml::table& table, const toml::table* paper,
       joint.lower = (*limits)[0];
       joint.upper = (*limits)[1];
     }
-  // URDF demands effort and velocity; programs that use them shall not be stopped by ours.
+  // Required by URDF; not used here.
   joint.effort = source.number(table, "effort", where, joint.has_axis() ? 1000.0 : 0.0);
   joint.velocity = source.number(table, "velocity", where, joint.has_axis() ? 100.0 : 0.0);
   joint.damping = source.number(table, "damping", where, 0.0);
@@ -121,15 +121,15 @@ JointDescription read_joint(const toml::table& table, const toml::table* paper,
   return joint;
 }
 
-// Every list in [paper] is the origin of a joint; one that names none is a slip of the pen.
+// Every list in [paper] is the origin of a joint.
 void check_paper(const toml::table* paper, const RecipeFile& recipe, TomlSource& source) {
   if (!paper) return;
   for (const auto& [key, node] : *paper) {
     const std::string name(key.str());
     const auto is_named = [&name](const JointDescription& joint) { return joint.name == name; };
     if (node.is_array() && std::none_of(recipe.joints.begin(), recipe.joints.end(), is_named))
-      source.fault(TomlSource::line_of(node), "[paper]", "'" + name + "' is no joint of this robot",
-                   "name it as the joint is named");
+      source.fault(TomlSource::line_of(node), "[paper]",
+                   "'" + name + "' is not a joint of this robot", "use the name of a joint");
   }
 }
 
@@ -140,7 +140,7 @@ toml::table parse(const std::filesystem::path& file) {
   } catch (const toml::parse_error& error) {
     throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
                        "not well-formed TOML: " + std::string(error.description()),
-                       "mend this line", "file.toml"}});
+                       "correct this line", "file.toml"}});
   }
 }
 

@@ -1,4 +1,4 @@
-// The text of a recipe (robot.toml) as plain data, before any mesh is looked at.
+// A recipe (robot.toml) as plain data.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ struct RecipePart {
 };
 
 struct RecipeCollision {
-  std::string name;  // of its file; the link's name, with a number where there are several
+  std::string name;  // file name; default: the link's name, numbered if there are several
   std::vector<std::string> parts;
   int line = 0;
 };
@@ -44,8 +44,8 @@ struct RecipeFile {
   std::vector<JointDescription> joints;
 };
 
-// Adds what is wrong to `faults` and goes on with harmless values. Throws InputError at once where
-// the file cannot be read or is no TOML.
+// Adds errors to `faults` and continues with default values. Throws InputError at once if the file
+// cannot be read or is not TOML.
 RecipeFile read_recipe_file(const std::filesystem::path& file, std::vector<Diagnostic>& faults);
 
 }  // namespace twinarm

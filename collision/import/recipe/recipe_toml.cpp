@@ -1,4 +1,3 @@
-// Reading values of a TOML table, with a fault for each bad one.
 #include "collision/import/recipe/recipe_toml.h"
 
 #include <algorithm>

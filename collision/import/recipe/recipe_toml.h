@@ -1,6 +1,5 @@
-// Reading values of a TOML table, with a fault (file, line, rule, remedy) for each bad one.
-//
-// As in urdf_xml.h: a faulty value is told and replaced by a harmless one, and reading goes on.
+// Reads values of a TOML table. Each invalid value is reported as a Diagnostic and replaced by a
+// default, and reading continues (as in urdf_xml.h).
 #pragma once
 
 #include <toml++/toml.h>
@@ -26,26 +25,26 @@ class TomlSource {
         {file_, line, std::move(where), std::move(problem), std::move(fix), "recipe.value"});
   }
 
-  // A misspelt key would else be left out in silence.
+  // Reports unknown keys.
   void only_keys(const toml::table& table, const std::string& where,
                  std::initializer_list<std::string_view> keys);
 
-  // `fallback` is taken where the key is missing; without one, a missing key is a fault.
+  // `fallback` is used if the key is missing; without it, a missing key is an error.
   double number(const toml::table& table, std::string_view key, const std::string& where,
                 std::optional<double> fallback = std::nullopt);
   std::string text(const toml::table& table, std::string_view key, const std::string& where,
                    std::optional<std::string> fallback = std::nullopt);
-  // Nothing, with a fault, where the key is missing or does not hold `count` finite numbers.
+  // Empty, with an error, if the key is missing or is not a list of `count` finite numbers.
   std::optional<std::vector<double>> numbers(const toml::table& table, std::string_view key,
                                              const std::string& where, std::size_t count);
   std::optional<Vector3> vector3(const toml::table& table, std::string_view key,
                                  const std::string& where);
   std::vector<std::string> texts(const toml::table& table, std::string_view key,
                                  const std::string& where);
-  // The tables of [[key]]; none where there is no such key.
+  // The tables of [[key]]; empty without the key.
   std::vector<const toml::table*> tables(const toml::table& table, std::string_view key,
                                          const std::string& where);
-  // [key]; nullptr where there is no such key.
+  // [key]; nullptr without the key.
   const toml::table* table(const toml::table& parent, std::string_view key,
                            const std::string& where);
 

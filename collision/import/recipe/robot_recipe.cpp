@@ -1,8 +1,4 @@
 // Recipe -> meshes -> mass properties and hulls -> robot.
-//
-// Per part: mass, com and inertia of the solid inside its mesh
-// (collision/geometry/mass_properties.h). Per link: their sum, about the common centre of mass.
-// Cost: linear in the triangles, but n log n for the hulls.
 
 #include "collision/import/recipe/robot_recipe.h"
 
@@ -51,9 +47,9 @@ class RobotFromCad {
                        std::move(fix), "recipe.robot"});
   }
 
-  // Runs f; what it finds wrong is told at the line of the recipe that asked for it.
+  // Calls f and reports its errors with a line of the recipe.
   template <class F>
-  auto told_at(int line, const std::string& where, F f) -> std::optional<decltype(f())> {
+  auto with_line(int line, const std::string& where, F f) -> std::optional<decltype(f())> {
     try {
       return f();
     } catch (const InputError& error) {
@@ -66,7 +62,8 @@ class RobotFromCad {
 
   void file_name(const std::string& name, const std::string& where, int line) {
     if (name.find_first_of("/\\:") != std::string::npos)
-      fault(line, where, "'" + name + "' becomes the name of a file", "use letters, digits and _");
+      fault(line, where, "'" + name + "' is used as a file name and has a '/', '\\' or ':'",
+            "use letters, digits and _");
   }
 
   std::filesystem::path mesh_file(const RecipePart& part) const {
@@ -82,7 +79,7 @@ class RobotFromCad {
     for (const RecipePart& part : recipe.parts) make_part(part, link, meshes, masses);
     if (!masses.empty()) {
       const std::string where = "link '" + link.name + "'";
-      if (const auto sum = told_at(link.line, where, [&] { return combine(masses); })) {
+      if (const auto sum = with_line(link.line, where, [&] { return combine(masses); })) {
         link.has_inertia = true;
         link.mass = sum->mass;
         link.com = sum->com;
@@ -101,13 +98,13 @@ class RobotFromCad {
       fault(part.line, where, "material '" + part.material + "' does not exist",
             "give [material." + part.material + "] with density and color");
     if (meshes.count(part.mesh)) {
-      fault(part.line, where, "the link has this part already", "a part counts once");
+      fault(part.line, where, "the part is listed twice", "list each part of a link once");
       return;
     }
     if (part.mesh.empty()) return;
     const auto mesh =
-        told_at(part.line, where, [&] { return load_mesh(mesh_file(part), recipe_.mesh_scale); });
-    // A part that could not be read stays known, so that its hull is not told as well.
+        with_line(part.line, where, [&] { return load_mesh(mesh_file(part), recipe_.mesh_scale); });
+    // Also a part that cannot be read is entered: no second error for its hull.
     meshes[part.mesh] = mesh.value_or(TriangleMesh());
     if (!mesh || material == recipe_.materials.end()) return;
     VisualPart visual;
@@ -117,8 +114,8 @@ class RobotFromCad {
     visual.material = part.material;
     visual.color = material->second.color;
     link.visuals.push_back(std::move(visual));
-    if (const auto mass = told_at(part.line, where,
-                                  [&] { return mass_properties(*mesh, material->second.density); }))
+    if (const auto mass = with_line(
+            part.line, where, [&] { return mass_properties(*mesh, material->second.density); }))
       masses.push_back(*mass);
   }
 
@@ -127,19 +124,19 @@ class RobotFromCad {
     const std::string where = "link '" + link.name + "', collision '" + collision.name + "'";
     file_name(collision.name, where, collision.line);
     if (!hull_names_.insert(collision.name).second)
-      fault(collision.line, where, "another collision has this name", "give each its own `name`");
+      fault(collision.line, where, "duplicate name of a collision", "give each its own `name`");
     std::vector<Vector3> points;
     for (const std::string& part : collision.parts) {
       const auto mesh = meshes.find(part);
       if (mesh == meshes.end()) {
-        fault(collision.line, where, "part '" + part + "' is no part of this link",
-              "name the meshes of the link's parts");
+        fault(collision.line, where, "part '" + part + "' is not a part of this link",
+              "list parts of this link");
         return;
       }
-      if (mesh->second.vertices.empty()) return;  // told already
+      if (mesh->second.vertices.empty()) return;  // reported already
       points.insert(points.end(), mesh->second.vertices.begin(), mesh->second.vertices.end());
     }
-    const auto hull = told_at(collision.line, where, [&] { return convex_hull(points); });
+    const auto hull = with_line(collision.line, where, [&] { return convex_hull(points); });
     if (!hull) return;
     const auto file = recipe_.file.parent_path() / "collision" / (collision.name + ".stl");
     result_.hulls.push_back({file, recipe_.mesh_scale, {hull->vertices, hull->triangles}});
@@ -150,7 +147,7 @@ class RobotFromCad {
     link.collisions.push_back(std::move(part));
   }
 
-  std::vector<Diagnostic> faults_;  // before recipe_, whose reading fills it
+  std::vector<Diagnostic> faults_;  // before recipe_, whose initialisation fills it
   RecipeFile recipe_;
   RecipeResult result_;
   std::set<std::string> hull_names_;
@@ -176,14 +173,13 @@ void make_robot(const std::filesystem::path& recipe_toml) {
   const RecipeResult result = read_recipe(recipe_toml);
   const std::filesystem::path folder = result.robot.file.parent_path();
   for (const HullFile& hull : result.hulls) {
-    std::error_code ignored;  // told by the writing that follows
+    std::error_code ignored;  // writing reports the error
     std::filesystem::create_directories(hull.file.parent_path(), ignored);
     write_whole_file(hull.file, stl_bytes(hull.hull, hull.scale));
   }
   write_urdf(result.robot, folder / (result.robot.name + ".urdf"), comment_for(result.robot));
 }
 
-// Binary STL.
 static_assert(std::endian::native == std::endian::little, "STL files are little-endian");
 
 std::string stl_bytes(const TriangleMesh& mesh, double scale) {
@@ -195,12 +191,12 @@ std::string stl_bytes(const TriangleMesh& mesh, double scale) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size());
   append(&count, 4);
   for (const auto& triangle : mesh.triangles) {
-    Eigen::Vector3f corner[3];
-    for (int k = 0; k < 3; ++k) corner[k] = (mesh.vertices[triangle[k]] / scale).cast<float>();
+    Eigen::Vector3f vertex[3];
+    for (int k = 0; k < 3; ++k) vertex[k] = (mesh.vertices[triangle[k]] / scale).cast<float>();
     const Eigen::Vector3f normal =
-        (corner[1] - corner[0]).cross(corner[2] - corner[0]).normalized();
+        (vertex[1] - vertex[0]).cross(vertex[2] - vertex[0]).normalized();
     append(normal.data(), 12);
-    for (const Eigen::Vector3f& c : corner) append(c.data(), 12);
+    for (const Eigen::Vector3f& c : vertex) append(c.data(), 12);
     bytes.append(2, '\0');
   }
   return bytes;

@@ -1,8 +1,8 @@
-// Makes a robot from the recipe of one drawn in CAD: part meshes, materials, joints.
+// Makes a robot from CAD: part meshes, materials and joints of a recipe
+// (collision/import/README.md).
 //
-// The mass, centre of mass and inertia of each link are integrals over its parts' meshes with the
-// density of their materials; nothing is typed in. Each collision entry is the convex hull of the
-// parts that it lists. The shape of the file is told in collision/import/README.md.
+// Mass, centre of mass and inertia of each link are integrals over its part meshes with the
+// densities of their materials. Each collision entry is the convex hull of the listed parts.
 #pragma once
 
 #include <filesystem>
@@ -25,17 +25,14 @@ struct RecipeResult {
   std::vector<HullFile> hulls;
 };
 
-// Computes; writes nothing. Throws InputError with all faults of the recipe, each with its line.
+// Writes no files. Throws InputError with all errors of the recipe, each with its line.
 RecipeResult read_recipe(const std::filesystem::path& recipe_toml);
 
-// Writes <name>.urdf and collision/*.stl next to the recipe. The same recipe and meshes give the
-// same bytes.
+// Writes <name>.urdf and collision/*.stl next to the recipe; deterministic.
 void make_robot(const std::filesystem::path& recipe_toml);
 
-// Binary STL: 80 bytes of header, the number of triangles, and 50 bytes a triangle.
-
-// The bytes of the file. Its unit is `scale` metres; coordinates are single precision, as the
-// format has it. The same mesh gives the same bytes.
+// A binary STL file with `scale` metres as its unit: 80 bytes of header, number of triangles, 50
+// bytes per triangle.
 std::string stl_bytes(const TriangleMesh& mesh, double scale);
 
 }  // namespace twinarm

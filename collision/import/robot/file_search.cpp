@@ -1,4 +1,3 @@
-// Where the file of a mesh or texture lies that a robot's file names.
 #include "collision/import/robot/file_search.h"
 
 #include <algorithm>
@@ -29,7 +28,7 @@ std::vector<fs::path> folders_in(const char* variable) {
   return folders;
 }
 
-// `rest` in the package below a folder of packages; one level of repositories may lie between.
+// `rest` in the package below a folder of packages, with at most one level of repositories between.
 fs::path find_below(const fs::path& packages, const fs::path& package, const fs::path& rest) {
   if (packages.filename() == package && is_file(packages / rest)) return packages / rest;
   if (is_file(packages / package / rest)) return packages / package / rest;
@@ -72,10 +71,10 @@ FilePlace find_named_file(const std::string& kind, const std::string& name, cons
   if (scheme == std::string::npos || name.starts_with("file://")) {
     const fs::path expected =  // an absolute path replaces the folder
         (folder / (scheme == std::string::npos ? name : name.substr(7))).lexically_normal();
-    if (!may_name(roots, expected))  // the same whether there is one or not
+    if (!may_name(roots, expected))  // does not reveal whether it exists
       return {{},
-              kind + " file '" + name + "' lies outside the folders that may be read",
-              "upload it with the URDF, and name it relative to the URDF",
+              kind + " file '" + name + "' is outside the allowed folders",
+              "upload it with the URDF, with a path relative to the URDF",
               "file.missing"};
     if (is_file(expected)) return {expected, "", "", ""};
     place.fix = "expected at " + expected.string();
@@ -84,14 +83,14 @@ FilePlace find_named_file(const std::string& kind, const std::string& name, cons
     const bool is_package = name.starts_with("package://") || name.starts_with("model://");
     if (!is_package || slash == std::string::npos || slash == scheme + 3)
       return {{},
-              kind + " '" + name + "' has a scheme that is not known",
+              kind + " '" + name + "' has an unknown scheme",
               "give a path relative to the URDF, or package://NAME/PATH, or file://",
               "file.scheme-unknown"};
     const fs::path found = find_in_package(name.substr(scheme + 3, slash - scheme - 3),
                                            name.substr(slash + 1), folder);
     if (!found.empty() && may_name(roots, found))
       return {fs::absolute(found).lexically_normal(), "", "", ""};
-    place.fix = "the package was sought above and beside " + folder.string() +
+    place.fix = "the package was searched above and beside " + folder.string() +
                 " and in ROS_PACKAGE_PATH; put it there, or give a path relative to the URDF";
   }
   place.problem = kind + " file '" + name + "' does not exist";

@@ -1,4 +1,4 @@
-// How strictly a robot's file is read, and where the file of a mesh or texture lies that it names.
+// Options of reading a robot file, and the search for the mesh and texture files that it refers to.
 #pragma once
 
 #include <filesystem>
@@ -8,34 +8,32 @@
 
 namespace twinarm {
 
-// Where a file may lie that another file names: below one of these folders, or one of these files.
-// Nothing: anywhere.
+// Allowed locations of referenced files: below these folders, or these files. Empty optional:
+// anywhere.
 using FileRoots = std::optional<std::vector<std::filesystem::path>>;
-// Follows "..", and links.
+// Resolves ".." and links.
 bool may_name(const FileRoots& roots, const std::filesystem::path& file);
 
 struct RobotFileOptions {
-  // What collides and what is drawn. `optional` (enough for dynamics): a mesh that is missing and a
-  // shape that cannot be read are warnings; the former stays in the description with an empty
-  // `file`, the latter is left out. `required` (study, rendering, collision): they are faults.
+  // Collision and visual shapes. `optional` (enough for dynamics): missing meshes (kept with an
+  // empty `file`) and invalid shapes (left out) are warnings. `required`: they are errors.
   enum class Geometry { required, optional };
   Geometry geometry = Geometry::required;
-  // An inertia that no rigid body can have is a fault, and not only a warning.
+  // A physically impossible inertia is an error instead of a warning.
   bool strict = false;
   FileRoots roots = {};  // of meshes and textures
 };
 
 struct FilePlace {
-  std::filesystem::path file;  // absolute; empty where it was not found
-  std::string problem, fix;    // then: why not, and what to do
-  std::string_view code;       // of the fault
+  std::filesystem::path file;  // absolute; empty if not found
+  std::string problem, fix;    // diagnostic if not found
+  std::string_view code;
 };
 
-// A name without scheme, or with file://, is relative to `folder` (that of the robot's file) unless
-// it is absolute. package://NAME/rest and model://NAME/rest: NAME is a folder that contains
-// `folder`, or lies in one that does; or a package in a folder of ROS_PACKAGE_PATH, at most two
-// levels down, or of AMENT_PREFIX_PATH (share/NAME); or, at last, `folder` itself.
-// `kind` is what faults call it.
+// A name without scheme, or with file://, is absolute or relative to `folder` (that of the robot
+// file). For package://NAME/rest and model://NAME/rest, NAME is searched as: a folder above
+// `folder` or beside one of these; a package at most two levels below a folder of ROS_PACKAGE_PATH;
+// share/NAME in AMENT_PREFIX_PATH; `folder` itself. `kind`: word for diagnostics.
 FilePlace find_named_file(const std::string& kind, const std::string& name,
                           const std::filesystem::path& folder, const FileRoots& roots = {});
 

@@ -1,5 +1,4 @@
-// The rules that every robot must keep: names and numbers here, the tree and mimics in
-// tree_checks.cpp.
+// Checks of names and values (the tree and mimic joints: tree_checks.cpp).
 #include "collision/import/robot/robot_check.h"
 
 #include <algorithm>
@@ -20,7 +19,7 @@ using Type = JointDescription::Type;
 constexpr std::array kUrdfTypes{Type::fixed,     Type::revolute, Type::continuous,
                                 Type::prismatic, Type::floating, Type::planar};
 
-// All that files may name, URDF's first. What is prescribed is no matter of files.
+// All joint types in files, URDF's first. Prescribed motion cannot be given in a file.
 std::vector<Type> file_types() {
   std::vector<Type> types(kUrdfTypes.begin(), kUrdfTypes.end());
   for (const JointType joint : all_joint_types)
@@ -35,106 +34,106 @@ std::string names_of(std::span<const Type> types) {
 }
 
 template <class Item>
-void unique_names(ValidationContext& book, const std::vector<Item>& items,
-                  const std::string& kind) {
+void check_names(ValidationContext& context, const std::vector<Item>& items,
+                 const std::string& kind) {
   std::map<std::string, int> first_line;
   for (const Item& item : items) {
     if (item.name.empty()) {
-      book.fault(item.line, kind, "it has no name", "give it a name of its own",
-                 "robot.name-missing");
+      context.fault(item.line, kind, "the name is missing", "give it a unique name",
+                    "robot.name-missing");
       continue;
     }
     const auto [first, is_new] = first_line.emplace(item.name, item.line);
     if (!is_new)
-      book.fault(
+      context.fault(
           item.line, of(item),
-          "the name is taken already by the " + kind + " of line " + std::to_string(first->second),
-          "give each " + kind + " a name of its own", "robot.name-taken");
+          "duplicate name, used by the " + kind + " in line " + std::to_string(first->second),
+          "give each " + kind + " a unique name", "robot.name-taken");
   }
 }
 
-// How far A + B may fall below C, relative to C: a thin plate has A + B = C, and files round their
-// numbers to six digits or so.
+// Relative tolerance of A + B >= C: a thin plate has A + B = C, and files round to about six
+// digits.
 constexpr double kTriangleSlack = 1e-6;
-// A moment that is 0 but for the turning of the axes.
+// Relative rounding of a moment after a rotation of the axes.
 constexpr double kRounding = 1e-12;
 
-// A <= B <= C are those of a body of positive density only if A > 0 and A + B >= C: each moment is
-// an integral of two of x^2, y^2, z^2.
-void physical_moments(ValidationContext& book, const LinkDescription& link, bool strict) {
+// Principal moments A <= B <= C of a body of positive density: A > 0 and A + B >= C.
+void check_moments(ValidationContext& context, const LinkDescription& link, bool strict) {
   const Vector3 moments = symmetric_eigenvalues(link.inertia);  // ascending
   std::string problem;
   if (!(moments[0] > kRounding * moments.cwiseAbs().maxCoeff()))
     problem = "its inertia is not positive definite";
   else if (moments[0] + moments[1] < moments[2] * (1 - kTriangleSlack))
-    problem = "its inertia breaks the triangle inequality A + B >= C";
+    problem = "its inertia violates the triangle inequality A + B >= C";
   else
     return;
   problem += ": principal moments " + short_number_text(moments[0]) + ", " +
              short_number_text(moments[1]) + ", " + short_number_text(moments[2]) + " kg m^2";
   const int line = line_of(link.inertia_line, link.line);
   if (strict)
-    book.fault(line, of(link), problem,
-               "no rigid body of positive density has it; check units, signs and the order ixx ixy "
-               "ixz iyy iyz izz, about the centre of mass",
-               "robot.inertia-not-physical");
+    context.fault(
+        line, of(link), problem,
+        "no rigid body of positive density has it; check units, signs and the order ixx ixy "
+        "ixz iyy iyz izz, about the centre of mass",
+        "robot.inertia-not-physical");
   else
-    book.warn(line, of(link), problem,
-              "no rigid body of positive density has it; forward dynamics may still work, MuJoCo "
-              "and Drake refuse it",
-              "robot.inertia");
+    context.warn(
+        line, of(link), problem,
+        "no rigid body of positive density has it; forward dynamics may still work, MuJoCo "
+        "and Drake reject it",
+        "robot.inertia");
 }
 
-void inertia(ValidationContext& book, const LinkDescription& link, bool strict) {
+void check_inertia(ValidationContext& context, const LinkDescription& link, bool strict) {
   if (!link.has_inertia) return;
   const int mass_line = line_of(link.mass_line, link.line);
   if (!std::isfinite(link.mass) || !link.com.allFinite() || !link.inertia.allFinite())
-    return book.fault(mass_line, of(link), "its mass, centre or inertia is not a finite number",
-                      "give finite numbers in SI units", "robot.not-finite");
+    return context.fault(mass_line, of(link), "its mass, centre of mass or inertia is not finite",
+                         "give finite numbers in SI units", "robot.not-finite");
   if (link.mass < 0)
-    book.fault(mass_line, of(link),
-               "its mass is " + number_text(link.mass) + " kg, must not be negative",
-               "give the mass in kg", "robot.negative");
+    context.fault(mass_line, of(link),
+                  "its mass is " + number_text(link.mass) + " kg, must not be negative",
+                  "give the mass in kg", "robot.negative");
   if (link.inertia.isZero(0)) {
     if (link.mass > 0)
-      book.warn(line_of(link.inertia_line, link.line), of(link),
-                "its inertia is zero: a point mass of " + number_text(link.mass) + " kg",
-                "give its inertia; a joint whose axis goes through the point has none else",
-                "robot.inertia");
-    return;  // without mass it is a frame
+      context.warn(
+          line_of(link.inertia_line, link.line), of(link),
+          "its inertia is zero: a point mass of " + number_text(link.mass) + " kg",
+          "give its inertia; otherwise a joint whose axis passes through the point has none",
+          "robot.inertia");
+    return;  // without mass: a frame
   }
   if (link.mass == 0)
-    book.warn(mass_line, of(link), "its mass is 0, but its inertia is not",
-              "such a body turns with inertia and is moved without; a rotor is better told by "
-              "<twinarm armature>",
-              "robot.no-mass");
-  physical_moments(book, link, strict);
+    context.warn(mass_line, of(link), "its mass is 0, but its inertia is not",
+                 "give its mass; model a rotor with <twinarm armature=\"...\"/>", "robot.no-mass");
+  check_moments(context, link, strict);
 }
 
-void values(ValidationContext& book, const JointDescription& joint) {
+void check_values(ValidationContext& context, const JointDescription& joint) {
   const JointDescription::Lines& lines = joint.lines;
   if (joint.has_axis() && !(joint.axis.norm() >= 1e-9))
-    book.fault(line_of(lines.axis, joint.line), of(joint), "its axis is zero",
-               "give a direction such as 0 0 1", "robot.axis-zero");
+    context.fault(line_of(lines.axis, joint.line), of(joint), "its axis is zero",
+                  "give a direction such as 0 0 1", "robot.axis-zero");
   if (joint.is_limited() && !(joint.lower <= joint.upper))
-    book.fault(line_of(lines.limits, joint.line), of(joint),
-               "its lower limit " + number_text(joint.lower) + " lies above its upper limit " +
-                   number_text(joint.upper),
-               "exchange them, or make the joint continuous", "robot.limits");
+    context.fault(line_of(lines.limits, joint.line), of(joint),
+                  "its lower limit " + number_text(joint.lower) + " is above its upper limit " +
+                      number_text(joint.upper),
+                  "exchange them, or make the joint continuous", "robot.limits");
   if (joint.type == JointDescription::Type::screw && joint.pitch == 0)
-    book.warn(line_of(lines.extension, joint.line), of(joint), "its pitch is 0",
-              "then it is a plain hinge: make it continuous", "robot.pitch");
+    context.warn(line_of(lines.extension, joint.line), of(joint), "its pitch is 0",
+                 "it equals a revolute joint: make it continuous", "robot.pitch");
   const auto not_negative = [&](const char* name, double value, int line) {
     if (!(value >= 0) || std::isinf(value))
-      book.fault(
+      context.fault(
           line_of(line, joint.line), of(joint),
           std::string("its ") + name + " is " + number_text(value) + ", must not be negative",
-          "a negative value would feed energy into the joint", "robot.negative");
+          "give 0 or more: a negative value would add energy", "robot.negative");
   };
   not_negative("damping", joint.damping, lines.dynamics);
   not_negative("friction", joint.friction, lines.dynamics);
   not_negative("armature", joint.armature, lines.extension);
-  // They are equal to the friction where they are not stated: that is told once.
+  // Equal to `friction` by default: report only once.
   const double plus = joint.coulomb_plus, minus = joint.coulomb_minus;
   if (plus != joint.friction) not_negative("coulomb_plus", plus, lines.extension);
   if (minus != joint.friction) not_negative("coulomb_minus", minus, lines.extension);
@@ -177,17 +176,17 @@ Type urdf_type_of(Type type, bool limited) {
 }
 
 RobotCheck check_robot(const RobotDescription& robot, bool strict) {
-  ValidationContext book{robot, {}};
+  ValidationContext context{robot, {}};
   if (robot.links.empty())
-    book.fault(0, "robot '" + robot.name + "'", "it has no link", "give at least one link",
-               "robot.empty");
-  unique_names(book, robot.links, "link");
-  unique_names(book, robot.joints, "joint");
-  for (const LinkDescription& link : robot.links) inertia(book, link, strict);
-  for (const JointDescription& joint : robot.joints) values(book, joint);
-  check_mimics(book);
-  check_tree(book);
-  return std::move(book.found);
+    context.fault(0, "robot '" + robot.name + "'", "the robot has no link",
+                  "give at least one link", "robot.empty");
+  check_names(context, robot.links, "link");
+  check_names(context, robot.joints, "joint");
+  for (const LinkDescription& link : robot.links) check_inertia(context, link, strict);
+  for (const JointDescription& joint : robot.joints) check_values(context, joint);
+  check_mimics(context);
+  check_tree(context);
+  return std::move(context.found);
 }
 
 void throw_in_line_order(std::vector<Diagnostic> faults) {

@@ -1,4 +1,4 @@
-// The rules that every robot must keep, whatever file it was read from.
+// Checks of a robot, independent of its file format.
 #pragma once
 
 #include <cstddef>
@@ -11,35 +11,35 @@
 
 namespace twinarm {
 
-// The names of the joint types as files spell them.
+// Names of joint types in files.
 const char* to_string(JointDescription::Type type);
 bool joint_type_from(const std::string& text, JointDescription::Type& type);
-std::string supported_joints();         // all of them, as a remedy
+std::string supported_joints();         // all of them, as a fix
 std::string joint_types_beyond_urdf();  // "screw, ..."
-// Those that URDF itself has; and the one by which other programs shall know the type.
+// Types of URDF itself; and the URDF type written for other programs.
 bool is_urdf_type(JointDescription::Type type);
 JointDescription::Type urdf_type_of(JointDescription::Type type, bool limited);
 
 struct RobotCheck {
-  std::vector<Diagnostic> faults;    // empty for a good robot
-  std::vector<Diagnostic> warnings;  // what is suspicious, but can be computed with
+  std::vector<Diagnostic> faults;  // errors; empty for a valid robot
+  std::vector<Diagnostic> warnings;
 };
 
-// Names, the tree, inertias, axes, limits, damping, mimics. An inertia that no rigid body has is a
-// warning, or a fault where `strict`.
+// Names, the tree, inertias, axes, limits, damping, mimic joints. A physically impossible inertia
+// is a warning, or an error if `strict`.
 RobotCheck check_robot(const RobotDescription& robot, bool strict = false);
 
-// Throws InputError with all faults in the order of their lines; returns if there is none.
+// Throws InputError with all errors in the order of their lines, if there are any.
 void throw_in_line_order(std::vector<Diagnostic> faults);
 
-// The link that is no joint's child; empty where there is not exactly one.
+// The link that is not a child of any joint; empty if there is not exactly one.
 std::string find_root(const RobotDescription& robot);
 
-// Indices into robot.joints, each joint after the joint that carries its parent link; among those
-// that are ready at the same time, in the order of the file. The robot must have passed the check.
+// Indices into robot.joints, each joint after the joint of its parent link, else in the order of
+// the file. The robot must have passed the check.
 std::vector<std::size_t> joints_from_root(const RobotDescription& robot);
 
-// What robot_check.cpp and tree_checks.cpp share, which alone include it.
+// Shared by robot_check.cpp and tree_checks.cpp.
 struct ValidationContext {
   const RobotDescription& robot;
   RobotCheck found;
@@ -62,12 +62,12 @@ inline std::string of(const LinkDescription& link) {
 inline std::string of(const JointDescription& joint) {
   return "joint '" + joint.name + "'";
 }
-// The line of the element itself where it is known, of the link or joint where it is not.
+// Line of the element if known, else of its link or joint.
 inline int line_of(int element, int owner) {
   return element > 0 ? element : owner;
 }
 
-void check_mimics(ValidationContext& book);
-void check_tree(ValidationContext& book);
+void check_mimics(ValidationContext& context);
+void check_tree(ValidationContext& context);
 
 }  // namespace twinarm

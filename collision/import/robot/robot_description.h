@@ -1,9 +1,8 @@
-// What a robot file says, as plain data: links, joints, what is drawn and what collides.
+// A robot file as plain data: links, joints, visual and collision shapes.
 //
-// Names, units and frames are those of the file brought to SI: metres, kilograms, radians. A link's
-// frame L stands where its joint's child frame C is; the joint's frame stands at `X_PJ` in the
-// parent link P. Inertias are about the centre of mass, in the axes of the link. Each item
-// remembers its line in the file, so that whoever refuses it later can still say where it stands.
+// SI units, names and frames of the file. A link's frame L coincides with its joint's child frame
+// C; the joint's frame is at X_PJ in the parent link P. Inertias are about the centre of mass, in
+// link axes. Each item has its line in the file for diagnostics.
 #pragma once
 
 #include <Eigen/Core>
@@ -23,8 +22,8 @@ namespace twinarm {
 
 using Vector4 = Eigen::Vector4d;
 
-// A pose as URDF states it. The three angles are kept, and not the matrix that they make, so that
-// a file that is read and written again has the same digits.
+// A pose as in URDF. The angles are stored so that a file that is read and written again has the
+// same digits.
 struct Origin {
   Vector3 xyz = Vector3::Zero();
   Vector3 rpy = Vector3::Zero();  // about the fixed axes x, y, z, in this order
@@ -43,11 +42,11 @@ struct Origin {
   }
 };
 
-struct MeshGeometry {               // collision/import/robot/robot_model.h loads it
-  std::filesystem::path file;       // absolute; empty where it was not found
-  Vector3 scale = Vector3::Ones();  // metres per unit of the file, along its axes; < 0 mirrors
-  std::string name;                 // as the robot's file calls it; may be empty
-  bool convex = true;               // where it collides, its convex hull is meant
+struct MeshGeometry {               // loaded by collision/import/robot/robot_model.h
+  std::filesystem::path file;       // absolute; empty if not found
+  Vector3 scale = Vector3::Ones();  // metres per unit of the file, by axis; < 0 mirrors
+  std::string name;                 // as in the robot's file; may be empty
+  bool convex = true;               // collision shape: its convex hull
 };
 using ShapeDescription = AnyShape<MeshGeometry>;
 
@@ -60,18 +59,18 @@ struct CollisionPart {
 };
 
 struct VisualPart : CollisionPart {
-  std::string material;               // its name; may be empty
+  std::string material;               // may be empty
   Vector4 color{0.7, 0.7, 0.7, 1.0};  // red, green, blue, opacity in [0, 1]; times the texture
-  std::string texture_name;           // as the file calls it; may be empty
-  std::filesystem::path texture;      // absolute; empty for none, and where it was not found
+  std::string texture_name;           // as in the file; may be empty
+  std::filesystem::path texture;      // absolute; empty without texture or if not found
 };
 
 struct LinkDescription {
   std::string name;
   int line = 0;
-  int mass_line = 0;  // of the elements that state them; 0 where unknown
+  int mass_line = 0;  // of the elements; 0: unknown
   int inertia_line = 0;
-  bool has_inertia = false;  // false: a frame without mass; mass, com and inertia are zero
+  bool has_inertia = false;  // false: a frame; mass, com and inertia are zero
   double mass = 0;
   Vector3 com = Vector3::Zero();      // in the link frame
   Matrix3 inertia = Matrix3::Zero();  // about the com, in link axes
@@ -80,7 +79,7 @@ struct LinkDescription {
 };
 
 struct JointDescription {
-  // The solver's, with URDF's word for free; continuous: revolute, and never limited.
+  // The solver's, with URDF's names: floating = free; continuous = revolute without limits.
   enum class Type : unsigned char {
     TWINARM_JOINTS(TWINARM_JOINT_NAME) continuous,
     floating = free
@@ -92,7 +91,7 @@ struct JointDescription {
     double offset = 0;
   };
 
-  // Where in the file the element stands that states it; 0 where unknown.
+  // Lines of the elements in the file; 0: unknown.
   struct Lines {
     int parent = 0, child = 0, axis = 0, limits = 0, dynamics = 0, extension = 0, mimic = 0;
   };
@@ -104,26 +103,26 @@ struct JointDescription {
   std::string parent;
   std::string child;
   Origin origin;                    // of the joint (and child) frame in the parent link's frame
-  Vector3 axis = Vector3::UnitX();  // unit length, in the joint frame; no meaning if !has_axis();
-                                    // of a universal joint the first axis, of a planar the normal
-  double pitch = 0;                 // [m per revolution], as files have it; screw only
+  Vector3 axis = Vector3::UnitX();  // unit, joint frame; unused if !has_axis(); universal joint:
+                                    // first axis, planar joint: normal
+  double pitch = 0;                 // screw only [m per revolution]
   double lower = 0;                 // [rad] or [m]; may be infinite; see is_limited()
   double upper = 0;
-  double effort = 0;         // these two are kept for other programs that read our files;
-  double velocity = 0;       // nothing here uses them
+  double effort = 0;         // not used here; kept for other programs
+  double velocity = 0;       // likewise
   double damping = 0;        // viscous, of each dof [N m s/rad] or [N s/m]
-  double friction = 0;       // Coulomb, as URDF states it, alike in both directions [N m] or [N]
-  double armature = 0;       // rotor inertia seen at the joint [kg m^2] or [kg]
-  double coulomb_plus = 0;   // Coulomb friction for qd > 0 and for qd < 0, both >= 0: equal to
-  double coulomb_minus = 0;  // `friction` unless the <twinarm> element says otherwise. Use these.
+  double friction = 0;       // URDF's Coulomb friction, both directions [N m] or [N]
+  double armature = 0;       // rotor inertia at the joint [kg m^2] or [kg]
+  double coulomb_plus = 0;   // Coulomb friction for qd > 0 and qd < 0, >= 0: `friction` unless
+  double coulomb_minus = 0;  // the <twinarm> element overrides it. Used by the model.
   std::optional<Mimic> mimic;
 
   Pose X_PJ() const { return origin.pose(); }
-  // A screw may have limits: it has where lower < upper.
+  // A screw is limited if lower < upper.
   bool is_limited() const {
-    constexpr double kNowhere = std::numeric_limits<double>::infinity();
-    const bool nowhere = lower == -kNowhere && upper == kNowhere;
-    return ((type == Type::revolute || type == Type::prismatic) && !nowhere) ||
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const bool unbounded = lower == -kInfinity && upper == kInfinity;
+    return ((type == Type::revolute || type == Type::prismatic) && !unbounded) ||
            (type == Type::screw && lower < upper);
   }
   bool has_axis() const { return facts().axis != AxisUse::none; }
@@ -137,12 +136,11 @@ struct JointDescription {
 
 struct RobotDescription {
   std::string name;
-  std::filesystem::path file;            // absolute; where the description came from
+  std::filesystem::path file;            // absolute
   std::vector<LinkDescription> links;    // in the order of the file
   std::vector<JointDescription> joints;  // in the order of the file
-  std::string root;                      // the one link that is no joint's child
-  // What was read but is suspicious, or has no effect here; in the order of the lines.
-  std::vector<Diagnostic> warnings;
+  std::string root;                      // root link
+  std::vector<Diagnostic> warnings;      // in the order of the lines
 };
 
 }  // namespace twinarm

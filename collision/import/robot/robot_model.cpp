@@ -32,7 +32,7 @@ BodyInertia plus_point_mass(const BodyInertia& body, const Vector3& p, double ma
   return sum;
 }
 
-// The robot with everything in it that the options ask for, and the faults of these.
+// The robot with the options applied.
 class ConfiguredRobot {
  public:
   ConfiguredRobot(const RobotDescription& robot, const ModelOptions& options) : robot_(robot) {
@@ -68,8 +68,9 @@ class ConfiguredRobot {
   LinkDescription* find(const std::string& name, const char* option) {
     const auto found = link_.find(name);
     if (found != link_.end()) return found->second;
-    faults_.push_back({robot_.file.string(), 0, option, "'" + name + "' is no link of this robot",
-                       "name one of its links", "robot.unknown-link"});
+    faults_.push_back({robot_.file.string(), 0, option,
+                       "'" + name + "' is not a link of this robot", "use the name of a link",
+                       "robot.unknown-link"});
     return nullptr;
   }
 
@@ -78,7 +79,7 @@ class ConfiguredRobot {
   std::vector<Diagnostic> faults_;
 };
 
-// The builder knows names only: file and line are added to what it finds.
+// Adds file and line to the builder's errors, which have names only.
 Model<double> build(const ModelBuilder& builder, const RobotDescription& robot) {
   try {
     return builder.build();
@@ -108,18 +109,18 @@ std::string root_joint_name(const RobotDescription& robot, bool floating) {
 
 void add_robot(ModelBuilder& builder, const RobotDescription& description,
                const ModelOptions& options, const std::string& prefix, const Pose& X_WR) {
-  const ConfiguredRobot weighted(description, options);
-  const RobotDescription& robot = weighted.robot();
-  std::map<std::string, int> body;  // of the links that are added already
+  const ConfiguredRobot configured(description, options);
+  const RobotDescription& robot = configured.robot();
+  std::map<std::string, int> body;  // of the links added so far
   body[robot.root] = builder.add_body(
       prefix + robot.root, 0, prefix + root_joint_name(robot, options.floating),
       options.floating ? JointType::free : JointType::fixed, options.floating ? Pose{} : X_WR,
-      Vector3::UnitZ(), weighted.inertia(robot.root));
+      Vector3::UnitZ(), configured.inertia(robot.root));
   for (const std::size_t j : joints_from_root(robot)) {
     const JointDescription& joint = robot.joints[j];
     body[joint.child] = builder.add_body(
         prefix + joint.child, body[joint.parent], prefix + joint.name, joint.joint_type(),
-        joint.X_PJ(), joint.axis, weighted.inertia(joint.child), properties_of(joint));
+        joint.X_PJ(), joint.axis, configured.inertia(joint.child), properties_of(joint));
   }
   for (const JointDescription& joint : robot.joints)
     if (joint.mimic)
@@ -136,7 +137,7 @@ Model<double> build_model(const RobotDescription& robot, const ModelOptions& opt
 const std::filesystem::path& file_of(const MeshGeometry& geometry) {
   if (geometry.file.empty())
     throw InputError({{"", 0, "mesh '" + geometry.name + "'", "its file was not found",
-                       "put it where the robot's file names it", "file.missing"}});
+                       "put it at the path in the robot's file", "file.missing"}});
   return geometry.file;
 }
 

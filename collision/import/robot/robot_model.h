@@ -1,4 +1,4 @@
-// From a robot's description to the solver's model.
+// From a RobotDescription to the solver's Model.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace twinarm {
 
-// A particle fixed to a link: the paper's added masses (its Figure 5), a payload.
+// A particle fixed to a link: an added mass (Figure 5 of the paper), a payload.
 struct PointMass {
   std::string link;
   Vector3 p_L = Vector3::Zero();  // link axes, from the link's origin [m]
@@ -21,36 +21,31 @@ struct PointMass {
 struct ModelOptions {
   std::map<std::string, double> mass_scale;  // by link; scales mass and inertia
   std::vector<PointMass> added_masses;
-  bool floating =
-      false;  // the root link is carried by a free joint, and does not stand on the world
-  bool armature = true;  // false: as if no joint had any
-  bool friction = true;  // false: as if no joint had damping or Coulomb friction
+  bool floating = false;  // floating base: free joint at the root link, instead of a fixed one
+  bool armature = true;   // false: ignore armatures
+  bool friction = true;   // false: ignore damping and Coulomb friction
 };
 
-// The root link is always the first body after the world (of a robot alone in its model).
+// Body index of the root link in a model with one robot.
 inline constexpr int kRootBody = 1;
 
-// The joint that carries the root link: "base" where it floats, "<root>_on_world" where it stands,
-// with as many "_" after it as make it no joint of the robot.
+// Name of the root link's joint: "base" (floating) or "<root>_on_world" (fixed), with "_" appended
+// until it is unique.
 std::string root_joint_name(const RobotDescription& robot, bool floating);
 
-// The robot must have passed check_robot. Throws InputError, with the lines of the description, for
-// what the solver cannot carry: a joint that moves nothing of mass or inertia.
+// The robot must have passed check_robot. Throws InputError, with lines, for a joint that moves no
+// mass or inertia.
 Model<double> build_model(const RobotDescription& robot, const ModelOptions& options = {});
 
-// One robot among others in a model: `prefix` comes before the names of its links and joints, and
-// its root link stands at X_WR (or is placed by the state, where it floats). The builder knows no
-// lines: what build() finds later comes without.
+// Adds a robot to a model: `prefix` precedes the names of its links and joints; its root link is
+// fixed at X_WR, or floating. Errors of ModelBuilder::build() have no lines.
 void add_robot(ModelBuilder& builder, const RobotDescription& robot, const ModelOptions& options,
                const std::string& prefix, const Pose& X_WR);
 
-// The triangles of a MeshGeometry.
-
-// Where its file lies. Throws InputError where it was not found.
+// Throws InputError if the file was not found.
 const std::filesystem::path& file_of(const MeshGeometry& geometry);
-// In metres. A mirrored mesh (an odd number of negative scales) has its triangles turned about, so
-// that they are still counter-clockwise seen from outside. Throws InputError where the file is
-// missing or no mesh.
+// In metres. The triangles of a mirrored mesh are flipped to keep the outward orientation. Throws
+// InputError if the file is missing or not a mesh.
 TriangleMesh load_mesh(const MeshGeometry& geometry);
 
 }  // namespace twinarm

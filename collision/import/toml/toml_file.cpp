@@ -11,16 +11,15 @@
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kDeepest = 200;
+constexpr std::size_t kMaxDepth = 200;
 constexpr std::uintmax_t kMaxTomlBytes = 4u << 20;
 
-// Goes through the text as far as brackets and dots are concerned. What is no TOML is parsed, and
-// refused, by others.
+// Measures the nesting depth of brackets and dotted keys. Does not validate TOML.
 class DepthScan {
  public:
   explicit DepthScan(std::string_view text) : text_(text) {}
 
-  // Where it is nested too deep; 0: nowhere.
+  // First line nested too deep, or 0.
   int line_too_deep() {
     for (; at_ < text_.size(); ++at_) {
       const char c = text_[at_];
@@ -31,7 +30,7 @@ class DepthScan {
       if (c == ',') dots_ = 0;
       if (c == '[' || c == '{') open();
       if (c == ']' || c == '}') close();
-      if (below_ + dots_ > kDeepest) return line_;
+      if (below_ + dots_ > kMaxDepth) return line_;
     }
     return 0;
   }
@@ -41,7 +40,7 @@ class DepthScan {
     ++line_;
     if (open_.empty()) dots_ = 0;
   }
-  // Within a bracket its key still counts.
+  // The key of a bracket counts inside it.
   void open() {
     open_.push_back(std::exchange(dots_, 0));
     below_ += open_.back() + 1;
@@ -71,7 +70,7 @@ class DepthScan {
   std::string_view text_;
   std::size_t at_ = 0;
   int line_ = 1;
-  std::size_t dots_ = 0, below_ = 0;  // of the key at hand; of all brackets around, with theirs
+  std::size_t dots_ = 0, below_ = 0;  // of the current key; of all enclosing brackets
   std::vector<std::size_t> open_;
 };
 
@@ -86,14 +85,14 @@ std::string read_toml_text(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, ignored))
     refuse(0, "the file does not exist", "check the path", "file.missing");
   if (std::filesystem::file_size(file, ignored) > kMaxTomlBytes)
-    refuse(0, "the file has more than 4 MiB", "meshes and traces stand in files of their own");
+    refuse(0, "the file is larger than 4 MiB", "store meshes and traces in separate files");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(0, "the file cannot be read", "check its permissions: ls -l shows them");
+  if (!stream) refuse(0, "the file cannot be read", "check its permissions (ls -l)");
   std::ostringstream text;
   text << stream.rdbuf();
   std::string read = std::move(text).str();
   if (const int line = DepthScan(read).line_too_deep(); line > 0)
-    refuse(line, "keys and brackets are nested more than 200 deep", "no key here has such a place");
+    refuse(line, "TOML nesting depth exceeds 200", "remove the nested keys or brackets");
   return read;
 }
 

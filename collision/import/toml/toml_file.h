@@ -1,4 +1,4 @@
-// The text of a TOML file that toml++ may be given.
+// Text of a TOML file, bounded for toml++.
 #pragma once
 
 #include <filesystem>
@@ -6,8 +6,8 @@
 
 namespace twinarm {
 
-// Throws InputError where there is no such file, it has more than 4 MiB, or is nested more than 200
-// deep: toml++ follows brackets and dotted keys by recursion, and counts the brackets alone.
+// Throws InputError if the file does not exist, is larger than 4 MiB, or is nested more than 200
+// deep (toml++ recurses on brackets and dotted keys, and limits only brackets).
 std::string read_toml_text(const std::filesystem::path& file);
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Reads a robot in URDF: XML -> RobotDescription, then the rules of robot_check.h.
+// Reads a robot in URDF: XML -> RobotDescription -> robot_check.h.
 #include "collision/import/urdf/urdf.h"
 
 #include <tinyxml2.h>
@@ -32,7 +32,7 @@ std::string xml_error_text(const tinyxml2::XMLDocument& document) {
 void read_inertial(const XMLElement& element, const std::string& where, LinkDescription& link,
                    UrdfSource& source) {
   link.has_inertia = true;
-  link.mass = 1;  // harmless values, in place of those that are missing or no numbers
+  link.mass = 1;  // defaults for missing or invalid values
   link.inertia = Matrix3::Identity();
   for (const char* name : {"mass", "inertia"}) source.at_most_one(element, name, where);
   const Origin origin = source.origin(element, where);
@@ -63,10 +63,10 @@ void read_inertial(const XMLElement& element, const std::string& where, LinkDesc
   }
   if (!all_read) return;
   link.inertia << I[0], I[1], I[2], I[1], I[3], I[4], I[2], I[4], I[5];
-  if (!origin.rpy.isZero(0.0)) {  // into link axes; kept symmetric to the last bit
+  if (!origin.rpy.isZero(0.0)) {  // into link axes, exactly symmetric
     const Matrix3 R = origin.pose().R;
-    const Matrix3 turned = R * link.inertia * R.transpose();
-    link.inertia = 0.5 * (turned + turned.transpose());
+    const Matrix3 rotated = R * link.inertia * R.transpose();
+    link.inertia = 0.5 * (rotated + rotated.transpose());
   }
 }
 
@@ -83,7 +83,7 @@ LinkDescription read_link(const XMLElement& element, const UrdfMaterials& materi
   return link;
 }
 
-// The <robot> element; throws where there is none to go on with.
+// The <robot> element; throws InputError if there is none.
 const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source) {
   constexpr std::uintmax_t kMaxBytes = 16u << 20;
   std::error_code ignored;
@@ -91,22 +91,23 @@ const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source
   if (!std::filesystem::is_regular_file(source.file(), ignored)) {
     source.fault(0, "", "the file does not exist", "check the path", "file.missing");
   } else if (std::filesystem::file_size(source.file(), ignored) > kMaxBytes) {
-    source.fault(0, "", "the file has more than 16 MiB", "give a URDF file; meshes stand in theirs",
-                 "file.too-large");
+    source.fault(0, "", "the file is larger than 16 MiB",
+                 "give a URDF file; store meshes separately", "file.too-large");
   } else if (document.LoadFile(source.file().c_str()) != tinyxml2::XML_SUCCESS) {
-    // Where an end tag is missing, the line is that of the element's beginning.
+    // If an end tag is missing, tinyxml2 gives the line of the start tag.
     const bool may_be_open = document.ErrorID() == tinyxml2::XML_ERROR_PARSING ||
                              document.ErrorID() == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT;
     source.fault(document.ErrorLineNum(), "", "not well-formed XML: " + xml_error_text(document),
-                 may_be_open ? "mend the XML near this line, or close the element that begins here "
-                               "(is there a </robot> at the end?)"
-                             : "mend the XML at or shortly before this line",
+                 may_be_open
+                     ? "correct the XML near this line, or close the element that begins here "
+                       "(is there a </robot> at the end?)"
+                     : "correct the XML at or shortly before this line",
                  "urdf.xml");
   } else {
     robot = document.RootElement();
     if (robot && std::string(robot->Name()) != "robot") {
       source.fault(robot->GetLineNum(), "",
-                   std::string("the outermost element is <") + robot->Name() + ">, must be <robot>",
+                   std::string("the root element is <") + robot->Name() + ">, must be <robot>",
                    "give a URDF file", "urdf.no-robot");
     } else if (!robot) {
       source.fault(0, "", "there is no <robot> element", "give a URDF file", "urdf.no-robot");
@@ -132,7 +133,7 @@ RobotDescription read_urdf(const std::filesystem::path& file, const RobotFileOpt
     constexpr std::size_t kMaxParts = 40000;
     if (robot.links.size() + robot.joints.size() == kMaxParts) {
       source.fault(e->GetLineNum(), "", "there are more than 40,000 links and joints",
-                   "what does not move belongs to one link", "urdf.too-many");
+                   "merge links that do not move relative to each other", "urdf.too-many");
       source.check();
     }
     const std::string name = e->Name();

@@ -18,11 +18,11 @@ using Names = std::vector<std::string_view>;
 struct Word {
   std::string_view element;
   Names attributes;
-  Names children;        // described by a line of their own
-  Names without_effect;  // known children that mean nothing here
+  Names children;        // each has its own entry
+  Names without_effect;  // known children that are ignored
 };
 
-// <geometry>, and each shape with its lengths.
+// <geometry>, and each shape with its dimensions.
 void add_shapes(std::vector<Word>& words) {
   Word geometry{"geometry", {}, {"mesh"}, {}};
   for_each_shape([&](const auto& shape) {
@@ -37,7 +37,7 @@ void add_shapes(std::vector<Word>& words) {
   words.push_back(geometry);
 }
 
-// The same element has the same attributes and children wherever it stands.
+// An element has the same attributes and children everywhere.
 std::vector<Word> vocabulary() {
   std::vector<Word> words = {
       {"robot",
@@ -87,8 +87,8 @@ void check_attributes(const XMLElement& element, const Word& word, const std::st
     const std::string name = a->Name();
     if (contains(word.attributes, name) || name.starts_with("xmlns")) continue;
     source.warn_once("attribute " + std::string(word.element) + " " + name, a->GetLineNum(), where,
-                     "attribute '" + name + "' of <" + element.Name() + "> is not known",
-                     "it is left out; check its spelling", "urdf.unknown-attribute");
+                     "unknown attribute '" + name + "' of <" + element.Name() + ">",
+                     "it is ignored; check its spelling", "urdf.unknown-attribute");
   }
 }
 
@@ -108,13 +108,12 @@ void check_element(const XMLElement& element, const Word& word, const std::strin
       source.fault(e->GetLineNum(), "<" + name + ">", "this is a xacro file",
                    "expand it first (xacro robot.urdf.xacro > robot.urdf)", "urdf.xacro");
     } else if (contains(word.without_effect, name)) {
-      source.warn_once("element " + name, e->GetLineNum(), where,
-                       "<" + name + "> has no effect here", "other programs read it",
-                       "urdf.no-effect");
-    } else if (word.element != "geometry") {  // an unknown shape is told by its reader
+      source.warn_once("element " + name, e->GetLineNum(), where, "<" + name + "> has no effect",
+                       "it is ignored; other programs use it", "urdf.no-effect");
+    } else if (word.element != "geometry") {  // unknown shapes: read_geometry()
       source.warn_once("element " + std::string(word.element) + " " + name, e->GetLineNum(), where,
-                       "<" + name + "> in <" + element.Name() + "> is not known",
-                       "it is left out; check its spelling", "urdf.unknown-element");
+                       "unknown element <" + name + "> in <" + element.Name() + ">",
+                       "it is ignored; check its spelling", "urdf.unknown-element");
     }
   }
 }

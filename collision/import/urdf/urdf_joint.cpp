@@ -16,8 +16,8 @@ namespace {
 
 using Type = JointDescription::Type;
 
-// Joints that URDF lacks come by our element, which names the true type; what stands in <joint
-// type=""> is for other programs.
+// Joint types beyond URDF are given by <twinarm type="">; <joint type=""> is then for other
+// programs.
 void read_type(const XMLElement& element, const std::string& where, JointDescription& joint,
                UrdfSource& source) {
   const std::string type = source.text(element, "type", where);
@@ -46,13 +46,13 @@ void read_type(const XMLElement& element, const std::string& where, JointDescrip
                  "give other types as <joint type=\"...\">", "urdf.joint-type");
 }
 
-// One line for each kind of value that the types of the joints make meaningless.
+// One warning for each kind of value that has no effect on this joint type.
 void warn_without_effect(const XMLElement* element, const char* what, const std::string& where,
                          const JointDescription& joint, UrdfSource& source) {
   if (!element) return;
   source.warn_once(what, element->GetLineNum(), where,
                    std::string(what) + " has no effect on a " + to_string(joint.type) + " joint",
-                   "leave it out, or change the type of the joint", "urdf.no-effect");
+                   "remove it, or change the joint type", "urdf.no-effect");
 }
 
 void read_limits(const XMLElement& element, const std::string& where, JointDescription& joint,
@@ -66,7 +66,7 @@ void read_limits(const XMLElement& element, const std::string& where, JointDescr
   const bool must = joint.type == Type::revolute || joint.type == Type::prismatic;
   if (must && !limit) {
     source.fault(element.GetLineNum(), where,
-                 std::string("a ") + to_string(joint.type) + " joint must have limits",
+                 std::string("a ") + to_string(joint.type) + " joint needs limits",
                  joint.type == Type::revolute
                      ? "give <limit lower upper effort velocity/>, or make the joint continuous"
                      : "give <limit lower upper effort velocity/> in metres",
@@ -75,29 +75,29 @@ void read_limits(const XMLElement& element, const std::string& where, JointDescr
   }
   if (must && !has_range)
     source.warn(limit->GetLineNum(), where, "its <limit> has neither lower nor upper",
-                "URDF takes both as 0, and the joint cannot move where limits act",
+                "give both: the default is 0, and the joint cannot move with limits",
                 "urdf.no-limits");
   if (must && !(limit->FindAttribute("effort") && limit->FindAttribute("velocity")))
     source.warn_once(
-        "limit without effort", limit->GetLineNum(), where, "its <limit> lacks effort or velocity",
-        "they have no effect here, but other programs refuse the file", "urdf.no-effort");
+        "limit without effort", limit->GetLineNum(), where, "its <limit> has no effort or velocity",
+        "they have no effect here, but other programs reject the file", "urdf.no-effort");
   if (must || (joint.type == Type::screw && has_range)) {
     const auto lower = source.bound(*limit, "lower", where, 0.0);
     const auto upper = source.bound(*limit, "upper", where, 0.0);
     if (!lower || !upper) return;
     joint.lower = *lower;
     joint.upper = *upper;
-    if (joint.type == Type::screw && !(joint.lower < joint.upper))  // it would read as unlimited
+    if (joint.type == Type::screw && !(joint.lower < joint.upper))  // it would be unlimited
       source.fault(limit->GetLineNum(), where,
                    "its lower limit " + number_text(joint.lower) +
-                       " does not lie below its upper limit " + number_text(joint.upper),
-                   "exchange them, or leave both out", "robot.limits");
+                       " is not below its upper limit " + number_text(joint.upper),
+                   "exchange them, or remove both", "robot.limits");
   } else if (has_range) {
     warn_without_effect(limit, "the range in <limit>", where, joint, source);
   }
 }
 
-// Unit length; an axis that has it already keeps its bits. One that is zero stays so.
+// An axis of unit length or zero is returned unchanged.
 Vector3 unit_axis(const Vector3& axis) {
   const double length = axis.stableNorm();
   return length < 1e-9 || std::abs(length - 1) < 1e-15 ? axis : Vector3(axis / length);
@@ -107,14 +107,14 @@ void read_axis(const XMLElement& element, const std::string& where, JointDescrip
                UrdfSource& source) {
   const XMLElement* axis = element.FirstChildElement("axis");
   if (!joint.has_axis()) return warn_without_effect(axis, "<axis>", where, joint, source);
-  if (!axis) return;  // x, as URDF has it
+  if (!axis) return;  // default: x
   const Vector3 given = source.vector3(*axis, "xyz", where).value_or(Vector3::UnitX());
   joint.axis = unit_axis(given);
   const double length = given.stableNorm();
   if (length >= 1e-9 && std::abs(length - 1) > 1e-3)
     source.warn_once("length of axis", axis->GetLineNum(), where,
                      "its axis has length " + number_text(length),
-                     "only the direction counts; give a unit vector", "urdf.axis-length");
+                     "only the direction is used; give a unit vector", "urdf.axis-length");
 }
 
 void read_dynamics(const XMLElement& element, const std::string& where, JointDescription& joint,
@@ -152,7 +152,7 @@ void read_mimic(const XMLElement& element, const std::string& where, JointDescri
   m.joint = source.text(*mimic, "joint", where);
   m.multiplier = source.number(*mimic, "multiplier", where, 1.0).value_or(1.0);
   m.offset = source.number(*mimic, "offset", where, 0.0).value_or(0.0);
-  if (!m.joint.empty()) joint.mimic = m;  // a missing name is told already
+  if (!m.joint.empty()) joint.mimic = m;  // a missing name is already reported
 }
 
 }  // namespace
@@ -173,7 +173,7 @@ JointDescription read_joint(const XMLElement& element, UrdfSource& source) {
   };
   joint.lines = {line_of("parent"),   line_of("child"),   line_of("axis"), line_of("limit"),
                  line_of("dynamics"), line_of("twinarm"), line_of("mimic")};
-  const auto link_of = [&](const char* role) {  // what is missing is told by check_robot
+  const auto link_of = [&](const char* role) {  // missing ones: check_robot()
     const XMLElement* e = element.FirstChildElement(role);
     const char* link = e ? e->Attribute("link") : nullptr;
     return std::string(link ? link : "");

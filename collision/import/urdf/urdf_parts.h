@@ -1,4 +1,4 @@
-// The parts of the URDF reader: vocabulary, <joint>, and what a <link> shows and collides with.
+// Parts of the URDF reader: known elements, <joint>, materials, shapes of a <link>.
 #pragma once
 
 #include <filesystem>
@@ -10,10 +10,8 @@
 
 namespace twinarm {
 
-// Which elements and attributes URDF has, so that nothing is left out in silence. Goes through the
-// whole file. What other programs need and what has no effect here, and what nobody knows (a slip
-// of the pen?), becomes one warning per kind; what a macro should have replaced (xacro) is a fault.
-// Bounded in depth: what is not known is not entered.
+// Reports elements and attributes that have no effect or are unknown (one warning per kind), and
+// xacro elements (an error). Unknown elements are not entered, so the depth is bounded.
 void check_vocabulary(const tinyxml2::XMLElement& robot, UrdfSource& source);
 
 JointDescription read_joint(const tinyxml2::XMLElement& element, UrdfSource& source);
@@ -25,8 +23,8 @@ struct UrdfMaterial {
 };
 using UrdfMaterials = std::map<std::string, UrdfMaterial>;
 
-// Every <material> of the file that states a colour or a texture: those of the robot, then those
-// that a <visual> states in passing and others use by name. Of two with one name the first counts.
+// All <material> elements with a colour or texture: of the robot, then of the <visual> elements.
+// The first of a name counts.
 UrdfMaterials read_materials(const tinyxml2::XMLElement& robot, UrdfSource& source);
 
 void read_shapes(const tinyxml2::XMLElement& link_element, const UrdfMaterials& materials,

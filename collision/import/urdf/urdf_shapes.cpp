@@ -20,10 +20,9 @@ MeshGeometry read_mesh(const XMLElement& element, const std::string& where, Urdf
   mesh.scale =
       source.vector3(element, "scale", where, Vector3(Vector3::Ones())).value_or(Vector3::Ones());
   if (mesh.scale.cwiseAbs().minCoeff() == 0)
-    source.fault(
-        element.GetLineNum(), where,
-        std::string("mesh scale is '") + element.Attribute("scale") + "', which flattens the mesh",
-        "give three numbers that are not 0 (a negative one mirrors)", "urdf.mesh-scale");
+    source.fault(element.GetLineNum(), where,
+                 std::string("mesh scale is '") + element.Attribute("scale") + "', must not be 0",
+                 "give three numbers other than 0 (a negative one mirrors)", "urdf.mesh-scale");
   if (mesh.name.empty()) return mesh;
   const FilePlace place =
       find_named_file("mesh", mesh.name, source.folder(), source.options().roots);
@@ -47,7 +46,7 @@ void read_length(const XMLElement& shape, const char* name, const std::string& w
     source.fault(shape.GetLineNum(), where,
                  std::string(shape.Name()) + " " + name + " is '" + shape.Attribute(name) +
                      "', must be three positive numbers",
-                 "give full edges in metres", "urdf.number");
+                 "give the edge lengths in metres", "urdf.number");
 }
 
 ShapeDescription read_geometry(const XMLElement& part, const std::string& where,
@@ -67,11 +66,9 @@ ShapeDescription read_geometry(const XMLElement& part, const std::string& where,
     }
   });
   if (found) return *found;
-  source.fault((shape      ? shape
-                : geometry ? geometry
-                           : &part)
-                   ->GetLineNum(),
-               where, kind.empty() ? "it has no geometry" : "shape <" + kind + "> is not known",
+  const XMLElement& at = shape ? *shape : geometry ? *geometry : part;
+  source.fault(at.GetLineNum(), where,
+               kind.empty() ? "the geometry is missing" : "unknown shape <" + kind + ">",
                "shapes: box, sphere, cylinder, capsule, mesh", "urdf.shape");
   return {};
 }
@@ -81,10 +78,9 @@ std::string material_name(const XMLElement& material) {
   return std::string("material '") + (name ? name : "") + "'";
 }
 
-// The colour of a <material> element, if it states one. Colours are only to be looked at: a bad one
-// is told and mended.
+// The colour of a <material> element, if it has one. An invalid one is a warning.
 std::optional<Vector4> read_color(const XMLElement& material, UrdfSource& source) {
-  const UrdfSource::ErrorsAsWarnings softly(source, true);
+  const UrdfSource::ErrorsAsWarnings as_warnings(source, true);
   const XMLElement* color = material.FirstChildElement("color");
   if (!color) return std::nullopt;
   const auto rgba = source.numbers(*color, "rgba", material_name(material), 4);
@@ -94,13 +90,13 @@ std::optional<Vector4> read_color(const XMLElement& material, UrdfSource& source
   if (clamped != given)
     source.fault(
         color->GetLineNum(), material_name(material),
-        std::string("colour '") + color->Attribute("rgba") + "' lies outside [0, 1] and is clamped",
+        std::string("colour '") + color->Attribute("rgba") + "' is outside [0, 1] and is clamped",
         "give red, green, blue and opacity from 0 to 1", "urdf.color");
   return clamped;
 }
 
-// Where the picture of a <material> lies, if it names one. It is only to be looked at: where it is
-// missing, that is told. CAD exporters write empty names where there is none.
+// The texture of a <material>, if it has one. A missing file is a warning. CAD exporters write
+// empty names.
 void read_texture(const XMLElement& material, UrdfMaterial& result, UrdfSource& source) {
   const XMLElement* texture = material.FirstChildElement("texture");
   const char* name = texture ? texture->Attribute("filename") : nullptr;
@@ -117,7 +113,7 @@ void read_texture(const XMLElement& material, UrdfMaterial& result, UrdfSource& 
                      "file.missing");
 }
 
-// What a <material> element states itself, if anything.
+// Colour and texture of a <material> element, if it has any.
 std::optional<UrdfMaterial> read_own_material(const XMLElement& material, UrdfSource& source) {
   UrdfMaterial result;
   read_texture(material, result, source);
@@ -132,14 +128,14 @@ void read_material(const XMLElement& visual, const std::string& where,
   const XMLElement* material = visual.FirstChildElement("material");
   if (!material) return;
   if (const char* name = material->Attribute("name")) part.material = name;
-  UrdfSource silent(source.file(), source.options());  // read_materials told what is wrong with it
+  UrdfSource silent(source.file(), source.options());  // read_materials has reported its errors
   std::optional<UrdfMaterial> found = read_own_material(*material, silent);
   if (const auto known = materials.find(part.material); !found && known != materials.end())
     found = known->second;
   if (!found)
     return source.warn_once("material " + part.material, material->GetLineNum(), where,
                             "material '" + part.material + "' is not defined in this file",
-                            "define it with a <color> below <robot>; until then it is grey",
+                            "define it with a <color> in <robot>; the default is grey",
                             "urdf.no-material");
   part.color = found->color;
   part.texture_name = found->texture_name;
@@ -156,11 +152,11 @@ UrdfMaterials read_materials(const XMLElement& robot, UrdfSource& source) {
     if (material && name) materials.emplace(name, *material);
   };
   for (auto* m = robot.FirstChildElement("material"); m; m = m->NextSiblingElement("material")) {
-    const UrdfSource::ErrorsAsWarnings softly(source, true);
+    const UrdfSource::ErrorsAsWarnings as_warnings(source, true);
     const std::string name = source.text(*m, "name", "material");
     if (materials.count(name))
-      source.warn(m->GetLineNum(), material_name(*m), "it is defined twice", "the first counts",
-                  "urdf.twice");
+      source.warn(m->GetLineNum(), material_name(*m), "it is defined twice",
+                  "remove one definition; the first is used", "urdf.twice");
     take(*m);
   }
   for (auto* l = robot.FirstChildElement("link"); l; l = l->NextSiblingElement("link"))
@@ -171,7 +167,7 @@ UrdfMaterials read_materials(const XMLElement& robot, UrdfSource& source) {
 
 void read_shapes(const XMLElement& link_element, const UrdfMaterials& materials,
                  LinkDescription& link, UrdfSource& source) {
-  const UrdfSource::ErrorsAsWarnings softly(
+  const UrdfSource::ErrorsAsWarnings as_warnings(
       source, source.options().geometry == RobotFileOptions::Geometry::optional);
   const auto read = [&](const XMLElement& element, auto& part) {
     if (const char* name = element.Attribute("name")) part.name = name;
@@ -185,18 +181,18 @@ void read_shapes(const XMLElement& link_element, const UrdfMaterials& materials,
   };
   for (auto* e = link_element.FirstChildElement("visual"); e; e = e->NextSiblingElement("visual")) {
     VisualPart part;
-    const std::size_t before = source.softened();
+    const std::size_t before = source.downgraded();
     const std::string where = read(*e, part);
-    if (source.softened() > before) continue;  // a shape made of harmless values
+    if (source.downgraded() > before) continue;  // an invalid shape
     read_material(*e, where, materials, part, source);
     link.visuals.push_back(std::move(part));
   }
-  for (auto* e = link_element.FirstChildElement("collision"); e;
-       e = e->NextSiblingElement("collision")) {
+  const char* const kind = "collision";
+  for (auto* e = link_element.FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) {
     CollisionPart part;
-    const std::size_t before = source.softened();
+    const std::size_t before = source.downgraded();
     read(*e, part);
-    if (source.softened() == before) link.collisions.push_back(std::move(part));
+    if (source.downgraded() == before) link.collisions.push_back(std::move(part));
   }
 }
 

@@ -1,4 +1,3 @@
-// Writes a robot as URDF.
 #include "collision/import/urdf/urdf.h"
 
 #include <map>
@@ -12,19 +11,14 @@ namespace twinarm {
 namespace {
 
 std::string escaped(const std::string& text) {
+  static const std::map<char, const char*> entities{
+      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}};
   std::string result;
-  for (const char c : text) {
-    if (c == '&')
-      result += "&amp;";
-    else if (c == '<')
-      result += "&lt;";
-    else if (c == '>')
-      result += "&gt;";
-    else if (c == '"')
-      result += "&quot;";
+  for (const char c : text)
+    if (const auto entity = entities.find(c); entity != entities.end())
+      result += entity->second;
     else
       result += c;
-  }
   return result;
 }
 
@@ -41,7 +35,7 @@ std::string attribute(const std::string& name, const Eigen::Matrix<double, N, 1>
   return attribute(name, text);
 }
 
-// 0 is left out; -0 is not, or it would come back as 0.
+// 0 is the default and not written; -0 is written.
 bool is_plain_zero(const Vector3& v) {
   return v.isZero(0.0) && !std::signbit(v.x()) && !std::signbit(v.y()) && !std::signbit(v.z());
 }
@@ -61,7 +55,7 @@ class Writer {
       out_ << "<!-- " << line << " -->\n";
     }
     out_ << "<robot" << attribute("name", robot_.name) << ">\n";
-    materials();
+    write_materials();
     for (const LinkDescription& l : robot_.links) link(l);
     for (const JointDescription& j : robot_.joints) joint(j);
     out_ << "</robot>\n";
@@ -69,16 +63,16 @@ class Writer {
   }
 
  private:
-  // One definition per name; a visual that looks otherwise states its own.
-  void materials() {
+  // One definition per name; visuals that differ from it have their own.
+  void write_materials() {
     for (const LinkDescription& link : robot_.links)
       for (const VisualPart& part : link.visuals)
-        if (!part.material.empty() && looks_.emplace(part.material, look(part)).second)
-          out_ << "  <material" << attribute("name", part.material) << ">" << look(part)
+        if (!part.material.empty() && materials_.emplace(part.material, material_text(part)).second)
+          out_ << "  <material" << attribute("name", part.material) << ">" << material_text(part)
                << "</material>\n";
   }
 
-  std::string look(const VisualPart& part) {
+  std::string material_text(const VisualPart& part) {
     const std::string color = "<color" + attribute<4>("rgba", part.color) + "/>";
     if (part.texture_name.empty()) return color;
     return color + "<texture" + attribute("filename", file_text(part.texture, part.texture_name)) +
@@ -133,11 +127,11 @@ class Writer {
     }
     for (const VisualPart& part : link.visuals) {
       placed_shape("visual", part);
-      const auto known = looks_.find(part.material);
-      if (known != looks_.end() && known->second == look(part))
+      const auto known = materials_.find(part.material);
+      if (known != materials_.end() && known->second == material_text(part))
         out_ << "      <material" << attribute("name", part.material) << "/>\n";
       else
-        out_ << "      <material" << attribute("name", part.material) << ">" << look(part)
+        out_ << "      <material" << attribute("name", part.material) << ">" << material_text(part)
              << "</material>\n";
       out_ << "    </visual>\n";
     }
@@ -186,7 +180,7 @@ class Writer {
 
   const RobotDescription& robot_;
   const std::filesystem::path folder_;
-  std::map<std::string, std::string> looks_;  // by material
+  std::map<std::string, std::string> materials_;  // by material
   std::ostringstream out_;
 };
 

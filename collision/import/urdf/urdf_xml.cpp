@@ -1,4 +1,3 @@
-// Reading attributes of XML elements, with a fault for each bad one.
 #include "collision/import/urdf/urdf_xml.h"
 
 #include <tinyxml2.h>
@@ -23,15 +22,14 @@ std::string tag(const XMLElement& element, const char* attribute) {
   return std::string("<") + element.Name() + " " + attribute + "=\"...\">";
 }
 
-// The likeliest slip of the pen.
 bool is_xacro(const std::string& value) {
   return value.find("${") != std::string::npos || value.find("$(") != std::string::npos;
 }
-std::string remedy_for(const std::string& value) {
+std::string fix_for(const std::string& value) {
   if (is_xacro(value))
     return "this is a xacro file: expand it first (xacro robot.urdf.xacro > robot.urdf)";
   if (value.find(',') != std::string::npos)
-    return "write a decimal point, and blanks between numbers";
+    return "use a decimal point, and spaces between numbers";
   return "give finite decimal numbers in SI units";
 }
 
@@ -43,10 +41,9 @@ Vector3 roll_pitch_yaw(const Matrix3& R) {
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }
 
-// A hostile file could make the message as long as itself.
 std::string shortened(const std::string& value) {
-  constexpr std::size_t kLongest = 80;
-  return value.size() <= kLongest ? value : value.substr(0, kLongest) + "...";
+  constexpr std::size_t kMaxLength = 80;
+  return value.size() <= kMaxLength ? value : value.substr(0, kMaxLength) + "...";
 }
 
 }  // namespace
@@ -56,9 +53,9 @@ UrdfSource::UrdfSource(const std::filesystem::path& file, const RobotFileOptions
 
 void UrdfSource::fault(int line, std::string where, std::string problem, std::string fix,
                        std::string_view code) {
-  if (soft_) ++softened_;
-  add_diagnostic(soft_ ? warnings_ : faults_, {file_.string(), line, std::move(where),
-                                               std::move(problem), std::move(fix), code});
+  if (downgrade_) ++downgraded_;
+  add_diagnostic(downgrade_ ? warnings_ : faults_, {file_.string(), line, std::move(where),
+                                                    std::move(problem), std::move(fix), code});
 }
 
 void UrdfSource::fault(std::vector<Diagnostic> faults) {
@@ -115,7 +112,7 @@ std::optional<std::vector<double>> UrdfSource::numbers(const XMLElement& element
     fault(found->GetLineNum(), where,
           tag(element, attribute) + " is '" + shortened(value) + "', must be " +
               std::to_string(count) + (count == 1 ? " finite number" : " finite numbers"),
-          remedy_for(value), is_xacro(value) ? "urdf.xacro" : "urdf.number");
+          fix_for(value), is_xacro(value) ? "urdf.xacro" : "urdf.number");
     return std::nullopt;
   }
   return numbers;
@@ -163,7 +160,7 @@ std::string UrdfSource::text(const XMLElement& element, const char* attribute,
   const char* value = element.Attribute(attribute);
   if (value && *value) return value;
   fault(element.GetLineNum(), where,
-        tag(element, attribute) + (value ? " is empty" : " is missing"), "give it",
+        tag(element, attribute) + (value ? " is empty" : " is missing"), "give a value",
         "urdf.attribute-missing");
   return {};
 }
@@ -175,19 +172,19 @@ Origin UrdfSource::origin(const XMLElement& parent, const std::string& where) {
   Origin origin;
   origin.xyz = vector3(*element, "xyz", where, Vector3(Vector3::Zero())).value_or(origin.xyz);
   origin.rpy = vector3(*element, "rpy", where, Vector3(Vector3::Zero())).value_or(origin.rpy);
-  constexpr double kFullTurn = 6.3;
-  if (origin.rpy.lpNorm<Eigen::Infinity>() > kFullTurn)
+  constexpr double kMaxAngle = 6.3;  // [rad]
+  if (origin.rpy.lpNorm<Eigen::Infinity>() > kMaxAngle)
     warn(element->GetLineNum(), where,
-         "rpy = '" + std::string(element->Attribute("rpy")) + "' is more than a full turn",
-         "angles are in radians: 90 degrees are 1.5707963267948966", "urdf.full-turn");
+         "rpy = '" + std::string(element->Attribute("rpy")) + "' is more than one revolution",
+         "give angles in radians: 90 degrees are 1.5707963267948966", "urdf.full-turn");
   if (!element->FindAttribute("quat_xyzw")) return origin;
   if (element->FindAttribute("rpy"))
     fault(element->GetLineNum(), where, "its <origin> has both rpy and quat_xyzw", "give one",
           "urdf.two-rotations");
   if (const auto q = numbers(*element, "quat_xyzw", where, 4)) {
-    const Eigen::Quaterniond turn((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
-    if (turn.norm() > 1e-9)
-      origin.rpy = roll_pitch_yaw(turn.normalized().toRotationMatrix());
+    const Eigen::Quaterniond rotation((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
+    if (rotation.norm() > 1e-9)
+      origin.rpy = roll_pitch_yaw(rotation.normalized().toRotationMatrix());
     else
       fault(element->GetLineNum(), where, "its quat_xyzw is zero", "give a unit quaternion",
             "urdf.number");
@@ -199,7 +196,7 @@ void UrdfSource::at_most_one(const XMLElement& parent, const char* name, const s
   const XMLElement* first = parent.FirstChildElement(name);
   const XMLElement* second = first ? first->NextSiblingElement(name) : nullptr;
   if (second)
-    fault(second->GetLineNum(), where, std::string("a second <") + name + ">",
+    fault(second->GetLineNum(), where, std::string("more than one <") + name + ">",
           std::string("give one <") + name + ">", "urdf.twice");
 }
 

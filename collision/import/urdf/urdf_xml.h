@@ -1,7 +1,5 @@
-// Reading attributes of XML elements, with a fault (file, line, rule, remedy) for each bad one.
-//
-// A faulty value gives nothing; the caller goes on with a harmless one, so that all faults of a
-// file are found in one go. Nothing made of harmless values is ever returned to the user.
+// Reads attributes of XML elements. Each invalid value is reported as a Diagnostic, and the caller
+// continues with a default, so that all errors of a file are found at once; check() then throws.
 #pragma once
 
 #include <cstddef>
@@ -35,17 +33,18 @@ class UrdfSource {
   void warn(int line, std::string where, std::string problem, std::string fix,
             std::string_view code);
   void warn(std::vector<Diagnostic> warnings);
-  // All warnings of one `kind` become one: that of the first, with their number.
+  // All warnings of one `kind` become one: the first, with their number.
   void warn_once(const std::string& kind, int line, std::string where, std::string problem,
                  std::string fix, std::string_view code);
 
-  // While an object of this type lives, faults are taken for warnings.
+  // During the lifetime of this object, errors are warnings.
   class ErrorsAsWarnings {
    public:
-    ErrorsAsWarnings(UrdfSource& source, bool soft) : source_(source), before_(source.soft_) {
-      source.soft_ = soft;
+    ErrorsAsWarnings(UrdfSource& source, bool downgrade)
+        : source_(source), before_(source.downgrade_) {
+      source.downgrade_ = downgrade;
     }
-    ~ErrorsAsWarnings() { source_.soft_ = before_; }
+    ~ErrorsAsWarnings() { source_.downgrade_ = before_; }
     ErrorsAsWarnings(const ErrorsAsWarnings&) = delete;
     ErrorsAsWarnings& operator=(const ErrorsAsWarnings&) = delete;
 
@@ -53,36 +52,35 @@ class UrdfSource {
     UrdfSource& source_;
     bool before_;
   };
-  std::size_t softened() const { return softened_; }  // faults that became warnings so far
-
-  // Throws InputError with all faults, in the order of their lines; returns if there is none.
+  std::size_t downgraded() const {
+    return downgraded_;
+  }  // errors that became warnings so far  Throws InputError with all errors in the order of their
+     // lines, if there are any.
   void check();
   std::vector<Diagnostic> warnings() const;  // in the order of their lines
 
-  // `fallback` is taken where the attribute is missing; without one, a missing attribute is a
-  // fault.
+  // `fallback` is used if the attribute is missing; without it, a missing attribute is an error.
   std::optional<double> number(const tinyxml2::XMLElement& element, const char* attribute,
                                const std::string& where,
                                std::optional<double> fallback = std::nullopt);
-  // The same, but "inf" and "-inf" are numbers too.
+  // Also accepts "inf" and "-inf".
   std::optional<double> bound(const tinyxml2::XMLElement& element, const char* attribute,
                               const std::string& where, double fallback);
-  // A number that must be greater than zero.
+  // A number > 0.
   std::optional<double> positive(const tinyxml2::XMLElement& element, const char* attribute,
                                  const std::string& where);
   std::optional<std::vector<double>> numbers(const tinyxml2::XMLElement& element,
                                              const char* attribute, const std::string& where,
                                              std::size_t count);
-  // Three numbers; `fallback` as above.
   std::optional<Vector3> vector3(const tinyxml2::XMLElement& element, const char* attribute,
                                  const std::string& where,
                                  std::optional<Vector3> fallback = std::nullopt);
-  // Empty, with a fault, where the attribute is missing or empty.
+  // Empty, with an error, if the attribute is missing or empty.
   std::string text(const tinyxml2::XMLElement& element, const char* attribute,
                    const std::string& where);
-  // The <origin> inside `parent`; identity where there is none.
+  // The <origin> in `parent`; default: identity.
   Origin origin(const tinyxml2::XMLElement& parent, const std::string& where);
-  // More than one of what there can be only one of is a fault: which would count?
+  // More than one child of this name is an error.
   void at_most_one(const tinyxml2::XMLElement& parent, const char* name, const std::string& where);
 
  private:
@@ -95,8 +93,8 @@ class UrdfSource {
   RobotFileOptions options_;
   std::vector<Diagnostic> faults_, warnings_;
   std::map<std::string, Kind> kinds_;
-  bool soft_ = false;
-  std::size_t softened_ = 0;
+  bool downgrade_ = false;
+  std::size_t downgraded_ = 0;
 };
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// A few free bodies and obstacles, made in a line each.
+// A scene of free bodies and obstacles.
 #pragma once
 
 #include <memory>
@@ -12,6 +12,10 @@
 #include "solver/stepping/simulation.h"
 
 namespace twinarm::testing {
+
+inline ContactSurface rough_surface(double friction, double restitution) {
+  return {.friction = friction, .restitution = restitution};
+}
 
 class ContactScene {
  public:
@@ -38,7 +42,7 @@ class ContactScene {
   }
   void floor(const ContactSurface& surface) { obstacle(HalfSpace{}, surface); }
 
-  // After the last of the above.
+  // Call after adding all bodies.
   Simulation& begin(const SimulationOptions& options = {}) {
     model_ = std::make_unique<Model<double>>(builder_.build());
     State<double> x(*model_);

@@ -6,7 +6,7 @@
 
 namespace twinarm::testing {
 
-// e of  c v - ln(1 + c v) = -c e v - ln(1 - c e v), for cv = c v > 0; by bisection.
+// Restitution e of  c v - ln(1 + c v) = -c e v - ln(1 - c e v), for cv = c v > 0; by bisection.
 inline double hunt_crossley_restitution(double cv) {
   const double before = cv - std::log1p(cv);
   double low = 0, high = std::fmin(1.0, 1 / cv);

@@ -1,4 +1,4 @@
-// The compliant response: springs and bristles in place of rigid surfaces, at any stiffness.
+// Compliant contact: Hunt-Crossley springs and bristle friction at any stiffness.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -15,14 +15,14 @@ namespace {
 
 ContactSurface soft(double stiffness, double friction) {
   ContactSurface s;
-  s.stiffness = 2 * stiffness;  // two alike in series
+  s.stiffness = 2 * stiffness;  // two equal surfaces in series
   s.friction = friction;
   return s;
 }
 
 }  // namespace
 
-TEST_CASE("a ball rests m g / k deep, whatever the stiffness") {
+TEST_CASE("a sphere at rest has the penetration depth m g / k at any stiffness") {
   for (const double k : {1e3, 1e5, 1e8, 1e11}) {
     CAPTURE(k);
     ContactScene scene(ContactResponse::compliant);
@@ -36,8 +36,7 @@ TEST_CASE("a ball rests m g / k deep, whatever the stiffness") {
   }
 }
 
-TEST_CASE(
-    "a block on a slope of 30 degrees sticks without creeping, or slides with g (sin - mu cos)") {
+TEST_CASE("a block on a 30 degree slope sticks without creep, or slides with g (sin - mu cos)") {
   for (const double mu : {0.6, 0.5}) {
     CAPTURE(mu);
     ContactScene scene(ContactResponse::compliant);
@@ -57,7 +56,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("two springs in series: the soft one decides, and two alike are half as stiff as one") {
+TEST_CASE("two springs in series: the soft one dominates, two equal ones have half the stiffness") {
   const Compliance steel{1e12, 5}, rubber{1e4, 0.3};
   CHECK(in_series(steel, rubber).stiffness == doctest::Approx(1e4).epsilon(1e-7));
   CHECK(in_series(steel, rubber).dissipation == doctest::Approx(0.3).epsilon(1e-6));
@@ -66,7 +65,8 @@ TEST_CASE("two springs in series: the soft one decides, and two alike are half a
   CHECK(in_series(rubber, rubber).dissipation == doctest::Approx(0.3).epsilon(1e-15));
 }
 
-TEST_CASE("a compliant impact nears Hunt and Crossley's restitution in first order of the step") {
+TEST_CASE(
+    "a compliant impact converges to Hunt and Crossley's restitution with order 1 in the step") {
   for (const double cv : {0.1, 0.5, 1.0, 3.0}) {
     CAPTURE(cv);
     const double exact = hunt_crossley_restitution(cv);
@@ -98,7 +98,7 @@ TEST_CASE("Hunt and Crossley's restitution is 1 - (2/3) c v to first order, 0.59
   CHECK(hunt_crossley_restitution(1) == doctest::Approx(0.59362).epsilon(1e-5));
 }
 
-TEST_CASE("a surface without stiffness, or of one that is no number, is refused") {
+TEST_CASE("a surface with zero or undefined stiffness is rejected") {
   for (const auto& [stiffness, dissipation] :
        {std::pair{0.0, 1.0}, {-1.0, 1.0}, {INFINITY, 1.0}, {1e6, -1.0}, {1e6, NAN}}) {
     ContactScene scene(ContactResponse::compliant);
@@ -110,7 +110,7 @@ TEST_CASE("a surface without stiffness, or of one that is no number, is refused"
   }
 }
 
-TEST_CASE("no bounce is higher than the one before") {
+TEST_CASE("the height of bounces never increases") {
   for (const double k : {1e4, 1e6}) {
     ContactScene scene(ContactResponse::compliant);
     scene.floor(soft(k, 0));
@@ -120,7 +120,7 @@ TEST_CASE("no bounce is higher than the one before") {
     for (int n = 0; n < 4000; ++n) {
       scene.run(1e-3, 1);
       const double v = scene.velocity(ball).z();
-      if (before > 1e-6 && v <= 0) {  // at rest it trembles by rounding
+      if (before > 1e-6 && v <= 0) {  // at rest up to rounding
         CHECK(scene.position(ball).z() < top);
         top = scene.position(ball).z();
       }

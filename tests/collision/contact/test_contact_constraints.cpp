@@ -1,4 +1,4 @@
-// Rigid contact as a whole: laws that hold for every run, and a few closed forms.
+// Rigid contact: properties of every run, and closed forms.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -15,13 +15,6 @@ using namespace twinarm::testing;
 
 namespace {
 
-ContactSurface surface(double friction, double restitution) {
-  ContactSurface s;
-  s.friction = friction;
-  s.restitution = restitution;
-  return s;
-}
-
 Shape random_shape(Random& random) {
   const double r = random.uniform(0.05, 0.15);
   switch (random.integer(0, 3)) {
@@ -36,7 +29,7 @@ Shape random_shape(Random& random) {
   }
 }
 
-// Bodies thrown at one another, without gravity where `floating`, else onto a floor.
+// Bodies with random velocities, without gravity if `floating`, else above a floor.
 ContactScene thrown_together(unsigned seed, bool floating) {
   Random random(seed);
   ContactScene scene;
@@ -47,10 +40,10 @@ ContactScene thrown_together(unsigned seed, bool floating) {
     const Vector3 p(0.45 * (i % 2) - 0.2, 0.45 * (i / 2) - 0.2, 0.4 + 0.1 * i);
     const Vector3 to_middle = floating ? Vector3(-2 * p + Vector3(0, 0, 0.8)) : Vector3(0, 0, -1);
     scene.body(random_shape(random), std::pow(100.0, random.uniform(0, 1)),
-               surface(mu, std::sqrt(e)),
+               rough_surface(mu, std::sqrt(e)),
                {p, to_middle + random.vector(0.3), random.vector(3), random.rotation()});
   }
-  if (!floating) scene.floor(surface(mu, std::sqrt(e)));
+  if (!floating) scene.floor(rough_surface(mu, std::sqrt(e)));
   scene.begin();
   return scene;
 }
@@ -63,11 +56,11 @@ Force<double> momentum_of(const Simulation& simulation) {
 
 }  // namespace
 
-// In this run four points of one face have gaps that differ by tenths of a nanometre, and the face
-// is loaded by spin: which point lets go decides how the others share the load.
+// Four points of one face have gaps that differ by tenths of a nanometre under a load by spin; the
+// point that opens determines the load of the others.
 constexpr unsigned hard_seed = 527;
 
-TEST_CASE("a face of which one point lets go by less than a micrometre a second obeys its laws") {
+TEST_CASE("a face with one point that opens at less than 1 um/s obeys the contact laws") {
   ContactScene scene = thrown_together(hard_seed, hard_seed % 2 == 0);
   double worst_residual = 0;
   for (int n = 0; n < 150; ++n) {
@@ -77,7 +70,7 @@ TEST_CASE("a face of which one point lets go by less than a micrometre a second 
   CHECK(worst_residual <= 1e-8);
 }
 
-TEST_CASE("1000 random runs: cones are obeyed, and no contact does positive work") {
+TEST_CASE("1000 random runs: friction cones are obeyed, and no contact does positive work") {
   double worst_residual = 0, max_work = 0;
   int unsolved = 0;
   for (unsigned seed = 0; seed < 1000; ++seed) {
@@ -101,12 +94,12 @@ TEST_CASE("1000 random runs: cones are obeyed, and no contact does positive work
   CHECK(max_work < 1e-9);
 }
 
-TEST_CASE("bodies that meet in space keep their momentum") {
+TEST_CASE("momentum is conserved in collisions of free bodies") {
   double worst = 0;
   for (unsigned seed = 0; seed < 200; seed += 2) {
     ContactScene scene = thrown_together(seed, true);
     const Force<double> before = momentum_of(scene.simulation());
-    double size = 0;  // of the momenta that could have been exchanged
+    double size = 0;  // scale: exchanged momenta
     for (std::size_t i = 1; i < scene.simulation().mechanism().model.parent.size(); ++i)
       size +=
           scene.simulation().mechanism().model.I[i].m * scene.velocity(static_cast<int>(i)).norm();
@@ -117,12 +110,12 @@ TEST_CASE("bodies that meet in space keep their momentum") {
   CHECK(worst < 1e-12);
 }
 
-TEST_CASE("a ball of 10 mm at 50 m/s does not pass a plate of 5 mm") {
+TEST_CASE("a sphere of 10 mm at 50 m/s does not tunnel through a plate of 5 mm") {
   for (const double offset : {0.0, 0.0031, 0.0497}) {
     ContactScene scene;
     scene.set_gravity(Vector3::Zero());
-    scene.obstacle(Box{{1, 1, 0.005}}, surface(0.3, 0));
-    const int ball = scene.body(Sphere{0.005}, 0.004, surface(0.3, 0),
+    scene.obstacle(Box{{1, 1, 0.005}}, rough_surface(0.3, 0));
+    const int ball = scene.body(Sphere{0.005}, 0.004, rough_surface(0.3, 0),
                                 {{0.01, 0.02, 0.5 + offset}, {0, 0, -50}});
     scene.begin();
     scene.run(1e-3, 100);
@@ -130,25 +123,25 @@ TEST_CASE("a ball of 10 mm at 50 m/s does not pass a plate of 5 mm") {
   }
 }
 
-TEST_CASE("bodies that start deep in one another part slowly, and lie still then") {
+TEST_CASE("deeply penetrating bodies separate slowly, and are then at rest") {
   ContactScene scene;
-  scene.floor(surface(0.5, 0));
-  const int box = scene.body(Box{{0.2, 0.2, 0.2}}, 1, surface(0.5, 0), {{0, 0, 0.04}});
+  scene.floor(rough_surface(0.5, 0));
+  const int box = scene.body(Box{{0.2, 0.2, 0.2}}, 1, rough_surface(0.5, 0), {{0, 0, 0.04}});
   scene.begin();
   double fastest = 0;
   for (int n = 0; n < 2000; ++n) {
     scene.run(1e-3, 1);
     fastest = std::max(fastest, scene.velocity(box).norm());
   }
-  CHECK(fastest < 1e-6);  // only its place changes
+  CHECK(fastest < 1e-6);  // position correction only
   CHECK(scene.position(box).z() == doctest::Approx(0.1).epsilon(1e-4));
 }
 
-TEST_CASE("a box on a belt is carried along, by friction up to mu m g") {
-  ContactScene scene;  // the belt: a floor of which the box does not know that it stands still
+TEST_CASE("a box on a belt is accelerated by friction up to mu m g") {
+  ContactScene scene;  // the belt: a floor with a surface velocity
   scene.set_gravity({9.81 * std::sin(0.2), 0, -9.81 * std::cos(0.2)});
-  scene.floor(surface(0.1, 0));
-  const int box = scene.body(Box{{0.2, 0.2, 0.2}}, 2, surface(0.1, 0), {{0, 0, 0.1}});
+  scene.floor(rough_surface(0.1, 0));
+  const int box = scene.body(Box{{0.2, 0.2, 0.2}}, 2, rough_surface(0.1, 0), {{0, 0, 0.1}});
   scene.begin();
   scene.run(1e-3, 1000);
   const double a = 9.81 * (std::sin(0.2) - 0.1 * std::cos(0.2));
@@ -159,11 +152,11 @@ TEST_CASE("a box on a belt is carried along, by friction up to mu m g") {
 }
 
 TEST_CASE(
-    "torsional friction stops a spinning box after w I / (mu_t m g), rolling friction a ball") {
-  ContactSurface rough = surface(0.5, 0);
+    "torsional friction stops a spinning box after w I / (mu_t m g), rolling friction a sphere") {
+  ContactSurface rough = rough_surface(0.5, 0);
   rough.torsional = 0.02;
   ContactScene top;
-  top.floor(surface(0, 0));
+  top.floor(rough_surface(0, 0));
   top.body(Sphere{0.1}, 1, rough, {{0, 0, 0.1}, {0, 0, 0}, {0, 0, 10}});
   top.begin();
   top.run(1e-3, 100);
@@ -171,7 +164,7 @@ TEST_CASE(
   CHECK(top.simulation().kinematics().w_WL[1].z() ==
         doctest::Approx(10 - 0.1 * alpha).epsilon(1e-6));
 
-  ContactSurface soft = surface(0.5, 0);
+  ContactSurface soft = rough_surface(0.5, 0);
   soft.rolling = 0.002;
   ContactScene ball;
   ball.floor(soft);
@@ -183,20 +176,20 @@ TEST_CASE(
         doctest::Approx(1 - 0.5 * 0.002 * 9.81 / (0.1 * 1.4)).epsilon(1e-5));
 }
 
-TEST_CASE("the same scene gives the same bits; a warm one takes nothing from the heap") {
+TEST_CASE("the same scene gives bit-identical results; a warm step does not allocate") {
   ContactScene a = thrown_together(17, false), b = thrown_together(17, false);
   a.run(1e-3, 700), b.run(1e-3, 700);
   CHECK(a.simulation().state().q == b.simulation().state().q);
   ContactScene boxes;
-  boxes.floor(surface(0.5, 0));
+  boxes.floor(rough_surface(0.5, 0));
   for (int i = 0; i < 5; ++i)
-    boxes.body(Box{{0.1, 0.1, 0.1}}, 1, surface(0.5, 0), {{0, 0, 0.05 + 0.101 * i}});
+    boxes.body(Box{{0.1, 0.1, 0.1}}, 1, rough_surface(0.5, 0), {{0, 0, 0.05 + 0.101 * i}});
   boxes.begin();
   boxes.run(1e-3, 200);
   CHECK(allocations_in([&] { boxes.run(1e-3, 100); }) == 0);
 }
 
-TEST_CASE("a step that is taken aside leaves the run as it was") {
+TEST_CASE("a side step does not change the run") {
   ContactScene a = thrown_together(5, false), b = thrown_together(5, false);
   a.run(1e-3, 300), b.run(1e-3, 300);
   (void)side_step(b.simulation(), 4e-4);
@@ -204,7 +197,7 @@ TEST_CASE("a step that is taken aside leaves the run as it was") {
   CHECK(a.simulation().state().q == b.simulation().state().q);
 }
 
-TEST_CASE("bad surfaces are all told at once") {
+TEST_CASE("all errors of a surface are reported at once") {
   const Model<double> empty = [] {
     ModelBuilder builder;
     builder.add_body("b", 0, "j", JointType::free, {}, Vector3::UnitZ(),
@@ -212,7 +205,7 @@ TEST_CASE("bad surfaces are all told at once") {
     return builder.build();
   }();
   ContactConstraints contacts(empty, ContactResponse::rigid);
-  ContactGeometry bad{"bad", 7, {}, Sphere{0.1}, surface(-1, 2), 0};
+  ContactGeometry bad{"bad", 7, {}, Sphere{0.1}, rough_surface(-1, 2), 0};
   try {
     contacts.bodies().add(bad);
     FAIL("accepted");
@@ -222,7 +215,8 @@ TEST_CASE("bad surfaces are all told at once") {
 }
 
 TEST_CASE(
-    "a box between the tread of a mesh and a post rests there, also where it began a hair deep") {
+    "a box between the tread of a mesh and a post rests there, also with a small initial "
+    "penetration") {
   for (const double deep : {1e-8, 1e-7, 1e-6}) {
     CAPTURE(deep);
     ContactScene scene;

@@ -1,4 +1,4 @@
-// The contact law on carriages whose motion is known: rest, impact, sliding, sticking.
+// Hunt-Crossley contact of carriages with known motion: rest, impact, sliding, sticking.
 #include "collision/contact/contact_force.h"
 
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMass = 2, kGravity = 9.81, kStep = 1e-3, kHalf = 0.1;
 
-// A block with sides of 0.2 m on slides along x and z (both, or z alone), above a fixed floor.
+// A block with sides of 0.2 m on slides along x and z (or z only) above a fixed floor.
 struct Block {
   Model<double> model;
   ContactForce contact;
@@ -73,7 +73,8 @@ struct Block {
 
 }  // namespace
 
-TEST_CASE("a block at rest presses with m g and sinks m g / (k points), k from 1e5 to 1e9") {
+TEST_CASE(
+    "a block at rest has the normal force m g and depth m g / (k points), k from 1e5 to 1e9") {
   for (const bool half_space : {true, false})
     for (const double k : {1e5, 1e6, 1e7, 1e8, 1e9}) {
       CAPTURE(half_space);
@@ -83,7 +84,7 @@ TEST_CASE("a block at rest presses with m g and sinks m g / (k points), k from 1
       const auto points = static_cast<double>(block.pressing());
       CHECK(points >= 3);
       CHECK(block.normal_force() == doctest::Approx(kMass * kGravity).epsilon(1e-9));
-      // To the rounding of a depth found between faces that stand 0.1 m off the origin.
+      // Within the rounding of a depth between faces 0.1 m from the origin.
       CHECK(std::abs(-block.z() - kMass * kGravity / (k * points)) < 1e-15 + 1e-9 * -block.z());
       CHECK(std::abs(block.vz()) < 1e-9);
       for (const ContactReading& reading : block.contact.readings()) {
@@ -93,7 +94,7 @@ TEST_CASE("a block at rest presses with m g and sinks m g / (k points), k from 1
     }
 }
 
-TEST_CASE("a block dropped at 3 m/s enters less than 0.5 mm at k = 1e8 and gains no energy") {
+TEST_CASE("a block dropped at 3 m/s penetrates less than 0.5 mm at k = 1e8 and gains no energy") {
   for (const bool half_space : {true, false})
     for (const double dissipation : {0.0, 0.3, 1.0, 3.0})
       for (const double height : {0.0, 1e-4, 0.0017, 0.003, 0.01}) {
@@ -119,10 +120,10 @@ TEST_CASE("a block dropped at 3 m/s enters less than 0.5 mm at k = 1e8 and gains
       }
 }
 
-TEST_CASE("the restitution of an impact is that of Hunt and Crossley's law, to 2e-3") {
+TEST_CASE("the restitution of an impact agrees with Hunt and Crossley's law to 2e-3") {
   for (const double v : {0.1, 0.5, 1.0, 3.0}) {  // c = 1 s/m
     CAPTURE(v);
-    Block block(false, true, {1e13, 1, 0, 1e-3}, 0, 0, -v);  // so short that gravity does nothing
+    Block block(false, true, {1e13, 1, 0, 1e-3}, 0, 0, -v);  // so short that gravity is negligible
     for (int n = 0; n < 60000 && (block.vz() < 0 || block.normal_force() > 0); ++n)
       REQUIRE_UNARY(block.simulation.step(1e-10).finite);
     CHECK(block.normal_force() == 0);
@@ -130,11 +131,11 @@ TEST_CASE("the restitution of an impact is that of Hunt and Crossley's law, to 2
   }
 }
 
-TEST_CASE("a block that slides is slowed by mu g, to 1 percent, and then stays where it stopped") {
+TEST_CASE("a sliding block decelerates with mu g, to 1 percent, and then stays at rest") {
   for (const double mu : {0.1, 0.3, 0.8}) {
     CAPTURE(mu);
     Block block(true, false, {1e7, 1, mu, 1e-3}, 0, 2, 0);
-    for (int n = 0; n < 50; ++n) block.simulation.step(kStep);  // until it lies
+    for (int n = 0; n < 50; ++n) block.simulation.step(kStep);  // until it is at rest
     const double v0 = block.vx();
     for (int n = 0; n < 100; ++n) block.simulation.step(kStep);
     const double slowed = (v0 - block.vx()) / 0.1;
@@ -160,7 +161,7 @@ struct Push final : ForceSource {
 
 }  // namespace
 
-TEST_CASE("a block pushed below the friction cone creeps as the law says, above it is driven off") {
+TEST_CASE("a block pushed inside the friction cone creeps as predicted, outside it accelerates") {
   const double mu = 0.5, N = kMass * kGravity, v_s = 1e-3;
   for (const double part : {0.3, 0.9, 1.2}) {
     CAPTURE(part);
@@ -176,7 +177,7 @@ TEST_CASE("a block pushed below the friction cone creeps as the law says, above 
   }
 }
 
-TEST_CASE("a block that touches nothing feels nothing: it falls as if there were no floor") {
+TEST_CASE("a block without contact falls freely") {
   Block block(true, false, {1e8, 1, 0.3, 1e-3}, 5, 1, 0);
   for (int n = 0; n < 500; ++n) {
     block.simulation.step(kStep);
@@ -188,20 +189,20 @@ TEST_CASE("a block that touches nothing feels nothing: it falls as if there were
   CHECK(block.contact.needs_semi_implicit());
 }
 
-TEST_CASE("a block that moves away from the floor is not held back") {
-  Block block(false, true, {1e8, 1, 0.3, 1e-3}, -1e-6, 0, 3);  // a little inside, leaving fast
+TEST_CASE("a block that moves away from the floor has no contact force") {
+  Block block(false, true, {1e8, 1, 0.3, 1e-3}, -1e-6, 0, 3);  // small penetration, separating
   block.simulation.step(kStep);
   CHECK(block.vz() == doctest::Approx(3 - kGravity * kStep).epsilon(1e-9));
 }
 
-TEST_CASE("a force that needs rounds and a constraint refuse each other, whichever comes first") {
+TEST_CASE("an iterated force and a constraint exclude each other, in any order") {
   const ContactLaw law;
   Block block(false, true, law, 0.05, 0, 0);
   JointLimits limits(block.model);
   limits.add(block.model.find_body("block"), -1, 1);
   CHECK_THROWS_WITH_AS(block.simulation.add(limits), doctest::Contains("one round"),
                        std::invalid_argument);
-  // What was refused is not there: the step is the one without limits, and finds its rounds.
+  // The rejected source was not added.
   int most = 0;
   for (int n = 0; n < 400; ++n) most = std::max(most, block.simulation.step(kStep).rounds);
   CHECK(most > 1);

@@ -1,4 +1,4 @@
-// Steps that locate impacts, and the ends of sliding and rest, in time
+// Event-driven steps: impacts and ends of sliding and sticking, located in time
 // (solver/stepping/event_driven_step.h).
 #include <doctest/doctest.h>
 #include <cmath>
@@ -31,7 +31,7 @@ int falling_ball(ContactScene& scene, double restitution, const SimulationOption
   return ball;
 }
 
-// Height over the floor and speed of a ball that falls from 1 m, at t; before its last impact.
+// Height over the floor and speed of a sphere that falls from 1 m, at t; before its last impact.
 struct Flight {
   double z, v;
 };
@@ -50,7 +50,7 @@ void run_well(Simulation& simulation, double duration, double h) {
 
 }  // namespace
 
-TEST_CASE("event steps: a bouncing ball is where it should be, whatever the step") {
+TEST_CASE("event steps: a bouncing sphere agrees with the closed form at any step size") {
   for (const double h : {0.001, 0.07, 0.7})
     for (const double e : {0.5, 0.8, 1.0}) {
       CAPTURE(h);
@@ -68,7 +68,7 @@ TEST_CASE("event steps: a bouncing ball is where it should be, whatever the step
     }
 }
 
-TEST_CASE("event steps: sliding ends where friction says, to 1e-9") {
+TEST_CASE("event steps: the end of sliding is located to 1e-9") {
   ContactScene scene;
   scene.set_gravity({0, 0, -kG});
   scene.floor(rubbing(0.4));
@@ -86,21 +86,21 @@ TEST_CASE("event steps: sliding ends where friction says, to 1e-9") {
   CHECK(std::abs(work.normal) + std::abs(work.impact) < 1e-9);
 }
 
-TEST_CASE("event steps: a ball that slides begins to roll, and loses 2/7 of its energy") {
+TEST_CASE("event steps: a sliding sphere begins to roll, and loses 2/7 of its energy") {
   ContactScene scene;
   scene.set_gravity({0, 0, -kG});
   scene.floor(rubbing(0.2));
   const int ball = scene.body(Sphere{kEventBall}, 1, rubbing(0.2), {{0, 0, kEventBall}, {2, 0, 0}});
   scene.begin().locate_events();
   run_well(scene.simulation(), 1, 0.05);
-  const double t = 2 * 2 / (7 * 0.2 * kG);  // when the sliding ends
+  const double t = 2 * 2 / (7 * 0.2 * kG);  // end of sliding
   const double x = 2 * t - 0.1 * kG * t * t + 10 / 7.0 * (1 - t);
   CHECK(std::abs(scene.velocity(ball).x() - 10 / 7.0) < 1e-9);
   CHECK(std::abs(scene.position(ball).x() - x) < 1e-9);
   CHECK(scene.contacts().work()[0].friction == doctest::Approx(-2 * 2 / 7.0).epsilon(1e-8));
 }
 
-TEST_CASE("event steps: a hinge falls onto its limit, stops there, and is held by the torque") {
+TEST_CASE("event steps: a pendulum falls onto its joint limit, stops, and is held by the torque") {
   ModelBuilder builder;
   builder.set_gravity({0, 0, -kG});
   builder.add_body("arm", 0, "joint", JointType::revolute, {}, Vector3::UnitY(),
@@ -116,11 +116,11 @@ TEST_CASE("event steps: a hinge falls onto its limit, stops there, and is held b
   CHECK(std::abs(simulation.state().q[0] - 0.5) < 1e-9);
   CHECK(std::abs(simulation.state().qd[0]) < 1e-9);
   CHECK(limits.limits()[0].force == doctest::Approx(-2 * kG * 0.3 * std::cos(0.5)).epsilon(1e-9));
-  // it takes all that gravity has given
+  // all of the potential energy is lost
   CHECK(limits.limits()[0].work == doctest::Approx(-2 * kG * 0.3 * std::sin(0.5)).epsilon(1e-9));
 }
 
-TEST_CASE("event steps: a ball that rolls in a bowl keeps its energy, whatever the step") {
+TEST_CASE("event steps: a sphere that rolls in a bowl keeps its energy at any step size") {
   for (const double h : {0.001, 0.2}) {
     CAPTURE(h);
     ContactScene scene;
@@ -134,7 +134,7 @@ TEST_CASE("event steps: a ball that rolls in a bowl keeps its energy, whatever t
   }
 }
 
-TEST_CASE("event steps: a step that is looked at beforehand changes nothing, and comes true") {
+TEST_CASE("event steps: a trial step changes nothing, and predicts the next step") {
   ContactScene scene;
   falling_ball(scene, 0.8);
   run_well(scene.simulation(), 1, 0.1);
@@ -147,7 +147,7 @@ TEST_CASE("event steps: a step that is looked at beforehand changes nothing, and
             .norm() < 1e-9);
 }
 
-TEST_CASE("event steps: nothing is taken from the heap once they are warm") {
+TEST_CASE("event steps: no allocation when warm") {
   ContactScene scene;
   scene.set_gravity({0, 0, -kG});
   scene.floor(rubbing(0.3, 0.9));
@@ -161,9 +161,9 @@ TEST_CASE("event steps: nothing is taken from the heap once they are warm") {
         }) == 0);
 }
 
-// EventSource::kGapRate: without it a gap would stay as it is, and what integration leaves would
-// add up (8.8e-12 m after a minute here, 6.6e-13 m with it).
-TEST_CASE("event steps: what is held a hair apart comes together, and rolls on along its ground") {
+// EventSource::kGapRate: without it gaps would accumulate the integration error (8.8e-12 m after a
+// minute here, 6.6e-13 m with it).
+TEST_CASE("event steps: a held contact with a small gap closes, and rolls on along the ground") {
   ContactScene scene;
   scene.set_gravity({0, 0, -kG});
   scene.obstacle(SphericalCavity{1}, rubbing(1));
@@ -179,7 +179,7 @@ TEST_CASE("event steps: what is held a hair apart comes together, and rolls on a
   CHECK(std::abs(gap()) < 3e-12);
 }
 
-TEST_CASE("event steps: of too many events the rest is one step of fixed size, and it is said") {
+TEST_CASE("event steps: with too many events the rest is one fixed step, and this is reported") {
   ContactScene scene;
   scene.set_gravity({0, 0, -kG});
   scene.floor(rubbing(0, 0.997));
@@ -197,7 +197,7 @@ TEST_CASE("event steps: of too many events the rest is one step of fixed size, a
   for (int n = 0; n < 5; ++n) CHECK(scene.simulation().step(0.1).ok());  // located again
 }
 
-TEST_CASE("event steps: an interrupted step ends at once, at a place from which it can go on") {
+TEST_CASE("event steps: an interrupted step ends at once in a valid state") {
   static int asked;
   ContactScene whole, parted;
   const int ball = falling_ball(whole, 0.8);
@@ -218,7 +218,7 @@ TEST_CASE("event steps: an interrupted step ends at once, at a place from which 
   CHECK((parted.velocity(ball) - whole.velocity(ball)).norm() < 1e-9);
 }
 
-TEST_CASE("event steps: what is implicit in the step is refused, whichever comes first") {
+TEST_CASE("event steps: implicit forces are rejected, in any order") {
   struct Implicit final : ForceSource {
     void add_forces(const State<double>&, const Kinematics&, Forces<double>&) noexcept override {}
     bool needs_semi_implicit() const override { return true; }

@@ -1,4 +1,4 @@
-// Two geometries and what detection says of them.
+// Two geometries and their contacts.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -33,7 +33,7 @@ struct PairScene {
     return *std::max_element(contacts.begin(), contacts.end(),
                              [](const Contact& x, const Contact& y) { return x.depth < y.depth; });
   }
-  // Far below 0 where nothing touches.
+  // Far below 0 without contact.
   double depth() const { return contacts.empty() ? -1e300 : deepest().depth; }
   CollisionWorld world;
   std::vector<Contact> contacts;

@@ -1,4 +1,4 @@
-// Manifolds in known places, order, filters, faults, and two bodies on a floor.
+// Known manifolds, order, filters, errors, and two bodies on a floor.
 #include "collision/detection/collision_world.h"
 
 #include <doctest/doctest.h>
@@ -32,7 +32,8 @@ std::vector<Shape> things_to_put_down() {
 
 }  // namespace
 
-TEST_CASE("a box flat on a larger box or hull touches at its 4 corners, at the right depth") {
+TEST_CASE(
+    "a box flat on a larger box or hull has 4 contact points at its vertices, at the right depth") {
   const Vector3 size(0.2, 0.14, 0.1), table_size(1, 1, 0.2);
   const std::vector<Vector3> corners = box_mesh(table_size).vertices;
   Random random(9);
@@ -48,7 +49,7 @@ TEST_CASE("a box flat on a larger box or hull touches at its 4 corners, at the r
       for (const Contact& c : contacts) {
         CHECK(std::abs(c.depth - depth) < 1e-9);
         CHECK((c.n_W - Vector3::UnitZ()).norm() < 1e-9);
-        const Vector3 p = X.inverse() * c.p_WC;  // in the box: at a corner of its lower face
+        const Vector3 p = X.inverse() * c.p_WC;  // in the box: at a vertex of its lower face
         CHECK(std::abs(std::abs(p.x()) - 0.1) < 1e-9);
         CHECK(std::abs(std::abs(p.y()) - 0.07) < 1e-9);
         CHECK(std::abs(p.z() - (-0.05 + depth / 2)) < 1e-9);
@@ -59,7 +60,7 @@ TEST_CASE("a box flat on a larger box or hull touches at its 4 corners, at the r
   }
 }
 
-TEST_CASE("box on box, a tilt of a millionth neither loses corners nor turns the normal") {
+TEST_CASE("box on box: a tilt of 1e-6 neither loses vertices nor rotates the normal") {
   Random random(10);
   for (int k = 0; k < 2000; ++k) {
     const Matrix3 tilt = turn(1e-6, Vector3(random.uniform(-1, 1), random.uniform(-1, 1), 0));
@@ -73,8 +74,8 @@ TEST_CASE("box on box, a tilt of a millionth neither loses corners nor turns the
   }
 }
 
-TEST_CASE("crossing edges of two boxes touch in one deepest point, where they cross") {
-  // A's upper edge along x and B's lower edge along y, both boxes standing on an edge.
+TEST_CASE("crossing edges of two boxes have one contact point, at the crossing") {
+  // A's upper edge along x and B's lower edge along y, both boxes on an edge.
   const double half_diagonal = 0.1 * std::sqrt(2), depth = 1e-3;
   const Pose X_WA{turn(M_PI / 4, Vector3::UnitX()), Vector3::Zero()};
   const Pose X_WB{turn(M_PI / 4, Vector3::UnitY()), {0.02, 0.03, 2 * half_diagonal - depth}};
@@ -85,7 +86,7 @@ TEST_CASE("crossing edges of two boxes touch in one deepest point, where they cr
   CHECK((contacts[0].p_WC - Vector3(0.02, 0, half_diagonal - depth / 2)).norm() < 1e-9);
 }
 
-TEST_CASE("lying and standing cylinders and capsules touch along what touches") {
+TEST_CASE("lying and upright cylinders and capsules have the expected contact points") {
   const Box table{{1, 1, 0.2}};
   const Matrix3 lying = turn(M_PI / 2, Vector3::UnitX());
   struct Case {
@@ -121,7 +122,7 @@ TEST_CASE("lying and standing cylinders and capsules touch along what touches") 
   }
 }
 
-TEST_CASE("of many corners the four that are kept span most of the face") {
+TEST_CASE("manifold reduction: the four points kept of many span most of the face") {
   std::vector<Vector3> prism;
   for (int k = 0; k < 64; ++k) {
     const double angle = 2 * M_PI * (k / 2) / 32;
@@ -140,9 +141,8 @@ TEST_CASE("of many corners the four that are kept span most of the face") {
       std::sort(round.begin(), round.end(),
                 [](const auto& x, const auto& y) { return x.first < y.first; });
       double area = 0;
-      for (int i = 0; i < 4; ++i) {
+      for (int i = 0; i < 4; ++i)
         area += 0.5 * round[i].second.cross(round[(i + 1) % 4].second).z();
-      }
       CHECK(area > 0.9 * 2 * 0.1 * 0.1);  // of the inscribed square
     }
   }
@@ -175,7 +175,7 @@ TEST_CASE("half-space: the depth is that of the lowest point, for every shape") 
   }
 }
 
-TEST_CASE("a box flat on a half-space has its 4 lower corners, and they keep their names") {
+TEST_CASE("a box flat on a half-space has its 4 lower vertices, with persistent features") {
   std::vector<Contact> before;
   for (int k = 0; k < 100; ++k) {
     const Pose X{turn(0.01 * k, Vector3(1e-4, 2e-4, 1)), {0.01 * k, 0, 0.05 - 1e-4}};
@@ -189,9 +189,9 @@ TEST_CASE("a box flat on a half-space has its 4 lower corners, and they keep the
   }
 }
 
-TEST_CASE("corners where sides cross have different names, which last while the box slides") {
+TEST_CASE("crossings of sides have different features, which persist while the box slides") {
   std::vector<Contact> before;
-  for (int k = 0; k < 50; ++k) {  // a box that hangs over the corner of another, turned
+  for (int k = 0; k < 50; ++k) {  // a rotated box over the corner of another
     const Pose X{turn(0.3 + 1e-3 * k, Vector3::UnitZ()), {0.45 + 1e-3 * k, 0.48, 0.15 - 1e-4}};
     const auto contacts = touch(Box{{1, 1, 0.2}}, origin, Box{{0.2, 0.14, 0.1}}, X);
     REQUIRE(contacts.size() == 4);
@@ -206,7 +206,6 @@ TEST_CASE("corners where sides cross have different names, which last while the 
   }
 }
 
-// Of few and of many: the broad phase has a way for either.
 static void check_pile(int count) {
   CollisionWorld world, again;
   Random random(14);
@@ -225,7 +224,7 @@ static void check_pile(int count) {
   CHECK(std::is_sorted(contacts.begin(), contacts.end(), [](const Contact& x, const Contact& y) {
     return std::tie(x.a, x.b, x.feature) < std::tie(y.a, y.b, y.feature);
   }));
-  // Another world with another past: its tree has another shape.
+  // Another world with a different history.
   std::vector<Pose> elsewhere = poses;
   for (Pose& X : elsewhere) X.p = 3 * random.direction();
   again.detect(elsewhere, 1e-3, repeated);
@@ -236,7 +235,7 @@ static void check_pile(int count) {
     CHECK(std::tie(x.a, x.b, x.feature, x.depth) == std::tie(y.a, y.b, y.feature, y.depth));
     CHECK((x.p_WC == y.p_WC && x.n_W == y.n_W));
   }
-  // Against asking all pairs one by one: the broad phase loses none.
+  // Against all pairs: the broad phase loses none.
   std::set<std::pair<int, int>> found, expected;
   for (const Contact& c : contacts) found.emplace(c.a, c.b);
   for (int a = 0; a < count; ++a) {
@@ -247,7 +246,8 @@ static void check_pile(int count) {
   CHECK(std::includes(found.begin(), found.end(), expected.begin(), expected.end()));
 }
 
-TEST_CASE("contacts of a pile come ordered, each pair once, the same bits whenever asked") {
+TEST_CASE(
+    "contacts of a pile are sorted, without duplicate pairs, and bit-identical at every call") {
   for (const int count : {40, 100}) check_pile(count);
 }
 
@@ -271,7 +271,7 @@ TEST_CASE("disabled pairs and groups do not collide") {
   CHECK(pairs().size() == 2);
 }
 
-TEST_CASE("what cannot be treated is refused when it is added, with all its faults") {
+TEST_CASE("unsupported geometries are rejected when added, with all errors") {
   CollisionWorld world;
   world.add({"floor", HalfSpace{}, 1});
   CHECK_THROWS_AS(world.add({"wall", HalfSpace{{1, 0, 0}, 0}, 1}), InputError);
@@ -288,7 +288,7 @@ TEST_CASE("what cannot be treated is refused when it is added, with all its faul
   }
 }
 
-TEST_CASE("a body that is nowhere has no contacts and disturbs no others") {
+TEST_CASE("a body with an undefined pose has no contacts and does not affect others") {
   CollisionWorld world;
   for (int i = 0; i < 3; ++i) world.add({"box", Box{{0.1, 0.1, 0.1}}, 0});
   std::vector<Pose> poses(3);

@@ -1,4 +1,4 @@
-// Laws that hold for every pair of registered shapes, in thousands of random poses.
+// Properties of every pair of registered shapes in thousands of random poses.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -74,7 +74,7 @@ void for_all_pairs(Visit visit) {
 
 }  // namespace
 
-TEST_CASE("every pair: contacts do not depend on where the world's origin is") {
+TEST_CASE("every pair: contacts do not depend on the world's origin") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(61);
     PairScene pair(a, b, kMargin);
@@ -103,7 +103,7 @@ TEST_CASE("every pair: contacts do not depend on where the world's origin is") {
   });
 }
 
-TEST_CASE("every pair: swapped roles give the same contacts with the normals turned round") {
+TEST_CASE("every pair: swapped roles give the same contacts with opposite normals") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(62);
     PairScene ab(a, b, kMargin), ba(b, a, kMargin);
@@ -161,7 +161,7 @@ TEST_CASE("every pair, along short motions: depths never jump and normals never 
   });
 }
 
-TEST_CASE("every pair: while a body slides along, the names of its contacts persist") {
+TEST_CASE("every pair: the features of contacts persist while a body slides") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(64);
     PairScene pair(a, b, kMargin);
@@ -183,11 +183,11 @@ TEST_CASE("every pair: while a body slides along, the names of its contacts pers
       }
     }
     CHECK(steps >= 1000);
-    CHECK(renamed <= steps / 200);  // where it passes an edge
+    CHECK(renamed <= steps / 200);  // at an edge
   });
 }
 
-TEST_CASE("every pair: a detection gives the same bits whatever was asked before") {
+TEST_CASE("every pair: detection is bit-identical whatever was queried before") {
   for_all_pairs([](const Shape& a, const Shape& b) {
     Random random(65);
     PairScene pair(a, b, kMargin);

@@ -1,4 +1,4 @@
-// Triangle meshes as obstacles: against the convex bodies that they enclose, and across seams.
+// Triangle meshes as obstacles: against convex bodies of the same shape, and across internal edges.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -47,7 +47,7 @@ std::vector<Shape> bodies() {
 
 }  // namespace
 
-TEST_CASE("a closed mesh of a box is touched as the box is, from outside, by every shape") {
+TEST_CASE("a closed mesh of a box has the contacts of the box, from outside, for every shape") {
   const Vector3 size(0.3, 0.25, 0.2);
   const MeshShape mesh{box_mesh(size)};
   for (const Shape& body : bodies()) {
@@ -61,9 +61,8 @@ TEST_CASE("a closed mesh of a box is touched as the box is, from outside, by eve
       const Pose X_WB = pushed_against(random, Box{size}, X_WA, body, random.uniform(-0.05, 5e-3));
       const double truth = with_box.world.distance(0, 1, X_WA, X_WB);
       if (truth < -1e-3) continue;
-      if (truth > 0) {
+      if (truth > 0)
         apart = std::max(apart, std::abs(with_mesh.world.distance(0, 1, X_WA, X_WB) - truth));
-      }
       with_box.touch(X_WA, X_WB);
       with_mesh.touch(X_WA, X_WB);
       if (with_box.contacts.empty() != with_mesh.contacts.empty()) ++missed;
@@ -84,14 +83,14 @@ TEST_CASE("a closed mesh of a box is touched as the box is, from outside, by eve
   }
 }
 
-TEST_CASE("a ball rolls over the seams of a flat mesh and feels one constant normal") {
+TEST_CASE("a sphere rolls over internal edges of a flat mesh with a constant normal") {
   for (const bool from_below : {false, true}) {
     PairScene scene(MeshShape{terrain(10, 1, [](double, double) { return 0.0; }), true},
                     Sphere{0.05});
     const double side = from_below ? -1 : 1;
     for (int k = 0; k < 2000; ++k) {
       const double x = -0.4 + 0.0004 * k,
-                   y = k % 2 == 0 ? 0.1 : 0.37 * x;  // along and across seams
+                   y = k % 2 == 0 ? 0.1 : 0.37 * x;  // along and across internal edges
       const double depth = k % 3 == 0 ? 1e-4 : -1e-4;
       scene.touch(origin, {Matrix3::Identity(), {x, y, side * (0.05 - depth)}});
       REQUIRE(scene.contacts.size() == 1);
@@ -103,7 +102,7 @@ TEST_CASE("a ball rolls over the seams of a flat mesh and feels one constant nor
   }
 }
 
-TEST_CASE("a box on a flat mesh of many triangles stands on its four corners") {
+TEST_CASE("a box on a flat mesh of many triangles has contacts at its four vertices") {
   Random random(53);
   PairScene scene(MeshShape{terrain(20, 1, [](double, double) { return 0.0; }), true},
                   Box{{0.2, 0.14, 0.1}});
@@ -122,7 +121,7 @@ TEST_CASE("a box on a flat mesh of many triangles stands on its four corners") {
   }
 }
 
-TEST_CASE("a ball in the corner of three planes of an open mesh touches all three") {
+TEST_CASE("a sphere in the corner of three planes of an open mesh touches all three") {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 1}};
@@ -137,7 +136,7 @@ TEST_CASE("a ball in the corner of three planes of an open mesh touches all thre
   CHECK((sum - Vector3::Ones()).norm() < 1e-9);
 }
 
-TEST_CASE("bad meshes are refused with what is wrong: empty, open, flipped, thin, in millimetres") {
+TEST_CASE("invalid meshes are rejected: empty, open, flipped, degenerate, in millimetres") {
   const auto says = [](const TriangleMesh& mesh, const char* text, bool is_open = false) {
     CAPTURE(text);
     CHECK(MeshShape{mesh, is_open}.fault().find(text) != std::string::npos);
@@ -156,7 +155,7 @@ TEST_CASE("bad meshes are refused with what is wrong: empty, open, flipped, thin
   says({}, "no triangles");
   says(open, "not closed");
   CHECK(MeshShape{open, true}.fault().empty());
-  says(inverted, "inside out");
+  says(inverted, "inverted");
   says(thin, "no area", true);
   says(wild, "corner 99");
   says(nowhere, "not finite");
@@ -166,8 +165,7 @@ TEST_CASE("bad meshes are refused with what is wrong: empty, open, flipped, thin
   CHECK_THROWS_AS(world.add({"b", MeshShape{good}, 0}), InputError);
 }
 
-TEST_CASE(
-    "whoever is near a mesh whose triangles have obtuse corners touches it, as near as it is") {
+TEST_CASE("distances to a mesh with obtuse triangles are those of its triangles") {
   const TriangleMesh step = step_mesh();
   REQUIRE(MeshShape{step}.fault().empty());
   const double margin = 0.02;
@@ -180,7 +178,7 @@ TEST_CASE(
       const Vector3 p(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
                       random.uniform(-0.15, 0.3));
       const Pose X_WB{random.rotation(), p};
-      // Of all triangles the nearest, and no rule about normals.
+      // The nearest of all triangles.
       const double distance = scene.world.distance(0, 1, origin, X_WB);
       const bool centre_is_outside = std::abs(p.y()) > 0.15 || std::abs(p.x()) > 0.15 ||
                                      p.z() < 0 || p.z() > (p.x() < 0 ? 0.12 : 0.05);

@@ -1,5 +1,5 @@
-// Bodies that hang over the edges of a mesh, or stand flush in its corners: how deep they are is
-// known from the convex parts of the mesh, and from where they were put.
+// Bodies over the edges of a mesh, or flush in its corners: depths from the convex parts of the
+// mesh.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +15,8 @@ using namespace twinarm::test;
 
 namespace {
 
-// Of a body that is hardly deep: the deepest of both parts, each by all differences of corners.
+// Depth of a slightly penetrating body: the deepest of both parts, from all differences of
+// vertices.
 double depth_in_step(const Shape& body, const Pose& X_WB) {
   double depth = -1e300;
   for (const CoupledTerm& part : step_parts())
@@ -23,7 +24,7 @@ double depth_in_step(const Shape& body, const Pose& X_WB) {
   return depth;
 }
 
-// A face of the step: outward normal, a point of it, and half its size along the other two axes.
+// A face of the step: outward normal, a point, half extents along the other two axes.
 struct StepFace {
   int axis;
   double sign;
@@ -56,8 +57,8 @@ Pose laid_against(Random& random, const StepFace& face, const Shape& body, doubl
 
 }  // namespace
 
-TEST_CASE("a box that hangs over the edge of a mesh is as deep as it rests, not as it hangs") {
-  struct Found {  // in long runs of shoved bodies
+TEST_CASE("a box over the edge of a mesh has the depth of its support, not of its overhang") {
+  struct Found {  // found in long runs of pushed bodies
     Vector3 size;
     Pose X;
   };
@@ -88,7 +89,7 @@ TEST_CASE("a box that hangs over the edge of a mesh is as deep as it rests, not 
   }
 }
 
-TEST_CASE("what lies a hair deep against a mesh is as deep as against the parts of the mesh") {
+TEST_CASE("a slightly penetrating body has the same depth in a mesh as in its convex parts") {
   for (const Shape& body : std::vector<Shape>{Box{{0.1, 0.08, 0.06}}, Box{{0.05, 0.16, 0.2}},
                                               Box{{0.4, 0.04, 0.04}}, Capsule{0.03, 0.1}}) {
     CAPTURE(shape_name(body));
@@ -114,10 +115,9 @@ TEST_CASE("what lies a hair deep against a mesh is as deep as against the parts 
   }
 }
 
-TEST_CASE("a box in the corner of a step, a hair deep in both sides, touches both") {
+TEST_CASE("a box in the corner of a step, slightly penetrating both sides, touches both") {
   Random random(78);
-  const Box box{
-      {0.1, 0.08, 0.14}};  // taller than the riser: it reaches over the upper tread's plane
+  const Box box{{0.1, 0.08, 0.14}};  // taller than the riser: above the upper tread's plane
   PairScene scene(MeshShape{step_mesh()}, box);
   for (int n = 0; n < 500; ++n) {
     const double in_riser = std::pow(10, random.uniform(-9, -5)),

@@ -37,7 +37,7 @@ bool has_curved(const Shape& a, const Shape& b) {
          is_ellipsoid(a) || is_ellipsoid(b);
 }
 
-// Largest departures over a run, to be compared once and shown.
+// Maximum deviations over a run.
 struct Worst {
   void see(double error) { value = std::max(value, std::isfinite(error) ? error : 1e300); }
   double value = 0;
@@ -94,7 +94,7 @@ TEST_CASE("capsule-capsule: distance and depth agree with a search over one cent
     const Pose X_WA = random_pose(random);
     const Pose X_WB = pushed_against(random, a, X_WA, b, random.uniform(-0.05, 0.02));
     const Vector3 p = X_WB * Vector3(0, 0, -0.15), q = X_WB * Vector3(0, 0, 0.15);
-    const auto from_b = [&](double z) {  // convex in z: a ternary search finds the minimum
+    const auto from_b = [&](double z) {  // convex in z: ternary search
       const Vector3 x = X_WA * Vector3(0, 0, z);
       const double t = std::clamp((x - p).dot(q - p) / (q - p).squaredNorm(), 0.0, 1.0);
       return (x - p - t * (q - p)).norm();
@@ -113,7 +113,7 @@ TEST_CASE("capsule-capsule: distance and depth agree with a search over one cent
   CHECK(depth.value < 1e-8);
 }
 
-TEST_CASE("cylinder pairs: distance agrees with a 48-gon prism, depth is an upper bound near it") {
+TEST_CASE("cylinder pairs: distance agrees with a 48-gon prism, depth is a close upper bound") {
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     if (!has_curved(a, b) || is_ellipsoid(a) || is_ellipsoid(b)) return;
     Random random(17);
@@ -138,7 +138,7 @@ TEST_CASE("cylinder pairs: distance agrees with a 48-gon prism, depth is an uppe
   });
 }
 
-TEST_CASE("moving b by the depth along the normal parts the bodies") {
+TEST_CASE("moving b by the depth along the normal separates the bodies") {
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     Random random(19);
     PairScene pair(a, b, kWideMargin);
@@ -162,7 +162,7 @@ TEST_CASE("moving b by the depth along the normal parts the bodies") {
   });
 }
 
-TEST_CASE("swapping the roles flips the normal and keeps depths and places") {
+TEST_CASE("swapping the roles flips the normal and keeps depths and points") {
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     Random random(23);
     PairScene ab(a, b, kWideMargin), ba(b, a, kWideMargin);
@@ -203,7 +203,7 @@ TEST_CASE("the depth changes by no more than the bodies move") {
   });
 }
 
-TEST_CASE("poses turned by exact right angles, touching, are no special case") {
+TEST_CASE("rotations by exact right angles, touching, are no special case") {
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     const bool round = core_vertices(a).size() + core_vertices(b).size() <= 4;
     if (has_curved(a, b) || round) return;
@@ -221,7 +221,8 @@ TEST_CASE("poses turned by exact right angles, touching, are no special case") {
   });
 }
 
-TEST_CASE("curved pairs: no direction, sampled and refined, has less overlap than the normal") {
+TEST_CASE(
+    "curved pairs: no direction, sampled and refined, has a smaller overlap than the normal") {
   for_bounded_pairs([](const Shape& a, const Shape& b) {
     if (!has_curved(a, b)) return;
     Random random(37);
@@ -242,9 +243,9 @@ TEST_CASE("curved pairs: no direction, sampled and refined, has less overlap tha
   });
 }
 
-// Each has a minimum next to the kink along an axis, or two of them side by side: these once came
-// out up to 3 mm too deep.
-TEST_CASE("cylinders deep in each other: found poses whose least overlap is hard to find") {
+// Each has a minimum next to the kink along an axis, or two adjacent minima: errors of up to 3 mm
+// in an earlier version.
+TEST_CASE("deeply overlapping cylinders: poses with a minimum that is hard to find") {
   struct Found {
     Shape b;
     Eigen::Quaterniond turn;

@@ -1,4 +1,4 @@
-// Detection takes nothing from the heap once its arrays have grown.
+// Detection does not allocate when warm.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -14,7 +14,7 @@ using namespace twinarm::test;
 
 namespace {
 
-// One of each kind that the variant has, and a second hull.
+// One shape of each type, and a second hull.
 std::vector<Shape> every_kind() {
   Random random(7);
   return {Sphere{0.06},
@@ -32,8 +32,7 @@ std::vector<Shape> every_kind() {
 
 }  // namespace
 
-TEST_CASE(
-    "no pair of shapes allocates in detection or distance, the second time through its poses") {
+TEST_CASE("detection and distance of all pairs of shapes do not allocate in the second pass") {
   const std::vector<Shape> shapes = every_kind();
   int pairs = 0;
   for (std::size_t i = 0; i < shapes.size(); ++i) {
@@ -72,7 +71,7 @@ TEST_CASE(
   CHECK(pairs > 80);
 }
 
-TEST_CASE("a crowd that moves through itself does not allocate in detection once warm") {
+TEST_CASE("detection of many moving bodies does not allocate when warm") {
   Random random(47);
   CollisionWorld world;
   std::vector<Pose> start, now;

@@ -1,4 +1,4 @@
-// Ellipsoids, discs and rollers in known places; fast balls.
+// Ellipsoids, discs and cylinders: known contact points; fast spheres.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@
 using namespace twinarm;
 using namespace twinarm::test;
 
-TEST_CASE("an ellipsoid touches a half-space where its normal says: x = -Q n / sqrt(n' Q n)") {
+TEST_CASE("an ellipsoid touches a half-space at x = -Q n / sqrt(n' Q n)") {
   Random random(41);
   const Ellipsoid e{{0.2, 0.03, 0.02}};
   PairScene scene(HalfSpace{}, e);
@@ -34,7 +34,7 @@ TEST_CASE("an ellipsoid touches a half-space where its normal says: x = -Q n / s
   CHECK(worst < 1e-15);
 }
 
-TEST_CASE("ellipsoids with equal semi-axes are spheres, against every shape") {
+TEST_CASE("ellipsoids with equal semi-axes equal spheres, against every shape") {
   Random random(42);
   const std::vector<Shape> others = {Sphere{0.06},        Box{{0.2, 0.14, 0.1}},
                                      Capsule{0.05, 0.2},  Cylinder{0.06, 0.15},
@@ -60,7 +60,7 @@ TEST_CASE("ellipsoids with equal semi-axes are spheres, against every shape") {
   }
 }
 
-TEST_CASE("an ellipsoid's contact moves smoothly: its second differences are of second order") {
+TEST_CASE("an ellipsoid's contact point is smooth: second differences of order 2") {
   Random random(43);
   const Ellipsoid e{{0.11, 0.05, 0.03}};
   for (const Shape& table : {Shape(Box{{1, 1, 0.2}}), Shape(Ellipsoid{{0.5, 0.6, 0.1}}),
@@ -82,11 +82,11 @@ TEST_CASE("an ellipsoid's contact moves smoothly: its second differences are of 
       }
       roughest = std::max(roughest, (p[0] - 2 * p[1] + p[2]).norm() / (step * step));
     }
-    CHECK(roughest < 20);  // [m]: a few times the largest radius of curvature, 0.4 m
+    CHECK(roughest < 20);  // [m]: a few times the maximum radius of curvature, 0.4 m
   }
 }
 
-TEST_CASE("a coin on its rim touches at the lowest point of the rim, as it rolls once round") {
+TEST_CASE("a rolling coin on its rim touches at the lowest point of the rim") {
   const double radius = 0.0375, tilt = 10 * std::numbers::pi / 180;
   for (const double thickness : {1e-3, 1e-5}) {
     for (const double angle : {tilt, 0.12, 0.01, 1e-4}) {
@@ -116,19 +116,18 @@ TEST_CASE("a coin on its rim touches at the lowest point of the rim, as it rolls
                         (lowest.n_W - Vector3::UnitZ()).norm()});
           if (k > 0 && lowest.feature != name) ++renamed;
           name = lowest.feature;
-          // One point, unless the opposite side of the rim is in reach as well.
-          if (2 * radius * std::sin(angle) * 0.14 > 1.2e-5 && thickness > 1e-4) {
+          // One point, unless the opposite side of the rim is within the margin.
+          if (2 * radius * std::sin(angle) * 0.14 > 1.2e-5 && thickness > 1e-4)
             CHECK(scene.contacts.size() == 1);
-          }
         }
-        CHECK(worst < 2e-12 * (1e-2 / angle));  // the direction of the tilt is known to rounding
+        CHECK(worst < 2e-12 * (1e-2 / angle));  // rounding of the tilt's direction
         CHECK(renamed == 0);
       }
     }
   }
 }
 
-TEST_CASE("a flat coin stands on four points of its rim that turn with it") {
+TEST_CASE("a flat coin has four contact points on its rim that rotate with it") {
   for (const Shape& table : {Shape(HalfSpace{Vector3::UnitZ(), 0.1}), Shape(Box{{1, 1, 0.2}})}) {
     PairScene scene(table, Cylinder{0.0375, 1e-3});
     std::vector<Contact> before;
@@ -175,19 +174,19 @@ TEST_CASE("lying cylinders and capsules roll on two points at the ends of their 
   }
 }
 
-TEST_CASE("a fast ball sees a thin plate from its own side, before it gets there") {
+TEST_CASE("a fast sphere has a contact with a thin plate on its own side before it arrives") {
   CollisionWorld world;
   world.add({"plate", Box{{1, 1, 0.005}}, 0, true});
   world.add({"ball", Sphere{0.005}, 0});
   world.add({"far", Sphere{0.005}, 0});
-  const std::array margins{0.0, 50 * 1e-3, 1e-4};  // swept in 1 ms at 50 m/s
+  const std::array margins{0.0, 50 * 1e-3, 1e-4};  // displacement in 1 ms at 50 m/s
   for (const double side : {1.0, -1.0}) {
     const double gap = 0.04;
     const std::array<Pose, 3> X{origin, Pose{Matrix3::Identity(), {0.1, 0, side * (gap + 0.0075)}},
                                 Pose{Matrix3::Identity(), {-0.1, 0, side * (gap + 0.0075)}}};
     std::vector<Contact> contacts;
     world.detect(X, margins, contacts);
-    REQUIRE(contacts.size() == 1);  // the slow one has none
+    REQUIRE(contacts.size() == 1);  // none for the slow one
     CHECK(contacts[0].b == 1);
     CHECK((contacts[0].n_W - side * Vector3::UnitZ()).norm() < 1e-14);
     CHECK(std::abs(contacts[0].depth + gap) < 1e-14);

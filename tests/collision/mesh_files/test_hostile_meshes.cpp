@@ -1,5 +1,5 @@
-// Files of meshes that are broken, by accident or on purpose: each is read or refused, in time, and
-// nothing of the program breaks. TWINARM_MUTATIONS=500 tries more of them.
+// Broken mesh files: each is read or rejected, in time, without a crash. TWINARM_MUTATIONS=500
+// tries more of them.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -20,15 +20,15 @@
 namespace twinarm {
 namespace {
 
-// Of tetrahedron/, which has the same one in every format.
+// From tetrahedron/, the same mesh in every format.
 std::string good_file(const std::string& name) {
   return test_data("collision/mesh_files/tetrahedron/" + name);
 }
 const std::vector<std::string> kGoodFiles{"text.stl",  "bytes.stl", "t.obj",  "text.ply",
                                           "bytes.ply", "t.dae",     "t.gltf", "t.glb"};
 
-// Another number at a byte of the binary STL, which has the count of triangles at 80 and then, 12
-// bytes after the start of each, its corners.
+// Sets a number in the binary STL: the count of triangles at byte 80, then vertices 12 bytes after
+// the start of each triangle.
 template <class T>
 std::string stl_with(std::size_t at, T number) {
   std::string bytes = good_file("bytes.stl");
@@ -36,13 +36,12 @@ std::string stl_with(std::size_t at, T number) {
   return bytes;
 }
 
-// A second is a thousand times what these take.
+// A second is a thousand times the usual time.
 constexpr ChildLimits kShort{.cpu_seconds = 1, .bytes = std::size_t{2} << 30};
 
 enum class Outcome { read, refused };
 
-// The file is read, and then it is in order; or it is refused with a rule and a remedy. Whatever
-// else is thrown ends the test.
+// The file is read and valid, or rejected with a problem and a fix. Other exceptions end the test.
 Outcome try_file(const fs::path& file) {
   try {
     const ModelFile model = read_model(file, kShort);
@@ -91,7 +90,7 @@ std::string mutated(std::string bytes, std::mt19937& random) {
       case 4:
         for (std::size_t i = 0; i < length; ++i) bytes[at + i] = static_cast<char>(random());
         break;
-      default: {  // a number in a text, or what stands there
+      default: {  // a number in a text, or other characters
         const std::size_t digit = bytes.find_first_of("0123456789", at);
         bytes.replace(digit == std::string::npos ? at : digit, 1, numbers[below(numbers.size())]);
       }
@@ -107,7 +106,7 @@ int mutations() {
 
 }  // namespace
 
-TEST_CASE("hostile meshes: the files that are broken below are good before") {
+TEST_CASE("hostile meshes: the files are valid before mutation") {
   const TemporaryFolder folder;
   for (const std::string& name : kGoodFiles) {
     CAPTURE(name);
@@ -115,7 +114,7 @@ TEST_CASE("hostile meshes: the files that are broken below are good before") {
   }
 }
 
-TEST_CASE("hostile meshes: files that are broken at random are read or refused, all in time") {
+TEST_CASE("hostile meshes: randomly mutated files are read or rejected, all in time") {
   const TemporaryFolder folder;
   for (const std::string& name : kGoodFiles) {
     std::mt19937 random(7);
@@ -127,11 +126,11 @@ TEST_CASE("hostile meshes: files that are broken at random are read or refused, 
       refused += try_file(broken) == Outcome::refused;
     }
     CAPTURE(name);
-    CHECK(refused > mutations() / 10);  // they do break something
+    CHECK(refused > mutations() / 10);  // mutations have an effect
   }
 }
 
-TEST_CASE("hostile meshes: empty files, cut headers, counts without end, what is not a number") {
+TEST_CASE("hostile meshes: empty files, truncated headers, endless counts, invalid numbers") {
   const TemporaryFolder folder;
   const auto is_refused = [&](const std::string& file, const std::string& bytes) {
     CAPTURE(file);
@@ -153,27 +152,26 @@ TEST_CASE("hostile meshes: empty files, cut headers, counts without end, what is
       "property float z\nproperty float s\nproperty float t\nelement face 1\n"
       "property list uchar int vertex_indices\nend_header\n0 0 0 nan 0\n1 0 0 1 0\n0 1 0 0 1\n"
       "3 0 1 2\n");
-  is_refused("a.gltf",
-             replaced(good_file("t.gltf"), R"([{"mesh":0}])",
-                      R"([{"children":[1]},{"children":[0],"mesh":0}])"));  // round and round
+  is_refused("a.gltf", replaced(good_file("t.gltf"), R"([{"mesh":0}])",
+                                R"([{"children":[1]},{"children":[0],"mesh":0}])"));  // cyclic
   is_refused("a.dae", replaced(good_file("t.dae"), "<instance_geometry",
                                "<instance_node url=\"#m\"/><instance_geometry"));
   is_refused("a.stl", stl_with(84 + 12, HUGE_VALF));
 }
 
-TEST_CASE("hostile meshes: a triangle that names a corner that does not exist is never read") {
+TEST_CASE("hostile meshes: a triangle with an invalid vertex index is never read") {
   const TemporaryFolder folder;
   const std::string obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 99\n";
   CHECK(try_file(folder.write("a.obj", obj)) == Outcome::refused);
   for (const char* corner : {"9", "-1", "2147483647"}) {
     const std::string text =
         replaced(good_file("text.ply"), "3 1 2 3", std::string("3 1 2 ") + corner);
-    try_file(folder.write("a.ply", text));  // refused, or read without that triangle
+    try_file(folder.write("a.ply", text));  // rejected, or read without that triangle
   }
 }
 
-#ifndef TWINARM_SANITIZED  // sanitizers reserve terabytes of addresses: the limit is not set
-TEST_CASE("hostile meshes: a child that wants more memory than it may have ends with a sentence") {
+#ifndef TWINARM_SANITIZED  // sanitizers reserve terabytes of address space: no limit
+TEST_CASE("hostile meshes: a child that exceeds its memory limit ends with a message") {
   const auto work = [](std::size_t bytes) {
     return [bytes] {
       const std::vector<char> block(bytes, 1);
@@ -182,7 +180,7 @@ TEST_CASE("hostile meshes: a child that wants more memory than it may have ends 
   };
   const ChildLimits limits{.cpu_seconds = 20, .bytes = std::size_t{2} << 30};
   CHECK(run_limited(work(std::size_t{64} << 20), limits).bytes == "1");
-  CHECK(run_limited(work(std::size_t{3} << 30), limits).fault == "takes more than 2 GiB of memory");
+  CHECK(run_limited(work(std::size_t{3} << 30), limits).fault == "needs more than 2 GiB of memory");
 }
 #endif
 

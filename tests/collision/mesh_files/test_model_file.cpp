@@ -1,4 +1,4 @@
-// Models with colours and textures, in every format; and readers that crash or never end.
+// Models with colours and textures in every format; readers that crash or do not terminate.
 #include "collision/mesh_files/model_file.h"
 
 #include <doctest/doctest.h>
@@ -33,14 +33,14 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-TEST_CASE("a tetrahedron in PLY has the volume of one") {
+TEST_CASE("a tetrahedron in PLY has the right volume") {
   const TemporaryFolder folder;
   const TriangleMesh mesh = load_mesh(folder.write("t.ply", sample("tetrahedron.ply")), 1);
   REQUIRE(is_closed(mesh));
   CHECK(mass_properties(mesh, 1).mass == doctest::Approx(1.0 / 6));
 }
 
-TEST_CASE("Collada comes in metres by its own unit, with its axes as they stand in the file") {
+TEST_CASE("Collada is converted to metres by its unit, with the axes of the file") {
   const TemporaryFolder folder;
   for (const char* up : {"Z_UP", "Y_UP"}) {
     const TriangleMesh mesh = load_mesh(folder.write("t.dae", collada("0.001", up)), 1);
@@ -56,7 +56,7 @@ TEST_CASE("Collada comes in metres by its own unit, with its axes as they stand 
   CHECK(model.parts[0].color == std::array<float, 4>{0.5f, 0.25f, 0, 1});
 }
 
-TEST_CASE("each part of an OBJ has its colour or texture; the picture's top left is (0, 0)") {
+TEST_CASE("each part of an OBJ has its colour or texture; (0, 0) is the image's top left") {
   const TemporaryFolder folder;
   folder.write("looks.mtl", sample("looks.mtl"));
   folder.write("inner/wood.png", "bytes of a picture");
@@ -75,12 +75,12 @@ TEST_CASE("each part of an OBJ has its colour or texture; the picture's top left
   REQUIRE(painted.uv.size() == painted.positions.size());
   for (std::size_t i = 0; i < painted.uv.size(); ++i) {
     const auto& p = painted.positions[i];
-    const float v = 1 - (p[1] > 0 ? 1.0f : 0.0f);  // vt of the third corner is (0.25, 1)
+    const float v = 1 - (p[1] > 0 ? 1.0f : 0.0f);  // vt of the third vertex is (0.25, 1)
     CHECK(painted.uv[i] == std::array<float, 2>{p[0] > 0 ? 1.0f : p[1] > 0 ? 0.25f : 0.0f, v});
   }
 }
 
-TEST_CASE("a texture that is missing, or lies outside the model's folder, is told and left out") {
+TEST_CASE("a texture that is missing or outside the model's folder is reported and left out") {
   const TemporaryFolder folder;
   folder.write("secret.png", "outside");
   for (const char* name : {"none.png", "../secret.png", "/etc/passwd"}) {
@@ -92,7 +92,7 @@ TEST_CASE("a texture that is missing, or lies outside the model's folder, is tol
   }
 }
 
-TEST_CASE("an STL states no colour") {
+TEST_CASE("an STL has no colour") {
   const TemporaryFolder folder;
   const ModelFile model = read_model(folder.write(
       "t.stl",
@@ -111,7 +111,7 @@ TEST_CASE("work in a child returns its bytes, many or none") {
   CHECK(result.bytes == many);
 }
 
-TEST_CASE("a child that crashes, throws or never ends leaves a sentence") {
+TEST_CASE("a child that crashes, throws or does not terminate gives an error message") {
   CHECK(run_limited([]() -> std::string { std::abort(); }).fault == "crashes");
   CHECK(run_limited([]() -> std::string { throw 7; }).fault == "fails");
   const ChildResult slow = run_limited(
@@ -123,7 +123,7 @@ TEST_CASE("a child that crashes, throws or never ends leaves a sentence") {
   CHECK(slow.bytes.empty());
 }
 
-TEST_CASE("a child that waits for ever is ended, and leaves a sentence") {
+TEST_CASE("a child that waits forever is killed, with an error message") {
   const ChildResult waits = run_limited(
       []() -> std::string {
         while (true) pause();
@@ -133,7 +133,7 @@ TEST_CASE("a child that waits for ever is ended, and leaves a sentence") {
   CHECK(waits.bytes.empty());
 }
 
-TEST_CASE("a packed model comes back whole; one that is cut anywhere does not") {
+TEST_CASE("a packed model is unpacked completely; a truncated one is rejected") {
   ModelFile model;
   model.parts.resize(2);
   model.parts[0].positions = {{1, 2, 3}, {4, 5, 6}};

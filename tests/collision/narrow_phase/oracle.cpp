@@ -46,9 +46,8 @@ Matrix3 Random::rotation() {
 std::vector<Vector3> core_vertices(const Shape& shape) {
   if (const auto* hull = std::get_if<ConvexHull>(&shape)) return hull->vertices;
   if (const auto* box = std::get_if<Box>(&shape)) return box_mesh(box->size).vertices;
-  if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+  if (const auto* capsule = std::get_if<Capsule>(&shape))
     return {{0, 0, -capsule->length / 2}, {0, 0, capsule->length / 2}};
-  }
   if (const auto* c = std::get_if<Cylinder>(&shape)) {
     std::vector<Vector3> prism;
     for (int k = 0; k < 96; ++k) {
@@ -127,7 +126,7 @@ Pose pushed_against(Random& random, const Shape& a, const Pose& X_WA, const Shap
   const Vector3 n = random.direction();
   const Vector3 top = X_WA * support(a, X_WA.R.transpose() * n);
   const Vector3 bottom = X_WB * support(b, -(X_WB.R.transpose() * n));
-  // Aim somewhere near the middle of A, not at the supporting corner.
+  // Aim near the middle of A, not at the support vertex.
   const Vector3 aim = X_WA.p + 0.03 * random.direction();
   X_WB.p = aim + n * (n.dot(top - aim) - n.dot(bottom) + gap);
   return X_WB;
@@ -135,9 +134,8 @@ Pose pushed_against(Random& random, const Shape& a, const Pose& X_WA, const Shap
 
 ConvexHull random_hull(Random& random) {
   std::vector<Vector3> points;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 40; ++i)
     points.push_back(random.direction().cwiseProduct(Vector3(0.1, 0.06, 0.05)));
-  }
   return convex_hull(points);
 }
 

@@ -1,9 +1,8 @@
-// Independent answers to compare with, and the random bodies and poses to ask about.
-//
+// Independent distances, and random bodies and poses.
 // Signed distance of two convex bodies = signed distance of the origin from their Minkowski
-// difference. For polytopes that is the hull of all differences of their vertices: here it is built
-// with qhull and the origin is measured against every facet and triangle. Slow (0.1-5 ms), and it
-// shares neither GJK nor separating axes with the code under test.
+// difference. For polytopes: hull of all differences of vertices by qhull, compared with every
+// facet and triangle. Slow (0.1-5 ms); shares neither GJK nor separating axes with the code under
+// test.
 #pragma once
 
 #include <random>
@@ -24,23 +23,24 @@ struct Random {
   std::mt19937 engine;
 };
 
-// Vertices (of the core, without the radius) of a shape; a cylinder as a prism with 2 x 48 corners.
+// Vertices (of the core, without the radius) of a shape; a cylinder as a prism with 2 x 48
+// vertices.
 std::vector<Vector3> core_vertices(const Shape& shape);
 double core_radius(const Shape& shape);
 
 double oracle_distance(const Shape& a, const Pose& X_WA, const Shape& b, const Pose& X_WB);
 
-// Least overlap(n) over 500 random directions, the best three of them refined by random steps that
-// shrink. Of any two convex bodies; an upper bound of the depth.
+// Minimum overlap(n) over 500 random directions, the best three refined by shrinking random steps.
+// An upper bound of the depth of any two convex bodies.
 double sampled_depth(Random& random, const PosedShape& a, const PosedShape& b);
 
-// A pose of B in which B is pushed against A along a random direction until their supporting planes
-// there are `gap` apart (negative: overlap).
+// A pose of B at A in a random direction, with a distance `gap` of the support planes (negative:
+// overlap).
 Pose pushed_against(Random& random, const Shape& a, const Pose& X_WA, const Shape& b, double gap);
 
 Pose random_pose(Random& random);
 
-// By exact right angles.
+// Rotated by exact right angles.
 Matrix3 quarter_turns(Random& random);
 
 // 40 random points of an ellipsoid: a hull with many small faces.

@@ -19,9 +19,8 @@ namespace {
 double highest_outside(const ConvexHull& hull, const std::vector<Vector3>& points) {
   double worst = -1e300;
   for (std::size_t f = 0; f < hull.faces.size(); ++f) {
-    for (const Vector3& p : points) {
+    for (const Vector3& p : points)
       worst = std::max(worst, hull.normals[f].dot(p) - hull.offsets[f]);
-    }
   }
   return worst;
 }
@@ -43,7 +42,7 @@ TEST_CASE("a cube with points inside and on its sides has 8 vertices and 6 squar
   CHECK(hull.triangles.size() == 12);
 }
 
-TEST_CASE("a turned cube from single-precision coordinates still has 6 faces") {
+TEST_CASE("a rotated cube from single-precision coordinates still has 6 faces") {
   Random random(2);
   for (int k = 0; k < 100; ++k) {
     std::vector<Vector3> points = moved(box_mesh({0.2, 0.1, 0.3}), random_pose(random)).vertices;
@@ -56,16 +55,14 @@ TEST_CASE("every point of a random cloud is inside all planes to 1e-12, and the 
   Random random(3);
   for (int k = 0; k < 50; ++k) {
     std::vector<Vector3> points;
-    for (int i = 0; i < 200; ++i) {
+    for (int i = 0; i < 200; ++i)
       points.push_back(random.direction() * std::cbrt(random.uniform(0, 1)));
-    }
     const ConvexHull hull = convex_hull(points);
     CHECK(highest_outside(hull, points) < 1e-12);
-    double looseness = 0;  // of the corners of a face from its own plane
+    double looseness = 0;  // distance of a face's vertices from its plane
     for (std::size_t f = 0; f < hull.faces.size(); ++f) {
-      for (int v : hull.faces[f]) {
+      for (int v : hull.faces[f])
         looseness = std::max(looseness, hull.offsets[f] - hull.normals[f].dot(hull.vertices[v]));
-      }
     }
     CHECK(looseness < 1e-6);
   }
@@ -84,7 +81,7 @@ TEST_CASE("the triangles of a hull are a closed outward surface, with V - E + F 
   }
 }
 
-TEST_CASE("points without a volume are refused with a remedy") {
+TEST_CASE("points without a volume are rejected with a fix") {
   const std::vector<Vector3> flat = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0.5, 0.2, 0}};
   const std::vector<Vector3> few = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   const std::vector<Vector3> same(5, Vector3(1, 2, 3));

@@ -1,4 +1,4 @@
-// Distances of cores of all kinds and sizes: the bounds prove them, FCL is a second opinion.
+// Distances of cores of all kinds and sizes: verified by the bounds, and by FCL.
 #include "collision/narrow_phase/gjk.h"
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ using namespace twinarm::test;
 
 namespace {
 
-// Of everyday size, and tiny, long, thin and huge ones.
+// Ordinary, tiny, long, thin and huge sizes.
 std::vector<Shape> shapes_of_all_sizes() {
   Random random(7);
   return {Sphere{0.06},
@@ -36,7 +36,7 @@ std::vector<Shape> shapes_of_all_sizes() {
           Ellipsoid{{1e-4, 2e-4, 1e-4}}};
 }
 
-// Deep, touching, just apart, near, up to 100 m away, and aligned on a grid, in turns.
+// In turn: deep, touching, slightly separated, near, up to 100 m away, aligned on a grid.
 struct Poses {
   Pose X_WA, X_WB;
 };
@@ -74,8 +74,7 @@ void for_all_solids(Visit visit) {
 
 }  // namespace
 
-TEST_CASE(
-    "gjk: along its normal every distance is proven by the supports, and the points have it") {
+TEST_CASE("gjk: every distance is verified by the support points along its normal") {
   int apart = 0;
   for_all_solids([&](const Shape& a, const Shape& b, const PreparedShape& solid_a,
                      const PreparedShape& solid_b, Random& random) {
@@ -99,7 +98,7 @@ TEST_CASE(
   CHECK(apart > 14 * 14 * 100);
 }
 
-TEST_CASE("gjk: FCL never finds a shorter distance, and none where this finds an overlap") {
+TEST_CASE("gjk: FCL never finds a shorter distance, and none for overlapping cores") {
   for_all_solids([](const Shape& a, const Shape& b, const PreparedShape& solid_a,
                     const PreparedShape& solid_b, Random& random) {
     const FclShape fcl_a(a, solid_a.core), fcl_b(b, solid_b.core);
@@ -118,7 +117,7 @@ TEST_CASE("gjk: FCL never finds a shorter distance, and none where this finds an
   });
 }
 
-TEST_CASE("gjk: where it finds an overlap of the cores, no direction parts them") {
+TEST_CASE("gjk: for overlapping cores no direction separates them") {
   NarrowPhase narrow_phase;
   for_all_solids([&](const Shape& a, const Shape& b, const PreparedShape& solid_a,
                      const PreparedShape& solid_b, Random& random) {
@@ -141,7 +140,7 @@ TEST_CASE("gjk: where it finds an overlap of the cores, no direction parts them"
   });
 }
 
-TEST_CASE("gjk: what is farther than asked for is told to be so, the rest is not cut short") {
+TEST_CASE("gjk: distances beyond `far` are reported as such, others are exact") {
   for_all_solids([](const Shape& a, const Shape& b, const PreparedShape& solid_a,
                     const PreparedShape& solid_b, Random& random) {
     int wrong = 0;

@@ -1,4 +1,4 @@
-// Closed forms: box, tetrahedron, ball; and the laws of moving, scaling and adding.
+// Closed forms: box, tetrahedron, sphere; transformations and sums.
 #include "collision/shapes/shape.h"
 
 #include <doctest/doctest.h>
@@ -53,7 +53,7 @@ bool is_inside(const Shape& shape, const Vector3& x) {
   return true;
 }
 
-// Octahedron, each triangle cut into four `levels` times, all corners on the unit sphere.
+// Octahedron, each triangle subdivided into four `levels` times, all vertices on the unit sphere.
 TriangleMesh sphere_mesh(int levels) {
   TriangleMesh mesh;
   for (int i = 0; i < 3; ++i) {
@@ -87,7 +87,7 @@ TEST_CASE("a box has m/12 (b^2 + c^2)") {
   check_close(mass_properties(box_mesh(size), 2700), box_properties(size, 2700), 1e-14);
 }
 
-TEST_CASE("the corner tetrahedron has volume 1/6, centre 1/4 and moments 1/80 off 1/480") {
+TEST_CASE("the corner tetrahedron has volume 1/6, centre 1/4 and moments 1/80, products 1/480") {
   TriangleMesh mesh;
   mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
@@ -97,7 +97,7 @@ TEST_CASE("the corner tetrahedron has volume 1/6, centre 1/4 and moments 1/80 of
   check_close(mass_properties(mesh, 1), {1.0 / 6, Vector3::Constant(0.25), inertia}, 1e-14);
 }
 
-TEST_CASE("scaling, turning and shifting a box change its properties by their laws") {
+TEST_CASE("scaling, rotating and translating a box changes its properties as expected") {
   Random random(5);
   const Vector3 size(0.3, 0.5, 0.7);
   const MassProperties box = box_properties(size, 1000);
@@ -110,7 +110,7 @@ TEST_CASE("scaling, turning and shifting a box change its properties by their la
   }
 }
 
-TEST_CASE("a refined sphere converges to the ball with order 2 in the edge length") {
+TEST_CASE("a refined sphere mesh converges to the sphere with order 2 in the edge length") {
   const double volume = 4 * std::numbers::pi / 3;
   std::array<double, 2> before{};
   for (int level = 2; level <= 5; ++level) {
@@ -118,15 +118,14 @@ TEST_CASE("a refined sphere converges to the ball with order 2 in the edge lengt
     const std::array<double, 2> error{volume - found.mass,
                                       0.4 * volume - found.inertia.trace() / 3};
     if (level > 2) {
-      for (std::size_t i = 0; i < 2; ++i) {
+      for (std::size_t i = 0; i < 2; ++i)
         CHECK(before[i] / error[i] == doctest::Approx(4).epsilon(0.06));
-      }
     }
     before = error;
   }
 }
 
-TEST_CASE("every solid shape has the mass and inertia of two million points of it") {
+TEST_CASE("every solid shape has the mass and inertia of two million of its points") {
   const std::vector<Vector3> corners = box_mesh({0.2, 0.3, 0.4}).vertices;
   Random random(47);
   for (const Shape& shape :
@@ -134,12 +133,12 @@ TEST_CASE("every solid shape has the mass and inertia of two million points of i
         Shape(Cylinder{0.1, 0.3}), Shape(Ellipsoid{{0.1, 0.2, 0.3}}), Shape(random_hull(random)),
         Shape(convex_hull(corners))}) {
     CAPTURE(shape_name(shape));
-    Vector3 half;  // a box around it
+    Vector3 half;  // its bounding box
     for (int i = 0; i < 3; ++i) {
       half[i] =
           std::max(support(shape, Vector3::Unit(i))[i], -support(shape, -Vector3::Unit(i))[i]);
     }
-    const int count = 120;  // midpoints of cells: no randomness
+    const int count = 120;  // midpoints of cells: not random
     double inside = 0;
     Vector3 first = Vector3::Zero();
     Matrix3 second = Matrix3::Zero();
@@ -167,7 +166,7 @@ TEST_CASE("every solid shape has the mass and inertia of two million points of i
   CHECK_THROWS_AS(mass_properties(Sphere{1}, -1), InputError);
 }
 
-TEST_CASE("a hollow box is the outer one less the inner one, by mesh and by combine") {
+TEST_CASE("a hollow box is the outer minus the inner one, by mesh and by combine") {
   const Vector3 outer(0.4, 0.3, 0.2), inner(0.2, 0.1, 0.1), shift(0.05, -0.02, 0.01);
   MassProperties hole = box_properties(inner, -500);
   hole.com = shift;
@@ -189,15 +188,14 @@ TEST_CASE("two halves combine to the whole") {
   check_close(combine(halves), box_properties({0.4, 0.5, 0.7}, 800), 1e-13);
 }
 
-TEST_CASE("open, inverted and weightless solids are refused") {
+TEST_CASE("open, inverted and massless solids are rejected") {
   TriangleMesh open = box_mesh({1, 1, 1}), inverted = open, doubled = open, flipped = open;
   open.triangles.pop_back();
   for (auto& t : inverted.triangles) std::swap(t[0], t[1]);
   doubled.triangles.push_back(doubled.triangles.front());
   std::swap(flipped.triangles[3][0], flipped.triangles[3][1]);
-  for (const TriangleMesh& mesh : {open, inverted, doubled, flipped, TriangleMesh{}}) {
+  for (const TriangleMesh& mesh : {open, inverted, doubled, flipped, TriangleMesh{}})
     CHECK_THROWS_AS(mass_properties(mesh, 1000), InputError);
-  }
   CHECK_THROWS_AS(mass_properties(box_mesh({1, 1, 1}), 0), InputError);
   CHECK_THROWS_AS(combine(std::vector<MassProperties>{}), InputError);
   CHECK(is_closed(box_mesh({1, 1, 1})));

@@ -1,4 +1,4 @@
-// Reading meshes: what is right comes in welded, what is wrong is refused with a reason.
+// Reading meshes: valid ones are merged, invalid ones rejected with a reason.
 #include "collision/mesh_files/mesh_file.h"
 
 #include <doctest/doctest.h>
@@ -46,7 +46,7 @@ std::string obj(const TriangleMesh& mesh, const std::string& head = "") {
   return text;
 }
 
-// One triangle; its three corners are in a file beside.
+// One triangle; its three vertices are in a separate file.
 std::string gltf_of(const std::string& buffer) {
   return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],
 "meshes":[{"primitives":[{"attributes":{"POSITION":0},"mode":4}]}],
@@ -73,7 +73,7 @@ bool mentions(const std::string& text, const char* word) {
 
 }  // namespace
 
-TEST_CASE("a box of 1 mm in metres comes back welded and closed from STL and OBJ") {
+TEST_CASE("a box of 1 mm in metres is read with merged vertices from STL and OBJ") {
   const TemporaryFolder folder;
   const TriangleMesh box = box_mesh({0.001, 0.002, 0.0005});
   for (const fs::path& file :
@@ -108,15 +108,16 @@ TEST_CASE("a glTF buffer is read beside the model, and not from outside its fold
                              gltf_of((folder.path() / "outside.bin").string()))) != "accepted");
 }
 
-TEST_CASE("missing, foreign, malformed, empty and non-finite files are refused with a reason") {
+TEST_CASE("missing, foreign, malformed, empty and non-finite files are rejected with a reason") {
   const TemporaryFolder folder;
   const TriangleMesh box = box_mesh({1, 1, 1});
   TriangleMesh bad = box;
   bad.vertices[5].y() = std::nan("");
-  CHECK(mentions(refusal(folder.path() / "none.stl"), "no such file"));
-  CHECK(mentions(refusal(folder.path()), "not a file"));
-  CHECK(mentions(refusal(folder.write("cad.step", "ISO-10303-21;")), "not a mesh format"));
-  CHECK(mentions(refusal(folder.write("mesh.off", "OFF\n")), "not a mesh format"));
+  CHECK(mentions(refusal(folder.path() / "none.stl"), "does not exist"));
+  CHECK(mentions(refusal(folder.path()), "not a regular file"));
+  CHECK(
+      mentions(refusal(folder.write("cad.step", "ISO-10303-21;")), "not a supported mesh format"));
+  CHECK(mentions(refusal(folder.write("mesh.off", "OFF\n")), "not a supported mesh format"));
   CHECK(
       mentions(refusal(folder.write("cut.stl", binary_stl(box).substr(0, 300))), "cannot be read"));
   CHECK(refusal(folder.write("words.stl", "this is no mesh")) != "accepted");
@@ -130,7 +131,7 @@ TEST_CASE("missing, foreign, malformed, empty and non-finite files are refused w
   CHECK_THROWS_AS(load_mesh(folder.write("ok.stl", binary_stl(box)), -1), InputError);
 }
 
-TEST_CASE("a file above the size cap is refused unread") {
+TEST_CASE("a file above the size limit is rejected unread") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("huge.stl", "solid");
   fs::resize_file(file, (64u << 20) + 1);  // sparse
@@ -159,7 +160,7 @@ TEST_CASE("random damage to a file is an error or a finite mesh, never a crash")
   }
 }
 
-TEST_CASE("files whose surface is no solid's: each is read, and told what is wrong and how much") {
+TEST_CASE("files whose surface does not bound a solid: each is read, and the errors are counted") {
   const TemporaryFolder folder;
   const TriangleMesh good = box_mesh({1, 2, 3});
   const auto fault_of = [&](const TriangleMesh& mesh) {
@@ -169,17 +170,17 @@ TEST_CASE("files whose surface is no solid's: each is read, and told what is wro
 
   TriangleMesh open = good, flipped = good, one_turned = good, doubled = good, thin = good;
   open.triangles.pop_back();
-  CHECK(mentions(fault_of(open), "3 edges belong to one triangle alone"));
+  CHECK(mentions(fault_of(open), "3 edges belong to one triangle only"));
   for (auto& t : flipped.triangles) std::swap(t[0], t[1]);
-  CHECK(mentions(fault_of(flipped), "inside out"));
+  CHECK(mentions(fault_of(flipped), "inverted"));
   std::swap(one_turned.triangles[4][0], one_turned.triangles[4][1]);
   CHECK(mentions(fault_of(one_turned), "3 edges have triangles that disagree"));
   doubled.triangles.push_back(doubled.triangles[0]);
   doubled.triangles.push_back({good.triangles[5][1], good.triangles[5][2], good.triangles[5][0]});
-  CHECK(mentions(fault_of(doubled), "2 triangles are there twice"));
+  CHECK(mentions(fault_of(doubled), "2 triangles are duplicates"));
   thin.vertices.push_back(0.5 * (good.vertices[0] + good.vertices[1]));
   thin.triangles.push_back({0, 1, 8});
-  CHECK(mentions(fault_of(thin), "1 triangles have no area, the first is number 12"));
+  CHECK(mentions(fault_of(thin), "1 triangles have no area, the first is triangle 12"));
   // All of them at once.
   thin.triangles.pop_back();
   thin.triangles[0] = thin.triangles[1];

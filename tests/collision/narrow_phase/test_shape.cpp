@@ -13,7 +13,7 @@
 using namespace twinarm;
 using namespace twinarm::test;
 
-TEST_CASE("the support of every bounded shape is its highest point along a direction") {
+TEST_CASE("the support point of every bounded shape maximises d . x") {
   Random random(6);
   const std::vector<Shape> shapes = {Sphere{0.06}, Box{{0.2, 0.14, 0.1}}, Capsule{0.05, 0.2},
                                      Cylinder{0.06, 0.15}, random_hull(random)};
@@ -33,7 +33,7 @@ TEST_CASE("the support of every bounded shape is its highest point along a direc
   }
 }
 
-TEST_CASE("shapes with impossible numbers say what is wrong") {
+TEST_CASE("shapes with invalid dimensions report the error") {
   CHECK(shape_fault(Sphere{-1}).find("radius") != std::string::npos);
   CHECK(shape_fault(Box{{1, 0, 1}}).find("size") != std::string::npos);
   CHECK(shape_fault(Capsule{0.1, std::nan("")}).find("length") != std::string::npos);
@@ -42,8 +42,8 @@ TEST_CASE("shapes with impossible numbers say what is wrong") {
   CHECK(shape_fault(Cylinder{0.1, 0.2}).empty());
 }
 
-// Those that are added to AnyShape are in here by themselves.
-TEST_CASE("supports, polytopes, patches and mass properties of every shape agree") {
+// Includes shapes that are added to AnyShape.
+TEST_CASE("supports, polytopes, boundary features and mass properties of every shape agree") {
   Random random(5);
   for_each_shape([&](const auto& known) {
     const Shape shape = known;
@@ -51,15 +51,15 @@ TEST_CASE("supports, polytopes, patches and mass properties of every shape agree
     CHECK(shape_fault(shape).empty());
     CHECK(std::string(known.key).find(' ') == std::string::npos);
     const Polytope core = make_polytope(shape);
-    const Patches patches = make_patches(shape, core);
-    for (int k = 0; k < 100 && !patches.rounds.empty(); ++k) {
+    const BoundaryFeatures boundary = make_boundary(shape, core);
+    for (int k = 0; k < 100 && !boundary.quadrics.empty(); ++k) {
       const Vector3 d = random.direction();
       const double height = support(shape, d).dot(d);
       CHECK(height >= support(shape, random.direction()).dot(d) - 1e-12);
       double highest = -1e300;
-      for (const Patches::Round& round : patches.rounds)
-        highest = std::max(highest, round.p.dot(d) + std::sqrt(d.dot(round.Q * d)));
-      CHECK(std::abs(highest + patches.roundness - height) < 1e-12);
+      for (const BoundaryFeatures::Quadric& quadric : boundary.quadrics)
+        highest = std::max(highest, quadric.p.dot(d) + std::sqrt(d.dot(quadric.Q * d)));
+      CHECK(std::abs(highest + boundary.rounding_radius - height) < 1e-12);
     }
     if constexpr (requires { known.solid(1000.0); }) {
       const MassProperties solid = mass_properties(shape, 1000);

@@ -1,10 +1,10 @@
-// FCL 0.7 with libccd 2.1, used only where it was measured to be right: unsigned distance at
-// tolerance 1e-10 (GJK), no exception and no hang in 200,000 queries. Not the signed one, which
-// throws and hangs; not collide(), whose normals are wrong in up to half of the curved pairs; not
-// GST_INDEP, whose normals are in the wrong frame.
+// FCL 0.7 with libccd 2.1, only where it is reliable: unsigned distance at tolerance 1e-10 (GJK),
+// no exception and no hang in 200,000 queries. Not the signed distance, which throws and hangs; not
+// collide(), whose normals are wrong in up to half of the curved pairs; not GST_INDEP, whose
+// normals are in the wrong frame.
 // Points and segments are `Convex` with one and two vertices, for which GJK ends at the exact
 // feature; a tiny sphere would leave an error of its radius.
-// A is put at the origin, so that the answer does not lose digits far from it.
+// A is at the origin: no cancellation.
 #include "tests/collision/shapes/fcl_oracle.h"
 
 #include <fcl/geometry/shape/box.h>
@@ -32,7 +32,7 @@ constexpr double distance_tolerance = 1e-10;
 FclGeometry convex_of(const ConvexHull& hull) {
   auto vertices = std::make_shared<std::vector<Vector3>>(hull.vertices);
   auto faces = std::make_shared<std::vector<int>>();
-  for (const std::vector<int>& loop : hull.faces) {  // as FCL wants it: count, then the corners
+  for (const std::vector<int>& loop : hull.faces) {  // FCL's format: count, then the vertices
     faces->push_back(static_cast<int>(loop.size()));
     faces->insert(faces->end(), loop.begin(), loop.end());
   }
@@ -72,7 +72,7 @@ FclDistance core_distance(const FclShape& a, const Pose& X_WA, const FclShape& b
   try {
     fcl::distance(a.impl()->geometry.get(), fcl::Transform3d::Identity(), b.impl()->geometry.get(),
                   transform_of(X_WA.inverse() * X_WB), request, result);
-  } catch (const std::exception&) {  // never seen for unsigned distance; a step must not throw
+  } catch (const std::exception&) {  // never observed for unsigned distance
     return answer;
   }
   if (!(result.min_distance > 0)) return answer;

@@ -1,4 +1,4 @@
-// FCL's distance of two cores (collision/narrow_phase/gjk.h), as a second opinion.
+// FCL's distance of two cores (collision/narrow_phase/gjk.h), as an independent result.
 #pragma once
 
 #include <memory>
@@ -9,8 +9,8 @@
 
 namespace twinarm::test {
 
-// FCL's geometry of one shape, without the radius of spheres and capsules (they are a point and a
-// segment). Shared and const: may be asked from several threads.
+// FCL's geometry of one shape, without the radius of spheres and capsules (point and segment).
+// Shared and const: thread-safe.
 class FclShape {
  public:
   FclShape(const Shape& shape, const Polytope& core);
@@ -22,7 +22,7 @@ class FclShape {
 };
 
 struct FclDistance {
-  double distance = 0;             // between the cores; 0 where they overlap, or FCL failed [m]
+  double distance = 0;             // between the cores; 0 if they overlap or FCL failed [m]
   Vector3 p_WA = Vector3::Zero();  // nearest points
   Vector3 p_WB = Vector3::Zero();
 };

@@ -1,4 +1,4 @@
-// A step of two treads as a closed mesh, and as the two boxes that it is made of.
+// A step of two treads as a closed mesh, and as its two boxes.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace twinarm::test {
 
-// 0.3 m by 0.3 m, the treads at 0.12 m (x < 0) and 0.05 m. Its flat ends are fans, and one of their
-// triangles has a corner of 160 degrees.
+// 0.3 m by 0.3 m, treads at 0.12 m (x < 0) and 0.05 m. Its flat ends are fans with an obtuse
+// triangle (160 degrees).
 inline TriangleMesh step_mesh() {
   const std::vector<std::array<double, 2>> outline{{-0.15, 0}, {0.15, 0}, {0.15, 0.05},
                                                    {0, 0.05},  {0, 0.12}, {-0.15, 0.12}};

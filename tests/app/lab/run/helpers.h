@@ -1,4 +1,4 @@
-// Scenes, and a session with what is remembered of it.
+// Scenes, and a run with its history.
 #pragma once
 
 #include "app/lab/run/history.h"
@@ -30,14 +30,14 @@ inline SimulateOptions options_of(const TemporaryFolder& folder, const std::stri
 }
 
 inline LabScene lab_scene(const std::string& text) {
-  const TemporaryFolder folder;  // gone when the scene runs
+  const TemporaryFolder folder;  // removed when the scene runs
   return LabScene(options_of(folder, text));
 }
 
-// A run with what is remembered of it: a frame each 16 steps.
+// A run with its history: a frame each 16 steps.
 struct Session {
   explicit Session(const std::string& text) : scene(lab_scene(text)) {
-    run = std::make_unique<LabRun>(scene, std::vector<Change>{}, hand);
+    run = std::make_unique<LabRun>(scene.plan(), hand);
     history.begin_segment({});
     history.add(run->frame(names));
   }
@@ -45,17 +45,17 @@ struct Session {
     for (long n = 0; n < steps; ++n) {
       REQUIRE(run->step());
       history.add(run->input());
-      if (run->step_count() % 16 == 0) history.add(run->frame(names));
+      if (run->view().step() % 16 == 0) history.add(run->frame(names));
     }
   }
   void change(const std::vector<Change>& changes) {
     const auto frame = history.add(run->frame(names));
-    run = std::make_unique<LabRun>(scene, changes, hand, *frame);
+    run = std::make_unique<LabRun>(scene.plan(changes), hand, frame.get());
     history.begin_segment(changes);
     history.add(run->frame(names));
   }
   LabScene scene;
-  LabHand hand;
+  OperatorInput hand;
   LabNames names;
   LabHistory history;
   std::unique_ptr<LabRun> run;
@@ -64,21 +64,21 @@ struct Session {
 inline double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
   for (const EnergyRow& row : rows)
     if (row.name == name) return row.work;
-  FAIL("there is no row " << name);
+  FAIL("no row " << name);
   return 0;
 }
 inline MomentumRow momentum_of(const std::vector<MomentumRow>& rows, const std::string& name) {
   for (const MomentumRow& row : rows)
     if (row.name == name) return row;
-  FAIL("there is no row " << name);
+  FAIL("no row " << name);
   return {};
 }
 
-// Where the kinematic robot stood at the start of the last step.
+// Driven joints of the target robot at the start of the last step.
 inline std::vector<double> kvr_of(const LabRun& run) {
   const SimulateInput& input = run.prepared().input;
   std::vector<double> q;
-  for (const int body : run.driven())
+  for (const int body : run.input_override().driven())
     q.push_back(
         input.couplings->kvr(0).start().x.q[input.robot.model.iq[static_cast<std::size_t>(body)]]);
   return q;

@@ -1,4 +1,4 @@
-// A run of the lab and a view of it, whose frames are read back by the protocol's table.
+// A run of the lab and a view of it, whose frames are decoded by the protocol's table.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -16,7 +16,7 @@ inline const std::string kBoxes = test_data("app/lab/stream/boxes.toml");
 
 struct Watched {
   std::unique_ptr<LabScene> scene;
-  LabHand hand;
+  OperatorInput hand;
   std::unique_ptr<LabRun> run;
   std::shared_ptr<const LabScene::Plan> plan;
   std::unique_ptr<LabView> view;
@@ -27,7 +27,7 @@ struct Watched {
     SimulateOptions options;
     options.robot.model = file;
     scene = std::make_unique<LabScene>(options);
-    run = std::make_unique<LabRun>(*scene, std::vector<Change>{}, hand);
+    run = std::make_unique<LabRun>(scene->plan(), hand);
     plan = scene->plan();
     header = scene->header({}, {});
     view = std::make_unique<LabView>(7, std::shared_ptr<const SimulatePlan>(plan, &plan->prepared),
@@ -63,7 +63,7 @@ inline std::vector<std::string> all_layers(const Watched& watched) {
 inline Vector3 position_of(const ReadFrame& read, std::size_t i) {
   return {read.position[3 * i], read.position[3 * i + 1], read.position[3 * i + 2]};
 }
-inline Matrix3 turn_of(const ReadFrame& read, std::size_t i) {
+inline Matrix3 rotation_of(const ReadFrame& read, std::size_t i) {
   const auto part = [&](std::size_t c) { return read.turn[4 * i + c] / 32767.0; };
   return Eigen::Quaterniond(part(3), part(0), part(1), part(2)).toRotationMatrix();
 }

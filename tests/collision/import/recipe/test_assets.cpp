@@ -1,4 +1,4 @@
-// The committed robots are what they are said to be.
+// The committed robots agree with their sources.
 #include <Eigen/Geometry>
 #include <algorithm>
 
@@ -16,7 +16,7 @@ struct TwoRods {
   double mass[2], length[2];
 };
 
-TEST_CASE("the robots of the findings are two slender rods hinged about z") {
+TEST_CASE("the robots of the findings are two slender rods with revolute joints about z") {
   const TwoRods robots[] = {{"findings_set0", {5, 3}, {0.40, 0.30}},
                             {"findings_set1", {1, 1}, {0.50, 0.50}},
                             {"findings_set2", {10, 6}, {0.35, 0.25}},
@@ -35,7 +35,7 @@ TEST_CASE("the robots of the findings are two slender rods hinged about z") {
       CHECK(link.name == "arm" + std::to_string(k + 1));
       CHECK(link.mass == m);
       CHECK(link.com == Vector3(l / 2, 0, 0));
-      // m l^2 / 12, to the rounding of this very expression
+      // m l^2 / 12, within the rounding of this expression
       CHECK(std::abs(link.inertia(2, 2) - m * l * l / 12) <= 3e-16 * m * l * l / 12);
       CHECK(link.inertia(1, 1) == link.inertia(2, 2));
       CHECK(link.inertia(0, 0) == doctest::Approx(m * 0.01 * 0.01 / 6).epsilon(1e-15));
@@ -51,7 +51,7 @@ TEST_CASE("the robots of the findings are two slender rods hinged about z") {
   }
 }
 
-TEST_CASE("the committed S-103 is what its recipe and meshes make") {
+TEST_CASE("the committed S-103 is bit-identical to the output of its recipe") {
   const fs::path folder = kRobots / "s103";
   REQUIRE(fs::exists(folder / "robot.toml"));
   const RecipeResult made = read_recipe(folder / "robot.toml");
@@ -62,7 +62,7 @@ TEST_CASE("the committed S-103 is what its recipe and meshes make") {
   }
 }
 
-TEST_CASE("the S-103 has the paper's joint offsets, 10 : 14 from joint to joint") {
+TEST_CASE("the S-103 has the paper's joint offsets, link lengths 10 : 14") {
   const RobotDescription robot = read_urdf(kRobots / "s103" / "s103.urdf");
   const Vector3 paper[] = {{0, 0, 10}, {10, 0, 14.6}, {14, 0, 12.65}};
   for (int k = 0; k < 3; ++k) {
@@ -75,21 +75,22 @@ TEST_CASE("the S-103 has the paper's joint offsets, 10 : 14 from joint to joint"
   CHECK(robot.joints[3].type == JointDescription::Type::prismatic);
 }
 
-TEST_CASE("the published PUMA 560 loads, and its two inertias that no body has are named") {
+TEST_CASE("the published PUMA 560 loads, and its two impossible inertias are reported") {
   const fs::path file = kRobots / "puma560" / "puma560.urdf";
   const RobotDescription robot = read_urdf(file);
   INFO(listing(robot.warnings));
   double mass = 0;
   for (const LinkDescription& link : robot.links) mass += link.mass;
   CHECK(mass == doctest::Approx(23.45).epsilon(1e-15));
-  const auto told = [&](const std::vector<Diagnostic>& faults, const std::string& words) {
+  const auto reported = [&](const std::vector<Diagnostic>& faults, const std::string& words) {
     return std::count_if(faults.begin(), faults.end(), [&](const Diagnostic& fault) {
       return to_string(fault).find(words) != std::string::npos;
     });
   };
-  CHECK(told(robot.warnings, "no rigid body of positive density has it") == 2);
-  CHECK(told(robot.warnings, "link 'link1': its inertia is not positive definite") == 1);
-  CHECK(told(robot.warnings, "link 'link3': its inertia breaks the triangle inequality") == 1);
+  CHECK(reported(robot.warnings, "no rigid body of positive density has it") == 2);
+  CHECK(reported(robot.warnings, "link 'link1': its inertia is not positive definite") == 1);
+  CHECK(reported(robot.warnings, "link 'link3': its inertia violates the triangle inequality") ==
+        1);
   const auto faults = faults_of([&] {
     read_urdf(file, {RobotFileOptions::Geometry::required, true});
   });

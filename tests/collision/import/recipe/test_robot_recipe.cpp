@@ -1,4 +1,4 @@
-// A robot made from a recipe. The oracles are the closed forms of boxes.
+// Robots from recipes, against closed forms of boxes.
 #include "collision/import/recipe/robot_recipe.h"
 
 #include "collision/import/robot/robot_model.h"
@@ -19,7 +19,7 @@ TriangleMesh box_mesh(const Vector3& low, const Vector3& high) {
   return mesh;
 }
 
-// A cube of edge 1 m, in two halves of different metals, drawn in millimetres, on a foot.
+// A cube of edge 1 m of two halves of different metals, in millimetres, on a foot.
 const std::string kCube = test_data("collision/import/recipe/cube.toml");
 
 struct CubeFolder : TemporaryFolder {
@@ -30,7 +30,7 @@ struct CubeFolder : TemporaryFolder {
   fs::path recipe(const std::string& text) const { return write("robot.toml", text); }
 };
 
-TEST_CASE("a cube of two halves has the mass, centre and inertia of the closed form") {
+TEST_CASE("a cube of two halves has the closed-form mass, centre and inertia") {
   const CubeFolder folder;
   const RobotDescription robot = read_recipe(folder.recipe(kCube)).robot;
   CHECK(robot.root == "foot");
@@ -40,7 +40,7 @@ TEST_CASE("a cube of two halves has the mass, centre and inertia of the closed f
   const double z = (m1 * 0.25 + m2 * 0.75) / m;
   CHECK(body.mass == doctest::Approx(m).epsilon(1e-14));
   CHECK((body.com - Vector3(0.5, 0.5, z)).norm() < 1e-14);
-  // Each half is a box of 1 x 1 x 0.5, shifted along z (Steiner).
+  // Each half is a box of 1 x 1 x 0.5, offset along z (Steiner).
   const double steiner = m1 * (z - 0.25) * (z - 0.25) + m2 * (z - 0.75) * (z - 0.75);
   const double across = m * (1 + 0.25) / 12 + steiner, along = m * 2 / 12;
   const Matrix3 expected = Vector3(across, across, along).asDiagonal();
@@ -55,14 +55,14 @@ TEST_CASE("an origin in [paper] is in its unit, others are in metres") {
   CHECK(read_recipe(folder.recipe(text)).robot.joints[0].origin.xyz == Vector3(1, 2, 3));
 }
 
-TEST_CASE("a joint of a recipe may be turned by roll, pitch and yaw") {
+TEST_CASE("a joint of a recipe may have roll, pitch and yaw") {
   const CubeFolder folder;
   const std::string text = replaced(kCube, "damping", "rpy = [0.1, -0.2, 0.3]\ndamping");
   CHECK(read_recipe(folder.recipe(text)).robot.joints[0].origin.rpy == Vector3(0.1, -0.2, 0.3));
   CHECK(read_recipe(folder.recipe(kCube)).robot.joints[0].origin.rpy == Vector3(0, 0, 0));
 }
 
-TEST_CASE("the files that a recipe makes read back as the robot that it says") {
+TEST_CASE("the files of a recipe read back as its robot") {
   const CubeFolder folder;
   const fs::path recipe = folder.recipe(kCube);
   make_robot(recipe);
@@ -74,7 +74,7 @@ TEST_CASE("the files that a recipe makes read back as the robot that it says") {
   REQUIRE(read.links[1].collisions.size() == 1);
   const auto& hull = std::get<MeshGeometry>(read.links[1].collisions[0].geometry);
   CHECK(hull.file == folder.path() / "collision" / "body.stl");
-  // The hull of the two halves is the cube: the corners of the seam are gone, or lie on its sides.
+  // The hull of the two halves is the cube.
   const TriangleMesh mesh = load_mesh(hull);
   for (int corner = 0; corner < 8; ++corner) {
     const Vector3 p(corner & 1, (corner >> 1) & 1, corner >> 2);
@@ -84,7 +84,7 @@ TEST_CASE("the files that a recipe makes read back as the robot that it says") {
   }
 }
 
-TEST_CASE("the same recipe makes the same bytes") {
+TEST_CASE("the same recipe gives the same bytes") {
   const CubeFolder folder;
   make_robot(folder.recipe(kCube));
   const std::string urdf = text_of(folder.path() / "cube.urdf");
@@ -102,7 +102,7 @@ struct SpoiltRecipe {
 };
 
 const SpoiltRecipe kSpoiltRecipes[] = {
-    {"name = \"cube\"", "name = \"a/b\"", 1, "name of a file"},
+    {"name = \"cube\"", "name = \"a/b\"", 1, "is used as a file name"},
     {"name = \"cube\"", "name = 3", 1, "'name' must be a text that is not empty; give name = "},
     {"name = \"foot\"", "", 12, "'name' is missing"},
     {"[paper]\nunit = 0.5\nhinge = [1, 2, 3]", "paper = 3", 3,
@@ -113,20 +113,21 @@ const SpoiltRecipe kSpoiltRecipes[] = {
      "'parts' must be a list of names; give parts = "},
     {"mesh_scale = 0.001", "mesh_scale = -1", 2, "'mesh_scale' must be positive"},
     {"mesh_scale = 0.001", "mesh_scale = 0.001\nmesh_scal = 1", 3, "'mesh_scal' is not known"},
-    {"hinge = [1, 2, 3]", "hinges = [1, 2, 3]", 5, "'hinges' is no joint"},
+    {"hinge = [1, 2, 3]", "hinges = [1, 2, 3]", 5, "'hinges' is not a joint"},
     {"hinge = [1, 2, 3]", "hinge = [1, 2]", 5, "3 finite numbers"},
     {"density = 100", "density = 0", 7, "'density' must be positive"},
     {"density = 100", "density = \"x\"", 7, "'density' must be a finite number"},
     {"density = 100", "density = nan", 7, "'density' must be a finite number"},
     {"color = [1, 0, 0, 1]", "color = [1, 0, 0, 2]", 8, "[0, 1]"},
-    {"name = \"foot\"", "name = \"body\"", 14, "the name is taken already"},
+    {"name = \"foot\"", "name = \"body\"", 14, "duplicate name"},
     {"mesh = \"upper\"", "mesh = \"none\"", 19, "none.stl"},
-    {"mesh = \"upper\"", "mesh = \"lower\"", 19, "has this part already"},
+    {"mesh = \"upper\"", "mesh = \"lower\"", 19, "the part is listed twice"},
     {"material = \"light\"", "material = \"gold\"", 19, "material 'gold' does not exist"},
-    {"parts = [\"lower\", \"upper\"]", "parts = [\"side\"]", 22, "'side' is no part of this link"},
+    {"parts = [\"lower\", \"upper\"]", "parts = [\"side\"]", 22,
+     "'side' is not a part of this link"},
     {"parts = [\"lower\", \"upper\"]",
      "parts = [\"lower\"]\n  [[link.collision]]\n  name = \"body_1\"\n  parts = [\"upper\"]", 24,
-     "another collision has this name; give each its own `name`"},
+     "duplicate name of a collision; give each its own `name`"},
     {"type = \"revolute\"", "type = \"ball\"", 26, "is not supported; types: fixed"},
     {"type = \"revolute\"", "type = \"screw\"", 24, "'pitch'"},
     {"parent = \"foot\"", "parent = \"nobody\"", 27, "'nobody' does not exist"},
@@ -138,7 +139,7 @@ const SpoiltRecipe kSpoiltRecipes[] = {
     {"damping = 0.25", "damping = = 1", 31, "not well-formed TOML"},
 };
 
-TEST_CASE("a spoilt line of a recipe gives a fault with file and line") {
+TEST_CASE("an invalid line of a recipe gives an error with file and line") {
   const CubeFolder folder;
   for (const SpoiltRecipe& spoilt : kSpoiltRecipes) {
     INFO(spoilt.from, " -> ", spoilt.to);
@@ -150,7 +151,7 @@ TEST_CASE("a spoilt line of a recipe gives a fault with file and line") {
   }
 }
 
-TEST_CASE("all faults of a recipe are told at once") {
+TEST_CASE("all errors of a recipe are reported at once") {
   const CubeFolder folder;
   std::string text = replaced(kCube, "density = 100", "density = -1");
   text = replaced(text, "mesh = \"upper\"", "mesh = \"none\"");
@@ -162,7 +163,7 @@ TEST_CASE("all faults of a recipe are told at once") {
   CHECK(tells(faults, 29, "axis"));
 }
 
-TEST_CASE("an open mesh is refused at the line of its part, and nothing is written") {
+TEST_CASE("an open mesh is rejected at the line of its part, and nothing is written") {
   const CubeFolder folder;
   TriangleMesh open = box_mesh({0, 0, 0.5}, {1, 1, 1});
   open.triangles.pop_back();
@@ -173,8 +174,8 @@ TEST_CASE("an open mesh is refused at the line of its part, and nothing is writt
   CHECK(!fs::exists(folder.path() / "cube.urdf"));
 }
 
-// Within texts brackets do not count, and their lines do.
-TEST_CASE("a recipe that is nested too deep, or too long, is refused before it is parsed") {
+// Brackets in strings do not count, their lines do.
+TEST_CASE("a recipe that is nested too deep, or too long, is rejected before parsing") {
   const CubeFolder folder;
   const std::string before = std::string(kCube) + "note = \"\"\"\n" + std::string(300, '[') +
                              "\n\"\"\"\n" + "said = \"a \\\" " + std::string(300, '[') + "\"\n";
@@ -185,13 +186,13 @@ TEST_CASE("a recipe that is nested too deep, or too long, is refused before it i
   const auto faults = faults_of([&] { read_recipe(folder.recipe(before + deep(201))); });
   INFO(listing(faults));
   CHECK(faults.size() == 1);
-  CHECK(tells(faults, 36, "nested more than 200 deep; no key here has such a place"));
+  CHECK(tells(faults, 36, "TOML nesting depth exceeds 200"));
   const fs::path file = folder.recipe(kCube);
-  fs::resize_file(file, (4u << 20) + 1);  // a hole: takes no room on the disk
-  CHECK(tells(faults_of([&] { read_recipe(file); }), 0, "more than 4 MiB"));
+  fs::resize_file(file, (4u << 20) + 1);  // sparse
+  CHECK(tells(faults_of([&] { read_recipe(file); }), 0, "larger than 4 MiB"));
 }
 
-TEST_CASE("a missing recipe is a fault with its name") {
+TEST_CASE("a missing recipe is an error with its name") {
   const auto faults = faults_of([] { read_recipe("/nonexistent/robot.toml"); });
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].file == "/nonexistent/robot.toml");

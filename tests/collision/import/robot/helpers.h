@@ -1,4 +1,4 @@
-// What the tests of collision/import share: robots compared, faults found.
+// Helpers of collision/import tests: comparison of robots, errors.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -31,14 +31,14 @@ inline std::string listing(const std::vector<Diagnostic>& faults) {
   return text;
 }
 
-// Is there a fault at this line whose text contains `words`?
+// Whether there is an error at this line whose text contains `words`.
 inline bool tells(const std::vector<Diagnostic>& faults, int line, const std::string& words) {
   for (const Diagnostic& fault : faults)
     if (fault.line == line && to_string(fault).find(words) != std::string::npos) return true;
   return false;
 }
 
-// The same of a fault of that code; `value` is what it names of the user's file, in any language.
+// As above with an error code; `value` is a text from the user's file.
 inline bool tells(const std::vector<Diagnostic>& faults, int line, const std::string& code,
                   const std::string& value) {
   for (const Diagnostic& fault : faults)
@@ -48,8 +48,8 @@ inline bool tells(const std::vector<Diagnostic>& faults, int line, const std::st
   return false;
 }
 
-// What a file of bad input says of itself: lines START LINE CODE WORDS END, or START LINE WORDS END
-// of a warning, which has no code. The words are in the fault; - stands for any code.
+// Expectations in a file of invalid input: START LINE CODE WORDS END, or START LINE WORDS END of a
+// warning. The words are in the message; - is any code.
 struct ExpectedFault {
   int line = 0;
   std::string code, words;
@@ -70,7 +70,7 @@ inline std::vector<ExpectedFault> expected_in(const std::string& text, const std
   return found;
 }
 
-// These faults and no others, in the order of the file's lines.
+// Exactly these errors, in the order of lines.
 inline void check_faults(const std::vector<Diagnostic>& faults,
                          const std::vector<ExpectedFault>& expected, const fs::path& file) {
   INFO(listing(faults));
@@ -89,8 +89,8 @@ inline void check_faults(const std::vector<Diagnostic>& faults,
                        [](const Diagnostic& a, const Diagnostic& b) { return a.line < b.line; }));
 }
 
-// Largest difference of two numbers or arrays relative to the size of the array; a tolerance of 0
-// demands equal bits (so 0 and -0 differ).
+// Maximum difference of two numbers or arrays relative to the size of the array; tolerance 0:
+// bit-identical (0 and -0 differ).
 inline bool same(double a, double b, double tolerance) {
   if (tolerance == 0) return a == b && std::signbit(a) == std::signbit(b);
   return std::abs(a - b) <= tolerance * std::max(1.0, std::abs(b));
@@ -177,7 +177,7 @@ inline void check_same(const JointDescription& a, const JointDescription& b, dou
   CHECK(same(a.mimic->offset, b.mimic->offset, tolerance));
 }
 
-// All but the lines, the warnings and the name of the file.
+// All fields except lines, warnings and file name.
 inline void check_same(const RobotDescription& a, const RobotDescription& b, double tolerance) {
   CHECK(a.name == b.name);
   CHECK(a.root == b.root);
@@ -187,7 +187,7 @@ inline void check_same(const RobotDescription& a, const RobotDescription& b, dou
   for (std::size_t i = 0; i < a.joints.size(); ++i) check_same(a.joints[i], b.joints[i], tolerance);
 }
 
-// A correct arm of one hinge; the tests of faults spoil it. The first line is <robot>.
+// A valid arm with one revolute joint. The first line is <robot>.
 inline const char* const kGoodArm = R"(<robot name="arm">
   <link name="base"/>
   <link name="arm1">

@@ -39,7 +39,7 @@ JointDescription joint(const std::string& name, JointDescription::Type type,
 
 using Type = JointDescription::Type;
 
-// Every type of joint in one chain of heavy links, from a root without mass.
+// Every joint type in one chain of massive links, with a massless root.
 RobotDescription all_types() {
   RobotDescription robot;
   robot.name = "all";
@@ -89,7 +89,7 @@ TEST_CASE("every joint type becomes a joint of the solver with as many velocitie
   CHECK(model.nv == nv);
 }
 
-TEST_CASE("armature and friction can be left out") {
+TEST_CASE("armature and friction can be ignored") {
   ModelOptions options;
   options.armature = false;
   options.friction = false;
@@ -102,7 +102,7 @@ TEST_CASE("armature and friction can be left out") {
   }
 }
 
-TEST_CASE("a floating robot's root is carried by a free joint, whose name is no other joint's") {
+TEST_CASE("a floating robot's root has a free joint with a unique name") {
   RobotDescription robot = all_types();
   robot.links[0] = heavy("l0");
   ModelOptions options;
@@ -125,7 +125,7 @@ TEST_CASE("a root link may be called world") {
   CHECK(model.parent[2] == kRootBody);
 }
 
-TEST_CASE("a moving link without mass needs mass outward of it, an added one will do") {
+TEST_CASE("a moving link without mass needs a descendant with mass, or an added mass") {
   RobotDescription robot;
   robot.file = "/arm.urdf";
   robot.root = "base";
@@ -150,9 +150,8 @@ TEST_CASE("a moving link without mass needs mass outward of it, an added one wil
   CHECK(faults_of([&] { build_model(robot, options); }).size() == 1);
 }
 
-// Two hinges on one line with nothing between them: only the builder sees it, and it knows no
-// lines.
-TEST_CASE("what the solver's builder refuses is told with the file and line of the joint") {
+// Two revolute joints on one line with no mass between: only the builder detects it.
+TEST_CASE("errors of the solver's builder are reported with file and line of the joint") {
   RobotDescription robot;
   robot.file = "/arm.urdf";
   robot.root = "base";
@@ -166,7 +165,7 @@ TEST_CASE("what the solver's builder refuses is told with the file and line of t
   CHECK_NOTHROW(build_model(robot));
 }
 
-TEST_CASE("a scaled mass scales the inertia with it, and leaves the centre where it is") {
+TEST_CASE("a scaled mass scales the inertia, and keeps the centre of mass") {
   ModelOptions options;
   options.mass_scale["l2"] = 3;
   RobotDescription thrice = all_types();
@@ -179,7 +178,7 @@ TEST_CASE("a scaled mass scales the inertia with it, and leaves the centre where
   CHECK(M != mass_matrix(build_model(all_types()), x));
 }
 
-TEST_CASE("numbers of a description that are not finite are refused, whoever made it") {
+TEST_CASE("numbers of a description that are not finite are rejected") {
   for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
     RobotDescription robot = all_types();
     robot.links[1].mass = bad;
@@ -197,7 +196,7 @@ TEST_CASE("numbers of a description that are not finite are refused, whoever mad
   }
 }
 
-TEST_CASE("a robot without any mass cannot float") {
+TEST_CASE("a robot without mass cannot float") {
   RobotDescription robot;
   robot.root = "base";
   robot.links = {frame("base")};
@@ -206,17 +205,17 @@ TEST_CASE("a robot without any mass cannot float") {
   CHECK(faults_of([&] { build_model(robot, options); }).size() == 1);
 }
 
-TEST_CASE("a mass for a link that does not exist is refused") {
+TEST_CASE("a mass for a link that does not exist is rejected") {
   ModelOptions options;
   options.mass_scale["nobody"] = 2;
   options.added_masses = {{"none", Vector3::Zero(), 1.0}};
   const auto faults = faults_of([&] { build_model(all_types(), options); });
   CHECK(faults.size() == 2);
-  CHECK(tells(faults, 0, "'nobody' is no link"));
-  CHECK(tells(faults, 0, "'none' is no link"));
+  CHECK(tells(faults, 0, "'nobody' is not a link"));
+  CHECK(tells(faults, 0, "'none' is not a link"));
 }
 
-TEST_CASE("mimics arrive in the model with their velocities, chains resolved to the first leader") {
+TEST_CASE("mimic joints have their velocities, chains are resolved to the first mimicked joint") {
   RobotDescription robot;
   robot.root = "l0";
   robot.links = {frame("l0"), heavy("l1"), heavy("l2"), heavy("l3")};

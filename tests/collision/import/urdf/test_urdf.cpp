@@ -1,4 +1,4 @@
-// What a good URDF file says arrives in the description.
+// Valid URDF files: the description has their contents.
 #include "collision/import/urdf/urdf.h"
 
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@ namespace {
 
 using Type = JointDescription::Type;
 
-TEST_CASE("the numbers of a URDF arrive as they stand there") {
+TEST_CASE("the numbers of a URDF are read exactly") {
   const TemporaryFolder folder;
   const RobotDescription robot = read_urdf(folder.write("arm.urdf", kGoodArm));
   CHECK(robot.name == "arm");
@@ -42,7 +42,7 @@ TEST_CASE("the numbers of a URDF arrive as they stand there") {
   CHECK(joint.armature == 0);
 }
 
-TEST_CASE("roll, pitch and yaw turn about the fixed axes x, y, z in this order") {
+TEST_CASE("roll, pitch and yaw rotate about the fixed axes x, y, z in this order") {
   const double roll = 0.3, pitch = -0.7, yaw = 1.9;
   const Matrix3 expected =
       (Eigen::AngleAxisd(yaw, Vector3::UnitZ()) * Eigen::AngleAxisd(pitch, Vector3::UnitY()) *
@@ -53,7 +53,7 @@ TEST_CASE("roll, pitch and yaw turn about the fixed axes x, y, z in this order")
   CHECK(X.p == Vector3(1, 2, 3));
 }
 
-TEST_CASE("an inertia given in turned axes is brought into link axes") {
+TEST_CASE("an inertia in rotated axes is transformed to link axes") {
   // A quarter turn about z exchanges ixx and iyy.
   const TemporaryFolder folder;
   const std::string text =
@@ -65,7 +65,7 @@ TEST_CASE("an inertia given in turned axes is brought into link axes") {
   CHECK(robot.links[1].com == Vector3(0.2, 0, 0));
 }
 
-TEST_CASE("the axis becomes a unit vector and is x where it is not given, as URDF has it") {
+TEST_CASE("the axis is normalised; its default is x") {
   const TemporaryFolder folder;
   const auto axis = [&](const std::string& element) {
     const std::string text = replaced(kGoodArm, "<axis xyz=\"0 0 1\"/>", element);
@@ -75,7 +75,7 @@ TEST_CASE("the axis becomes a unit vector and is x where it is not given, as URD
   CHECK(axis("") == Vector3::UnitX());
 }
 
-TEST_CASE("a missing lower or upper limit is 0, as URDF has it") {
+TEST_CASE("a missing lower or upper limit is 0") {
   const TemporaryFolder folder;
   const RobotDescription robot =
       read_urdf(folder.write("arm.urdf", replaced(kGoodArm, "lower=\"-1\"", "")));
@@ -83,7 +83,7 @@ TEST_CASE("a missing lower or upper limit is 0, as URDF has it") {
   CHECK(robot.joints[0].upper == 1.5);
 }
 
-TEST_CASE("the twinarm element gives armature and Coulomb friction of either direction") {
+TEST_CASE("the twinarm element gives armature and Coulomb friction of each direction") {
   const TemporaryFolder folder;
   const std::string text =
       replaced(kGoodArm, "<axis", "<twinarm armature=\"0.03\" coulomb_plus=\"0.4\"/><axis");
@@ -124,7 +124,7 @@ TEST_CASE("mesh files are found beside the URDF, in its package, and by file://"
   CHECK(found(mesh.string()) == mesh);
 }
 
-// A tetrahedron with corners at the origin and on the axes.
+// A tetrahedron with vertices at the origin and on the axes.
 const char* const kTetrahedron = R"(v 0 0 0
 v 1 0 0
 v 0 1 0
@@ -135,7 +135,7 @@ f 1 4 3
 f 2 3 4
 )";
 
-TEST_CASE("a mesh may be stretched and mirrored, and stays oriented outward") {
+TEST_CASE("a mesh may be scaled and mirrored, and keeps the outward orientation") {
   // Six times the volume of a tetrahedron at the origin: the product of the scales.
   const TemporaryFolder folder;
   folder.write("a.obj", kTetrahedron);
@@ -162,7 +162,7 @@ TEST_CASE("a mesh may be stretched and mirrored, and stays oriented outward") {
   CHECK(tells(faults, 10, "urdf.mesh-scale", "'1 0 1'"));
 }
 
-// Sets an environment variable for as long as it lives.
+// Sets an environment variable during its lifetime.
 class Environment {
  public:
   Environment(const char* name, const std::string& value) : name_(name) {
@@ -183,7 +183,7 @@ class Environment {
   std::optional<std::string> before_;
 };
 
-TEST_CASE("a package is sought in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH") {
+TEST_CASE("a package is searched in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH") {
   const TemporaryFolder urdfs, packages;
   const fs::path direct = packages.write("src/near/a.stl", "solid\nendsolid\n");
   const fs::path nested = packages.write("src/repository/far/a.stl", "solid\nendsolid\n");
@@ -203,7 +203,7 @@ TEST_CASE("a package is sought in ROS_PACKAGE_PATH and AMENT_PREFIX_PATH") {
 }
 
 TEST_CASE("an origin may be given by a quaternion") {
-  // A quarter turn about z, and one about y: there roll and yaw cannot be told apart.
+  // A quarter turn about z, and one about y, where roll and yaw are not unique.
   const TemporaryFolder folder;
   const auto turn = [&](const std::string& quat) {
     const std::string text =
@@ -219,7 +219,7 @@ TEST_CASE("an origin may be given by a quaternion") {
   }
 }
 
-TEST_CASE("a material is found by name, at the robot or where another visual states it") {
+TEST_CASE("a material is found by name, in the robot or in another visual") {
   const TemporaryFolder folder;
   std::string text = replaced(
       kGoodArm, "<link name=\"base\"/>",
@@ -236,7 +236,7 @@ TEST_CASE("a material is found by name, at the robot or where another visual sta
   }
 }
 
-TEST_CASE("joints are put in order from the root, those of equal rank in that of the file") {
+TEST_CASE("joints are sorted from the root, those of equal rank in the order of the file") {
   const auto order = [](const std::vector<std::array<const char*, 2>>& links) {  // parent, child
     RobotDescription robot;
     robot.root = "r";
@@ -249,8 +249,7 @@ TEST_CASE("joints are put in order from the root, those of equal rank in that of
   };
   using Order = std::vector<std::size_t>;
   CHECK(order({{"b", "c"}, {"a", "b"}, {"r", "a"}}) == Order{2, 1, 0});
-  // Swept again and again: the second waits for the third, and then comes in the next sweep, after
-  // those behind it.
+  // Repeated sweeps: the second waits for the third, and is then in the next sweep.
   CHECK(order({{"r", "a"}, {"c", "b"}, {"r", "c"}, {"c", "d"}, {"a", "e"}, {"b", "f"}}) ==
         Order{0, 2, 3, 4, 1, 5});
 }

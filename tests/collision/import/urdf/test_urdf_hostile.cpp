@@ -1,4 +1,4 @@
-// Files made to break the reader: it refuses them or reads them, and comes to an end.
+// Hostile files: the reader rejects or reads them, and terminates.
 #include <random>
 #include <string>
 
@@ -15,7 +15,7 @@ std::string repeated(const std::string& text, int count) {
   return result;
 }
 
-TEST_CASE("elements nested a hundred thousand deep are refused") {
+TEST_CASE("elements nested a hundred thousand deep are rejected") {
   const TemporaryFolder folder;
   for (const char* name : {"link", "gazebo", "geometry"}) {
     const std::string open = std::string("<") + name + ">", close = std::string("</") + name + ">";
@@ -27,7 +27,7 @@ TEST_CASE("elements nested a hundred thousand deep are refused") {
   }
 }
 
-TEST_CASE("a chain of ten thousand links is read, whatever its order in the file") {
+TEST_CASE("a chain of ten thousand links is read, in any order of the file") {
   const TemporaryFolder folder;
   constexpr int kLinks = 10000;
   std::string links, outward, inward;
@@ -56,7 +56,7 @@ TEST_CASE("a chain of ten thousand links is read, whatever its order in the file
   CHECK(faults_of([&] { read_urdf(folder.write("loop.urdf", loop)); }).size() == 1);
 }
 
-TEST_CASE("a value of a megabyte is refused, and is not repeated in full") {
+TEST_CASE("a value of a megabyte is rejected, and not repeated in full") {
   const TemporaryFolder folder;
   const std::string text =
       replaced(kGoodArm, "value=\"2\"", "value=\"" + repeated("9", 1000000) + "\"");
@@ -65,16 +65,17 @@ TEST_CASE("a value of a megabyte is refused, and is not repeated in full") {
   CHECK(to_string(faults[0]).size() < 1000);
 }
 
-TEST_CASE("a file of more than 16 MiB is refused before it is read") {
+TEST_CASE("a file of more than 16 MiB is rejected before it is read") {
   const TemporaryFolder folder;
   const fs::path file = folder.write("big.urdf", kGoodArm);
-  fs::resize_file(file, (16u << 20) + 1);  // a hole: takes no room on the disk
+  fs::resize_file(file, (16u << 20) + 1);  // sparse
   const auto faults = faults_of([&] { read_urdf(file); });
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].problem.find("16 MiB") != std::string::npos);
 }
 
-TEST_CASE("a robot of more than forty thousand links and joints is refused at the first too many") {
+TEST_CASE(
+    "a robot of more than forty thousand links and joints is rejected at the first excess one") {
   const TemporaryFolder folder;
   std::string text = "<robot name=\"crowd\">\n";
   for (int n = 0; n < 40001; ++n) text += "<link name=\"l" + std::to_string(n) + "\"/>\n";
@@ -84,8 +85,8 @@ TEST_CASE("a robot of more than forty thousand links and joints is refused at th
   CHECK(tells(faults, 40002, "urdf.too-many", "40,000"));
 }
 
-// The oracle is the sanitizers' and the fault's form: whatever a mutation does, it is told or read.
-TEST_CASE("a file with bytes exchanged, taken out or doubled is read or refused") {
+// Oracle: sanitizers, and the form of the errors.
+TEST_CASE("a file with bytes exchanged, removed or duplicated is read or rejected") {
   const TemporaryFolder folder;
   std::string good = replaced(kGoodArm, "<axis",
                               "<mimic joint=\"joint1\"/><twinarm "

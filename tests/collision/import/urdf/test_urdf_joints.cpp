@@ -1,4 +1,4 @@
-// Joint types beyond the hinge, the <twinarm> element, limits and mimics of a URDF.
+// Joint types beyond revolute, the <twinarm> element, limits and mimic joints of a URDF.
 #include <limits>
 #include <string>
 
@@ -10,7 +10,7 @@ namespace {
 
 using Type = JointDescription::Type;
 
-// The good arm with its joint's type and what is to stand before its <axis> (line 16).
+// The valid arm with another joint type and elements before its <axis> (line 16).
 RobotDescription with_joint(const std::string& type, const std::string& inside = "") {
   const TemporaryFolder folder;
   std::string text = replaced(kGoodArm, "type=\"revolute\"", "type=\"" + type + "\"");
@@ -18,7 +18,7 @@ RobotDescription with_joint(const std::string& type, const std::string& inside =
   return read_urdf(folder.write("arm.urdf", text));
 }
 
-TEST_CASE("every joint type is read, those that URDF lacks by <twinarm type>") {
+TEST_CASE("every joint type is read, those beyond URDF by <twinarm type>") {
   struct Case {
     const char* urdf;
     const char* extension;
@@ -50,7 +50,7 @@ TEST_CASE("every joint type is read, those that URDF lacks by <twinarm type>") {
   }
 }
 
-TEST_CASE("the pitch of a screw is kept in metres per revolution, of either hand") {
+TEST_CASE("the pitch of a screw is kept in metres per revolution, of either sign") {
   for (const double pitch : {0.002, -0.25}) {
     std::ostringstream element;
     element << "<twinarm type=\"screw\" pitch=\"" << pitch << "\"/>";
@@ -58,7 +58,7 @@ TEST_CASE("the pitch of a screw is kept in metres per revolution, of either hand
   }
 }
 
-TEST_CASE("a screw has limits where <limit> states a range") {
+TEST_CASE("a screw has limits if <limit> has a range") {
   const std::string screw = "<twinarm type=\"screw\" pitch=\"0.01\"/>";
   const JointDescription joint = with_joint("continuous", screw).joints[0];
   CHECK(joint.is_limited());
@@ -82,7 +82,7 @@ TEST_CASE("limits may be infinite") {
 }
 
 // Line 1 is <robot>, then a base and one massive link for each joint (line 2), then the joints, one
-// a line: name, type, what stands inside.
+// per line: name, type, child elements.
 std::string chain(const std::vector<std::array<std::string, 3>>& joints) {
   std::string links = "<link name=\"0\"/>", lines;
   for (std::size_t k = 0; k < joints.size(); ++k) {
@@ -96,7 +96,7 @@ std::string chain(const std::vector<std::array<std::string, 3>>& joints) {
   return "<robot name=\"chain\">\n" + links + "\n" + lines + "</robot>\n";
 }
 
-TEST_CASE("a mimic is kept with its numbers, chains of mimics too; they are 1 and 0 if left out") {
+TEST_CASE("mimic joints and their chains are kept; multiplier and offset default to 1 and 0") {
   const TemporaryFolder folder;
   const RobotDescription robot = read_urdf(folder.write(
       "a.urdf",

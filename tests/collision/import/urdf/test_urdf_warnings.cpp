@@ -1,5 +1,4 @@
-// What is read although it is suspicious: inertias, and shapes where only dynamics is asked for.
-// Other warnings: urdf_errors/.
+// Warnings of inertias, and of shapes if only dynamics is needed. Other warnings: urdf_errors/.
 #include <string>
 
 #include "collision/import/robot/robot_model.h"
@@ -12,12 +11,13 @@ namespace {
 constexpr RobotFileOptions kStrict{RobotFileOptions::Geometry::required, true};
 constexpr RobotFileOptions kDynamics{RobotFileOptions::Geometry::optional, false};
 
-TEST_CASE("an inertia that no rigid body has is named and read; where strict, it is refused") {
+TEST_CASE("a physically impossible inertia is a warning, and an error if strict") {
   const TemporaryFolder folder;
   for (const auto& [ixx, words] :
        {std::pair{"-0.01", "not positive definite: principal moments -0.01, 0.02, 0.025"},
         std::pair{"0", "not positive definite"},
-        std::pair{"0.1", "breaks the triangle inequality A + B >= C: principal moments 0.02, 0.02"},
+        std::pair{"0.1",
+                  "violates the triangle inequality A + B >= C: principal moments 0.02, 0.02"},
         std::pair{"0.1", "no rigid body of positive density has it"}}) {
     std::string text = replaced(kGoodArm, "ixx=\"0.01\"", std::string("ixx=\"") + ixx + "\"");
     if (std::string(ixx) == "0.1") text = replaced(text, "0.025", "0.02");
@@ -33,7 +33,7 @@ TEST_CASE("an inertia that no rigid body has is named and read; where strict, it
   }
 }
 
-TEST_CASE("the inertia of a thin plate is that of a body, though rounding breaks A + B = C") {
+TEST_CASE("the inertia of a thin plate is valid, although rounding violates A + B = C") {
   const TemporaryFolder folder;
   std::string text = replaced(kGoodArm, "ixx=\"0.01\"", "ixx=\"0.333333\"");
   text = replaced(replaced(text, "0.02\"", "0.333333\""), "0.025", "0.6666665");
@@ -41,7 +41,8 @@ TEST_CASE("the inertia of a thin plate is that of a body, though rounding breaks
   CHECK(read_urdf(file, kStrict).warnings.empty());
 }
 
-TEST_CASE("dynamics does without the meshes: they are one warning, and stay in the description") {
+TEST_CASE(
+    "dynamics without meshes: missing meshes are one warning, and are kept in the description") {
   const TemporaryFolder folder;
   const std::string meshes =
       "<mesh filename=\"no.stl\" scale=\"1 2 3\"/></geometry></visual><visual name=\"v\"><geometry>"
@@ -62,10 +63,11 @@ TEST_CASE("dynamics does without the meshes: they are one warning, and stay in t
   CHECK(mesh.name == "no.stl");
   CHECK(mesh.scale == Vector3(1, 2, 3));
   const auto faults = faults_of([&] { load_mesh(mesh); });
-  CHECK(tells(faults, 0, "mesh 'no.stl': its file was not found; put it where the robot's file"));
+  CHECK(tells(faults, 0,
+              "mesh 'no.stl': its file was not found; put it at the path in the robot's file"));
 }
 
-TEST_CASE("dynamics does without shapes that cannot be read: each is a warning and is left out") {
+TEST_CASE("dynamics without valid shapes: each is a warning and is left out") {
   const TemporaryFolder folder;
   for (const char* shape : {"<cone/>", "<sphere radius=\"0\"/>", "<box size=\"1 x 1\"/>", ""}) {
     INFO(shape);

@@ -1,4 +1,4 @@
-// Writing a robot and reading it again changes nothing, to the last bit.
+// Writing a robot and reading it again is bit-identical.
 
 #include <random>
 
@@ -11,7 +11,7 @@ namespace {
 
 using Type = JointDescription::Type;
 
-// Doubles with all their bits in use, of both signs and many magnitudes; fixed seed.
+// Random doubles with all mantissa bits, both signs and many magnitudes; fixed seed.
 class Numbers {
  public:
   double any() { return std::ldexp(unit_(generator_) - 0.5, exponent_(generator_)); }
@@ -30,7 +30,7 @@ LinkDescription random_link(const std::string& name, const fs::path& mesh, Numbe
   link.has_inertia = true;
   link.mass = numbers.positive();
   link.com = numbers.vector();
-  // Of random points: an inertia that a body can have.
+  // Of random points: a physically possible inertia.
   for (int k = 0; k < 5; ++k) {
     const Vector3 r = numbers.vector();
     link.inertia += r.squaredNorm() * Matrix3::Identity() - r * r.transpose();
@@ -47,7 +47,7 @@ LinkDescription random_link(const std::string& name, const fs::path& mesh, Numbe
     visual.name = name + " <&\"'> " + std::to_string(link.visuals.size());
     visual.origin = {numbers.vector(), numbers.vector()};
     visual.geometry = shape;
-    // Some names come again with another colour; some visuals have no name.
+    // Some names occur again with another colour; some visuals have no name.
     visual.material = link.visuals.size() % 3 ? "paint" + std::to_string(link.visuals.size()) : "";
     visual.color = Vector4(0.1, 1.0 / 3, std::min(1.0, numbers.positive()), 1);
     link.visuals.push_back(visual);
@@ -75,7 +75,7 @@ RobotDescription random_robot(const fs::path& mesh) {
     joint.origin = {numbers.vector(), numbers.vector()};
     if (joint.has_axis()) joint.axis = numbers.vector().normalized();
     if (joint.type == Type::screw) joint.pitch = numbers.any();
-    // Some screws have limits, some have not.
+    // Some screws have limits.
     if (joint.is_limited() || (joint.type == Type::screw && k % 2)) {
       joint.lower = numbers.any();
       joint.upper = joint.lower + numbers.positive();
@@ -87,7 +87,7 @@ RobotDescription random_robot(const fs::path& mesh) {
     joint.armature = numbers.positive();
     joint.coulomb_plus = k % 2 ? joint.friction : numbers.positive();
     joint.coulomb_minus = k % 3 ? joint.friction : numbers.positive();
-    // Hinges follow the hinge before them.
+    // Mimic joints of the joint before them.
     if (joint.type == Type::revolute && k > 11)
       joint.mimic = {"joint" + std::to_string(k - 11), numbers.any(), numbers.any()};
     robot.joints.push_back(joint);
@@ -99,12 +99,12 @@ RobotDescription random_robot(const fs::path& mesh) {
   return robot;
 }
 
-TEST_CASE("a robot that is written and read again is the same to the last bit") {
+TEST_CASE("a robot that is written and read again is bit-identical") {
   const TemporaryFolder folder;
   const fs::path mesh = folder.write("meshes/part one.stl", "solid\nendsolid\n");
   const RobotDescription robot = random_robot(mesh);
   write_urdf(robot, folder.path() / "robot.urdf", "two -- lines\nof comment --");
-  // One mesh is nowhere to be found.
+  // One mesh does not exist.
   const RobotFileOptions options{RobotFileOptions::Geometry::optional, true};
   const RobotDescription again = read_urdf(folder.path() / "robot.urdf", options);
   check_same(again, robot, 0.0);
@@ -112,7 +112,7 @@ TEST_CASE("a robot that is written and read again is the same to the last bit") 
   CHECK(text_of(folder.path() / "again.urdf") == text_of(folder.path() / "robot.urdf"));
 }
 
-TEST_CASE("negative zeros survive the writing") {
+TEST_CASE("negative zeros are preserved") {
   const TemporaryFolder folder;
   RobotDescription robot = read_urdf(folder.write("arm.urdf", kGoodArm));
   robot.links[1].com = Vector3(-0.0, 0.0, -0.0);
@@ -122,7 +122,7 @@ TEST_CASE("negative zeros survive the writing") {
   check_same(read_urdf(folder.path() / "out.urdf"), robot, 0.0);
 }
 
-TEST_CASE("a URDF that is read and written keeps a turned inertia") {
+TEST_CASE("a URDF that is read and written keeps a rotated inertia") {
   const TemporaryFolder folder;
   const std::string text =
       replaced(kGoodArm, "xyz=\"0.2 0 0\"", "xyz=\"0.2 0 0\" rpy=\"0.1 0.2 0.3\"");
@@ -131,7 +131,7 @@ TEST_CASE("a URDF that is read and written keeps a turned inertia") {
   check_same(read_urdf(folder.path() / "out.urdf"), robot, 0.0);
 }
 
-TEST_CASE("writing leaves no temporary file, and says where it could not write") {
+TEST_CASE("writing leaves no temporary file, and reports where it cannot write") {
   const TemporaryFolder folder;
   const RobotDescription robot = read_urdf(folder.write("arm.urdf", kGoodArm));
   write_urdf(robot, folder.path() / "out.urdf");
@@ -140,12 +140,12 @@ TEST_CASE("writing leaves no temporary file, and says where it could not write")
   const auto faults = faults_of([&] { write_urdf(robot, nowhere); });
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].file == nowhere.string());
-  fs::create_directories(folder.path() / "taken.urdf");  // a folder: the renaming fails
+  fs::create_directories(folder.path() / "taken.urdf");  // a folder: renaming fails
   CHECK(faults_of([&] { write_urdf(robot, folder.path() / "taken.urdf"); }).size() == 1);
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 3);
 }
 
-TEST_CASE("numbers are written with the fewest digits that read back, and only numbers are read") {
+TEST_CASE("numbers are written with the fewest exact digits, and only numbers are read") {
   CHECK(number_text(0.1) == "0.1");
   CHECK(number_text(1.0 / 3) == "0.3333333333333333");
   CHECK(number_text(25) == "25");

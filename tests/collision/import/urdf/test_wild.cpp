@@ -1,6 +1,5 @@
-// Files in the styles that users bring (tests/collision/import/urdf/wild). The oracle is a reader
-// of its own, in another language, whose counts and sums stand in wild/expected.txt
-// (wild/README.md).
+// Files in the styles of users (tests/collision/import/urdf/wild). Oracle: an independent reader in
+// another language, with its counts and sums in wild/expected.txt (wild/README.md).
 #include <iomanip>
 #include <map>
 #include <sstream>
@@ -26,7 +25,7 @@ struct Expected {
   std::string root;
   Vector3 com;
   Vector3 moments;   // Ixx, Iyy, Izz about the world's origin at q = 0
-  Vector3 products;  // Ixy, Ixz, Iyz: the entries of the matrix
+  Vector3 products;  // Ixy, Ixz, Iyz: matrix entries
   std::string frame;
   Vector3 p_W;
 };
@@ -83,7 +82,7 @@ Sums sums(const RobotDescription& robot) {
   return s;
 }
 
-TEST_CASE("files in the wild: links, joints and meshes are as many as another reader counts") {
+TEST_CASE("files in the wild: links, joints and meshes agree with another reader") {
   for (const Expected& e : all_expected()) {
     INFO(e.name);
     const RobotDescription robot = wild(e.name);
@@ -114,8 +113,7 @@ TEST_CASE("files in the wild: links, joints and meshes are as many as another re
   }
 }
 
-TEST_CASE(
-    "files in the wild: mass, centre, inertia and a frame are where another reader has them") {
+TEST_CASE("files in the wild: mass, centre, inertia and a frame agree with another reader") {
   for (const Expected& e : all_expected()) {
     INFO(e.name);
     const RobotDescription robot = wild(e.name);
@@ -131,7 +129,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("files in the wild: what has no effect here is told once for each kind") {
+TEST_CASE("files in the wild: elements without effect are reported once per kind") {
   const std::map<std::string, std::vector<std::string>> kinds = {
       {"cad_welder", {"mesh file", "<calibration>", "<safety_controller>", "<axis>"}},
       {"xacro_arm_gripper",
@@ -154,7 +152,7 @@ TEST_CASE("files in the wild: what has no effect here is told once for each kind
   }
 }
 
-TEST_CASE("files in the wild: written and read again they are the same to the last bit") {
+TEST_CASE("files in the wild: bit-identical when written and read again") {
   const TemporaryFolder folder;
   for (const Expected& e : all_expected()) {
     const RobotDescription robot = wild(e.name);
@@ -163,14 +161,14 @@ TEST_CASE("files in the wild: written and read again they are the same to the la
   }
 }
 
-TEST_CASE("files in the wild: a mesh that is missing is refused where it is to be drawn") {
+TEST_CASE("files in the wild: a missing mesh is rejected if it is needed") {
   for (const Expected& e : all_expected()) {
     const auto faults = faults_of([&] { wild(e.name, {}); });
     CHECK(static_cast<int>(faults.size()) == e.meshes);
   }
 }
 
-TEST_CASE("files in the wild: a student's first file is told all its faults at once") {
+TEST_CASE("files in the wild: all errors of a student's first file are reported at once") {
   const auto lines_of = [](const std::vector<Diagnostic>& faults) {
     std::vector<int> lines;
     for (const Diagnostic& fault : faults) lines.push_back(fault.line);

@@ -1,0 +1,69 @@
+#include "app/lab/server/outgoing_queues.h"
+
+#include <utility>
+
+namespace twinarm {
+
+void OutgoingQueues::open(ClientId client) {
+  const std::lock_guard lock(mutex_);
+  queues_[client];
+}
+
+void OutgoingQueues::close(ClientId client) {
+  const std::lock_guard lock(mutex_);
+  queues_.erase(client);
+}
+
+bool OutgoingQueues::put(ClientId client, int channel, const Message& message) {
+  const std::lock_guard lock(mutex_);
+  const auto found = queues_.find(client);
+  if (found == queues_.end()) return false;  // just disconnected
+  Queue& queue = found->second;
+  const auto index = static_cast<std::size_t>(channel);
+  if (index >= queue.slots.size()) queue.slots.resize(index + 1);
+  Slot& slot = queue.slots[index];
+  if (slot.since != 0)
+    ++queue.traffic.replaced;
+  else
+    slot.since = ++turn_;
+  slot.message = message;
+  return !std::exchange(woken_, true);
+}
+
+void OutgoingQueues::clear_wakeup() {
+  const std::lock_guard lock(mutex_);
+  woken_ = false;
+}
+
+std::optional<OutgoingQueues::Message> OutgoingQueues::take(ClientId client) {
+  const std::lock_guard lock(mutex_);
+  const auto found = queues_.find(client);
+  if (found == queues_.end()) return {};
+  Queue& queue = found->second;
+  Slot* next = nullptr;
+  for (Slot& slot : queue.slots) {
+    if (slot.since == 0) continue;
+    const bool is_first = &slot == queue.slots.data();
+    if (!next || is_first || slot.since < next->since) next = &slot;
+    if (is_first) break;
+  }
+  if (!next) return {};
+  next->since = 0;
+  ++queue.traffic.sent;
+  queue.traffic.bytes += next->message.bytes->size();
+  return std::exchange(next->message, {});
+}
+
+void OutgoingQueues::count_received(ClientId client) {
+  const std::lock_guard lock(mutex_);
+  const auto found = queues_.find(client);
+  if (found != queues_.end()) ++found->second.traffic.received;
+}
+
+LabServer::Traffic OutgoingQueues::traffic(ClientId client) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = queues_.find(client);
+  return found == queues_.end() ? LabServer::Traffic{} : found->second.traffic;
+}
+
+}  // namespace twinarm
