@@ -28,7 +28,8 @@ struct MapCurve {
   std::vector<double> x, y;  // values of the axes; NaN separates branches
 };
 
-// Predicted stability limits as curves in the plane of the map (docs/understand/stability_of_spring_dampers.md).
+// Predicted stability limits as curves in the plane of the map
+// (docs/understand/stability_of_spring_dampers.md).
 //
 // Linearised about a pose, with e = q_K - q_D, a step is stable if no eigenvalue of its matrix lies
 // outside the unit circle. Poses: the start, and the worst of the target's motion. An implicit
