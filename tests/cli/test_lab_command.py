@@ -140,7 +140,7 @@ class LabCommand(LabTest):
             second = self.state(live=other)
             self.assertEqual(second["holder"], you)
             other.do("set", changes=["coupling[0].stiffness=21"])
-            self.assertIn("hand", self.told(self.state(lambda s: s["notes"], live=other)))
+            self.assertIn("control", self.told(self.state(lambda s: s["notes"], live=other)))
             other.do("take")
             self.state(lambda s: s["asked"] == [second["you"]])
             self.live.do("give", to=second["you"])

@@ -126,7 +126,7 @@ class Recordings(RecordingCommand):
         for body in ("low", "high"):
             self.assertEqual(table.count(f"links/{body}/"), 1, table)
         table = self.twinarm("replay", file, "--set", "gravity=0,0,-9.81").stdout
-        self.assertIn("no value of the fork differs", table)
+        self.assertIn("no value of the branch differs", table)
 
     def test_a_branch_counts_no_work_that_the_old_spring_would_have_done(self):
         """Forked where the arm is held by a box and its target moves on: nothing else moves."""

@@ -76,7 +76,7 @@ class Faults(ProgramTest):
         q, qd, tau = (rows[0] for rows in states(model, 1))
         place = model.q_of["spherical"]
         q[place] *= 1.1
-        self.told(ValueError, rf"q\[{place.start}:{place.stop}\] is a unit quaternion.*1.1",
+        self.told(ValueError, rf"q\[{place.start}:{place.stop}\] must be a unit quaternion.*1.1",
                   twinarm.aba, model, q, qd, tau)
 
     def test_files_that_are_missing_or_wrong_are_reported_with_all_faults(self):
