@@ -56,14 +56,14 @@ void EnergyBalance::find_rows(Integrator integrator, bool others_want_inner) {
     integrals_.push_back({EnergyRowKind::wrench, "wrench/" + std::to_string(i)});
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (model.dofs(i) == 0) continue;
-    const std::size_t iv = model.iv[i];  // the dofs of a joint are all alike
+    const std::size_t iv = model.iv[i];  // all dofs of a joint have equal friction
     const Friction friction{model.joint_name[i], iv, model.dofs(i)};
     if (model.damping[iv] != 0) damped_.push_back(friction);
-    if (model.coulomb_plus[iv] != 0 || model.coulomb_minus[iv] != 0) rubbing_.push_back(friction);
+    if (model.coulomb_plus[iv] != 0 || model.coulomb_minus[iv] != 0) friction_.push_back(friction);
   }
   for (const Friction& f : damped_)
     integrals_.push_back({EnergyRowKind::joint_damping, "joint/" + f.joint + "/damping"});
-  for (const Friction& f : rubbing_)
+  for (const Friction& f : friction_)
     integrals_.push_back({EnergyRowKind::joint_friction, "joint/" + f.joint + "/friction"});
   for (std::size_t c = 0; c < coupling_count(); ++c)
     for (const auto& [kind, part] : {std::pair{EnergyRowKind::coupling_spring, "/spring"},
@@ -97,7 +97,7 @@ std::vector<double> EnergyBalance::powers(const State<double>& x, Side side) con
     for (std::size_t i = f.iv; i < f.iv + f.nv; ++i) sum -= model.damping[i] * x.qd[i] * x.qd[i];
     powers.push_back(sum);
   }
-  for (const Friction& f : rubbing_) {
+  for (const Friction& f : friction_) {
     double sum = 0;
     for (std::size_t i = f.iv; i < f.iv + f.nv; ++i)
       sum -= x.qd[i] > 0 ? model.coulomb_plus[i] * x.qd[i] : -model.coulomb_minus[i] * x.qd[i];
@@ -115,16 +115,12 @@ std::vector<double> EnergyBalance::powers(const State<double>& x, Side side) con
   return powers;
 }
 
-std::span<const double> EnergyBalance::inner_nodes() const {
-  return nodes_;
-}
-
 void EnergyBalance::add_step(double h, const std::vector<State<double>>& inner,
                              const State<double>& end) {
   const auto add = [&](const std::vector<double>& power, double weight) {
     for (std::size_t i = 0; i < integrals_.size(); ++i) integrals_[i].work += weight * h * power[i];
   };
-  // Found again: of a hand that is known only up to now, the next step's velocity has come since.
+  // Recomputed: the target velocity of a live device may have arrived since the last step.
   if (couplings_) power_now_ = powers(now_, Side::after);
   add(power_now_, weights_.front());
   for (std::size_t s = 0; s < inner.size(); ++s)
@@ -135,7 +131,7 @@ void EnergyBalance::add_step(double h, const std::vector<State<double>>& inner,
   now_ = end;
 }
 
-// (pull h - m* (v' - v)) . (v + v')/2, less what spring and damper have already.
+// (force h - m* (v' - v)) . (v + v')/2; rows() subtracts the work of spring and damper.
 void EnergyBalance::add_implicit(double h, const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count(); ++c) {
     if (couplings_->spec(c).third_row() == ThirdRow::none) continue;
@@ -154,7 +150,7 @@ void EnergyBalance::serialize(StateArchive& memory) {
   for (State<double>* x : {&start_, &now_}) visit_state(memory, input_.model, *x);
   for (EnergyRow& row : integrals_) memory.visit(row.work);
   memory.visit_fixed(implicit_);
-  // Found again: a fork's springs pull with another power.
+  // Recomputed: the gains of a branch may differ.
   if (memory.reads()) power_now_ = powers(now_, Side::after);
 }
 
@@ -183,17 +179,17 @@ std::vector<EnergyRow> EnergyBalance::rows() const {
       continue;
     }
     const NamedJoint& joint = *actuator.joint;
-    std::vector<double> way = coordinates_of(joint, now_);
-    for (std::size_t c = 0; c < joint.nq; ++c) way[c] -= start_.q[joint.iq + c];
+    std::vector<double> change = coordinates_of(joint, now_);
+    for (std::size_t c = 0; c < joint.nq; ++c) change[c] -= start_.q[joint.iq + c];
     rows.push_back(
-        {EnergyRowKind::actuator, "actuator/" + joint.name, dot(input_.state.tau, joint, way)});
+        {EnergyRowKind::actuator, "actuator/" + joint.name, dot(input_.state.tau, joint, change)});
   }
   const auto couplings = integrals_.end() - static_cast<std::ptrdiff_t>(3 * coupling_count());
   rows.insert(rows.end(), integral, couplings);
   for (std::size_t c = 0; c < coupling_count(); ++c) {
-    const auto hand = couplings + static_cast<std::ptrdiff_t>(3 * c), damper = hand + 1;
-    const double spring = hand->work - (elastic_energy(c, now_) - elastic_energy(c, start_));
-    rows.push_back({EnergyRowKind::coupling_spring, hand->name, spring});
+    const auto target = couplings + static_cast<std::ptrdiff_t>(3 * c), damper = target + 1;
+    const double spring = target->work - (elastic_energy(c, now_) - elastic_energy(c, start_));
+    rows.push_back({EnergyRowKind::coupling_spring, target->name, spring});
     rows.push_back(*damper);
     const SceneCoupling& spec = couplings_->spec(c);
     if (const ThirdRow third = spec.third_row(); third != ThirdRow::none)
@@ -202,19 +198,19 @@ std::vector<EnergyRow> EnergyBalance::rows() const {
                       "coupling/" + spec.name + "/" + name_of(third),
                       implicit_[c] - spring - damper->work});
   }
-  double rest = kinetic_energy(model, now_) - kinetic_energy(model, start_);
-  for (const EnergyRow& row : rows) rest -= row.work;
-  rows.push_back({EnergyRowKind::numerical, kNumericalRow, rest});
+  double residual = kinetic_energy(model, now_) - kinetic_energy(model, start_);
+  for (const EnergyRow& row : rows) residual -= row.work;
+  rows.push_back({EnergyRowKind::numerical, kNumericalRow, residual});
   return rows;
 }
 
 namespace {
 
 constexpr double kGrowth = 1.5, kShare = 0.25;
-constexpr double kBurst = 10, kBurstShare = 0.5, kBurstHeight = 1e3;  // of floor_'s 1e-6 m
+constexpr double kBurst = 10, kBurstShare = 0.5, kBurstHeight = 1e3;  // relative to floor_
 
-// What an ideal element does is in none of these.
-std::vector<EnergyRow> watched(const std::vector<EnergyRow>& rows) {
+// Rows of numerical work.
+std::vector<EnergyRow> numerical_rows(const std::vector<EnergyRow>& rows) {
   std::vector<EnergyRow> found;
   for (const EnergyRow& row : rows) switch (row.kind) {
       case EnergyRowKind::numerical:
@@ -240,9 +236,9 @@ double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
 
 std::optional<Alarm> EnergyAlarm::look(double t, double kinetic,
                                        const std::vector<EnergyRow>& rows) {
-  if (is_told_) return std::nullopt;
+  if (has_alarmed_) return std::nullopt;
   max_kinetic_ = std::max(max_kinetic_, kinetic);
-  const std::vector<EnergyRow> now = watched(rows);
+  const std::vector<EnergyRow> now = numerical_rows(rows);
   long every = 1;
   for (Scale& scale : scales_) {
     if (count_ % every != 0) break;
@@ -253,7 +249,7 @@ std::optional<Alarm> EnergyAlarm::look(double t, double kinetic,
     if (scale.count >= 2 && every == 1) alarm = burst(scale);
     if (!alarm && scale.count >= kMarks) alarm = examine(scale);
     if (alarm) {
-      is_told_ = true;
+      has_alarmed_ = true;
       return alarm;
     }
     every *= kCoarser;
@@ -264,9 +260,9 @@ std::optional<Alarm> EnergyAlarm::look(double t, double kinetic,
 
 std::optional<Alarm> EnergyAlarm::burst(const Scale& scale) const {
   const Mark &before = scale.marks[kMarks - 2], &now = scale.marks.back();
-  const double had = std::max(before.max_kinetic, kBurstHeight * floor_);
+  const double reference = std::max(before.max_kinetic, kBurstHeight * floor_);
   for (const EnergyRow& row : now.rows)
-    if (row.work - work_of(before.rows, row.name) > kBurst * had &&
+    if (row.work - work_of(before.rows, row.name) > kBurst * reference &&
         row.work > kBurstShare * now.max_kinetic)
       return Alarm{row.name, now.t, row.work, before.t};
   return std::nullopt;
@@ -274,9 +270,9 @@ std::optional<Alarm> EnergyAlarm::burst(const Scale& scale) const {
 
 std::optional<Alarm> EnergyAlarm::examine(const Scale& scale) const {
   const Mark &first = scale.marks.front(), &last = scale.marks.back();
-  const double least = std::max({floor_, first.max_kinetic, kShare * last.max_kinetic});
+  const double threshold = std::max({floor_, first.max_kinetic, kShare * last.max_kinetic});
   for (const EnergyRow& row : last.rows) {
-    if (!(row.work > least)) continue;
+    if (!(row.work > threshold)) continue;
     bool grows = true;
     double growth = 0;
     for (std::size_t m = 1; m < kMarks; ++m) {

@@ -1,19 +1,18 @@
-// Where the joules come from: work done on the bodies from the start of a run, row by row.
+// Energy balance: work on the bodies since the start of a run, by source.
 //
-//   KE(t) - KE(0) = gravity + actuators + wrenches + damping + friction + couplings + numerical
+//   T(t) - T(0) = gravity + actuators + wrenches + damping + friction + couplings + numerical
 // Gravity is exact, by its potential; so is a constant torque on a joint whose velocity is the rate
-// of its coordinate. All others are integrals of power over each step: by the trapezoidal rule for
-// integrators of order 1 and 2, by Simpson's rule and by Lobatto's of order 6 for those of order 4
-// and 5, at states that a side step finds, so that `numerical` is the integrator's error and not
-// the ledger's.
+// of its coordinate. The others are integrals of power over each step: trapezoidal rule for
+// integrators of order 1 and 2, Simpson's rule for order 4, Lobatto's rule of order 6 for order 5,
+// at states of side steps, so that the residual `numerical` is the integrator's error.
 //
-// A coupling pulls with k e + b (v_K - v). Row `spring` is what the hand puts into the spring less
-// the rise of k e^2 / 2, for e' = v_K - v; row `damper` is the power of the damper on the link. An
-// implicit treatment pulls with what it had at the start of the step less m* dv/h, dv the change of
-// the link's velocity; what that works besides, over (v + v')/2, is its row `implicit`: numerical
-// damping. What a law as printed works besides a spring and a relative damper is `as_printed`, and
-// all that a god object works `drive`. `hand` is the work of the kinematic side, the pull over v_K;
-// it does not count in the sum.
+// Coupling force: k e + b (v_K - v), e' = v_K - v. Row `spring` is the work of the target on the
+// spring minus the change of k e^2 / 2; row `damper` the work of the damper on the link. An
+// implicit spring-damper applies its force at the start of the step minus m* dv/h, dv the change of
+// the link's velocity; the work of this term over (v + v')/2 is the row `implicit` (numerical
+// damping). The work of an as-published law beyond a spring and a relative damper is `as_printed`,
+// all work of a god object `drive`. hand() is the work of the target, force times v_K; it is not in
+// the sum.
 #pragma once
 
 #include <array>
@@ -37,16 +36,16 @@ class EnergyBalance {
   EnergyBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
                 SceneCouplings* couplings, Integrator integrator, bool others_want_inner);
 
-  // Where within a step, as parts of it, the state is asked for besides its ends.
-  std::span<const double> inner_nodes() const;
-  std::span<const double> weights() const { return weights_; }  // the ends included
-  // A step of h from the state of the last call (or the start), by way of inner_nodes().
+  // Inner quadrature nodes within a step, in (0, 1).
+  std::span<const double> inner_nodes() const { return nodes_; }
+  std::span<const double> weights() const { return weights_; }  // of all nodes, ends included
+  // A step of h from the state of the last call (or the start), with the states at inner_nodes().
   void add_step(double h, const std::vector<State<double>>& inner, const State<double>& end);
   const State<double>& now() const { return now_; }
   std::vector<EnergyRow> rows() const;  // `numerical` last
-  // The sums so far; the rows of another run must be the same.
+  // Reading requires a run with the same rows.
   void serialize(StateArchive& memory);
-  std::vector<EnergyRow> hand() const;  // by the names of the couplings
+  std::vector<EnergyRow> hand() const;  // work of the targets, by coupling
 
  private:
   struct Actuator {
@@ -58,8 +57,8 @@ class EnergyBalance {
     std::size_t iv, nv;
   };
   void find_rows(Integrator integrator, bool others_want_inner);
-  using Side = SceneCouplings::Side;  // of a corner in the motion of a kinematic robot
-  std::vector<double> powers(const State<double>& x, Side side) const;  // by integrals_
+  using Side = SceneCouplings::Side;  // one-sided limit at a kink of the target's motion
+  std::vector<double> powers(const State<double>& x, Side side) const;  // as integrals_
   double elastic_energy(std::size_t c, const State<double>& x) const;   // k e^2 / 2
   void add_implicit(double h, const State<double>& end);
   std::size_t coupling_count() const { return couplings_ ? couplings_->size() : 0; }
@@ -67,36 +66,33 @@ class EnergyBalance {
   const RobotInput& input_;
   const std::vector<GivenWrench>& wrenches_;
   std::vector<Actuator> actuators_;
-  std::vector<Friction> damped_, rubbing_;
+  std::vector<Friction> damped_, friction_;
   SceneCouplings* couplings_;
-  // The last three of each coupling: k e . v_K (hand on spring), damper on link, hand on damper.
+  // Three per coupling at the end: target on spring (k e . v_K), damper on link, target on damper.
   std::vector<EnergyRow> integrals_;
-  std::vector<double> implicit_;         // work of each coupling's treatment
-  std::vector<double> nodes_, weights_;  // inner nodes; weights of all, the ends included
+  std::vector<double> implicit_;  // h force - m* dv over the mean velocity, by coupling
+  std::vector<double> nodes_, weights_;
   mutable Kinematics k_;
   State<double> start_, now_;
   std::vector<double> power_now_;
 };
 
-// Says when something creates energy without bound: a run that will explode says so before it does.
+// Detects numerical energy growth before a run diverges.
 //
-// Looked at are the rows of what no law of nature does: `numerical`, what implicit treatments of
-// couplings do besides their springs, and what stabilises constraints and contacts. In a sound run
-// they stay small; an instability grows by a factor in each length of time. So an alarm is a row
-// that over four windows of equal length grew, from window to window by half as much again at
-// least, and now exceeds
-//   - the largest kinetic energy before those windows, and what the weight is worth over 1e-6 m,
+// Rows examined: residual `numerical`, `implicit` of couplings, stabilisation of constraints and
+// contacts. In a stable run they stay small; an instability grows exponentially. Alarm: a row that
+// grew in each of four windows of equal length, by a factor of 1.5 or more from window to window,
+// and now exceeds
+//   - the largest kinetic energy before these windows, and the weight times 1e-6 m,
 //   - a quarter of the largest kinetic energy so far.
-// A run where that holds has lost count of its energy. Windows have 16 steps, 32, 64 and so on, so
-// that slow growth is seen too. What bursts within one window of 16 steps and may be over after it
-// is a row that grew by more than ten times the largest kinetic energy before (and ten times what
-// the weight is worth over 1 mm), to more than half of the largest so far. Losses are bounded, and
-// never alarm.
+// Windows have 16 steps, 32, 64, ..., to detect slow growth too. Burst alarm: within one window of
+// 16 steps a row grew by more than ten times the largest kinetic energy before (and ten times the
+// weight times 1 mm), to more than half of the largest so far. Losses never raise an alarm.
 struct Alarm {
-  std::string row;   // of the ledger
+  std::string row;   // of the energy balance
   double t = 0;      // [s]
   double work = 0;   // [J]
-  double since = 0;  // its windows began then [s]
+  double since = 0;  // start of its windows [s]
 };
 
 class EnergyAlarm {
@@ -104,7 +100,7 @@ class EnergyAlarm {
   static constexpr long kWindow = 16;  // steps
 
   explicit EnergyAlarm(double weight) : floor_(1e-6 * weight) {}
-  // After every kWindow steps; the first that alarms, once in all.
+  // To be called every kWindow steps; returns an alarm at most once.
   std::optional<Alarm> look(double t, double kinetic, const std::vector<EnergyRow>& rows);
 
  private:
@@ -115,7 +111,7 @@ class EnergyAlarm {
     std::vector<EnergyRow> rows;
   };
   struct Scale {
-    std::array<Mark, kMarks> marks;  // the last one is the newest
+    std::array<Mark, kMarks> marks;  // newest last
     std::size_t count = 0;
   };
   std::optional<Alarm> burst(const Scale& finest) const;
@@ -123,7 +119,7 @@ class EnergyAlarm {
 
   double floor_, max_kinetic_ = 0;
   long count_ = 0;
-  bool is_told_ = false;
+  bool has_alarmed_ = false;
   std::array<Scale, kScales> scales_;
 };
 

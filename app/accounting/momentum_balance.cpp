@@ -27,7 +27,7 @@ MomentumBalance::MomentumBalance(const RobotInput& input, const std::vector<Give
   sums_.resize(tree(trees_.size()));
 }
 
-// A free joint transmits nothing, unless something is given that acts along it.
+// A free joint transmits no force without actuator, damping or friction.
 void MomentumBalance::find_trees() {
   const Model<double>& model = input_.model;
   std::vector<char> acts(model.parent.size(), 0);
@@ -37,8 +37,8 @@ void MomentumBalance::find_trees() {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (!moved_[i] || moved_[static_cast<std::size_t>(model.parent[i])]) continue;
     const std::size_t iv = model.iv[i];
-    const bool rubs = model.damping[iv] != 0 || model.coulomb_plus[iv] != 0;
-    if (model.joint[i] == JointType::free && !acts[i] && !rubs) continue;
+    const bool has_friction = model.damping[iv] != 0 || model.coulomb_plus[iv] != 0;
+    if (model.joint[i] == JointType::free && !acts[i] && !has_friction) continue;
     Tree tree{model.joint_name[i], std::vector<char>(model.parent.size(), 0)};
     tree.bodies[i] = 1;
     for (std::size_t b = i + 1; b < tree.bodies.size(); ++b)
@@ -65,7 +65,7 @@ void MomentumBalance::add_step(double h, std::span<const double> weights,
     State<double> at = integrator_ == Integrator::semi_implicit_xv ? end : now_;
     at.qd = now_.qd;
     add_given(h, at);
-    add_pulls(h, at, end);
+    add_coupling_impulses(h, at, end);
     if (!after.has_constrained_steps()) add_loops(h, after.mechanism(), now_.qd, h);
     add_trees(h, after.mechanism());
     add_impacts(after);
@@ -118,7 +118,7 @@ void MomentumBalance::add_given(double part, const State<double>& x) {
     sums_[0].impulse += part * model.I[i].m * g;
     sums_[0].moment += part * first_moment.cross(g);
     if (rule_ != Rule::located) continue;
-    for (std::size_t t = 0; t < trees_.size(); ++t)  // rows() adds the change of its momentum
+    for (std::size_t t = 0; t < trees_.size(); ++t)  // rows() adds the change of momentum
       if (trees_[t].bodies[i]) {
         sums_[tree(t)].impulse -= part * model.I[i].m * g;
         sums_[tree(t)].moment -= part * first_moment.cross(g);
@@ -132,15 +132,15 @@ void MomentumBalance::add_given(double part, const State<double>& x) {
 
 namespace {
 
-// A linear coupling pulls at a point, one of the world's orientation turns; one at a joint acts
-// between two bodies.
-void add_pull(double part, const SceneCoupling& spec, const Vector3& pull, const Kinematics& k,
-              EnergyMomentum& sum) {
+// A linear coupling applies a force at a point, an orientation coupling a torque; a coupling at a
+// joint is internal.
+void add_coupling_force(double part, const SceneCoupling& spec, const Vector3& force,
+                        const Kinematics& k, EnergyMomentum& sum) {
   if (!spec.is_external()) return;
   if (spec.type == CouplingDescription::Type::linear)
-    sum.add_wrench(part, k.position(spec.spring.body, spec.spring.p_L), pull, Vector3::Zero());
+    sum.add_wrench(part, k.position(spec.spring.body, spec.spring.p_L), force, Vector3::Zero());
   else
-    sum.add_wrench(part, Vector3::Zero(), Vector3::Zero(), pull);
+    sum.add_wrench(part, Vector3::Zero(), Vector3::Zero(), force);
 }
 
 }  // namespace
@@ -151,30 +151,32 @@ void MomentumBalance::add_couplings(double part, const State<double>& x,
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     if (spec.rate > 0 || spec.printed || spec.third_row() == SceneCoupling::ThirdRow::drive) {
-      // held from step to step, or no spring-damper
-      add_pull(part, spec, couplings_->pull(c), k_, sums_[coupling(c)]);
+      // held force, or not a spring-damper
+      add_coupling_force(part, spec, couplings_->pull(c), k_, sums_[coupling(c)]);
       continue;
     }
     const CouplingEnds ends = couplings_->ends(c, x, k_, side);
     const Vector3 damped = spec.absolute_damper ? Vector3(Vector3::Zero()) : ends.target_velocity;
-    add_pull(part, spec, spec.spring.k * ends.offset + spec.spring.b * (damped - ends.velocity), k_,
-             sums_[coupling(c)]);
+    add_coupling_force(part, spec,
+                       spec.spring.k * ends.offset + spec.spring.b * (damped - ends.velocity), k_,
+                       sums_[coupling(c)]);
   }
 }
 
-// What the step took: the pull at its start, less m* times the change of the link's velocity.
-void MomentumBalance::add_pulls(double h, const State<double>& at, const State<double>& end) {
+// Impulse of the step: force at its start times h, minus m* times the change of link velocity.
+void MomentumBalance::add_coupling_impulses(double h, const State<double>& at,
+                                            const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
     Vector3 impulse = h * couplings_->pull(c);
     if (const double m_star = couplings_->m_star(c); m_star != 0) {
-      State<double> then = at;  // velocities of the end where the forces were found: J dqd
-      then.qd = end.qd;
-      forward_kinematics(input_.model, then, k_end_);
-      impulse -= m_star * (couplings_->ends(c, then, k_end_).velocity -
+      State<double> mixed = at;  // position at the start, velocity at the end: J dqd
+      mixed.qd = end.qd;
+      forward_kinematics(input_.model, mixed, k_end_);
+      impulse -= m_star * (couplings_->ends(c, mixed, k_end_).velocity -
                            couplings_->ends(c, at, k_).velocity);
     }
-    add_pull(1, spec, impulse, k_, sums_[coupling(c)]);
+    add_coupling_force(1, spec, impulse, k_, sums_[coupling(c)]);
   }
 }
 
@@ -200,7 +202,7 @@ void MomentumBalance::add_loops(double part, const IntegrationState& at,
   }
 }
 
-// k_ has the poses of what `at` evaluated last.
+// k_ has the poses of `at`.
 void MomentumBalance::add_trees(double part, const IntegrationState& at) {
   const Model<double>& model = input_.model;
   const Workspace<double>& w = at.w;

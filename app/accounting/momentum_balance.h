@@ -1,19 +1,18 @@
-// Where the momentum comes from, row by row, and what constraints did.
+// Momentum balance by source, and the work of constraints.
 //
-// P and L are the linear and the angular momentum, about the world's origin, of all that forces can
-// move; rotors have none. Over a run
-//   P(t) - P(0) = sum of rows,      L(t) - L(0) = sum of rows,
-// rows being what acts from outside: gravity, wrenches, couplings (from the kinematic robot),
-// contacts and loops with what does not move or moves by a law, joints whose parent stands still;
-// then what projections and separations shifted; and `numerical`, the integrator's. What two
-// moving bodies do to one another cancels, and has no row.
+// P and L: linear and angular momentum about the world's origin of all bodies that forces can move,
+// without rotors. Over a run
+//   P(t) - P(0) = sum of rows,      L(t) - L(0) = sum of rows.
+// Rows are external impulses: gravity, wrenches, couplings (from the target robot), contacts and
+// loops with fixed or prescribed bodies, joints to a fixed parent; then position corrections of
+// constraints and contacts; and the residual `numerical`. Forces between two moving bodies cancel.
 //
-// A semi-implicit step is exact where the coordinates stand still, and its rows are h times what
-// was found at its start. Others are integrals over each step, by the rule of the energy ledger,
-// of forces at states that side steps find. What passes through a joint to the ground is
-//   d(momentum of its tree)/dt - all else on that tree,
-// by the accelerations of ABA: sum of I a + v x* I v (RBDA 5.3), a_0 = -g, so without gravity. In
-// steps that locate events the momentum of the tree itself stands for that integral.
+// Rows of a semi-implicit step are h times the forces at its start. For other integrators they are
+// integrals over each step by the quadrature of the energy balance. The impulse through a joint to
+// the ground is
+//   d(momentum of its tree)/dt - all other forces on that tree
+// from ABA's accelerations: sum of I a + v x* I v (RBDA 5.3), a_0 = -g, so without gravity; in
+// event-driven steps from the change of the tree's momentum.
 #pragma once
 
 #include <span>
@@ -36,22 +35,21 @@ struct MomentumRow {
 
 class MomentumBalance {
  public:
-  // All must outlive it; `couplings` may be null. `simulation` keeps an account.
+  // All must outlive it; `couplings` may be null. `simulation` accounts for constraint work.
   MomentumBalance(const RobotInput& input, const std::vector<GivenWrench>& wrenches,
                   SceneCouplings* couplings, Integrator integrator, bool locates_events,
                   const Simulation& simulation);
 
-  // Whether forces at inner states are of use, and with which weights, the ends included.
-  bool wants_inner() const { return rule_ == Rule::integral; }
-  // A step of h, from the state of the last call (or the start), that `after` has just taken.
+  bool wants_inner() const { return rule_ == Rule::integral; }  // states at inner nodes
+  // The step of h from the state of the last call (or the start) to `after`; weights of all nodes.
   // `by_limits`: SceneContacts::only_limits_were_passed().
   void add_step(double h, std::span<const double> weights, const std::vector<State<double>>& inner,
                 const Simulation& after, bool by_limits);
   void serialize(StateArchive& memory);
 
-  // Of the energy ledger: `constraint/NAME`, `constraint/NAME/stabilisation`, `joint/NAME/mimic`,
-  // `contact/stabilisation`; of joint limits `joint/NAME/limit/stabilisation`, of several limits
-  // `joint/limits/stabilisation`. `contacts` may be null.
+  // Rows of the energy balance: `constraint/NAME`, `constraint/NAME/stabilisation`,
+  // `joint/NAME/mimic`, `contact/stabilisation`, `joint/NAME/limit/stabilisation` (with several
+  // limits `joint/limits/stabilisation`). `contacts` may be null.
   std::vector<EnergyRow> energy_rows(const Simulation& simulation,
                                      const SceneContacts* contacts) const;
   // `numerical` last. `contacts` and `outside` may be null.
@@ -59,13 +57,13 @@ class MomentumBalance {
                                 const OutsideForce* outside) const;
 
  private:
-  // One evaluation at the start of the step; forces at nodes; or the sums of an event step.
+  // Evaluation at the start of the step; at quadrature nodes; sums of an event-driven step.
   enum class Rule { at_start, integral, located };
-  struct Tree {  // that stands on the ground by a joint
+  struct Tree {  // connected to the ground by a joint
     std::string joint;
     std::vector<char> bodies;
   };
-  // Gravity, then all wrenches, couplings, loops, trees.
+  // Indices into sums_: gravity, wrenches, couplings, loops, trees.
   std::size_t wrench(std::size_t i) const { return 1 + i; }
   std::size_t coupling(std::size_t c) const { return wrench(wrenches_.size()) + c; }
   std::size_t loop(std::size_t l) const { return coupling(coupling_count_) + l; }
@@ -74,7 +72,7 @@ class MomentumBalance {
   void find_trees();
   void add_given(double part, const State<double>& x);
   void add_couplings(double part, const State<double>& x, SceneCouplings::Side side);
-  void add_pulls(double h, const State<double>& at, const State<double>& end);
+  void add_coupling_impulses(double h, const State<double>& at, const State<double>& end);
   void add_loops(double part, const IntegrationState& at, const std::vector<double>& qd, double h);
   void add_trees(double part, const IntegrationState& at);
   void add_impacts(const Simulation& after);
@@ -90,11 +88,10 @@ class MomentumBalance {
   std::size_t coupling_count_, loop_count_;
   std::vector<char> moved_;
   std::vector<Tree> trees_;
-  std::vector<EnergyMomentum> sums_;  // by the places above
+  std::vector<EnergyMomentum> sums_;
   std::vector<EnergyMomentum> stabilisation_;
   std::vector<double> mimics_;
-  EnergyMomentum separation_,
-      limit_separation_;  // of contacts; in steps where only limits were passed
+  EnergyMomentum separation_, limit_separation_;  // of contacts; of steps with limits only
   State<double> start_, now_;
   Kinematics k_, k_end_;
   mutable Workspace<double> w_;

@@ -1,4 +1,4 @@
-// The rows of what momentum_balance.cpp has summed.
+// Rows from the sums of momentum_balance.cpp.
 #include "app/accounting/momentum_balance.h"
 
 namespace twinarm {
@@ -38,7 +38,7 @@ std::vector<EnergyRow> MomentumBalance::energy_rows(const Simulation& simulation
   return rows;
 }
 
-// What acts on a body goes through the joint of its tree.
+// External forces on a body are subtracted from the force through the joint of its tree.
 void MomentumBalance::subtract_from_trees(const EnergyMomentum& e, int body, double sign,
                                           std::vector<EnergyMomentum>& of_trees) const {
   for (std::size_t t = 0; t < trees_.size(); ++t)
@@ -58,7 +58,7 @@ std::vector<MomentumRow> MomentumBalance::rows(const Simulation& simulation,
     rows.push_back({kind, name, e.impulse, e.moment});
   };
   const auto moves = [&](int body) { return moved_[static_cast<std::size_t>(body)] != 0; };
-  // Between a and b, as b feels it; a row where one of the two stands.
+  // Impulse on b from a; a row if exactly one of them can move.
   const auto between = [&](EnergyRowKind kind, const std::string& name, const EnergyMomentum& on_b,
                            int a, int b) {
     subtract_from_trees(on_b, b, 1, through);
@@ -103,9 +103,9 @@ std::vector<MomentumRow> MomentumBalance::rows(const Simulation& simulation,
         limit_separation_);
   for (std::size_t t = 0; t < trees_.size(); ++t)
     add(EnergyRowKind::tree, "joint/" + trees_[t].joint, through[t]);
-  EnergyMomentum rest = contents(moved_, now_) - contents(moved_, start_);
-  for (const MomentumRow& row : rows) rest += EnergyMomentum{0, -row.linear, -row.angular};
-  add(EnergyRowKind::numerical, kNumericalRow, rest);
+  EnergyMomentum residual = contents(moved_, now_) - contents(moved_, start_);
+  for (const MomentumRow& row : rows) residual += EnergyMomentum{0, -row.linear, -row.angular};
+  add(EnergyRowKind::numerical, kNumericalRow, residual);
   return rows;
 }
 

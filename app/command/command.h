@@ -1,5 +1,5 @@
 // A command of the program is a file of this folder that defines `Command STEM_command()`. Help,
-// manual and completion are made from these entries (docs/develop/extending_command.md).
+// manual and completion are made from these entries (docs/develop/extending.md).
 #pragma once
 
 #include <functional>

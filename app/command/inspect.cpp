@@ -7,7 +7,6 @@
 #include "app/command/parser/shared_options.h"
 #include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
-#include "app/inspect/report/inspect_view.h"
 #include "app/page/pages.h"
 #include "app/record/unpack.h"
 #include "app/support/files.h"

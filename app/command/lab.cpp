@@ -55,8 +55,8 @@ void add_options(CLI::App& command, LabOptions& options) {
 }
 
 // Of what was asked for; else the gallery's first.
-Order scene_asked_for(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
-  Order order;
+BuildRequest scene_asked_for(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
+  BuildRequest order;
   if (options.scene.empty()) return order_to_open(gallery.front());
   std::error_code ignored;
   for (const GalleryScene& scene : gallery)
@@ -74,8 +74,8 @@ bool is_loopback(const std::string& address) {
   return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0;
 }
 
-Order first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
-  Order order = scene_asked_for(options, gallery);
+BuildRequest first_order(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
+  BuildRequest order = scene_asked_for(options, gallery);
   if (!options.lanes.empty()) order.lanes = parse_lanes(options.lanes);
   order.is_shared = !is_loopback(options.listen);
   return order;

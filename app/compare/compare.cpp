@@ -1,4 +1,3 @@
-// Which cases, in which lanes, how one is run, and what is told of it.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,9 +15,9 @@
 namespace twinarm {
 namespace {
 
-bool means(const std::string& asked, const std::string& name, const std::string& group) {
-  if (name == asked || group == asked || name.rfind(asked + "-", 0) == 0) return true;
-  return asked.size() == 1 && name.size() > 1 && asked[0] == name[0] &&
+bool selects(const std::string& word, const std::string& name, const std::string& group) {
+  if (name == word || group == word || name.starts_with(word + "-")) return true;
+  return word.size() == 1 && name.size() > 1 && word[0] == name[0] &&
          std::isdigit(static_cast<unsigned char>(name[1])) != 0;
 }
 
@@ -42,19 +41,18 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
 
   for (const std::string& name : names) {
     bool found = false;
-    for_each_name([&](const char* one, const char* of) { found |= means(name, one, of); });
+    for_each_name([&](const char* one, const char* of) { found |= selects(name, one, of); });
     if (!found)
-      faults.add({"", 0, "command line", fmt::format("there is no case or group '{}'", name),
+      faults.add({"", 0, "command line", fmt::format("unknown case or group '{}'", name),
                   name_remedy(name, both, "cases and groups"), "compare.unknown"});
   }
   if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
-    faults.add({"", 0, "--group", fmt::format("there is no group '{}'", group),
+    faults.add({"", 0, "--group", fmt::format("unknown group '{}'", group),
                 name_remedy(group, groups, "groups"), "option.choice"});
 
   const auto chosen = [&](const char* name, const char* of) {
     return (names.empty() && group.empty()) || group == of ||
-           std::any_of(names.begin(), names.end(),
-                       [&](const std::string& asked) { return means(asked, name, of); });
+           std::ranges::any_of(names, [&](const auto& word) { return selects(word, name, of); });
   };
   CaseSelection selection;
   for (const AnalyticCase& c : analytic_cases())
@@ -73,42 +71,40 @@ std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
     if (const auto integrator = find_integrator(name))
       found.push_back(*integrator);
     else
-      faults.add({"", 0, "--integrator", fmt::format("there is no integrator '{}'", name),
+      faults.add({"", 0, "--integrator", fmt::format("unknown integrator '{}'", name),
                   name_remedy(name, known, "integrators"), "option.choice"});
   }
   for (const double step : steps)
     if (!(step > 0) || !std::isfinite(step))
-      faults.add({"", 0, "--step", fmt::format("a step is a positive time, not {}", step),
-                  "give seconds, as in --step 0.001,0.0005", "option.not-positive"});
+      faults.add({"", 0, "--step", fmt::format("step is {} s, must be positive and finite", step),
+                  "for example --step 0.001,0.0005", "option.not-positive"});
 
-  std::vector<Lane> lanes;
-  if (integrators.empty() && steps.empty()) return lanes;
+  std::vector<Lane> integrations;
+  if (integrators.empty() && steps.empty()) return integrations;
   if (found.empty()) found.push_back(Integrator::rk4);
-  for (const Integrator integrator : found) {
-    if (integrator == Integrator::dopri5) {
-      lanes.push_back(dopri5_lane());
-      continue;
-    }
-    for (const double step : steps.empty() ? std::vector{1e-3} : steps)
-      lanes.push_back({integrator, step});
-  }
-  return lanes;
+  for (const Integrator integrator : found)
+    if (integrator == Integrator::dopri5)
+      integrations.push_back(dopri5_with());
+    else
+      for (const double step : steps.empty() ? std::vector{1e-3} : steps)
+        integrations.push_back({integrator, step});
+  return integrations;
 }
 
-std::string lane_name(const Lane& lane) {
-  const bool adaptive = lane.integrator == Integrator::dopri5;
-  return fmt::format("{} {:g}", integrator_name(lane.integrator),
-                     adaptive ? lane.tolerance : lane.step);
+std::string integration_name(const Lane& integration) {
+  const bool adaptive = integration.integrator == Integrator::dopri5;
+  return fmt::format("{} {:g}", integrator_name(integration.integrator),
+                     adaptive ? integration.tolerance : integration.step);
 }
 
-CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes) {
+CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& integrations) {
   const double start = steady_seconds();
   CompareRow row{&test, run_case(test), 0, {}};
   row.seconds = steady_seconds() - start;
-  if (test.trajectory && test.trajectory->takes_lanes())
-    for (const Lane& lane : lanes)
-      row.lanes.push_back(
-          {lane, run_lane(*test.trajectory, lane), observed_order(*test.trajectory, lane)});
+  if (test.trajectory && test.trajectory->takes_any_integrator())
+    for (const Lane& integration : integrations)
+      row.integrations.push_back({integration, run_trajectory(*test.trajectory, integration),
+                                  observed_order(*test.trajectory, integration)});
   return row;
 }
 
@@ -121,7 +117,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Errors are compared with tolerances by eye: three digits.
 std::string error_cell(double value) {
   return fmt::format("{:.3g}", value);
 }
@@ -133,32 +128,32 @@ Json number_or_null(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-// Only where lanes were asked for.
-Json lanes_of(const CompareRow& row) {
-  Json lanes = Json::array();
-  for (const LaneRow& r : row.lanes) {
-    const bool adaptive = r.lane.integrator == Integrator::dopri5;
-    lanes.push_back({{"integrator", integrator_name(r.lane.integrator)},
-                     {"step", adaptive ? Json(nullptr) : Json(r.lane.step)},
-                     {"tolerance", adaptive ? Json(r.lane.tolerance) : Json(nullptr)},
-                     {"error", r.result.error},
-                     {"order", number_or_null(r.order)},
-                     {"energy_drift", number_or_null(r.result.energy_drift)},
-                     {"seconds", r.result.seconds}});
+Json integrations_of(const CompareRow& row) {
+  Json integrations = Json::array();
+  for (const IntegrationRow& r : row.integrations) {
+    const bool adaptive = r.integration.integrator == Integrator::dopri5;
+    integrations.push_back({{"integrator", integrator_name(r.integration.integrator)},
+                            {"step", adaptive ? Json(nullptr) : Json(r.integration.step)},
+                            {"tolerance", adaptive ? Json(r.integration.tolerance) : Json(nullptr)},
+                            {"error", r.result.error},
+                            {"order", number_or_null(r.order)},
+                            {"energy_drift", number_or_null(r.result.energy_drift)},
+                            {"seconds", r.result.seconds}});
   }
-  return lanes;
+  return integrations;
 }
 
 }  // namespace
 
-std::string compare_table(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
+std::string compare_table(const std::vector<CompareRow>& rows,
+                          const std::vector<Lane>& integrations,
                           const std::vector<const SkippedCase*>& skipped) {
   std::vector<std::string> headings{"case", "error", "tolerance", "", "order", "energy", "seconds"};
-  for (const Lane& lane : lanes) headings.push_back(lane_name(lane));
+  for (const Lane& integration : integrations) headings.push_back(integration_name(integration));
   TextTable table(headings);
-  std::string short_of;
+  std::string failed_cases;
   for (const CompareRow& row : rows) {
-    const auto& [test, result, seconds, of_lanes] = row;
+    const auto& [test, result, seconds, with_others] = row;
     const bool pass = passes(*test, result);
     std::vector<std::string> cells{test->name,
                                    error_cell(result.error),
@@ -167,16 +162,17 @@ std::string compare_table(const std::vector<CompareRow>& rows, const std::vector
                                    error_cell(result.order, "{:.2f}"),
                                    error_cell(result.energy_drift, "{:.1e}"),
                                    fmt::format("{:.2f}", seconds)};
-    for (std::size_t i = 0; i < lanes.size(); ++i)
-      cells.push_back(of_lanes.empty() ? "-" : error_cell(of_lanes[i].result.error));
+    for (std::size_t i = 0; i < integrations.size(); ++i)
+      cells.push_back(with_others.empty() ? "-" : error_cell(with_others[i].result.error));
     table.add(cells);
     if (!pass)
-      short_of += fmt::format("{}: error {} above {}; {}\n", test->name, error_cell(result.error),
-                              error_cell(test->tolerance), test->reference);
+      failed_cases +=
+          fmt::format("{}: error {} exceeds {}; {}\n", test->name, error_cell(result.error),
+                      error_cell(test->tolerance), test->reference);
   }
   const std::size_t failed = failures(rows);
   std::string text = rows.empty() ? "" : table.str() + "\n";
-  if (!short_of.empty()) text += short_of + "\n";
+  if (!failed_cases.empty()) text += failed_cases + "\n";
   for (const SkippedCase* c : skipped) text += fmt::format("skipped {}: {}\n", c->name, c->why);
   if (!skipped.empty()) text += "\n";
   text += fmt::format("{} passed, {} failed", rows.size() - failed, failed);
@@ -184,8 +180,8 @@ std::string compare_table(const std::vector<CompareRow>& rows, const std::vector
   return text + "\n";
 }
 
-// What is not finite becomes null.
-std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
+// Numbers that are not finite become null.
+std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& integrations,
                          const std::vector<const SkippedCase*>& skipped, const std::string& page) {
   Json cases = Json::array();
   for (const CompareRow& row : rows) {
@@ -198,7 +194,7 @@ std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<
                      {"energy_drift", number_or_null(row.result.energy_drift)},
                      {"reference", row.test->reference},
                      {"seconds", row.seconds}});
-    if (!lanes.empty()) cases.back()["lanes"] = lanes_of(row);
+    if (!integrations.empty()) cases.back()["lanes"] = integrations_of(row);
   }
   Json left_out = Json::array();
   for (const SkippedCase* c : skipped) left_out.push_back({{"name", c->name}, {"why", c->why}});

@@ -1,5 +1,5 @@
-// The analytic cases that were asked for, each run by itself, so that their order
-// changes no bit.
+// Runs selected analytic cases; table and JSON of their errors. The results do not depend on the
+// order.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,16 @@
 
 namespace twinarm {
 
-struct LaneRow {
-  Lane lane;
-  LaneResult result;
+struct IntegrationRow {
+  Lane integration;
+  TrajectoryResult result;
   std::optional<double> order;
 };
 struct CompareRow {
   const AnalyticCase* test;
   CaseResult result;
   double seconds;
-  std::vector<LaneRow> lanes;  // those that were asked for; none for a case that takes none
+  std::vector<IntegrationRow> integrations;  // the requested ones, if the case allows any
 };
 
 struct CaseSelection {
@@ -29,29 +29,27 @@ struct CaseSelection {
   std::vector<const SkippedCase*> skipped;
 };
 
-// Those of these names, and all of the group (empty: none); all there are where both are empty.
-// "E1" also stands for all that begin with "E1-", "E" for E1, E2 .., and a name may be a group's.
-// All names that nothing has are faults.
+// Cases of these names and of this group; all cases if both are empty. "E1" also selects "E1-..",
+// "E" selects E1, E2 .., and a name may be a group's. Adds a diagnostic for each unknown name.
 CaseSelection select_cases(const std::vector<std::string>& names, const std::string& group,
                            DiagnosticList& faults);
 
-// Every integrator with every step; rk4 and 1 ms where only one of them is given; dopri5 once, with
-// a tolerance of 1e-10. All that are no integrators or steps are faults.
+// Every integrator with every step (default: rk4, 1 ms); dopri5 once, with a tolerance of 1e-10.
+// Adds a diagnostic for each unknown integrator and invalid step.
 std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
                              const std::vector<double>& steps, DiagnosticList& faults);
-std::string lane_name(const Lane& lane);  // "rk4 0.001"
+std::string integration_name(const Lane& integration);  // "rk4 0.001"
 
-// A case is judged in its own lane; the others are beside it.
-CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& lanes);
+// A case passes or fails with its own integrator and step; the others are for comparison.
+CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& integrations);
 
-// How many fell short.
 std::size_t failures(const std::vector<CompareRow>& rows);
 
-// For people: a table, and what fell short below it. For programs: one JSON object;
-// `page` is the file that --html made, or empty.
-std::string compare_table(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
+// A table and the failed cases; one JSON object. `page`: the file of --html, or empty.
+std::string compare_table(const std::vector<CompareRow>& rows,
+                          const std::vector<Lane>& integrations,
                           const std::vector<const SkippedCase*>& skipped);
-std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& lanes,
+std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& integrations,
                          const std::vector<const SkippedCase*>& skipped, const std::string& page);
 
 }  // namespace twinarm

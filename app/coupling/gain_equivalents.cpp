@@ -20,52 +20,44 @@ std::string gains_words(const SpringGains& gains, bool is_length) {
                    : pair(gains.k, gains.b, "N m/rad", "N m s/rad");
 }
 
-// Three columns of words, all to the left.
-class Lines {
- public:
-  void add(const std::array<std::string, 3>& words) {
-    text_ += fmt::format("  {:<20} {:<38} {}\n", words[0], words[1], words[2]);
-  }
-  const std::string& str() const { return text_; }
-
- private:
-  std::string text_;
-};
+std::string two_numbers(double a, double b, const char* between = " ") {
+  return cell(a) + between + cell(b);
+}
 
 std::string one_table(const Equivalents& e, double step) {
-  Lines table;
+  std::string text;
+  const auto add = [&](const char* name, const std::string& value, const std::string& note) {
+    text += fmt::format("  {:<20} {:<38} {}\n", name, value, note);
+  };
   const auto hertz = e.response.omega / (2 * std::numbers::pi);
-  table.add({"spring and damper", gains_words(e.gains, e.is_length),
-             e.is_weld ? "that swings as the weld does" : "as it is"});
-  table.add(
-      {"frequency",
-       fmt::format("w = {} rad/s ({} Hz), z = {}", cell(e.response.omega), cell(hertz),
-                   cell(e.response.zeta)),
-       fmt::format("on {} {}, all else free", cell(e.inertia), e.is_length ? "kg" : "kg m^2")});
-  if (e.wanted) table.add({"wanted", gains_words(*e.wanted, e.is_length), "for what was asked"});
+  add("spring-damper", gains_words(e.gains, e.is_length),
+      e.is_weld ? "with the frequency and damping ratio of the weld" : "as given");
+  add("frequency",
+      fmt::format("omega = {} rad/s ({} Hz), zeta = {}", cell(e.response.omega), cell(hertz),
+                  cell(e.response.zeta)),
+      fmt::format("on {} {}, all joints free", cell(e.inertia), e.is_length ? "kg" : "kg m^2"));
+  if (e.wanted)
+    add("requested", gains_words(*e.wanted, e.is_length), "for the requested frequency");
   if (e.as_torsional)
-    table.add({"torsional", gains_words(*e.as_torsional, false),
-               fmt::format("k r^2, r = {} m: the same for small errors of this link alone",
-                           cell(e.radius))});
+    add("torsional", gains_words(*e.as_torsional, false),
+        fmt::format("k r^2, r = {} m: equal for small errors of this link alone", cell(e.radius)));
   if (e.solref)
-    table.add({"MuJoCo solref", fmt::format("{} {}", cell(e.solref->first), cell(e.solref->second)),
-               e.solref->first < min_timeconst(step)
-                   ? fmt::format("timeconst dampratio; its floor at this step: {} s",
-                                 cell(min_timeconst(step)))
-                   : "timeconst [s], dampratio"});
+    add("MuJoCo solref", two_numbers(e.solref->first, e.solref->second),
+        e.solref->first < min_timeconst(step)
+            ? fmt::format("timeconst dampratio; minimum at this step: {} s",
+                          cell(min_timeconst(step)))
+            : "timeconst [s], dampratio");
   if (e.direct)
-    table.add({"MuJoCo solref", fmt::format("{} {}", cell(e.direct->first), cell(e.direct->second)),
-               "-stiffness [1/s^2], -damping [1/s]"});
-  table.add({"  against a load", cell(e.static_stiffness) + (e.is_length ? " N/m" : " N m/rad"),
-             "k / (1 - d): MuJoCo's constraint sags less than it swings"});
-  table.add({"PhysX drive, force",
-             fmt::format("{}, {}", cell(e.force_drive.stiffness), cell(e.force_drive.damping)),
-             "stiffness, damping"});
-  table.add({"  acceleration",
-             fmt::format("{}, {}", cell(e.acceleration_drive.stiffness),
-                         cell(e.acceleration_drive.damping)),
-             "per unit of inertia [1/s^2, 1/s]"});
-  return table.str();
+    add("MuJoCo solref", two_numbers(e.direct->first, e.direct->second),
+        "-stiffness [1/s^2], -damping [1/s]");
+  add("  static stiffness", cell(e.static_stiffness) + (e.is_length ? " N/m" : " N m/rad"),
+      "k / (1 - d): MuJoCo's constraint under a constant load");
+  add("PhysX drive, force", two_numbers(e.force_drive.stiffness, e.force_drive.damping, ", "),
+      "stiffness, damping");
+  add("  acceleration",
+      two_numbers(e.acceleration_drive.stiffness, e.acceleration_drive.damping, ", "),
+      "per unit of inertia [1/s^2, 1/s]");
+  return text;
 }
 
 void write_gains(JsonWriter& json, const SpringGains& gains) {
@@ -122,8 +114,8 @@ std::vector<Equivalents> scene_equivalents(SimulateInput& input,
   for (std::size_t c = 0; c < input.couplings->size(); ++c) {
     const PredictedCoupling coupling = posed.coupling(c, 1e-3);
     const SceneCoupling& spec = input.couplings->spec(c);
-    if (!(coupling.gains.k > 0)) continue;  // no spring: a god object, a damper, half of a weld
-    // A weld has an inertia of its own: the spring that swings as it does is softer.
+    if (!(coupling.gains.k > 0)) continue;  // god object, damper, component of a weld
+    // A weld adds inertia: a spring with its frequency on the apparent inertia alone is softer.
     const double inertia = posed.apparent_inertia(c), d = spec.reference.impedance;
     const double part = inertia / (inertia + coupling.felt_mass);
     Equivalents found = equivalents_of({part * coupling.gains.k, part * coupling.gains.b}, inertia,
@@ -154,9 +146,8 @@ std::string equivalents_table(const std::vector<Equivalents>& all, double step) 
   }
   if (several)
     text += wrapped(
-                "k r^2 matches one link. Springs on several links of a chain hold each other's "
-                "joints too: a fair match has the same full K_q and B_q, as `twinarm coupling "
-                "predict` prints them.") +
+                "k r^2 matches one link alone. Springs on several links of a chain also act on "
+                "each other's joints: compare K_q and B_q of `twinarm coupling predict`.") +
             "\n";
   return text;
 }

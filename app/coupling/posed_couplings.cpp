@@ -19,7 +19,7 @@ std::string kind_of(const SceneCoupling& spec) {
   return std::string(law) + (spec.measure == SpringSpace::world ? ", world" : ", joint");
 }
 
-// That a weld adds to its link, at its point; of its couple in place of an inertia.
+// Mass or inertia that a weld adds to its link at its point.
 double felt_mass(const SceneCoupling& spec) {
   const bool is_weld = spec.law == CouplingSpec::Type::weld_like && spec.spring.b > 0;
   return is_weld ? spec.spring.b / spec.reference.damping() : 0;
@@ -50,7 +50,7 @@ MatrixXd PosedCouplings::joint_damping() const {
   return by_rows(damping.asDiagonal());
 }
 
-// d(what the coupling measures)/dqd. The matched law measures in the pose of its target.
+// d(error of the coupling)/dq. The matched law measures in the pose of its target.
 MatrixXd PosedCouplings::jacobian(std::size_t c) const {
   const SceneCoupling& spec = input_.couplings->spec(c);
   const int body = spec.spring.body;
@@ -83,20 +83,19 @@ double PosedCouplings::apparent_inertia(std::size_t c) const {
   return principal_inertias(M(), rows)[0];
 }
 
-// About every turning joint below the point, with the inertia that is felt there when the others
-// are held.
+// About each revolute joint between base and point, with the inertia for the other joints locked.
 void PosedCouplings::add_arms(const SceneCoupling& spec, const Vector3& offset, double h,
                               PredictedCoupling& found) const {
   const Vector3 p = k_.position(spec.spring.body, spec.spring.p_L), target = p + offset;
   for_each_dof_below(
       model_, k_, spec.spring.body,
       [&](std::size_t dof, const Vector3& w, const Vector3&, const Vector3& o) {
-        if (w.norm() < 0.5) return;  // a slide
+        if (w.norm() < 0.5) return;  // prismatic
         const auto distance = [&](const Vector3& point) { return w.cross(point - o).norm(); };
         const auto after = std::upper_bound(model_.iv.begin() + 1, model_.iv.end(), dof);
         const auto body = static_cast<std::size_t>(after - model_.iv.begin()) - 1;
         const double r = distance(p), R_K = distance(target), k = spec.spring.k;
-        if (r < 1e-9 || k == 0) return;  // it does not turn this joint
+        if (r < 1e-9 || k == 0) return;  // no torque about this joint
         const double I =
             all_M_(static_cast<Index>(dof), static_cast<Index>(dof)) + r * r * felt_mass(spec);
         found.arms.push_back({model_.joint_name[body], r, R_K,
@@ -116,9 +115,9 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   found.gains = {spec.spring.k, spec.spring.b};
   const MatrixXd J = jacobian(c) * P_, square = J.transpose() * J;
   found.K = found.K_zero = spec.spring.k * square;
-  // The damper as printed folds the speeds: it has no linear part.
-  const bool folded = spec.printed && spec.law == CouplingSpec::Type::torsional;
-  found.B = (folded ? 0 : spec.spring.b) * square;
+  // The damper as printed has no linear part.
+  const bool is_printed = spec.printed && spec.law == CouplingSpec::Type::torsional;
+  found.B = (is_printed ? 0 : spec.spring.b) * square;
   found.felt_mass = felt_mass(spec);
   found.felt = found.felt_mass * square;
   if (spec.law == CouplingSpec::Type::god_object && spec.leads())
@@ -150,6 +149,13 @@ MatrixXd PosedCouplings::tangent(std::size_t c) {
       },
       velocities_);
   return by_rows(found.K);
+}
+
+CoupledTerm joint_damper_term(const MatrixXd& damping, Integrator integrator) {
+  const MatrixXd none = MatrixXd::Zero(damping.rows(), damping.cols());
+  const bool implicit = facts_of(integrator).implicit_force;
+  return {none, none, damping, implicit ? Discretization::semi_implicit : Discretization::explicit_,
+          0};
 }
 
 CoupledTerm step_part(const PredictedCoupling& c, double h) {

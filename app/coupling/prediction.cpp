@@ -22,7 +22,7 @@ void name_rows(const Coordinates& coordinates, Predicted& found) {
       if (c.v >= 0) found.is_angle.push_back(c.is_angle);
 }
 
-// A force of the start of the step, its velocity a difference.
+// Force at the start of the step, with a velocity by difference.
 std::optional<SteppingScheme> scheme_as_printed(Integrator integrator) {
   switch (integrator) {
     case Integrator::semi_implicit:
@@ -38,7 +38,7 @@ std::optional<SteppingScheme> scheme_as_printed(Integrator integrator) {
   }
 }
 
-// The scheme of the table that steps all couplings alike, where one does.
+// The scheme of the table that applies to all couplings, if there is one.
 std::optional<SteppingScheme> scheme_of_scene(const std::vector<PredictedCoupling>& couplings,
                                               Integrator integrator) {
   const PredictedCoupling& first = couplings.front();
@@ -88,8 +88,8 @@ void add_modes(const PredictTask& task, Predicted& found) {
     if (mode.omega > 0) mode.errors = errors_of_mode(mode.omega, mode.zeta, task);
     if (modes.squares[i] < 0)
       found.warnings.push_back(fmt::format(
-          "along a mode, most of it '{}', the couplings push away from their targets: the state is "
-          "beyond what they can hold (a point spring pulls back as the sine of the angle)",
+          "negative stiffness along a mode, mainly of '{}': the couplings push away from their "
+          "targets (a point spring acts with the sine of the angle to its target)",
           found.rows[static_cast<std::size_t>(largest)]));
     found.modes.push_back(std::move(mode));
   }
@@ -107,18 +107,14 @@ void add_limits(const MatrixXd& joint_damping, Predicted& found) {
   }
   std::vector<CoupledTerm> parts;
   for (const PredictedCoupling& c : found.couplings) parts.push_back(step_part(c, found.step));
-  // Dampers of joints are implicit in the step of the semi-implicit integrators.
-  const bool implicit = facts_of(found.integrator).implicit_force;
-  const MatrixXd none = MatrixXd::Zero(found.K.rows(), found.K.cols());
-  parts.push_back({none, none, joint_damping,
-                   implicit ? Discretization::semi_implicit : Discretization::explicit_, 0});
+  parts.push_back(joint_damper_term(joint_damping, found.integrator));
   found.max_step = max_stable_step(found.M, parts, found.integrator);
   if (found.integrator != Integrator::dopri5)
     found.growth = spectral_radius(found.M, parts, found.integrator, found.step);
 }
 
-// By rows.
-VectorXd parts_of_move(const PredictTask& task, const Predicted& found) {
+// Share of the distance by row.
+VectorXd shares_of_move(const PredictTask& task, const Predicted& found) {
   if (task.along.empty()) return VectorXd::Ones(found.M.rows());
   VectorXd parts = VectorXd::Zero(found.M.rows());
   DiagnosticList faults;
@@ -134,7 +130,7 @@ VectorXd parts_of_move(const PredictTask& task, const Predicted& found) {
   return parts;
 }
 
-// Dampers of joints brake the robot's own velocity, as absolute dampers do.
+// Joint damping acts on the robot's velocity, like absolute dampers.
 void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& found) {
   constexpr std::size_t kMaxRows = 50;
   if (found.rows.size() > kMaxRows) return;
@@ -143,7 +139,7 @@ void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& fo
     if (c.absolute_damper) absolute += c.B;
     late += (c.absolute_damper ? c.B : MatrixXd::Zero(c.B.rows(), c.B.cols())) + c.delay * c.K;
   }
-  VectorXd distance = parts_of_move(task, found);
+  VectorXd distance = shares_of_move(task, found);
   for (std::size_t r = 0; r < found.rows.size(); ++r)
     distance[static_cast<Index>(r)] *= found.is_angle[r] ? task.distance : task.slide();
   const VectorXd v = distance / task.time;
@@ -158,8 +154,8 @@ void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& fo
   found.errors = std::move(errors);
 }
 
-// Joints of a god object land on their targets.
-void land(Predicted& found) {
+// Joints of a god object reach their targets in each step: no error, no deflection.
+void clear_errors_of_god_objects(Predicted& found) {
   for (const PredictedCoupling& c : found.couplings)
     for (Index j = 0; j < c.landing.rows(); ++j) {
       if (c.landing.row(j).isZero(0)) continue;
@@ -185,50 +181,45 @@ std::string words_of_step(const Predicted& found) {
 
 void add_warnings(const SceneModel& scene, Predicted& found) {
   const auto warn = [&](std::string text) { found.warnings.push_back(std::move(text)); };
-  constexpr double kGrows = 1e-9;
-  if (found.growth > 1 + kGrows && found.max_step > 0)
-    warn(
-        fmt::format("the scene's step of {:g} s is beyond its limit of {:.4g} s: an error grows by "
-                    "{:.3g} in each; take a shorter --step, a smaller stiffness, or treatment = "
-                    "\"implicit\"",
-                    found.step, found.max_step, found.growth));
-  else if (found.growth > 1 + kGrows)
-    warn(
-        fmt::format("as this scene is stepped no step is stable: an error grows by {:.6g} in each "
-                    "of {:g} s; take another --integrator, more damping, or treatment = "
-                    "\"implicit\"",
-                    found.growth, found.step));
+  constexpr double kRounding = 1e-9;
+  if (found.growth > 1 + kRounding && found.max_step > 0)
+    warn(fmt::format(
+        "unstable: the scene's step of {:g} s exceeds the stability limit {:.4g} s (spectral "
+        "radius {:.3g}); use a shorter --step, a smaller stiffness, or treatment = \"implicit\"",
+        found.step, found.max_step, found.growth));
+  else if (found.growth > 1 + kRounding)
+    warn(fmt::format(
+        "unstable at any step (spectral radius {:.6g} at {:g} s); use another --integrator, more "
+        "damping, or treatment = \"implicit\"",
+        found.growth, found.step));
   for (const SceneCoupling& spec : scene.couplings)
     if (spec.delay > 0)
       warn(
-          fmt::format("'{}' sees its target {:g} s late: at a speed v it stands that much times v "
-                      "behind, whatever its gains",
+          fmt::format("'{}' has a target delay of {:g} s: at a velocity v it adds a tracking error "
+                      "of delay times v, at any gains",
                       spec.name, spec.delay));
   for (const PredictedCoupling& c : found.couplings) {
     if (c.law == CouplingSpec::Type::god_object)
       warn(fmt::format(
-          "'{}' is a constraint, not a spring: it has no stiffness, no frequency and no "
-          "limit of its own; in each step it lands on its target, where nothing stands "
-          "in the way",
+          "'{}' is a constraint: it has no stiffness, frequency or stability limit; each step it "
+          "reaches its target unless blocked by a contact",
           c.name));
     if (c.printed && !c.is_linear)
-      warn(
-          fmt::format("'{}': the torsional damper as printed has no linear part; it is predicted "
-                      "without one",
-                      c.name));
+      warn(fmt::format("'{}': the torsional damper as printed has no linear part and is left out",
+                       c.name));
     if (c.absolute_damper && c.gains.b > 0)
       warn(
-          fmt::format("'{}' has an absolute damper: besides the errors behind a moving target it "
-                      "lags, steadily, as the column says",
+          fmt::format("'{}' has an absolute damper: its tracking error at constant velocity is in "
+                      "the column 'absolute lag'",
                       c.name));
     for (const SpringArm& arm : c.arms)
       if (c.treatment == Discretization::implicit && arm.target_radius > arm.max_target_radius)
-        warn(
-            fmt::format("'{}', about '{}': its target lies {:.4g} m from the axis, beyond the "
-                        "{:.4g} m that an implicit point spring holds in this step",
-                        c.name, arm.joint, arm.target_radius, arm.max_target_radius));
+        warn(fmt::format(
+            "'{}', about '{}': unstable: target {:.4g} m from the axis, an implicit point spring "
+            "is stable up to {:.4g} m at this step",
+            c.name, arm.joint, arm.target_radius, arm.max_target_radius));
   }
-  if (!scene.constraints.empty()) warn("constraints are left out: they stiffen what they hold");
+  if (!scene.constraints.empty()) warn("constraints are left out");
   if (scene.may_touch()) warn("contacts are left out");
 }
 
@@ -247,7 +238,7 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
   found.K = MatrixXd::Zero(found.M.rows(), found.M.cols());
   found.B = found.K;
   for (std::size_t c = 0; c < input.couplings->size(); ++c) {
-    if (input.couplings->spec(c).outside) continue;  // a stop mostly does not act
+    if (input.couplings->spec(c).outside) continue;  // soft limits are inactive in the nominal pose
     found.couplings.push_back(posed.coupling(c, found.step));
     PredictedCoupling& coupling = found.couplings.back();
     if (task.wall && coupling.is_linear)
@@ -257,10 +248,10 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
     found.M += coupling.felt;
   }
   if (found.couplings.empty())
-    throw InputError(
-        {{scene.description.file.string(), 0, "scene",
-          "its couplings are stops, which do not act between their limits",
-          "write a [[coupling]] without 'outside' (docs/reference/scene_file.md)", "scene.only-stops"}});
+    throw InputError({{scene.description.file.string(), 0, "scene",
+                       "all couplings are soft limits, which do not act between their bounds",
+                       "add a [[coupling]] without 'outside' (docs/reference/scene_file.md)",
+                       "scene.only-stops"}});
   if (!found.K.allFinite() || !found.M.allFinite())
     throw InputError({{scene.description.file.string(), 0, "",
                        "stiffness or inertia is not finite in this state", "give smaller numbers",
@@ -271,7 +262,7 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
   add_limits(friction, found);
   found.sag = chain_sag(found.K, posed.gravity());
   add_errors(task, friction, found);
-  land(found);
+  clear_errors_of_god_objects(found);
   add_warnings(scene, found);
   return found;
 }

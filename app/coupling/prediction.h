@@ -1,7 +1,8 @@
-// What `twinarm coupling predict` says of the couplings of a scene in one state.
+// `twinarm coupling predict`: linear analysis of a scene's couplings about one state at rest, with
+// fixed targets.
 //
-// All matrices by the rows of the robots' joint values (app/robot/coordinates.h), followers
-// eliminated; free bodies are left out. About the state at rest, the kinematic side held still.
+// Rows of matrices are the robots' joint values (app/robot/coordinates.h) without mimic joints;
+// free bodies are left out.
 #pragma once
 
 #include <Eigen/Core>
@@ -18,38 +19,38 @@
 
 namespace twinarm {
 
-// What the follower is asked to do, and the wall that it meets.
+// Motion of the targets, and a wall.
 struct PredictTask {
   double distance = 0, time = 1;  // of the target along a mode, or in each joint [rad or m], [s]
   std::optional<double> wall;     // stiffness [N/m]
-  // Of the joints' errors: what part of the distance each row goes; none: all go all of it.
+  // Share of the distance by row, for errors of joints; empty: 1 for all.
   std::vector<std::pair<std::string, double>> along;
-  // A slide goes a millimetre for a degree [m].
+  // Distance of prismatic joints: a millimetre per degree [m].
   double slide() const { return 180 / std::numbers::pi * distance / 1000; }
 };
 
-// The arm of a point spring about a joint below it.
+// Lever arm of a point spring about a joint between base and point.
 struct SpringArm {
   std::string joint;
   double radius = 0, target_radius = 0;  // of the link's point and of its target [m]
-  double max_target_radius = 0;          // with the step of the scene [m]
+  double max_target_radius = 0;          // stability limit at the step of the scene [m]
   double max_torque = 0;                 // k r R_K, at a right angle [N m]
 };
 
 struct PredictedCoupling : CouplingTraits {
   std::string kind;
   bool is_linear = true;            // between points
-  bool is_length = true;            // it measures metres: between points, or along a slide
+  bool is_length = true;            // its error is a length: between points, or a prismatic joint
   SpringGains gains;                // N/m, N s/m of lengths; else N m/rad, N m s/rad
   double offset = 0;                // of the target [m or rad]
-  Eigen::MatrixXd K, K_zero, B;     // as it is; without the geometric part; damping
-  double felt_mass = 0;             // [kg or kg m^2]
+  Eigen::MatrixXd K, K_zero, B;     // stiffness; the same without geometric part; damping
+  double felt_mass = 0;             // added by the law [kg or kg m^2]
   Eigen::MatrixXd felt;             // inertia that the law adds (coupling/laws/mujoco_weld.h)
   Eigen::MatrixXd landing;          // of a god object: rows of M of its robot; else empty
-  SpringResponse alone;             // its fastest mode, were there no other
+  SpringResponse alone;             // highest mode with this coupling alone
   std::vector<SpringArm> arms;      // linear only
-  std::optional<double> with_wall;  // the wall through this coupling [N/m]
-  // It has none of the three treatments.
+  std::optional<double> with_wall;  // in series with the wall [N/m]
+  // No Discretization applies to it.
   bool is_own_treatment() const {
     return facts_of(law, printed).treatments == CouplingFacts::Discretizations::own;
   }
@@ -58,20 +59,20 @@ struct PredictedCoupling : CouplingTraits {
 inline constexpr std::array<MotionProfile, 4> kSmoothMoves{
     MotionProfile::cubic, MotionProfile::quintic, MotionProfile::cosine, MotionProfile::bang_bang};
 
-// The errors behind a target that goes `distance` in `time` along a mode [rad or m].
+// Peak tracking errors for a target that moves `distance` in `time` along a mode [rad or m].
 struct ModeErrors {
-  double start = 0, reversal = 0;  // at a jump to, and a reversal of, distance/time
+  double start = 0, reversal = 0;  // velocity step to, and reversal of, distance/time
   std::array<double, 4> smooth{};  // cubic, quintic, cosine, bang-bang
   double absolute_lag = 0;         // of an absolute damper, at distance/time
   double weld_lag = 0;             // of a mocap weld with this frequency
 };
 
-// The largest errors of each joint, by rows, when all targets make the move at once [rad or m]. Not
-// a number where nothing holds the joint, or the error has no bound.
+// Peak tracking error of each joint, by rows, when all targets move at once [rad or m]. NaN where
+// the joint has no coupling or the error is unbounded.
 struct RowErrors {
   Eigen::VectorXd distance, start, reversal;
   std::array<Eigen::VectorXd, 4> smooth;
-  Eigen::VectorXd lag;  // in the long run at distance/time: absolute dampers, friction, delays
+  Eigen::VectorXd lag;  // steady state at distance/time: absolute dampers, joint damping, delays
 };
 
 struct PredictedMode {
@@ -95,16 +96,16 @@ struct Predicted {
   std::vector<PredictedMode> modes;
   std::vector<SchemeLimit> limits;
   Integrator integrator = Integrator::semi_implicit;
-  std::string stepped;              // how the scene steps them, in words
+  std::string stepped;              // integrator and discretizations of the scene
   double step = 0;                  // [s]
-  double max_step = 0;              // of the scene as it is stepped
-  double growth = 1;                // of an error in a step; not for dopri5
-  Eigen::VectorXd sag;              // by rows; not a number where nothing holds
+  double max_step = 0;              // largest stable step of the scene
+  double growth = 1;                // spectral radius of a step; not for dopri5
+  Eigen::VectorXd sag;              // static deflection by rows; NaN without coupling
   std::optional<RowErrors> errors;  // not of robots with very many joints
   std::vector<std::string> warnings;
 };
 
-// Throws InputError where there is nothing to be predicted.
+// Throws InputError if no coupling can be analysed.
 Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task);
 
 std::string predicted_table(const Predicted& found, const PredictTask& task);

@@ -1,5 +1,4 @@
-// The predictions for programs: SI units, radians; what has no limit is null.
-
+// SI units, radians; null without limit.
 #include "app/coupling/prediction.h"
 #include "app/data/json_writer.h"
 

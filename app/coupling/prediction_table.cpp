@@ -1,4 +1,3 @@
-// The predictions for people: tables with units, and what each number means.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -14,7 +13,7 @@ using Eigen::Index;
 
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-std::string said(std::string_view text) {
+std::string paragraph(std::string_view text) {
   return wrapped(text) + "\n";
 }
 
@@ -24,18 +23,19 @@ std::string limit_cell(double value, double unit = 1) {
 }
 
 std::string couplings_part(const Predicted& found) {
-  TextTable table({"coupling", "kind", "treatment", "k", "b", "target off by", "w [rad/s]", "z"});
+  TextTable table(
+      {"coupling", "kind", "discretization", "k", "b", "target offset", "omega [rad/s]", "zeta"});
   for (const PredictedCoupling& c : found.couplings) {
-    const char* word = c.is_own_treatment() ? "its own" : name_of(c.treatment);
+    const char* word = c.is_own_treatment() ? "own" : name_of(c.treatment);
     table.add({c.name, c.kind, word, cell(c.gains.k) + (c.is_length ? " N/m" : " N m/rad"),
                cell(c.gains.b) + (c.is_length ? " N s/m" : " N m s/rad"),
                c.is_length ? cell(1e3 * c.offset) + " mm" : cell(kDegrees * c.offset) + " deg",
                cell(c.alone.omega), cell(c.alone.zeta)});
   }
   return table.str() +
-         said(
-             "w, z: frequency and damping ratio of the fastest motion that this coupling alone "
-             "would give.");
+         paragraph(
+             "omega, zeta: highest natural frequency of this coupling alone, and its damping "
+             "ratio.");
 }
 
 std::string matrix_part(const char* title, const Eigen::MatrixXd& matrix, const Predicted& found) {
@@ -58,22 +58,21 @@ std::string matrices_part(const Predicted& found) {
   Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(found.K.rows(), found.K.cols());
   for (const PredictedCoupling& c : found.couplings) zero += c.K_zero;
   std::string text =
-      said(
+      paragraph(
           "Joint-space stiffness K_q = -d tau/dq and damping B_q of all couplings together "
-          "[N m/rad, N m s/rad; of lengths N/m, N s/m]; off the diagonal: moving one joint pulls "
-          "another.") +
+          "[N m/rad, N m s/rad; prismatic joints N/m, N s/m].") +
       matrix_part("K_q", found.K, found) + matrix_part("B_q", found.B, found);
   const double geometric = (found.K - zero).cwiseAbs().maxCoeff();
   if (geometric > 1e-6 * found.K.cwiseAbs().maxCoeff())
     text +=
-        said(fmt::format("Of K_q up to {} is geometric: the pulls of the springs times the "
-                         "turning of their lever arms. About zero offset it is nothing.",
-                         cell(geometric)));
+        paragraph(fmt::format("Geometric stiffness in K_q, from the coupling forces and the "
+                              "rotation of their lever arms: up to {}; zero at zero offset.",
+                              cell(geometric)));
   return text;
 }
 
 std::string modes_part(const Predicted& found) {
-  std::vector<std::string> headings{"mode", "w [rad/s]", "[Hz]", "z"};
+  std::vector<std::string> headings{"mode", "omega [rad/s]", "[Hz]", "zeta"};
   for (const std::string& row : found.rows) headings.push_back(row);
   TextTable table(headings);
   for (std::size_t i = 0; i < found.modes.size(); ++i) {
@@ -84,9 +83,9 @@ std::string modes_part(const Predicted& found) {
       line.push_back(std::abs(mode.shape[r]) < 5e-4 ? "0" : fmt::format("{:.3f}", mode.shape[r]));
     table.add(line);
   }
-  return said(
-             "Modes, of M^-1 K_q: frequency, damping ratio and shape of the motions in which an "
-             "error dies out; w = 0 is held by dampers alone.") +
+  return paragraph(
+             "Modes of M^-1 K_q: frequency, damping ratio and shape; omega = 0: damped only, "
+             "without stiffness.") +
          table.str();
 }
 
@@ -104,18 +103,19 @@ std::string errors_part(const Predicted& found, const PredictTask& task) {
     table.add(line);
   }
   const double D = kDegrees * task.distance;
-  return said(fmt::format(
-             "Largest error [deg] behind a target that goes {:g} deg in {:g} s along a mode (or "
-             "{:g} mm in all columns, where it is a length): when it starts at constant speed, "
-             "when it turns back at that speed, and on four smooth ways. At constant speed a "
-             "relative damper leaves no error; an absolute one lags by 2 z v/w for ever, a mocap "
-             "weld of this frequency by 2 v timeconst, timeconst = 1/w.",
+  return paragraph(fmt::format(
+             "Peak tracking error [deg] for a target that moves {:g} deg in {:g} s along a mode "
+             "(lengths: [mm] for {:g} mm): velocity step, velocity reversal, and four smooth "
+             "motion "
+             "profiles. At constant velocity v the error of a relative damper is zero, of an "
+             "absolute damper 2 zeta v/omega, of a mocap weld of this frequency 2 v timeconst, "
+             "timeconst = 1/omega.",
              D, task.time, D)) +
          table.str();
 }
 
 std::string joint_errors_part(const Predicted& found, const PredictTask& task) {
-  if (!found.errors) return "Largest error of each joint: too many joints\n";
+  if (!found.errors) return "Peak tracking error of each joint: too many joints\n";
   TextTable table(
       {"joint", "", "start", "reversal", "cubic", "quintic", "cosine", "bang-bang", "lag"});
   const RowErrors& e = *found.errors;
@@ -129,51 +129,51 @@ std::string joint_errors_part(const Predicted& found, const PredictTask& task) {
     line.push_back(word(e.lag[row]));
     table.add(line);
   }
-  return said(fmt::format(
-             "Largest error of each joint when the targets of all held joints make that move at "
-             "once ({:g} deg, of slides {:g} mm, in {:g} s{}), all modes together and with the "
-             "dampers as they are; - is not held. Lag: what stays at constant speed, of absolute "
-             "dampers, dampers of joints and delays.",
+  return paragraph(fmt::format(
+             "Peak tracking error of each joint when all targets move at once ({:g} deg, prismatic "
+             "joints {:g} mm, in {:g} s{}), with all modes and dampers; -: no coupling. Lag: "
+             "steady "
+             "error at constant velocity, from absolute dampers, joint damping and delays.",
              kDegrees * task.distance, 1e3 * task.slide(), task.time,
-             task.along.empty() ? "" : "; each its part of it")) +
+             task.along.empty() ? "" : "; shares as given by --along")) +
          table.str();
 }
 
 std::string limits_part(const Predicted& found) {
-  TextTable table({"stepped by", "largest step [ms]", "stiffness x, b/k kept", "x, z kept", ""});
+  TextTable table({"scheme", "largest step [ms]", "stiffness factor, fixed b/k", "fixed zeta", ""});
   for (const SchemeLimit& limit : found.limits)
     table.add({name_of(limit.scheme), limit_cell(limit.max_step, 1e3), limit_cell(limit.by_ratio),
                limit_cell(limit.by_zeta), limit.is_the_scenes ? "<- this scene" : ""});
   std::string text =
-      said(fmt::format("Limits of all couplings together: the largest stable step of each scheme, "
-                       "and how many times stiffer all springs may be at {:g} ms, with b/k kept or "
-                       "with the damping ratio kept.",
-                       1e3 * found.step)) +
+      paragraph(fmt::format("Stability limits of all couplings together: largest stable step of "
+                            "each scheme, and largest stable factor on all stiffnesses at {:g} ms, "
+                            "with constant b/k or constant damping ratio.",
+                            1e3 * found.step)) +
       table.str();
   return text +
-         said(fmt::format(
+         paragraph(fmt::format(
              "This scene ({}): largest step {}{}. Its step of {:g} ms {}.", found.stepped,
              limit_cell(found.max_step, 1e3),
              std::isfinite(found.max_step) && found.max_step > 0 ? " ms" : "", 1e3 * found.step,
-             found.integrator == Integrator::dopri5 ? "is the longest that its tolerance may choose"
-             : found.growth > 1 + 1e-9              ? "is NOT stable"
+             found.integrator == Integrator::dopri5 ? "is the upper bound of the adaptive step"
+             : found.growth > 1 + 1e-9              ? "is UNSTABLE"
                                                     : "is stable"));
 }
 
 std::string loads_part(const Predicted& found) {
-  TextTable sag({"joint", "sag"});
+  TextTable sag({"joint", "deflection"});
   for (std::size_t r = 0; r < found.rows.size(); ++r) {
     const double e = found.sag[static_cast<Index>(r)];
-    sag.add({found.rows[r], std::isnan(e)       ? "not held"
+    sag.add({found.rows[r], std::isnan(e)       ? "no coupling"
                             : found.is_angle[r] ? cell(kDegrees * e) + " deg"
                                                 : cell(1e3 * e) + " mm"});
   }
   std::string text =
-      said("Sag under gravity, K_q^-1 G: how far the target stands before the joint at rest.") +
+      paragraph("Static deflection under gravity, K_q^-1 G: target minus joint position at rest.") +
       sag.str();
-  TextTable arms({"point spring", "about", "r [m]", "target at R_K [m]", "R_K at most [m]",
-                  "torque at most [N m]"});
-  TextTable walls({"through", "k [N/m]", "the wall feels like [N/m]"});
+  TextTable arms(
+      {"point spring", "joint", "r [m]", "target R_K [m]", "max R_K [m]", "max torque [N m]"});
+  TextTable walls({"coupling", "k [N/m]", "in series with the wall [N/m]"});
   bool any_arm = false, any_wall = false;
   for (const PredictedCoupling& c : found.couplings) {
     for (const SpringArm& arm : c.arms) {
@@ -188,14 +188,13 @@ std::string loads_part(const Predicted& found) {
   }
   if (any_arm)
     text += "\n" +
-            said(
-                "A point spring turns a joint by k r R_K sin e, e the angle between its arm and "
-                "its target's: most at 90 degrees, nothing at 180, beyond that the wrong way. "
-                "Treated implicitly it is stable only while its target stays within R_K at "
-                "most (the turning of the arm is explicit).") +
+            paragraph(
+                "Torque of a point spring about a joint: k r R_K sin e, e the angle between "
+                "the arms of point and target. An implicit point spring is stable for "
+                "R_K <= max R_K (the rotation of its arm is explicit).") +
             arms.str();
   if (any_wall)
-    text += "\n" + said("Through a coupling a wall is two springs in series.") + walls.str();
+    text += "\n" + paragraph("Wall and coupling act as two springs in series.") + walls.str();
   return text;
 }
 

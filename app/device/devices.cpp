@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "app/support/files.h"
 #include "app/support/text.h"
@@ -12,65 +11,64 @@
 #include "coupling/target/recorded_trace.h"
 #include "coupling/target/scripted_motion.h"
 #include "coupling/target/synthetic_operator.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
 
-// Of scripted motions: a posture well inside the ranges, and how far they go from it [rad].
+// Scripted motions: a posture well inside the joint ranges, and amplitudes about it [rad].
 constexpr OmniAngles kPosture{0, 0.7, 0.2, 0, 0.6, 0};
-constexpr double kScriptTurn = 0.3, kChirpTurn = 0.15;
+constexpr double kScriptAngle = 0.3, kChirpAngle = 0.15;
 
-OmniAngles turned_by(double angle) {
-  OmniAngles turned = kPosture;
-  for (double& theta : turned) theta += angle;
-  return turned;
+OmniAngles posture_plus(double angle) {
+  OmniAngles theta = kPosture;
+  for (double& angle_of : theta) angle_of += angle;
+  return theta;
 }
 
-std::shared_ptr<const OperatorMotion> synthetic_hand_of(const std::string& seed) {
+std::shared_ptr<const OperatorMotion> synthetic_motion(const std::string& seed) {
   const auto number = seed.empty() ? std::optional<unsigned>(1) : whole_number<unsigned>(seed);
   if (!number)
-    refuse_spec("synthetic:" + seed, "the seed is no whole number", "give one: synthetic:1");
+    refuse_spec("synthetic:" + seed, "the seed is not a whole number", "give one: synthetic:1");
   return std::make_shared<SyntheticOperator>(*number);
 }
 
 }  // namespace
 
-const std::vector<ScriptedMotion>& scripted_hands() {
-  static const std::vector<ScriptedMotion> hands{
-      {"paper", "", "the paper's automatic motion: three sweeps of a second each", true,
+const std::vector<ScriptedMotion>& scripted_motions() {
+  static const std::vector<ScriptedMotion> motions{
+      {"paper", "", "the paper's automatic motion: three sweeps of one second each", true,
        [](const std::string&) { return std::make_shared<AutomaticMotion>(HandMapping{}); }},
       {"step", "", "rests 1 s, jumps by 0.3 rad in every joint, rests", true,
        [](const std::string&) {
-         return std::make_shared<StepMotion>(kPosture, turned_by(kScriptTurn), 1.0, 5.0);
+         return std::make_shared<StepMotion>(kPosture, posture_plus(kScriptAngle), 1.0, 5.0);
        }},
       {"chirp", "", "0.15 rad in every joint, from 0.1 to 5 Hz in 20 s", true,
        [](const std::string&) {
          OmniAngles amplitude{};
-         amplitude.fill(kChirpTurn);
+         amplitude.fill(kChirpAngle);
          return std::make_shared<ChirpMotion>(kPosture, amplitude, 0.1, 5.0, 20.0);
        }},
       {"minimum-jerk", "", "rests 1 s, reaches 0.3 rad further in every joint in 1 s", true,
        [](const std::string&) {
-         return std::make_shared<ReachMotion>(kPosture, turned_by(kScriptTurn), 1.0, 1.0);
+         return std::make_shared<ReachMotion>(kPosture, posture_plus(kScriptAngle), 1.0, 1.0);
        }},
-      {"synthetic", "[:SEED]", "random reaches with tremor; no person", true, synthetic_hand_of},
-      {"trace", ":FILE", "a recorded hand, from a CSV file", false,
+      {"synthetic", "[:SEED]", "random reaches with tremor", true, synthetic_motion},
+      {"trace", ":FILE", "recorded operator motion, from a CSV file", false,
        [](const std::string& file) -> std::shared_ptr<const OperatorMotion> {
-         if (file.empty()) refuse_spec("trace", "no file is given", "give one: trace:hand.csv");
+         if (file.empty()) refuse_spec("trace", "the file is missing", "give one: trace:hand.csv");
          if (is_hand_log(file)) return read_hand_log(file);
          auto trace = std::make_shared<RecordedTrace>(file);
          for (const std::string& warning : trace->quality().warnings)
            say("twinarm: warning: {}: {}\n", file, warning);
          return trace;
        }}};
-  return hands;
+  return motions;
 }
 
 namespace {
 
-// "name:rest" parted at the first colon.
-std::pair<std::string, std::string> parted(const std::string& spec) {
+// "name:rest" at the first colon.
+std::pair<std::string, std::string> split_at_colon(const std::string& spec) {
   const auto colon = spec.find(':');
   if (colon == std::string::npos) return {spec, ""};
   return {spec.substr(0, colon), spec.substr(colon + 1)};
@@ -81,7 +79,7 @@ const Entry& entry_named(const std::vector<Entry>& entries, const std::string& n
                          const std::string& kind) {
   for (const Entry& entry : entries)
     if (entry.name == name) return entry;
-  refuse_spec(name, fmt::format("there is no {} of this name", kind),
+  refuse_spec(name, fmt::format("unknown {}", kind),
               name_remedy(name, names_of(entries), kind + "s"));
 }
 
@@ -90,8 +88,7 @@ const Entry& entry_named(const std::vector<Entry>& entries, const std::string& n
 const std::vector<DeviceKind>& device_kinds() {
   static const std::vector<DeviceKind> kinds = [] {
     std::vector<DeviceKind> sorted = device_kinds_of_files();
-    std::ranges::sort(sorted,
-                      [](const DeviceKind& a, const DeviceKind& b) { return a.place < b.place; });
+    std::ranges::sort(sorted, {}, &DeviceKind::place);
     return sorted;
   }();
   return kinds;
@@ -101,31 +98,31 @@ std::string device_list() {
   std::string text = "devices:\n";
   for (const DeviceKind& kind : device_kinds())
     text += fmt::format("  {:26} {}{}\n", kind.name + kind.argument, kind.help,
-                        kind.has_motors ? "; forces can be felt" : "");
-  text += "hands of virtual:HAND:\n";
-  for (const ScriptedMotion& hand : scripted_hands())
-    text += fmt::format("  {:26} {}\n", hand.name + hand.argument, hand.help);
+                        kind.has_motors ? "; with force feedback" : "");
+  text += "motions of virtual:MOTION:\n";
+  for (const ScriptedMotion& motion : scripted_motions())
+    text += fmt::format("  {:26} {}\n", motion.name + motion.argument, motion.help);
   return text;
 }
 
-std::shared_ptr<const OperatorMotion> scripted_hand(const std::string& spec) {
-  const auto [name, argument] = parted(spec);
-  const ScriptedMotion& hand = entry_named(scripted_hands(), name, "hand");
-  if (hand.argument.empty() && !argument.empty())
-    refuse_spec(spec, "this hand takes nothing after its name", "give " + name + " alone");
-  return hand.make(argument);
+std::shared_ptr<const OperatorMotion> scripted_motion(const std::string& spec) {
+  const auto [name, argument] = split_at_colon(spec);
+  const ScriptedMotion& motion = entry_named(scripted_motions(), name, "motion");
+  if (motion.argument.empty() && !argument.empty())
+    refuse_spec(spec, "this motion has no argument", "give " + name + " alone");
+  return motion.make(argument);
 }
 
 bool stays_inside(const std::string& spec) {
-  const auto [name, argument] = parted(spec);
+  const auto [name, argument] = split_at_colon(spec);
   const DeviceKind& device = entry_named(device_kinds(), name, "device");
   if (!device.stays_inside || argument.empty()) return device.stays_inside;
-  return entry_named(scripted_hands(), parted(argument).first, "hand").stays_inside;
+  return entry_named(scripted_motions(), split_at_colon(argument).first, "motion").stays_inside;
 }
 
 std::unique_ptr<HandDevice> open_device(const std::string& spec,
                                         const VirtualOmniSettings& settings) {
-  const auto [name, argument] = parted(spec);
+  const auto [name, argument] = split_at_colon(spec);
   return entry_named(device_kinds(), name, "device").open(argument, settings);
 }
 

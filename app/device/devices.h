@@ -1,5 +1,5 @@
-// All hand devices by name: what `--device` takes. A file NAME_kind.cpp of this folder defines
-// `DeviceKind NAME_kind()` (docs/develop/extending_device.md).
+// Input devices by name, as of `--device`. A file NAME_kind.cpp of this folder defines
+// `DeviceKind NAME_kind()` (docs/develop/extending.md).
 #pragma once
 
 #include <charconv>
@@ -16,42 +16,42 @@
 namespace twinarm {
 
 struct DeviceKind {
-  int place = 0;               // in the list, ascending
-  std::string name, argument;  // as in "vrpn" and ":NAME@HOST[:PORT]"; [..] may be left out
+  int place = 0;               // order in the list
+  std::string name, argument;  // "vrpn" and ":NAME@HOST[:PORT]"; [..] is optional
   std::string help;            // one line
-  // Of the text after name and colon. Throws InputError where it does not answer.
+  // Takes the text after name and colon. Throws InputError: no answer.
   std::function<std::unique_ptr<HandDevice>(const std::string&, const VirtualOmniSettings&)> open;
   bool has_motors = false;
   bool stays_inside = false;  // it opens no file, device or socket
 };
 const std::vector<DeviceKind>& device_kinds();
-const std::vector<DeviceKind>& device_kinds_of_files();  // not in their order
+const std::vector<DeviceKind>& device_kinds_of_files();  // unordered
 
-// The hands that move a virtual device, as in virtual:NAME.
+// Motions of the virtual device, as in virtual:NAME.
 struct ScriptedMotion {
   std::string name, argument, help;
   bool stays_inside = false;
-  std::function<std::shared_ptr<const OperatorMotion>(const std::string&)> make;  // of the argument
+  std::function<std::shared_ptr<const OperatorMotion>(const std::string&)>
+      make;  // takes the argument
 };
-const std::vector<ScriptedMotion>& scripted_hands();
+const std::vector<ScriptedMotion>& scripted_motions();
 
-// What `--device list` prints: one line for each kind, then the hands.
+// Output of `--device list`: kinds, then motions.
 std::string device_list();
 
-// "virtual", "virtual:HAND", "keyboard", "gamepad:/dev/input/js1", "vrpn:Phantom0@lab:3883"...
-// `settings` are of the virtual Omni that keyboard, gamepad and space mouse move as well. Throws
-// one InputError: names that are not known, and devices that do not answer, with what to do.
+// "virtual", "virtual:MOTION", "keyboard", "gamepad:/dev/input/js1", "vrpn:Phantom0@lab:3883"...
+// `settings`: of the virtual Omni, which keyboard, gamepad and space mouse move too. Throws
+// InputError: unknown name, or no answer.
 std::unique_ptr<HandDevice> open_device(const std::string& spec,
                                         const VirtualOmniSettings& settings = {});
 
-// Whether it opens no file, device or socket of this machine: what somebody else may ask for.
-// Throws InputError: names that are not known.
+// Whether it opens no file, device or socket of this machine, so that remote clients may request
+// it. Throws InputError: unknown name.
 bool stays_inside(const std::string& spec);
 
-// The hand alone: "paper", "synthetic:7", "trace:hand.csv". Throws InputError.
-std::shared_ptr<const OperatorMotion> scripted_hand(const std::string& spec);
+// "paper", "synthetic:7", "trace:hand.csv". Throws InputError.
+std::shared_ptr<const OperatorMotion> scripted_motion(const std::string& spec);
 
-// What these read from the text after a name, and how they refuse it.
 [[noreturn]] inline void refuse_spec(const std::string& spec, const std::string& problem,
                                      const std::string& fix) {
   throw InputError({{"", 0, "--device " + spec, problem, fix, "device.spec"}});

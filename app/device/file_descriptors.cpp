@@ -16,7 +16,7 @@
 namespace twinarm {
 namespace {
 
-// Of a connection under way: 0 once it stands.
+// Of a pending connection; 0: connected.
 int connect_error(int socket, double patience, int stop) {
   pollfd ready[2] = {{socket, POLLOUT, 0}, {stop, POLLIN, 0}};
   ::poll(ready, 2, static_cast<int>(1000 * patience));
@@ -49,7 +49,7 @@ OwnedFd TcpPeer::connect(double patience, int stop, std::string& why_not) const 
     int error = ::connect(fd.get(), name, size) == 0 ? 0 : errno;
     if (error == EINPROGRESS) error = connect_error(fd.get(), patience, stop);
     if (error == 0) {
-      const int on = 1;  // forces are small and urgent
+      const int on = 1;  // no delay: forces are small messages
       setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
       return fd;
     }
@@ -60,17 +60,17 @@ OwnedFd TcpPeer::connect(double patience, int stop, std::string& why_not) const 
 
 namespace {
 
-// What a signal handler can get at.
-constexpr std::array<int, 4> kEndings{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+// Accessible to the signal handler.
+constexpr std::array<int, 4> kSignals{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
 volatile sig_atomic_t raw_fd = -1;
-termios cooked;
-struct sigaction handlers_before[kEndings.size()];
+termios original;
+struct sigaction handlers_before[kSignals.size()];
 
-// Makes the terminal what it was, then does what would have been done without us.
-void restore_and_go_on(int signal_number) {
-  if (raw_fd >= 0) tcsetattr(raw_fd, TCSANOW, &cooked);  // allowed in a handler
-  for (std::size_t n = 0; n < kEndings.size(); ++n) {
-    if (kEndings[n] != signal_number) continue;
+// Restores the terminal, then calls the previous handler.
+void restore_terminal(int signal_number) {
+  if (raw_fd >= 0) tcsetattr(raw_fd, TCSANOW, &original);  // async-signal-safe
+  for (std::size_t n = 0; n < kSignals.size(); ++n) {
+    if (kSignals[n] != signal_number) continue;
     const auto before = handlers_before[n].sa_handler;
     if (before == SIG_DFL) {
       signal(signal_number, SIG_DFL);
@@ -84,14 +84,14 @@ void restore_and_go_on(int signal_number) {
 }  // namespace
 
 RawTerminal::RawTerminal(int fd) {
-  if (raw_fd >= 0 || tcgetattr(fd, &cooked) != 0) return;
+  if (raw_fd >= 0 || tcgetattr(fd, &original) != 0) return;
   is_terminal_ = true;
   raw_fd = fd;
-  struct sigaction ours {};
-  ours.sa_handler = restore_and_go_on;
-  for (std::size_t n = 0; n < kEndings.size(); ++n)
-    sigaction(kEndings[n], &ours, &handlers_before[n]);
-  termios raw = cooked;
+  struct sigaction action {};
+  action.sa_handler = restore_terminal;
+  for (std::size_t n = 0; n < kSignals.size(); ++n)
+    sigaction(kSignals[n], &action, &handlers_before[n]);
+  termios raw = original;
   raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);  // Ctrl-C stays a signal
   raw.c_cc[VMIN] = 0;
   raw.c_cc[VTIME] = 0;
@@ -100,11 +100,11 @@ RawTerminal::RawTerminal(int fd) {
 
 RawTerminal::~RawTerminal() {
   if (!is_terminal_) return;
-  tcsetattr(raw_fd, TCSANOW, &cooked);
-  for (std::size_t n = 0; n < kEndings.size(); ++n) {
+  tcsetattr(raw_fd, TCSANOW, &original);
+  for (std::size_t n = 0; n < kSignals.size(); ++n) {
     struct sigaction now {};
-    sigaction(kEndings[n], nullptr, &now);
-    if (now.sa_handler == restore_and_go_on) sigaction(kEndings[n], &handlers_before[n], nullptr);
+    sigaction(kSignals[n], nullptr, &now);
+    if (now.sa_handler == restore_terminal) sigaction(kSignals[n], &handlers_before[n], nullptr);
   }
   raw_fd = -1;
 }

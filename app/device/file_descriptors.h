@@ -1,4 +1,4 @@
-// A file descriptor that is closed with its owner.
+// Owner of a file descriptor; TCP connections; raw terminals.
 #pragma once
 
 #include <unistd.h>
@@ -26,13 +26,13 @@ class OwnedFd {
   int fd_;
 };
 
-// A TCP service by host and port: looked up once, then connected to without long waits.
+// A TCP service by host and port, looked up once.
 class TcpPeer {
  public:
-  // Waits for the name service. Throws std::runtime_error with its words.
+  // Waits for the name service. Throws std::runtime_error with its message.
   TcpPeer(const std::string& host, int port);
-  // A socket that does not block, or none, and why. Waits at most `patience` [s] for each of the
-  // host's addresses, and no longer than until `stop` can be read.
+  // A non-blocking socket, or none and the reason. Waits at most `patience` [s] for each address of
+  // the host, or until `stop` is readable.
   OwnedFd connect(double patience, int stop, std::string& why_not) const;
 
  private:
@@ -43,8 +43,8 @@ class TcpPeer {
   std::vector<Address> addresses_;
 };
 
-// A terminal that gives each key at once and shows none, for as long as this lives. It is as it was
-// afterwards, and also where Ctrl-C or another signal ends the program first. One at a time.
+// Terminal without line buffering and echo. Its mode is restored by the destructor, or when a
+// signal such as Ctrl-C ends the program. One at a time.
 class RawTerminal {
  public:
   explicit RawTerminal(int fd);  // must outlive this

@@ -7,7 +7,7 @@ DeviceKind gamepad_kind() {
   return {.place = 30,
           .name = "gamepad",
           .argument = "[:/dev/input/jsN]",
-          .help = "a virtual Omni moved by a game controller",
+          .help = "simulated Omni moved by a game controller",
           .open = [](const std::string& path, const VirtualOmniSettings& settings) {
             return std::make_unique<GestureDevice>(open_gamepad(path), settings);
           }};

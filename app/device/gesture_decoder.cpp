@@ -10,14 +10,14 @@ namespace twinarm {
 namespace {
 
 constexpr double kStickFull = 32767;     // of the kernel's joystick events
-constexpr double kSpaceMouseFull = 350;  // what spacenavd gives at full tilt, sensitivity 1
+constexpr double kSpaceMouseFull = 350;  // spacenavd at full deflection, sensitivity 1
 constexpr std::size_t kSpaceMousePacket = 32;
 
 std::size_t axis_index(HandAxis axis) {
   return static_cast<std::size_t>(axis);
 }
 
-// Whole packets of a fixed size, in order.
+// Calls `take` for each complete packet, in order.
 template <std::size_t size, class Take>
 void take_packets(std::vector<std::uint8_t>& pending, const std::uint8_t* bytes, std::size_t count,
                   const Take& take) {
@@ -30,7 +30,7 @@ void take_packets(std::vector<std::uint8_t>& pending, const std::uint8_t* bytes,
 }  // namespace
 
 void KeyDecoder::feed(const std::uint8_t* bytes, std::size_t count, double now,
-                      DesktopInput& hand) {
+                      DesktopInput& input) {
   for (std::size_t n = 0; n < count; ++n) {
     const std::uint8_t byte = bytes[n];
     if (byte == 0x1b) {
@@ -38,32 +38,32 @@ void KeyDecoder::feed(const std::uint8_t* bytes, std::size_t count, double now,
     } else if (escape_ == Escape::begun) {
       escape_ = byte == '[' || byte == 'O' ? Escape::sequence : Escape::none;
     } else if (escape_ == Escape::sequence) {
-      if (byte < 0x40) continue;  // a parameter: modifiers, of no concern
+      if (byte < 0x40) continue;  // a parameter (modifier keys)
       escape_ = Escape::none;
-      arrow(byte, now, hand);
+      arrow(byte, now, input);
     } else {
-      letter(byte, now, hand);
+      letter(byte, now, input);
     }
   }
-  pass(now, hand);
+  pass(now, input);
 }
 
-void KeyDecoder::arrow(std::uint8_t final_byte, double now, DesktopInput& hand) {
+void KeyDecoder::arrow(std::uint8_t final_byte, double now, DesktopInput& input) {
   switch (final_byte) {
     case 'A':
-      return press(HandAxis::up, true, now, hand);
+      return press(HandAxis::up, true, now, input);
     case 'B':
-      return press(HandAxis::up, false, now, hand);
+      return press(HandAxis::up, false, now, input);
     case 'C':
-      return press(HandAxis::right, true, now, hand);
+      return press(HandAxis::right, true, now, input);
     case 'D':
-      return press(HandAxis::right, false, now, hand);
+      return press(HandAxis::right, false, now, input);
     default:
       return;
   }
 }
 
-void KeyDecoder::letter(std::uint8_t byte, double now, DesktopInput& hand) {
+void KeyDecoder::letter(std::uint8_t byte, double now, DesktopInput& input) {
   struct Key {
     char letter;
     HandAxis axis;
@@ -79,31 +79,31 @@ void KeyDecoder::letter(std::uint8_t byte, double now, DesktopInput& hand) {
                                      {'e', HandAxis::roll, false}}};
   const auto lower = static_cast<char>(byte >= 'A' && byte <= 'Z' ? byte + 0x20 : byte);
   for (const Key& key : keys)
-    if (key.letter == lower) press(key.axis, key.positive, now, hand);
-  if (lower == ' ') hand.button(0, buttons_[0] = !buttons_[0]);
-  if (lower == 'c') hand.button(1, buttons_[1] = !buttons_[1]);
+    if (key.letter == lower) press(key.axis, key.positive, now, input);
+  if (lower == ' ') input.button(0, buttons_[0] = !buttons_[0]);
+  if (lower == 'c') input.button(1, buttons_[1] = !buttons_[1]);
   if (lower == 'x')
     for (std::size_t axis = 0; axis < 6; ++axis)
-      for (std::size_t direction = 0; direction < 2; ++direction) stop(axis, direction, hand);
+      for (std::size_t direction = 0; direction < 2; ++direction) stop(axis, direction, input);
 }
 
-void KeyDecoder::press(HandAxis axis, bool positive, double now, DesktopInput& hand) {
+void KeyDecoder::press(HandAxis axis, bool positive, double now, DesktopInput& input) {
   const std::size_t direction = positive ? 1 : 0;
-  stop(axis_index(axis), 1 - direction, hand);
-  if (until_[axis_index(axis)][direction] == 0) hand.key(axis, positive, true);
+  stop(axis_index(axis), 1 - direction, input);
+  if (until_[axis_index(axis)][direction] == 0) input.key(axis, positive, true);
   until_[axis_index(axis)][direction] = now + hold_;
 }
 
-void KeyDecoder::stop(std::size_t axis, std::size_t direction, DesktopInput& hand) {
+void KeyDecoder::stop(std::size_t axis, std::size_t direction, DesktopInput& input) {
   if (until_[axis][direction] == 0) return;
   until_[axis][direction] = 0;
-  hand.key(static_cast<HandAxis>(axis), direction == 1, false);
+  input.key(static_cast<HandAxis>(axis), direction == 1, false);
 }
 
-void KeyDecoder::pass(double now, DesktopInput& hand) {
+void KeyDecoder::pass(double now, DesktopInput& input) {
   for (std::size_t axis = 0; axis < 6; ++axis)
     for (std::size_t direction = 0; direction < 2; ++direction)
-      if (now > until_[axis][direction]) stop(axis, direction, hand);
+      if (now > until_[axis][direction]) stop(axis, direction, input);
 }
 
 void KeyDecoder::forget() {
@@ -122,27 +122,27 @@ double JoystickDecoder::tilt(int code) const {
   return value_[static_cast<std::size_t>(code)];
 }
 
-void JoystickDecoder::tell_axes(DesktopInput& hand) const {
+void JoystickDecoder::send_axes(DesktopInput& input) const {
   const double toward = has_right_stick_ ? tilt(ABS_RY) : tilt(ABS_RZ);
   const double yaw = has_right_stick_ ? tilt(ABS_RX) : tilt(ABS_Z);
-  // Triggers rest at -1 each: only their difference counts.
+  // Triggers rest at -1 each; their difference is used.
   const double triggers = has_right_stick_ ? 0.5 * (tilt(ABS_RZ) - tilt(ABS_Z)) : 0.0;
   const double clockwise = std::clamp(triggers + tilt(ABS_HAT0X), -1.0, 1.0);
-  hand.axes({tilt(ABS_X), -tilt(ABS_Y), toward, yaw, -tilt(ABS_HAT0Y), -clockwise});
+  input.axes({tilt(ABS_X), -tilt(ABS_Y), toward, yaw, -tilt(ABS_HAT0Y), -clockwise});
 }
 
 void JoystickDecoder::feed(const std::uint8_t* bytes, std::size_t count, double /*now*/,
-                           DesktopInput& hand) {
+                           DesktopInput& input) {
   take_packets<sizeof(js_event)>(pending_, bytes, count, [&](const std::uint8_t* packet) {
     js_event event{};
     std::memcpy(&event, packet, sizeof event);
-    const int kind = event.type & ~JS_EVENT_INIT;  // what is so from the start counts as well
+    const int kind = event.type & ~JS_EVENT_INIT;  // initial values too
     if (kind == JS_EVENT_AXIS && event.number < codes_.size() &&
         codes_[event.number] < value_.size()) {
       value_[codes_[event.number]] = std::clamp(event.value / kStickFull, -1.0, 1.0);
-      tell_axes(hand);
+      send_axes(input);
     } else if (kind == JS_EVENT_BUTTON && event.number < 2) {
-      hand.button(event.number, event.value != 0);
+      input.button(event.number, event.value != 0);
     }
   });
 }
@@ -153,7 +153,7 @@ void JoystickDecoder::forget() {
 }
 
 void SpaceMouseDecoder::feed(const std::uint8_t* bytes, std::size_t count, double /*now*/,
-                             DesktopInput& hand) {
+                             DesktopInput& input) {
   take_packets<kSpaceMousePacket>(pending_, bytes, count, [&](const std::uint8_t* packet) {
     std::array<std::int32_t, 8> word{};
     std::memcpy(word.data(), packet, kSpaceMousePacket);
@@ -161,10 +161,10 @@ void SpaceMouseDecoder::feed(const std::uint8_t* bytes, std::size_t count, doubl
       std::array<double, 6> tilt{};
       for (std::size_t n = 0; n < 6; ++n)
         tilt[n] = std::clamp(word[n + 1] / kSpaceMouseFull, -1.0, 1.0);
-      // Its z goes away from the user. A positive yaw turns to the right, against y.
-      hand.axes({tilt[0], tilt[1], -tilt[2], -tilt[4], tilt[3], -tilt[5]});
+      // Its z points away from the user; a positive yaw is clockwise about y.
+      input.axes({tilt[0], tilt[1], -tilt[2], -tilt[4], tilt[3], -tilt[5]});
     } else if ((word[0] == 1 || word[0] == 2) && word[1] >= 0 && word[1] < 2) {
-      hand.button(static_cast<std::size_t>(word[1]), word[0] == 1);
+      input.button(static_cast<std::size_t>(word[1]), word[0] == 1);
     }
   });
 }

@@ -1,5 +1,5 @@
-// From the bytes of an input device to a hand's gestures. Torn and damaged bytes are put together
-// or passed over. Device axes: x right, y up, z to the user.
+// Decodes the bytes of desktop input devices. Split packets are joined, invalid bytes are skipped.
+// Device axes: x right, y up, z towards the user.
 #pragma once
 
 #include <array>
@@ -13,30 +13,30 @@ namespace twinarm {
 class GestureDecoder {
  public:
   virtual ~GestureDecoder() = default;
-  // `now` [s]: any clock that goes on.
+  // `now` [s]: any monotonic clock.
   virtual void feed(const std::uint8_t* bytes, std::size_t count, double now,
-                    DesktopInput& hand) = 0;
-  virtual void pass(double /*now*/, DesktopInput& /*hand*/) {}  // time goes by without bytes
-  virtual void forget() {}  // the device is gone: what it held is let go of
+                    DesktopInput& input) = 0;
+  virtual void pass(double /*now*/, DesktopInput& /*input*/) {}  // no bytes arrived
+  virtual void forget() {}                                       // the device was disconnected
 };
 
-// A terminal's keys. Terminals tell presses and their repetition, no release: a key is taken for
-// held until `hold` after its last byte.
-//   arrows  right, left, up, down       w s  away from the user, to the user
+// Keys of a terminal. Terminals report presses and repetitions, no releases: a key counts as held
+// until `hold` [s] after its last byte.
+//   arrows  right, left, up, down       w s  away from the user, towards the user
 //   a d     yaw                         r f  pitch                q e  roll
-//   space   gripper, to and fro         c    clutch, to and fro   x    stand still
+//   space   gripper on/off              c    clutch on/off        x    stop
 class KeyDecoder final : public GestureDecoder {
  public:
   explicit KeyDecoder(double hold = 0.2) : hold_(hold) {}
-  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& hand) override;
-  void pass(double now, DesktopInput& hand) override;
+  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& input) override;
+  void pass(double now, DesktopInput& input) override;
   void forget() override;
 
  private:
-  void letter(std::uint8_t byte, double now, DesktopInput& hand);
-  void arrow(std::uint8_t final_byte, double now, DesktopInput& hand);
-  void press(HandAxis axis, bool positive, double now, DesktopInput& hand);
-  void stop(std::size_t axis, std::size_t direction, DesktopInput& hand);
+  void letter(std::uint8_t byte, double now, DesktopInput& input);
+  void arrow(std::uint8_t final_byte, double now, DesktopInput& input);
+  void press(HandAxis axis, bool positive, double now, DesktopInput& input);
+  void stop(std::size_t axis, std::size_t direction, DesktopInput& input);
 
   double hold_;
   enum class Escape { none, begun, sequence } escape_ = Escape::none;
@@ -44,31 +44,31 @@ class KeyDecoder final : public GestureDecoder {
   std::array<bool, 2> buttons_{};
 };
 
-// Linux joystick events (linux/joystick.h, /dev/input/js*), 8 bytes each. Left stick: right and up.
-// Right stick: to the user, yaw. Triggers, or the cross: roll; cross: pitch. First button: gripper,
+// Linux joystick events (linux/joystick.h, /dev/input/js*), 8 bytes each. Left stick: right, up.
+// Right stick: towards the user, yaw. Triggers or D-pad: roll; D-pad: pitch. First button: gripper,
 // second: clutch.
 class JoystickDecoder final : public GestureDecoder {
  public:
-  // What each axis is, as the kernel says (ABS_X..); empty: as most controllers have it.
+  // Meaning of each axis from the kernel (ABS_X..); empty: the common layout.
   explicit JoystickDecoder(std::vector<std::uint8_t> axis_codes = {});
-  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& hand) override;
+  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& input) override;
   void forget() override;
 
  private:
   double tilt(int code) const;
-  void tell_axes(DesktopInput& hand) const;
+  void send_axes(DesktopInput& input) const;
 
   std::vector<std::uint8_t> codes_;
-  bool has_right_stick_;            // RX, RY; else Z and RZ are it
+  bool has_right_stick_;            // on RX, RY; else on Z, RZ
   std::array<double, 64> value_{};  // by code, in [-1, 1]
   std::vector<std::uint8_t> pending_;
 };
 
-// The packets of spacenavd, the daemon of space mice: eight int32 in the machine's byte order, kind
-// (0 motion, 1 press, 2 release), then x, y, z, turns about them, and a period; or a button.
+// Packets of spacenavd, the space mouse daemon: eight int32 in host byte order: kind (0 motion,
+// 1 press, 2 release), then x, y, z, rotations about them, and a period; or a button.
 class SpaceMouseDecoder final : public GestureDecoder {
  public:
-  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& hand) override;
+  void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& input) override;
   void forget() override { pending_.clear(); }
 
  private:

@@ -16,21 +16,20 @@
 #include <filesystem>
 
 #include "app/device/devices.h"
-#include "app/device/file_descriptors.h"
 #include "app/support/progress.h"
 
 namespace twinarm {
 namespace {
 
-constexpr int kGestureTick = 20;   // keys that are not held any more are noticed [ms]
-constexpr int kGestureLook = 500;  // for a device that is gone [ms]
+constexpr int kGestureTick = 20;   // for the release of keys [ms]
+constexpr int kReopenEvery = 500;  // [ms]
 
 }  // namespace
 
 GestureDevice::GestureDevice(GestureSource source, const VirtualOmniSettings& settings)
     : source_(std::move(source)),
-      hand_(std::make_shared<DesktopInput>(settings.figures)),
-      omni_(hand_, settings),
+      input_(std::make_shared<DesktopInput>(settings.figures)),
+      omni_(input_, settings),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       thread_([this] { run(); }) {}
 
@@ -51,39 +50,35 @@ void GestureDevice::run() {
   pollfd ready[2] = {{stop_.get(), POLLIN, 0}, {source_.fd.get(), POLLIN, 0}};
   while (ready[0].revents == 0) {
     ready[0].revents = ready[1].revents = 0;
-    ready[1].fd = source_.fd.get();  // a negative one is passed over
-    ::poll(ready, 2, connected_ ? kGestureTick : kGestureLook);
+    ready[1].fd = source_.fd.get();  // poll() ignores a negative one
+    ::poll(ready, 2, connected_ ? kGestureTick : kReopenEvery);
     if (connected_ && ready[1].revents != 0 && !read_some()) {
       connected_ = false;
-      hand_->release();
+      input_->release();
       source_.decoder->forget();
       source_.fd = OwnedFd();
-    } else if (!connected_ && source_.again && ready[0].revents == 0) {
-      source_.fd = source_.again();
+    } else if (!connected_ && source_.reopen && ready[0].revents == 0) {
+      source_.fd = source_.reopen();
       connected_ = source_.fd.get() >= 0;
     }
-    if (connected_) source_.decoder->pass(steady_seconds(), *hand_);
+    if (connected_) source_.decoder->pass(steady_seconds(), *input_);
   }
 }
 
-// False: the device is gone.
+// False: disconnected.
 bool GestureDevice::read_some() {
   std::array<std::uint8_t, 512> bytes{};
   const auto count = read(source_.fd.get(), bytes.data(), bytes.size());
   if (count > 0)
-    source_.decoder->feed(bytes.data(), static_cast<std::size_t>(count), steady_seconds(), *hand_);
+    source_.decoder->feed(bytes.data(), static_cast<std::size_t>(count), steady_seconds(), *input_);
   return count > 0 || (count < 0 && (errno == EAGAIN || errno == EINTR));
 }
 
-// Where keyboard, game controller and space mouse are found, and what to do where they are not.
-//
-// No library: a terminal's bytes, the kernel's joystick events and spacenavd's packets of eight
-// integers are each read in a few lines. SDL would bring libGL, which must not meet OSMesa;
-// libspnav would bring X11.
+// No library: SDL requires libGL, which conflicts with OSMesa; libspnav requires X11.
 
 namespace {
 
-OwnedFd open_quietly(const std::string& path) {
+OwnedFd open_to_read(const std::string& path) {
   return OwnedFd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
 }
 
@@ -113,26 +108,28 @@ OwnedFd open_socket(const std::string& path) {
 
 GestureSource open_keyboard(const std::string& path) {
   const std::string terminal = path.empty() ? "/dev/tty" : path;
-  OwnedFd fd = open_quietly(terminal);
+  OwnedFd fd = open_to_read(terminal);
   if (fd.get() < 0)
     refuse_spec("keyboard", fmt::format("{}: {}", terminal, std::strerror(errno)),
-                "run it from a terminal, not from a service or a pipe");
+                "run it in a terminal, not in a service or a pipe");
   auto mode = std::make_shared<RawTerminal>(fd.get());
   if (!mode->is_terminal())
-    refuse_spec("keyboard", fmt::format("{} is no terminal, or is a hand's already", terminal),
-                "run it from a terminal, with one keyboard device");
-  return {"keyboard (arrows, w s, a d, r f, q e; space: gripper, c: clutch, x: stand still)",
+    refuse_spec(
+        "keyboard",
+        fmt::format("{} is not a terminal, or is already in use as a keyboard device", terminal),
+        "run it in a terminal, with one keyboard device");
+  return {"keyboard (arrows, w s, a d, r f, q e; space: gripper, c: clutch, x: stop)",
           std::make_unique<KeyDecoder>(), std::move(fd), nullptr, mode};
 }
 
 GestureSource open_gamepad(const std::string& path) {
   const std::string file = path.empty() ? first_joystick() : path;
-  OwnedFd fd = open_quietly(file);
+  OwnedFd fd = open_to_read(file);
   const int error = errno;
   if (fd.get() < 0)
     refuse_spec("gamepad", fmt::format("{}: {}", file, std::strerror(error)),
-                error == EACCES ? "log in at the machine itself, or join the group 'input'"
-                                : "plug the controller in, and load the kernel's module 'joydev'");
+                error == EACCES ? "log in locally, or join the group 'input'"
+                                : "connect the controller, and load the kernel module 'joydev'");
   std::array<char, 128> name{};
   std::array<std::uint8_t, 64> codes{};
   std::uint8_t axes = 0;
@@ -143,7 +140,7 @@ GestureSource open_gamepad(const std::string& path) {
   return {fmt::format("game controller {} at {}", name.data(), file),
           std::make_unique<JoystickDecoder>(
               std::vector<std::uint8_t>(codes.begin(), codes.begin() + axes)),
-          std::move(fd), [file] { return open_quietly(file); }, nullptr};
+          std::move(fd), [file] { return open_to_read(file); }, nullptr};
 }
 
 GestureSource open_space_mouse(const std::string& path) {
@@ -152,7 +149,7 @@ GestureSource open_space_mouse(const std::string& path) {
   OwnedFd fd = open_socket(file);
   if (fd.get() < 0)
     refuse_spec("spacemouse",
-                fmt::format("no spacenavd answers at {}: {}", file, std::strerror(errno)),
+                fmt::format("spacenavd does not answer at {}: {}", file, std::strerror(errno)),
                 "install and start it: scripts/setup --hand; systemctl start spacenavd");
   return {fmt::format("space mouse by spacenavd at {}", file),
           std::make_unique<SpaceMouseDecoder>(), std::move(fd),

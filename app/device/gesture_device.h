@@ -1,8 +1,8 @@
-// Keyboard, game controller and space mouse as hand devices: their gestures move the hand of a
-// virtual Omni. One thread reads the device's bytes; poll() and render() never wait.
+// Keyboard, game controller and space mouse as input devices: they move the operator of a virtual
+// Omni. One thread reads the device; poll() and render() never block.
 //
-// A device that is unplugged makes `alive` false and lets go of everything; it is looked for twice
-// a second until it is back.
+// An unplugged device sets `alive` to false and releases everything; reconnection is tried twice a
+// second.
 #pragma once
 
 #include <atomic>
@@ -17,14 +17,12 @@
 
 namespace twinarm {
 
-// Where the bytes come from. None has motors: what the force does to the virtual Omni is seen, not
-// felt.
 struct GestureSource {
   std::string description;
   std::unique_ptr<GestureDecoder> decoder;
-  OwnedFd fd;                      // that does not block
-  std::function<OwnedFd()> again;  // opens it anew; empty: gone is gone
-  std::shared_ptr<void> keep;      // as long as the device lives: a terminal's mode
+  OwnedFd fd;                       // non-blocking
+  std::function<OwnedFd()> reopen;  // empty: not possible
+  std::shared_ptr<void> keep;       // lives as long as the device: a terminal's mode
 };
 
 class GestureDevice final : public HandDevice {
@@ -42,14 +40,14 @@ class GestureDevice final : public HandDevice {
   bool read_some();
 
   GestureSource source_;
-  std::shared_ptr<DesktopInput> hand_;
+  std::shared_ptr<DesktopInput> input_;
   VirtualOmni omni_;
   std::atomic<bool> connected_{true};
   OwnedFd stop_;
   std::thread thread_;
 };
 
-// Each throws InputError with a remedy where the device is not to be had. `path` may be empty.
+// Throw InputError: device not available. `path` may be empty.
 GestureSource open_keyboard(const std::string& path);     // a terminal, by default /dev/tty
 GestureSource open_gamepad(const std::string& path);      // by default the first /dev/input/js*
 GestureSource open_space_mouse(const std::string& path);  // spacenavd's socket

@@ -7,7 +7,7 @@ DeviceKind keyboard_kind() {
   return {.place = 20,
           .name = "keyboard",
           .argument = "[:TERMINAL]",
-          .help = "a virtual Omni moved by the keys of the terminal",
+          .help = "simulated Omni moved by the keys of a terminal",
           .open = [](const std::string& path, const VirtualOmniSettings& settings) {
             return std::make_unique<GestureDevice>(open_keyboard(path), settings);
           }};

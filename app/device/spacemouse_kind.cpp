@@ -7,7 +7,7 @@ DeviceKind spacemouse_kind() {
   return {.place = 40,
           .name = "spacemouse",
           .argument = "[:SOCKET]",
-          .help = "a virtual Omni moved by a space mouse, by spacenavd",
+          .help = "simulated Omni moved by a space mouse (spacenavd)",
           .open = [](const std::string& path, const VirtualOmniSettings& settings) {
             return std::make_unique<GestureDevice>(open_space_mouse(path), settings);
           }};

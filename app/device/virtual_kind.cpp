@@ -5,12 +5,12 @@ namespace twinarm {
 DeviceKind virtual_kind() {
   return {.place = 10,
           .name = "virtual",
-          .argument = "[:HAND]",
-          .help = "a Phantom Omni in software, moved by a scripted hand",
+          .argument = "[:MOTION]",
+          .help = "simulated Phantom Omni, with a scripted operator motion",
           .open =
-              [](const std::string& hand, const VirtualOmniSettings& settings) {
-                return std::make_unique<VirtualOmni>(scripted_hand(hand.empty() ? "paper" : hand),
-                                                     settings);
+              [](const std::string& motion, const VirtualOmniSettings& settings) {
+                return std::make_unique<VirtualOmni>(
+                    scripted_motion(motion.empty() ? "paper" : motion), settings);
               },
           .has_motors = true,
           .stays_inside = true};

@@ -10,9 +10,9 @@
 namespace twinarm {
 namespace {
 
-// Reports that come faster or slower than this are not believed to be the server's rate [s].
+// Bounds of the assumed report interval [s].
 constexpr double kMinReport = 0.5e-3, kLongestReport = 50e-3;
-constexpr double kFirstReport = 1.0 / 60;  // assumed before the second one has come
+constexpr double kFirstReport = 1.0 / 60;  // before the second report
 constexpr double kReportShare = 1.0 / 8;   // of the newest interval in the running mean
 
 }  // namespace
@@ -36,7 +36,7 @@ DeviceState VrpnDevice::poll(double now) noexcept {
     const bool goes_on = seen_ > 0 && interval < silence_;
     if (goes_on)
       interval_ += kReportShare * (std::clamp(interval, kMinReport, kLongestReport) - interval_);
-    from_ = goes_on ? at_ : report.theta;  // after a silence there is no way to go
+    from_ = goes_on ? at_ : report.theta;  // a jump after a silence
     to_ = report.theta;
     start_ = report.arrival;
     seen_ = report.number;

@@ -19,13 +19,13 @@
 namespace twinarm {
 namespace {
 
-constexpr double kForceRadius = 10;            // a field as wide as any room [m]
+constexpr double kForceRadius = 10;            // of the force field [m]
 constexpr std::size_t kVrpnOutboxFull = 4096;  // unsent bytes: newer forces are dropped
 
-// The same angle, less than half a turn from the last one: the inverse kinematics knows no turns.
+// The angle plus multiples of 2 pi that is nearest to the last one.
 double unwrapped(double angle, double last) {
-  constexpr double turn = 2 * std::numbers::pi;
-  return angle - turn * std::round((angle - last) / turn);
+  constexpr double period = 2 * std::numbers::pi;
+  return angle - period * std::round((angle - last) / period);
 }
 
 }  // namespace
@@ -41,12 +41,12 @@ VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& figures, VrpnS
     peer_.emplace(address_.host, address_.port);
   } catch (const std::runtime_error& error) {
     throw InputError(
-        {{"", 0, "--device vrpn:" + name_, fmt::format("the host is not known: {}", error.what()),
+        {{"", 0, "--device vrpn:" + name_, fmt::format("unknown host: {}", error.what()),
           "give its name or address: vrpn:NAME@HOST[:PORT]", "device.host-unknown"}});
   }
   thread_ = std::thread([this] { run(); });
   std::unique_lock lock(mutex_);
-  decided_.wait(lock, [this] { return is_decided_; });
+  started_.wait(lock, [this] { return is_started_; });
   if (!first_trouble_) return;
   lock.unlock();
   thread_.join();
@@ -71,153 +71,153 @@ bool VrpnDevice::Link::wait(double seconds) const {
   return stop.revents == 0;
 }
 
-// One connection after the other. Only here, and in what it calls, the thread may allocate.
 void VrpnDevice::Link::run() {
   double retry = settings_.first_retry;
   do {
     const long before = poses_;
-    const Trouble trouble = talk();
+    const Trouble trouble = connect_and_run();
     bool first = false;
     {
       const std::lock_guard lock(mutex_);
-      first = !is_decided_;
+      first = !is_started_;
     }
-    if (first) return decide(trouble);
+    if (first) return report_start(trouble);
     if (!wait(0)) return;
     ++broken_;
-    tell_trouble(trouble);
+    report_trouble(trouble);
     retry = poses_ > before ? settings_.first_retry : std::min(2 * retry, settings_.longest_retry);
   } while (wait(retry));
 }
 
-void VrpnDevice::Link::decide(std::optional<Trouble> trouble) {
+void VrpnDevice::Link::report_start(std::optional<Trouble> trouble) {
   const std::lock_guard lock(mutex_);
-  if (is_decided_) return;
-  is_decided_ = true;
+  if (is_started_) return;
+  is_started_ = true;
   first_trouble_ = std::move(trouble);
-  decided_.notify_one();
+  started_.notify_one();
 }
 
-void VrpnDevice::Link::say_once(unsigned kind, const std::string& text) {
-  if ((said_ >> kind & 1u) != 0) return;
-  said_ |= 1u << kind;
+void VrpnDevice::Link::warn_once(unsigned kind, const std::string& text) {
+  if ((warned_ >> kind & 1u) != 0) return;
+  warned_ |= 1u << kind;
   settings_.say(name_ + ": " + text);
 }
 
-void VrpnDevice::Link::tell_trouble(const Trouble& trouble) {
-  say_once(trouble.kind, trouble.problem + "; trying again (said once, counted)");
+void VrpnDevice::Link::report_trouble(const Trouble& trouble) {
+  warn_once(trouble.kind, trouble.problem + "; retrying (reported once, counted)");
 }
 
-VrpnDevice::Link::Trouble VrpnDevice::Link::talk() {
+VrpnDevice::Link::Trouble VrpnDevice::Link::connect_and_run() {
   std::string why_not;
   const OwnedFd socket = peer_->connect(settings_.patience, stop_.get(), why_not);
   if (socket.get() < 0)
     return {Trouble::refused, fmt::format("no connection: {}", why_not),
             fmt::format("start vrpn_server on {} or give its port: vrpn:NAME@HOST:PORT",
                         address_.host)};
-  const Trouble end = converse(socket.get());
-  if (pushing_) {  // the last word, where it can still be said
+  const Trouble end = run_connection(socket.get());
+  if (sends_force_) {  // ends the force, if still possible
     outbox_.clear();
-    speech_.force(outbox_, Vector3::Zero(), Vector3::Zero(), 0);
+    writer_.force(outbox_, Vector3::Zero(), Vector3::Zero(), 0);
     [[maybe_unused]] const auto sent =
         send(socket.get(), outbox_.data(), outbox_.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
   }
   return end;
 }
 
-VrpnDevice::Link::Trouble VrpnDevice::Link::converse(int socket) {
+VrpnDevice::Link::Trouble VrpnDevice::Link::run_connection(int socket) {
   VrpnStream stream(address_.device);
-  speech_ = VrpnSpeech();
+  writer_ = VrpnWriter();
   outbox_.clear();
-  speech_.cookie(outbox_);
-  described_ = pushing_ = false;
-  poses_taken_ = skipped_told_ = malformed_told_ = 0;
+  writer_.cookie(outbox_);
+  described_ = sends_force_ = false;
+  poses_taken_ = skipped_counted_ = malformed_counted_ = 0;
   last_pose_ = steady_seconds();
   while (true) {
     if (described_) send_force();
-    if (auto trouble = speak(socket)) return *trouble;
+    if (auto trouble = send_pending(socket)) return *trouble;
     pollfd ready[2] = {{socket, static_cast<short>(outbox_.empty() ? POLLIN : POLLIN | POLLOUT), 0},
                        {stop_.get(), POLLIN, 0}};
-    ::poll(ready, 2, pushing_ ? 1 : 10);  // [ms]: forces are looked for in between
+    ::poll(ready, 2, sends_force_ ? 1 : 10);  // [ms]; then forces are sent
     if (ready[1].revents != 0) return {Trouble::lost, "stopped", ""};
     if (ready[0].revents != 0)
-      if (auto trouble = listen(socket, stream)) return *trouble;
-    if (auto trouble = impatience(stream)) return *trouble;
+      if (auto trouble = receive(socket, stream)) return *trouble;
+    if (auto trouble = timeout_trouble(stream)) return *trouble;
   }
 }
 
-std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::listen(int socket, VrpnStream& stream) {
+std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::receive(int socket, VrpnStream& stream) {
   std::array<std::uint8_t, 4096> bytes{};
   const auto count = recv(socket, bytes.data(), bytes.size(), 0);
   if (count < 0 && (errno == EAGAIN || errno == EINTR)) return std::nullopt;
   if (count <= 0)
-    return Trouble{Trouble::lost, "the server has closed the connection",
-                   "look at the server's own output"};
-  const bool was_greeted = !stream.version().empty();
+    return Trouble{Trouble::lost, "the server closed the connection",
+                   "see the output of the server"};
+  const bool had_cookie = !stream.version().empty();
   const auto fault = stream.feed(bytes.data(), static_cast<std::size_t>(count));
-  if (!was_greeted && !stream.version().empty() && fault != VrpnStream::Diagnostic::other_version)
+  if (!had_cookie && !stream.version().empty() && fault != VrpnStream::Error::other_version)
     ++connections_;
   take(stream);
   switch (fault) {
-    case VrpnStream::Diagnostic::none:
+    case VrpnStream::Error::none:
       return std::nullopt;
-    case VrpnStream::Diagnostic::not_vrpn:
-      return Trouble{Trouble::garbage, "what answers there is no VRPN server",
+    case VrpnStream::Error::not_vrpn:
+      return Trouble{Trouble::garbage, "the peer is not a VRPN server",
                      "give the port of a VRPN server, 3883 by default"};
-    case VrpnStream::Diagnostic::other_version:
+    case VrpnStream::Error::other_version:
       return Trouble{Trouble::version,
-                     fmt::format("the server speaks '{}', we speak 07", stream.version()),
-                     "use a server of VRPN 7"};
-    case VrpnStream::Diagnostic::bad_length:
-      return Trouble{Trouble::garbage, "the server sends a message of an impossible length",
-                     "look at what listens on that port"};
-    case VrpnStream::Diagnostic::goodbye:
+                     fmt::format("the server has version '{}'; supported: 07", stream.version()),
+                     "use a VRPN 7 server"};
+    case VrpnStream::Error::bad_length:
+      return Trouble{Trouble::garbage, "the server sent a message of invalid length",
+                     "check which program listens on that port"};
+    case VrpnStream::Error::goodbye:
       break;
   }
-  return Trouble{Trouble::lost, "the server has said goodbye", "start it again"};
+  return Trouble{Trouble::lost, "the server ended the connection", "start it again"};
 }
 
-std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::speak(int socket) {
+std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::send_pending(int socket) {
   if (outbox_.empty()) return std::nullopt;
   const auto sent = send(socket, outbox_.data(), outbox_.size(), MSG_NOSIGNAL);
   if (sent >= 0) {
     outbox_.erase(outbox_.begin(), outbox_.begin() + sent);
   } else if (errno != EAGAIN && errno != EINTR) {
-    return Trouble{Trouble::lost, "the server does not listen any more",
-                   "look at the server's own output"};
+    return Trouble{Trouble::lost, "the server does not accept data any more",
+                   "see the output of the server"};
   }
   return std::nullopt;
 }
 
-std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::impatience(
+std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::timeout_trouble(
     const VrpnStream& stream) const {
   if (steady_seconds() - last_pose_ < settings_.patience) return std::nullopt;
   if (stream.version().empty())
-    return Trouble{Trouble::silent, "what listens there does not answer as a VRPN server",
+    return Trouble{Trouble::silent, "no VRPN handshake from the peer",
                    "give the port of a VRPN server, 3883 by default"};
   if (!stream.has_device())
-    return Trouble{Trouble::unknown, fmt::format("the server has no device '{}'", address_.device),
+    return Trouble{Trouble::unknown,
+                   fmt::format("unknown device '{}' of the server", address_.device),
                    name_remedy(address_.device, stream.devices(), "devices")};
   return Trouble{Trouble::silent, fmt::format("no pose for {:g} s", settings_.patience),
-                 "switch the device on, calibrate it, and move its stylus"};
+                 "switch on the device, calibrate it, and move its stylus"};
 }
 
-// Our names go out once the server has told its own, which come before the first pose: before, it
-// would take ours for new devices, and tell us of them.
-void VrpnDevice::Link::greet_device(const VrpnStream& stream) {
+// Sends our names after the server sent its own, which come before the first pose: names sent
+// earlier would create new devices in the server.
+void VrpnDevice::Link::describe_device(const VrpnStream& stream) {
   if (described_) return;
   described_ = true;
-  const bool takes_rates = stream.knows_type(VrpnSpeech::kRateName);
-  takes_forces_ = stream.knows_type(VrpnSpeech::kForceName);
-  speech_.describe(outbox_, address_.device, takes_forces_, takes_rates);
-  if (takes_rates) speech_.ask_rate(outbox_, settings_.rate);
+  const bool takes_rates = stream.knows_type(VrpnWriter::kRateName);
+  takes_forces_ = stream.knows_type(VrpnWriter::kForceName);
+  writer_.describe(outbox_, address_.device, takes_forces_, takes_rates);
+  if (takes_rates) writer_.request_rate(outbox_, settings_.rate);
 }
 
 void VrpnDevice::Link::take(const VrpnStream& stream) {
-  note_skipped(stream);
+  count_skipped(stream);
   const bool moved = stream.poses() > poses_taken_;
   if (moved) {
-    greet_device(stream);
+    describe_device(stream);
     poses_ += stream.poses() - poses_taken_;
     poses_taken_ = stream.poses();
     last_pose_ = report_.arrival = steady_seconds();
@@ -228,24 +228,24 @@ void VrpnDevice::Link::take(const VrpnStream& stream) {
         report_.theta[j] = unwrapped((*theta)[j], report_.theta[j]);
     } else {
       ++out_of_reach_;
-      say_once(8, "a pose is out of the arm's reach; the angles stay (said once, counted)");
+      warn_once(8, "a pose is out of reach; the angles stay (reported once, counted)");
     }
   }
   if (!moved && stream.buttons() == report_.buttons) return;
   report_.buttons = stream.buttons();
   reports.write(report_);
-  if (moved) decide(std::nullopt);
+  if (moved) report_start(std::nullopt);
 }
 
-void VrpnDevice::Link::note_skipped(const VrpnStream& stream) {
-  not_finite_ += stream.not_finite() - skipped_told_;
-  malformed_ += stream.malformed() - malformed_told_;
-  skipped_told_ = stream.not_finite();
-  malformed_told_ = stream.malformed();
+void VrpnDevice::Link::count_skipped(const VrpnStream& stream) {
+  not_finite_ += stream.not_finite() - skipped_counted_;
+  malformed_ += stream.malformed() - malformed_counted_;
+  skipped_counted_ = stream.not_finite();
+  malformed_counted_ = stream.malformed();
   if (stream.not_finite() > 0)
-    say_once(9, "a pose is not finite or not a rotation; skipped (said once, counted)");
+    warn_once(9, "a pose is not finite or not a rotation; skipped (reported once, counted)");
   if (stream.malformed() > 0)
-    say_once(10, "a message is not as long as its type is; skipped (said once, counted)");
+    warn_once(10, "a message has the wrong length for its type; skipped (reported once, counted)");
 }
 
 void VrpnDevice::Link::send_force() {
@@ -256,11 +256,11 @@ void VrpnDevice::Link::send_force() {
     force_number_ = newest.number;
     last_force_ = now;
     if (outbox_.size() > kVrpnOutboxFull) return;
-    pushing_ = true;
-    speech_.force(outbox_, stylus_, newest.F, kForceRadius);
-  } else if (pushing_ && now - last_force_ > settings_.let_go) {
-    pushing_ = false;
-    speech_.force(outbox_, stylus_, Vector3::Zero(), 0);
+    sends_force_ = true;
+    writer_.force(outbox_, stylus_, newest.F, kForceRadius);
+  } else if (sends_force_ && now - last_force_ > settings_.force_timeout) {
+    sends_force_ = false;
+    writer_.force(outbox_, stylus_, Vector3::Zero(), 0);
   }
 }
 

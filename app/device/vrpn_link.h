@@ -1,4 +1,4 @@
-// The thread that talks to a VRPN server. Only app/device/vrpn_*.cpp include it.
+// Thread that exchanges messages with a VRPN server. Internal to app/device.
 #pragma once
 
 #include <atomic>
@@ -15,17 +15,17 @@
 
 namespace twinarm {
 
-// What poll() gets.
+// For poll().
 struct VrpnReport {
   double arrival = 0;  // of the newest pose, steady clock [s]
-  long number = 0;     // of the newest pose; 0: none has come
+  long number = 0;     // of the newest pose; 0: none yet
   OmniAngles theta{};
   std::array<bool, 2> buttons{};
 };
 
-// What render() gives.
+// From render().
 struct VrpnForce {
-  long number = 0;              // by which a new one is known
+  long number = 0;              // identifies a new one
   Vector3 F = Vector3::Zero();  // [N], device axes
 };
 
@@ -45,19 +45,19 @@ class VrpnDevice::Link {
     std::string problem, fix;
   };
   void run();
-  Trouble talk();
-  Trouble converse(int socket);
-  std::optional<Trouble> listen(int socket, VrpnStream& stream);
-  std::optional<Trouble> speak(int socket);
-  void greet_device(const VrpnStream& stream);
+  Trouble connect_and_run();
+  Trouble run_connection(int socket);
+  std::optional<Trouble> receive(int socket, VrpnStream& stream);
+  std::optional<Trouble> send_pending(int socket);
+  void describe_device(const VrpnStream& stream);
   void take(const VrpnStream& stream);
-  void note_skipped(const VrpnStream& stream);
+  void count_skipped(const VrpnStream& stream);
   void send_force();
-  std::optional<Trouble> impatience(const VrpnStream& stream) const;
-  void decide(std::optional<Trouble> trouble);
-  void tell_trouble(const Trouble& trouble);
-  void say_once(unsigned kind, const std::string& text);
-  bool wait(double seconds) const;  // false: we are to stop
+  std::optional<Trouble> timeout_trouble(const VrpnStream& stream) const;
+  void report_start(std::optional<Trouble> trouble);
+  void report_trouble(const Trouble& trouble);
+  void warn_once(unsigned kind, const std::string& text);
+  bool wait(double seconds) const;  // false: stop requested
 
   VrpnAddress address_;
   OmniParameters figures_;
@@ -65,23 +65,23 @@ class VrpnDevice::Link {
   std::string name_;  // DEVICE@HOST:PORT
   std::optional<TcpPeer> peer_;
   OwnedFd stop_;
-  // Of the present connection.
-  VrpnSpeech speech_;
+  // Present connection.
+  VrpnWriter writer_;
   VrpnBytes outbox_;
-  bool described_ = false, pushing_ = false;
+  bool described_ = false, sends_force_ = false;
   double last_pose_ = 0, last_force_ = 0;  // steady clock [s]
   long force_number_ = 0;
-  long poses_taken_ = 0, skipped_told_ = 0, malformed_told_ = 0;
+  long poses_taken_ = 0, skipped_counted_ = 0, malformed_counted_ = 0;
   VrpnReport report_;
   Vector3 stylus_ = Vector3::Zero();
-  unsigned said_ = 0;  // bit by kind
+  unsigned warned_ = 0;  // bit by kind
   std::atomic<bool> takes_forces_{false};
   std::atomic<long> connections_{0}, poses_{0}, not_finite_{0}, malformed_{0}, out_of_reach_{0},
       broken_{0};
-  // How the first connection went, for the constructor.
+  // Outcome of the first connection, for the constructor.
   std::mutex mutex_;
-  std::condition_variable decided_;
-  bool is_decided_ = false;
+  std::condition_variable started_;
+  bool is_started_ = false;
   std::optional<Trouble> first_trouble_;
   std::thread thread_;
 };

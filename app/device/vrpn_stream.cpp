@@ -12,9 +12,9 @@ namespace {
 constexpr std::size_t kVrpnCookie = 24, kVrpnHeader = 24, kVrpnAlign = 8;
 constexpr std::size_t kVrpnVersion = 16;       // of the cookie: "vrpn: ver. 07.38"
 constexpr std::size_t kVrpnMajor = 14;         // of it: all but the minor version
-constexpr std::size_t kVrpnLongest = 64000;    // the buffer of VRPN's own connections
-constexpr std::size_t kVrpnLongestName = 100;  // its cName
-constexpr std::int32_t kVrpnMostNames = 2000;  // its translation tables
+constexpr std::size_t kVrpnMaxLength = 64000;  // buffer of VRPN connections
+constexpr std::size_t kVrpnMaxName = 100;      // its cName
+constexpr std::int32_t kVrpnMaxNames = 2000;   // its translation tables
 constexpr const char* kVrpnCookieText = "vrpn: ver. 07.38  0";
 
 std::size_t padded(std::size_t size) {
@@ -58,41 +58,41 @@ std::vector<std::string> VrpnStream::devices() const {
   return names;
 }
 
-VrpnStream::Diagnostic VrpnStream::feed(const std::uint8_t* bytes, std::size_t count) {
+VrpnStream::Error VrpnStream::feed(const std::uint8_t* bytes, std::size_t count) {
   pending_.insert(pending_.end(), bytes, bytes + count);
-  if (!greeted_) {
-    const Diagnostic fault = read_cookie();
-    if (fault != Diagnostic::none || !greeted_) return fault;
+  if (!has_cookie_) {
+    const Error fault = read_cookie();
+    if (fault != Error::none || !has_cookie_) return fault;
   }
   return read_messages();
 }
 
-VrpnStream::Diagnostic VrpnStream::read_cookie() {
+VrpnStream::Error VrpnStream::read_cookie() {
   const char* text = reinterpret_cast<const char*>(pending_.data());
-  // Told as soon as it is sure: a peer that says three wrong bytes and waits is not waited for.
+  // Checked as bytes arrive: a peer that sends three wrong bytes and waits is detected.
   const std::size_t known = std::min(pending_.size(), std::strlen("vrpn: ver. "));
-  if (std::memcmp(text, kVrpnCookieText, known) != 0) return Diagnostic::not_vrpn;
-  if (pending_.size() < kVrpnCookie) return Diagnostic::none;
+  if (std::memcmp(text, kVrpnCookieText, known) != 0) return Error::not_vrpn;
+  if (pending_.size() < kVrpnCookie) return Error::none;
   version_.assign(text, kVrpnVersion);
-  if (std::memcmp(text, kVrpnCookieText, kVrpnMajor) != 0) return Diagnostic::other_version;
-  greeted_ = true;
+  if (std::memcmp(text, kVrpnCookieText, kVrpnMajor) != 0) return Error::other_version;
+  has_cookie_ = true;
   pending_.erase(pending_.begin(), pending_.begin() + kVrpnCookie);
-  return Diagnostic::none;
+  return Error::none;
 }
 
-VrpnStream::Diagnostic VrpnStream::read_messages() {
+VrpnStream::Error VrpnStream::read_messages() {
   std::size_t at = 0;
-  Diagnostic fault = Diagnostic::none;
+  Error fault = Error::none;
   while (pending_.size() - at >= kVrpnHeader) {
     const std::uint8_t* header = pending_.data() + at;
     const std::uint32_t length = read_u32(header);
-    if (length < kVrpnHeader || length > kVrpnLongest) return Diagnostic::bad_length;
+    if (length < kVrpnHeader || length > kVrpnMaxLength) return Error::bad_length;
     const std::size_t size = length - kVrpnHeader;
     if (pending_.size() - at < kVrpnHeader + padded(size)) break;
     const Message message{read_i32(header + 12), read_i32(header + 16), header + kVrpnHeader, size};
     at += kVrpnHeader + padded(size);
     if (message.type == -5) {
-      fault = Diagnostic::goodbye;
+      fault = Error::goodbye;
       break;
     }
     take(message);
@@ -112,8 +112,8 @@ void VrpnStream::take(const Message& message) {
 
 void VrpnStream::take_name(const Message& message, Names& names) {
   const std::uint32_t length = message.size >= 4 ? read_u32(message.payload) : 0;
-  const bool fits = length >= 1 && length <= kVrpnLongestName && message.size >= 4 + length;
-  if (!fits || message.sender < 0 || message.sender >= kVrpnMostNames) {
+  const bool fits = length >= 1 && length <= kVrpnMaxName && message.size >= 4 + length;
+  if (!fits || message.sender < 0 || message.sender >= kVrpnMaxNames) {
     ++malformed_;
     return;
   }
@@ -129,13 +129,13 @@ void VrpnStream::take_pose(const Message& message) {
   if (read_i32(message.payload) != 0) return;  // another sensor
   std::array<double, 7> x{};
   for (std::size_t n = 0; n < 7; ++n) x[n] = read_f64(message.payload + 8 + 8 * n);
-  const Eigen::Quaterniond turn(x[6], x[3], x[4], x[5]);
+  const Eigen::Quaterniond rotation(x[6], x[3], x[4], x[5]);
   const bool finite = std::ranges::all_of(x, [](double v) { return std::isfinite(v); });
-  if (!finite || std::abs(turn.norm() - 1) > 0.1) {
+  if (!finite || std::abs(rotation.norm() - 1) > 0.1) {
     ++not_finite_;
     return;
   }
-  pose_ = {turn.normalized().toRotationMatrix(), {x[0], x[1], x[2]}};
+  pose_ = {rotation.normalized().toRotationMatrix(), {x[0], x[1], x[2]}};
   ++poses_;
 }
 
@@ -158,13 +158,13 @@ void VrpnStream::take_states(const Message& message) {
     buttons_[n] = read_u32(message.payload + 4 + 4 * n) != 0;
 }
 
-void VrpnSpeech::cookie(VrpnBytes& out) const {
+void VrpnWriter::cookie(VrpnBytes& out) const {
   VrpnBytes bytes(kVrpnCookie, 0);
   std::memcpy(bytes.data(), kVrpnCookieText, std::strlen(kVrpnCookieText));
   out.insert(out.end(), bytes.begin(), bytes.end());
 }
 
-void VrpnSpeech::begin(VrpnBytes& out, std::size_t payload, std::int32_t sender,
+void VrpnWriter::begin(VrpnBytes& out, std::size_t payload, std::int32_t sender,
                        std::int32_t type) {
   const auto now = std::chrono::system_clock::now().time_since_epoch();
   const auto us = std::chrono::duration_cast<std::chrono::microseconds>(now).count();
@@ -176,7 +176,7 @@ void VrpnSpeech::begin(VrpnBytes& out, std::size_t payload, std::int32_t sender,
   write_u32(out, sequence_++);
 }
 
-void VrpnSpeech::name(VrpnBytes& out, std::int32_t type, std::int32_t number,
+void VrpnWriter::name(VrpnBytes& out, std::int32_t type, std::int32_t number,
                       const std::string& text) {
   const std::size_t payload = 4 + text.size() + 1;
   begin(out, payload, number, type);
@@ -185,20 +185,20 @@ void VrpnSpeech::name(VrpnBytes& out, std::int32_t type, std::int32_t number,
   out.resize(out.size() + 1 + padded(payload) - payload, 0);
 }
 
-void VrpnSpeech::describe(VrpnBytes& out, const std::string& device, bool forces, bool rates) {
+void VrpnWriter::describe(VrpnBytes& out, const std::string& device, bool forces, bool rates) {
   name(out, -1, kDevice, device);
   if (forces) name(out, -2, force_field, kForceName);
   if (rates) name(out, -2, update_rate, kRateName);
 }
 
-void VrpnSpeech::ask_rate(VrpnBytes& out, double rate) {
+void VrpnWriter::request_rate(VrpnBytes& out, double rate) {
   begin(out, 8, kDevice, update_rate);
   const auto bits = std::bit_cast<std::uint64_t>(rate);
   write_u32(out, static_cast<std::uint32_t>(bits >> 32));
   write_u32(out, static_cast<std::uint32_t>(bits));
 }
 
-void VrpnSpeech::force(VrpnBytes& out, const Vector3& origin, const Vector3& force, double radius) {
+void VrpnWriter::force(VrpnBytes& out, const Vector3& origin, const Vector3& force, double radius) {
   begin(out, 16 * 4, kDevice, force_field);
   for (Eigen::Index n = 0; n < 3; ++n) write_f32(out, origin[n]);
   for (Eigen::Index n = 0; n < 3; ++n) write_f32(out, force[n]);

@@ -14,10 +14,6 @@
 namespace twinarm {
 namespace {
 
-std::string short_text(double value) {
-  return short_number_text(value);
-}
-
 using Works = std::map<std::string, double>;  // by row
 
 Works works_of(const std::vector<EnergyRow>& rows) {
@@ -26,8 +22,8 @@ Works works_of(const std::vector<EnergyRow>& rows) {
   return works;
 }
 
-// An implicit point spring whose target lay too far out: what the treatment leaves explicit, the
-// turning of the lever arm, has a limit of its own (coupling/analysis/joint_space_stiffness.h).
+// An implicit point spring with its target beyond the radius for which it is stable: the rotation
+// of the lever arm stays explicit (coupling/analysis/joint_space_stiffness.h).
 struct PassedRadius {
   long step = 0;
   double time = 0;
@@ -35,13 +31,15 @@ struct PassedRadius {
   TargetRadius radius;
 };
 
-// The ledger where the last steps begin and where they end.
+// Energy balance at the start and the end of the last steps.
 struct LastSteps {
   Works before, after;
   std::optional<PassedRadius> passed;  // the first in them
   long first = -1, last = 0;
-  long count() const { return last - std::max(first, 1L) + 1; }  // the start is no step
-  std::string words() const { return count() == 1 ? "step" : fmt::format("{} steps", count()); }
+  std::string text() const {
+    const long count = last - std::max(first, 1L) + 1;  // the initial state is not a step
+    return count == 1 ? "step" : fmt::format("{} steps", count);
+  }
 };
 
 std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const RunView& run) {
@@ -102,140 +100,122 @@ void find_row(const Works& since, const Works& now, PostMortem& found) {
   }
 }
 
-void say_first_bad(PostMortem& found) {
+std::string limit_text(const StabilityViolation& s, const char* relation) {
+  return fmt::format("{}: omega h = {:.4g} {} the stability limit {:.4g} ({})", s.name, s.product,
+                     relation, s.limit, s.scheme);
+}
+
+// The likely cause and its fix, or a limit that is near: the limits are those of the initial state.
+std::vector<std::string> violation_text(const std::vector<StabilityViolation>& violations,
+                                        double h) {
+  std::vector<std::string> text;
+  for (const StabilityViolation& s : violations)
+    if (s.step > s.max_step)
+      text.insert(text.end(), {"Likely cause: " + limit_text(s, "exceeds"), s.fix});
+  if (text.empty() && !violations.empty() &&
+      violations.front().step > 0.5 * violations.front().max_step)
+    text.push_back(
+        fmt::format("Near its limit: {}; the limit decreases where the apparent inertia "
+                    "is smaller or several couplings act together. Suggested step: {} s",
+                    limit_text(violations.front(), "is close to"), short_number_text(0.5 * h)));
+  return text;
+}
+
+void add_violations(PostMortem& found, double h, const std::optional<PassedRadius>& passed) {
+  if (passed) {
+    const PassedRadius& p = *passed;
+    found.words.push_back(fmt::format(
+        "Likely cause: coupling '{}', an implicit point spring, exceeded its geometric limit at "
+        "step {}, t = {} s: target {:.4g} m from the axis of joint '{}', stable up to {:.4g} m for "
+        "a point at {:.4g} m and this step (h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b))",
+        p.coupling, p.step, short_number_text(p.time), p.radius.R_K, p.joint, p.radius.largest,
+        p.radius.r));
+    found.words.emplace_back(
+        "Use a smoother target, couple more links, or type = \"torsional\"; for a stiff spring the "
+        "limit is twice the point's radius at any stiffness");
+  }
+  const std::vector<std::string> text = violation_text(found.suspects, h);
+  found.words.insert(found.words.end(), text.begin(), text.end());
+  if (!passed && text.empty())
+    found.words.emplace_back(
+        "No coupling or joint damper exceeds its stability limit about the initial state: check "
+        "the step, contacts and actuators");
+}
+
+void add_first_words(const SimulatePlan& prepared, SimulateResult& result) {
+  PostMortem& found = *result.post_mortem;
   if (found.by_energy)
     found.words.push_back(
-        fmt::format("fastest then: joint '{}', which carries body '{}'", found.joint, found.body));
+        fmt::format("Fastest joint at the stop: {} (body {})", found.joint, found.body));
   else if (!found.field.empty())
     found.words.push_back(fmt::format(
-        "first bad quantity: '{}' of body '{}' (joint '{}'), {}", found.field, found.body,
+        "First non-finite quantity: '{}' of body '{}' (joint '{}'), {}", found.field, found.body,
         found.joint,
         found.pass > 0 ? fmt::format("in pass {}", found.pass) : "an input of the passes"));
-}
-
-std::string beyond_limit(const StabilityViolation& s) {
-  return fmt::format("{}, w h = {} where at most {} holds ({})", s.name, short_text(s.product),
-                     short_text(s.limit), s.scheme);
-}
-
-// The limits are about the start: what has moved since may be beyond one that was near then.
-bool is_near_its_limit(const StabilityViolation& s) {
-  return s.step > 0.5 * s.max_step;
-}
-std::string near_limit(const StabilityViolation& s, double h) {
-  return fmt::format(
-      "nearest its limit of linear theory about the start: {}, w h = {} where at most {} holds "
-      "({}): "
-      "the limit falls where less inertia meets it, or several pull at once; a step of {} s has "
-      "twice the room",
-      s.name, short_text(s.product), short_text(s.limit), s.scheme, short_text(0.5 * h));
-}
-
-std::string passed_words(const PassedRadius& p) {
-  return fmt::format(
-      "behind it: coupling '{}', a point spring that passed its geometric limit at step {}, t = {} "
-      "s: about joint '{}' its target lay at a radius of {} m, and with the point at {} m at most "
-      "{} m holds at this step (h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b))",
-      p.coupling, p.step, short_text(p.time), p.joint, short_text(p.radius.R_K),
-      short_text(p.radius.r), short_text(p.radius.largest));
-}
-
-void say_suspects(PostMortem& found, double h, const std::optional<PassedRadius>& passed) {
-  bool any = false;
-  if (passed) {
-    any = true;
-    found.words.push_back(passed_words(*passed));
-    found.words.emplace_back(
-        "a target that is led up step by step would hold, or springs on more links, or a coupling "
-        "of type \"torsional\"; no stiffness does, where the spring is stiff: the limit is then "
-        "twice "
-        "the point's radius");
-  }
-  for (const StabilityViolation& s : found.suspects) {
-    if (s.step <= s.max_step) continue;
-    any = true;
-    found.words.push_back("behind it: " + beyond_limit(s));
-    found.words.push_back(s.fix);
-  }
-  if (!any && !found.suspects.empty() && is_near_its_limit(found.suspects.front()))
-    found.words.push_back(near_limit(found.suspects.front(), h));
-  else if (!any)
-    found.words.emplace_back(
-        "no coupling and no damper of a joint is beyond its limit of linear theory about the "
-        "start: look for a short step, a contact or an actuator that drives it");
+  if (result.alarm)
+    found.words.push_back(fmt::format("Energy alarm at t = {} s: row '{}' reached {} J",
+                                      short_number_text(result.alarm->t), result.alarm->row,
+                                      short_number_text(result.alarm->work)));
+  found.suspects = find_suspects(prepared);
 }
 
 }  // namespace
 
 std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
   std::string words = fmt::format(
-      "at t = {} s the ledger's row '{}' has come to {} J, more than the kinetic energy there was "
-      "at {} s, and grows without bound: the run creates energy",
-      short_text(alarm.t), alarm.row, short_text(alarm.work), short_text(alarm.since));
-  const std::vector<StabilityViolation> suspects = find_suspects(prepared);
+      "Energy error: row '{}' reached {} J at t = {} s, more than the kinetic energy at {} s, and "
+      "keeps growing",
+      alarm.row, short_number_text(alarm.work), short_number_text(alarm.t),
+      short_number_text(alarm.since));
   const double h = prepared.run.step;
-  if (!suspects.empty() && suspects.front().step > suspects.front().max_step)
-    return words + "; behind it: " + beyond_limit(suspects.front()) + "; " + suspects.front().fix;
-  if (!suspects.empty() && is_near_its_limit(suspects.front()))
-    return words + "; " + near_limit(suspects.front(), h);
-  return words + (prepared.run.is_adaptive()
-                      ? "; give a smaller --tolerance"
-                      : fmt::format("; give a shorter step than {} s, or --integrator dopri5 where "
-                                    "nothing touches",
-                                    short_text(prepared.run.step)));
+  std::vector<StabilityViolation> violations = find_suspects(prepared);
+  if (!violations.empty()) violations.resize(1);
+  const std::vector<std::string> text = violation_text(violations, h);
+  for (const std::string& part : text) words += "; " + part;
+  if (!text.empty()) return words;
+  return words +
+         (prepared.run.is_adaptive()
+              ? "; use a smaller --tolerance"
+              : fmt::format("; use a step below {} s, or --integrator dopri5 without contacts",
+                            short_number_text(h)));
 }
-
-namespace {
-
-void say_first_words(const SimulatePlan& prepared, SimulateResult& result) {
-  PostMortem& found = *result.post_mortem;
-  say_first_bad(found);
-  if (result.alarm)
-    found.words.push_back(fmt::format(
-        "an alarm came at t = {} s: the ledger's row '{}' grew without bound, to {} J",
-        short_text(result.alarm->t), result.alarm->row, short_text(result.alarm->work)));
-  found.suspects = find_suspects(prepared);
-}
-
-}  // namespace
 
 void explain_at_once(const SimulatePlan& prepared, const RunView& run,
                      const std::vector<EnergyRow>& before, SimulateResult& result) {
   PostMortem& found = *result.post_mortem;
-  say_first_words(prepared, result);
-  say_suspects(found, prepared.run.step, passed_radius(prepared, run));
+  add_first_words(prepared, result);
+  add_violations(found, prepared.run.step, passed_radius(prepared, run));
   if (!before.empty()) find_row(works_of(before), works_of(result.ledger), found);
   if (!found.row.empty())
-    found.words.push_back(fmt::format("the ledger's row '{}' grew most: by {} J", found.row,
-                                      short_text(found.row_growth)));
+    found.words.push_back(fmt::format("Largest growth in the energy balance: row '{}', {} J",
+                                      found.row, short_number_text(found.row_growth)));
 }
 
 void explain(const SimulatePlan& prepared, RecordingHeader header,
              const std::filesystem::path& file, SimulateResult& result) {
   PostMortem& found = *result.post_mortem;
-  say_first_words(prepared, result);
+  add_first_words(prepared, result);
   std::optional<LastSteps> again;
-  std::string not_kept;
+  std::string write_error;
   try {
     again = run_again(prepared, std::move(header), file, result);
   } catch (const InputError& error) {
-    not_kept = error.what();
+    write_error = error.what();
   }
-  say_suspects(found, prepared.run.step, again ? again->passed : std::nullopt);
-  if (again) {
-    const LastSteps& steps = *again;
-    find_row(steps.before, steps.after, found);
-    if (!found.row.empty())
-      found.words.push_back(fmt::format("the ledger's row '{}' grew most: by {} J in the last {}",
-                                        found.row, short_text(found.row_growth), steps.words()));
-    found.recording = file.string();
+  add_violations(found, prepared.run.step, again ? again->passed : std::nullopt);
+  if (!again) {
+    found.words.push_back("Could not write the last steps: " + write_error);
+    return;
+  }
+  find_row(again->before, again->after, found);
+  if (!found.row.empty())
     found.words.push_back(
-        fmt::format("its last {} {} in {}: look with `twinarm inspect {} --at {}`", steps.words(),
-                    steps.count() == 1 ? "is" : "are", found.recording, found.recording,
-                    number_text(found.time)));
-  } else {
-    found.words.push_back("its last steps are not kept: " + not_kept);
-  }
+        fmt::format("Largest growth in the energy balance: row '{}', {} J in the last {}",
+                    found.row, short_number_text(found.row_growth), again->text()));
+  found.recording = file.string();
+  found.words.push_back(
+      fmt::format("Recording of the last {}: {}; see `twinarm inspect {} --at {}`", again->text(),
+                  found.recording, found.recording, number_text(found.time)));
 }
 
 }  // namespace twinarm

@@ -1,10 +1,13 @@
-// Why a run stopped by itself, in plain words: the first bad quantity, the spring or damper behind
-// it, the ledger's row that grew, and what would hold. Its last steps are computed again from a
-// checkpoint, bit for bit, and recorded: a run that ends well pays nothing for them.
+// Why a run diverged: first non-finite quantity, violated stability limits, the row of the energy
+// balance that grew, and suggested fixes. The last steps are recomputed from a checkpoint and
+// recorded, at no cost to other runs.
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
+#include "app/data/json_writer.h"
 #include "app/record/recording.h"
 #include "app/run/run.h"
 #include "app/run/simulate_input.h"
@@ -13,22 +16,34 @@ namespace twinarm {
 
 constexpr long kLastSteps = 1000;
 
-// Adds to result.post_mortem. The recording goes to `file`; where that cannot be written the words
-// say so.
+// Completes result.post_mortem and writes the last steps to `file`. That it cannot be written is
+// reported in the words.
 void explain(const SimulatePlan& prepared, RecordingHeader header,
              const std::filesystem::path& file, SimulateResult& result);
 
-// The same without a recording, for a run that cannot be computed again from its checkpoint, or
-// that is remembered elsewhere. `run` stands where it stopped; `before`: its ledger some time
-// earlier.
+// Without a recording. `run` is at its stop; `before`: its energy balance some time earlier.
 void explain_at_once(const SimulatePlan& prepared, const RunView& run,
                      const std::vector<EnergyRow>& before, SimulateResult& result);
 
-// What an alarm says: the row, when, and what would hold.
+// Text of an alarm: row, time, likely cause and fix.
 std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared);
 
-// Springs and dampers that this integrator takes at the start of a step, against their limits of
-// linear theory about the start (coupling/analysis/prediction.h); the worst first.
+// Stability limits of couplings and joint dampers by linear theory about the initial state
+// (coupling/analysis/prediction.h), largest violation first.
 std::vector<StabilityViolation> find_suspects(const SimulatePlan& prepared);
+
+// Scene changes that would have kept the run stable: shorter step, softer gain, implicit
+// discretization with its integrator. Suggested values are at half the limit of omega h.
+struct SuggestedFix {
+  std::string words;                 // "step 0.5 ms"
+  std::vector<std::string> changes;  // PATH=VALUE, all together
+};
+
+// Best first; each gives a valid scene. Empty where no cause was found. `plan` is that of the
+// diverged run; `post_mortem` may lack what explain() adds.
+std::vector<SuggestedFix> remedies_of(const SimulatePlan& plan, const PostMortem& post_mortem);
+
+// The list `remedies` of docs/reference/lab_protocol.md.
+void write_remedies(const std::vector<SuggestedFix>& remedies, JsonWriter& json);
 
 }  // namespace twinarm

@@ -1,5 +1,5 @@
-// Which spring or damper a step is too long for, and what would hold: each coupling by itself, as
-// the scene's integrator steps it (coupling/analysis/step_matrix.h), about the start.
+// Stability limits of each coupling alone and of each joint damper, as the scene's integrator steps
+// them (coupling/analysis/step_matrix.h), about the initial state.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,29 +17,28 @@ namespace twinarm {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-// Of the largest w h that holds. Nearer to it a spring that does not die out still swings with
-// several times its energy (semi-implicit: 1 / (1 - (w h / 2)^2)), and where it swings the limit is
-// no longer that of the start.
-constexpr double kRoom = 0.5;
+// Suggested omega h over its limit: near the limit an undamped spring still oscillates with several
+// times its energy (semi-implicit: 1 / (1 - (w h / 2)^2)), and the limit varies with the pose.
+constexpr double kMargin = 0.5;
 
-// The largest x in (0, 1] with good(x), good for all that are smaller; 0: none above 1e-12.
-template <class Good>
-double max_part(Good good) {
-  if (good(1.0)) return 1;
+// The largest stable x in (0, 1], for stability that ends at one value; 0: none above 1e-12.
+template <class IsStable>
+double max_stable_factor(IsStable is_stable) {
+  if (is_stable(1.0)) return 1;
   double low = -12, high = 0;  // powers of ten
-  if (!good(1e-12)) return 0;
+  if (!is_stable(1e-12)) return 0;
   while (high - low > 1e-6) {
     const double middle = 0.5 * (low + high);
-    (good(std::pow(10, middle)) ? low : high) = middle;
+    (is_stable(std::pow(10, middle)) ? low : high) = middle;
   }
   return std::pow(10, low);
 }
 
-// A coupling with all its pulls, in the step that the run takes.
+// A coupling with all its components, in the step of the run.
 struct SteppedCoupling {
   const SceneCoupling* spec = nullptr;
   CoupledTerm part;
-  std::vector<CoupledTerm> beside;  // god objects that land the same robot
+  std::vector<CoupledTerm> beside;  // god objects on the same robot
   std::string beside_names;
   Eigen::MatrixXd M;  // with the inertia that the law adds
   Integrator integrator = Integrator::semi_implicit;
@@ -85,56 +84,59 @@ std::string method_of(const SteppedCoupling& c) {
   return name + c.beside_names;
 }
 
-// A rate, a whole number of steps, that leaves room; or none.
-std::string rate_remedy(const SteppedCoupling& c, double largest) {
-  CoupledTerm its = c.part;
-  for (its.hold_steps = static_cast<int>(kRoom * largest / c.h); its.hold_steps > 0;
-       --its.hold_steps)
-    if (c.holds(its))
-      return fmt::format("a rate of {} Hz would hold",
-                         short_number_text(1 / (its.hold_steps * c.h)));
-  return c.holds(its) ? "no rate, a force at every step, would hold" : "";
+// "step <= 0.316 ms".
+std::string step_fix(double max_step) {
+  return fmt::format("step <= {:.3g} ms", 1e3 * kMargin * max_step);
 }
 
-std::string gain_remedy(const SteppedCoupling& c, const StabilityViolation& s) {
+// A rate with a whole number of steps per force; empty: none is stable.
+std::string rate_fix(const SteppedCoupling& c, double max_step) {
+  CoupledTerm its = c.part;
+  for (its.hold_steps = static_cast<int>(kMargin * max_step / c.h); its.hold_steps > 0;
+       --its.hold_steps)
+    if (c.holds(its))
+      return fmt::format("rate >= {} Hz", short_number_text(1 / (its.hold_steps * c.h)));
+  return c.holds(its) ? "no rate (a force at each step)" : "";
+}
+
+std::string gain_fix(const SteppedCoupling& c, const StabilityViolation& s) {
   if (!(s.max_gain > 0)) return "";
   const bool is_linear = c.spec->type == CouplingDescription::Type::linear;
   const char *force = is_linear ? "N" : "N m", *per = is_linear ? "m" : "rad";
   if (c.is_weld())
-    return fmt::format("a time constant of {} s would hold at this step",
-                       short_number_text(s.max_gain / kRoom));
+    return fmt::format("time_constant >= {} s", short_number_text(s.max_gain / kMargin));
   if (!c.is_spring())
-    return fmt::format("a damping of {} {} s/{} would hold at this step",
-                       short_number_text(kRoom * s.max_gain), force, per);
-  const double part = kRoom * kRoom * s.max_gain;
-  std::string turn;
+    return fmt::format("damping <= {} {} s/{}", short_number_text(kMargin * s.max_gain), force,
+                       per);
+  const double k = kMargin * kMargin * s.max_gain;
+  std::string torsional;
   if (c.spec->law == CouplingSpec::Type::bushing)
-    turn = fmt::format(" with a turn_stiffness of {} N m/rad",
-                       short_number_text(part / c.spec->spring.k * c.spec->spring.k_turn));
-  return fmt::format("a stiffness of {} {}/{}{} would hold at this step", short_number_text(part),
-                     force, per, turn);
+    torsional = fmt::format(" and turn_stiffness <= {} N m/rad",
+                            short_number_text(k / c.spec->spring.k * c.spec->spring.k_turn));
+  return fmt::format("stiffness <= {} {}/{}{}", short_number_text(k), force, per, torsional);
 }
 
-std::string law_remedy(const SceneCoupling& spec) {
+std::string law_fix(const SceneCoupling& spec) {
   using Type = CouplingSpec::Type;
-  const char* how = " with the integrator semi-implicit would hold";
-  const char* implicitly = "treatment = \"implicit\"";
+  std::string type;
   if (spec.law == Type::stable_pd)
-    return fmt::format("type = \"torsional\", measure = \"joint\", {}{}", implicitly, how);
-  if (spec.printed || spec.law == Type::matched)
-    return fmt::format("type = \"{}\", {}{}", spec.law == Type::torsional ? "torsional" : "linear",
-                       implicitly, how);
-  return fmt::format("{}{}{}", implicitly, spec.rate > 0 ? ", without a rate," : "", how);
+    type = "type = \"torsional\", measure = \"joint\", ";
+  else if (spec.printed || spec.law == Type::matched)
+    type = fmt::format("type = \"{}\", ", spec.law == Type::torsional ? "torsional" : "linear");
+  else if (spec.rate > 0)
+    type = "no rate, ";
+  return type + "treatment = \"implicit\", integrator semi-implicit";
 }
 
-std::string joined(const std::vector<std::string>& all) {
+// "Stable with A, or with B".
+std::string fix_text(const std::vector<std::string>& fixes) {
   std::string text;
-  for (const std::string& one : all)
-    if (!one.empty()) text += (text.empty() ? "" : "; ") + one;
+  for (const std::string& fix : fixes)
+    if (!fix.empty()) text += (text.empty() ? "Stable with " : ", or with ") + fix;
   return text;
 }
 
-StabilityViolation suspect_of(const SteppedCoupling& c) {
+StabilityViolation violation_of(const SteppedCoupling& c) {
   const SceneCoupling& spec = *c.spec;
   const double steps = std::max(1, c.part.hold_steps);
   StabilityViolation s;
@@ -147,35 +149,32 @@ StabilityViolation suspect_of(const SteppedCoupling& c) {
   s.limit = c.fastest * s.max_step;
   s.gain = c.is_weld() ? "time constant" : c.is_spring() ? "stiffness" : "damping";
   if (s.step <= s.max_step) return s;
-  const double part = max_part([&](double factor) { return c.holds(c.scaled(factor)); });
+  const double part = max_stable_factor([&](double factor) { return c.holds(c.scaled(factor)); });
   if (part > 0)
     s.max_gain = c.is_weld()     ? spec.reference.time_constant / part
                  : c.is_spring() ? part * spec.spring.k
                                  : part * spec.spring.b;
-  const bool is_held = spec.rate > 0;
-  std::string step_remedy;
-  if (is_held && s.max_step > 0) step_remedy = rate_remedy(c, s.max_step);
-  if (!is_held && s.max_step > 0)
-    step_remedy = fmt::format("a step of {} s would hold", short_number_text(kRoom * s.max_step));
-  s.fix = joined({step_remedy, gain_remedy(c, s), law_remedy(spec)});
+  std::string step_or_rate;
+  if (s.max_step > 0) step_or_rate = spec.rate > 0 ? rate_fix(c, s.max_step) : step_fix(s.max_step);
+  s.fix = fix_text({step_or_rate, gain_fix(c, s), law_fix(spec)});
   return s;
 }
 
-// God objects are no suspects: alone they land whatever the step. Others have less room beside one.
-void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>& suspects) {
+// God objects alone are stable at any step; they lower the limits of other couplings.
+void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>& violations) {
   SceneCouplings& couplings = *prepared.input.couplings;
   PosedCouplings posed(prepared.input);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     const SceneCoupling& spec = couplings.spec(c);
     const bool is_god = spec.law == CouplingSpec::Type::god_object;
-    if (spec.leader != c || spec.outside || is_god) continue;  // a stop mostly does not act
+    if (spec.leader != c || spec.outside || is_god) continue;  // soft limits are inactive there
     PredictedCoupling all = posed.about_zero(c);
     SteppedCoupling stepped;
     for (std::size_t other = 0; other < couplings.size(); ++other) {
       const SceneCoupling& its = couplings.spec(other);
       if (other != c && its.leader == c) {
-        const PredictedCoupling pull = posed.about_zero(other);
-        all.K += pull.K, all.K_zero += pull.K_zero, all.B += pull.B, all.felt += pull.felt;
+        const PredictedCoupling more = posed.about_zero(other);
+        all.K += more.K, all.K_zero += more.K_zero, all.B += more.B, all.felt += more.felt;
       }
       if (its.law != CouplingSpec::Type::god_object || its.leader != other ||
           its.robot != spec.robot)
@@ -192,11 +191,11 @@ void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>
     for (Eigen::Index i = 0; i < modes.size(); ++i)
       stepped.fastest =
           std::max(stepped.fastest, modes.omega(i) > 0 ? modes.omega(i) : modes.damping(i, i));
-    if (stepped.fastest > 0) suspects.push_back(suspect_of(stepped));
+    if (stepped.fastest > 0) violations.push_back(violation_of(stepped));
   }
 }
 
-// b h / I of dampers of joints, where the integrator takes them at the start of a step or a stage.
+// Limit of b h / I of joint dampers that the integrator takes explicitly.
 double damping_limit(Integrator integrator) {
   switch (integrator) {
     case Integrator::euler:
@@ -211,7 +210,7 @@ double damping_limit(Integrator integrator) {
 }
 
 void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
-                 std::vector<StabilityViolation>& suspects) {
+                 std::vector<StabilityViolation>& violations) {
   const Model<double>& model = prepared.input.robot.model;
   const double limit = damping_limit(prepared.run.integrator), h = prepared.run.step;
   if (limit == kNever) return;
@@ -226,7 +225,7 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
     s.kind = StabilityViolation::Kind::joint_damper;
     s.index = i;
     s.name = "damper of joint '" + model.joint_name[i] + "'";
-    s.scheme = std::string("b/I for w; ") + integrator_name(prepared.run.integrator);
+    s.scheme = std::string("omega = b/I; ") + integrator_name(prepared.run.integrator);
     s.step = h;
     s.max_step = limit / rate;
     s.product = rate * h;
@@ -234,28 +233,29 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
     s.gain = "damping";
     if (h > s.max_step) {
       s.max_gain = model.damping[iv] * s.max_step / h;
-      s.fix = fmt::format(
-          "a step of {} s would hold; a damping of {} N m s/rad or N s/m would hold at this step; "
-          "the integrator semi-implicit takes dampers of joints implicitly",
-          short_number_text(kRoom * s.max_step), short_number_text(kRoom * s.max_gain));
+      s.fix = fix_text({step_fix(s.max_step),
+                        fmt::format("damping <= {} {}", short_number_text(kMargin * s.max_gain),
+                                    is_translational(model.joint[i]) ? "N s/m" : "N m s/rad"),
+                        "integrator semi-implicit (joint dampers are implicit)"});
     }
-    suspects.push_back(std::move(s));
+    violations.push_back(std::move(s));
   }
 }
 
 }  // namespace
 
 std::vector<StabilityViolation> find_suspects(const SimulatePlan& prepared) {
-  std::vector<StabilityViolation> suspects;
+  std::vector<StabilityViolation> violations;
   const SimulateInput& input = prepared.input;
   const Model<double>& model = input.robot.model;
-  if (prepared.run.is_adaptive() || model.nv == 0) return suspects;
-  if (input.couplings) add_couplings(prepared, suspects);
-  add_dampers(prepared, mass_matrix(model, input.robot.state.x), suspects);
-  std::ranges::stable_sort(suspects, [](const StabilityViolation& a, const StabilityViolation& b) {
-    return a.step * b.max_step > b.step * a.max_step;
-  });
-  return suspects;
+  if (prepared.run.is_adaptive() || model.nv == 0) return violations;
+  if (input.couplings) add_couplings(prepared, violations);
+  add_dampers(prepared, mass_matrix(model, input.robot.state.x), violations);
+  std::ranges::stable_sort(violations,
+                           [](const StabilityViolation& a, const StabilityViolation& b) {
+                             return a.step * b.max_step > b.step * a.max_step;
+                           });
+  return violations;
 }
 
 }  // namespace twinarm

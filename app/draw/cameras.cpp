@@ -28,13 +28,13 @@ CameraWish parse_orbit(const std::string& text) {
   for (const std::string& word : words)
     if (const auto number = parse_number(word)) numbers.push_back(*number);
   if (words.size() < 2 || words.size() > 3 || numbers.size() != words.size())
-    refuse(text, "is no camera",
+    refuse(text, "is not a camera",
            name_remedy(text, kCameras, "cameras") +
                "; or follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] in degrees and metres");
   if (std::abs(numbers[1]) > 90)
-    refuse(text, "looks from an elevation beyond 90 degrees", "give one from -90 to 90");
+    refuse(text, "has an elevation beyond 90 degrees", "give -90 to 90");
   if (numbers.size() == 3 && !(numbers[2] > 0))
-    refuse(text, "has no positive distance", "give metres");
+    refuse(text, "has a distance that is not positive", "give metres");
   return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0, -1};
 }
 
@@ -43,26 +43,22 @@ CameraWish parse_orbit(const std::string& text) {
 void Extent::add(const Vector3& p_W) {
   if (!p_W.allFinite()) return;
   points_.push_back(p_W);
-  low_ = low_.cwiseMin(p_W);
-  high_ = high_.cwiseMax(p_W);
+  box_.extend(p_W);
 }
 
-void Extent::add(const SceneMeshes& cast, const Snapshot& moment) {
+void Extent::add(const SceneMeshes& meshes, const Snapshot& snapshot) {
   const auto add_box_of = [&](const ScenePart& part, const Pose& X_WL) {
     const Pose X_WM = X_WL * part.X_LM;
-    for (int corner = 0; corner < 8; ++corner) {
-      Vector3 p;
-      for (int c = 0; c < 3; ++c) p[c] = ((corner >> c) & 1) ? part.high_M[c] : part.low_M[c];
-      add(X_WM * p);
-    }
+    for (int corner = 0; corner < 8; ++corner)
+      add(X_WM * part.box_M.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   };
-  for (const ScenePart& part : cast.parts) add_box_of(part, moment.k.X_WL[part.body]);
-  for (const ShownTargetRobot& twin : moment.twins)
-    for (const ScenePart& part : cast.parts)
-      if (part.robot == static_cast<int>(twin.robot)) add_box_of(part, twin.X_WL[part.body]);
-  for (const DistanceConstraintLine& tie : cast.ties) {
-    add(moment.k.X_WL[tie.a] * tie.p_La);
-    add(moment.k.X_WL[tie.b] * tie.p_Lb);
+  for (const ScenePart& part : meshes.parts) add_box_of(part, snapshot.k.X_WL[part.body]);
+  for (const ShownTargetRobot& target : snapshot.twins)
+    for (const ScenePart& part : meshes.parts)
+      if (part.robot == static_cast<int>(target.robot)) add_box_of(part, target.X_WL[part.body]);
+  for (const DistanceConstraintLine& tie : meshes.ties) {
+    add(snapshot.k.X_WL[tie.a] * tie.p_La);
+    add(snapshot.k.X_WL[tie.b] * tie.p_Lb);
   }
 }
 
@@ -71,16 +67,16 @@ void Extent::add(const Extent& other) {
 }
 
 double Extent::reach(const Vector3& p_W) const {
-  double most = 0;
-  for (const Vector3& p : points_) most = std::max(most, (p - p_W).norm());
-  return most;
+  double farthest = 0;
+  for (const Vector3& p : points_) farthest = std::max(farthest, (p - p_W).norm());
+  return farthest;
 }
 
 double Extent::radius() const {
-  return empty() ? 1.0 : std::max(1e-3, 0.5 * (high_ - low_).norm());
+  return empty() ? 1.0 : std::max(1e-3, 0.5 * box_.sizes().norm());
 }
 
-double max_of_interest(const std::vector<Extent>& instants) {
+double max_distance_of_interest(const std::vector<Extent>& instants) {
   constexpr double kTimes = 4;
   std::vector<double> reaches;
   for (const Extent& extent : instants)
@@ -104,14 +100,13 @@ CameraWish parse_camera(const std::string& text, const Model<double>& model) {
   wish.follow = model.find_body(text.substr(prefix.size()));
   if (wish.follow > 0) return wish;
   std::vector<std::string> names(model.body_name.begin() + 1, model.body_name.end());
-  refuse(text, "follows no body of this scene",
+  refuse(text, "names no body of this scene",
          name_remedy(text.substr(prefix.size()), names, "bodies"));
 }
 
-// In view coordinates (right, up, forward) a point p is seen where |p_x - e_x| <= t_x (p_z - e_z),
+// In view coordinates (right, up, forward) a point p is visible if |p_x - e_x| <= t_x (p_z - e_z),
 // so e_x - t_x e_z >= A = max(p_x - t_x p_z) and -e_x - t_x e_z >= B = max(-p_x - t_x p_z): the
-// eye may be as near as e_z = -(A + B) / (2 t_x), at e_x = (A - B) / 2. Likewise y; the farther of
-// both counts.
+// nearest eye has e_z = -(A + B) / (2 t_x), e_x = (A - B) / 2. Likewise y; the farther one is used.
 Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect) {
   Camera camera;
   const Vector3 forward = -towards_eye(wish);
@@ -122,7 +117,7 @@ Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect) 
   }
   const Vector3 right = forward.cross(camera.up).normalized(), up = right.cross(forward);
   const double tan_y = std::tan(0.5 * camera.field_of_view) / kFrameMargin, tan_x = tan_y * aspect;
-  const auto most = [&](auto f) {
+  const auto max_of = [&](auto f) {
     double found = -1e300;
     for (const Vector3& p : extent.points()) found = std::max(found, f(p));
     return found;
@@ -132,9 +127,9 @@ Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect) 
   if (distance <= 0 && !extent.empty()) {
     const auto side = [&](const Vector3& axis, double tangent) {
       const double A =
-          most([&](const Vector3& p) { return axis.dot(p) - tangent * forward.dot(p); });
+          max_of([&](const Vector3& p) { return axis.dot(p) - tangent * forward.dot(p); });
       const double B =
-          most([&](const Vector3& p) { return -axis.dot(p) - tangent * forward.dot(p); });
+          max_of([&](const Vector3& p) { return -axis.dot(p) - tangent * forward.dot(p); });
       return Eigen::Vector2d(0.5 * (A - B), -0.5 * (A + B) / tangent);
     };
     const Eigen::Vector2d x = side(right, tan_x), y = side(up, tan_y);
@@ -148,19 +143,19 @@ Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect) 
   return camera;
 }
 
-double closeup(const SceneMeshes& cast, int body) {
+double closeup(const SceneMeshes& meshes, int body) {
   double radius = 0;
-  for (const ScenePart& part : cast.parts)
+  for (const ScenePart& part : meshes.parts)
     if (part.body == static_cast<std::size_t>(body))
-      radius = std::max(radius, 0.5 * (part.high_M - part.low_M).norm());
+      radius = std::max(radius, 0.5 * part.box_M.sizes().norm());
   return 3 * radius / std::tan(0.5 * Camera{}.field_of_view);
 }
 
 Camera follow(Camera camera, const Vector3& target_W) {
   if (!target_W.allFinite()) return camera;
-  const Vector3 shift = target_W - camera.target;
-  camera.eye += shift;
-  camera.target += shift;
+  const Vector3 offset = target_W - camera.target;
+  camera.eye += offset;
+  camera.target += offset;
   return camera;
 }
 

@@ -1,6 +1,7 @@
-// Where to look from: named cameras, and the distance from which all of a run fits the picture.
+// Named cameras, and the distance at which a whole run fits the picture.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <string>
 #include <vector>
 
@@ -10,36 +11,35 @@
 
 namespace twinarm {
 
-inline constexpr double kFrameMargin = 1.18;  // of the picture around what is seen
+inline constexpr double kFrameMargin = 1.18;  // picture size over scene size
 
-// Points that bound what was on stage, at one instant or many.
+// Bounding points of the scene at one or many instants.
 class Extent {
  public:
-  void add(const SceneMeshes& cast, const Snapshot& moment);
+  void add(const SceneMeshes& meshes, const Snapshot& snapshot);
   void add(const Extent& other);
   void add(const Vector3& p_W);
-  double reach(const Vector3& p_W) const;  // of the farthest point from there [m]; of none 0
+  double reach(const Vector3& p_W) const;  // largest distance of a point from p_W [m]
   bool empty() const { return points_.empty(); }
   const std::vector<Vector3>& points() const { return points_; }
-  Vector3 center() const { return 0.5 * (low_ + high_); }
-  double radius() const;  // of the ball about the centre that holds the box [m]; at least 1 mm
-  const Vector3& low() const { return low_; }
-  const Vector3& high() const { return high_; }
+  Vector3 center() const { return box_.center(); }
+  double radius() const;  // of the sphere about the bounding box [m]; at least 1 mm
+  const Vector3& low() const { return box_.min(); }
+  const Vector3& high() const { return box_.max(); }
 
  private:
   std::vector<Vector3> points_;
-  Vector3 low_ = Vector3::Constant(1e300), high_ = Vector3::Constant(-1e300);
+  Eigen::AlignedBox3d box_;
 };
 
-// How far from the middle of the first instant bodies still count as part of the scene [m]: four
-// times as far as in three quarters of the run. A run that diverges throws them away in its last
-// moments, and would be seen from so far that nothing is left of it.
-double max_of_interest(const std::vector<Extent>& instants);
+// Distance from the centre of the first instant beyond which instants are ignored for framing [m]:
+// four times the distance of three quarters of the run. Bodies of a diverged run may be far away.
+double max_distance_of_interest(const std::vector<Extent>& instants);
 
 struct CameraWish {
   double azimuth = -52, elevation = 22;  // of the eye about the target [degrees], x axis, horizon
-  double distance = 0;                   // [m]; 0: so that all fits
-  int follow = -1;                       // body that stays in the middle
+  double distance = 0;                   // [m]; 0: the whole scene fits
+  int follow = -1;                       // body in the centre of the picture
 };
 
 // "auto", "front", "side", "top", "iso", "follow:BODY", "AZIMUTH,ELEVATION[,DISTANCE]" in degrees
@@ -48,9 +48,9 @@ CameraWish parse_camera(const std::string& text, const Model<double>& model);
 
 // `aspect` is width over height.
 Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect);
-// The same, moved along: the body at `target_W`. closeup() is the distance at which a body fills
+// follow() translates the camera to `target_W`. closeup() is the distance at which a body fills
 // about a third of the picture's height.
-double closeup(const SceneMeshes& cast, int body);
+double closeup(const SceneMeshes& meshes, int body);
 Camera follow(Camera camera, const Vector3& target_W);
 
 // 1, 2 or 5 times a power of ten, the nearest below.

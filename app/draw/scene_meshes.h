@@ -1,5 +1,5 @@
-// The cast: all that has a shape, with its mesh, colour and the body that carries it. Made once for
-// a scene or a robot; where the bodies stand comes with each moment.
+// Meshes and colours of all shapes of a scene or a robot, fixed to their bodies. Made once; the
+// poses of the bodies come with each snapshot.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ struct ScenePart {
   Vector3 scale = Vector3::Ones();
   Color color;
   std::optional<TextureId> texture;
-  Vector3 low_M = Vector3::Zero(), high_M = Vector3::Zero();  // bounds, scaled, in M [m]
+  Eigen::AlignedBox3d box_M{Vector3(Vector3::Zero())};  // bounds, scaled, in M [m]
 };
 
-// Solid where normal . x <= offset; drawn as a plate as large as the scene, or as the ground.
+// Solid where normal . x <= offset; drawn as a plate or as the ground.
 struct ScenePlane {
   std::size_t body = 0;
   Vector3 normal_L = Vector3::UnitZ();
@@ -29,7 +29,7 @@ struct ScenePlane {
   Color color;
 };
 
-struct DistanceConstraintLine {  // of a distance constraint: a string or a rod between two points
+struct DistanceConstraintLine {  // a string or rod between two points
   std::size_t a = 0, b = 0;
   Vector3 p_La = Vector3::Zero(), p_Lb = Vector3::Zero();
 };
@@ -38,12 +38,13 @@ struct SceneMeshes {
   std::vector<ScenePart> parts;
   std::vector<ScenePlane> planes;
   std::vector<DistanceConstraintLine> ties;
-  std::vector<std::string> notes;  // what stands in for something else, for the user to know
+  std::vector<std::string> notes;  // replaced or omitted parts, for the user
 };
 
-// A link without a visual, or whose mesh cannot be read, is drawn by its collision shapes, and that
-// is noted. Throws InputError where a mesh of a body cannot be read.
-SceneMeshes cast_of(const SceneModel& scene, DrawList& list);
-SceneMeshes cast_of(const RobotDescription& robot, const Model<double>& model, DrawList& list);
+// A link without a readable visual is drawn by its collision shapes, with a note. Throws InputError
+// if the mesh of a body cannot be read.
+SceneMeshes make_scene_meshes(const SceneModel& scene, DrawList& list);
+SceneMeshes make_scene_meshes(const RobotDescription& robot, const Model<double>& model,
+                              DrawList& list);
 
 }  // namespace twinarm

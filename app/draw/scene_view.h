@@ -1,5 +1,4 @@
-// The stage: one DrawList that is kept for all pictures of a scene; bodies, twins and floor, then
-// whatever overlays are asked for.
+// DrawList of a scene for all of its pictures: bodies and floor, then overlays.
 #pragma once
 
 #include <optional>
@@ -13,30 +12,30 @@
 
 namespace twinarm {
 
-// What overlays measure by; the same for all pictures of a film.
+// Scales of overlays: the maxima over all pictures of a film.
 struct Scales {
-  double length = 1;         // half the extent of what is seen [m]
-  double contact_force = 0;  // the largest to be shown, of all points of a pair [N]
+  double length = 1;         // radius of the scene [m]
+  double contact_force = 0;  // of a pair of geometries [N]
   double force = 0;          // of a coupling [N]
-  double couple = 0;         // [N m]
+  double couple = 0;         // torque of a coupling [N m]
   double momentum = 0;       // [kg m/s]
   double angular = 0;        // [kg m^2/s]
-  double kinetic = 0;        // the largest energies [J]
+  double kinetic = 0;        // [J]
   double elastic = 0;
   double lowest_potential = 0, highest_potential = 0;
-  bool has_moment = false;
-  void widen_run(const Model<double>& model, const Snapshot& moment);  // all but contact forces
-  void widen_contacts(const Snapshot& moment);
+  bool has_potential = false;
+  void widen_run(const Model<double>& model, const Snapshot& snapshot);  // all but contact forces
+  void widen_contacts(const Snapshot& snapshot);
   void widen(const Scales& other);
   double radius() const { return 0.006 * length; }  // of rods and arrows [m]
-  // A round number of metres per newton, by which the largest is drawn as a third of the scene.
+  // A round number of metres per unit; the largest arrow is about a third of the scene.
   double metres_per(double largest) const;
 };
 
-struct Trace {          // where bodies went, by instant and body
-  double span = 1e300;  // before the moment that is shown [s]: only this is drawn of it
+struct Trace {          // paths of bodies
+  double span = 1e300;  // time before the snapshot that is drawn [s]
   std::vector<double> t;
-  std::vector<std::vector<Vector3>> p_Wc;  // centres of mass; of the world zero
+  std::vector<std::vector<Vector3>> p_Wc;  // centres of mass, by instant and body
 };
 
 struct SceneView {
@@ -44,40 +43,40 @@ struct SceneView {
   const SceneModel* scene = nullptr;  // null for a robot alone
   SceneMeshes cast;
   DrawList list;
-  std::vector<Extent> instants;  // counted, of the run and of what is shown of it
-  bool has_hand = false;         // at one of them
-  Extent extent;                 // of all that are of interest
-  double farthest = 1e300;       // see cameras.h
+  std::vector<Extent> instants;  // of the run and of its pictures
+  bool has_hand = false;         // an input device at one of them
+  Extent extent;                 // of all within `farthest`
+  double farthest = 1e300;       // max_distance_of_interest()
   Scales scales;
   Trace trace;
   std::string name;
-  bool frames_device = false;     // set before set_view(): the hand device is part of the view
-  std::optional<Pose> X_WDevice;  // where it stands, if a hand is seen
+  bool frames_device = false;     // set before set_view(): the input device is in the picture
+  std::optional<Pose> X_WDevice;  // of the input device, if there is one
 };
 
 SceneView make_stage(const SceneModel& scene);
 SceneView make_stage(const RobotDescription& robot, const Model<double>& model);
 
-// Before the first picture, in this order: look_ahead() at moments of the whole run, for framing
-// and trails, look_at() those of the pictures; settle(); measure() both, for the scales;
+// Before the first picture, in this order: look_ahead() with snapshots of the whole run (framing,
+// trails), look_at() with those of the pictures; settle(); measure() with both (scales);
 // set_view().
-void look_ahead(SceneView& stage, const Snapshot& moment);
-void look_at(SceneView& stage, const Snapshot& moment);
-void settle(SceneView& stage);
-// Contact forces by what is shown alone: an impact that is not must not make all others small. All
-// else by the whole run. What lies too far counts for neither.
+void look_ahead(SceneView& view, const Snapshot& snapshot);
+void look_at(SceneView& view, const Snapshot& snapshot);
+void settle(SceneView& view);
+// Contact forces are scaled by the pictures, so that an impact between two pictures has no effect;
+// the rest by the whole run. Instants beyond `farthest` are ignored.
 enum class Measured { of_run, of_picture };
-void measure(SceneView& stage, const Snapshot& moment, Measured measured);
-// Camera, floor and grid. Notes where the floor is only drawn.
-void set_view(SceneView& stage, const CameraWish& wish, double aspect);
-// The hand device stands on the ground, in front of all that is seen and to its left.
-void place_device(SceneView& stage);
-// Its shoulder in device axes, and how high that is above the ground [m]: the case is on a block,
-// because at zero the stylus is below the foot of the case.
+void measure(SceneView& view, const Snapshot& snapshot, Measured measured);
+// Camera, floor and grid. A note if the floor is not part of the scene.
+void set_view(SceneView& view, const CameraWish& wish, double aspect);
+// Places the input device on the ground, to the left and in front of the scene.
+void place_device(SceneView& view);
+// Its shoulder in device axes, and the height above the ground [m]: the case is on a block because
+// the stylus reaches below the case.
 Vector3 device_shoulder();
 inline constexpr double kDeviceShoulder = 0.21;
 
 // Clears stage.list and adds the planes and the bodies of all variants.
-void draw_bodies(SceneView& stage, const Snapshot& moment);
+void draw_bodies(SceneView& view, const Snapshot& snapshot);
 
 }  // namespace twinarm

@@ -12,9 +12,8 @@
 namespace twinarm {
 namespace {
 
-// A profile in the half-plane (radius, z), from the lowest point to the highest, turned about z.
-// The ends lie on the axis.
-TriangleMesh turned(const std::vector<Eigen::Vector2d>& profile) {
+// Surface of revolution about z of a profile (radius, z), upwards, with its ends on the axis.
+TriangleMesh revolved(const std::vector<Eigen::Vector2d>& profile) {
   constexpr int kAround = 48;
   TriangleMesh mesh;
   const auto row = [](std::size_t i) { return static_cast<int>(i) * kAround; };
@@ -44,7 +43,7 @@ DrawMesh capsule(double radius, double length) {
       profile.emplace_back(on_axis ? 0 : radius * std::cos(latitude),
                            side * length + radius * std::sin(latitude));
     }
-  const TriangleMesh mesh = turned(profile);
+  const TriangleMesh mesh = revolved(profile);
   const auto down = [&](const Vector3& p) { return 0.5 - p.z() / (length + 2 * radius); };
   return make_draw_mesh(mesh, places_around_z(mesh, down));
 }
@@ -54,16 +53,18 @@ TriangleMesh hull_of(const std::vector<Vector3>& points) {
   return {hull.vertices, hull.triangles};
 }
 
-// Of any convex shape: what its farthest points in directions all round span.
+// Of any convex shape: hull of its support points.
 template <class S>
 TriangleMesh hull_of(const S& shape) {
   constexpr int kRings = 24;
   std::vector<Vector3> points;
   for (int ring = 0; ring <= kRings; ++ring)
     for (int k = 0; k < 2 * kRings; ++k) {
-      const double polar = std::numbers::pi * ring / kRings, turn = std::numbers::pi * k / kRings;
-      points.push_back(shape.support(Vector3(std::sin(polar) * std::cos(turn),
-                                             std::sin(polar) * std::sin(turn), std::cos(polar))));
+      const double polar = std::numbers::pi * ring / kRings,
+                   azimuth = std::numbers::pi * k / kRings;
+      points.push_back(
+          shape.support(Vector3(std::sin(polar) * std::cos(azimuth),
+                                std::sin(polar) * std::sin(azimuth), std::cos(polar))));
     }
   return hull_of(points);
 }
@@ -74,7 +75,6 @@ ShapeLook placed(const DrawList& list, MeshId mesh, const Vector3& scale = Vecto
   return {.mesh = mesh, .X_GM = X_GM, .scale = scale, .can_be_textured = has_uv};
 }
 
-// A tube of no thickness, seen from outside.
 ShapeLook cylinder(double radius, double length, DrawList& list) {
   return placed(list, list.unit_mesh(UnitShape::cylinder), {radius, radius, length},
                 {Matrix3::Identity(), Vector3(0, 0, -0.5 * length)});

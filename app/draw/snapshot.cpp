@@ -14,16 +14,15 @@ bool same_motion(const SceneCoupling& a, const SceneCoupling& b) {
          a.delay == b.delay && a.speed == b.speed && a.seed == b.seed;
 }
 
-// The hand that leads both moves the gripper of one of them at most.
-bool is_one_twin(const SceneCoupling& a, const SceneCoupling& b) {
+// One operator motion moves the gripper of at most one of them.
+bool is_same_target(const SceneCoupling& a, const SceneCoupling& b) {
   return same_motion(a, b) && (a.driven.gripper.empty() || b.driven.gripper.empty() ||
                                a.driven.gripper == b.driven.gripper);
 }
 
-// One coupling for each kinematic side that is to be seen; of those with one twin the one that
-// moves its gripper too. Where one of a robot's couplings leads it somewhere, those that hold it at
-// its start have nothing to show.
-std::vector<std::size_t> leaders(const SceneModel& scene) {
+// One coupling for each target robot that is drawn: of several with the same target the one that
+// moves its gripper too. Targets at the start are drawn only if the robot has no other target.
+std::vector<std::size_t> shown_couplings(const SceneModel& scene) {
   const auto& all = scene.couplings;
   std::vector<std::size_t> found;
   for (std::size_t c = 0; c < all.size(); ++c) {
@@ -33,7 +32,7 @@ std::vector<std::size_t> leaders(const SceneModel& scene) {
     if (all[c].target == CouplingTarget::Kind::start && std::ranges::any_of(all, outranks))
       continue;
     const auto same = std::ranges::find_if(
-        found, [&](std::size_t other) { return is_one_twin(all[c], all[other]); });
+        found, [&](std::size_t other) { return is_same_target(all[c], all[other]); });
     if (same == found.end())
       found.push_back(c);
     else if (all[*same].driven.gripper.empty())
@@ -42,32 +41,33 @@ std::vector<std::size_t> leaders(const SceneModel& scene) {
   return found;
 }
 
-ShownCouplingForce pull_of(const SceneModel& scene, SceneCouplings& couplings, std::size_t c,
-                           const Snapshot& moment, const Vector3& pull) {
+ShownCouplingForce coupling_force_of(const SceneModel& scene, SceneCouplings& couplings,
+                                     std::size_t c, const Snapshot& snapshot,
+                                     const Vector3& force) {
   const SceneCoupling& spec = scene.couplings[c];
-  const CouplingEnds ends = couplings.ends(c, moment.x, moment.k);
+  const CouplingEnds ends = couplings.ends(c, snapshot.x, snapshot.k);
   ShownCouplingForce shown;
   shown.name = spec.name;
-  shown.kind = kind_of_pull(scene, c);
+  shown.kind = kind_of_coupling(scene, c);
   shown.has_ends = spec.type == CouplingDescription::Type::linear;
   shown.body = static_cast<std::size_t>(spec.spring.body);
-  shown.pull_W = pull;
+  shown.pull_W = force;
   shown.energy = 0.5 * spec.spring.k * ends.offset.squaredNorm();
   if (shown.has_ends) {
-    shown.p_D = moment.k.position(spec.spring.body, spec.spring.p_L);
+    shown.p_D = snapshot.k.position(spec.spring.body, spec.spring.p_L);
     shown.p_K = shown.p_D + ends.offset;
     return shown;
   }
-  shown.p_D = shown.p_K = moment.k.X_WL[shown.body].p;
-  // The axis of a joint of one degree of freedom is z of its body.
+  shown.p_D = shown.p_K = snapshot.k.X_WL[shown.body].p;
+  // The axis of a joint with one degree of freedom is z of the body frame.
   if (spec.measure == SpringSpace::joint)
-    shown.pull_W = pull.x() * moment.k.R_WB[shown.body].col(2);
+    shown.pull_W = force.x() * snapshot.k.R_WB[shown.body].col(2);
   return shown;
 }
 
 }  // namespace
 
-ShownCouplingForce::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling) {
+ShownCouplingForce::Kind kind_of_coupling(const SceneModel& scene, std::size_t coupling) {
   const SceneCoupling& spec = scene.couplings[coupling];
   const bool along_joint =
       spec.measure == SpringSpace::joint &&
@@ -77,13 +77,13 @@ ShownCouplingForce::Kind kind_of_pull(const SceneModel& scene, std::size_t coupl
              : ShownCouplingForce::Kind::couple;
 }
 
-std::vector<PairForce> pair_forces(const Snapshot& moment) {
+std::vector<PairForce> pair_forces(const Snapshot& snapshot) {
   struct Sum {
     PairForce pair;
     double weight = 0;
   };
   std::map<std::pair<int, int>, Sum> sums;
-  for (const ShownContact& contact : moment.contacts) {
+  for (const ShownContact& contact : snapshot.contacts) {
     Sum& sum = sums[{contact.a, contact.b}];
     const double weight = std::max(1e-12, contact.force_W.dot(contact.n_W));
     sum.pair.body_b = contact.body_b;
@@ -101,31 +101,31 @@ std::vector<PairForce> pair_forces(const Snapshot& moment) {
 }
 
 Snapshot moment_of(const Model<double>& model, const State<double>& x) {
-  Snapshot moment(model);
-  moment.x = x;
-  forward_kinematics(model, x, moment.k);
-  moment.kinetic = kinetic_energy(model, x);
-  moment.potential = potential_energy(model, x);
-  return moment;
+  Snapshot snapshot(model);
+  snapshot.x = x;
+  forward_kinematics(model, x, snapshot.k);
+  snapshot.kinetic = kinetic_energy(model, x);
+  snapshot.potential = potential_energy(model, x);
+  return snapshot;
 }
 
 Snapshot moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
                    const std::vector<Vector3>& pulls) {
-  Snapshot moment = moment_of(scene.model, x);
+  Snapshot snapshot = moment_of(scene.model, x);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    const Vector3 pull = c < pulls.size() ? pulls[c] : Vector3(Vector3::Zero());
-    moment.pulls.push_back(pull_of(scene, couplings, c, moment, pull));
-    moment.elastic += moment.pulls.back().energy;
+    const Vector3 force = c < pulls.size() ? pulls[c] : Vector3(Vector3::Zero());
+    snapshot.pulls.push_back(coupling_force_of(scene, couplings, c, snapshot, force));
+    snapshot.elastic += snapshot.pulls.back().energy;
   }
-  for (const std::size_t c : leaders(scene)) {
+  for (const std::size_t c : shown_couplings(scene)) {
     const SceneCoupling& spec = scene.couplings[c];
-    moment.twins.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
+    snapshot.twins.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
     if (spec.target == CouplingTarget::Kind::start || spec.target == CouplingTarget::Kind::state)
       continue;
     const HandSample hand = couplings.hand(c).sample(x.t, x.t + 1e-6);
-    moment.hands.push_back({hand.theta, hand.button});
+    snapshot.hands.push_back({hand.theta, hand.button});
   }
-  return moment;
+  return snapshot;
 }
 
 Vector3 com_of(const Model<double>& model, const Kinematics& k, std::size_t body) {

@@ -1,7 +1,4 @@
-// A moment: what there is to be seen of one instant, as plain numbers. World axes, SI.
-//
-// Who has computed it (a run, a recording) is not known here: bodies by the state, contacts and
-// pulls as they were given.
+// Visible data of one instant of a run or recording. World axes, SI.
 #pragma once
 
 #include <array>
@@ -14,58 +11,56 @@
 
 namespace twinarm {
 
-// b is the one of the two that forces move, where the other is not.
+// b can move if a cannot.
 struct ShownContact {
   int a = 0, b = 0;  // geometries of the scene
   std::size_t body_a = 0, body_b = 0;
-  Vector3 p_W = Vector3::Zero(), n_W = Vector3::Zero();           // the normal from a to b
+  Vector3 p_W = Vector3::Zero(), n_W = Vector3::Zero();           // point; normal from a to b
   Vector3 force_W = Vector3::Zero(), couple_W = Vector3::Zero();  // on b [N], [N m]
-  double friction = 0;                                            // Coulomb's, of the pair
+  double friction = 0;                                            // coefficient
 };
 
 struct ShownCouplingForce {
   enum class Kind { force, couple };
   std::string name;
   Kind kind = Kind::force;
-  bool has_ends = false;  // it stands between two points: drawn as a spring
+  bool has_ends = false;  // between two points: drawn as a spring
   std::size_t body = 0;
-  Vector3 p_D = Vector3::Zero(), p_K = Vector3::Zero();  // on the DVR, on the KVR
-  Vector3 pull_W = Vector3::Zero();                      // on the DVR [N] or [N m]
+  Vector3 p_D = Vector3::Zero(), p_K = Vector3::Zero();  // on the robot, on the target robot
+  Vector3 pull_W = Vector3::Zero();                      // on the robot [N] or [N m]
   double energy = 0;                                     // of its spring [J]
 };
 
-// All points of two geometries that touch.
+// Resultant of all contact points of two geometries.
 struct PairForce {
   Vector3 force = Vector3::Zero(), couple = Vector3::Zero();  // on b [N], [N m]
-  Vector3 point = Vector3::Zero();  // centre of pressure, weighed by the normal parts
+  Vector3 point = Vector3::Zero();  // centre of pressure, weighted by normal forces
   std::size_t body_b = 0;
 };
 
-// The kinematic twin of a robot.
 struct ShownTargetRobot {
   std::size_t robot = 0;
   std::vector<Pose> X_WL;
 };
 
-// The hand device that moves a twin.
+// The input device that moves a target robot.
 struct ShownHand {
-  std::array<double, 6> theta{};  // its joints theta1..theta6 [rad]
+  std::array<double, 6> theta{};  // joints theta1..theta6 [rad]
   bool button = false;
-  Vector3 force_W = Vector3::Zero();  // that its motors put on the stylus [N]
+  Vector3 force_W = Vector3::Zero();  // motor force at the stylus [N]
 };
 
-// A spring by which somebody pulls at a body from outside.
 struct ShownMouseSpring {
   std::size_t body = 0;
-  Vector3 p_W = Vector3::Zero(), goal_W = Vector3::Zero();  // on the body; where it is pulled to
+  Vector3 p_W = Vector3::Zero(), goal_W = Vector3::Zero();  // on the body; target point
   Vector3 force_W = Vector3::Zero();                        // on the body [N]
 };
 
-// Another run of the same bodies, that is shown beside this one.
+// Another run of the same bodies, shown beside this one.
 struct ShownVariant {
   std::string name;
   Vector3 offset_W = Vector3::Zero(), above_W = Vector3::Zero();  // of its bodies; of its name
-  std::vector<Pose> X_WL, before;  // by body, as if it stood where this one does
+  std::vector<Pose> X_WL, before;                                 // by body, without the offset
 };
 
 struct Snapshot {
@@ -74,31 +69,29 @@ struct Snapshot {
   std::vector<ShownContact> contacts;
   std::vector<ShownCouplingForce> pulls;
   std::vector<ShownTargetRobot> twins;
-  std::vector<ShownHand> hands;  // by twin that a hand moves
+  std::vector<ShownHand> hands;  // of target robots moved by a device
   std::optional<ShownMouseSpring> grip;
-  std::vector<Pose> before;                        // of another run at this time, by body; or none
-  std::vector<ShownVariant> lanes;                 // the first: this one, without places; or none
+  std::vector<Pose> before;         // previous branch at this time, by body; or empty
+  std::vector<ShownVariant> lanes;  // the first: this run, without poses; or empty
   double kinetic = 0, potential = 0, elastic = 0;  // [J]
   explicit Snapshot(const Model<double>& model) : x(model), k(model) {}
 };
 
-// Of a coupling of the scene.
-ShownCouplingForce::Kind kind_of_pull(const SceneModel& scene, std::size_t coupling);
+ShownCouplingForce::Kind kind_of_coupling(const SceneModel& scene, std::size_t coupling);
 
-// In the order of the pairs' names.
-std::vector<PairForce> pair_forces(const Snapshot& moment);
+// Ordered by the pairs of geometries.
+std::vector<PairForce> pair_forces(const Snapshot& snapshot);
 
-// What the state says; contacts are left to the caller.
+// Without contacts.
 Snapshot moment_of(const Model<double>& model, const State<double>& x);
-// The same of a scene; `pulls` by coupling as SceneCouplings::pull() has them, or none.
+// Of a scene; `pulls`: SceneCouplings::pull() by coupling, or empty.
 Snapshot moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
                    const std::vector<Vector3>& pulls);
 
-// From the model in body axes B to the world: centre of mass of a body; of one without mass its
-// origin.
+// Centre of mass of a body; its origin if massless.
 Vector3 com_of(const Model<double>& model, const Kinematics& k, std::size_t body);
 
-// Of all bodies that have mass and move by forces, or stand.
+// Of all bodies with mass.
 struct TotalMotion {
   double mass = 0;
   Vector3 com_W = Vector3::Zero();

@@ -30,8 +30,8 @@ class PngFilm final : public Film {
     std::filesystem::create_directories(folder_, error);
     if (error)
       throw InputError(
-          {{folder_.string(), 0, "--frames", "the folder cannot be made: " + error.message(),
-            "give a folder that can be written", "file.unwritable"}});
+          {{folder_.string(), 0, "--frames", "the folder cannot be created: " + error.message(),
+            "give a writable folder", "file.unwritable"}});
   }
   void add(const Image& image) override {
     write_png((folder_ / fmt::format("frame_{:05}.png", count_++)).string(), image);
@@ -45,7 +45,7 @@ class PngFilm final : public Film {
 
 std::vector<std::string> ffmpeg_words(const std::string& program, const std::string& out,
                                       const FilmFormat& format) {
-  // This pixel format of mp4 has no odd sizes; a gif has one palette of its own.
+  // yuv420p needs even sizes; a GIF has one palette for all frames.
   const char* const mp4 =
       "-vf pad=ceil(iw/2)*2:ceil(ih/2)*2 -c:v libx264 -crf 18 -preset fast -pix_fmt yuv420p "
       "-movflags +faststart -f mp4";
@@ -61,12 +61,12 @@ std::vector<std::string> ffmpeg_words(const std::string& program, const std::str
   return words;
 }
 
-// A child of its own process group: Ctrl-C is ours to handle.
+// ffmpeg in its own process group, so that Ctrl-C does not reach it.
 class FfmpegFilm final : public Film {
  public:
   FfmpegFilm(std::filesystem::path file, const FilmFormat& format)
       : file_(std::move(file)), part_(file_.string() + ".part") {
-    std::signal(SIGPIPE, SIG_IGN);  // a child that ends is told by write()
+    std::signal(SIGPIPE, SIG_IGN);  // write() reports that the child has ended
     const std::string option = format.kind == FilmKind::mp4 ? "--mp4" : "--gif";
     start(ffmpeg_words(find_ffmpeg(option.c_str()).string(), part_.string(), format));
   }
@@ -101,7 +101,7 @@ class FfmpegFilm final : public Film {
     std::filesystem::rename(part_, file_, error);
     if (error)
       throw InputError({{file_.string(), 0, "", "cannot be written: " + error.message(),
-                         "give another place", "file.unwritable"}});
+                         "give another path", "file.unwritable"}});
     finished_ = true;
   }
 
@@ -134,7 +134,7 @@ class FfmpegFilm final : public Film {
     if (error != 0) {
       close_pipe();
       throw InputError({{words[0], 0, "", std::string("cannot be started: ") + strerror(error),
-                         "install ffmpeg anew, or give --frames DIR", "program.not-started"}});
+                         "reinstall ffmpeg, or use --frames DIR", "program.not-started"}});
     }
     child_ = child;
   }
@@ -151,8 +151,8 @@ class FfmpegFilm final : public Film {
   }
   [[noreturn]] void fail() {
     throw InputError(
-        {{file_.string(), 0, "ffmpeg", "it did not make the film; its words stand above",
-          "is the folder there and writable? --frames DIR needs no ffmpeg", "program.failed"}});
+        {{file_.string(), 0, "ffmpeg", "ffmpeg failed; see its messages above",
+          "check that the folder is writable; --frames DIR needs no ffmpeg", "program.failed"}});
   }
 
   std::filesystem::path file_, part_;
@@ -179,7 +179,7 @@ std::filesystem::path find_ffmpeg(const char* option) {
   }
   throw InputError(
       {{"", 0, option, "needs the program ffmpeg, which is not on the PATH",
-        "install it (apt-get install ffmpeg), or give --frames DIR", "program.missing"}});
+        "install it (apt-get install ffmpeg), or use --frames DIR", "program.missing"}});
 }
 
 }  // namespace twinarm

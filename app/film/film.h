@@ -1,5 +1,4 @@
-// Where the pictures of a film go: a folder of PNG, or a file that the program ffmpeg makes of
-// them. Nothing half-made stays behind.
+// Output of a film: a folder of PNG files, or a video file by ffmpeg. Incomplete files are removed.
 #pragma once
 
 #include <filesystem>
@@ -13,10 +12,10 @@ class Film {
  public:
   virtual ~Film() = default;
   virtual void add(const Image& image) = 0;
-  virtual void finish() = 0;  // the file has its name from now on
+  virtual void finish() = 0;  // renames the temporary file
 };
 
-// DIR/frame_00000.png and so on; each is whole when it is there.
+// DIR/frame_00000.png, ...; each is written atomically.
 std::unique_ptr<Film> png_film(const std::filesystem::path& folder);
 
 enum class FilmKind { mp4, gif };
@@ -25,11 +24,10 @@ struct FilmFormat {
   int width = 0, height = 0;  // [px]
   double rate = 30;           // pictures per second
 };
-// Throws InputError, here and later, where ffmpeg is missing or fails, or the file cannot be
-// written.
+// Throws InputError, here and later, if ffmpeg is missing or fails or the file cannot be written.
 std::unique_ptr<Film> ffmpeg_film(const std::filesystem::path& file, const FilmFormat& format);
 
-// The program on the PATH. Throws InputError, naming `option`.
+// From the PATH. Throws InputError with `option`.
 std::filesystem::path find_ffmpeg(const char* option);
 
 }  // namespace twinarm

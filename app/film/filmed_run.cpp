@@ -6,9 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "app/draw/cameras.h"
 #include "app/record/record_run.h"
-#include "app/record/unpack.h"
 #include "app/run/run.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
@@ -16,10 +14,10 @@
 namespace twinarm {
 namespace {
 
-constexpr int kAround = 240;          // instants that stand for the whole run
+constexpr int kAround = 240;          // instants of the whole run
 constexpr double kMaxPictures = 1e5;  // of a film
 
-// Before the first step nothing has been computed: what is shown there is what acts in it.
+// The initial state has no forces yet: those of the first step are shown.
 void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInstant& first) {
   for (RunInstant& instant : instants)
     if (instant.x.t < first.x.t) {
@@ -31,7 +29,7 @@ void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInsta
 std::vector<double> picture_times(double from, double to, double interval) {
   if ((to - from) / interval > kMaxPictures)
     throw InputError({{"", 0, "--slow", "the film would have more than 100000 pictures",
-                       "give a shorter piece by --from and --to", "film.too-long"}});
+                       "shorten it by --from and --to", "film.too-long"}});
   std::vector<double> times;
   const auto count = static_cast<long>(std::floor((to - from) / interval + 1e-6));
   for (long i = 0; i <= count; ++i) times.push_back(from + static_cast<double>(i) * interval);
@@ -42,10 +40,10 @@ void check_piece(double from, double to) {
   if (!(from >= 0 && to > from))
     throw InputError(
         {{"", 0, "--from", fmt::format("the film goes from {:g} s to {:g} s", from, to),
-          "give --to after --from, neither negative", "option.order"}});
+          "give 0 <= --from < --to", "option.order"}});
 }
 
-// Both ends at once, by the numbers that were given.
+// Reports both options.
 void check_within(const Recording& recording, double from, double to) {
   DiagnosticList faults;
   attempt(faults, [&] { return recording.at(from, "--from"); });
@@ -96,13 +94,13 @@ FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& tim
   return run;
 }
 
-// The last time that is wanted; of a scene that says no duration of its own, by its options.
+// Last time to simulate [s].
 double end_of(const FilmTimes& times, const SimulatePlan& plan) {
   if (times.is_film) return times.to.value_or(plan.run.duration);
   return std::max(times.at.value_or(0), 0.0);
 }
 
-// The preparation speaks of the options of `twinarm simulate`.
+// Replaces --duration of `twinarm simulate` in messages by the option of `render`.
 SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& times) {
   try {
     return prepare_simulation(options);
@@ -118,8 +116,8 @@ SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& ti
   }
 }
 
-FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::string& camera,
-                  Progress& progress) {
+FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
+                            const std::string& camera, Progress& progress) {
   SimulateOptions options;
   options.robot = robot;
   if (times.is_film)
@@ -127,13 +125,13 @@ FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::
   else
     options.duration = times.at && *times.at > 0 ? *times.at : 1.0;
   FilmedRun run{{}, nullptr, nullptr, prepare_to_film(options, times), {}, {}};
-  parse_camera(camera, run.model());  // told before the run, not after it
+  parse_camera(camera, run.model());  // reports errors before the run
   RunPlan& plan = run.plan.run;
   plan.times.clear();
   const double end = end_of(times, run.plan), start = times.from.value_or(0);
   if (times.is_film) check_piece(start, end);
   if (plan.is_adaptive() && times.is_film) plan.step = std::min(plan.step, times.interval);
-  plan.duration = end > 0 ? end : plan.step;  // at the start one step is taken, for its forces
+  plan.duration = end > 0 ? end : plan.step;  // one step for the forces at the start
   const double around = std::max(end / kAround, 0.0), slack = 1e-6 * plan.step;
   std::vector<double> wanted{end};
   if (times.is_film) wanted = picture_times(start, end, times.interval);
@@ -161,8 +159,7 @@ FilmedRun let_run(const RobotOptions& robot, const FilmTimes& times, const std::
   };
   const SimulateResult result = run_plan(run.plan.input, plan, watch);
   if (result.post_mortem)
-    say("twinarm: the run stopped by itself after t = {:g} s: {}\n", result.end,
-        result.post_mortem->reason);
+    say("twinarm: the run diverged after t = {:g} s: {}\n", result.end, result.post_mortem->reason);
   if (run.shown.empty())
     throw InputError({{"", 0, "--at", "the run stopped before that time",
                        fmt::format("give one up to {:g} s", result.end), "film.time"}});
@@ -180,9 +177,8 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
   DiagnosticList faults;
   for (const auto* file : {&left, &right})
     if (!is_recording(*file))
-      faults.add({file->string(), 0, "--beside", "this is no recording",
-                  "give two that `twinarm simulate --record FILE` has written",
-                  "file.no-recording"});
+      faults.add({file->string(), 0, "--beside", "not a recording",
+                  "give two files of `twinarm simulate --record FILE`", "file.no-recording"});
   faults.check();
   double earliest = 1e300, first = 0, last = 0;
   for (const auto* file : {&left, &right}) {
@@ -197,7 +193,7 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
       faults.add({"", 0, option,
                   fmt::format("{:g} s is in neither recording: they go from {:g} to {:g} s", *t,
                               earliest, last),
-                  "give a time within", "film.time"});
+                  "give a time within these", "film.time"});
   faults.check();
   times.waits = true;
   if (!times.is_film && !times.at) times.at = last;
@@ -213,11 +209,25 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
 
 FilmedRun film_run(const RobotOptions& options, const FilmTimes& times, const std::string& camera,
                    Progress& progress) {
-  if (!is_recording(options.model)) return let_run(options, times, camera, progress);
+  if (!is_recording(options.model)) return simulate_for_film(options, times, camera, progress);
   DiagnosticList faults;
   check_recorded(options, faults);
   faults.check();
   return film_recording(options.model, times);
+}
+
+SceneView view_of(const FilmedRun& run) {
+  const SimulateInput& input = run.plan.input;
+  SceneView view =
+      input.scene ? make_stage(*input.scene) : make_stage(input.robot.robot, run.model());
+  for (const RunInstant& instant : run.around) look_ahead(view, run.snapshot(instant));
+  for (const RunInstant& instant : run.shown) look_at(view, run.snapshot(instant));
+  settle(view);
+  for (const RunInstant& instant : run.around)
+    measure(view, run.snapshot(instant), Measured::of_run);
+  for (const RunInstant& instant : run.shown)
+    measure(view, run.snapshot(instant), Measured::of_picture);
+  return view;
 }
 
 namespace {
@@ -269,12 +279,12 @@ Snapshot moment_of(const SimulateInput& input, SceneCouplings* couplings,
                    const RunInstant& instant) {
   const SceneModel* scene = input.scene.get();
   if (!scene || !couplings) return moment_of(input.robot.model, instant.x);
-  Snapshot moment = moment_of(*scene, *couplings, instant.x, instant.pulls);
+  Snapshot snapshot = moment_of(*scene, *couplings, instant.x, instant.pulls);
   const auto count = static_cast<int>(scene->geometries.size());
   for (const RecordedContact& c : instant.contacts)
     if (c.a >= 0 && c.b >= 0 && c.a < count && c.b < count)
-      moment.contacts.push_back(shown(*scene, c));
-  return moment;
+      snapshot.contacts.push_back(shown(*scene, c));
+  return snapshot;
 }
 
 }  // namespace twinarm

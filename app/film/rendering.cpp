@@ -33,78 +33,65 @@ class Rendering::View {
  public:
   View(const PictureWish& wish, const FilmedRun& run, int left, int width)
       : run_(run),
-        stage_(run.plan.input.scene ? make_stage(*run.plan.input.scene)
-                                    : make_stage(run.plan.input.robot.robot, run.model())),
+        view_(view_of(run)),
         camera_wish_(parse_camera(wish.camera, run.model())),
         left_(left),
         width_(width),
         plot_height_(wish.curves.empty() ? 0
                                          : static_cast<int>(std::lround(kPlotShare * wish.height))),
         height_(wish.height - plot_height_) {
-    if (!run.name.empty()) stage_.name = run.name;
-    stage_.frames_device = std::ranges::find(wish.overlays, "device") != wish.overlays.end();
-    stage_.list.background = wish.background;
-    for (const RunInstant& instant : run.around) look_ahead(stage_, run.moment(instant));
-    for (const RunInstant& instant : run.shown) look_at(stage_, run.moment(instant));
-    settle(stage_);
+    if (!run.name.empty()) view_.name = run.name;
+    view_.frames_device = std::ranges::find(wish.overlays, "device") != wish.overlays.end();
+    view_.list.background = wish.background;
+    CurveTrace trace(wish.curves);
     for (const RunInstant& instant : run.around)
-      measure(stage_, run.moment(instant), Measured::of_run);
-    for (const RunInstant& instant : run.shown)
-      measure(stage_, run.moment(instant), Measured::of_picture);
-    plot(wish);
+      trace.add(run.plan.input.scene.get(), run.snapshot(instant));
+    plots_ = trace.plots();
     painter_.emplace(wish.backend, width_, height_, wish.quality);
   }
 
-  // Both show what either has.
+  // Both get the union of extents, scales and ranges.
   void share(View& other) {
-    stage_.extent.add(other.stage_.extent);
-    other.stage_.extent = stage_.extent;
-    stage_.scales.widen(other.stage_.scales);
-    other.stage_.scales = stage_.scales;
+    view_.extent.add(other.view_.extent);
+    other.view_.extent = view_.extent;
+    view_.scales.widen(other.view_.scales);
+    other.view_.scales = view_.scales;
     for (std::size_t p = 0; p < plots_.size(); ++p)
       plots_[p].range = other.plots_[p].range = range_of({&plots_[p], &other.plots_[p]});
   }
   void set() {
     if (camera_wish_.follow > 0 && !(camera_wish_.distance > 0))
-      camera_wish_.distance = closeup(stage_.cast, camera_wish_.follow);
-    set_view(stage_, camera_wish_, static_cast<double>(width_) / height_);
-    camera_ = stage_.list.camera;
+      camera_wish_.distance = closeup(view_.cast, camera_wish_.follow);
+    set_view(view_, camera_wish_, static_cast<double>(width_) / height_);
+    camera_ = view_.list.camera;
     if (!plots_.empty()) strip_.emplace(plots_, width_, plot_height_);
   }
 
-  // With the legend of the view before, if it says the same, left out.
+  // Without legend if it equals that of the view before.
   void paint(std::size_t picture, const std::vector<std::string>& overlays,
              const std::vector<LegendLine>* before, Image& image) {
     const RunInstant& instant = run_.shown[picture];
-    const Snapshot moment = run_.moment(instant);
-    draw(stage_, moment, overlays);
-    DrawList& list = stage_.list;
+    const Snapshot snapshot = run_.snapshot(instant);
+    draw(view_, snapshot, overlays);
+    DrawList& list = view_.list;
     legend_ = list.legend;
     if (before && same_legend(*before, legend_)) list.legend.clear();
     list.camera = camera_;
     if (camera_wish_.follow > 0)
       list.camera = follow(
-          camera_, com_of(run_.model(), moment.k, static_cast<std::size_t>(camera_wish_.follow)));
+          camera_, com_of(run_.model(), snapshot.k, static_cast<std::size_t>(camera_wish_.follow)));
     const bool is_static = run_.shown.size() == 1 && instant.x.t == 0;
-    list.title =
-        is_static ? stage_.name : fmt::format("{}, t = {:.3f} s", stage_.name, instant.x.t);
+    list.title = is_static ? view_.name : fmt::format("{}, t = {:.3f} s", view_.name, instant.x.t);
     const bool is_film = run_.shown.size() > 1;
     copy_into(image, is_film ? painter_->paint_next(list) : painter_->paint(list), left_, 0);
     if (strip_) copy_into(image, strip_->at(instant.x.t), left_, height_);
   }
   const std::vector<LegendLine>& legend() const { return legend_; }
-  const std::vector<std::string>& notes() const { return stage_.cast.notes; }
+  const std::vector<std::string>& notes() const { return view_.cast.notes; }
 
  private:
-  void plot(const PictureWish& wish) {
-    CurveTrace trace(wish.curves);
-    for (const RunInstant& instant : run_.around)
-      trace.add(run_.plan.input.scene.get(), run_.moment(instant));
-    plots_ = trace.plots();
-  }
-
   const FilmedRun& run_;
-  SceneView stage_;
+  SceneView view_;
   CameraWish camera_wish_;
   int left_, width_, plot_height_, height_;
   Camera camera_;

@@ -1,5 +1,4 @@
-// Rendering: the pictures of a run, or of two side by side at the same instants, with curves that
-// run under them.
+// Pictures of a run, or of two side by side at the same instants, with curves below them.
 #pragma once
 
 #include <memory>
@@ -23,10 +22,10 @@ struct PictureWish {
   std::vector<const CurveKind*> curves;
 };
 
-// Two runs have one camera, one scale of arrows and one of curves, so that they can be compared.
+// Two runs share camera and scales.
 class Rendering {
  public:
-  // The runs outlive it. Each has as many instants to be shown. Throws InputError.
+  // The runs must outlive it and have equal numbers of pictures. Throws InputError.
   Rendering(const PictureWish& wish, const std::vector<const FilmedRun*>& runs);
   ~Rendering();
   Rendering(const Rendering&) = delete;

@@ -12,7 +12,7 @@
 namespace twinarm {
 namespace {
 
-// A NaN is no small error.
+// NaN counts as the largest error.
 double as_error(double error) {
   return std::isfinite(error) ? error : std::numeric_limits<double>::max();
 }
@@ -48,32 +48,30 @@ std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& toler
   };
   const double algebra = tolerances.algebra;
   add("v", "rate of the poses, by dual numbers", velocity_errors(in), algebra);
-  add("D", "mass matrix: ancestors locked, descendants free", subtree.D, algebra);
-  add("U", "wrench of a unit acceleration then (CRBA, RNEA)", subtree.U, algebra);
-  add("pA", "wrench where the body does not accelerate (CRBA, RNEA)", subtree.pA, algebra);
-  add("u", "force left at the joint then (CRBA, RNEA)", subtree.u, algebra);
+  add("D", "Schur complement of M: descendants free (CRBA)", subtree.D, algebra);
+  add("U", "wrench for unit qdd, descendants free (CRBA, RNEA)", subtree.U, algebra);
+  add("pA", "wrench for a = 0, descendants free (CRBA, RNEA)", subtree.pA, algebra);
+  add("u", "net joint force for a = 0 (CRBA, RNEA)", subtree.u, algebra);
   add("qdd", "M qdd + h = tau (CRBA, RNEA)", whole.qdd, algebra);
-  add("a", "accelerations by RNEA with the qdd found", whole.a, algebra);
-  add("tau", "torques back from RNEA with the qdd found", whole.tau, algebra);
-  add("f", "wrenches through joints: IA a + pA, RNEA", whole.f, algebra);
-  add("balance", "wrenches on each body sum to zero", balance_errors(in), algebra);
-  add("momentum", "rate of each body's momentum, by differences", momentum_errors(in),
+  add("a", "accelerations from qdd (RNEA)", whole.a, algebra);
+  add("tau", "joint forces from qdd (RNEA)", whole.tau, algebra);
+  add("f", "wrenches through joints, IA a + pA (RNEA)", whole.f, algebra);
+  add("balance", "sum of the wrenches on each body is zero", balance_errors(in), algebra);
+  add("momentum", "rate of momentum of each body, by differences", momentum_errors(in),
       tolerances.momentum);
   const std::vector<NamedError> loops = loop_errors(in);
   if (loops.empty()) return checks;
-  Check closed{"loops", "they stay closed: g'' = 0, by differences of poses", 0, tolerances.loops,
-               ""};
+  Check closed{"loops", "loop closure g'' = 0, by differences of poses", 0, tolerances.loops, ""};
   for (const auto& [name, error] : loops)
     if (as_error(error) > closed.error) closed.error = as_error(error), closed.worst = name;
   checks.push_back(std::move(closed));
   return checks;
 }
 
-// Checks along the motion: rates of poses by dual numbers, rates of momentum by differences.
 namespace {
 
-// A curve with the velocity and the acceleration of the motion at s = 0.
-State<double> on_the_way(const Inspection& in, double s) {
+// Curve with the velocity and the acceleration of the motion at s = 0.
+State<double> state_along_motion(const Inspection& in, double s) {
   State<double> x = in.x;
   move(in.model, in.x.qd, s, x);
   for (std::size_t k = 0; k < x.qd.size(); ++k) x.qd[k] += s * in.w.qdd[k];
@@ -85,12 +83,12 @@ State<double> on_the_way(const Inspection& in, double s) {
   return x;
 }
 
-// Linear and angular momentum of each body, the latter about the place where its origin is at
-// s = 0, world axes.
-using Momenta = std::vector<Eigen::Matrix<double, 6, 1>>;
+// Linear and angular momentum of each body in world axes, the latter about the position of its
+// origin at s = 0.
+using Momenta = std::vector<Vector6>;
 Momenta momenta(const Inspection& in, double s, Workspace<double>& w) {
-  kinematics(in.model, on_the_way(in, s), w);
-  Momenta all(in.body_count(), Eigen::Matrix<double, 6, 1>::Zero());
+  kinematics(in.model, state_along_motion(in, s), w);
+  Momenta all(in.body_count(), Vector6::Zero());
   for (std::size_t i = 1; i < in.body_count(); ++i) {
     const Force<double> h = in.model.I[i] * w.v[i];  // body axes, about the moving origin
     const Matrix3 R = to_eigen(w.X0[i].E).transpose();
@@ -101,7 +99,7 @@ Momenta momenta(const Inspection& in, double s, Workspace<double>& w) {
   return all;
 }
 
-// How fast anything turns, at most; a step in which the mechanism moves little.
+// Difference step [s] in which no body rotates by more than about 0.5 rad.
 double step_of(const Inspection& in) {
   std::vector<double> rate(in.body_count());
   double fastest = 0;
@@ -137,10 +135,10 @@ Errors velocity_errors(const Inspection& in) {
     E << value(of.r0).transpose(), value(of.r1).transpose(), value(of.r2).transpose();
     E_rate << rate(of.r0).transpose(), rate(of.r1).transpose(), rate(of.r2).transpose();
     const Matrix3 cross = -E_rate * E.transpose();  // [w]x in body axes
-    const Vector3 turn(cross(2, 1), cross(0, 2), cross(1, 0)), shift = E * rate(w.X0[i].r);
+    const Vector3 angular(cross(2, 1), cross(0, 2), cross(1, 0)), linear = E * rate(w.X0[i].r);
     const Vector3 w_i = to_eigen(in.w.v[i].w), v_i = to_eigen(in.w.v[i].v);
-    const double size = std::max({turn.norm(), shift.norm(), 1e-300});
-    const double error = std::max((turn - w_i).norm(), (shift - v_i).norm());
+    const double size = std::max({angular.norm(), linear.norm(), 1e-300});
+    const double error = std::max((angular - w_i).norm(), (linear - v_i).norm());
     errors[i] = error == 0 ? 0 : error / size;
   }
   return errors;
@@ -163,13 +161,13 @@ Errors momentum_errors(const Inspection& in) {
   Errors errors(in.body_count());
   for (std::size_t i = 1; i < in.body_count(); ++i) {
     const BodyBalance balance = balance_of(in, i);
-    Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+    Vector6 sum = Vector6::Zero();
     for (std::size_t k = 0; k + 1 < balance.wrenches.size(); ++k) {  // without inertia
       sum.head<3>() += balance.wrenches[k].force;
       sum.tail<3>() += balance.wrenches[k].torque;
     }
     const double error = (sum - rate[0][i]).lpNorm<Eigen::Infinity>();
-    errors[i] = error == 0 ? 0 : error / std::max(balance.largest, turning_load(in, i));
+    errors[i] = error == 0 ? 0 : error / std::max(balance.largest, gyroscopic_load(in, i));
   }
   return errors;
 }

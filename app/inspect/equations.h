@@ -1,8 +1,7 @@
-// The equations of the passes with their numbers in, term by term (RBDA table 7.1).
+// Equations of the passes with their numbers, term by term (RBDA table 7.1).
 //
-// Each term is computed anew, in link axes and by plain products of matrices; the left side is what
-// aba() has. So what is left between the two is a test of the passes, but for sums that aba() does
-// not keep: c, p and a' are made of their terms.
+// Terms are computed here by matrix products in link axes; the left side is aba()'s result, so the
+// residual tests the passes. aba() does not store c, p and a': these are the sums of their terms.
 // Cost O(children) of a body.
 #pragma once
 
@@ -16,10 +15,10 @@ namespace twinarm {
 
 struct EquationTerm {
   std::string symbol;     // "Xup v_p"
-  const char* words;      // what it is
-  std::size_t of;         // the body that hands it over; the body itself where nobody does
+  const char* words;      // meaning
+  std::size_t of;         // body that contributes it
   Eigen::MatrixXd value;  // 6 x 1, 6 x 6, nv x 1, nv x nv, 6 x nv
-  double size = 0;        // of a product: of what it sums up, beside which rounding is nothing
+  double size = 0;        // of a product: size of its factors, the scale of its rounding error
 };
 
 struct Equation {
@@ -28,11 +27,11 @@ struct Equation {
   std::vector<EquationTerm> terms;
   Eigen::MatrixXd value;
   bool by_columns = false;  // 6 x nv, a column for each velocity of the joint
-  double residual = 0;  // largest number of terms less value, as a part of the largest of all sizes
+  double residual = 0;      // max |sum of terms - value|, relative to the largest size
 };
 
-// Of a pass (1 to 3) at a body, in the order in which they are used. Link axes, about the link's
-// origin; joint values as on the command line.
+// Of a pass (1 to 3) at a body, in the order of computation. Link axes, about the link's origin;
+// joint values as on the command line.
 std::vector<Equation> equations_of(const Inspection& in, int pass, std::size_t body);
 
 }  // namespace twinarm

@@ -16,7 +16,7 @@ NamedWrench named(const Inspection& in, std::string source, std::size_t body,
   return {std::move(source), in_world(in, body, f.f), in_world(in, body, f.n)};
 }
 
-// m a_C and the rate of angular momentum about the link's origin O, with the signs of a load:
+// Minus m a_C and minus the rate of angular momentum about the link's origin O:
 //   m a_C = m a_O + alpha x h + w x (w x h),   h = m r_OC
 //   I_O alpha + w x I_O w + h x a_O
 NamedWrench inertia_of(const Inspection& in, std::size_t i) {
@@ -37,15 +37,8 @@ NamedWrench gravity_on(const Inspection& in, std::size_t i) {
   return {"gravity", in.model.I[i].m * g, h.cross(g)};
 }
 
-// A root link has no joint of its own: it stands on the world, or floats.
-std::string joint_label(const Inspection& in, std::size_t i) {
-  const std::string& name = in.model.joint_name[i];
-  return name.empty() ? "base" : name;
-}
-
-// Of the body and all that hangs on it [N]. What falls freely carries nothing, but its numbers are
-// differences of such loads.
-double carried_weight(const Inspection& in, std::size_t i) {
+// Weight of the subtree [N]: scale of the rounding error where a body falls freely.
+double subtree_weight(const Inspection& in, std::size_t i) {
   double mass = 0;
   for (std::size_t j = i; j < in.body_count(); ++j) {
     std::size_t ancestor = j;
@@ -57,7 +50,12 @@ double carried_weight(const Inspection& in, std::size_t i) {
 
 }  // namespace
 
-double turning_load(const Inspection& in, std::size_t i) {
+std::string joint_label(const Inspection& in, std::size_t body) {
+  const std::string& name = in.model.joint_name[body];
+  return name.empty() ? "base" : name;
+}
+
+double gyroscopic_load(const Inspection& in, std::size_t i) {
   const Force<double> h = in.model.I[i] * in.w.v[i];
   const Vector3 w = to_eigen(in.w.v[i].w), v = to_eigen(in.w.v[i].v);
   const Vector3 n = to_eigen(h.n), f = to_eigen(h.f);
@@ -95,7 +93,8 @@ BodyBalance balance_of(const Inspection& in, std::size_t body, const Viewpoint& 
                                 wrench.torque.lpNorm<Eigen::Infinity>()});
   }
   const double rest = std::max(force.lpNorm<Eigen::Infinity>(), torque.lpNorm<Eigen::Infinity>());
-  const double size = std::max({balance.largest, carried_weight(in, body), turning_load(in, body)});
+  const double size =
+      std::max({balance.largest, subtree_weight(in, body), gyroscopic_load(in, body)});
   balance.residual = rest == 0 ? 0 : rest / size;
   return balance;
 }
@@ -105,7 +104,7 @@ std::vector<JointBalance> joint_balances(const Inspection& in) {
   for (std::size_t i = 1; i < in.body_count(); ++i) {
     if (in.model.dofs(i) == 0) continue;
     const Force<double> f = joint_force(in, i);
-    const double carried = carried_weight(in, i);
+    const double weight = subtree_weight(in, i);
     for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof) {
       JointBalance balance;
       balance.body = i;
@@ -121,11 +120,11 @@ std::vector<JointBalance> joint_balances(const Inspection& in) {
         sum += torque.value;
         balance.largest = std::max(balance.largest, std::abs(torque.value));
       }
-      // S^T f is a sum of products that may cancel: what is left is held against them too.
+      // S^T f is a sum of products that may cancel: the residual is relative to |f| and |pA| too.
       const Force<double>& pA = in.w.pA[i];
       const double size =
           std::sqrt(std::max({dot(f.n, f.n), dot(f.f, f.f), dot(pA.n, pA.n), dot(pA.f, pA.f)}));
-      balance.largest = std::max({balance.largest, size, carried});
+      balance.largest = std::max({balance.largest, size, weight});
       balance.residual = sum == 0 ? 0 : std::abs(sum) / balance.largest;
       all.push_back(std::move(balance));
     }
@@ -134,32 +133,17 @@ std::vector<JointBalance> joint_balances(const Inspection& in) {
 }
 
 Matrix3 Viewpoint::R_WV(const Inspection& in, std::size_t body) const {
-  switch (axes) {
-    case Axes::own:
-      return in.k.X_WL[body].R;
-    case Axes::body:
-      return in.k.X_WL[axes_of].R;
-    case Axes::world:
-      break;
-  }
-  return Matrix3::Identity();
+  if (axes == Axes::world) return Matrix3::Identity();
+  return in.k.X_WL[axes == Axes::own ? body : axes_of].R;
 }
 
 Vector3 Viewpoint::p_WV(const Inspection& in, std::size_t body) const {
-  switch (about) {
-    case About::own_com: {
-      const Inertia<double>& I = in.model.I[body];
-      const Vector3 h = in.k.R_WB[body] * to_eigen(I.h);
-      return I.m > 0 ? Vector3(in.k.X_WL[body].p + h / I.m) : in.k.X_WL[body].p;
-    }
-    case About::body:
-      return in.k.X_WL[about_body].p;
-    case About::point:
-      return point;
-    case About::own_origin:
-      break;
-  }
-  return in.k.X_WL[body].p;
+  if (about == About::point) return point;
+  if (about == About::body) return in.k.X_WL[about_body].p;
+  const Inertia<double>& I = in.model.I[body];
+  if (about == About::own_origin || !(I.m > 0)) return in.k.X_WL[body].p;
+  const Vector3 h = in.k.R_WB[body] * to_eigen(I.h);
+  return in.k.X_WL[body].p + h / I.m;
 }
 
 NamedWrench Viewpoint::see(const Inspection& in, std::size_t body, NamedWrench wrench) const {
@@ -173,8 +157,8 @@ NamedWrench Viewpoint::see(const Inspection& in, std::size_t body, NamedWrench w
 std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from) {
   std::vector<NamedForce> all;
   for (const AppliedForce& actor : in.actors) {
-    NamedForce named{actor.source,   {},           {},          actor.point_W,
-                     actor.normal_W, std::nullopt, actor.is_tie};
+    NamedForce named{actor.source,        {}, {}, actor.point_W, actor.normal_W, std::nullopt,
+                     actor.is_interaction};
     for (const AppliedForce::OnBody& on : actor.bodies) {
       const Force<double> f = in.force_of(on);
       const Matrix3& R = in.k.R_WB[on.body];

@@ -1,9 +1,8 @@
-// Free-body view: every wrench on a body, about one point, that sum to zero.
+// Free-body diagram: all wrenches on a body about one point; their sum is zero.
 //
-//   gravity + through its joint + through its children's joints + applied + inertia = 0
-// The wrench through joint i is what ABA has of it, f_i = IA_i a_i + pA_i; inertia is Newton's and
-// Euler's in three dimensions, from the acceleration of the centre of mass. So the sum is a test of
-// the passes, and not zero by the way it is made.
+//   gravity + joint + joints of the children + applied + inertia = 0
+// The wrench through joint i is f_i = IA_i a_i + pA_i of ABA. The inertia wrench is computed from
+// Newton's and Euler's equations with 3-vectors, so the sum tests the passes.
 #pragma once
 
 #include <optional>
@@ -14,15 +13,13 @@
 
 namespace twinarm {
 
-// From where wrenches are looked at: in whose axes, and about which point.
-//
-// A wrench (f, n about O) is about P = O + r the wrench (f, n - r x f). Any viewpoint shows the
-// same balance; a point is well chosen where unknown forces pass through it.
 struct NamedWrench {
   std::string source;
-  Vector3 force, torque;  // the torque is about the viewpoint's point
+  Vector3 force, torque;  // torque about the point of the viewpoint
 };
 
+// Axes and reference point in which wrenches are expressed. A wrench (f, n about O) is
+// (f, n - r x f) about P = O + r.
 struct Viewpoint {
   // Axes of the world, of each body's own link, or of one link.
   enum class Axes { world, own, body } axes = Axes::world;
@@ -32,14 +29,14 @@ struct Viewpoint {
   std::size_t about_body = 0;
   Vector3 point = Vector3::Zero();
 
-  // Of what acts on a body.
+  // For wrenches on that body.
   Matrix3 R_WV(const Inspection& in, std::size_t body) const;
   Vector3 p_WV(const Inspection& in, std::size_t body) const;
-  // A wrench in world axes about the body's origin, as it is seen from here.
+  // Converts a wrench in world axes about the body's origin.
   NamedWrench see(const Inspection& in, std::size_t body, NamedWrench wrench) const;
 };
 
-// A force that stands under a name of its own: coupling, contact, constraint, applied wrench.
+// Coupling, contact, constraint, applied wrench or joint force, with its value on each body.
 struct NamedForce {
   std::string source;
   struct End {
@@ -55,29 +52,28 @@ struct NamedForce {
   std::vector<OnJoint> joints;
   std::optional<Vector3> point;   // where it acts, world
   std::optional<Vector3> normal;  // of a contact, towards its second body, world
-  // Of a contact: how hard it presses, and its part in the plane [N].
+  // Of a contact: normal and tangential force [N].
   struct Parts {
     double normal, friction;
   };
   std::optional<Parts> parts;
-  bool is_tie = false;  // as in Actor
+  bool is_interaction = false;  // as in AppliedForce
 };
-// In the order of the list of actors.
+// In the order of Inspection::actors.
 std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from);
 
 struct BodyBalance {
   std::size_t body = 0;
   std::vector<NamedWrench> wrenches;  // "inertia" last
-  double largest = 0;                 // of all numbers [N, N m]
-  // The largest number of the sum, as a part of `largest`; of what falls or turns freely, as a
-  // part of the weight that hangs on the body, or of turning_load().
+  double largest = 0;                 // max norm of all wrenches [N, N m]
+  // Max norm of the sum, relative to `largest`, to the weight of the subtree, or to
+  // gyroscopic_load(), whichever is largest.
   double residual = 0;
 };
 
 BodyBalance balance_of(const Inspection& in, std::size_t body, const Viewpoint& from = {});
 
-// At one degree of freedom of a joint: what pulls at it, the rotor's inertia, and what it hands on
-// to the body, S^T f with the sign that makes the sum zero.
+// Forces along one degree of freedom: applied, rotor inertia, and -S^T f; their sum is zero.
 struct JointBalance {
   std::size_t body = 0, dof = 0;
   struct Torque {
@@ -89,11 +85,14 @@ struct JointBalance {
 };
 std::vector<JointBalance> joint_balances(const Inspection& in);
 
-// Of the rates of momentum that a turning body has even where nothing pushes, |v x* I v| [N, N m]:
-// they cancel within its inertia, and what is left is rounding of them.
-double turning_load(const Inspection& in, std::size_t i);
+// max |v x* I v| [N, N m]: terms of this size cancel within the inertia wrench of a rotating body,
+// and set the scale of its rounding error.
+double gyroscopic_load(const Inspection& in, std::size_t i);
 
-// The wrench through joint i, as the parent exerts it: IA a + pA, body axes.
+// Joint's name; "base" for the joint of a root link without name.
+std::string joint_label(const Inspection& in, std::size_t body);
+
+// Wrench of the parent on body i through its joint: IA a + pA, body axes.
 Force<double> joint_force(const Inspection& in, std::size_t i);
 
 }  // namespace twinarm

@@ -74,8 +74,7 @@ Matrix3 link_from_body(const Model<double>& model, std::size_t body) {
   return to_eigen(model.turn[body]).transpose();
 }
 
-// Converts whatever a field holds.
-struct Shower {
+struct QuantityConverter {
   const Inspection& in;
   std::size_t body;
   LinkAxes axes;
@@ -121,21 +120,21 @@ Vector6 LinkFrame::show(const Force<double>& f) const {
   return (Vector6() << R_LB_ * to_eigen(f.n), R_LB_ * to_eigen(f.f)).finished();
 }
 Matrix6 LinkFrame::show(const ArticulatedInertia<double>& a) const {
-  const auto turned = [&](const Mat3<double>& block) {
+  const auto rotated = [&](const Mat3<double>& block) {
     return Matrix3(R_LB_ * to_eigen(block) * R_LB_.transpose());
   };
-  // Turning rounds; both triangles are to show the same digits.
+  // Rotation rounds; symmetric parts keep equal digits in both triangles.
   const auto symmetric = [](const Matrix3& m) { return Matrix3(0.5 * (m + m.transpose())); };
   Matrix6 shown;
-  shown.topLeftCorner<3, 3>() = symmetric(turned(full(a.I)));
-  shown.topRightCorner<3, 3>() = turned(a.H);
+  shown.topLeftCorner<3, 3>() = symmetric(rotated(full(a.I)));
+  shown.topRightCorner<3, 3>() = rotated(a.H);
   shown.bottomLeftCorner<3, 3>() = shown.topRightCorner<3, 3>().transpose();
-  shown.bottomRightCorner<3, 3>() = symmetric(turned(full(a.M)));
+  shown.bottomRightCorner<3, 3>() = symmetric(rotated(full(a.M)));
   return shown;
 }
-Matrix6 LinkFrame::show(const Transform<double>& X) const {
-  const Matrix3 E = turn_from_parent(X);
-  const Vector3 r = shift_from_parent(X);
+Matrix6 LinkFrame::show(const Transform<double>& Xup) const {
+  const Matrix3 E = rotation_from_parent(Xup);
+  const Vector3 r = translation_from_parent(Xup);
   const Matrix3 cross =
       (Matrix3() << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0).finished();
   Matrix6 shown = Matrix6::Zero();
@@ -143,11 +142,11 @@ Matrix6 LinkFrame::show(const Transform<double>& X) const {
   shown.bottomLeftCorner<3, 3>() = -E * cross;
   return shown;
 }
-Matrix3 LinkFrame::turn_from_parent(const Transform<double>& X) const {
-  return R_LB_ * to_eigen(X.E) * R_PB_.transpose();
+Matrix3 LinkFrame::rotation_from_parent(const Transform<double>& Xup) const {
+  return R_LB_ * to_eigen(Xup.E) * R_PB_.transpose();
 }
-Vector3 LinkFrame::shift_from_parent(const Transform<double>& X) const {
-  return R_PB_ * to_eigen(X.r);
+Vector3 LinkFrame::translation_from_parent(const Transform<double>& Xup) const {
+  return R_PB_ * to_eigen(Xup.r);
 }
 
 LinkAxes::LinkAxes(const Inspection& in, std::size_t body)
@@ -176,18 +175,18 @@ Eigen::MatrixXd LinkAxes::square(const std::vector<double>& D) const {
   return T_.transpose() * Eigen::Map<const RowMajor>(D.data() + in_.w.iD[body_], nv, nv) * T_;
 }
 
-Force<double> own_force(const Inspection& in, std::size_t body) {
+Force<double> bias_force(const Inspection& in, std::size_t body) {
   return crf(in.w.v[body], in.model.I[body] * in.w.v[body]) - in.forces.f_ext[body];
 }
 
 std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, std::size_t body) {
-  const Shower shower{in, body, LinkAxes(in, body)};
+  const QuantityConverter converter{in, body, LinkAxes(in, body)};
   std::vector<DisplayedQuantity> all;
   const auto take = [&](const Quantity& quantity, const auto& field) {
     const bool is_input = pass == 1 && quantity.pass == 0;
     if (quantity.pass != pass && !is_input) return;
-    if (quantity.by != Quantity::By::body && shower.axes.nv() == 0) return;
-    DisplayedQuantity shown = shower.of(quantity, field);
+    if (quantity.by != Quantity::By::body && converter.axes.nv() == 0) return;
+    DisplayedQuantity shown = converter.of(quantity, field);
     if (is_input && shown.value.isZero(0)) return;
     all.push_back(std::move(shown));
   };
@@ -197,16 +196,16 @@ std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, 
     all.push_back({{"I", 1, By::body, "spatial inertia of the body alone", "kg m^2, kg m, kg",
                     "of the model; (2.63)"},
                    kLinkFrame,
-                   shower.axes.show(ArticulatedInertia<double>(in.model.I[body]))});
+                   converter.axes.show(ArticulatedInertia<double>(in.model.I[body]))});
     in.w.describe(take);
     all.push_back({{"p", 1, By::body, "bias force of the body alone", "N m; N",
                     "p = v x* I v - f_ext, table 7.1; (2.32)"},
                    kLinkFrame,
-                   shower.axes.show(own_force(in, body))});
+                   converter.axes.show(bias_force(in, body))});
     return all;
   }
   in.w.describe(take);
-  // What the base carries hands nothing on.
+  // Children of the base pass no inertia on.
   if (in.parent(body) > 0) in.trace.describe(take);
   return all;
 }

@@ -1,7 +1,7 @@
-// One state of one mechanism under named forces, and what aba() leaves of it.
+// One state of one mechanism under named forces, and the quantities of its ABA passes.
 //
-// The acceleration is found once, by the aba() that all runs use, with FullTrace. Whoever pushes
-// stands in a list by name; what the passes are given is the sum of the list.
+// Accelerations come from one call of the aba() that all runs use, with FullTrace. `actors` lists
+// the forces by name; the passes receive their sum.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,8 @@
 
 namespace twinarm {
 
-// One thing that pushes: a wrench, an actuator, a coupling, a contact point, a constraint. The
-// implicit parts act against the acceleration that is found: f - impedance a, tau - armature qdd.
+// A named force: wrench, actuator, coupling, contact point or constraint. Its implicit parts depend
+// on the acceleration: f - impedance a, tau - armature qdd.
 struct AppliedForce {
   struct OnBody {
     std::size_t body;
@@ -29,23 +29,22 @@ struct AppliedForce {
     std::size_t dof;  // velocity index
     double tau = 0, armature = 0;
   };
-  std::string source;  // as in the ledger: "wrench/0", "coupling/NAME", "joint/NAME/damping"
+  std::string source;  // as in the energy balance: "wrench/0", "coupling/NAME"
   std::vector<OnBody> bodies;
   std::vector<OnJoint> joints;
-  // Where it acts, if at a point; and the normal of a contact. World axes.
-  std::optional<Vector3> point_W{}, normal_W{};
-  bool is_tie = false;  // a coupling, contact, constraint or wrench; else it acts within a joint
+  std::optional<Vector3> point_W{}, normal_W{};  // point of application; normal of a contact
+  bool is_interaction = false;  // coupling, contact, constraint or wrench; not within a joint
 };
 
-// An actor of what a source of forces added to forces that were zero.
+// From what a force source has added to zero forces.
 AppliedForce actor_of(std::string source, const Forces<double>& added);
 
 struct Inspection {
   const Model<double>& model;
   State<double> x;
   std::vector<AppliedForce> actors;
-  std::vector<LoopClosure> loops;  // that `actors` keep closed; for a check
-  Forces<double> forces;           // their sum
+  std::vector<LoopClosure> loops;  // closed by forces in `actors`; for the cross-check
+  Forces<double> forces;           // sum of `actors`
   Kinematics k;
   Workspace<double> w;
   FullTrace<double> trace;
@@ -57,7 +56,7 @@ struct Inspection {
   std::size_t body_count() const { return model.parent.size(); }
   std::size_t parent(std::size_t i) const { return static_cast<std::size_t>(model.parent[i]); }
   std::vector<std::size_t> children(std::size_t i) const;
-  // What acts, at the acceleration that was found.
+  // At the acceleration of this state.
   Force<double> force_of(const AppliedForce::OnBody& on) const {
     return on.f - on.impedance * w.a[on.body];
   }
@@ -66,23 +65,23 @@ struct Inspection {
   }
 };
 
-// The quantities of the passes as users see them: in the axes of the link in their file.
+// Quantities of the passes in the axes of the link frames of the robot's file.
 //
-// The passes work in body axes, B, and some joints in coordinates of the solver; here
+// The passes use body axes B; some joints have other coordinates in the solver. Conversion:
 //   motion, force   R_LB of both parts            inertia   R_LB of each 3 x 3 block
-//   transform       R_LB E R_BL of the parent; its shift in the parent's link axes
+//   transform       R_LB E R_BL of the parent; translation in the parent's link axes
 //   joint values    as on the command line: a floating joint has (v; w) in the axes of its frame in
-//                   the parent, where the solver has (w in the child's axes; v). T is orthogonal,
-//                   so S T, U T, T^T D T, T^T u, T^T qdd.
+//                   the parent, in the solver (w in the child's axes; v). T is orthogonal, so the
+//                   quantities become S T, U T, T^T D T, T^T u, T^T qdd.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-// Where the numbers of a quantity are to be read: Shown::frame.
+// Frame in which a quantity is expressed: DisplayedQuantity::frame.
 inline constexpr const char* kLinkFrame = "link axes, about the link's origin";
 inline constexpr const char* kParentToLinkFrame = "from the parent's link axes to the link's";
 inline constexpr const char* kJointFrame = "joint";
 
-// From the body axes of one body to its link's. Vectors of six are columns, angular part first.
+// Converts from body axes to link axes. Spatial vectors are columns, angular part first.
 class LinkFrame {
  public:
   LinkFrame(const Model<double>& model, std::size_t body);
@@ -90,20 +89,20 @@ class LinkFrame {
   Vector6 show(const Motion<double>& m) const;
   Vector6 show(const Force<double>& f) const;
   Matrix6 show(const ArticulatedInertia<double>& a) const;
-  Matrix6 show(const Transform<double>& X) const;               // Xup of the body
-  Matrix3 turn_from_parent(const Transform<double>& X) const;   // E of it
-  Vector3 shift_from_parent(const Transform<double>& X) const;  // r of it, parent's link axes [m]
+  Matrix6 show(const Transform<double>& Xup) const;
+  Matrix3 rotation_from_parent(const Transform<double>& Xup) const;     // E
+  Vector3 translation_from_parent(const Transform<double>& Xup) const;  // r, parent's link axes [m]
 
  private:
   Matrix3 R_LB_, R_PB_;  // of the body, of its parent
 };
 
-// Also the values of its joint.
+// Converts joint quantities too.
 class LinkAxes : public LinkFrame {
  public:
   LinkAxes(const Inspection& in, std::size_t body);
 
-  // Joint values of the body's joint: a vector by velocity; columns by velocity.
+  // Of the body's joint, by its velocities.
   Eigen::VectorXd joint(const std::vector<double>& by_velocity) const;
   Eigen::MatrixXd square(const std::vector<double>& D) const;
   template <class Six>
@@ -118,20 +117,20 @@ class LinkAxes : public LinkFrame {
  private:
   const Inspection& in_;
   std::size_t body_, iv_, nv_;
-  Eigen::MatrixXd T_;  // nv x nv: the solver's velocities of the command line's
+  Eigen::MatrixXd T_;  // nv x nv: from velocities of the command line to those of the solver
 };
 
-// One quantity of one body. A number is 1 x 1, what has six parts 6 x 1; S and U are 6 x nv.
+// One quantity of one body: 1 x 1, 6 x 1, 6 x 6, or 6 x nv (S, U).
 struct DisplayedQuantity {
   Quantity quantity;
   const char* frame;
   Eigen::MatrixXd value;
 };
-// What a pass (1 to 3) leaves of a body, in the order in which it is found; pass 1 begins with the
-// inputs that are not zero.
+// Results of a pass (1 to 3) at a body, in the order of computation; pass 1 begins with the
+// nonzero inputs.
 std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, std::size_t body);
 
-// The force of the body alone, v x* I v - f_ext.
-Force<double> own_force(const Inspection& in, std::size_t body);
+// Bias force p = v x* I v - f_ext.
+Force<double> bias_force(const Inspection& in, std::size_t body);
 
 }  // namespace twinarm

@@ -1,13 +1,12 @@
-// Closed loops, gears and followers: the acceleration that was found keeps them closed.
+// Closed loops, gears and mimic joints: the acceleration keeps them closed.
 //
-// A loop asks for g(q, t) = 0, so along the motion g'' = J qdd + gamma = 0. Neither J nor gamma is
-// looked at: g is made of poses alone, along a curve with the velocity and the acceleration of the
-// motion, and differenced twice,
+// A constraint is g(q, t) = 0, so along the motion g'' = J qdd + gamma = 0. J and gamma are not
+// used: g is evaluated from poses along a curve with the velocity and acceleration of the motion,
 //   g'' = (g(s) - 2 g(0) + g(-s)) / s^2 + series in s^2,
-// with Richardson's extrapolation to order 8. g as in solver/loops/loop_closure.h, by the pose of
-// C_b in C_a; of a distance half of its square over it, which has the same g'' where g = g' = 0 and
-// no root. Errors are parts of the largest of: accelerations of both ends, gravity, and what pushes
-// over the mass that it pushes, for g'' is what they leave. Cost O(n) a loop.
+// with Richardson extrapolation to order 8. g as in solver/loops/loop_closure.h, by the pose of C_b
+// in C_a; of a distance, half of its square over it, with the same g'' where g = g' = 0 and without
+// a square root. Errors are relative to the largest of: accelerations of both ends, gravity, and
+// forces over the mass they act on. Cost O(n) a loop.
 #include <algorithm>
 #include <cmath>
 
@@ -23,28 +22,28 @@ bool is_of_joints(const LoopClosure& loop) {
   return facts_of(loop.type).ends != LoopBetween::bodies;
 }
 
-// Poses to the second order in s.
-State<double> poses_on_the_way(const Inspection& in, double s) {
+// Poses accurate to second order in s.
+State<double> poses_along_motion(const Inspection& in, double s) {
   State<double> x = in.x;
   std::vector<double> mean = in.x.qd;
   for (std::size_t k = 0; k < mean.size(); ++k) mean[k] += 0.5 * s * in.w.qdd[k];
   for (std::size_t i = 1; i < in.body_count(); ++i)
     if (in.model.joint[i] == JointType::prescribed) {
-      // (w; v) and its rate in body axes, which turn: p'' = R (v' + w x v).
+      // (w; v) and its rate in rotating body axes: p'' = R (v' + w x v).
       double* vJ = x.prescribed.data() + in.model.ip[i];
-      const Vec3<double> turned =
+      const Vec3<double> w_x_v =
           cross(Vec3<double>{vJ[0], vJ[1], vJ[2]}, Vec3<double>{vJ[3], vJ[4], vJ[5]});
       for (std::size_t k = 0; k < 6; ++k) vJ[k] += 0.5 * s * vJ[6 + k];
-      vJ[3] += 0.5 * s * turned.x, vJ[4] += 0.5 * s * turned.y, vJ[5] += 0.5 * s * turned.z;
+      vJ[3] += 0.5 * s * w_x_v.x, vJ[4] += 0.5 * s * w_x_v.y, vJ[5] += 0.5 * s * w_x_v.z;
     }
   move(in.model, mean, s, x);
   return x;
 }
 
-// g, then the places and the axes of both ends.
+// g, then positions and axes of both ends.
 VectorXd rows_and_ends(const Inspection& in, const LoopClosure& loop, double s, double distance,
                        Kinematics& k) {
-  const State<double> x = poses_on_the_way(in, s);
+  const State<double> x = poses_along_motion(in, s);
   const auto a = static_cast<std::size_t>(loop.body_a), b = static_cast<std::size_t>(loop.body_b);
   if (is_of_joints(loop)) {
     VectorXd all(3);
@@ -62,8 +61,8 @@ VectorXd rows_and_ends(const Inspection& in, const LoopClosure& loop, double s, 
   return all;
 }
 
-// A time in which neither end moves far; of joints, what carries them does not count. 0: nothing
-// moves it.
+// Difference step [s] in which neither end moves far; for constraints between joints only these
+// joints count. 0: no motion.
 double step_of_loop(const Inspection& in, const LoopClosure& loop) {
   double fastest = 0;
   for (const int end : {loop.body_a, loop.body_b}) {
@@ -78,13 +77,13 @@ double step_of_loop(const Inspection& in, const LoopClosure& loop) {
     }
     fastest = std::max({fastest, rate, std::sqrt(acceleration)});
   }
-  // Of the square of a distance the rates are twice those of the ends.
+  // The square of a distance changes at twice the rate.
   const double part = loop.type == LoopType::distance ? 0.25 : 0.5;
   return fastest > 0 ? part / fastest : 0;
 }
 
-// What the accelerations are made of.
-double max_push(const Inspection& in) {
+// Largest of gravity and force over mass [m/s^2]: the scale of the error.
+double max_specific_force(const Inspection& in) {
   double largest = std::max(to_eigen(in.model.gravity).norm(), 1e-300);
   for (const AppliedForce& actor : in.actors)
     for (const AppliedForce::OnBody& on : actor.bodies)
@@ -93,7 +92,7 @@ double max_push(const Inspection& in) {
   return largest;
 }
 
-double loop_error(const Inspection& in, const LoopClosure& loop, double push, Kinematics& k) {
+double loop_error(const Inspection& in, const LoopClosure& loop, double scale, Kinematics& k) {
   const double first = step_of_loop(in, loop);
   if (first == 0) return 0;
   const Vector3 gap = k.X_WL[static_cast<std::size_t>(loop.body_a)] * loop.X_LaC.p -
@@ -109,12 +108,11 @@ double loop_error(const Inspection& in, const LoopClosure& loop, double push, Ki
   forward_kinematics(in.model, in.x, k);
   const auto rows = static_cast<Index>(facts_of(loop.type).rows);
   return second.head(rows).lpNorm<Eigen::Infinity>() /
-         std::max(push, second.tail(second.size() - rows).lpNorm<Eigen::Infinity>());
+         std::max(scale, second.tail(second.size() - rows).lpNorm<Eigen::Infinity>());
 }
 
-// A follower is geared to its leader.
-std::vector<LoopClosure> with_followers(const Model<double>& model,
-                                        std::vector<LoopClosure> loops) {
+// A mimic joint is a gear with the joint that it mimics.
+std::vector<LoopClosure> with_mimics(const Model<double>& model, std::vector<LoopClosure> loops) {
   const auto body_of = [&](std::size_t dof) {
     int body = 1;
     while (model.dofs(static_cast<std::size_t>(body)) == 0 ||
@@ -137,12 +135,12 @@ std::vector<LoopClosure> with_followers(const Model<double>& model,
 
 std::vector<NamedError> loop_errors(const Inspection& in) {
   std::vector<NamedError> errors;
-  const std::vector<LoopClosure> loops = with_followers(in.model, in.loops);
+  const std::vector<LoopClosure> loops = with_mimics(in.model, in.loops);
   if (loops.empty()) return errors;
-  const double push = max_push(in);
+  const double scale = max_specific_force(in);
   Kinematics k = in.k;
   for (const LoopClosure& loop : loops)
-    errors.push_back({loop.name, loop_error(in, loop, push, k)});
+    errors.push_back({loop.name, loop_error(in, loop, scale, k)});
   return errors;
 }
 

@@ -1,5 +1,4 @@
 // D, U, u and pA from the equations of motion of each subtree.
-
 #include <Eigen/Core>
 #include <algorithm>
 #include <tuple>
@@ -14,7 +13,7 @@
 namespace twinarm {
 namespace {
 
-// The same mechanism by CRBA and RNEA, implicit terms included:
+// Equations of motion by CRBA and RNEA, implicit terms included:
 //   M = M_crba + sum J^T impedance J + armature,   h = RNEA at qdd = 0 with f - impedance a_0.
 class CrbaRneaReference {
  public:
@@ -22,20 +21,18 @@ class CrbaRneaReference {
 
   const Eigen::MatrixXd& M() const { return M_; }
 
-  struct Answer {
+  struct Result {
     Eigen::VectorXd tau;            // by velocity
     std::vector<Motion<double>> a;  // by body
     std::vector<Force<double>> f;   // through each joint
   };
-  // What it takes to move with qdd: tau = M qdd + h.
-  Answer inverse(const Eigen::VectorXd& qdd) { return inverse(qdd, 0); }
-  // The same for the subtree of body i, as if its parent moved so that a_i is S qdd_i: what the
-  // subtree feels of a rigid acceleration is taken away.
-  Answer inverse(const Eigen::VectorXd& qdd, std::size_t subtree);
+  // Inverse dynamics tau = M qdd + h. With `subtree` = i > 0, of the subtree of body i for a parent
+  // motion such that a_i = S qdd_i: its rigid acceleration is subtracted.
+  Result inverse(const Eigen::VectorXd& qdd, std::size_t subtree = 0);
   // At rest, without gravity or forces: tau = M qdd.
-  Answer inertial(const Eigen::VectorXd& qdd);
+  Result inertial(const Eigen::VectorXd& qdd);
 
-  // i's velocities, and those of its descendants.
+  // Velocity indices of joint i, and of its descendants.
   struct Rows {
     std::vector<Eigen::Index> own, below;
   };
@@ -44,7 +41,7 @@ class CrbaRneaReference {
 
  private:
   void add_implicit();
-  Answer run(const Model<double>& model, const State<double>& x, const Eigen::VectorXd& qdd,
+  Result run(const Model<double>& model, const State<double>& x, const Eigen::VectorXd& qdd,
              const std::vector<Force<double>>& f_ext);
 
   const Inspection& in_;
@@ -58,7 +55,7 @@ std::vector<double> as_list(const Eigen::VectorXd& v) {
   return {v.data(), v.data() + v.size()};
 }
 
-// Nothing moves, those of given motion neither.
+// Zero velocities, prescribed motions included.
 State<double> at_rest(State<double> x) {
   std::ranges::fill(x.qd, 0);
   std::ranges::fill(x.prescribed, 0);
@@ -74,7 +71,7 @@ CrbaRneaReference::CrbaRneaReference(const Inspection& in)
   add_implicit();
 }
 
-// J of body b in its own axes has the columns X S_j of all joints below it, X from j to b.
+// J of body b in its own axes has the columns X S_j of its ancestors' joints, X from j to b.
 void CrbaRneaReference::add_implicit() {
   for (std::size_t dof = 0; dof < in_.model.nv; ++dof)
     M_(static_cast<Eigen::Index>(dof), static_cast<Eigen::Index>(dof)) += in_.forces.armature[dof];
@@ -95,22 +92,22 @@ void CrbaRneaReference::add_implicit() {
   }
 }
 
-CrbaRneaReference::Answer CrbaRneaReference::run(const Model<double>& model, const State<double>& x,
+CrbaRneaReference::Result CrbaRneaReference::run(const Model<double>& model, const State<double>& x,
                                                  const Eigen::VectorXd& qdd,
                                                  const std::vector<Force<double>>& f_ext) {
   rnea(model, x, as_list(qdd), f_ext, w_);
-  Answer answer{Eigen::Map<const Eigen::VectorXd>(w_.tau.data(), qdd.size()), w_.a, w_.f};
+  Result result{Eigen::Map<const Eigen::VectorXd>(w_.tau.data(), qdd.size()), w_.a, w_.f};
   for (Eigen::Index k = 0; k < qdd.size(); ++k)
-    answer.tau[k] += in_.forces.armature[static_cast<std::size_t>(k)] * qdd[k];
-  return answer;
+    result.tau[k] += in_.forces.armature[static_cast<std::size_t>(k)] * qdd[k];
+  return result;
 }
 
-CrbaRneaReference::Answer CrbaRneaReference::inverse(const Eigen::VectorXd& qdd,
+CrbaRneaReference::Result CrbaRneaReference::inverse(const Eigen::VectorXd& qdd,
                                                      std::size_t subtree) {
-  Answer first = run(in_.model, in_.x, qdd, in_.forces.f_ext);
+  Result first = run(in_.model, in_.x, qdd, in_.forces.f_ext);
   if (subtree == 0 && !in_.forces.has_impedance) return first;
   std::vector<Force<double>> f_ext = in_.forces.f_ext;
-  std::vector<Motion<double>> rigid(in_.body_count());  // of the subtree, as body i
+  std::vector<Motion<double>> rigid(in_.body_count());  // of the subtree, with body i
   if (subtree > 0) {
     rigid[subtree] = first.a[subtree];
     for (std::size_t dof = in_.model.iv[subtree];
@@ -126,13 +123,13 @@ CrbaRneaReference::Answer CrbaRneaReference::inverse(const Eigen::VectorXd& qdd,
   return run(in_.model, in_.x, qdd, f_ext);
 }
 
-CrbaRneaReference::Answer CrbaRneaReference::inertial(const Eigen::VectorXd& qdd) {
+CrbaRneaReference::Result CrbaRneaReference::inertial(const Eigen::VectorXd& qdd) {
   const std::vector<Force<double>> none(in_.body_count());
-  Answer answer = run(weightless_, rest_, qdd, none);
-  if (!in_.forces.has_impedance) return answer;
+  Result result = run(weightless_, rest_, qdd, none);
+  if (!in_.forces.has_impedance) return result;
   std::vector<Force<double>> implicit(in_.body_count());
   for (std::size_t b = 1; b < in_.body_count(); ++b)
-    implicit[b] = -(in_.forces.impedance[b] * answer.a[b]);
+    implicit[b] = -(in_.forces.impedance[b] * result.a[b]);
   return run(weightless_, rest_, qdd, implicit);
 }
 
@@ -151,15 +148,12 @@ CrbaRneaReference::Rows CrbaRneaReference::rows_of(std::size_t body) const {
   return rows;
 }
 
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-
 Vector6 as_vector(const Force<double>& f) {
   return (Vector6() << f.n.x, f.n.y, f.n.z, f.f.x, f.f.y, f.f.z).finished();
 }
 
-// Of two matrices, as a part of `scale`.
 template <class A, class B>
-double apart(const A& a, const B& b, double scale) {
+double relative_difference(const A& a, const B& b, double scale) {
   if (a.size() == 0) return 0;
   const double error = (a - b).template lpNorm<Eigen::Infinity>();
   return error == 0 ? 0 : error / scale;
@@ -169,60 +163,63 @@ double size_of(const A& a) {
   return a.size() == 0 ? 0 : a.template lpNorm<Eigen::Infinity>();
 }
 
-// What is compared for one body. The answers are held against the terms that they are differences
-// of: an inertia felt through free joints may be small against what is locked.
+// Errors of one body, relative to the terms of the Schur complement: the apparent inertia through
+// free joints may be small compared with that through locked joints.
 class Subtree {
  public:
-  Subtree(const Inspection& in, CrbaRneaReference& second, std::size_t body)
-      : in_(in), second_(second), body_(body), rows_(second.rows_of(body)) {
-    M_ii_ = second.M()(rows_.own, rows_.own);
-    M_id_ = second.M()(rows_.own, rows_.below);
-    M_dd_ = second.M()(rows_.below, rows_.below);
+  Subtree(const Inspection& in, CrbaRneaReference& reference, std::size_t body)
+      : in_(in), reference_(reference), body_(body), rows_(reference.rows_of(body)) {
+    M_ii_ = reference.M()(rows_.own, rows_.own);
+    M_id_ = reference.M()(rows_.own, rows_.below);
+    M_dd_ = reference.M()(rows_.below, rows_.below);
   }
 
   double D_error() const {
     const auto nv = static_cast<Eigen::Index>(rows_.own.size());
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
     const Eigen::Map<const RowMajor> D(in_.w.D.data() + in_.w.iD[body_], nv, nv);
-    const Eigen::MatrixXd second = M_ii_ - M_id_ * solve_below(M_id_.transpose());
-    return apart(D, second, size_of(M_ii_));
+    const Eigen::MatrixXd expected = M_ii_ - M_id_ * solve_below(M_id_.transpose());
+    return relative_difference(D, expected, size_of(M_ii_));
   }
 
   double U_error() const {
     double worst = 0;
     const Eigen::MatrixXd below = solve_below(M_id_.transpose());
     for (std::size_t k = 0; k < rows_.own.size(); ++k) {
-      Eigen::VectorXd qdd = Eigen::VectorXd::Zero(second_.M().rows());
+      Eigen::VectorXd qdd = Eigen::VectorXd::Zero(reference_.M().rows());
       qdd[rows_.own[k]] = 1;
-      const CrbaRneaReference::Answer locked = second_.inertial(qdd);
+      const CrbaRneaReference::Result locked = reference_.inertial(qdd);
       for (std::size_t d = 0; d < rows_.below.size(); ++d)
         qdd[rows_.below[d]] = -below(static_cast<Eigen::Index>(d), static_cast<Eigen::Index>(k));
-      const Vector6 U = as_vector(second_.inertial(qdd).f[body_]);
-      const Vector6 found = as_vector(in_.w.U[static_cast<std::size_t>(rows_.own[k])]);
-      worst = std::max(worst, apart(found, U, size_of(as_vector(locked.f[body_]))));
+      const Vector6 expected = as_vector(reference_.inertial(qdd).f[body_]);
+      const Vector6 U = as_vector(in_.w.U[static_cast<std::size_t>(rows_.own[k])]);
+      worst =
+          std::max(worst, relative_difference(U, expected, size_of(as_vector(locked.f[body_]))));
     }
     return worst;
   }
 
-  // Errors of u and of pA; `load` is a size of the wrenches that they are differences of.
+  // Errors of u and of pA, relative to `load` at least.
   std::pair<double, double> bias_errors(double load) const {
     const Eigen::VectorXd all_tau = Eigen::Map<const Eigen::VectorXd>(
         in_.forces.tau.data(), static_cast<Eigen::Index>(in_.forces.tau.size()));
-    Eigen::VectorXd qdd = Eigen::VectorXd::Zero(second_.M().rows());
-    const CrbaRneaReference::Answer held = second_.inverse(qdd, body_);
-    const Eigen::VectorXd left = all_tau - held.tau;
-    const Eigen::VectorXd below = solve_below(left(rows_.below));
+    Eigen::VectorXd qdd = Eigen::VectorXd::Zero(reference_.M().rows());
+    const CrbaRneaReference::Result locked = reference_.inverse(qdd, body_);
+    const Eigen::VectorXd net = all_tau - locked.tau;
+    const Eigen::VectorXd below = solve_below(net(rows_.below));
     qdd(rows_.below) = below;
-    const CrbaRneaReference::Answer free = second_.inverse(qdd, body_);
-    const Vector6 pA = as_vector(free.f[body_]), found_pA = as_vector(in_.w.pA[body_]);
-    const double scale = std::max({size_of(pA), size_of(as_vector(held.f[body_])), load});
+    const CrbaRneaReference::Result free = reference_.inverse(qdd, body_);
+    const Vector6 expected_pA = as_vector(free.f[body_]), pA = as_vector(in_.w.pA[body_]);
+    const double scale =
+        std::max({size_of(expected_pA), size_of(as_vector(locked.f[body_])), load});
 
     const Eigen::VectorXd reaction = M_id_ * below;
-    const Eigen::VectorXd u = Eigen::VectorXd(left(rows_.own)) - reaction;
-    const auto first = static_cast<Eigen::Index>(in_.model.iv[body_]);
-    const Eigen::Map<const Eigen::VectorXd> found_u(in_.w.u.data() + first, u.size());
-    return {apart(found_u, u, std::max({scale, size_of(u), size_of(reaction)})),
-            apart(found_pA, pA, scale)};
+    const Eigen::VectorXd expected_u = Eigen::VectorXd(net(rows_.own)) - reaction;
+    const Eigen::Map<const Eigen::VectorXd> u(in_.w.u.data() + in_.model.iv[body_],
+                                              expected_u.size());
+    return {relative_difference(u, expected_u,
+                                std::max({scale, size_of(expected_u), size_of(reaction)})),
+            relative_difference(pA, expected_pA, scale)};
   }
 
  private:
@@ -231,67 +228,68 @@ class Subtree {
   }
 
   const Inspection& in_;
-  CrbaRneaReference& second_;
+  CrbaRneaReference& reference_;
   std::size_t body_;
   CrbaRneaReference::Rows rows_;
   Eigen::MatrixXd M_ii_, M_id_, M_dd_;
 };
 
-// Of the wrenches at a body: a force that is small because large ones cancel is held against those.
-double load_on(const Inspection& in, const CrbaRneaReference::Answer& still, std::size_t i) {
-  const Force<double> moved = in.model.I[i] * in.w.a[i];
+// Scale of the wrenches at a body, which may cancel in the results that are compared.
+double load_on(const Inspection& in, const CrbaRneaReference::Result& without_qdd, std::size_t i) {
+  const Force<double> inertial = in.model.I[i] * in.w.a[i];
   const double weight = in.model.I[i].m * to_eigen(in.model.gravity).norm();
-  return std::max({size_of(as_vector(still.f[i])), size_of(as_vector(moved)),
+  return std::max({size_of(as_vector(without_qdd.f[i])), size_of(as_vector(inertial)),
                    size_of(as_vector(in.w.pA[i])), weight, 1e-300});
 }
 
 }  // namespace
 
 SubtreeErrors subtree_errors(const Inspection& in) {
-  CrbaRneaReference second(in);
-  const Eigen::VectorXd no_qdd = Eigen::VectorXd::Zero(second.M().rows());
-  const CrbaRneaReference::Answer still = second.inverse(no_qdd);
-  const Errors none(in.body_count());
-  SubtreeErrors errors{none, none, none, none};
+  CrbaRneaReference reference(in);
+  const CrbaRneaReference::Result without_qdd =
+      reference.inverse(Eigen::VectorXd::Zero(reference.M().rows()));
+  const Errors zero(in.body_count());
+  SubtreeErrors errors{zero, zero, zero, zero};
   for (std::size_t i = 1; i < in.body_count(); ++i) {
-    const Subtree subtree(in, second, i);
+    const Subtree subtree(in, reference, i);
     errors.D[i] = subtree.D_error();
     errors.U[i] = subtree.U_error();
-    std::tie(errors.u[i], errors.pA[i]) = subtree.bias_errors(load_on(in, still, i));
+    std::tie(errors.u[i], errors.pA[i]) = subtree.bias_errors(load_on(in, without_qdd, i));
   }
   return errors;
 }
 
 WholeErrors whole_errors(const Inspection& in) {
-  CrbaRneaReference second(in);
+  CrbaRneaReference reference(in);
   const auto nv = static_cast<Eigen::Index>(in.model.nv);
   const Eigen::Map<const Eigen::VectorXd> qdd(in.w.qdd.data(), nv), tau(in.forces.tau.data(), nv);
-  const Eigen::VectorXd none = Eigen::VectorXd::Zero(nv);
-  const CrbaRneaReference::Answer moving = second.inverse(qdd), still = second.inverse(none);
-  const Eigen::VectorXd M_qdd = second.M() * qdd;
+  const CrbaRneaReference::Result with_qdd = reference.inverse(qdd),
+                                  without_qdd = reference.inverse(Eigen::VectorXd::Zero(nv));
+  const Eigen::VectorXd M_qdd = reference.M() * qdd;
   const Errors zero(in.body_count());
   WholeErrors errors{zero, zero, zero, zero};
   for (std::size_t i = 1; i < in.body_count(); ++i) {
     const auto first = static_cast<Eigen::Index>(in.model.iv[i]);
     const auto count = static_cast<Eigen::Index>(in.model.dofs(i));
-    const Vector6 f = as_vector(moving.f[i]);
-    const double load = std::max(load_on(in, still, i), size_of(f));
+    const Vector6 f = as_vector(with_qdd.f[i]);
+    const double load = std::max(load_on(in, without_qdd, i), size_of(f));
     if (count > 0) {
       const Eigen::VectorXd t = tau.segment(first, count);
       const double size = std::max(size_of(t), load);
-      errors.tau[i] = apart(t, Eigen::VectorXd(moving.tau.segment(first, count)), size);
-      const Eigen::VectorXd sum = M_qdd.segment(first, count) + still.tau.segment(first, count);
-      const double terms = (second.M().middleRows(first, count).cwiseAbs() * qdd.cwiseAbs())
+      errors.tau[i] =
+          relative_difference(t, Eigen::VectorXd(with_qdd.tau.segment(first, count)), size);
+      const Eigen::VectorXd sum =
+          M_qdd.segment(first, count) + without_qdd.tau.segment(first, count);
+      const double terms = (reference.M().middleRows(first, count).cwiseAbs() * qdd.cwiseAbs())
                                .lpNorm<Eigen::Infinity>();
-      errors.qdd[i] = apart(sum, t, std::max(terms, size));
+      errors.qdd[i] = relative_difference(sum, t, std::max(terms, size));
     }
-    const Motion<double>&a = in.w.a[i], &b = moving.a[i];
+    const Motion<double>&a = in.w.a[i], &b = with_qdd.a[i];
     const Vector6 a6 = (Vector6() << to_eigen(a.w), to_eigen(a.v)).finished();
     const Vector6 b6 = (Vector6() << to_eigen(b.w), to_eigen(b.v)).finished();
     const double g = to_eigen(in.model.gravity).norm();
-    errors.a[i] = apart(a6, b6, std::max({size_of(b6), size_of(qdd), g, 1e-300}));
-    const Vector6 found = as_vector(in.w.IA[i] * in.w.a[i] + in.w.pA[i]);
-    errors.f[i] = apart(found, f, load);
+    errors.a[i] = relative_difference(a6, b6, std::max({size_of(b6), size_of(qdd), g, 1e-300}));
+    errors.f[i] = relative_difference(as_vector(in.w.IA[i] * in.w.a[i] + in.w.pA[i]), f, load);
   }
   return errors;
 }

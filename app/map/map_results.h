@@ -33,7 +33,8 @@ struct MapCurve {
   std::vector<double> x, y;  // values of the axes; a NaN parts two branches
 };
 
-// Where theory says that a map's runs begin to grow (docs/understand/couplings.md), as curves in its plane.
+// Stability limits of a map by linear theory, as curves in its plane
+// (docs/understand/stability_of_spring_dampers.md).
 //
 // About a pose, with e = q_K - q_D, a step of the couplings is linear; it is stable where no
 // eigenvalue of its matrix lies outside the unit circle. Two poses are taken: the start, and the

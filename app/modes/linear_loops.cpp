@@ -1,9 +1,8 @@
-#include "app/modes/linear_loops.h"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "app/modes/linear_system.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/constrained_dynamics.h"
 #include "solver/model/mimic.h"
@@ -15,7 +14,7 @@ using Index = Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kDependentRows = 1e-9;  // of the largest pivot
+constexpr double kDependentRows = 1e-9;  // relative to the largest pivot
 
 Index signed_index(std::size_t i) {
   return static_cast<Index>(i);
@@ -36,7 +35,7 @@ State<double> moved(const Model<double>& model, const State<double>& x, const Ve
   return to;
 }
 
-// What the loops ask of the velocities and of the accelerations, as functions of the state.
+// Velocity and acceleration conditions of the loops, as functions of the state.
 class LoopConditions {
  public:
   LoopConditions(const Model<double>& model, const State<double>& x, LoopClosures loops,
@@ -44,14 +43,14 @@ class LoopConditions {
       : model_(model), x_(x), loops_(std::move(loops)), k_(model), qdd_(as_vector(qdd)) {}
 
   MatrixXd J() {
-    look_at(x_);
+    evaluate(x_);
     return loops_.J();
   }
-  // d(J qd; J qdd + gamma) along (dq, dqd), qd and qdd being those at x.
+  // d(J qd; J qdd + gamma) along (dq, dqd) for the qd and qdd of x.
   struct Rates {
     VectorXd velocity, acceleration;
   };
-  // By central differences; their error is a series in s^2, of which three terms are taken out.
+  // Central differences with Richardson extrapolation to order 6.
   Rates along(const VectorXd& dq, const VectorXd& dqd) {
     const double size = std::max({dq.lpNorm<Eigen::Infinity>(), dqd.lpNorm<Eigen::Infinity>()});
     if (size == 0) return difference(dq, dqd, 1);
@@ -69,12 +68,12 @@ class LoopConditions {
   }
 
  private:
-  void look_at(const State<double>& x) {
+  void evaluate(const State<double>& x) {
     forward_kinematics(model_, x, k_);
     loops_.evaluate(x, k_);
   }
   Rates conditions(const State<double>& x) {
-    look_at(x);
+    evaluate(x);
     return {loops_.J() * as_vector(x_.qd), loops_.J() * qdd_ + loops_.gamma()};
   }
   Rates difference(const VectorXd& dq, const VectorXd& dqd, double s) {
@@ -91,28 +90,28 @@ class LoopConditions {
   VectorXd qdd_;
 };
 
-// y and the rest: which velocities lead, and how the others follow.
+// Independent velocities y', and the dependent ones.
 struct Split {
-  std::vector<Index> lead, follow;
-  MatrixXd Z;  // all of y
-  MatrixXd J_follow;
+  std::vector<Index> independent, dependent;
+  MatrixXd Z;
+  MatrixXd J_dependent;
 
   // d with J d = rows and P d = 0.
   VectorXd lift(const VectorXd& rows) const {
     VectorXd d = VectorXd::Zero(Z.rows());
-    if (!follow.empty()) d(follow) = min_solution(J_follow, rows, kDependentRows);
+    if (!dependent.empty()) d(dependent) = min_solution(J_dependent, rows, kDependentRows);
     return d;
   }
 };
 
-// Where several could follow, those later in the model do: a crank leads, its rod follows.
+// Prefers dependent velocities late in the model: a crank is independent, its rod dependent.
 Split split_by(const MatrixXd& J) {
-  constexpr double kFavour = 3;
+  constexpr double kPreference = 3;
   const Index n = J.cols();
   Split split;
   VectorXd weight(n);
   for (Index k = 0; k < n; ++k)
-    weight[k] = 1 + kFavour * static_cast<double>(k) / static_cast<double>(n);
+    weight[k] = 1 + kPreference * static_cast<double>(k) / static_cast<double>(n);
   Index rank = 0;
   std::vector<Index> order(static_cast<std::size_t>(n));
   for (Index k = 0; k < n; ++k) order[static_cast<std::size_t>(k)] = k;
@@ -121,19 +120,19 @@ Split split_by(const MatrixXd& J) {
     rank = columns.rank;
     order = std::move(columns.order);
   }
-  split.follow.assign(order.begin(), order.begin() + rank);
-  split.lead.assign(order.begin() + rank, order.end());
-  std::ranges::sort(split.lead);
+  split.dependent.assign(order.begin(), order.begin() + rank);
+  split.independent.assign(order.begin() + rank, order.end());
+  std::ranges::sort(split.independent);
   split.Z = MatrixXd::Zero(n, n - rank);
-  split.J_follow = J(Eigen::all, split.follow);
-  for (std::size_t k = 0; k < split.lead.size(); ++k) {
-    split.Z.col(signed_index(k)) = -split.lift(J.col(split.lead[k]));
-    split.Z(split.lead[k], signed_index(k)) = 1;
+  split.J_dependent = J(Eigen::all, split.dependent);
+  for (std::size_t k = 0; k < split.independent.size(); ++k) {
+    split.Z.col(signed_index(k)) = -split.lift(J.col(split.independent[k]));
+    split.Z(split.independent[k], signed_index(k)) = 1;
   }
   return split;
 }
 
-// qdd at x, and the push that keeps lambda and the force of followers as they are there.
+// qdd at x, and applied forces with constant lambda and constant forces of mimic joints.
 struct Held {
   std::vector<double> qdd;
   AppliedForces push;
@@ -145,7 +144,7 @@ Held hold_at(const Model<double>& model, const State<double>& x, const AppliedFo
   Forces<double> forces(model);
   push(x, k, forces);
   ForwardDynamics dynamics(model);
-  dynamics.set_friction(false);  // dampers are among what pushes
+  dynamics.set_friction(false);  // joint damping is in `push`
   Workspace<double> w(model);
   if (loops.any()) {
     dynamics.bilateral().set_loops(loops);
@@ -209,15 +208,16 @@ LoopedSystem linearise_with_loops(const Model<double>& model, const State<double
   looped.Z = G * Z;
   looped.qdd = held.qdd;
   LinearSystem& system = looped.system;
-  for (const Index k : split.lead) system.dofs.push_back(free.dofs[static_cast<std::size_t>(k)]);
+  for (const Index k : split.independent)
+    system.dofs.push_back(free.dofs[static_cast<std::size_t>(k)]);
   system.A = MatrixXd::Zero(2 * ny, 2 * ny);
   system.B = MatrixXd::Zero(2 * ny, ny);
   if (ny == 0) return looped;
   const MatrixXd M = inverse_of(free.B.bottomRows(n));
   const MatrixXd a_q = free.A.bottomLeftCorner(n, n), a_qd = free.A.bottomRightCorner(n, n);
-  const MatrixXd turning = free.A.topLeftCorner(n, n) * Z;
+  const MatrixXd W_Z = free.A.topLeftCorner(n, n) * Z;
   const MatrixXd inverse = inverse_of(Z.transpose() * M * Z);
-  system.A.topLeftCorner(ny, ny) = turning(split.lead, Eigen::all);
+  system.A.topLeftCorner(ny, ny) = W_Z(split.independent, Eigen::all);
   system.A.topRightCorner(ny, ny).setIdentity();
   system.A.bottomLeftCorner(ny, ny) = inverse * Z.transpose() * M * (a_q * Z + a_qd * L - N_y);
   system.A.bottomRightCorner(ny, ny) = inverse * Z.transpose() * M * (a_qd * Z - N_yd);

@@ -17,7 +17,7 @@ Index index(std::size_t i) {
   return static_cast<Index>(i);
 }
 
-// The forces at x moved along one direction: their rate, by (f_ext; tau) of all bodies and dofs.
+// Derivatives of the applied forces (f_ext; tau) at x along one velocity.
 class ForceRates {
  public:
   ForceRates(const Model<double>& model, const State<double>& x, const AppliedForces& push)
@@ -75,7 +75,7 @@ class ForceRates {
   Kinematics k_;
 };
 
-// dq' = dqd - w x dq of joints that turn freely.
+// dq' = dqd - w x dq of spherical and free joints.
 void add_turning(const Model<double>& model, const State<double>& x, Eigen::MatrixXd& W) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (facts_of(model.joint[i]).quaternion < 0 || model.dofs(i) == 0) continue;
@@ -109,7 +109,7 @@ LinearSystem linearise(const Model<double>& model, const State<double>& x,
           Eigen::Map<const Eigen::VectorXd>(w.y.data(), nv);
     }
 
-  // Without followers: y of qd = G y, with M_y = G^T M G.
+  // Without mimic joints: y of qd = G y, with M_y = G^T M G.
   const Eigen::MatrixXd M = mass_matrix(model, x);
   const Eigen::MatrixXd all_G = mimic_projection(model);
   LinearSystem system;
@@ -138,7 +138,7 @@ double Mode::damping_ratio() const {
 
 namespace {
 
-// Time in units in which the entries of A are of one size.
+// Time unit in which the entries of A have similar size.
 double unit_of_time(const Eigen::MatrixXd& A) {
   const Index n = A.rows() / 2;
   const double stiff = A.bottomLeftCorner(n, n).lpNorm<Eigen::Infinity>();
@@ -153,7 +153,7 @@ Mode mode_of(std::complex<double> eigenvalue, const Eigen::VectorXcd& vector) {
   const Index n = vector.size() / 2;
   Eigen::VectorXcd shape = vector.head(n);
   if (shape.lpNorm<Eigen::Infinity>() < kNothing * vector.lpNorm<Eigen::Infinity>())
-    shape = vector.tail(n);  // a drift: at q anything, at qd the direction
+    shape = vector.tail(n);  // drift: the velocity gives the direction
   Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
   if (shape.size() > 0 && std::abs(shape[largest]) > 0)
@@ -163,8 +163,8 @@ Mode mode_of(std::complex<double> eigenvalue, const Eigen::VectorXcd& vector) {
 
 }  // namespace
 
-// The null space Z of A is taken out first: a drift (two zeros, one vector) would else be found
-// with half of the digits. With Q beside it, A = (0 Z^T A Q; 0 Q^T A Q).
+// The null space Z of A is deflated first: a drift (double eigenvalue 0, one eigenvector) would
+// lose half of the digits. With its complement Q, A = (0 Z^T A Q; 0 Q^T A Q).
 std::vector<Mode> modes_of(const Eigen::MatrixXd& given) {
   constexpr double kNull = 1e-11, kZero = 1e-9;
   std::vector<Mode> modes;

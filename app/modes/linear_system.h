@@ -1,12 +1,11 @@
-// Small motions about a state: x' = A x + B tau, x = (dq; dqd), and the modes of A.
+// Linearisation about a state: x' = A x + B tau, x = (dq; dqd), and the modes of A.
 //
 //   A = ( W               1            )      B = ( 0    )
 //       ( dqdd/dq         dqdd/dqd     )          ( M^-1 )
-// The passes are differentiated by dual numbers (solver/dynamics/derivatives.h) with the outside
-// forces fixed to the bodies; how those change with the state comes by central differences of what
-// pushes (Richardson's extrapolation to order 6), through M^-1 in O(n) for each direction. dq are
-// steps along the joints' groups, dq = log(q_0^-1 q), so W = -[w]x of joints that turn freely.
-// Joints that follow others are eliminated: all is by the velocities that follow nobody.
+// The passes are differentiated by dual numbers (solver/dynamics/derivatives.h) with applied forces
+// constant in body axes. The derivatives of the applied forces are central differences (Richardson
+// extrapolation to order 6), multiplied by M^-1 in O(n) per direction. dq = log(q_0^-1 q) on the
+// configuration group, so W = -[w]x for spherical and free joints. Mimic joints are eliminated.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,18 +14,19 @@
 #include <vector>
 
 #include "solver/dynamics/kinematics.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/model/workspace.h"
 
 namespace twinarm {
 
-// Adds all that pushes at a state: must be smooth there.
+// Adds the applied forces at a state; differentiable there.
 using AppliedForces = std::function<void(const State<double>&, const Kinematics&, Forces<double>&)>;
 
 struct LinearSystem {
   std::vector<std::size_t> dofs;  // velocity index of each row of dq
   Eigen::MatrixXd A, B;           // 2n x 2n, 2n x n
 };
-// Of the first `dof_count` velocities; what moves by the others is not coupled to them by inertia.
+// Of the first `dof_count` velocities, which inertia does not couple to the others.
 LinearSystem linearise(const Model<double>& model, const State<double>& x,
                        const AppliedForces& push, std::size_t dof_count);
 
@@ -37,7 +37,33 @@ struct Mode {
   // -Re / |eigenvalue|, 0 for an eigenvalue of 0.
   double damping_ratio() const;
 };
-// Ascending frequency. Eigenvalues that are zero by the rank of A are exactly zero.
+// By ascending frequency. Eigenvalues that vanish by the rank of A are exactly zero.
 std::vector<Mode> modes_of(const Eigen::MatrixXd& A);
+
+// Linearisation on the tangent space of closed loops.
+//
+// x = (q; qd) with g(q) = 0 and J qd = 0. Independent coordinates y = P dq are some of the dq; the
+// others depend on them, dq = Z y with J Z = 0, P Z = 1. Then y' = P qd, y'' = P qdd, and to first
+// order
+//   dqd  = Z y' + L y      J L = -d(J qd)/dq Z,    P L = 0
+//   dqdd = Z y'' + N       J N = -d(J qdd + gamma), P N = 0
+// (L = N = 0 at rest in equilibrium). With a = M^-1 (tau - h + J^T lambda), lambda constant, and
+// its derivatives a_q, a_qd with respect to all coordinates,
+//   Z^T M Z y'' = Z^T M (a_q Z y + a_qd (Z y' + L y) - N);
+// Z^T J^T = 0 eliminates the change of lambda. Redundant loops are permitted.
+struct LoopedSystem {
+  LinearSystem system;      // by y: dofs are those of P
+  Eigen::MatrixXd Z;        // nv x ny: all velocities of y'
+  std::vector<double> qdd;  // at x, by velocity
+};
+
+// At a state that satisfies the loops (possibly none) in position and velocity. `push`: applied
+// forces without those of loops and mimic joints. Velocities in `still` are fixed to zero.
+LoopedSystem linearise_with_loops(const Model<double>& model, const State<double>& x,
+                                  const AppliedForces& push, const std::vector<LoopClosure>& loops,
+                                  const std::vector<std::size_t>& still = {});
+
+// Shape of a mode of the reduced system in all velocities; the largest component is 1.
+Mode by_all_velocities(const LoopedSystem& looped, const Mode& mode);
 
 }  // namespace twinarm

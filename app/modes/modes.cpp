@@ -19,7 +19,7 @@ bool is_free_joint(const NamedJoint& joint) {
   return joint.type == JointType::free;
 }
 
-// Of the constraints that hold the scene, and the velocities that they allow.
+// Loops of the scene's constraints; projects the input's velocities on them.
 std::vector<LoopClosure> take_loops(SimulateInput& input) {
   if (!input.scene || input.scene->constraints.empty()) return {};
   Simulation sim(input.robot.model, input.robot.state.x);
@@ -28,20 +28,21 @@ std::vector<LoopClosure> take_loops(SimulateInput& input) {
   return sim.mechanism().dynamics.bilateral().loops().loops();
 }
 
-// Bodies of the scene that a constraint holds; the rest of them has no joint to swing about.
-std::vector<NamedJoint> held_bodies(const SimulateInput& input,
-                                    const std::vector<LoopClosure>& loops) {
+// Free bodies of the scene with a constraint; the others are left out.
+std::vector<NamedJoint> constrained_bodies(const SimulateInput& input,
+                                           const std::vector<LoopClosure>& loops) {
   std::set<int> bodies;
   for (const LoopClosure& loop : loops) bodies.insert({loop.body_a, loop.body_b});
-  std::vector<NamedJoint> held;
+  std::vector<NamedJoint> constrained;
   const Model<double>& model = input.robot.model;
   for (const int body : bodies) {
     const auto i = static_cast<std::size_t>(body);
     if (!input.scene || body <= input.scene->robot_bodies) continue;
     if (model.joint[i] == JointType::free)
-      held.push_back({model.body_name[i], i, model.joint[i], 7, 6, model.iq[i], model.iv[i], 0});
+      constrained.push_back(
+          {model.body_name[i], i, model.joint[i], 7, 6, model.iq[i], model.iv[i], 0});
   }
-  return held;
+  return constrained;
 }
 
 // Of a joint's velocities in the solver's order: a free one has (w; v), w in the child's axes.
@@ -63,28 +64,27 @@ std::vector<std::string> warnings_of(const SimulateInput& input,
   const auto is_positive = [](double limit) { return limit > 0; };
   if (std::ranges::any_of(model.coulomb_plus, is_positive) ||
       std::ranges::any_of(model.coulomb_minus, is_positive))
-    warnings.emplace_back("Coulomb friction of joints has no linear part: it is left out");
+    warnings.emplace_back("Coulomb friction of joints has no linear part and is left out");
   if (input.scene && input.scene->may_touch())
-    warnings.emplace_back(
-        "contacts are left out, and free bodies that no constraint holds with them");
-  constexpr double kStill = 1e-6;  // [rad/s^2, m/s^2]
-  double fastest = 0;
+    warnings.emplace_back("contacts, and free bodies without constraints, are left out");
+  constexpr double kEquilibrium = 1e-6;  // [rad/s^2, m/s^2]
+  double largest = 0;
   std::string where;
   for (const NamedJoint& joint : joints)
     for (std::size_t v = joint.iv; v < joint.iv + joint.nv; ++v)
-      if (std::abs(qdd[v]) > fastest)
-        fastest = std::abs(qdd[v]), where = name_of_part(input, joint);
-  if (fastest > kStill)
+      if (std::abs(qdd[v]) > largest)
+        largest = std::abs(qdd[v]), where = name_of_part(input, joint);
+  if (largest > kEquilibrium)
     warnings.push_back(fmt::format(
-        "the state is no equilibrium: '{}' accelerates by {} (rad, m)/s^2; the modes tell how a "
-        "small departure from the motion grows at first",
-        where, cell(fastest)));
+        "not an equilibrium: '{}' accelerates by {} (rad, m)/s^2; the modes describe small "
+        "deviations from the motion for a short time only",
+        where, cell(largest)));
   return warnings;
 }
 
 }  // namespace
 
-SmoothPush::SmoothPush(SimulateInput& input)
+SmoothForces::SmoothForces(SimulateInput& input)
     : input_(input),
       model_(input.robot.model),
       torques_(model_, input.robot.coordinates, input.robot.state.tau) {
@@ -93,7 +93,7 @@ SmoothPush::SmoothPush(SimulateInput& input)
   for (const Wrench& wrench : input.robot.state.wrenches) wrenches_.emplace_back(wrench, k);
 }
 
-void SmoothPush::operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces) {
+void SmoothForces::operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces) {
   torques_.add_forces(x, k, forces);
   for (GivenWrench& wrench : wrenches_) wrench.add_forces(x, k, forces);
   for (std::size_t dof = 0; dof < model_.nv; ++dof)
@@ -119,31 +119,25 @@ ModesOf find_modes(SimulateInput& input) {
   const std::vector<LoopClosure> loops = take_loops(input);
   ModesOf found;
   found.joints = input.robot.coordinates.all();
-  for (NamedJoint& body : held_bodies(input, loops)) found.joints.push_back(std::move(body));
+  for (NamedJoint& body : constrained_bodies(input, loops)) found.joints.push_back(std::move(body));
   const Model<double>& model = input.robot.model;
   std::vector<std::string> name_of(model.nv);
   for (const NamedJoint& joint : found.joints) {
     const std::vector<std::string> names = names_of_velocities(name_of_part(input, joint), joint);
     std::copy(names.begin(), names.end(), name_of.begin() + static_cast<std::ptrdiff_t>(joint.iv));
   }
-  std::vector<char> is_follower(model.nv);
-  for (const Mimic& mimic : model.mimics) is_follower[mimic.follower] = 1;
+  std::vector<char> is_mimic(model.nv);
+  for (const Mimic& mimic : model.mimics) is_mimic[mimic.follower] = 1;
   std::vector<std::size_t> still;
   for (std::size_t dof = 0; dof < model.nv; ++dof)
-    if (name_of[dof].empty() && !is_follower[dof]) still.push_back(dof);
+    if (name_of[dof].empty() && !is_mimic[dof]) still.push_back(dof);
 
-  SmoothPush push(input);
-  found.looped = linearise_with_loops(
-      model, input.robot.state.x,
-      [&](const State<double>& x, const Kinematics& k, Forces<double>& forces) {
-        push(x, k, forces);
-      },
-      loops, still);
+  SmoothForces push(input);
+  found.looped = linearise_with_loops(model, input.robot.state.x, std::ref(push), loops, still);
   if (!found.looped.system.A.allFinite())
-    throw InputError(
-        {{input.robot.robot.file.string(), 0, "",
-          "the linear system is not finite in this state: there are no modes",
-          "`twinarm inspect` shows what is not; give smaller numbers", "state.not-finite"}});
+    throw InputError({{input.robot.robot.file.string(), 0, "",
+                       "the linearised system is not finite in this state",
+                       "see `twinarm inspect`; give smaller numbers", "state.not-finite"}});
   for (const Mode& mode : modes_of(found.looped.system.A))
     found.modes.push_back(by_all_velocities(found.looped, mode));
   for (const std::size_t dof : found.looped.system.dofs) found.rows.push_back(name_of[dof]);
@@ -161,15 +155,15 @@ void write_shape(JsonWriter& json, const SimulateInput& input, const ModesOf& fo
   });
 }
 
-const char* word_for(const Mode& mode) {
-  constexpr double kNothing = 1e-9;
-  const double part = mode.damping_ratio();
-  if (mode.eigenvalue == 0.0) return "drifts";
-  if (part < -kNothing) return mode.eigenvalue.imag() > 0 ? "swings, growing" : "grows";
-  return mode.eigenvalue.imag() > 0 ? "swings" : "decays";
+const char* kind_of(const Mode& mode) {
+  constexpr double kRounding = 1e-9;
+  if (mode.eigenvalue == 0.0) return "drift";
+  const bool oscillates = mode.eigenvalue.imag() > 0;
+  if (mode.damping_ratio() < -kRounding) return oscillates ? "unstable oscillation" : "unstable";
+  return oscillates ? "oscillation" : "decay";
 }
 
-// A number; size and phase where it is out of phase with the largest.
+// A number, or amplitude/phase where it is out of phase with the largest component.
 std::string shape_cell(double re, double im) {
   const double size = std::hypot(re, im), degrees = 180 / std::numbers::pi * std::atan2(im, re);
   if (size < 5e-5) return "0";
@@ -221,31 +215,27 @@ std::string modes_json(const SimulateInput& input, const ModesOf& found) {
 
 std::string modes_table(const SimulateInput& input, const ModesOf& found) {
   std::string text = fmt::format(
-      "{}: small motions about the state, x' = A x + B tau, "
-      "x = exp(lambda t)\n",
-      input.robot.robot.name);
-  std::string leads;
-  for (const std::string& row : found.rows) leads += (leads.empty() ? "" : ", ") + row;
+      "{}: linearised system x' = A x + B tau, modes x = exp(lambda t)\n", input.robot.robot.name);
   if (input.scene && !input.scene->constraints.empty())
-    text += wrapped(fmt::format("constraints hold; degrees of freedom: {}{}", found.rows.size(),
-                                leads.empty() ? "" : ", told by " + leads)) +
+    text += wrapped(fmt::format("with constraints; {} independent velocities: {}",
+                                found.rows.size(), fmt::join(found.rows, ", "))) +
             "\n";
   text += "\n";
   TextTable table(
-      {"mode", "frequency [rad/s]", "[Hz]", "period [s]", "damping ratio", "lambda [1/s]", "it"});
+      {"mode", "frequency [rad/s]", "[Hz]", "period [s]", "damping ratio", "lambda [1/s]", "type"});
   const auto clean = [](double value) { return cell(std::abs(value) < 1e-12 ? 0 : value); };
   for (std::size_t k = 0; k < found.modes.size(); ++k) {
     const Mode& mode = found.modes[k];
-    const double w = mode.frequency(), turn = 2 * std::numbers::pi;
-    const double swing = mode.eigenvalue.imag();
-    table.add({std::to_string(k + 1), cell(w), cell(w / turn), swing > 0 ? cell(turn / swing) : "-",
+    const double w = mode.frequency(), two_pi = 2 * std::numbers::pi;
+    const double w_d = mode.eigenvalue.imag();
+    table.add({std::to_string(k + 1), cell(w), cell(w / two_pi), w_d > 0 ? cell(two_pi / w_d) : "-",
                clean(mode.damping_ratio()),
-               swing > 0 ? fmt::format("{} +- {}i", clean(mode.eigenvalue.real()), cell(swing))
-                         : clean(mode.eigenvalue.real()),
-               word_for(mode)});
+               w_d > 0 ? fmt::format("{} +- {}i", clean(mode.eigenvalue.real()), cell(w_d))
+                       : clean(mode.eigenvalue.real()),
+               kind_of(mode)});
   }
-  text +=
-      table.str() + "\nshapes, the largest part 1 (where parts are out of phase: size/degrees):\n";
+  text += table.str() +
+          "\nmode shapes, largest component 1 (out of phase: amplitude/phase [degrees]):\n";
   for (std::size_t first = 0; first < found.modes.size(); first += kModesInTable)
     text += shape_table(input, found, first) + "\n";
   for (const std::string& warning : found.warnings) text += wrapped("warning: " + warning) + "\n";

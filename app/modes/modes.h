@@ -1,20 +1,20 @@
-// What `twinarm modes` linearises: the state, all that pushes smoothly, and the loops that hold.
+// `twinarm modes`: linearisation of a robot or scene about its state, with its constraints.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "app/modes/linear_loops.h"
+#include "app/modes/linear_system.h"
 #include "app/run/simulate_input.h"
 #include "app/scene/forces/given_forces.h"
 
 namespace twinarm {
 
-// Everything smooth that pushes: given torques and wrenches, dampers of joints, and couplings with
-// their kinematic side held still.
-class SmoothPush {
+// Differentiable applied forces: given torques and wrenches, joint damping, and couplings with
+// fixed targets.
+class SmoothForces {
  public:
-  explicit SmoothPush(SimulateInput& input);
+  explicit SmoothForces(SimulateInput& input);
   void operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces);
 
  private:
@@ -27,18 +27,18 @@ class SmoothPush {
 struct ModesOf {
   LoopedSystem looped;
   std::vector<Mode> modes;         // by all velocities of the model
-  std::vector<NamedJoint> joints;  // of shapes: those of robots, then bodies that constraints hold
-  std::vector<std::string> rows;   // of A: what dq is
+  std::vector<NamedJoint> joints;  // of shapes: those of robots, then bodies with constraints
+  std::vector<std::string> rows;   // names of dq, the rows of A
   std::vector<std::string> warnings;
 };
-// At the state of the input, its velocities made such as the constraints allow.
+// At the state of the input, its velocities projected on the constraints.
 ModesOf find_modes(SimulateInput& input);
 
-// The mode's part of a joint's velocities, as the command line has them.
+// The mode's components of a joint's velocities, in the coordinates of the command line.
 std::vector<double> shape_part(const SimulateInput& input, const NamedJoint& joint,
                                const Eigen::VectorXd& by_velocity);
 
-// "base" for the joint that carries a floating root.
+// "base" for the free joint of a floating base.
 std::string name_of_part(const SimulateInput& input, const NamedJoint& joint);
 
 std::string modes_json(const SimulateInput& input, const ModesOf& found);

@@ -30,7 +30,7 @@ std::string PageBytes::packed() const {
   return base64_of(deflated);
 }
 
-// Pairs are those that touch in a frame of the page.
+// With the contacts of all frames of the page.
 PageChannels::PageChannels(const FilmedRun& run)
     : run_(run), channels_(run.plan.input, run.recording->header()) {
   std::vector<std::pair<int, int>> pairs;
@@ -43,9 +43,9 @@ PageChannels::PageChannels(const FilmedRun& run)
   values_.resize(channels_.all().size());
 }
 
-void PageChannels::add_frame(const RecordedFrame& frame, const Snapshot& moment) {
+void PageChannels::add_frame(const RecordedFrame& frame, const Snapshot& snapshot) {
   times_.push_back(frame.t);
-  channels_.values(frame, moment, run_.plan.input.couplings.get(), now_);
+  channels_.values(frame, snapshot, run_.plan.input.couplings.get(), now_);
   for (std::size_t i = 0; i < now_.size(); ++i) values_[i].push_back(now_[i]);
   end_ = works_by_row(frame, run_.recording->rows().size());
   works_.insert(works_.end(), end_.begin(), end_.end());
@@ -83,7 +83,7 @@ namespace {
 
 const char* unit_of_pull(const SimulateInput& input, std::size_t c) {
   const bool is_couple = input.scene && c < input.scene->couplings.size() &&
-                         kind_of_pull(*input.scene, c) == ShownCouplingForce::Kind::couple;
+                         kind_of_coupling(*input.scene, c) == ShownCouplingForce::Kind::couple;
   return is_couple ? "N m" : "N";
 }
 
@@ -119,12 +119,12 @@ bool RunChannels::add_pair(int a, int b) {
   return true;
 }
 
-// Each joint once; of the recorded columns the one of the same name.
+// Each joint once, if it has a recorded column.
 void RunChannels::add_led_joints(const Coordinates& coordinates,
                                  const std::vector<SceneCoupling>& couplings) {
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    for (const std::string& turned : couplings[c].driven.turned) {
-      const NamedJoint* joint = coordinates.find(turned);
+    for (const std::string& name : couplings[c].driven.turned) {
+      const NamedJoint* joint = coordinates.find(name);
       if (!joint || joint->components().size() != 1) continue;
       const std::string of = component_name(coordinates, *joint, joint->components().front());
       const std::size_t column = place_of("q/" + of);
@@ -136,12 +136,12 @@ void RunChannels::add_led_joints(const Coordinates& coordinates,
   }
 }
 
-void RunChannels::values(const RecordedFrame& frame, const Snapshot& moment,
+void RunChannels::values(const RecordedFrame& frame, const Snapshot& snapshot,
                          SceneCouplings* couplings, std::vector<double>& values) const {
   values.assign(all_.size(), std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < std::min(frame.values.size(), columns_); ++i)
     values[i] = frame.values[i];
-  if (pulls_ > 0) values[elastic_] = moment.elastic;
+  if (pulls_ > 0) values[elastic_] = snapshot.elastic;
   for (std::size_t c = 0; c < pulls_; ++c)
     values[first_pull_ + c] = c < frame.pulls.size() ? frame.pulls[c].norm() : 0;
   std::map<std::size_t, Vector3> forces;

@@ -1,4 +1,4 @@
-// The arrays of a page as one block: deflated, in base64, and told in its JSON by where they lie.
+// Numbers of a page: channels of a run, and their arrays in one deflated block in base64.
 #pragma once
 
 #include <cstdint>
@@ -17,30 +17,28 @@
 
 namespace twinarm {
 
-// What the plots of pages show of a frame: its quantities, by name. The same for the page of a
-// recorded run and for a run that goes on (app/lab/stream).
+// Plotted quantities of a frame, by name: for pages of recorded runs and for the lab
+// (app/lab/stream).
 class RunChannels {
  public:
-  // The columns of a run, in their order, then couplings.
-  // Of both arguments parts are copied.
+  // Columns of a run, then couplings. Does not keep the arguments.
   RunChannels(const SimulateInput& input, const RecordingHeader& header);
-  // Two geometries that touch. True: it was not there yet.
+  // Contact of two geometries; false if it is there already.
   bool add_pair(int a, int b);
-  // Joints that a hand turns: where it has them, and the recorded value less that.
+  // Target and tracking error of joints that a device or motion moves.
   void add_led_joints(const Coordinates& coordinates, const std::vector<SceneCoupling>& couplings);
-  // One of the caller's own, which fills it in; its place.
+  // A channel that the caller fills in; returns its index.
   std::size_t add(const std::string& name, const std::string& unit, const std::string& kind,
                   const std::string& of);
 
   const std::vector<RunColumn>& all() const { return all_; }
-  // By channel; NaN for those that are not known in this frame. `couplings`: those of the moment;
-  // null for a robot alone.
-  void values(const RecordedFrame& frame, const Snapshot& moment, SceneCouplings* couplings,
+  // By channel; NaN if unknown in this frame. `couplings`: null for a robot alone.
+  void values(const RecordedFrame& frame, const Snapshot& snapshot, SceneCouplings* couplings,
               std::vector<double>& values) const;
 
  private:
   struct Led {
-    std::size_t coupling, column, target, error;  // of all_: where they stand
+    std::size_t coupling, column, target, error;  // indices into all_, but for the coupling
     NamedJoint joint;
   };
   std::size_t place_of(const std::string& name) const;
@@ -48,11 +46,11 @@ class RunChannels {
   std::vector<RunColumn> all_;
   std::vector<std::string> geometries_;
   std::size_t columns_ = 0, pulls_ = 0, elastic_ = 0, first_pull_ = 0;
-  std::map<std::pair<int, int>, std::size_t> pairs_;  // places by geometries
+  std::map<std::pair<int, int>, std::size_t> pairs_;  // indices by geometries
   std::vector<Led> led_;
 };
 
-// Its members, of the object that is open.
+// Members of a JSON object.
 void write_channel(JsonWriter& json, const RunColumn& channel);
 
 class PageBytes {
@@ -80,12 +78,12 @@ class PageBytes {
   std::string bytes_;
 };
 
-// What the plots of a page show: quantities over its frames, and both ledgers' numbers.
+// Channels over the frames of a page, with energy and momentum balance.
 class PageChannels {
  public:
   explicit PageChannels(const FilmedRun& run);
-  // The recorded frame, and the moment of the same time.
-  void add_frame(const RecordedFrame& frame, const Snapshot& moment);
+  // A recorded frame and the snapshot of the same time.
+  void add_frame(const RecordedFrame& frame, const Snapshot& snapshot);
   // Keys times, channels, ledger, momentum, bodies.
   void write(JsonWriter& json, PageBytes& bytes) const;
 
@@ -96,8 +94,7 @@ class PageChannels {
   std::vector<double> now_;                  // by channel
   std::vector<double> times_, works_;        // works by frame, then by row
   std::vector<double> end_;                  // of the last frame, by row [J]
-  // Of the ledger of momentum by frame, by row: linear, then angular [N s], [N m s].
-  std::vector<double> momenta_;
+  std::vector<double> momenta_;  // by frame, then by row: linear, angular [N s], [N m s]
 };
 
 }  // namespace twinarm

@@ -14,7 +14,6 @@ using Row = std::vector<std::string>;
 
 constexpr std::size_t kLongestFile = 200'000;  // bytes; meshes are in the picture
 
-// As a shell reads it back.
 std::string shell_word(const std::string& word) {
   const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
@@ -67,7 +66,7 @@ std::vector<Row> coupling_rows(const SceneModel& scene) {
   for (const SceneCoupling& c : scene.couplings) {
     const bool is_linear = c.type == CouplingDescription::Type::linear;
     rows.push_back({c.name,
-                    c.outside ? "stop"
+                    c.outside ? "soft limit"
                               : facts_of(c.law, c.printed).name +
                                     std::string(is_linear                         ? ", at a point"
                                                 : c.measure == SpringSpace::joint ? ", joint"
@@ -108,8 +107,8 @@ void write_tables(JsonWriter& json, const FilmedRun& run) {
   json.key("tables").begin_array();
   if (scene)
     write_table(json, "Couplings",
-                {"name", "type", "link", "k [N/m, N m/rad]", "b [N s/m, N m s/rad]", "treatment",
-                 "rate", "target"},
+                {"name", "type", "link", "k [N/m, N m/rad]", "b [N s/m, N m s/rad]",
+                 "discretization", "rate", "target"},
                 coupling_rows(*scene));
   write_table(json, "Links", {"link", "joint", "parent", "mass [kg]"},
               link_rows(model, scene ? static_cast<std::size_t>(scene->robot_bodies)
@@ -120,7 +119,7 @@ void write_tables(JsonWriter& json, const FilmedRun& run) {
   json.end_array();
 }
 
-// Those that people write: the scene, robots, the state.
+// Text files: scene, robots, state.
 void write_files(JsonWriter& json, const RecordingHeader& header) {
   json.key("files").begin_array();
   for (const RecordedFile& file : header.files) {
@@ -146,7 +145,7 @@ std::string command_line(const std::vector<std::string>& words) {
   return line;
 }
 
-void write_facts(JsonWriter& json, const FilmedRun& run, const SceneView& stage, double rate) {
+void write_facts(JsonWriter& json, const FilmedRun& run, const SceneView& view, double rate) {
   const RecordingHeader& header = run.recording->header();
   json.members({{"title", std::filesystem::path(header.run.model).stem().string()},
                 {"command", command_line(header.command)}});
@@ -154,7 +153,7 @@ void write_facts(JsonWriter& json, const FilmedRun& run, const SceneView& stage,
   write_tables(json, run);
   write_files(json, header);
   std::vector<std::string> notes = run.recording->alarms();
-  for (const auto* more : {&run.recording->notes(), &stage.cast.notes})
+  for (const auto* more : {&run.recording->notes(), &view.cast.notes})
     notes.insert(notes.end(), more->begin(), more->end());
   json.key("notes").texts(notes);
 }

@@ -1,4 +1,4 @@
-// What a run was made of, in words: command, versions, settings, couplings, bodies, files.
+// Settings of a run for its page: command, versions, options, couplings, bodies, files.
 #pragma once
 
 #include <string>
@@ -10,10 +10,10 @@
 
 namespace twinarm {
 
-// As a shell reads it back; the program by its name alone.
+// Quoted for a shell; the program without its path.
 std::string command_line(const std::vector<std::string>& words);
 
 // Keys title, command, facts, tables, files, notes. `rate`: frames of the page per second.
-void write_facts(JsonWriter& json, const FilmedRun& run, const SceneView& stage, double rate);
+void write_facts(JsonWriter& json, const FilmedRun& run, const SceneView& view, double rate);
 
 }  // namespace twinarm

@@ -7,8 +7,8 @@
 namespace twinarm {
 namespace {
 
-// Positions in shares of the box (a millionth of a metre on a robot), normals in bytes, each index
-// less the one before it: numbers that repeat are packed best.
+// Positions in 16 bits of the bounding box, normals in bytes, differences of indices: they
+// compress well.
 void write_mesh(JsonWriter& json, PageBytes& bytes, const DrawMesh& mesh) {
   Eigen::Vector3d low = Eigen::Vector3d::Constant(1e30), high = -low;
   for (const auto& p : mesh.positions)
@@ -79,7 +79,7 @@ void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
 
 }  // namespace
 
-PageLayers::PageLayers(SceneView& stage) : stage_(stage) {
+PageLayers::PageLayers(SceneView& view) : view_(view) {
   for (const LayerWords& words : layer_words({&all_overlays()})) {
     layers_.emplace_back();
     layers_.back().name = words.name;
@@ -95,40 +95,40 @@ void PageLayers::show_at_first(const std::vector<std::string>& names) {
     layer.shown = std::find(names.begin(), names.end(), layer.name) != names.end();
 }
 
-void PageLayers::add_frame(const Snapshot& moment) {
-  std::vector<Drawn> drawn = draw(stage_, moment, parse_overlays("all"));
+void PageLayers::add_frame(const Snapshot& snapshot) {
+  std::vector<Drawn> drawn = draw(view_, snapshot, parse_overlays("all"));
   drawn.push_back(end_of_list());
   for (std::size_t i = 0; i + 1 < drawn.size(); ++i)
     add_entries(layers_[i], drawn[i], drawn[i + 1]);
 }
 
 Drawn PageLayers::end_of_list() const {
-  const DrawList& list = stage_.list;
+  const DrawList& list = view_.list;
   return {nullptr, list.instances.size(), list.labels.size(), list.legend.size()};
 }
 
 // Of the cast only one body's parts are on stage at a time.
-void PageLayers::add_apart(const Snapshot& moment) {
-  const SceneMeshes all = stage_.cast;
-  for (std::size_t body = 0; body < stage_.model->parent.size(); ++body) {
-    SceneMeshes& cast = stage_.cast;
-    cast.ties.clear();
-    cast.parts.clear();
-    cast.planes.clear();
+void PageLayers::add_apart(const Snapshot& snapshot) {
+  const SceneMeshes all = view_.cast;
+  for (std::size_t body = 0; body < view_.model->parent.size(); ++body) {
+    SceneMeshes& meshes = view_.cast;
+    meshes.ties.clear();
+    meshes.parts.clear();
+    meshes.planes.clear();
     for (const ScenePart& part : all.parts)
-      if (part.body == body) cast.parts.push_back(part);
+      if (part.body == body) meshes.parts.push_back(part);
     for (const ScenePlane& plane : all.planes)
-      if (plane.body == body) cast.planes.push_back(plane);
-    draw(stage_, moment, {});
+      if (plane.body == body) meshes.planes.push_back(plane);
+    draw(view_, snapshot, {});
     layers_.emplace_back();
-    layers_.back().name = "body/" + (body == 0 ? "world" : stage_.model->body_name[body]);
+    layers_.back().name = "body/" + (body == 0 ? "world" : view_.model->body_name[body]);
     add_entries(layers_.back(), {}, end_of_list());
   }
-  stage_.cast = all;
+  view_.cast = all;
 }
 
 void PageLayers::add_entries(PageLayer& layer, const Drawn& from, const Drawn& to) {
-  const DrawList& list = stage_.list;
+  const DrawList& list = view_.list;
   for (std::size_t i = from.instance; i < to.instance; ++i) layer.instances.add(list.instances[i]);
   layer.first.push_back(static_cast<std::uint32_t>(layer.instances.mesh.size()));
   for (std::size_t i = from.label; i < to.label; ++i)
@@ -150,9 +150,9 @@ std::uint32_t PageLayers::number_of(const std::string& text) {
 }
 
 void PageLayers::write(JsonWriter& json, PageBytes& bytes) const {
-  json.key("meshes").list(stage_.list.meshes,
+  json.key("meshes").list(view_.list.meshes,
                           [&](const auto& mesh) { write_mesh(json, bytes, *mesh); });
-  write_textures(json, bytes, stage_.list);
+  write_textures(json, bytes, view_.list);
   json.key("layers").list(layers_,
                           [&](const PageLayer& layer) { write_layer(json, bytes, layer); });
   json.key("texts").texts(texts_);
@@ -161,7 +161,7 @@ void PageLayers::write(JsonWriter& json, PageBytes& bytes) const {
 namespace {
 
 constexpr std::uint8_t kSeenThrough = 1;
-constexpr int kWidestTexture = 1024;  // [px]; wider ones are halved: a page goes by mail
+constexpr int kMaxTextureWidth = 1024;  // [px]; wider ones are halved
 
 std::uint8_t byte_of(float share) {
   return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
@@ -172,7 +172,7 @@ void append_vector(std::vector<float>& column, const Vector& v) {
   for (int c = 0; c < 3; ++c) column.push_back(static_cast<float>(v[c]));
 }
 
-// The mean of four pixels each.
+// Mean of four pixels each.
 Image halved(const Image& image) {
   Image half;
   half.width = std::max(1, image.width / 2);
@@ -233,7 +233,7 @@ std::vector<LayerWords> layer_words(const std::vector<const std::vector<Overlay>
 
 std::string texture_file(const Image& image) {
   Image small = image;
-  while (std::max(small.width, small.height) > kWidestTexture) small = halved(small);
+  while (std::max(small.width, small.height) > kMaxTextureWidth) small = halved(small);
   return encode_png(small);
 }
 
@@ -252,18 +252,18 @@ void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend) {
   });
 }
 
-void write_view(JsonWriter& json, const SceneView& stage) {
-  const Camera& camera = stage.list.camera;
-  const Ground& ground = stage.list.ground;
+void write_view(JsonWriter& json, const SceneView& view) {
+  const Camera& camera = view.list.camera;
+  const Ground& ground = view.list.ground;
   json.key("view").begin_object();
   json.members({{"eye", camera.eye},
                 {"target", camera.target},
                 {"up", camera.up},
                 {"fieldOfView", camera.field_of_view},
-                {"light", stage.list.light_W},
-                {"radius", stage.extent.radius()}});
-  write_color(json, "bottom", stage.list.background.bottom);
-  write_color(json, "top", stage.list.background.top);
+                {"light", view.list.light_W},
+                {"radius", view.extent.radius()}});
+  write_color(json, "bottom", view.list.background.bottom);
+  write_color(json, "top", view.list.background.top);
   json.key("ground").object({{"visible", ground.visible},
                              {"height", ground.height},
                              {"cell", ground.cell},

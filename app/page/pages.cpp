@@ -41,7 +41,7 @@ std::string fill_form(std::string_view form, const std::string& title, const Jso
                                                                {"@RUN@", without_tags(json.str())},
                                                                {"@BYTES@", bytes.packed()}};
   std::string html;
-  for (const auto& [mark, text] : parts) {  // in their order; each is there once
+  for (const auto& [mark, text] : parts) {  // each once, in this order
     const std::size_t at = form.find(mark);
     html += std::string(form.substr(0, at)) + text;
     form.remove_prefix(at + mark.size());
@@ -55,17 +55,18 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
   require_form(bundle.inspect, bundle.missing, "--json needs none");
   const SceneModel* scene = input.scene.get();
   const Model<double>& model = input.robot.model;
-  SceneView stage = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
-  const Snapshot moment = scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
-  look_ahead(stage, moment);
-  look_at(stage, moment);
-  settle(stage);
-  measure(stage, moment, Measured::of_picture);
+  SceneView view = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
+  const Snapshot snapshot =
+      scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
+  look_ahead(view, snapshot);
+  look_at(view, snapshot);
+  settle(view);
+  measure(view, snapshot, Measured::of_picture);
   constexpr double kAspect = 1.0;  // of the view
-  set_view(stage, {}, kAspect);
-  PageLayers layers(stage);
-  layers.add_frame(moment);
-  layers.add_apart(moment);
+  set_view(view, {}, kAspect);
+  PageLayers layers(view);
+  layers.add_frame(snapshot);
+  layers.add_apart(snapshot);
   layers.show_at_first({"joints"});
 
   JsonWriter json;
@@ -77,7 +78,7 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
                 {"version", kProgramVersion},
                 {"inspection", inspection}});
   layers.write(json, bytes);
-  write_view(json, stage);
+  write_view(json, view);
   json.end_object();
   return fill_form(bundle.inspect, words.title, json, bytes);
 }
@@ -89,7 +90,7 @@ constexpr double kMaxFrames = 1500;  // of a page
 constexpr std::size_t kMaxEntries = 400'000;  // of all its draw lists together
 constexpr double kAspect = 1.35;              // of the view
 
-// Between two frames, so that the last is the recording's own last one. No frame comes twice.
+// Between two frames: the last frame of the recording is included, none is repeated.
 double interval_of(double duration, std::size_t recorded) {
   const double own = static_cast<double>(std::max<std::size_t>(recorded, 2) - 1) / duration;
   const double rate = std::min({kMaxRate, kMaxFrames / duration, own});
@@ -108,21 +109,7 @@ FilmedRun open_film(const std::filesystem::path& file, Progress& progress) {
   return film_run(options, times, "auto", progress);
 }
 
-SceneView stage_of(const FilmedRun& run) {
-  SceneView stage = run.plan.input.scene ? make_stage(*run.plan.input.scene)
-                                         : make_stage(run.plan.input.robot.robot, run.model());
-  for (const RunInstant& instant : run.around) look_ahead(stage, run.moment(instant));
-  for (const RunInstant& instant : run.shown) look_at(stage, run.moment(instant));
-  settle(stage);
-  for (const RunInstant& instant : run.around)
-    measure(stage, run.moment(instant), Measured::of_run);
-  for (const RunInstant& instant : run.shown)
-    measure(stage, run.moment(instant), Measured::of_picture);
-  set_view(stage, {}, kAspect);
-  return stage;
-}
-
-// Where draw lists are long (a pyramid with all of its contacts), fewer frames; the last one stays.
+// Fewer frames if draw lists are long; keeps the last one.
 void reduce_contacts(FilmedRun& run, std::size_t entries_a_frame) {
   const std::size_t count = run.shown.size();
   const std::size_t stride = (count * entries_a_frame + kMaxEntries - 1) / kMaxEntries;
@@ -133,9 +120,9 @@ void reduce_contacts(FilmedRun& run, std::size_t entries_a_frame) {
   run.shown = std::move(kept);
 }
 
-std::size_t entries_of(SceneView& stage, const Snapshot& moment) {
-  draw(stage, moment, parse_overlays("all"));
-  return stage.list.instances.size();
+std::size_t entries_of(SceneView& view, const Snapshot& snapshot) {
+  draw(view, snapshot, parse_overlays("all"));
+  return view.list.instances.size();
 }
 
 }  // namespace
@@ -145,15 +132,16 @@ ReplayPage replay_page(const std::filesystem::path& file) {
   require_form(bundle.replay, bundle.missing, "--csv and --json need none");
   Progress progress(true);
   FilmedRun run = open_film(file, progress);
-  SceneView stage = stage_of(run);
-  reduce_contacts(run, entries_of(stage, run.moment(run.shown.back())));
-  PageLayers layers(stage);
+  SceneView view = view_of(run);
+  set_view(view, {}, kAspect);
+  reduce_contacts(run, entries_of(view, run.snapshot(run.shown.back())));
+  PageLayers layers(view);
   PageChannels channels(run);
   for (const RunInstant& instant : run.shown) {
     check_interrupt();
-    const Snapshot moment = run.moment(instant);
-    layers.add_frame(moment);
-    channels.add_frame(run.recording->frame(run.recording->at(instant.x.t, "export")), moment);
+    const Snapshot snapshot = run.snapshot(instant);
+    layers.add_frame(snapshot);
+    channels.add_frame(run.recording->frame(run.recording->at(instant.x.t, "export")), snapshot);
   }
   ReplayPage page;
   page.frames = run.shown.size();
@@ -163,12 +151,12 @@ ReplayPage replay_page(const std::filesystem::path& file) {
   JsonWriter json;
   PageBytes bytes;
   json.begin_object();
-  write_facts(json, run, stage, page.rate);
+  write_facts(json, run, view, page.rate);
   channels.write(json, bytes);
   layers.write(json, bytes);
-  write_view(json, stage);
+  write_view(json, view);
   json.end_object();
-  page.html = fill_form(bundle.replay, stage.name, json, bytes);
+  page.html = fill_form(bundle.replay, view.name, json, bytes);
   return page;
 }
 

@@ -1,4 +1,4 @@
-// A page from its template: title, JSON and bytes in their places.
+// HTML pages from templates: title, JSON and bytes.
 #pragma once
 
 #include <filesystem>
@@ -12,31 +12,30 @@
 
 namespace twinarm {
 
-// Throws InputError where there is no template; `instead` says what else there is.
+// Throws InputError if the program was built without templates; `instead`: an alternative.
 void require_form(std::string_view form, std::string_view missing, const std::string& instead);
 std::string fill_form(std::string_view form, const std::string& title, const JsonWriter& json,
                       const PageBytes& bytes);
 
-// The page of an inspected state: `inspect --json` with the robot beside it (docs/use/share_a_run.md).
+// Page of an inspected state: `inspect --json` with the robot (docs/use/share_a_run.md).
 struct InspectedJson {
-  std::string title, state;          // what is looked at, and in which state
-  std::vector<std::string> command;  // as it was typed
+  std::string title, state;          // model and state
+  std::vector<std::string> command;  // as typed
 };
 
-// `inspection`: what inspect_json() says. Throws InputError where the program was built without its
-// pages.
+// `inspection`: from inspect_json(). Throws InputError like require_form().
 std::string inspect_page(const SimulateInput& input, const State<double>& x,
                          const std::string& inspection, const InspectedJson& words);
 
-// The page of a recorded run: one HTML file with picture, plots, ledger and settings, that needs no
-// server and no network (docs/use/share_a_run.md).
+// Page of a recorded run: one HTML file with 3D view, plots, energy balance and settings, without
+// server or network (docs/use/share_a_run.md).
 struct ReplayPage {
   std::string html;
   std::size_t frames = 0;
   double rate = 0;  // frames per second of the run
 };
 
-// Throws InputError: no recording; the program was built without its pages.
+// Throws InputError if it is not a recording, and like require_form().
 ReplayPage replay_page(const std::filesystem::path& recording);
 
 }  // namespace twinarm

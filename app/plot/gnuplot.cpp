@@ -14,6 +14,7 @@
 #include "app/data/html_page.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
@@ -35,18 +36,15 @@ namespace {
 
 std::filesystem::path find_program(const std::string& name) {
   const char* path = std::getenv("PATH");
-  std::string rest = path ? path : "";
-  while (!rest.empty()) {
-    const std::size_t colon = rest.find(':');
-    const std::filesystem::path candidate = std::filesystem::path(rest.substr(0, colon)) / name;
+  for (const std::string& folder : split(path ? path : "", ':')) {
+    const std::filesystem::path candidate = std::filesystem::path(folder) / name;
     if (access(candidate.c_str(), X_OK) == 0) return candidate;
-    rest = colon == std::string::npos ? "" : rest.substr(colon + 1);
   }
   throw InputError({{"", 0, name, "the program is not in PATH; it draws the figures",
                      "install gnuplot-nox (scripts/setup does)", "program.missing"}});
 }
 
-// Runs the script in `folder`; no shell, so that no name needs quoting.
+// Runs the script in `folder`, without a shell.
 bool run_gnuplot(const std::filesystem::path& folder, const std::filesystem::path& script,
                  const std::filesystem::path& messages) {
   const std::string program = find_program("gnuplot").string();
@@ -136,7 +134,7 @@ std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<doubl
     keep(std::min(low, high));
     if (low != high) keep(std::max(low, high));
   }
-  keep(n - 1);  // a line ends where its data do
+  keep(n - 1);  // the last point
   return data({kept_x, kept_y});
 }
 
@@ -173,8 +171,7 @@ std::string Gnuplot::svg(const std::string& name, const std::string& title, int 
                       "'#FFFFFF' name '{}'",
                       width, height, name),
           script);
-  // Ids of their own, so that many figures can stand in one page; fonts that other systems have;
-  // a title that says what it is.
+  // Unique ids for several figures in a page, fallback fonts, the title.
   for (const char* id : {"gnuplot_canvas", "textbox", "greybox"}) {
     replace_all(drawn, fmt::format("\"{}\"", id), fmt::format("\"{}_{}\"", name, id));
     replace_all(drawn, fmt::format("'{}'", id), fmt::format("'{}_{}'", name, id));

@@ -88,7 +88,7 @@ void add_couplings(py::module_& m) {
       "coupling_types", coupling_types,
       "A row for each type of [[coupling]] in a scene: name; treatments that it can have (of its\n"
       "own: none); at_point, whether it pulls at a point; can_hold, whether its force can be held\n"
-      "at a rate. docs/understand/couplings.md has the laws.");
+      "at a rate. docs/understand/coupling_laws.md has the laws.");
   m.def(
       "schemes",
       [] {

@@ -1,4 +1,5 @@
-// Joint values as people and files have them (docs/reference/output_formats.md), and the way to the solver's.
+// Joint values as people and files have them (docs/reference/state_file.md), and the way to the
+// solver's.
 //
 // Each joint that is neither fixed nor a follower (URDF's mimic) is named once, in the order of the
 // model. Its values are those of the solver, but for joints of six degrees of freedom (URDF's
@@ -74,7 +75,7 @@ void to_solver(const NamedJoint& joint, const State<double>& x, const double* va
                std::vector<double>& by_velocity);
 
 // Coordinates and velocities of joints by name, as scenes and state files give them
-// (docs/reference/output_formats.md, "The state file").
+// (docs/reference/state_file.md).
 struct JointValues {
   std::vector<double> values;
   int line = 0;

@@ -16,7 +16,7 @@
 
 namespace twinarm {
 
-// The state file: where a robot is, how it moves, what acts on it (docs/reference/output_formats.md).
+// The state file: where a robot is, how it moves, what acts on it (docs/reference/state_file.md).
 
 // A force at a point and a torque about that point, on a link.
 struct Wrench {

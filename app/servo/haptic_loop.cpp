@@ -12,68 +12,69 @@
 
 namespace twinarm {
 
-std::vector<int> turned_bodies(const SceneModel& scene, const DrivenJoints& joints) {
+std::vector<int> driven_bodies(const SceneModel& scene, const DrivenJoints& joints) {
   std::vector<int> bodies;
   for (const std::string& name : joints.turned) bodies.push_back(scene.model.find_joint(name));
   return bodies;
 }
 
-std::pair<int, Vector3> led_point(const SceneModel& scene, const std::vector<std::size_t>& led) {
-  const std::vector<int> turned = turned_bodies(scene, scene.couplings[led.front()].driven);
-  std::pair<int, Vector3> point{turned.back(), Vector3::Zero()};
-  for (const std::size_t c : led)
+std::pair<int, Vector3> controlled_point(const SceneModel& scene,
+                                         const std::vector<std::size_t>& driven) {
+  const std::vector<int> bodies = driven_bodies(scene, scene.couplings[driven.front()].driven);
+  std::pair<int, Vector3> point{bodies.back(), Vector3::Zero()};
+  for (const std::size_t c : driven)
     if (scene.couplings[c].type == CouplingDescription::Type::linear)
       point = {scene.couplings[c].spring.body, scene.couplings[c].spring.p_L};
   return point;
 }
 
-HandLoop::HandLoop(const SceneModel& scene, const SceneCouplings& couplings,
-                   const std::vector<std::size_t>& led, HandDevice& device,
-                   const HandLoopOptions& options)
+HapticLoop::HapticLoop(const SceneModel& scene, const SceneCouplings& couplings,
+                       const std::vector<std::size_t>& driven, HandDevice& device,
+                       const HapticLoopOptions& options)
     : model_(scene.model),
       couplings_(couplings),
       device_(device),
-      leader_(led.front()),
-      turned_(turned_bodies(scene, scene.couplings[leader_].driven)),
-      reaction_(scene.model, turned_) {
-  const auto [body, p_L] = led_point(scene, led);
-  const State<double>& rest = scene.couplings[leader_].rest;
-  const MappedRobot robot{&scene.model, rest, turned_, {}, {}, body, p_L};
+      first_(driven.front()),
+      driven_(driven_bodies(scene, scene.couplings[first_].driven)),
+      reaction_(scene.model, driven_) {
+  const auto [body, p_L] = controlled_point(scene, driven);
+  const State<double>& rest = scene.couplings[first_].rest;
+  const MappedRobot robot{&scene.model, rest, driven_, {}, {}, body, p_L};
   mapping_ = make_mapping(options.mapping, device.figures(), robot);
   force_ = std::make_unique<HandForce>(options.force, device.figures(), *mapping_);
-  for (const std::size_t c : led)
+  for (const std::size_t c : driven)
     if (scene.couplings[c].leads() && !scene.couplings[c].outside)
       reaction_.add(couplings.law(c), couplings.coupling(c));
-  for (const int joint : turned_) {
+  for (const int joint : driven_) {
     target_.q.push_back(rest.q[scene.model.iq[static_cast<std::size_t>(joint)]]);
     target_.qd.push_back(0);
     q_D_.push_back(target_.q.back());
   }
 }
 
-void HandLoop::begin(const std::vector<double>& q, double now) noexcept {
+void HapticLoop::begin(const std::vector<double>& q, double now) noexcept {
   std::copy(q.begin(), q.end(), target_.q.begin());
   mapping_->begin(device_.poll(now), target_.q);
 }
 
-const HandTarget& HandLoop::before_step(const State<double>& x, double now, double h) noexcept {
+const HandTarget& HapticLoop::before_step(const State<double>& x, double now, double h) noexcept {
   state_ = device_.poll(now);
-  for (std::size_t j = 0; j < turned_.size(); ++j)
-    q_D_[j] = x.q[model_.iq[static_cast<std::size_t>(turned_[j])]];
+  for (std::size_t j = 0; j < driven_.size(); ++j)
+    q_D_[j] = x.q[model_.iq[static_cast<std::size_t>(driven_[j])]];
   watch_.tick(state_, *mapping_, q_D_, h, target_);
   return target_;
 }
 
-const DeviceForce& HandLoop::after_step(const Simulation& simulation, double h,
-                                        bool finite) noexcept {
-  felt_ = {};
+const DeviceForce& HapticLoop::after_step(const Simulation& simulation, double h,
+                                          bool finite) noexcept {
+  rendered_ = {};
   if (finite) {
     const std::vector<double>& tau = reaction_.after_step(
-        couplings_.kvr(leader_).end(), simulation.state(), simulation.kinematics(), h);
-    if (watch_.mode() == DeviceWatchdog::Mode::live) felt_ = force_->tick(state_, tau, h);
+        couplings_.kvr(first_).end(), simulation.state(), simulation.kinematics(), h);
+    if (watch_.mode() == DeviceWatchdog::Mode::live) rendered_ = force_->tick(state_, tau, h);
   }
-  device_.render(felt_);
-  return felt_;
+  device_.render(rendered_);
+  return rendered_;
 }
 
 namespace {
@@ -120,7 +121,7 @@ double thread_cpu_time() noexcept {
   return 1e-9 * static_cast<double>(nanoseconds_of(CLOCK_THREAD_CPUTIME_ID));
 }
 
-std::string ask_for_real_time() {
+std::string request_real_time() {
   std::string missing;
   const sched_param priority{sched_get_priority_min(SCHED_FIFO) + 20};
   if (const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &priority))

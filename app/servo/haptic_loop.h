@@ -1,11 +1,11 @@
-// The hand's part of a tick: before the step the device moves the kinematic robot, after it the
-// couplings' reaction goes back to the device's motors.
+// Haptic loop: one tick moves the target robot (KVR) by the device before a step of the robot
+// (DVR), and renders the couplings' reaction after it.
 //
-//   device.poll -> watch, mapping -> target of the KVR
+//   device.poll -> watchdog, mapping -> target of the KVR
 //   ... one step of the DVR ...
 //   reaction of the couplings -> force -> device.render
 //
-// Neither half waits, throws or allocates.
+// Neither half blocks, throws or allocates.
 #pragma once
 
 #include <cstdint>
@@ -23,31 +23,36 @@
 
 namespace twinarm {
 
-struct HandLoopOptions {
+// Operator motion that is stored for couplings with a delay, of at most kMaxDelay [s].
+inline constexpr double kMaxDelay = 2;
+inline std::size_t steps_of_delay(double h) {
+  return static_cast<std::size_t>(kMaxDelay / h) + 2;
+}
+
+struct HapticLoopOptions {
   MappingSpec mapping;
   HandForceSpec force;
 };
 
-class HandLoop {
+class HapticLoop {
  public:
-  // `led`: the couplings (SceneModel::couplings) whose kinematic side the hand moves, all of them
-  // by the same joints; the first one leads. All must outlive it. Throws InputError: a mapping that
-  // cannot move these joints.
-  HandLoop(const SceneModel& scene, const SceneCouplings& couplings,
-           const std::vector<std::size_t>& led, HandDevice& device, const HandLoopOptions& options);
+  // `driven`: indices of SceneModel::couplings whose targets the device moves, all by the same
+  // joints. All arguments must outlive it. Throws InputError: the mapping cannot move these joints.
+  HapticLoop(const SceneModel& scene, const SceneCouplings& couplings,
+             const std::vector<std::size_t>& driven, HandDevice& device,
+             const HapticLoopOptions& options);
 
-  // The KVR's driven joints stand at q: from there the device moves it. `now`: the device's time.
+  // The device moves the KVR from joint positions q on. `now`: time of the device.
   void begin(const std::vector<double>& q, double now) noexcept;
-  // For the step [t, t + h] from x: where the KVR is to be at its start, and how it moves on.
+  // For the step [t, t + h] from x: q and qd of the KVR's driven joints at its start.
   const HandTarget& before_step(const State<double>& x, double now, double h) noexcept;
-  // What the hand feels of the step that ended where the simulation stands; `finite`: false where
-  // that is nowhere, and nothing is felt.
+  // Force for the step that led to the simulation's state; zero if that is not `finite`.
   const DeviceForce& after_step(const Simulation& simulation, double h, bool finite) noexcept;
 
   const HandTarget& target() const { return target_; }
-  const std::vector<double>& q_D() const { return q_D_; }  // of the DVR, at the start of the step
-  const DeviceState& device() const { return state_; }     // as it was polled last
-  const DeviceForce& felt() const { return felt_; }
+  const std::vector<double>& q_D() const { return q_D_; }  // of the DVR at the start of the step
+  const DeviceState& device() const { return state_; }     // polled last
+  const DeviceForce& force() const { return rendered_; }
   const DeviceWatchdog& watch() const { return watch_; }
   const DeviceMapping& mapping() const { return *mapping_; }
 
@@ -55,8 +60,8 @@ class HandLoop {
   const Model<double>& model_;
   const SceneCouplings& couplings_;
   HandDevice& device_;
-  std::size_t leader_;
-  std::vector<int> turned_;
+  std::size_t first_;  // driven coupling
+  std::vector<int> driven_;
   std::unique_ptr<DeviceMapping> mapping_;
   CouplingReaction reaction_;
   std::unique_ptr<HandForce> force_;
@@ -64,36 +69,32 @@ class HandLoop {
   HandTarget target_;
   std::vector<double> q_D_;
   DeviceState state_;
-  DeviceForce felt_;
+  DeviceForce rendered_;
 };
 
-// Bodies that the driven joints carry.
-std::vector<int> turned_bodies(const SceneModel& scene, const DrivenJoints& joints);
-// The point that follows the stylus: where the outermost spring of these couplings pulls, else the
-// last driven link's origin. Link axes.
-std::pair<int, Vector3> led_point(const SceneModel& scene, const std::vector<std::size_t>& led);
+// Bodies of the driven joints.
+std::vector<int> driven_bodies(const SceneModel& scene, const DrivenJoints& joints);
+// Point that follows the stylus: of the outermost linear coupling of these, else the origin of the
+// last driven link. Link axes.
+std::pair<int, Vector3> controlled_point(const SceneModel& scene,
+                                         const std::vector<std::size_t>& driven);
 
-// The clock of a servo thread: absolute deadlines, a period apart, so that no lateness adds up.
-//
-// What a thread may do for its punctuality: SCHED_FIFO and memory that is never paged out. Both
-// need a privilege (CAP_SYS_NICE, or limits in /etc/security/limits.conf); without it everything
-// works, later at times.
+// Clock of a servo thread with absolute deadlines, so that delays do not accumulate.
 class ServoClock {
  public:
-  // Periods that the thread may be late by and still make up for, one tick at once after another.
-  // Beyond it the deadlines begin anew from now: time has slipped.
+  // Delay in periods that is made up for by ticks without a wait. Beyond it periods are skipped.
   static constexpr int kMaxBehind = 100;
 
   explicit ServoClock(double period);  // [s]
-  // The first deadline is a period from now.
+  // The first deadline is one period from now.
   void start() noexcept;
   struct Wake {
     double late = 0;  // after the deadline [s]
-    int slipped = 0;  // periods that were given up
+    int slipped = 0;  // skipped periods
   };
-  // Sleeps until the next deadline; returns at once where that has passed.
+  // Sleeps until the next deadline; returns at once if it has passed.
   Wake wait() noexcept;
-  // Whether the next deadline has passed already: the tick took longer than there was.
+  // Whether the next deadline has passed: a deadline miss.
   bool is_behind() const noexcept;
 
  private:
@@ -103,8 +104,8 @@ class ServoClock {
 double monotonic_time() noexcept;   // [s]
 double thread_cpu_time() noexcept;  // of the calling thread [s]
 
-// Asks for SCHED_FIFO for the calling thread, and locks the memory of the program. What was not
-// granted, with the remedy; empty where both were.
-std::string ask_for_real_time();
+// Requests SCHED_FIFO for the calling thread, and locks the program's memory; both need a privilege
+// (CAP_SYS_NICE, or limits in /etc/security/limits.conf). Returns what was denied and the remedy.
+std::string request_real_time();
 
 }  // namespace twinarm

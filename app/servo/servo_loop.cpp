@@ -1,18 +1,15 @@
 #include "app/servo/servo_loop.h"
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <thread>
 
-#include "app/servo/haptic_loop.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
 
-// Ticks that may wait to be written: sixteen seconds of a thread that does not come.
+// Ticks between two drains: sixteen seconds at 1 kHz.
 constexpr std::size_t kRing = 1 << 14;
 
 class Servo {
@@ -20,9 +17,8 @@ class Servo {
   Servo(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop)
       : run_(run), plan_(plan), stop_(stop), ring_(kRing) {}
 
-  // The servo thread.
   void work() noexcept {
-    if (plan_.ask_for_fifo) result_.refused = ask_for_real_time();
+    if (plan_.ask_for_fifo) result_.refused = request_real_time();
     const double ticks = plan_.duration / run_.step();
     const auto each_second = static_cast<long>(std::lround(1 / run_.step()));
     ServoClock clock(run_.step());
@@ -36,11 +32,11 @@ class Servo {
       if (total == 0) first = last;
       const double cpu = thread_cpu_time();
       if (!is_empty) {
-        const TickResult view = run_.tick();
+        const TickResult tick = run_.tick();
         ++done;
-        if (!ring_.push(view)) ++result_.lost;
-        if (!view.finite) result_.finite = false;
-        if (!view.finite) break;
+        if (!ring_.push(tick)) ++result_.lost;
+        result_.finite = tick.finite;
+        if (!tick.finite) break;
       }
       figures.cpu.add(thread_cpu_time() - cpu);
       figures.wall.add(monotonic_time() - last);
@@ -72,7 +68,7 @@ class Servo {
   std::atomic<bool> done_{false};
 };
 
-// As fast as it goes, in this thread.
+// Without pacing, in this thread.
 ServoResult run_unpaced(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop,
                         const std::function<void(SpscRing<TickResult>&)>& drain) {
   constexpr long kAtOnce = 100;
@@ -81,9 +77,9 @@ ServoResult run_unpaced(LiveRun& run, const ServoPlan& plan, const std::atomic<b
   const double ticks = plan.duration / run.step() - 1e-9;
   for (long done = 0; static_cast<double>(done) < ticks && !stop && result.finite; ++done) {
     if (done % kAtOnce == 0) drain(ring);
-    const TickResult view = run.tick();
-    result.finite = view.finite;
-    ring.push(view);
+    const TickResult tick = run.tick();
+    result.finite = tick.finite;
+    ring.push(tick);
   }
   drain(ring);
   return result;
@@ -107,70 +103,70 @@ ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<boo
 
 namespace {
 
-constexpr double kRemembered = 2.0;  // of the hand, for couplings that see it late [s]
-constexpr double kMinStep = 1e-6, kLongestStep = 0.1;  // [s]
+constexpr double kMinStep = 1e-6, kMaxStep = 0.1;  // [s]
 
 double step_of(const SceneModel& scene, const LiveOptions& options) {
   const bool is_option = options.step > 0;
   const double h = is_option ? options.step : scene.description.step;
-  if (h >= kMinStep && h <= kLongestStep) return h;
+  if (h >= kMinStep && h <= kMaxStep) return h;
   throw InputError(
       {{is_option ? "" : scene.description.file.string(), 0, is_option ? "--step" : "step",
-        "with a hand device the step is from 1e-6 to 0.1 s, and here " + short_number_text(h) +
-            " s",
+        "is " + short_number_text(h) + " s; with an input device 1e-6 to 0.1 s are possible",
         "give 0.001", "hand.step"}});
 }
 
-// A tick takes one semi-implicit step of known work.
+// A tick takes one semi-implicit step of constant cost.
 void check_steps(const SceneModel& scene, DiagnosticList& faults) {
   const std::string file = scene.description.file.string();
   const Integrator integrator = scene.description.integrator.value_or(Integrator::semi_implicit);
   if (integrator != Integrator::semi_implicit)
     faults.add({file, 0, "integrator",
-                std::string("a hand device goes with semi-implicit, not with ") +
+                std::string("an input device requires semi-implicit, found ") +
                     integrator_name(integrator),
-                "leave it out of the scene", "hand.integrator"});
+                "remove the key from the scene", "hand.integrator"});
   if (locates_events(scene))
-    faults.add({file, 0, "contact", "impacts that are located have no time for a hand device",
+    faults.add({file, 0, "contact",
+                "located events are not possible in real time with an input device",
                 "give contact = \"rigid\"", "hand.contact"});
 }
 
-// The couplings that follow the device. All of them are to turn the same joints.
-std::vector<std::size_t> find_led(const SceneModel& scene, double h) {
+// Couplings with target = "device", which must have the same driven joints.
+std::vector<std::size_t> device_couplings(const SceneModel& scene, double h) {
   const std::string file = scene.description.file.string();
   DiagnosticList faults;
   check_steps(scene, faults);
-  std::vector<std::size_t> led;
+  std::vector<std::size_t> driven;
   for (std::size_t c = 0; c < scene.couplings.size(); ++c) {
     const SceneCoupling& coupling = scene.couplings[c];
     if (coupling.target != CouplingTarget::Kind::device) continue;
-    led.push_back(c);
+    driven.push_back(c);
     if (!coupling.leads()) continue;
     const std::string where = "coupling '" + coupling.coupling + "'";
-    if (coupling.driven.turned != scene.couplings[led.front()].driven.turned)
-      faults.add({file, coupling.line, where, "it follows the device with another robot",
+    if (coupling.driven.turned != scene.couplings[driven.front()].driven.turned)
+      faults.add({file, coupling.line, where, "the device drives other joints of another coupling",
                   "one device moves one robot: give it another target", "hand.two-robots"});
-    if (coupling.delay > kRemembered - h)
-      faults.add({file, coupling.line, where + ", delay", "of a device it is at most 2 s",
-                  "give a shorter one", "hand.delay"});
+    if (coupling.delay > kMaxDelay - h)
+      faults.add({file, coupling.line, where + ", delay",
+                  "with target = \"device\" at most 2 s minus a step are possible",
+                  "give a shorter delay", "hand.delay"});
   }
-  if (led.empty())
-    faults.add({file, 0, "coupling", "none of them follows a hand device",
-                "give target = \"device\" to those that should", "hand.no-device"});
+  if (driven.empty())
+    faults.add({file, 0, "coupling", "no coupling has target = \"device\"",
+                "give target = \"device\" to the couplings that the device drives",
+                "hand.no-device"});
   faults.check();
-  return led;
+  return driven;
 }
 
 }  // namespace
 
 LiveRun::LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options)
     : h_(step_of(scene, options)),
-      led_(find_led(scene, h_)),
-      leader_(led_.front()),
-      hand_(std::make_unique<DeviceMotion>(static_cast<std::size_t>(kRemembered / h_) + 2)),
+      driven_(device_couplings(scene, h_)),
+      hand_(std::make_unique<DeviceMotion>(steps_of_delay(h_))),
       couplings_(std::make_unique<SceneCouplings>(scene, h_, hand_.get())),
       simulation_(scene.model, scene.start) {
-  loop_ = std::make_unique<HandLoop>(scene, *couplings_, led_, device, options);
+  loop_ = std::make_unique<HapticLoop>(scene, *couplings_, driven_, device, options);
   for (std::size_t c = 0; c < couplings_->size(); ++c)
     if (ForceSource* source = couplings_->source(c)) simulation_.add(*source);
   for (const SceneMotion& motion : scene.motions) simulation_.prescribe(motion.body, motion.law);
@@ -179,32 +175,32 @@ LiveRun::LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions&
 }
 
 TickResult LiveRun::tick() noexcept {
-  TickResult view;
+  TickResult result;
   const double t = time();
   const HandTarget& target = loop_->before_step(simulation_.state(), t, h_);
   hand_->set(target, t, h_);
-  view.hand = hand_->newest();
+  result.hand = hand_->newest();
   const std::vector<double>& q_D = loop_->q_D();
-  for (std::size_t j = 0; j < std::min(view.error.size(), q_D.size()); ++j)
-    view.error[j] = target.q[j] - q_D[j];
-  view.mode = loop_->watch().mode();
+  for (std::size_t j = 0; j < std::min(result.error.size(), q_D.size()); ++j)
+    result.error[j] = target.q[j] - q_D[j];
+  result.mode = loop_->watch().mode();
   if (!stopped_) stopped_ = !simulation_.step(h_).finite;
-  view.finite = !stopped_;
-  view.felt = loop_->after_step(simulation_, h_, view.finite).torque;
-  return view;
+  result.finite = !stopped_;
+  result.felt = loop_->after_step(simulation_, h_, result.finite).torque;
+  return result;
 }
 
 namespace {
 
-// The first state of a device that is there.
+// First state of a live device.
 DeviceState first_state(HandDevice& device, ServoClock& clock, bool real_time, double h) {
   constexpr double kPatience = 5;  // [s]
   for (double waited = 0;; waited += h) {
     const DeviceState state = device.poll(0);
     if (state.alive) return state;
     if (waited > kPatience)
-      throw InputError({{"", 0, "--device", device.description() + " says nothing",
-                         "see that it is switched on and not in use elsewhere", "device.silent"}});
+      throw InputError({{"", 0, "--device", device.description() + " sends no data",
+                         "switch it on, and end other programs that use it", "device.silent"}});
     if (real_time) clock.wait();
   }
 }

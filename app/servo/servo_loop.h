@@ -1,8 +1,8 @@
-// The servo loop: a thread that ticks a run at the rate of its steps, and how punctual it was.
+// Servo loop: a thread that ticks a run in real time at the rate of its steps, and measures its
+// timing.
 //
-// The thread takes the newest state of the device and hands its force over; it waits for nobody but
-// the clock. What it has done goes through a ring to the thread that writes files and talks to
-// people.
+// The thread waits only for its clock. Results of its ticks go through a ring to the thread that
+// writes files and output.
 #pragma once
 
 #include <algorithm>
@@ -23,31 +23,27 @@
 
 namespace twinarm {
 
-// A scene under a hand: one tick of the servo loop.
-//
-//   device.poll -> watch, mapping -> KVR -> one step of the DVR with contacts -> force ->
-//   device.render
-//
-// tick() neither waits, throws nor allocates once warm. Time is that of the run: tick n stands at n
-// h, in real time or not.
-struct LiveOptions : HandLoopOptions {
+// One tick: device.poll -> watchdog, mapping -> KVR -> one step of the DVR with contacts -> force
+// -> device.render. tick() does not block, throw or, once warm, allocate. Tick n is at run time n
+// h.
+struct LiveOptions : HapticLoopOptions {
   double step = 0;  // from 1e-6 to 0.1 s; 0: the scene's
 };
 
-// What a tick did, for the log and for whoever watches.
+// Result of a tick.
 struct TickResult {
-  HandStep hand;  // what the KVR was told
+  HandStep hand;  // motion of the KVR
   DeviceWatchdog::Mode mode = DeviceWatchdog::Mode::live;
-  std::array<double, 3> felt{};   // torques of the motors [N m]
+  std::array<double, 3> felt{};   // motor torques [N m]
   std::array<double, 3> error{};  // q_K - q_D of the driven joints at the start of the step
-  bool finite = true;             // false: the DVR has left all bounds, and stands
+  bool finite = true;             // false: the DVR has diverged, and is not stepped any more
 };
 
 class LiveRun {
  public:
-  // Scene and device must outlive it. Throws InputError: a step beyond its range, an integrator
-  // that is not semi-implicit, contact = "event", no coupling with target = "device", couplings
-  // that follow the device with different joints, a mapping that cannot move them.
+  // Scene and device must outlive it. Throws InputError: step out of range, integrator not
+  // semi-implicit, contact = "event", no coupling with target = "device", such couplings with
+  // different driven joints, a mapping that cannot move them.
   LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options);
 
   TickResult tick() noexcept;
@@ -57,34 +53,28 @@ class LiveRun {
   const SceneContacts& contacts() const { return *contacts_; }
   const DeviceWatchdog& watch() const { return loop_->watch(); }
   const DeviceMapping& mapping() const { return loop_->mapping(); }
-  std::size_t leader() const { return leader_; }  // the first coupling that follows the device
+  std::size_t leader() const { return driven_.front(); }  // first coupling of the device
 
  private:
   double h_;
-  std::vector<std::size_t> led_;  // couplings that follow the device
-  std::size_t leader_ = 0;
+  std::vector<std::size_t> driven_;  // couplings with target = "device"
   std::unique_ptr<DeviceMotion> hand_;
   std::unique_ptr<SceneCouplings> couplings_;
   Simulation simulation_;
   std::optional<SceneContacts> contacts_;
-  std::unique_ptr<HandLoop> loop_;
+  std::unique_ptr<HapticLoop> loop_;
   bool stopped_ = false;
 };
 
-// What a device does for a while: its angles at each tick, as a hand that can be played again.
-
-// At the device's own rate, for so many seconds. In real time, or as fast as it goes for a device
-// that is simulated. Rates are differences; a device that is silent stands. No force is rendered.
-// `tick` is called with the time that has gone, and may throw. Throws InputError for a device that
-// says nothing in its first five seconds.
+// Records the motion of a device at its own rate for `duration` [s]; simulated devices may run
+// faster than real time. Rates are differences; while the device is silent it is at rest. No force
+// is rendered. `tick` gets the elapsed time, and may throw. Throws InputError: no data in five
+// seconds.
 std::unique_ptr<DeviceMotion> record_hand(HandDevice& device, double duration, bool real_time,
                                           const std::function<void(double)>& tick);
 
-// How long ticks took: a histogram that costs a few instructions to add to, and never allocates.
-//
-// Bins are a sixteenth of an octave wide, from 50 ns to 13 s; a quantile is the upper edge of its
-// bin, so it is never told too small, and at most 4.5 % too large. The largest value is kept
-// exactly.
+// Histogram of durations, without allocation. Bins are 1/16 octave wide, from 50 ns to 13 s; a
+// quantile is the upper edge of its bin, at most 4.5 % too large. The maximum is exact.
 class TickTimes {
  public:
   static constexpr int kBins = 28 * 16;
@@ -100,9 +90,9 @@ class TickTimes {
   static double upper_edge(int bin) { return kFirst * std::exp2(bin / 16.0); }
   long count() const { return count_; }
   long count(int bin) const { return counts_[static_cast<std::size_t>(bin)]; }
-  double largest() const { return max_; }
+  double max() const { return max_; }
   double mean() const { return count_ ? sum_ / static_cast<double>(count_) : 0; }
-  // The least edge that a share p of all values does not pass [s]; 0 where there are none.
+  // Upper edge below which a share p of the values lies [s]; 0: no values.
   double quantile(double p) const {
     const double wanted = p * static_cast<double>(count_);
     long below = 0;
@@ -119,13 +109,12 @@ class TickTimes {
   double sum_ = 0, max_ = 0;
 };
 
-// From one thread to another without a lock: a ring that one writes and one reads. A full ring
-// refuses, it never waits.
+// Lock-free ring buffer, single producer, single consumer.
 template <class T>
 class SpscRing {
  public:
-  explicit SpscRing(std::size_t room) : slots_(room) {}
-  // By the writer alone. False: there is no room, and the value is not taken.
+  explicit SpscRing(std::size_t size) : slots_(size) {}
+  // From the producer. False: full.
   bool push(const T& value) noexcept {
     const std::size_t end = end_.load(std::memory_order_relaxed);
     if (end - begin_.load(std::memory_order_acquire) == slots_.size()) return false;
@@ -133,7 +122,7 @@ class SpscRing {
     end_.store(end + 1, std::memory_order_release);
     return true;
   }
-  // By the reader alone. False: there is nothing.
+  // From the consumer. False: empty.
   bool pop(T& value) noexcept {
     const std::size_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == end_.load(std::memory_order_acquire)) return false;
@@ -144,38 +133,35 @@ class SpscRing {
 
  private:
   std::vector<T> slots_;
-  std::atomic<std::size_t> begin_{0}, end_{0};  // of all that were ever pushed
+  std::atomic<std::size_t> begin_{0}, end_{0};  // counts of all values
 };
 
-// How the ticks of one kind went.
 struct TickFigures {
-  TickTimes late;      // the thread woke after the deadline by this much
-  TickTimes interval;  // between the beginnings of neighbouring ticks
-  TickTimes cpu;       // of the thread, in the tick
-  TickTimes wall;      // of the tick
-  long overruns = 0;   // ticks that were not done by the next deadline
-  long slipped = 0;    // periods that were given up
+  TickTimes late;      // wake-up after the deadline
+  TickTimes interval;  // between the starts of consecutive ticks
+  TickTimes cpu;       // processor time of the tick
+  TickTimes wall;      // wall time of the tick
+  long overruns = 0;   // deadline misses
+  long slipped = 0;    // skipped periods
 };
 
 struct ServoPlan {
-  double duration = 0;    // of ticks that step the run [s]; infinite: until told
-  bool real_time = true;  // false: as fast as it goes, and no figures of punctuality
+  double duration = 0;    // of ticks that step the run [s]; may be infinite
+  bool real_time = true;  // false: without pacing and timing figures
   bool ask_for_fifo = false;
-  // Each other second the ticks are empty: what this machine can do at all, beside what we do.
-  bool control = false;
+  bool control = false;  // every other second the ticks are empty, to measure the machine's jitter
 };
 
 struct ServoResult {
   TickFigures run, empty;
-  std::string refused;  // what real-time privileges were asked for and not given
-  long lost = 0;        // ticks that the ring had no room for
-  double span = 0;  // from the beginning of the first tick to that of the last, by the clock [s]
+  std::string refused;  // requested real-time privileges that were denied
+  long lost = 0;        // ticks that did not fit into the ring
+  double span = 0;      // from the start of the first tick to that of the last [s]
   bool finite = true;
 };
 
-// Runs until its duration is over or `stop` says true (asked each tick by the servo thread: a
-// flag). `drain` is called by this thread, some twenty times a second and once at the end, with the
-// ring. In real time it must not throw.
+// Runs for its duration or until `stop`. The calling thread calls `drain` with the ring about
+// twenty times a second and once at the end; in real time it must not throw.
 ServoResult run_servo(LiveRun& run, const ServoPlan& plan, const std::atomic<bool>& stop,
                       const std::function<void(SpscRing<TickResult>&)>& drain);
 

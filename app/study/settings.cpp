@@ -8,9 +8,9 @@
 namespace twinarm {
 namespace {
 
-constexpr const char* kRemedy = "see the file as it was shipped";
+constexpr const char* kFix = "see the shipped file";
 
-// The tables of the settings: every key must be there. What is at fault comes back as nothing.
+// Table of the settings: every key is required. Invalid values are reported and read as zero.
 class SettingsTable : public TableReader {
  public:
   SettingsTable(const Value& table, std::string where, const std::string& file,
@@ -19,27 +19,27 @@ class SettingsTable : public TableReader {
 
   SettingsTable part(const std::string& key) {
     static const Value kNone;
-    missing(key, kRemedy);
+    missing(key, kFix);
     const Value* part = table(key);
     return {part ? *part : kNone, key, file_, faults_};
   }
   double number(const std::string& key) {
-    missing(key, kRemedy);
+    missing(key, kFix);
     return TableReader::number(key).value_or(0);
   }
   std::string text(const std::string& key) {
-    missing(key, kRemedy);
+    missing(key, kFix);
     return TableReader::text(key).value_or("");
   }
   Vector3 vector(const std::string& key) {
-    missing(key, kRemedy);
+    missing(key, kFix);
     return TableReader::vector(key).value_or(Vector3::Zero());
   }
   unsigned whole(const std::string& key) {
     const double value = number(key);
     if (value >= 0 && value < 4294967296.0 && value == std::floor(value))
       return static_cast<unsigned>(value);
-    fault(key, "must be a whole number of at least 0", kRemedy, "study.whole-number");
+    fault(key, "must be a whole number of at least 0", kFix, "study.whole-number");
     return 0;
   }
   std::vector<double> numbers(const std::string& key) {
@@ -57,7 +57,7 @@ class SettingsTable : public TableReader {
   }
 
  private:
-  // Of any length but none where `count` is 0.
+  // A nonempty list; of `count` items if that is not 0.
   std::vector<Value> items(const std::string& key, Value::Kind kind, const std::string& wanted,
                            std::size_t count = 0) {
     const Value* list = find(key);
@@ -66,7 +66,7 @@ class SettingsTable : public TableReader {
     for (std::size_t i = 0; good && i < list->items.size(); ++i)
       good = list->items[i].kind == kind && std::isfinite(list->items[i].number);
     if (good) return list->items;
-    fault(key, "must be " + wanted, kRemedy, "study.list");
+    fault(key, "must be " + wanted, kFix, "study.list");
     return {};
   }
 
@@ -83,8 +83,8 @@ void read_robot(SettingsTable robot, const std::string& file, DiagnosticList& fa
   s.joints.gripper_closed = robot.number("gripper_closed");
   s.added_mass = robot.number("added_mass");
   const auto mounts = robot.tables("mount");
-  if (mounts.size() != 2)  // of the two linear springs
-    robot.fault("mount", "must be 2 tables [[robot.mount]]", kRemedy, "study.mounts");
+  if (mounts.size() != 2)  // one for each linear spring
+    robot.fault("mount", "must be 2 tables [[robot.mount]]", kFix, "study.mounts");
   for (const Value* one : mounts) {
     SettingsTable mount(*one, "robot.mount", file, faults);
     s.mounts.push_back({mount.text("link"), mount.vector("point")});

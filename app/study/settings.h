@@ -1,4 +1,4 @@
-// The study's settings, from assets/study/settings.toml, and the robots it runs.
+// Settings of the study, from assets/study/settings.toml.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@
 
 namespace twinarm {
 
-struct Mount {  // of an added mass, and so of a linear spring
+struct Mount {  // point of an added mass and of a linear spring
   std::string link;
   Vector3 p_L = Vector3::Zero();  // [m]
 };
 
 struct StudySettings {
-  std::filesystem::path assets;  // the folder that all other paths are relative to
+  std::filesystem::path assets;  // folder to which all other paths are relative
   std::filesystem::path urdf;
   DrivenJoints joints;
   double added_mass = 0;  // [kg]
@@ -40,7 +40,7 @@ struct StudySettings {
   } obstacle;
 };
 
-// Throws InputError with every entry that is missing or of the wrong kind.
+// Throws InputError with all missing and invalid entries.
 StudySettings read_settings(const std::filesystem::path& assets);
 
 }  // namespace twinarm

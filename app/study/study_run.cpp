@@ -12,7 +12,7 @@
 namespace twinarm {
 namespace {
 
-// A system of KVR, DVR, studied coupling, auxiliary couplings and joint stops.
+// KVR, DVR, studied coupling, auxiliary couplings and joint stops.
 TrackingSeries track(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec) {
   TrackingSetup setup;
   setup.kvr_model = &robot.kvr_model();
@@ -129,14 +129,14 @@ const char* treatment_name(const CouplingSpec& spec) {
 
 std::string coupling_words(const CouplingSpec& spec) {
   if (spec.type == CouplingSpec::Type::linear) return "linear";
-  if (spec.type == CouplingSpec::Type::matched) return "torsional, full K_q of the linear one";
+  if (spec.type == CouplingSpec::Type::matched) return "torsional, full K_q of the linear coupling";
   const SpringSpace measure = spec.printed ? spec.options.measure : spec.measure;
   return measure == SpringSpace::world ? "torsional, world orientation" : "torsional, joint angle";
 }
 
 namespace {
 
-// Links outward of a joint, its own link included.
+// Child link of a joint and its descendants.
 std::vector<std::string> links_outward(const RobotDescription& robot, const std::string& joint) {
   std::vector<std::string> links;
   for (const JointDescription& j : robot.joints)
@@ -147,8 +147,8 @@ std::vector<std::string> links_outward(const RobotDescription& robot, const std:
   return links;
 }
 
-// One implicit spring-damper on a joint's coordinate, from frequency and damping ratio on the
-// inertia that the joint feels with all others locked.
+// Implicit spring-damper of a joint coordinate, from frequency and damping ratio with the inertia
+// of that joint, all others locked.
 CouplingSpec joint_hold(const Model<double>& model, const std::string& joint, double frequency_hz,
                         double damping_ratio) {
   const int body = model.find_joint(joint);

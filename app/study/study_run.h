@@ -1,4 +1,4 @@
-// One run of the study: what is to be run, and what came out, with its prediction beside it.
+// One run of the study: specification, result and prediction.
 #pragma once
 
 #include <array>
@@ -15,23 +15,23 @@
 
 namespace twinarm {
 
-// A robot as the study runs it: models of both its copies, and the springs that couple them.
+// A robot of the study: models of KVR and DVR, and the springs between them.
 class StudyRobot {
  public:
-  // The S-103 of the settings. arm2_mass_scale multiplies the assumed mass of everything outward
-  // of joint 2; the paper publishes no mass.
+  // The S-103 of the settings. arm2_mass_scale multiplies the assumed masses of the descendants of
+  // joint 2; the paper publishes no masses.
   static StudyRobot s103(const StudySettings& settings, const RobotDescription& description,
                          double arm2_mass_scale = 1);
-  // A two-link robot of the findings; springs at the centres of mass, no added masses.
+  // A two-link robot; springs at the centres of mass, no added masses.
   static StudyRobot findings(const RobotDescription& description);
 
   const std::string& name() const { return name_; }
   const Model<double>& kvr_model() const { return kvr_model_; }
-  // With the added masses, for linear couplings; without them, for torsional ones.
+  // With the added masses for linear couplings, without them for torsional ones.
   const Model<double>& dvr_model(CouplingSpec::Type type) const {
     return type == CouplingSpec::Type::torsional ? dvr_plain_ : dvr_weighted_;
   }
-  // What they were made with.
+  // Mass options of dvr_model().
   const ModelOptions& masses(CouplingSpec::Type type) const {
     return type == CouplingSpec::Type::torsional ? plain_ : weighted_;
   }
@@ -39,11 +39,11 @@ class StudyRobot {
 
   // The two springs of the studied coupling, on the links of joints 1 and 2.
   std::vector<Spring> springs(double k1, double b1, double k2, double b2) const;
-  // Joint 3 and the gripper, held in every run; empty for a two-link robot.
+  // Couplings of joint 3 and the gripper, in every run; empty for a two-link robot.
   const std::vector<CouplingSpec>& auxiliary() const { return auxiliary_; }
   const std::vector<JointStops::Stop>& stops() const { return stops_; }
 
-  // Inertia of joints 1 and 2, the others locked, at the start of the automatic motion.
+  // Inertia of joints 1 and 2, all others locked, at the start of the automatic motion.
   Eigen::Matrix2d start_inertia(CouplingSpec::Type type) const;
   State<double> start_state() const;
 
@@ -57,7 +57,7 @@ class StudyRobot {
   std::vector<JointStops::Stop> stops_;
 };
 
-// Gains of the studied coupling: on the links of joints 1 and 2.
+// Gains of the studied coupling on the links of joints 1 and 2.
 struct Gains {
   double k1 = 0, b1 = 0, k2 = 0, b2 = 0;
   static Gains both(double k, double b) { return {k, b, k, b}; }
@@ -65,7 +65,7 @@ struct Gains {
 
 struct RunSpec {
   std::string name;       // "E3", "torsional-vector-60Hz", ...
-  std::string title;      // for people
+  std::string title;      // in the report
   CouplingSpec coupling;  // its springs are set from the gains
   Gains gains;
   double rate = 60;       // of the coupling [Hz]
@@ -79,15 +79,15 @@ struct RunResult {
   RunSpec spec;
   TrackingSeries series;
   std::array<double, 2> max_deg{}, mean_deg{};
-  bool stable = false;  // stayed finite and within half a turn
+  bool stable = false;  // finite, and errors below 180 degrees
 
-  // Linear theory about a pose; filled by predict().
+  // Linear theory about a pose, by predict().
   std::array<double, 2> frequency{};  // natural [rad/s], ascending
-  double step_limit = 0;  // largest stable time between two evaluations of the coupling [s]
+  double step_limit = 0;  // largest stable interval between evaluations of the coupling [s]
   std::array<double, 2> peak_deg{};  // predicted error after a reversal of the automatic motion
-  // Of the whole automatic motion, its jumps one after the other.
+  // Of the whole automatic motion, with all its velocity steps.
   std::array<double, 2> motion_max_deg{}, motion_mean_deg{};
-  double interval() const { return 1 / spec.rate; }  // what step_limit is a limit of [s]
+  double interval() const { return 1 / spec.rate; }  // to compare with step_limit [s]
 };
 
 RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec);
@@ -95,8 +95,8 @@ RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec
 void predict(const StudyRobot& robot, RunResult& result);
 void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose);
 
-// The objective of the searches: errors over several sweep times T, weighted by T, so that no
-// resonance with one T is exploited.
+// Objective of the searches: errors for several sweep times T, weighted by T, so that no resonance
+// with one T is exploited.
 struct ProtocolErrors {
   std::array<double, 2> max_deg{}, mean_deg{};  // max over T of T max_i, mean over T of T mean_i
   double objective = 0;                         // max over T of T (max_1 + max_2); 1e6 if unstable
@@ -104,7 +104,7 @@ struct ProtocolErrors {
 ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
                             const std::vector<double>& sweep_times);
 
-std::string coupling_words(const CouplingSpec& spec);  // "torsional (world), as printed"
+std::string coupling_words(const CouplingSpec& spec);  // "torsional, world orientation"
 const char* treatment_name(const CouplingSpec& spec);  // "as printed", "explicit", ...
 
 }  // namespace twinarm

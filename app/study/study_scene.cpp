@@ -17,7 +17,7 @@ std::string quoted(const std::string& text) {
   return all + "\"";
 }
 
-// All digits; with a point, so that it is no integer.
+// All digits, with a decimal point: a TOML float.
 std::string real(double value) {
   std::string text = fmt::format("{}", value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
@@ -66,7 +66,7 @@ class SceneWriter {
     table("robot");
     line("name", quoted(robot_.name()));
     line("model", quoted(std::filesystem::absolute(settings_.urdf).lexically_normal().string()));
-    line("limits", "false");  // the gripper's stops are couplings, below
+    line("limits", "false");  // the gripper has stops, below
     if (!scene_.with_obstacle) line("collide", "false");
     std::string scales, loads;
     for (const auto& [link, factor] : masses.mass_scale)
@@ -80,7 +80,7 @@ class SceneWriter {
     line("q", start());
   }
 
-  // The DVR begins on the KVR.
+  // The DVR starts in the pose of the KVR.
   std::string start() const {
     const TargetRobot kvr(robot_.kvr_model(), *scene_.hand.source, HandMapping{}, robot_.joints());
     std::vector<std::string> moved = robot_.joints().turned;
@@ -100,7 +100,7 @@ class SceneWriter {
     line("fixed", "true");
     line("shape", "{ box = { size = " + list(o.size) + " } }");
     line("position", list(o.position));
-    // The law of the study is that of a pair.
+    // The contact law of the study applies to this pair.
     table("pair");
     line("a", quoted(robot_.name()));
     line("b", "\"box\"");
@@ -108,7 +108,7 @@ class SceneWriter {
     line("stiffness", real(o.contact_stiffness));
     line("dissipation", real(o.contact_dissipation));
     for (const std::string& b : {std::string("box"), robot_.name()}) {
-      table("pair");  // the base touches nothing, and no link another
+      table("pair");  // no contacts of the base, none between links
       line("a", quoted(b == "box" ? robot_.name() + "/" + link_of(1) : b));
       line("b", quoted(b));
       line("collide", "false");

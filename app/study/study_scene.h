@@ -1,5 +1,4 @@
-// A run of the study as a scene file (docs/reference/scene_file.md): what `simulate`, `render`, `lab` and all the
-// others take.
+// A run of the study as a scene file (docs/reference/scene_file.md).
 #pragma once
 
 #include <string>
@@ -8,14 +7,14 @@
 
 namespace twinarm {
 
-// Who moves the KVR: the value of a coupling's `target`, in TOML.
+// Motion of the KVR: value of a coupling's `target` in TOML.
 struct SceneHand {
   std::string target;
-  const OperatorMotion* source = nullptr;  // the same
+  const OperatorMotion* source = nullptr;  // the same motion
 };
 SceneHand automatic_hand();
 SceneHand synthetic_hand(const OperatorMotion& source, unsigned seed);
-// A hand device, live; the robot begins where all device angles are zero.
+// A live input device; the robot starts where all device angles are zero.
 SceneHand device_hand();
 SceneHand traced_hand(const OperatorMotion& source, const std::filesystem::path& trace);
 

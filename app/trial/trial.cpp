@@ -12,39 +12,39 @@
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kMeasured = 2;  // joints, as the paper has them
+constexpr std::size_t kMeasured = 2;  // joints, as in the paper
 
-// The robot in the places that the ticks tell: of its kinematic and its dynamic self.
+// Poses and tracking errors of the robot and its target robot from the ticks.
 class TaskWatch {
  public:
   TaskWatch(const SceneModel& scene, const DrivenJoints& joints, bool is_kinematic)
       : model_(scene.model), is_kinematic_(is_kinematic), x_(scene.start), k_(scene.model) {
-    for (const std::string& name : joints.turned) turned_.push_back(body(name));
-    tip_ = joints.gripper.empty() ? turned_.back() : body(joints.gripper);
-    max_.assign(std::min(kMeasured, turned_.size()), 0);
+    for (const std::string& name : joints.turned) driven_.push_back(body(name));
+    tip_ = joints.gripper.empty() ? driven_.back() : body(joints.gripper);
+    max_.assign(std::min(kMeasured, driven_.size()), 0);
     sum_ = max_;
   }
 
-  void look(const TickResult& view, PickAndPlace* task) {
+  void look(const TickResult& tick, PickAndPlace* task) {
     ++ticks_;
     for (std::size_t j = 0; j < max_.size(); ++j) {
-      max_[j] = std::max(max_[j], std::abs(view.error[j]));
-      sum_[j] += std::abs(view.error[j]);
+      max_[j] = std::max(max_[j], std::abs(tick.error[j]));
+      sum_[j] += std::abs(tick.error[j]);
     }
-    pose(view, is_kinematic_);
-    if (task) task->tick(view.hand.t + view.hand.h, k_.X_WL[tip_].p, view.hand.hand.button);
+    pose(tick, is_kinematic_);
+    if (task) task->tick(tick.hand.t + tick.hand.h, k_.X_WL[tip_].p, tick.hand.hand.button);
   }
-  std::string picture(const TickResult& view, const PickAndPlace* task) {
+  std::string picture(const TickResult& tick, const PickAndPlace* task) {
     TopView table;
     if (task) {
       const PickAndPlace::Places& places = task->places();
       for (const double side : {-1.0, 1.0})
         table.point(places.goal + Vector3(side * places.reach, 0, 0), side < 0 ? '[' : ']');
     }
-    pose(view, true);
+    pose(tick, true);
     draw(table, is_kinematic_ ? '#' : '.');
     if (!is_kinematic_) {
-      pose(view, false);
+      pose(tick, false);
       draw(table, '#');
     }
     if (task) table.point(task->object(), task->is_carried() ? '@' : 'o');
@@ -62,18 +62,18 @@ class TaskWatch {
   std::size_t body(const std::string& joint) const {
     return static_cast<std::size_t>(model_.find_joint(joint));
   }
-  void pose(const TickResult& view, bool kinematic) {
+  void pose(const TickResult& tick, bool kinematic) {
     const HandMapping mapping;
-    for (std::size_t j = 0; j < std::min<std::size_t>(3, turned_.size()); ++j)
-      x_.q[model_.iq[turned_[j]]] =
-          mapping.robot_angle(view.hand.hand, j) - (kinematic ? 0 : view.error[j]);
+    for (std::size_t j = 0; j < std::min<std::size_t>(3, driven_.size()); ++j)
+      x_.q[model_.iq[driven_[j]]] =
+          mapping.robot_angle(tick.hand.hand, j) - (kinematic ? 0 : tick.error[j]);
     forward_kinematics(model_, x_, k_);
   }
   void draw(TopView& table, char mark) const {
-    Vector3 last = k_.X_WL[turned_.front()].p;
-    for (std::size_t j = 1; j < turned_.size(); ++j) {
-      table.line(last, k_.X_WL[turned_[j]].p, mark);
-      last = k_.X_WL[turned_[j]].p;
+    Vector3 last = k_.X_WL[driven_.front()].p;
+    for (std::size_t j = 1; j < driven_.size(); ++j) {
+      table.line(last, k_.X_WL[driven_[j]].p, mark);
+      last = k_.X_WL[driven_[j]].p;
     }
     table.point(k_.X_WL[tip_].p, mark == '#' ? 'V' : 'v');
   }
@@ -82,7 +82,7 @@ class TaskWatch {
   bool is_kinematic_;
   State<double> x_;
   Kinematics k_;
-  std::vector<std::size_t> turned_;
+  std::vector<std::size_t> driven_;
   std::size_t tip_ = 0;
   std::vector<double> max_, sum_;
   long ticks_ = 0;
@@ -109,14 +109,14 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
   double reached = 0;
   bool stopped = false;
   const ServoResult servo = run_servo(run, plan, done, [&](SpscRing<TickResult>& ring) {
-    TickResult view, newest;
+    TickResult tick, newest;
     bool any = false;
-    while (!places.is_placed() && ring.pop(view)) {
-      watch.look(view, pick);
-      log.write(view.hand);
-      newest = view;
+    while (!places.is_placed() && ring.pop(tick)) {
+      watch.look(tick, pick);
+      log.write(tick.hand);
+      newest = tick;
       any = true;
-      reached = view.hand.t + view.hand.h;
+      reached = tick.hand.t + tick.hand.h;
     }
     log.flush();
     if (any && task.show) task.show(watch.picture(newest, pick), reached);
@@ -143,7 +143,7 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
 
 namespace {
 
-double apart_from_above(const Vector3& a, const Vector3& b) {
+double horizontal_distance(const Vector3& a, const Vector3& b) {
   return (a - b).head<2>().norm();
 }
 
@@ -153,7 +153,7 @@ void PickAndPlace::tick(double t, const Vector3& gripper, bool closed) {
   const bool closes = closed && !closed_, opens = !closed && closed_;
   closed_ = closed;
   if (placed_) return;
-  if (closes && apart_from_above(gripper, object_) <= places_.reach) {
+  if (closes && horizontal_distance(gripper, object_) <= places_.reach) {
     carried_ = true;
     ++picks_;
     if (picked_ < 0) picked_ = t;
@@ -169,7 +169,7 @@ void PickAndPlace::tick(double t, const Vector3& gripper, bool closed) {
 }
 
 double PickAndPlace::off() const {
-  return apart_from_above(object_, places_.goal);
+  return horizontal_distance(object_, places_.goal);
 }
 
 }  // namespace twinarm

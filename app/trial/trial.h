@@ -1,4 +1,4 @@
-// What a person is asked to do, and what came of it.
+// User study: conditions, tasks and results.
 #pragma once
 
 #include <filesystem>
@@ -12,29 +12,28 @@
 
 namespace twinarm {
 
-// A robot as a person meets it.
 struct TrialCondition {
-  std::string name, title;      // "E1", for people
-  std::filesystem::path scene;  // as a file
-  bool is_kinematic = false;    // the kinematic robot alone: no mass, no force, no error
+  std::string name, title;  // "E1", description
+  std::filesystem::path scene;
+  bool is_kinematic = false;  // target robot only: no mass, no force, no tracking error
 };
 
 struct TrialResult {
   std::string condition, task;
-  double seconds = 0;  // that the task took
+  double seconds = 0;  // duration of the task
   bool is_done = false;
   int picks = 0, drops = 0;
-  double picked_at = -1, off_mm = 0;
+  double picked_at = -1, off_mm = 0;      // first pick [s], -1: none; distance from the goal
   std::vector<double> max_deg, mean_deg;  // |q_K - q_D| of joints 1 and 2; empty: kinematic
   std::string log;
 };
 
 struct TrialTask {
   bool is_pick_and_place = false;
-  double seconds = 20;  // of free motion; the most that the other may take
+  double seconds = 20;  // of free motion; timeout of pick-and-place
   bool real_time = true;
-  bool (*is_stopped)() = nullptr;  // asked as often; true ends it early, and what was done is kept
-  // Some twenty times a second: a picture of the table. May be empty.
+  bool (*is_stopped)() = nullptr;  // polled; true ends the task early, its results are kept
+  // Called about twenty times a second with a top view in characters. May be empty.
   std::function<void(const std::string& picture, double t)> show;
 };
 
@@ -43,38 +42,35 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
                      const MappingSpec& mapping, const TrialTask& task,
                      const std::filesystem::path& log);
 
-// What a trial leaves: a table for people, JSON, and one CSV of all subjects that names none of
-// them.
+// Table, JSON, and one CSV file of all subjects, without names.
 struct TrialReport {
   std::string subject;  // a code, never a name
   std::string device, mapping;
-  std::vector<TrialResult> results;  // in the order in which they were done
+  std::vector<TrialResult> results;  // in order
   std::string csv;
 };
 
 std::string trial_table(const TrialReport& report);
 std::string trial_json(const TrialReport& report);
-// Adds the row of the last result to a file of earlier ones. Throws InputError where the file is
-// there and is no such table.
+// Appends the row of the last result. Throws InputError: the file exists with another header.
 void add_last_to_csv(const TrialReport& report, const std::filesystem::path& file);
-// "S1", or the next that the file has not.
+// The first of "S1", "S2", .. that is not in the file.
 std::string next_subject(const std::filesystem::path& file);
 
-// A task for a person: bring an object from one place of the table to another.
+// Task: bring an object from one place of the table to another, in the horizontal plane.
 //
-// It is told from above: the gripper takes the object where the button is pressed within `reach` of
-// it, carries it while the button is held, and has placed it where it is let go within `reach` of
-// the goal. Let go elsewhere, it lies there. The object has no mass: what is measured is how well
-// the robot goes where the hand wants it.
+// The gripper picks the object if the button is pressed within `reach` of it, and carries it while
+// the button is held. Released within `reach` of the goal it is placed, elsewhere dropped. The
+// object has no mass: the task measures positioning.
 class PickAndPlace {
  public:
   struct Places {
-    Vector3 object{0.42, 0.28, 0}, goal{0.42, -0.28, 0};  // world [m]; z is not looked at
+    Vector3 object{0.42, 0.28, 0}, goal{0.42, -0.28, 0};  // world [m]; z is ignored
     double reach = 0.03;                                  // [m]
   };
   explicit PickAndPlace(const Places& places) : places_(places), object_(places.object) {}
 
-  // Once a tick, at its time [s]: where the gripper is, and whether it is closed.
+  // Once a tick, at its time [s].
   void tick(double t, const Vector3& gripper, bool closed);
 
   const Vector3& object() const { return object_; }
@@ -82,10 +78,10 @@ class PickAndPlace {
   bool is_carried() const { return carried_; }
   bool is_placed() const { return placed_; }
   int picks() const { return picks_; }
-  int drops() const { return drops_; }          // beside the goal
-  double picked_at() const { return picked_; }  // for the first time [s]; negative: never
+  int drops() const { return drops_; }          // outside the goal
+  double picked_at() const { return picked_; }  // first time [s]; negative: never
   double placed_at() const { return done_; }    // likewise
-  double off() const;                           // the object from the goal [m]
+  double off() const;                           // distance of the object from the goal [m]
 
  private:
   Places places_;

@@ -36,7 +36,7 @@ std::string old_rows(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return kTrialHeader;
   const std::string text = read_whole_file(file);
   if (!text.starts_with(kTrialHeader))
-    throw InputError({{file.string(), 1, "header", "it is not the table of a trial's results",
+    throw InputError({{file.string(), 1, "header", "not a results table of twinarm trial",
                        "give another folder with --out", "trial.header"}});
   return text;
 }
@@ -44,7 +44,7 @@ std::string old_rows(const std::filesystem::path& file) {
 }  // namespace
 
 std::string trial_table(const TrialReport& report) {
-  TextTable table({"condition, task", "time [s]", "done", "picks, drops", "off [mm]",
+  TextTable table({"condition, task", "time [s]", "done", "picks, drops", "distance [mm]",
                    "joint1 max [deg]", "mean", "joint2 max [deg]", "mean"});
   for (const TrialResult& r : report.results) {
     const bool picks = r.task != "free";
@@ -126,7 +126,7 @@ void TopView::point(const Vector3& p, char mark) {
 }
 
 void TopView::line(const Vector3& a, const Vector3& b, char mark) {
-  const int steps = 2 * columns_;  // finer than the characters
+  const int steps = 2 * columns_;  // two points per character
   for (int i = 0; i <= steps; ++i) point(a + (b - a) * i / steps, mark);
 }
 

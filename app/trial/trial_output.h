@@ -1,5 +1,4 @@
-// The table from above, in characters: where the robot, its twin, the object and the goal are. For
-// whoever does a trial at a terminal, over any connection.
+// Top view of the table in characters: robot, target robot, object and goal. For terminals.
 #pragma once
 
 #include <string>
@@ -11,11 +10,11 @@ namespace twinarm {
 
 class TopView {
  public:
-  // `half` [m] from the middle to each side; so many columns. A character is twice as high as wide.
+  // `half` [m]: from the middle to each side. A character is twice as high as wide.
   explicit TopView(double half = 0.66, int columns = 66);
 
   void clear();
-  // Points of the world; what is drawn later covers what was there.
+  // World coordinates; later marks cover earlier ones.
   void line(const Vector3& a, const Vector3& b, char mark);
   void point(const Vector3& p, char mark);
   std::string text() const;  // lines in a frame, x to the right, y up

@@ -1,4 +1,4 @@
-// The pages' templates: TypeScript of src/, bundled when the program was built (bundle.cmake).
+// Templates of the pages: TypeScript of src/, bundled when the program is built (bundle.cmake).
 #pragma once
 
 #include <string_view>
@@ -6,10 +6,10 @@
 namespace twinarm {
 
 struct WebBundle {
-  // With marks to be filled in (app/page/pages.h); empty: none was built.
+  // With marks, which app/page/pages.h fills in; empty: not built.
   std::string_view replay, inspect;
-  std::string_view lab;      // whole, as it is
-  std::string_view missing;  // why there is none, and what to do
+  std::string_view lab;      // complete
+  std::string_view missing;  // why there are none, and what to do
 };
 WebBundle web_bundle();
 

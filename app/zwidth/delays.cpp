@@ -1,9 +1,11 @@
-// A hand, a device, a network, a robot: places go one way, forces come back, both late.
+// Operator, device, network, remote robot: positions go one way, forces come back, both delayed.
 //
-//   hand (an arm's impedance about where it wants to be) - device - network - KVR = coupling = DVR
-//   - wall; the coupling's reaction goes back. The hand pushes to 20 mm beyond the wall, stays, and
-//   draws back. Energy: the work of the hand's side on the motors' force, E_n = E_n-1 - F (x_n -
-//   x_n-1), which a passive robot could never give back below zero.
+//   operator (arm impedance about a wanted position) - device - network - KVR = coupling = DVR -
+//   wall
+//
+// The coupling's reaction goes back. The operator pushes to 20 mm beyond the wall, stays, and
+// returns. Energy put in by the operator: E_n = E_n-1 - F (x_n - x_n-1), never negative for a
+// passive robot.
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -19,19 +21,20 @@
 namespace twinarm {
 namespace {
 
-constexpr double kRobotMass = 1, kCoupling = 150, kWall = 2000;     // [kg], [N/m], [N/m]
-constexpr double kArmMass = 0.3, kArmSpring = 300, kArmDamper = 5;  // of the hand; assumed
-constexpr double kRunTime = 8;                                      // [s]
+constexpr double kRobotMass = 1, kCoupling = 150, kWall = 2000;  // [kg], [N/m], [N/m]
+constexpr double kArmMass = 0.3, kArmSpring = 300,
+                 kArmDamper = 5;  // of the operator's arm; assumed
+constexpr double kRunTime = 8;    // [s]
 
-// Packets that are late, scattered and lost: the newest of those that have come.
+// Delays and loses packets; its output is the newest packet that has arrived.
 class Network {
  public:
   Network(const DelayRow& row, unsigned seed) : row_(row), engine_(seed) {}
   double pass(double now, double value) {
     std::uniform_real_distribution<double> any(0, 1);
     const double late = row_.delay + row_.jitter * any(engine_);
-    if (any(engine_) >= row_.loss) under_way_.push_back({now, now + late, value});
-    for (auto packet = under_way_.begin(); packet != under_way_.end();) {
+    if (any(engine_) >= row_.loss) packets_.push_back({now, now + late, value});
+    for (auto packet = packets_.begin(); packet != packets_.end();) {
       if (packet->arrives > now + 1e-12) {
         ++packet;
         continue;
@@ -40,7 +43,7 @@ class Network {
         newest_ = packet->sent;
         value_ = packet->value;
       }
-      packet = under_way_.erase(packet);
+      packet = packets_.erase(packet);
     }
     return value_;
   }
@@ -51,12 +54,12 @@ class Network {
   };
   DelayRow row_;
   std::mt19937 engine_;
-  std::deque<Packet> under_way_;
+  std::deque<Packet> packets_;
   double newest_ = -1, value_ = 0;
 };
 
-// From the place that had come a tick ago to that which has come now.
-class NewestPlace final : public OperatorMotion {
+// Linear motion from the position received a tick ago to that received now.
+class DelayedMotion final : public OperatorMotion {
  public:
   double before = 0, now = 0, t = 0, h = 1;
   HandSample sample(double at, double) const override {
@@ -66,7 +69,7 @@ class NewestPlace final : public OperatorMotion {
     return hand;
   }
   double duration() const override { return kRunTime; }
-  std::string description() const override { return "the newest place that has come"; }
+  std::string description() const override { return "newest position received"; }
 };
 
 class RailWall final : public ForceSource {
@@ -85,17 +88,16 @@ Model<double> rail_robot() {
   return builder.build();
 }
 
-// The robot's end of the network.
-struct DistantRobot {
+struct RemoteRobot {
   Model<double> model = rail_robot();
-  NewestPlace hand;
+  DelayedMotion hand;
   TargetRobot kvr;
   std::unique_ptr<Coupling> coupling;
   RailWall wall;
   Simulation simulation;
   CouplingReaction reaction{model, {1}};
 
-  explicit DistantRobot(double start)
+  explicit RemoteRobot(double start)
       : kvr(model, hand, HandMapping{}, {{"rail"}, "", 0, 0}), simulation(model, [&] {
           State<double> x(model);
           x.q[0] = start;
@@ -112,9 +114,9 @@ struct DistantRobot {
     simulation.add(*coupling);
     simulation.add(wall);
   }
-  double follow(double place, double h) {  // the force on the hand [N]
+  double follow(double position, double h) {  // returns the force on the operator [N]
     hand.before = hand.now;
-    hand.now = place;
+    hand.now = position;
     hand.t = simulation.state().t;
     hand.h = h;
     simulation.step(h);
@@ -122,20 +124,20 @@ struct DistantRobot {
   }
 };
 
-// In a second to 20 mm beyond the wall, four there, a second back.
-double wanted_place(double t) {
+// One second to 20 mm beyond the wall, four there, one back.
+double wanted_position(double t) {
   const double s = t < 1 ? t : t > 5 ? std::max(0.0, 6 - t) : 1.0;
   return -0.02 + 0.04 * s * s * s * (10 - 15 * s + 6 * s * s);
 }
 
 void run_delay(const SampledDevice& device, unsigned seed, DelayRow& row) {
-  const double h = device.tick(), m = device.mass + kArmMass, start = wanted_place(0);
+  const double h = device.tick(), m = device.mass + kArmMass, start = wanted_position(0);
   const OmniParameters omni;
   Network there(row, seed), back(row, seed + 1);
-  DistantRobot robot(start);
-  // A hand of at most 1 m/s; damping that the device's mass can bear.
+  RemoteRobot robot(start);
+  // Speed of at most 1 m/s; damping limited by the device's mass.
   PassivityControl passivity(omni.peak_force * h, 0.5 * device.mass / (h * h));
-  double x = start, v = 0, E = 0, farthest = 0, low = 0, high = 0, felt = 0;
+  double x = start, v = 0, E = 0, farthest = 0, low = 0, high = 0, force = 0;
   long pressed = 0;
   constexpr int kParts = 10;
   for (long n = 0; static_cast<double>(n) * h < kRunTime; ++n) {
@@ -146,25 +148,25 @@ void run_delay(const SampledDevice& device, unsigned seed, DelayRow& row) {
                                  : std::clamp(wanted, -omni.peak_force, omni.peak_force);
     const double before = x;
     for (int part = 0; part < kParts; ++part) {
-      const double arm = kArmSpring * (wanted_place(t) - x) - (kArmDamper + device.damping) * v;
+      const double arm = kArmSpring * (wanted_position(t) - x) - (kArmDamper + device.damping) * v;
       v += h / kParts * (arm + F) / m;
       x += h / kParts * v;
     }
     E -= F * (x - before);
     row.lowest = std::min(row.lowest, E);
     farthest = std::max(farthest, std::abs(x - before));
-    if (t > 2 && t < 5) felt -= F, ++pressed;
+    if (t > 2 && t < 5) force -= F, ++pressed;
     if (t > kRunTime - 1) low = std::min(low, x - start), high = std::max(high, x - start);
     if (n % std::max(1L, std::lround(0.01 / h)) == 0) {
       row.t.push_back(t);
       row.energy.push_back(E);
-      row.place.push_back(x);
+      row.position.push_back(x);
     }
   }
   row.end = E;
   row.tick_work = omni.peak_force * farthest;
-  row.swing = high - low;
-  row.felt = pressed ? felt / static_cast<double>(pressed) : 0;
+  row.amplitude = high - low;
+  row.force = pressed ? force / static_cast<double>(pressed) : 0;
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
-// Robots under the same hand, every joint coupled: how well the driven joints follow, and how much
-// the others are disturbed.
+// Tracking errors of driven and other joints under the same operator motion, all joints coupled.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -17,12 +16,12 @@ namespace {
 
 constexpr SpringResponse kResponse{50, 1};  // [rad/s], 1
 
-struct FollowCase {
+struct TrackingCase {
   const char *name, *file;
   std::vector<std::string> driven;
 };
 
-// A joint spring for each joint, of the inertia that it feels where the hand begins.
+// A joint spring for each joint, by its joint-space inertia at the start.
 CouplingSpec joint_springs(const Model<double>& model, const State<double>& x) {
   CouplingSpec spec;
   spec.measure = SpringSpace::joint;
@@ -37,23 +36,22 @@ CouplingSpec joint_springs(const Model<double>& model, const State<double>& x) {
   return spec;
 }
 
-void follow(const FollowCase& what, const Model<double>& model, const OperatorMotion& hand,
-            const std::string& hand_name, const std::function<void()>& look,
-            std::vector<FollowRow>& rows) {
+void follow(const TrackingCase& what, const Model<double>& model, const OperatorMotion& motion,
+            const std::string& motion_name, const std::function<void()>& look,
+            std::vector<TrackingRow>& rows) {
   TrackingSetup setup;
   setup.kvr_model = setup.dvr_model = &model;
-  setup.hand = &hand;
+  setup.hand = &motion;
   setup.joints.turned = what.driven;
-  const TargetRobot begin(model, hand, setup.mapping, setup.joints);
+  const TargetRobot begin(model, motion, setup.mapping, setup.joints);
   setup.couplings = {joint_springs(model, begin.start().x)};
   TrackingSystem system(setup);
   const std::vector<Spring>& springs = system.coupling(0).springs();
   const std::size_t first = rows.size();
   for (const Spring& spring : springs)
-    rows.push_back(
-        {what.name, hand_name, spring.name,
-         std::find(what.driven.begin(), what.driven.end(), spring.name) != what.driven.end(),
-         is_translational(model.joint[static_cast<std::size_t>(spring.body)])});
+    rows.push_back({what.name, motion_name, spring.name,
+                    std::ranges::find(what.driven, spring.name) != what.driven.end(),
+                    is_translational(model.joint[static_cast<std::size_t>(spring.body)])});
   long samples = 0;
   system.run([&](double t) {
     if (++samples % 256 == 0) look();
@@ -71,15 +69,15 @@ void follow(const FollowCase& what, const Model<double>& model, const OperatorMo
 
 }  // namespace
 
-std::vector<FollowRow> measure_follows(const std::filesystem::path& assets, unsigned seed,
-                                       const Tell& tell) {
-  const FollowCase cases[] = {{"S-103", "robots/s103/s103.urdf", {"joint1", "joint2", "joint3"}},
-                              {"PUMA 560", "robots/puma560/puma560.urdf", {"j1", "j2", "j3"}}};
+std::vector<TrackingRow> measure_follows(const std::filesystem::path& assets, unsigned seed,
+                                         const Tell& tell) {
+  const TrackingCase cases[] = {{"S-103", "robots/s103/s103.urdf", {"joint1", "joint2", "joint3"}},
+                                {"PUMA 560", "robots/puma560/puma560.urdf", {"j1", "j2", "j3"}}};
   const AutomaticMotion automatic{HandMapping{}};
   const SyntheticOperator synthetic(seed, 10);
-  std::vector<FollowRow> rows;
+  std::vector<TrackingRow> rows;
   double done = 0;
-  for (const FollowCase& what : cases) {
+  for (const TrackingCase& what : cases) {
     RobotOptions options;
     options.model = assets / what.file;
     const RobotInput input = read_robot_input(options);

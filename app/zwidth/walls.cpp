@@ -1,5 +1,5 @@
-// Walls of the device alone: by rate, delay and damping, and over the plane of K and B; and what is
-// left of a wall through a virtual coupling: a link pressed against it by its kinematic twin.
+// Virtual walls of the device alone, by rate, delay and damping, and in the plane of K and B;
+// stiffness of a wall through a virtual coupling: a link pressed against it by its target robot.
 #include <cmath>
 #include <limits>
 
@@ -17,17 +17,17 @@ WallRow wall_row(const SampledDevice& device, double wall_damping) {
   WallRow row;
   row.device = device;
   row.wall_damping = wall_damping;
-  SampledDevice smooth = device;  // the linear device that the other laws are about
+  SampledDevice smooth = device;  // linear device of the other laws
   smooth.friction = smooth.resolution = 0;
   row.stable = max_stable_stiffness(smooth, wall_damping);
   row.stable_law = uncoupled_stiffness(smooth, wall_damping);
   row.passive = max_passive_stiffness(smooth, 0);
   row.passive_law = colgate_stiffness(smooth, 0);
   row.passive_damping = max_passive_damping(smooth, 0);
-  row.stepped = row.stepped_law = std::numeric_limits<double>::quiet_NaN();
+  row.quantized = row.quantized_law = std::numeric_limits<double>::quiet_NaN();
   if (device.resolution > 0 && device.delay == 0) {
-    row.stepped = max_passive_stiffness(device, 0);
-    row.stepped_law = abbott_okamura_stiffness(device);
+    row.quantized = max_passive_stiffness(device, 0);
+    row.quantized_law = abbott_okamura_stiffness(device);
   }
   return row;
 }
@@ -42,7 +42,7 @@ Model<double> pressed_link() {
   return builder.build();
 }
 
-// Solid where y > 0, at the link's end.
+// Acts on the link's end for y > 0.
 class SoftWall final : public ForceSource {
  public:
   explicit SoftWall(double stiffness) : k_(stiffness) {}
@@ -56,9 +56,9 @@ class SoftWall final : public ForceSource {
   double k_;
 };
 
-class StillHand final : public OperatorMotion {
+class FixedMotion final : public OperatorMotion {
  public:
-  explicit StillHand(double angle) : angle_(angle) {}
+  explicit FixedMotion(double angle) : angle_(angle) {}
   HandSample sample(double, double) const override {
     HandSample hand;
     HandMapping{}.set_robot_angle(hand, 0, angle_, 0);
@@ -71,10 +71,10 @@ class StillHand final : public OperatorMotion {
   double angle_;
 };
 
-// The force on the hand at the link's end, once all is at rest [N].
+// Force on the device at the link's end, at rest [N].
 double force_at_rest(double k_c, double k_e, double angle) {
   const Model<double> model = pressed_link();
-  const StillHand hand(angle);
+  const FixedMotion hand(angle);
   TargetRobot kvr(model, hand, HandMapping{}, {{"joint"}, "", 0, 0});
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::linear;
@@ -122,14 +122,14 @@ WallPlane measure_plane(const SampledDevice& device, const Tell& tell) {
   plane.device = device;
   plane.device.friction = plane.device.resolution = 0;
   constexpr int kPoints = 16;
-  const double b = device.damping, most = device.mass / device.tick();
-  const double least = 0.02 * (b > 0 ? b : 1);
+  const double b = device.damping, max_B = device.mass / device.tick();
+  const double min_B = 0.02 * (b > 0 ? b : 1);
   for (int n = 0; n < kPoints; ++n) {
     const double part = n / (kPoints - 1.0);
-    plane.stable_B.push_back(least * std::pow(most / least, part));
+    plane.stable_B.push_back(min_B * std::pow(max_B / min_B, part));
     plane.stable_K.push_back(max_stable_stiffness(plane.device, plane.stable_B.back()));
     if (b > 0 && n % 2 == 0) {
-      plane.passive_B.push_back(least * std::pow(0.97 * b / least, part));
+      plane.passive_B.push_back(min_B * std::pow(0.97 * b / min_B, part));
       plane.passive_K.push_back(max_passive_stiffness(plane.device, plane.passive_B.back()));
     }
     tell((n + 1.0) / kPoints);
@@ -141,7 +141,7 @@ std::vector<SeriesRow> measure_series(const Tell& tell) {
   std::vector<SeriesRow> rows;
   for (const double k_c : {200.0, 1000.0, 5000.0})
     for (const double k_e : {500.0, 2000.0, 20000.0}) {
-      const double near = 0.001 / kLink, far = 0.003 / kLink;  // 1 and 3 mm of the hand
+      const double near = 0.001 / kLink, far = 0.003 / kLink;  // 1 and 3 mm of the device
       const double rise = force_at_rest(k_c, k_e, far) - force_at_rest(k_c, k_e, near);
       rows.push_back({k_c, k_e, -rise / (kLink * (far - near)), series_stiffness(k_c, k_e)});
       tell(static_cast<double>(rows.size()) / 9);

@@ -1,5 +1,5 @@
-// `twinarm zwidth`: how stiff a wall a hand device can render, what is left of it through a
-// coupling, and what a delay between hand and robot does. Each measure is a run; laws stand beside.
+// `twinarm zwidth`: stiffness of virtual walls that a device renders, alone and through a coupling,
+// and the effect of a delay between device and robot. Each value is measured in runs and predicted.
 #pragma once
 
 #include <filesystem>
@@ -15,36 +15,36 @@ namespace twinarm {
 struct WallRow {
   SampledDevice device;
   double wall_damping = 0;              // B of the first pair
-  double stable = 0, stable_law = 0;    // largest K that is stable, nobody holding the device
-  double passive = 0, passive_law = 0;  // largest K that gives no energy away, at B = 0
-  double passive_damping = 0;           // largest B that gives none away, at K = 0
-  double stepped = 0, stepped_law = 0;  // as passive, with friction and steps of the encoder;
-                                        // not a number where there is none, or a delay
+  double stable = 0, stable_law = 0;    // largest stable K, free device
+  double passive = 0, passive_law = 0;  // largest passive K, at B = 0
+  double passive_damping = 0;           // largest passive B, at K = 0
+  // Passive K with friction and encoder quantisation; NaN without them, or with a delay.
+  double quantized = 0, quantized_law = 0;
 };
-// The plane of K and B of one device.
+// Limits in the plane of K and B of one device.
 struct WallPlane {
   SampledDevice device;
   std::vector<double> stable_B, stable_K, passive_B, passive_K;
 };
-// A wall k_e felt through a coupling k_c, by a link that is pressed against it.
+// Stiffness of a wall k_e rendered through a coupling k_c by a link in contact.
 struct SeriesRow {
-  double coupling, wall, felt, law;  // [N/m]
+  double coupling, wall, rendered, law;  // [N/m]
 };
-// A hand that pushes a distant robot against a wall and draws it back.
+// An operator pushes a remote robot against a wall and back.
 struct DelayRow {
   std::string name;
-  double delay = 0, jitter = 0, loss = 0;  // each way [s], [s], part of the packets
-  bool control = false;
-  double lowest = 0, end = 0, tick_work = 0;  // energy of the hand's side [J]; one tick's work
-  double swing = 0;                           // of the hand in the last second [m]
-  double felt = 0;                            // mean force while it is pressed [N]
+  double delay = 0, jitter = 0, loss = 0;     // each way [s], [s], share of the packets
+  bool control = false;                       // with the passivity controller
+  double lowest = 0, end = 0, tick_work = 0;  // energy put in by the operator [J]; work of one tick
+  double amplitude = 0;                       // peak to peak, of the device in the last second [m]
+  double force = 0;                           // mean while pressed [N]
   bool is_passive() const { return lowest >= -tick_work; }
-  std::vector<double> t, energy, place;  // a sample each 10 ms
+  std::vector<double> t, energy, position;  // every 10 ms
 };
-// A robot that follows the hand, all its joints coupled.
-struct FollowRow {
-  std::string robot, hand, joint;
-  bool driven = false, slides = false;  // by the hand; along its axis: errors in metres
+// Tracking error of a joint, all joints of the robot coupled.
+struct TrackingRow {
+  std::string robot, motion, joint;
+  bool driven = false, slides = false;  // by the operator; prismatic: errors in metres
   double max = 0, mean = 0;             // [rad, m]
 };
 
@@ -53,10 +53,10 @@ struct ZwidthResult {
   WallPlane plane;
   std::vector<SeriesRow> series;
   std::vector<DelayRow> delays;
-  std::vector<FollowRow> follows;
+  std::vector<TrackingRow> follows;
 };
 
-// Called with the part of the whole that is done; may throw Interrupted.
+// Called with the finished share; may throw Interrupted.
 using Tell = std::function<void(double)>;
 
 std::vector<WallRow> measure_walls(const SampledDevice& device, double wall_damping,
@@ -64,8 +64,8 @@ std::vector<WallRow> measure_walls(const SampledDevice& device, double wall_damp
 WallPlane measure_plane(const SampledDevice& device, const Tell& tell);
 std::vector<SeriesRow> measure_series(const Tell& tell);
 std::vector<DelayRow> measure_delays(const SampledDevice& device, unsigned seed, const Tell& tell);
-std::vector<FollowRow> measure_follows(const std::filesystem::path& assets, unsigned seed,
-                                       const Tell& tell);
+std::vector<TrackingRow> measure_follows(const std::filesystem::path& assets, unsigned seed,
+                                         const Tell& tell);
 
 std::string zwidth_table(const ZwidthResult& result);
 std::string zwidth_json(const ZwidthResult& result);

@@ -1,5 +1,4 @@
-// The result of `twinarm zwidth` for people, as JSON and as CSV.
-
+// Output of `twinarm zwidth`: table, JSON, CSV, pictures.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,55 +19,55 @@ std::string short_cell(double value, int digits = 1) {
 }
 
 std::string walls_text(const std::vector<WallRow>& walls) {
-  TextTable table({"walls of the device alone", "delay", "b", "stable K", "law", "passive K",
-                   "Colgate", "passive B", "K with steps", "Abbott"});
+  TextTable table({"virtual walls, device alone", "delay", "b", "stable K", "law", "passive K",
+                   "Colgate", "passive B", "quantized K", "Abbott"});
   for (const WallRow& row : walls)
     table.add({fmt::format("{:g} Hz", row.device.rate), fmt::format("{} ticks", row.device.delay),
                fmt::format("{:g}", row.device.damping), short_cell(row.stable),
                short_cell(row.stable_law), short_cell(row.passive), short_cell(row.passive_law),
-               short_cell(row.passive_damping, 3), short_cell(row.stepped),
-               short_cell(row.stepped_law)});
+               short_cell(row.passive_damping, 3), short_cell(row.quantized),
+               short_cell(row.quantized_law)});
   return table.str() +
          fmt::format(
-             "  stable: at B = {:g} N s/m, nobody holding the device; passive K: at B = 0, no "
-             "motion of a hand gets energy out;\n  with steps: friction {:g} N and steps of {:g} "
-             "mm as well. K in N/m, B and b in N s/m.\n",
+             "  stable: at B = {:g} N s/m, free device; passive K: at B = 0;\n  quantized: passive "
+             "with friction {:g} N and encoder resolution {:g} mm. K in N/m, B and b in N s/m.\n",
              walls.front().wall_damping, walls.front().device.friction,
              1e3 * walls.front().device.resolution);
 }
 
 std::string series_text(const std::vector<SeriesRow>& series) {
-  TextTable table({"a wall through a coupling [N/m]", "wall", "felt", "in series"});
+  TextTable table({"wall through a coupling [N/m]", "wall", "rendered", "series law"});
   for (const SeriesRow& row : series)
     table.add({fmt::format("coupling {:g}", row.coupling), fmt::format("{:g}", row.wall),
-               short_cell(row.felt, 2), short_cell(row.law, 2)});
+               short_cell(row.rendered, 2), short_cell(row.law, 2)});
   return table.str();
 }
 
 std::string delays_text(const std::vector<DelayRow>& delays) {
-  TextTable table({"delay each way", "control", "lowest E [mJ]", "one tick [mJ]", "passive",
-                   "E at the end [mJ]", "force [N]", "swing at the end [mm]"});
+  TextTable table({"delay each way", "control", "minimum E [mJ]", "one tick [mJ]", "passive",
+                   "final E [mJ]", "force [N]", "final amplitude [mm]"});
   for (const DelayRow& row : delays)
     table.add({row.name, row.control ? "yes" : "no", short_cell(1e3 * row.lowest, 3),
                short_cell(1e3 * row.tick_work, 3), row.is_passive() ? "yes" : "NO",
-               short_cell(1e3 * row.end, 2), short_cell(row.felt, 2),
-               short_cell(1e3 * row.swing, 2)});
+               short_cell(1e3 * row.end, 2), short_cell(row.force, 2),
+               short_cell(1e3 * row.amplitude, 2)});
   return table.str() +
-         "  E: work of the hand on the motors' force; a robot that gives away more than it got has "
-         "E < 0.\n  jitter: 80 to 120 ms; loss: 30 % of the packets.\n";
+         "  E: energy put in by the operator; E < 0: the robot has returned more than it "
+         "received.\n"
+         "  jitter: 80 to 120 ms; loss: 30 % of the packets.\n";
 }
 
-std::string follows_text(const std::vector<FollowRow>& follows) {
-  TextTable table({"tracking errors", "hand", "joint", "moved by", "max", "mean", "unit"});
-  for (const FollowRow& row : follows) {
+std::string follows_text(const std::vector<TrackingRow>& follows) {
+  TextTable table({"tracking errors", "motion", "joint", "driven", "max", "mean", "unit"});
+  for (const TrackingRow& row : follows) {
     const double unit = row.slides ? 1e3 : 180 / std::numbers::pi;
-    table.add({row.robot, row.hand, row.joint, row.driven ? "the hand" : "nobody",
+    table.add({row.robot, row.motion, row.joint, row.driven ? "yes" : "no",
                short_cell(unit * row.max, 3), short_cell(unit * row.mean, 3),
                row.slides ? "mm" : "deg"});
   }
   return table.str() +
-         "  Implicit joint springs of 50 rad/s at critical damping, of the inertia at the start; "
-         "gravity sags.\n";
+         "  Implicit joint springs of 50 rad/s, critically damped for the inertia at the start; "
+         "with gravity.\n";
 }
 
 void write(JsonWriter& json, const WallRow& row) {
@@ -84,13 +83,13 @@ void write(JsonWriter& json, const WallRow& row) {
                {"passive_stiffness", row.passive},
                {"passive_stiffness_law", row.passive_law},
                {"passive_damping", row.passive_damping},
-               {"stepped_stiffness", row.stepped},
-               {"stepped_stiffness_law", row.stepped_law}});
+               {"stepped_stiffness", row.quantized},
+               {"stepped_stiffness_law", row.quantized_law}});
 }
 
 void write(JsonWriter& json, const SeriesRow& row) {
   json.object(
-      {{"coupling", row.coupling}, {"wall", row.wall}, {"felt", row.felt}, {"law", row.law}});
+      {{"coupling", row.coupling}, {"wall", row.wall}, {"felt", row.rendered}, {"law", row.law}});
 }
 
 void write(JsonWriter& json, const DelayRow& row) {
@@ -103,16 +102,16 @@ void write(JsonWriter& json, const DelayRow& row) {
                {"end_energy", row.end},
                {"tick_work", row.tick_work},
                {"passive", row.is_passive()},
-               {"swing", row.swing},
-               {"force", row.felt},
+               {"swing", row.amplitude},
+               {"force", row.force},
                {"t", row.t},
                {"energy", row.energy},
-               {"place", row.place}});
+               {"place", row.position}});
 }
 
-void write(JsonWriter& json, const FollowRow& row) {
+void write(JsonWriter& json, const TrackingRow& row) {
   json.object({{"robot", row.robot},
-               {"hand", row.hand},
+               {"hand", row.motion},
                {"joint", row.joint},
                {"driven", row.driven},
                {"max", row.max},
@@ -155,8 +154,8 @@ std::string zwidth_csv(const ZwidthResult& result) {
                               row.device.damping,  row.wall_damping,
                               row.stable,          row.stable_law,
                               row.passive,         row.passive_law,
-                              row.passive_damping, row.stepped,
-                              row.stepped_law};
+                              row.passive_damping, row.quantized,
+                              row.quantized_law};
     for (std::size_t c = 0; c < std::size(numbers); ++c)
       text += (c ? "," : "") + (std::isfinite(numbers[c]) ? number_text(numbers[c]) : "");
     text += "\n";
@@ -164,7 +163,6 @@ std::string zwidth_csv(const ZwidthResult& result) {
   return text;
 }
 
-// The plane of K and B with its laws, and the energy behind a delay.
 namespace {
 
 constexpr int kPlotWidth = 1200, kPlotHeight = 560;
@@ -197,9 +195,9 @@ std::string plane_script(Gnuplot& gnuplot, const WallPlane& plane) {
   for (const double K : plane.passive_K) bottom = std::min(bottom, K);
   bottom = std::min({bottom, top / 100});
   std::string text = fmt::format(
-      "set title 'Walls of the device alone: b = {:g} N s/m, m = {:g} g, {:g} Hz'\n"
+      "set title 'Virtual walls, device alone: b = {:g} N s/m, m = {:g} g, {:g} Hz'\n"
       "set logscale xy\nset xrange [{:.5g}:{:.5g}]\nset yrange [{:.5g}:{:.5g}]\n"
-      "set xlabel 'damping of the wall, B [N s/m]'\nset ylabel 'stiffness of the wall, K [N/m]'\n"
+      "set xlabel 'wall damping B [N s/m]'\nset ylabel 'wall stiffness K [N/m]'\n"
       "set format '%g'\nset key bottom right Left reverse\nplot ",
       d.damping, 1e3 * d.mass, d.rate, from, to * 1.3, bottom / 2, top * 4);
   if (!colgate.B.empty())
@@ -209,34 +207,34 @@ std::string plane_script(Gnuplot& gnuplot, const WallPlane& plane) {
         curve(colgate), curve(colgate), palette::linear);
   text += fmt::format(
       "{} with lines lw 2 dt 2 lc '{}' title 'K = (b + B)/(T/2 + t_d)', "
-      "{} with points pt 7 ps 0.8 lc '{}' title 'stable up to here (runs)'",
+      "{} with points pt 7 ps 0.8 lc '{}' title 'stability limit (runs)'",
       curve(uncoupled), palette::torsional, gnuplot.data({plane.stable_B, plane.stable_K}),
       palette::dvr);
   if (!plane.passive_B.empty())
-    text += fmt::format(", {} with points pt 5 ps 0.8 lc '{}' title 'no energy out (runs)'",
+    text += fmt::format(", {} with points pt 5 ps 0.8 lc '{}' title 'passivity limit (runs)'",
                         gnuplot.data({plane.passive_B, plane.passive_K}), palette::ink);
   return text + "\n";
 }
 
 constexpr double kDrawnDelay = 0.1;  // [s]
 
-bool is_prompt(const DelayRow& row) {
+bool has_no_delay(const DelayRow& row) {
   return row.delay == 0;
 }
 
 std::string delay_script(Gnuplot& gnuplot, const std::vector<DelayRow>& delays) {
   std::string text =
-      "unset logscale\nset autoscale\nset title 'Energy of the hand behind a delay of 100 ms each "
-      "way'\nset xlabel 'time [s]'\nset ylabel 'energy put in by the hand [mJ]'\n"
+      "unset logscale\nset autoscale\nset title 'Energy put in, with a delay of 100 ms each "
+      "way'\nset xlabel 'time [s]'\nset ylabel 'energy put in by the operator [mJ]'\n"
       "set key bottom right Left reverse\nset xrange [0:8]\n";
-  double top = 1;  // what runs away leaves the picture
+  double top = 1;  // growing curves leave the picture
   for (const DelayRow& row : delays)
-    if (is_prompt(row))
+    if (has_no_delay(row))
       for (const double E : row.energy) top = std::max(top, 1e3 * E);
   text += fmt::format("set yrange [{:.5g}:{:.5g}]\n", -3 * top, 1.5 * top) +
           "plot 0 with lines lc '#9A9A9A' notitle";
   for (const DelayRow& row : delays) {
-    const bool late = !is_prompt(row);
+    const bool late = !has_no_delay(row);
     if (late && (row.delay != kDrawnDelay || row.jitter > 0 || row.loss > 0)) continue;
     std::vector<double> energy;
     for (const double E : row.energy) energy.push_back(1e3 * E);
@@ -247,8 +245,8 @@ std::string delay_script(Gnuplot& gnuplot, const std::vector<DelayRow>& delays) 
                         : row.control ? palette::linear
                                       : palette::dvr,
                         !late         ? "no delay"
-                        : row.control ? "with the passivity controller"
-                                      : "without");
+                        : row.control ? "with passivity controller"
+                                      : "without controller");
   }
   return text + "\n";
 }
@@ -263,7 +261,7 @@ std::string whole_script(Gnuplot& gnuplot, const ZwidthResult& result) {
 
 std::string zwidth_svg(const ZwidthResult& result) {
   Gnuplot gnuplot;
-  return gnuplot.svg("zwidth", "walls that a hand device can render", kPlotWidth, kPlotHeight,
+  return gnuplot.svg("zwidth", "Virtual walls of a haptic device", kPlotWidth, kPlotHeight,
                      whole_script(gnuplot, result));
 }
 

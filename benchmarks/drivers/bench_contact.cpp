@@ -1,5 +1,5 @@
-// How long the engines take for the same scenes with contacts, and how well they hold them. Prints
-// JSON; the table is scripts/measure/bench's.
+// Time and contact quality of the engines on the same scenes with contacts. Prints JSON; the table
+// is made by scripts/measure/bench.
 
 #include <algorithm>
 #include <cmath>
@@ -14,107 +14,68 @@
 #include "benchmarks/scenes/eigen.h"
 #include "benchmarks/scenes/mechanisms.h"
 #include "collision/detection/collision_world.h"
+#include "solver/dynamics/kinematics.h"
 
 namespace twinarm::bench {
 namespace {
 
-// How well a scene with contacts is held over a run, by one and the same measure for all engines:
-// our collision detection at the coordinates that they report.
+// Contact quality of a run: twinarm's collision detection at the coordinates that the engine
+// reports.
 class ContactMeasure {
  public:
-  explicit ContactMeasure(const TimedScene& timed);
-  ~ContactMeasure();
-  void take(int step, const std::vector<double>& q);  // after each step, as in Scene
+  explicit ContactMeasure(const TimedScene& timed) : timed_(timed), model_(model_of(timed.scene)) {
+    const Scene& scene = timed_.scene;
+    if (scene.obstacle) {
+      world_.add({"obstacle", Box{2 * vector3(scene.obstacle->half)}, 0, true});
+      X_WG_.push_back({Matrix3::Identity(), vector3(scene.obstacle->centre)});
+    } else {
+      world_.add({"floor", HalfSpace{}, 0, true});
+      X_WG_.emplace_back();
+    }
+    for (const Body& b : scene.bodies) {
+      if (b.form == Form::sphere) world_.add({"ball", Sphere{b.half[0]}});
+      if (b.form == Form::box) world_.add({"box", Box{2 * vector3(b.half)}});
+    }
+    X_WG_.resize(static_cast<std::size_t>(world_.size()));
+  }
 
-  double penetration() const { return penetration_; }  // the deepest point, of the last step [m]
-  double max_penetration() const { return max_; }
-  // Boxes: the farthest that one of them is from its vertical at the start [m]. The ball: how far
-  // it creeps in the last fifth of the run [m].
-  double drift() const { return drift_; }
+  // After each step; q as in Scene.
+  void measure(int step, const std::vector<double>& q) {
+    const Scene& scene = timed_.scene;
+    State<double> x(model_);
+    x.q = q;
+    Kinematics k(model_);
+    forward_kinematics(model_, x, k);
+    std::size_t shape = 1;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+      if (scene.bodies[i].form != Form::none)
+        X_WG_[shape++] = {k.X_WL[i + 1].R, k.X_WL[i + 1] * vector3(scene.bodies[i].form_at)};
+    std::vector<Contact> contacts;
+    world_.detect(X_WG_, 0.0, contacts);
+    penetration = drift = 0;
+    for (const Contact& contact : contacts) penetration = std::max(penetration, contact.depth);
+    max_penetration = std::max(max_penetration, penetration);
+    if (!scene.obstacle)
+      for (std::size_t i = 0; i < q.size(); i += 7)
+        drift = std::max(drift, std::hypot(q[i] - scene.q[i], q[i + 1] - scene.q[i + 1]));
+    else if (step < timed_.steps - timed_.steps / 5)
+      reference_ = X_WG_.back().p;
+    else
+      drift = (X_WG_.back().p - reference_).norm();
+  }
+
+  double penetration = 0, max_penetration = 0;  // deepest point of the last step, of all [m]
+  // Boxes: largest horizontal distance from the start [m]. Ball: creep in the last fifth of the run
+  // [m].
+  double drift = 0;
 
  private:
-  struct Detection;
   TimedScene timed_;
-  std::unique_ptr<Detection> detection_;
-  std::array<double, 3> reference_{};
-  double penetration_ = 0, max_ = 0, drift_ = 0;
+  Model<double> model_;
+  CollisionWorld world_;
+  std::vector<Pose> X_WG_;  // the fixed shape first
+  Vector3 reference_ = Vector3::Zero();
 };
-
-// Where bodies are, on revolutes and free.
-std::vector<Pose> poses_of(const Scene& scene, const std::vector<double>& q) {
-  std::vector<Pose> poses;
-  const double* at = q.data();
-  for (const Body& b : scene.bodies) {
-    Pose X{matrix3(b.rotation), vector3(b.position)};
-    if (b.joint == Joint::free)
-      X = {quaternion(at + 3).normalized().toRotationMatrix(), Vector3(at)};
-    else
-      X.R = X.R * Eigen::AngleAxisd(at[0], axis_of(b)).toRotationMatrix();
-    if (b.parent >= 0) {
-      const Pose& parent = poses[index(b.parent)];
-      X = {parent.R * X.R, parent.p + parent.R * X.p};
-    }
-    poses.push_back(X);
-    at += coordinates_of(b.joint);
-  }
-  return poses;
-}
-
-struct ContactMeasure::Detection {
-  CollisionWorld world;
-  std::vector<Pose> X_WG;  // what is fixed comes first
-  std::vector<Contact> contacts;
-
-  double deepest() {
-    world.detect(X_WG, 0.0, contacts);
-    double depth = 0;
-    for (const Contact& contact : contacts) depth = std::max(depth, contact.depth);
-    return depth;
-  }
-};
-
-ContactMeasure::ContactMeasure(const TimedScene& timed)
-    : timed_(timed), detection_(std::make_unique<Detection>()) {
-  Detection& d = *detection_;
-  const Scene& scene = timed_.scene;
-  if (scene.obstacle) {
-    d.world.add({"obstacle", Box{2 * vector3(scene.obstacle->half)}, 0, true});
-    d.X_WG.push_back({Matrix3::Identity(), vector3(scene.obstacle->centre)});
-  } else {
-    d.world.add({"floor", HalfSpace{}, 0, true});
-    d.X_WG.emplace_back();
-  }
-  for (const Body& b : scene.bodies) {
-    if (b.form == Form::sphere) d.world.add({"ball", Sphere{b.half[0]}});
-    if (b.form == Form::box) d.world.add({"box", Box{2 * vector3(b.half)}});
-  }
-  d.X_WG.resize(static_cast<std::size_t>(d.world.size()));
-}
-
-ContactMeasure::~ContactMeasure() = default;
-
-void ContactMeasure::take(int step, const std::vector<double>& q) {
-  const Scene& scene = timed_.scene;
-  const std::vector<Pose> X_WB = poses_of(scene, q);
-  std::size_t shape = 1;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-    if (scene.bodies[i].form != Form::none)
-      detection_->X_WG[shape++] = {X_WB[i].R,
-                                   X_WB[i].p + X_WB[i].R * vector3(scene.bodies[i].form_at)};
-  penetration_ = detection_->deepest();
-  max_ = std::max(max_, penetration_);
-  drift_ = 0;
-  if (!scene.obstacle) {
-    for (std::size_t i = 0; i < q.size(); i += 7)
-      drift_ = std::max(drift_, std::hypot(q[i] - scene.q[i], q[i + 1] - scene.q[i + 1]));
-    return;
-  }
-  const Vector3& tip = detection_->X_WG.back().p;
-  if (step < timed_.steps - timed_.steps / 5)
-    Vector3::Map(reference_.data()) = tip;
-  else
-    drift_ = (tip - Vector3(reference_.data())).norm();
-}
 
 using Json = nlohmann::ordered_json;
 
@@ -125,15 +86,15 @@ constexpr const char* usage =
 
   --models       default: all three
   --engines      default: all of this build (--list prints their names)
-  --repetitions  of the whole run, default 3; engines take turns every 50 steps
-  --quick        one repetition of the first 50 steps: to see that it runs
+  --repetitions  of the whole run, default 3; the engines alternate every 50 steps
+  --quick        one repetition of the first 50 steps
 
 Example: bench_contact --models pyr55 --engines "twinarm double,bullet"
 Exit codes: 0 done; 2 bad option.
 )";
 
-constexpr int steps_of_a_turn = 50;  // steps of one engine, before the next one's turn
-constexpr int settling = 300;        // steps; from then on the piles are at rest
+constexpr int steps_per_turn = 50;  // consecutive steps of one engine
+constexpr int settling = 300;       // steps until the piles are at rest
 constexpr double ns_per_s = 1e9;
 
 struct Options {
@@ -164,7 +125,7 @@ struct Row {
   std::string engine, model;
   std::vector<double> whole, settling, rest;  // by repetition: mean time of a step [s]
   double penetration = 0, max_penetration = 0, drift = 0;
-  std::optional<SolverReading> solver;  // residual the largest, times the means of all steps
+  std::optional<SolverReading> solver;  // largest residual, mean times of a step
   int unconverged = 0;                  // steps
 };
 
@@ -172,7 +133,7 @@ void start(Engine& engine, const TimedScene& timed) {
   engine.load(timed.scene, engine.schemes(timed.scene).front(), timed.h);
 }
 
-// A run of its own for what it comes to: looking at it is not timed.
+// A separate run for the results, not timed.
 void observe(Engine& engine, const TimedScene& timed, Row& row) {
   start(engine, timed);
   ContactMeasure measure(timed);
@@ -187,20 +148,20 @@ void observe(Engine& engine, const TimedScene& timed, Row& row) {
       row.unconverged += now->converged ? 0 : 1;
     }
     engine.read(q, v);
-    measure.take(step, q);
+    measure.measure(step, q);
   }
-  row.penetration = measure.penetration();
-  row.max_penetration = measure.max_penetration();
-  row.drift = measure.drift();
+  row.penetration = measure.penetration;
+  row.max_penetration = measure.max_penetration;
+  row.drift = measure.drift;
 }
 
 void repeat(Engines& engines, const TimedScene& timed, std::vector<Row>& rows) {
   std::vector<double> first(engines.size()), then(engines.size());
   for (const auto& engine : engines) start(*engine, timed);
-  for (int step = 0; step < timed.steps; step += steps_of_a_turn)
+  for (int step = 0; step < timed.steps; step += steps_per_turn)
     for (std::size_t i = 0; i < engines.size(); ++i) {
       const double start = thread_seconds();
-      for (int k = 0; k < steps_of_a_turn; ++k) engines[i]->step();
+      for (int k = 0; k < steps_per_turn; ++k) engines[i]->step();
       (step < settling ? first : then)[i] += thread_seconds() - start;
     }
   const int early = std::min(settling, timed.steps);
@@ -213,14 +174,14 @@ void repeat(Engines& engines, const TimedScene& timed, std::vector<Row>& rows) {
 
 std::vector<Row> measure(const Options& options, const std::string& model, Stages& stages) {
   TimedScene timed = timed_scene(model);
-  if (options.quick) timed.steps = steps_of_a_turn;
+  if (options.quick) timed.steps = steps_per_turn;
   Engines engines = engines_of_build();
   std::erase_if(engines, [&](const auto& e) { return !chosen(options.engines, e->name()); });
   std::vector<Row> rows(engines.size());
   const auto count = static_cast<double>(engines.size());
   for (std::size_t i = 0; i < engines.size(); ++i) {
     rows[i].engine = engines[i]->name(), rows[i].model = model;
-    stages.begin(model + ", " + rows[i].engine + ": how it holds", 1.0 / count);
+    stages.begin(model + ", " + rows[i].engine + ": contact quality", 1.0 / count);
     observe(*engines[i], timed, rows[i]);
   }
   for (int repetition = 0; repetition < options.repetitions; ++repetition) {

@@ -1,5 +1,5 @@
-// What a body costs by the type of its joint: forward dynamics of chains of 16 bodies, every joint
-// type in every scalar, ns per body (and per state, for batches). Prints a table.
+// Time per body by joint type: forward dynamics of chains of 16 bodies, every joint type in every
+// scalar, ns per body (and per state, for batches). Prints a table.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -23,7 +23,7 @@ Model<double> chain_of(JointType type) {
   ModelBuilder builder;
   for (int i = 0; i < kBodies; ++i) {
     const std::string number = std::to_string(i);
-    const double a = 0.3 * i;  // something different for each body
+    const double a = 0.3 * i;  // different for each body
     BodyInertia body{1 + 0.1 * i, {0.05, 0.01 * i, 0.02}, Matrix3::Zero()};
     body.inertia.diagonal() << 0.02, 0.03 + 0.001 * i, 0.04;
     Matrix3 R = Matrix3::Identity();
@@ -34,7 +34,7 @@ Model<double> chain_of(JointType type) {
   return builder.build();
 }
 
-// Calls of forward dynamics in one scalar: the job, and how many states it does at once.
+// Forward dynamics in one scalar.
 template <class S>
 std::function<void()> forward_dynamics_of(const Model<double>& model) {
   struct Work {
@@ -92,8 +92,7 @@ int run(int repetitions, double seconds) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   bool quick = false;
-  CommandLine line("bench_joints",
-                   "What a body costs by the type of its joint.\n\n  bench_joints [--quick]\n");
+  CommandLine line("bench_joints", "Time per body by joint type.\n\n  bench_joints [--quick]\n");
   line.flag("--quick", quick);
   return line.run(argc, argv, [&] { return quick ? run(1, 1e-4) : run(7, 0.01); });
 }

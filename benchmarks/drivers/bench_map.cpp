@@ -1,7 +1,7 @@
-// Steps of many coupled runs, as maps of stability take them: coupling, integration and measures
-// included. What a step costs over the batch's aba() alone, measured in the same rounds: that ratio
-// is what the machine's mood does not change. And how many steps come out of a second, by cells,
-// threads and lanes. scripts/measure/map_throughput draws the latter.
+// Steps of many coupled runs, as in parameter maps, with coupling, integration and measures. Time
+// of a step relative to that of the batch's aba(), measured alternately, so that the ratio does not
+// depend on the load of the machine; and steps per second by cells, threads and lanes, which
+// scripts/measure/map_throughput draws.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -48,7 +48,7 @@ class Rows {
   bool json_, first_ = true;
 };
 
-// The batch's forward dynamics alone, at as many lanes as the map has: one call for each state.
+// Forward dynamics of the batch with the lanes of the map: one call for each state.
 template <int N>
 class PassesAlone {
  public:
@@ -76,12 +76,11 @@ class PassesAlone {
   std::vector<State<Batch<N>>> states_;
 };
 
-// All laws and treatments, in turn with the passes alone.
+// All laws and discretizations, alternating with the passes alone.
 template <int N>
 void compare_with_passes(const MapBenchOptions& options) {
   if (!options.json)
-    std::printf("ns per step of a cell, one core, %d lanes; beside it the batch's aba() alone\n",
-                N);
+    std::printf("ns per step of a cell and of the batch's aba() alone, one core, %d lanes\n", N);
   Rows rows("passes", options.json);
   PassesAlone<N> alone(ModelWithoutFixedJoints(locked_s103()).model);
   for (const bool energy : {false, true})
@@ -105,7 +104,7 @@ struct Quickest {
   double wall = std::numeric_limits<double>::infinity(), busiest = wall;  // [s]
 };
 
-// Of several calls.
+// Minimum of several calls.
 Quickest quickest(MapRuns& map, bool alone, bool quick) {
   using Clock = std::chrono::steady_clock;
   Quickest best;
@@ -125,18 +124,18 @@ Quickest quickest(MapRuns& map, bool alone, bool quick) {
   return best;
 }
 
-// Linear springs with implicit dampers. Side by side with the energies, which a map always has.
+// Linear springs with implicit dampers.
 void measure_throughput(const MapBenchOptions& options) {
   if (!options.json)
     std::printf("million steps per second by the wall clock, linear semi-implicit, energies too\n");
   Rows rows("throughput", options.json);
   const double duration = options.quick ? 0.3 : 3;
-  const std::size_t most = options.quick ? 16 : 1024, max_alone = options.quick ? 4 : 16;
+  const std::size_t max_cells = options.quick ? 16 : 1024, max_alone = options.quick ? 4 : 16;
   for (const bool alone : {true, false})
     for (const std::size_t threads : {std::size_t{1}, std::size_t{2}})
-      for (std::size_t cells = 1; cells <= (alone ? max_alone : most); cells *= 2)
+      for (std::size_t cells = 1; cells <= (alone ? max_alone : max_cells); cells *= 2)
         for (const bool energy : {true, false}) {
-          if (!energy && (alone || cells < most)) continue;
+          if (!energy && (alone || cells < max_cells)) continue;
           MapRuns map(kMapLaws[2], Discretization::semi_implicit, energy, cells, threads, duration);
           const Quickest best = quickest(map, alone, options.quick);
           const double steps = static_cast<double>(map.steps()), in = options.json ? 1 : 1e6;
@@ -171,7 +170,7 @@ int main(int argc, char** argv) {
   using namespace twinarm::bench;
   MapBenchOptions options;
   CommandLine line("bench_map",
-                   "What a step of a map costs, and how many there are in a second.\n\n"
+                   "Time of a step of a map, and steps per second.\n\n"
                    "  bench_map [--quick] [--json] [--passes | --throughput]\n");
   line.flag("--quick", options.quick);
   line.flag("--json", options.json);

@@ -1,8 +1,8 @@
-// What the hook of the trace costs when it is off: aba() and a step with NoTrace against the same
-// text without the hook, in turn. Prints a table of ratios; 1 is no cost.
+// Cost of the disabled trace hook: aba() and a step with NoTrace against the same code without the
+// hook, alternately. Prints a table of ratios; 1 means no cost.
 //
-// On a shared machine two runs of the same instructions differ by more than the hook could cost. So
-// beside each ratio stands that of the bare text to itself, which is what the machine can tell.
+// On a shared machine two runs of the same instructions differ by more than the cost of the hook.
+// So each ratio is printed with that of the bare code to itself, which is the resolution.
 #include <algorithm>
 #include <cstdio>
 #include <functional>
@@ -18,7 +18,6 @@
 namespace twinarm::bench {
 namespace {
 
-// The mechanism and its states, as doubles.
 struct Work {
   Model<double> model;
   Workspace<double> w;
@@ -46,7 +45,7 @@ struct Work {
   }
 };
 
-// Median, least and largest.
+// Median, minimum and maximum.
 std::string text_of(std::vector<double> ratios) {
   std::ranges::sort(ratios);
   char text[80];
@@ -55,7 +54,7 @@ std::string text_of(std::vector<double> ratios) {
   return text;
 }
 
-// Hook to bare, and bare to itself, over rounds in which all of them take turns.
+// Ratios of hooked to bare, and of bare to itself; all alternate in each round.
 void measure(const char* what, const std::string& model,
              const std::function<void(const NoTracePasses&)>& job, int rounds, double seconds) {
   const NoTracePasses hooked = hooked_passes(), bare = bare_passes();
@@ -75,8 +74,8 @@ void measure(const char* what, const std::string& model,
 
 void run_all(int rounds, double seconds) {
   std::printf(
-      "thread CPU time as a part of that of the bare text; median of %d rounds (least to "
-      "largest)\n                 no trace                      the bare text again\n",
+      "thread CPU time relative to the bare code; median of %d rounds (min to max)\n"
+      "                 no trace                      the bare code again\n",
       rounds);
   for (const char* name : {"scara3", "puma6", "chain32"}) {
     Work work(mechanism(name));
@@ -87,7 +86,7 @@ void run_all(int rounds, double seconds) {
   }
 }
 
-// Calls of the one text alone, for tools that count instructions.
+// Calls of one of them, for tools that count instructions.
 void only(std::string_view which, int calls) {
   Work work(mechanism("puma6"));
   const NoTracePasses text = which == "bare" ? bare_passes() : hooked_passes();

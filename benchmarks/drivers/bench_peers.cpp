@@ -1,5 +1,6 @@
-// The same scenes in every engine: how far each is from the truth, and what a step costs it. Prints
-// JSON (docs/understand/accuracy_vs_other_engines.md says what is in it); table and figure are scripts/measure/peers'.
+// Error and time per step of every engine on the same scenes. Prints JSON
+// (docs/understand/accuracy_vs_other_engines.md); table and figure are made by
+// scripts/measure/peers.
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,6 @@
 namespace twinarm::bench {
 namespace {
 
-// Runs cases in engines, one row for each engine, scheme and step.
 // One engine with one scheme and step in one case.
 struct Row {
   Engine* engine;
@@ -28,13 +28,13 @@ struct Row {
   double error = NAN;
   long steps = 0;                 // of a fixed step; 0: adaptive
   std::vector<double> seconds{};  // by repetition: CPU time of the whole run
-  std::string stopped{};          // why it did not come to its end
+  std::string stopped{};          // why the run is incomplete
 };
 
 constexpr double kOnceIsEnough = 2;  // CPU seconds: a run that takes longer is not repeated
 
-// When a run is looked at.
-std::vector<double> looks(const SceneCase& c) {
+// Times at which the error is measured.
+std::vector<double> measured_times(const SceneCase& c) {
   if (!c.times.empty()) return c.times;
   std::vector<double> all;
   for (long n = 1; n <= std::lround(c.duration / c.step); ++n)
@@ -42,13 +42,13 @@ std::vector<double> looks(const SceneCase& c) {
   return all;
 }
 
-// The first run: what it comes to. Looking is not timed.
+// First run: its error. Measuring is not timed.
 void observe(Row& row, double budget) {
   row.engine->load(row.test->scene, row.scheme, row.h);
   const Judge judge = row.test->judge();
   std::vector<double> q, v;
   double spent = 0;
-  for (const double t : looks(*row.test)) {
+  for (const double t : measured_times(*row.test)) {
     const double start = thread_seconds();
     row.engine->advance(t);
     spent += thread_seconds() - start;
@@ -60,14 +60,14 @@ void observe(Row& row, double budget) {
       break;
     }
     if (spent > budget && t < row.test->duration - 1e-9) {
-      row.stopped = "took longer than the budget, after " + std::to_string(t) + " s of the scene";
+      row.stopped = "exceeded the budget after " + std::to_string(t) + " s of the scene";
       break;
     }
   }
   row.seconds.push_back(spent);
 }
 
-// Those that follow: nothing but the steps. As often as a clock needs.
+// Further runs: steps only, repeated for at least 2 ms.
 void repeat(Row& row) {
   constexpr double kLongEnough = 2e-3;
   const std::vector<double> times =
@@ -88,8 +88,7 @@ std::string name_of(const Row& row) {
   return row.test->name + ", " + row.name + ' ' + row.scheme.name;
 }
 
-// A step costs a microsecond for each body, ten with contacts.
-// What its first run is expected to take, and all its runs [CPU seconds, roughly].
+// Estimated CPU time of the first run [s]: 1 us per step and body, 10 us with contacts.
 double expected_seconds(const Row& row, double budget) {
   constexpr double kAdaptive = 0.05;
   if (row.scheme.adaptive) return kAdaptive;
@@ -103,9 +102,9 @@ double expected_of_all(const Row& row, int repetitions, double budget) {
   return repetitions > 1 && once < kOnceIsEnough ? once * (1 + repetitions) : once;
 }
 
-// Each once for its error, which is not timed, then in `repetitions` turns for its time: in a turn
-// all rows run one after the other, so that what disturbs the machine for a while disturbs all of
-// them. A run that takes longer than `budget` [s] is stopped, and says so.
+// One run of each row for its error, then `repetitions` for its time; in each repetition all rows
+// run one after the other, so that a temporary load of the machine affects all. A run that exceeds
+// `budget` [s] is stopped.
 void measure(std::vector<Row>& rows, int repetitions, double budget, Stages& stages) {
   const auto worth_repeating = [&](const Row& row) {
     return repetitions > 1 && row.stopped.empty() && row.seconds[0] < kOnceIsEnough;
@@ -120,10 +119,10 @@ void measure(std::vector<Row>& rows, int repetitions, double budget, Stages& sta
       row.stopped = fault.what(), row.error = NAN;
     }
     if (worth_repeating(row)) repeated.push_back(&row);
-    const double comes = worth_repeating(row) ? repetitions * once : 0;
-    stages.skip(expected_of_all(row, repetitions, budget) - once - comes);
+    const double remaining = worth_repeating(row) ? repetitions * once : 0;
+    stages.skip(expected_of_all(row, repetitions, budget) - once - remaining);
   }
-  for (Row* row : repeated) row->seconds.clear();  // they had looks in them, and cold caches
+  for (Row* row : repeated) row->seconds.clear();  // with cold caches
   for (int n = 0; n < repetitions && repetitions > 1; ++n)
     for (Row* row : repeated) {
       stages.begin_seldom(name_of(*row) + ", again", expected_seconds(*row, budget));
@@ -131,7 +130,7 @@ void measure(std::vector<Row>& rows, int repetitions, double budget, Stages& sta
     }
 }
 
-using Json = nlohmann::ordered_json;  // what is not finite becomes null
+using Json = nlohmann::ordered_json;  // numbers that are not finite become null
 
 constexpr const char* usage =
     R"(Runs the same scenes in all engines of this build; prints JSON on stdout, progress on stderr.
@@ -141,10 +140,10 @@ constexpr const char* usage =
 
   --cases           names or groups; default: all (--list prints them, and the engines)
   --engines         default: all of this build
-  --work-precision  instead of steps of 1 ms: many steps and tolerances, of the cases that are so marked
+  --work-precision  many steps and tolerances instead of 1 ms, for the cases that support it
   --repetitions     default 3; in each, all engines run one after the other
-  --budget          seconds of one run, default 20; what is not done by then is stopped, and said
-  --quick           one repetition, budget 0.2 s: to see that it runs
+  --budget          maximum CPU time of one run [s], default 20
+  --quick           one repetition, budget 0.2 s
 
 Example: bench_peers --cases C2,E2-slide --engines twinarm,mujoco
 Exit codes: 0 done; 2 bad option.
@@ -158,7 +157,7 @@ struct Options {
   bool list = false;
 };
 
-// Each kind by its first variant, which runs scenes.
+// Each kind with its first variant, which runs scenes.
 struct Peer {
   std::string name;
   std::unique_ptr<Engine> engine;
@@ -178,7 +177,7 @@ std::vector<SceneCase> all_cases() {
 }
 
 void check(const Options& o) {
-  std::vector<std::string> cases, engines = missing_engines();  // skipped, and said in the answer
+  std::vector<std::string> cases, engines = missing_engines();  // accepted, and reported as missing
   for (const SceneCase& c : all_cases()) cases.push_back(c.name), cases.push_back(c.group);
   for (const EngineKind& kind : kinds_in_order()) engines.push_back(kind.name);
   check_known(o.cases, cases, "case or group", "; see --list");
@@ -255,7 +254,7 @@ int run(const Options& options) {
     for (const Row& row : rows.back())
       expected += expected_of_all(row, options.repetitions, options.budget);
   }
-  Stages stages("bench_peers", expected, SceneLines::redrawn);
+  Stages stages("bench_peers", expected, StageLines::redrawn);
   Json& list = answer[options.work_precision ? "work_precision" : "rows"] = Json::array();
   for (auto& of_case : rows) {
     measure(of_case, options.repetitions, options.budget, stages);

@@ -1,9 +1,9 @@
-// The C++ side of scripts/measure/bench_python: calls of the passes, timed when asked.
+// The C++ side of scripts/measure/bench_python: times calls of the passes.
 //
 //   bench_python ROBOT.urdf
 //
-// stdin: the number of states, then q, qd and a third vector by velocity of each; after that lines
-// "ALGORITHM CALLS", each answered by the nanoseconds of processor time of a call.
+// stdin: the number of states, then q, qd and a third vector of nv numbers for each; then lines
+// "ALGORITHM CALLS", each answered by the CPU time of a call [ns].
 #include <functional>
 #include <iostream>
 #include <map>
@@ -56,7 +56,7 @@ void answer(const std::filesystem::path& file) {
 
 int main(int argc, char** argv) {
   if (argc != 2) {
-    std::cerr << "bench_python: give a robot's URDF; scripts/measure/bench_python does\n";
+    std::cerr << "usage: bench_python ROBOT.urdf (run by scripts/measure/bench_python)\n";
     return 2;
   }
   try {

@@ -1,5 +1,5 @@
-// How long the engines take for the same mechanisms in the same situations. Prints JSON; the table
-// and the figure are scripts/measure/bench's.
+// Time of the engines on the same mechanisms in the same situations. Prints JSON; table and figure
+// are made by scripts/measure/bench.
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -26,10 +26,10 @@ constexpr const char* usage =
   --engines      default: all of this build (--list prints their names)
   --repetitions  default 9; each runs all engines one after the other
   --seconds      of each engine in each repetition, default 0.02
-  --quick        3 repetitions of 0.003 s: to see that it runs
+  --quick        3 repetitions of 0.003 s
 
 Example: bench_speed --models puma6,chain32 --algorithms fd
-Exit codes: 0 done; 1 an engine's answers differ from twinarm's (its rows are left out); 2 bad option.
+Exit codes: 0 done; 1 results of an engine differ from twinarm's (its rows are omitted); 2 bad option.
 )";
 
 struct NamedAlgorithm {
@@ -51,7 +51,6 @@ struct Options {
   bool list = false;
 };
 
-// All that have an algorithm.
 Engines engines_of_build() {
   Engines engines = all_engines();
   std::erase_if(engines, [](const auto& e) { return !e->has(Algorithm::forward_dynamics); });
@@ -70,19 +69,19 @@ void check(const Options& o) {
   check_known(o.engines, names_of(engines_of_build()), "engine", " in this build; see --list");
 }
 
-// ---- whether all engines compute the same: without it no time means anything ----
+// ---- agreement of the results ----
 
 struct Agreement {
   std::string engine, model;
   double error = 0;          // of qdd, against the first engine, relative to its largest entry
-  double error_inverse = 0;  // of the joints' tau by inverse dynamics, likewise; 0 without it
+  double error_inverse = 0;  // of the joint torques by inverse dynamics, likewise; 0 without it
   double tolerance = 0;
   bool holds() const { return error <= tolerance && error_inverse <= tolerance; }
 };
 
-using Answers = std::vector<std::vector<double>>;  // by situation
+using Results = std::vector<std::vector<double>>;  // by situation
 
-double relative_error(const Answers& mine, const Answers& reference) {
+double relative_error(const Results& mine, const Results& reference) {
   double worst = 0;
   for (std::size_t k = 0; k < reference.size(); ++k) {
     if (mine[k].size() != reference[k].size()) return std::numeric_limits<double>::infinity();
@@ -98,18 +97,18 @@ double relative_error(const Answers& mine, const Answers& reference) {
   return worst;
 }
 
-// Entries of the revolutes alone.
+// Entries of the revolute joints.
 std::vector<double> joints_of(const Scene& mechanism, const std::vector<double>& all) {
   return {all.begin() + (mechanism.floats() ? 6 : 0), all.end()};
 }
 
-// Of every engine against the first, the worst of all situations. They are loaded and have them.
+// Largest error over all situations of every engine, against the first. The engines are loaded.
 std::vector<Agreement> compare(Engines& engines, const Scene& mechanism,
                                const std::vector<Situation>& situations) {
   std::vector<Agreement> all;
-  Answers first_qdd, first_tau;
+  Results first_qdd, first_tau;
   for (const auto& engine : engines) {
-    Answers qdd, tau;
+    Results qdd, tau;
     for (std::size_t k = 0; k < situations.size(); ++k) {
       qdd.push_back(engine->qdd(k));
       if (engine->has(Algorithm::inverse_dynamics))
@@ -122,14 +121,14 @@ std::vector<Agreement> compare(Engines& engines, const Scene& mechanism,
   return all;
 }
 
-// ---- how long they take ----
+// ---- times ----
 
 void measure(const Options& options, const std::string& model, Stages& stages, Json& rows,
              std::vector<Agreement>& agreement) {
   const Scene mechanism = bench::mechanism(model);
   const auto given = situations(mechanism, mechanism.bodies.size() > 200 ? 16 : 64);
   Engines engines = engines_of_build();
-  // The first one stays: the others are held against it.
+  // Keeps the first one, the reference.
   for (std::size_t i = engines.size(); i-- > 1;)
     if (!chosen(options.engines, engines[i]->name()))
       engines.erase(engines.begin() + static_cast<std::ptrdiff_t>(i));
@@ -141,9 +140,9 @@ void measure(const Options& options, const std::string& model, Stages& stages, J
   agreement.insert(agreement.end(), agreed.begin(), agreed.end());
   for (const Agreement& a : agreed)
     if (!a.holds())
-      std::cerr << "bench_speed: " << a.engine << " computes another " << model
-                << ": qdd differs by " << a.error << ", tau by " << a.error_inverse
-                << " (relative), allowed is " << a.tolerance << "; it is left out\n";
+      std::cerr << "bench_speed: " << a.engine << " disagrees on " << model
+                << ": relative error of qdd " << a.error << ", of tau " << a.error_inverse
+                << ", allowed " << a.tolerance << "; it is omitted\n";
 
   for (const auto& [algorithm, name] : algorithms) {
     if (!chosen(options.wanted, name)) continue;

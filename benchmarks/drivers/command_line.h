@@ -1,4 +1,4 @@
-// What the benchmark programs share: options, exit codes, and how repetitions become one number.
+// Shared by the benchmark programs: options, exit codes, statistics of repetitions.
 #pragma once
 
 #include <algorithm>
@@ -14,12 +14,12 @@
 
 namespace twinarm::bench {
 
-// A,B,C; at least one.
+// Splits A,B,C.
 inline std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
   std::istringstream in(text);
   for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
-  if (parts.empty()) throw std::invalid_argument("an empty list");
+  if (parts.empty()) throw std::invalid_argument("the list is empty");
   return parts;
 }
 
@@ -32,12 +32,12 @@ Number positive(const std::string& text) {
   return number;
 }
 
-// Empty: all.
+// An empty list contains all names.
 inline bool chosen(const std::vector<std::string>& list, std::string_view name) {
   return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
 }
 
-// Not a number of none.
+// NAN of no values.
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return NAN;
   std::sort(values.begin(), values.end());
@@ -45,11 +45,11 @@ inline double median_of(std::vector<double> values) {
 }
 // (longest - shortest) / median.
 inline double spread_of(const std::vector<double>& values) {
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  return (*most - *least) / median_of(values);
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  return (*high - *low) / median_of(values);
 }
 
-// Options by name. Exit codes: 2 for a bad one, 4 where the program itself fails.
+// Options by name. Exit codes: 2 for a bad option, 4 if the program fails.
 class CommandLine {
  public:
   CommandLine(std::string program, const char* usage)
@@ -71,7 +71,7 @@ class CommandLine {
     flag(name, [&value] { value = true; });
   }
 
-  // Reads the options, has them checked, and runs.
+  // Reads and checks the options, and runs the program.
   int run(
       int argc, char** argv, const std::function<int()>& program,
       const std::function<void()>& check = [] {}) const {
@@ -100,7 +100,7 @@ class CommandLine {
     bool has_value;
     std::function<void(const std::string&)> set;
   };
-  // How many words its value takes.
+  // Returns the number of words of the value.
   int read(const std::string& name, const char* next) const {
     for (const Option& option : options_) {
       if (option.name != name) continue;
@@ -117,7 +117,7 @@ class CommandLine {
   std::vector<Option> options_;
 };
 
-// All that were asked for must be known.
+// Throws if a wanted name is unknown.
 inline void check_known(const std::vector<std::string>& wanted,
                         const std::vector<std::string>& known, const std::string& what,
                         const std::string& fix) {

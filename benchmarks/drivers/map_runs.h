@@ -1,6 +1,5 @@
-// The runs that a map of stability consists of, as bench_map times them: the S-103 with its gripper
-// locked follows its twin through the paper's motion, held by three springs whose gains differ from
-// cell to cell.
+// Runs of a parameter map, as timed by bench_map: the S-103 with locked gripper tracks its target
+// robot through the paper's motion, by three springs whose gains differ from cell to cell.
 #pragma once
 
 #include <array>
@@ -11,8 +10,7 @@
 
 namespace twinarm::bench {
 
-// assets/robots/s103, without its meshes; the gripper at the top of its way, one body with the
-// quill.
+// assets/robots/s103 without meshes; the gripper at its upper limit, one body with the quill.
 Model<double> locked_s103();
 
 struct MapLaw {
@@ -20,7 +18,7 @@ struct MapLaw {
   CouplingSpec::Type type;
   SpringSpace measure;
   double k, b;
-  double quill;  // its part of them: it is a thousand times as light, and would be unstable
+  double quill;  // factor of the gains of the quill, whose inertia is a thousand times smaller
 };
 inline constexpr std::array<MapLaw, 3> kMapLaws{
     {{"world", CouplingSpec::Type::torsional, SpringSpace::world, 300, 8, 1e-3},
@@ -34,17 +32,16 @@ class MapRuns {
           std::size_t threads, double duration);
   MapRuns(const MapRuns&) = delete;
 
-  void run();        // side by side; the twin's motion is tabulated by the first call alone
-  void run_fresh();  // all that a map does: with the tables
-  void run_alone();  // one by one, each with a twin of its own; errors, and no energies
+  void run();        // batched; only the first call tabulates the motion of the target
+  void run_fresh();  // batched, with the tables, as in a map
+  void run_alone();  // one cell at a time, each with its own target robot; errors but no energies
   std::size_t steps() const { return steps_; }  // of the last call, all cells
-  // Processor time of the thread that had most of it [s]: the wall clock of a machine with nothing
-  // else to do.
+  // Largest CPU time of a thread [s]: the wall time of an idle machine.
   double busiest() const;
   std::size_t lanes() const { return runs_.front().lanes(); }
 
  private:
-  // part(thread, first cell, number of cells), shared out to the threads.
+  // Calls part(thread, first cell, number of cells) in all threads.
   template <class Part>
   void share_out(const Part& part);
   std::size_t run_one(const BatchCell& cell) const;

@@ -1,5 +1,5 @@
-// Compiled twice: with solver/passes/aba.h (TWINARM_ISA = hooked), and with a copy of it that CMake
-// writes, the line of the hook taken out (TWINARM_ISA = bare).
+// Compiled twice: with solver/passes/aba.h (TWINARM_ISA = hooked), and with a copy of it from which
+// CMake has removed the line of the hook (TWINARM_ISA = bare).
 #include "benchmarks/drivers/no_trace_passes.h"
 
 #include "solver/passes/aba.h"

@@ -1,4 +1,4 @@
-// aba() with the hook of the trace in its text, and the same text without: compiled alike.
+// aba() with the trace hook, and the same code without it, compiled with the same options.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,7 @@ namespace twinarm::bench {
 struct NoTracePasses {
   void (*pass)(const Model<double>&, const State<double>&, const Forces<double>&,
                Workspace<double>&);
-  // A semi-implicit step of h: the pass, then velocities, then places. `next` and `shift` have the
-  // sizes of the model's; x is left as it is.
+  // A semi-implicit step of h from x to next.
   void (*step)(const Model<double>&, const State<double>& x, const Forces<double>&,
                Workspace<double>&, double h, State<double>& next, std::vector<double>& shift);
 };

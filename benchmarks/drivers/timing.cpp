@@ -10,7 +10,7 @@
 namespace twinarm::bench {
 namespace {
 
-// Keeps what Google Benchmark reports instead of printing it.
+// Stores the reports of Google Benchmark instead of printing them.
 class Collector : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override { return true; }
@@ -20,7 +20,7 @@ class Collector : public benchmark::BenchmarkReporter {
   std::vector<Run> runs;
 };
 
-// Runs what is registered once, in the order of registration.
+// Runs all registered jobs once, in the order of registration.
 std::vector<benchmark::BenchmarkReporter::Run> run_registered(std::size_t expected) {
   Collector collector;
   benchmark::RunSpecifiedBenchmarks(&collector, nullptr, "all");
@@ -43,7 +43,7 @@ std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& j
     return benchmark::RegisterBenchmark("all", [&job](benchmark::State& s) { repeat(s, job); });
   };
 
-  // A first run warms up and finds how many calls fill the time; its own time does not count.
+  // The first run warms up and determines the number of calls; its time is not used.
   benchmark::ClearRegisteredBenchmarks();
   for (const auto& job : jobs) add(job)->MinTime(seconds);
   const auto first = run_registered(jobs.size());

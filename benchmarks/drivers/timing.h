@@ -1,4 +1,4 @@
-// Times of several jobs, taken so that their ratios are fair on a machine with other work on it.
+// Timing of several jobs with comparable conditions on a loaded machine; progress of the programs.
 #pragma once
 
 #include <unistd.h>
@@ -18,23 +18,22 @@ struct Timing {
   double spread = 0;  // (longest - shortest) / median
 };
 
-// In every repetition all jobs run one after the other, each for about `seconds`: what disturbs the
-// machine for a while disturbs all of them.
+// In every repetition all jobs run one after the other, each for about `seconds`, so that a
+// temporary load affects all.
 std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& jobs,
                                      int repetitions, double seconds);
 
-// How far a program has come, a line on stderr as each of its stages begins, with the time left:
-// stages of equal weight are expected to take equally long.
+// `redrawn`: one line that is overwritten on a terminal; elsewhere a line every 5 s at most.
+enum class StageLines { all, redrawn };
 
-// Of many short stages, one line is drawn again on a terminal, and elsewhere few are said.
-enum class SceneLines { all, redrawn };
-
+// Progress on stderr: a line at the start of each stage, with the estimated time left. The time of
+// a stage is assumed to be proportional to its weight.
 class Stages {
  public:
-  Stages(std::string program, double total, SceneLines lines = SceneLines::all)
+  Stages(std::string program, double total, StageLines lines = StageLines::all)
       : program_(std::move(program)),
         total_(total),
-        redrawn_(lines == SceneLines::redrawn && isatty(STDERR_FILENO) == 1) {}
+        redrawn_(lines == StageLines::redrawn && isatty(STDERR_FILENO) == 1) {}
   ~Stages() {
     if (redrawn_) std::cerr << "\r\033[K" << std::flush;
   }
@@ -47,17 +46,17 @@ class Stages {
       std::cerr << std::lround(100 * done_ / total_) << " %, about "
                 << std::lround(seconds() / done_ * (total_ - done_)) << " s left: ";
     std::cerr << what << (redrawn_ ? "" : "\n") << std::flush;
-    said_ = seconds();
+    printed_ = seconds();
     done_ += weight;
   }
-  // One of many alike.
+  // One of many short stages.
   void begin_seldom(const std::string& what, double weight) {
-    if (seconds() - said_ < (redrawn_ ? 0.1 : 5))
+    if (seconds() - printed_ < (redrawn_ ? 0.1 : 5))
       done_ += weight;
     else
       begin(what, weight);
   }
-  // What was expected and does not come; below zero: what comes and was not expected.
+  // Reduces the total weight; a negative weight increases it.
   void skip(double weight) { total_ -= weight; }
 
  private:
@@ -66,7 +65,7 @@ class Stages {
   }
 
   std::string program_;
-  double total_, done_ = 0, said_ = 0;
+  double total_, done_ = 0, printed_ = 0;
   bool redrawn_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

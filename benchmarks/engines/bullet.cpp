@@ -5,11 +5,11 @@
 // single: BulletDynamics BulletCollision LinearMath
 // options: -DBT_USE_DOUBLE_PRECISION
 //
-// Scenes: what hangs on joints is one btMultiBody, free bodies are btRigidBodies; contacts by
-// sequential impulses, ten iterations, all else as it comes but damping and sleep, which are off.
-// Algorithms: btMultiBody's; inverse dynamics and mass matrix are in an extra library of Bullet's,
-// which is left out. In double (Debian has both); bench_contact has single precision, which is what
-// it is mostly built for.
+// Scenes: bodies on joints form one btMultiBody, free bodies are btRigidBodies; contacts by
+// sequential impulses with ten iterations; damping and sleeping off, otherwise defaults.
+// Algorithms: those of btMultiBody; inverse dynamics and mass matrix are in a separate library of
+// Bullet, which is not used. Double precision; bench_contact uses single precision, its usual
+// build (Debian has both).
 #include <algorithm>
 #include <cmath>
 
@@ -63,7 +63,7 @@ class Bullet final : public FixedStepEngine {
         world_->tree->addJointTorque(
             j, bt(scene_.control->torque(index(j), world_->tree->getJointPos(j),
                                          world_->tree->getJointVel(j))));
-    world_->world.stepSimulation(bt(h_), 0);  // one step of that length
+    world_->world.stepSimulation(bt(h_), 0);  // one step of this length
   }
   void read(std::vector<double>& q, std::vector<double>& v) override {
     q.resize(scene_.q.size()), v.resize(scene_.v.size());
@@ -93,8 +93,8 @@ class Bullet final : public FixedStepEngine {
     first_ = mechanism.floats() ? 1 : 0;
     frames_ = {mechanism.bodies.begin(), mechanism.bodies.end()};
     tree_ = make_tree(mechanism, frames_);
-    // A world of Bullet's adds the weights before every step; they are constant, so here it is
-    // once.
+    // A Bullet world adds the weights before every step; they are constant, so they are added
+    // once here.
     for (int i = 0; i < tree_->getNumLinks(); ++i)
       tree_->addLinkForce(i, weight(index(i) + first_));
   }
@@ -106,7 +106,7 @@ class Bullet final : public FixedStepEngine {
   void run(Algorithm algorithm) override {
     for (const State& s : states_) run(algorithm, s);
   }
-  // Bullet leaves the accelerations as velocities after a step: with a step of 1 s from here.
+  // Bullet gives accelerations only as velocities after a step; hence a step of 1 s.
   std::vector<double> qdd(std::size_t k) override {
     set_position(states_[k]);
     set_velocity(states_[k]);
@@ -115,7 +115,7 @@ class Bullet final : public FixedStepEngine {
     const Situation& s = situations_[k];
     std::vector<double> qdd;
     if (scene_.floats()) {
-      // of the com in the world; and of the origin: a_O = a_C - alpha x c - w x (w x c)
+      // of the com, world axes; of the origin: a_O = a_C - alpha x c - w x (w x c)
       const Base base(s);
       const Eigen::Vector3d w = base.R * base.w_B, c = base.R * vector3(scene_.bodies[0].com);
       const Eigen::Vector3d alpha = Eigen::Vector3d(v[0], v[1], v[2]) - w;
@@ -133,7 +133,7 @@ class Bullet final : public FixedStepEngine {
  private:
   struct State {
     std::vector<btScalar> q, v, tau;  // of the joints
-    // Of the base: of and at the com, all world axes.
+    // Base: of and at the com, world axes.
     btVector3 position, velocity, omega, force, torque;
     btQuaternion world_to_base;
   };
@@ -195,7 +195,7 @@ class Bullet final : public FixedStepEngine {
     if (scene_.floats()) {
       tree_->setBaseVel(s.velocity);
       tree_->setBaseOmega(s.omega);
-      // There is only adding to the force on the base.
+      // The force on the base can only be added to.
       tree_->addBaseForce(s.force - tree_->getBaseForce());
       tree_->addBaseTorque(s.torque - tree_->getBaseTorque());
     }
@@ -215,13 +215,13 @@ class Bullet final : public FixedStepEngine {
       return;
     }
     set_velocity(s);
-    accelerate(bt(step_length));  // also adds them to the velocities, which costs next to nothing
+    accelerate(bt(step_length));  // also adds them to the velocities, at negligible cost
     if (algorithm == Algorithm::step) tree_->stepPositionsMultiDof(bt(step_length));
   }
 
   Scene scene_;
   std::unique_ptr<BulletWorld> world_;
-  std::size_t first_ = 0;  // body on a joint, of a mechanism
+  std::size_t first_ = 0;  // first body on a joint, of a mechanism
   std::vector<Principal> frames_;
   std::unique_ptr<btMultiBody> tree_;
   std::vector<Situation> situations_;

@@ -1,5 +1,5 @@
-// What a scene becomes in Bullet: a tree of bodies, and a world of what moves and collides.
-// btScalar is double or float.
+// A scene in Bullet: a tree of bodies, and a world with all bodies and shapes. btScalar is double
+// or float.
 #pragma once
 
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
@@ -42,7 +42,7 @@ inline bool has_boxes(const Scene& scene) {
                      [](const Body& b) { return b.form == Form::box; });
 }
 
-// Bullet wants each body in a frame at its com along the principal axes of its inertia.
+// Bullet requires body frames at the com along the principal axes of inertia.
 struct Principal {
   Eigen::Vector3d moments;
   Eigen::Matrix3d R_BP = Eigen::Matrix3d::Identity();  // principal axes to body axes
@@ -57,7 +57,7 @@ struct Principal {
   }
 };
 
-// All bodies on joints, on a first one that is free or on the world.
+// All bodies on joints; the first body is free or jointed to the world.
 inline std::unique_ptr<btMultiBody> make_tree(const Scene& scene,
                                               const std::vector<Principal>& frames) {
   const bool floats = scene.floats();
@@ -68,7 +68,7 @@ inline std::unique_ptr<btMultiBody> make_tree(const Scene& scene,
   for (int i = first; i < static_cast<int>(scene.bodies.size()); ++i) {
     const Body& b = scene.bodies[index(i)];
     const Principal& frame = frames[index(i)];
-    Eigen::Matrix3d R_PPr = Eigen::Matrix3d::Identity();  // the parent's axes to principal ones
+    Eigen::Matrix3d R_PPr = Eigen::Matrix3d::Identity();  // parent axes to principal axes
     Eigen::Vector3d parent_com = Eigen::Vector3d::Zero();
     if (b.parent >= 0) {
       R_PPr = frames[index(b.parent)].R_BP.transpose();
@@ -89,12 +89,12 @@ inline std::unique_ptr<btMultiBody> make_tree(const Scene& scene,
   tree->setLinearDamping(0);
   tree->setAngularDamping(0);
   tree->setUseGyroTerm(true);
-  tree->setMaxCoordinateVelocity(bt(1e30));  // it would be clipped at 100
+  tree->setMaxCoordinateVelocity(bt(1e30));  // the default clips at 100
   tree->setCanSleep(false);
   return tree;
 }
 
-// Members are destroyed from the last to the first: bodies after the world.
+// Members are destroyed in reverse order: bodies after the world.
 struct BulletWorld {
   btDefaultCollisionConfiguration configuration;
   btCollisionDispatcher dispatcher{&configuration};
@@ -129,8 +129,8 @@ struct BulletWorld {
       world.removeCollisionObject(world.getCollisionObjectArray()[0]);
   }
 
-  // In double a large box for boxes: a half-space finds one corner of a box in a step, and loses
-  // the others. In single precision that is too coarse.
+  // Double precision: a large box as the floor below boxes, as a half-space finds only one corner
+  // of a box per step. Single precision is too coarse for that.
   void add_floor(const Scene& scene) {
     const double friction =
         scene.friction > 0 ? scene.floor_friction / std::sqrt(scene.friction) : 0;
@@ -155,12 +155,12 @@ struct BulletWorld {
     std::unique_ptr<btCollisionShape> shape;
     if (b.form == Form::box)
       shape = std::make_unique<btBoxShape>(bt(b.half));
-    else  // without a form it meets nothing
+    else  // without a shape it does not collide
       shape = std::make_unique<btSphereShape>(b.form == Form::sphere ? bt(b.half[0]) : bt(0.1));
     return shapes.emplace_back(std::move(shape)).get();
   }
 
-  // A pair takes the products of the frictions and of the restitutions.
+  // Friction and restitution of a pair are products.
   void add(const Scene& scene, const Body& b) {
     btRigidBody& body = *bodies.emplace_back(std::make_unique<btRigidBody>(
         bt(b.mass), nullptr, shape_of(b),
@@ -178,7 +178,7 @@ struct BulletWorld {
       if (scene.bodies[i].form != Form::none)
         add_collider(scene, scene.bodies[i], static_cast<int>(i));
   }
-  // A link's shape is placed from its com.
+  // The shape of a link is placed relative to its com.
   void add_collider(const Scene& scene, const Body& b, int link) {
     auto compound = std::make_unique<btCompoundShape>();
     compound->addChildShape(btTransform(btQuaternion::getIdentity(), bt(b.form_at) - bt(b.com)),

@@ -3,9 +3,9 @@
 // header: dart/dynamics/Skeleton.hpp
 // libraries: dart
 //
-// Scenes: its World, with its own collision detector (the default one makes spheres of triangles),
-// all else as it comes: semi-implicit Euler, contacts by Dantzig's method. Algorithms: a step is
-// what its World does for a skeleton without contact: forward dynamics, velocities, positions.
+// Scenes: World with DART's own collision detector (the default one approximates spheres by
+// triangles), otherwise defaults: semi-implicit Euler, contacts by Dantzig's method. Algorithms: a
+// step is that of World for a skeleton without contact: forward dynamics, velocities, positions.
 #include <dart/collision/dart/DARTCollisionDetector.hpp>
 #include <dart/constraint/ConstraintSolver.hpp>
 #include <dart/constraint/ContactConstraint.hpp>
@@ -31,7 +31,7 @@ namespace {
 namespace dd = dart::dynamics;
 using dart::constraint::ContactConstraint;
 
-// DART reports names that it changes, and on stdout, where the answer goes.
+// DART reports renamed bodies on stdout, which is reserved for the results.
 class ReportsOnStderr {
  public:
   ReportsOnStderr() : out_(std::cout.rdbuf(std::cerr.rdbuf())) {}
@@ -82,7 +82,7 @@ class Dart final : public FixedStepEngine {
       } else if (type == Joint::spherical) {
         write_quaternion(Eigen::Quaterniond(dd::BallJoint::convertToRotation(p)), at);
         Eigen::Vector3d::Map(rate) = u;
-      } else {  // its velocities are a twist in body axes
+      } else {  // velocities are a twist in body axes
         const Eigen::Isometry3d X = dd::FreeJoint::convertToTransform(p);
         Eigen::Vector3d::Map(at) = X.translation();
         write_quaternion(Eigen::Quaterniond(X.linear()), at + 3);
@@ -126,8 +126,8 @@ class Dart final : public FixedStepEngine {
   }
 
  private:
-  // In DART's coordinates: of the base its logarithm of rotation and position; velocities, forces
-  // and accelerations are twists and wrenches in body axes, angular part first.
+  // DART's coordinates: of the base the rotation vector and position; velocities, accelerations and
+  // forces are twists and wrenches in body axes, angular part first.
   struct State {
     Eigen::VectorXd q, v, tau, qdd;
   };
@@ -135,7 +135,7 @@ class Dart final : public FixedStepEngine {
   template <class JointType>
   dd::BodyNode* make(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent,
                      typename JointType::Properties properties) {
-    const std::string number = std::to_string(bodies_.size());  // or it renames them, and says so
+    const std::string number = std::to_string(bodies_.size());  // unique, otherwise DART renames it
     properties.mName = "joint " + number;
     const dd::BodyNode::AspectProperties named("body " + number);
     return skeleton->createJointAndBodyNodePair<JointType>(parent, properties, named).second;
@@ -173,13 +173,13 @@ class Dart final : public FixedStepEngine {
       add_shape(body, std::make_shared<dd::BoxShape>(2 * vector3(b.half)), scene_.friction);
     return body;
   }
-  // A pair takes the smaller friction and the product of the restitutions.
+  // Friction of a pair is the minimum, restitution the product.
   void add_shape(dd::BodyNode* body, const dd::ShapePtr& shape, double friction) const {
     auto* node = body->createShapeNodeWith<dd::CollisionAspect, dd::DynamicsAspect>(shape);
     node->getDynamicsAspect()->setFrictionCoeff(friction);
     node->getDynamicsAspect()->setRestitutionCoeff(std::sqrt(scene_.restitution));
   }
-  // Its detector knows no half-space: a large box.
+  // The detector has no half-space; a large box instead.
   void add_floor() {
     const dd::SkeletonPtr floor = dd::Skeleton::create("floor");
     dd::WeldJoint::Properties below;
@@ -240,7 +240,7 @@ class Dart final : public FixedStepEngine {
       case Algorithm::mass_matrix:
         skeleton_->getMassMatrix();
         return;
-      case Algorithm::kinematics:  // computed on demand, down to the body that is asked for
+      case Algorithm::kinematics:  // computed on demand, up to the requested body
         for (const dd::BodyNode* body : bodies_) body->getWorldTransform();
         return;
       case Algorithm::inverse_dynamics:

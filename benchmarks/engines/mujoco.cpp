@@ -3,12 +3,12 @@
 // header: mujoco/mujoco.h
 // libraries: mujoco
 //
-// Scenes: mj_step with every one of its integrators; contacts by Newton's method, elliptic cones,
-// all else as it comes. It has no coefficient of restitution.
+// Scenes: mj_step with each of its integrators; contacts by Newton's method and elliptic cones,
+// otherwise defaults. It has no coefficient of restitution.
 //
-// Algorithms: its smooth dynamics, by the calls of mj_forward that the answer needs, and no other.
-// No collision, no constraints, no actuators, no passive forces (the models have none, and
-// mj_passive would only cost), so this is the least time in which MuJoCo itself can give it.
+// Algorithms: smooth dynamics, by only those calls of mj_forward that the result requires. No
+// collision, constraints, actuators or passive forces (the models have none, and mj_passive would
+// only add time): the minimum time of MuJoCo for the result.
 #include "benchmarks/engines/engine.h"
 #include "benchmarks/engines/mujoco_model.h"
 #include "benchmarks/scenes/eigen.h"
@@ -16,8 +16,8 @@
 namespace twinarm::bench {
 namespace {
 
-// The scene as MJCF. The XML reader refuses elements nested deeper than 100, so bodies that are
-// deeper go into files of their own, each included where its first body is.
+// The scene as MJCF. The XML reader rejects elements nested deeper than 100; deeper bodies are
+// written to separate files, each included at its first body.
 class Mjcf {
  public:
   Mjcf(const Scene& scene, const std::string& integrator, double h) : scene_(scene) {
@@ -28,7 +28,7 @@ class Mjcf {
         << "\" integrator=\"" << integrator << "\" solver=\"Newton\" cone=\"elliptic\">"
         << (scene.has_contacts() ? "" : "<flag constraint=\"disable\" contact=\"disable\"/>")
         << "</option><worldbody>";
-    // A pair takes the larger friction, unless one surface has priority.
+    // Friction of a pair is the maximum, unless one surface has priority.
     if (scene.floor)
       xml << "<geom type=\"plane\" size=\"50 50 1\" priority=\"1\"" << surface(scene.floor_friction)
           << "/>";
@@ -39,7 +39,7 @@ class Mjcf {
     xml << "</worldbody></mujoco>";
     files.emplace_back("model.xml", xml.str());
   }
-  std::vector<std::pair<std::string, std::string>> files;  // name and text; the model is the last
+  std::vector<std::pair<std::string, std::string>> files;  // name and text; the model is last
 
  private:
   static std::string surface(double friction) {
@@ -122,15 +122,15 @@ class MuJoCo final : public FixedStepEngine {
   }
 
   bool has(Algorithm) const override { return true; }
-  // It keeps the principal axes of an inertia as a quaternion that it finds by iteration to 1e-8 or
-  // so: where the inertias are not diagonal, it computes another mechanism by that much.
+  // It stores principal axes of inertia as a quaternion, found by iteration to about 1e-8: with
+  // inertias that are not diagonal its mechanism differs by that much.
   double tolerance(const Scene& mechanism) const override {
     const bool diagonal = std::all_of(
         mechanism.bodies.begin(), mechanism.bodies.end(),
         [](const Body& b) { return b.inertia[3] == 0 && b.inertia[4] == 0 && b.inertia[5] == 0; });
     return diagonal ? 1e-9 : 1e-6;
   }
-  // The bodies come in the order of a depth-first walk, which is the order of all the mechanisms.
+  // Bodies are in depth-first order, as in all the mechanisms.
   void load_mechanism(const Scene& mechanism) override {
     scene_ = mechanism;
     run_ = MujocoRun(Mjcf(mechanism, "Euler", step_length).files);
@@ -155,7 +155,7 @@ class MuJoCo final : public FixedStepEngine {
  private:
   mjData* data() const { return run_.data.get(); }
 
-  // Its coordinates are the scene's, but of a free body the linear velocity comes first.
+  // Coordinates as in the scene, except that the linear velocity of a free body is first.
   std::vector<double> swapped(std::vector<double> v) const {
     auto at = v.begin();
     for (const Body& b : scene_.bodies) {
@@ -191,14 +191,14 @@ class MuJoCo final : public FixedStepEngine {
         std::copy(s.qdd.begin(), s.qdd.end(), d->qacc);
         mj_rne(m, d, 1, d->qfrc_inverse);
         break;
-      case Algorithm::mass_matrix:  // leaves it sparse, the way MuJoCo goes on with it
+      case Algorithm::mass_matrix:  // sparse, as MuJoCo uses it
         position(m, d);
         mj_crb(m, d);
         break;
       case Algorithm::kinematics:
         mj_kinematics(m, d);
         break;
-      case Algorithm::step:  // the whole of it: MuJoCo offers no smaller one
+      case Algorithm::step:  // a complete step: MuJoCo offers no smaller one
         std::copy(s.tau.begin(), s.tau.end(), d->qfrc_applied);
         mj_step(m, d);
         break;
@@ -206,7 +206,7 @@ class MuJoCo final : public FixedStepEngine {
   }
   static void position(const mjModel* m, mjData* d) {
     mj_kinematics(m, d);
-    mj_comPos(m, d);  // also what makes the com-based inertias and motion axes of crb and rne
+    mj_comPos(m, d);  // also computes the com-based inertias and motion axes of crb and rne
   }
 
   Scene scene_;

@@ -1,4 +1,4 @@
-// What the programs that write a MuJoCo model share: numbers as MJCF, and loading it from memory.
+// Helpers for MuJoCo models: numbers as MJCF, and loading from memory.
 #pragma once
 
 #include <mujoco/mujoco.h>
@@ -14,7 +14,7 @@
 
 namespace twinarm::bench {
 
-// With all digits, a space after each.
+// With all digits, each followed by a space.
 template <class Numbers>
 std::string mjcf(const Numbers& numbers) {
   std::ostringstream out;
@@ -32,9 +32,9 @@ struct MujocoRun {
   std::unique_ptr<mjData, Release> data;
 
   MujocoRun() = default;
-  // Of files in memory, names and texts; the model is the last one.
+  // From files in memory, names and texts; the model is last.
   explicit MujocoRun(const std::vector<std::pair<std::string, std::string>>& files) {
-    // it would write a log file
+    // avoids a log file
     mju_user_warning = [](const char* what) { std::cerr << "MuJoCo warns: " << what << '\n'; };
     const auto disk = std::make_unique<mjVFS>();
     mj_defaultVFS(disk.get());

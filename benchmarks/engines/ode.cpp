@@ -3,9 +3,9 @@
 // header: ode/ode.h
 // libraries: ode
 //
-// Every body has six coordinates and joints are constraints between them; contacts
-// with a pyramid for a cone. Both of its solvers: `step` (Dantzig) and `quick` (successive
-// over-relaxation, 20 iterations); all else as it comes.
+// Every body has six coordinates, joints are constraints, friction cones are pyramids. Both of its
+// solvers: `step` (Dantzig) and `quick` (successive over-relaxation, 20 iterations); otherwise
+// defaults.
 #include <ode/ode.h>
 
 #include <Eigen/Geometry>
@@ -17,11 +17,11 @@
 namespace twinarm::bench {
 namespace {
 
-struct Place {  // of a body in the world, and how it moves there
+struct Place {  // pose and velocity of a body in the world
   Eigen::Quaterniond R{1, 0, 0, 0};
   Eigen::Vector3d p{0, 0, 0}, v{0, 0, 0}, w{0, 0, 0};  // of its origin
 };
-// Of a body whose joint has these coordinates, in a parent that stands there.
+// Of a body with these joint coordinates and this parent.
 Place place_of(const Body& b, const Place& parent, const double* q, const double* v) {
   const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(matrix3(b.rotation));
   const Eigen::Vector3d arm = parent.R * vector3(b.position);
@@ -38,7 +38,7 @@ Place place_of(const Body& b, const Place& parent, const double* q, const double
   }
   return place;
 }
-// The other way round; angles of hinges within half a turn.
+// The inverse; hinge angles within half a turn.
 void joint_of(const Body& b, const Place& parent, const Place& body, double* q, double* v) {
   const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(matrix3(b.rotation));
   const Eigen::Quaterniond turn = at_zero.conjugate() * body.R;
@@ -114,7 +114,7 @@ class Ode final : public FixedStepEngine {
   }
 
  private:
-  // ODE's bodies have their place in their centre of mass.
+  // ODE bodies are positioned at their centre of mass.
   void add(const Body& b, const Place& place) {
     const dBodyID body = bodies_.emplace_back(dBodyCreate(world_));
     dMass mass;

@@ -1,4 +1,4 @@
-// Simbody. Debian's library is built without -DNDEBUG, which changes its classes: this file is too.
+// Simbody. Debian's library is built without -DNDEBUG, which changes its classes; so is this file.
 // Its headers are C++17, not 20.
 //
 // header: SimTKsimbody.h
@@ -6,10 +6,9 @@
 // options: -UNDEBUG
 // standard: 17
 //
-// Scenes: with three of its integrators. Its contacts are compliant laws, between which and the
-// rigid scenes there is nothing to compare: none are set up. Algorithms: the weights are a
-// Force::Gravity, as in any program with Simbody; forward dynamics is realising the stages up to
-// the accelerations.
+// Scenes: three of its integrators. Its contact laws are compliant and not comparable with the
+// rigid scenes, so no contacts are set up. Algorithms: gravity is a Force::Gravity, as usual in
+// Simbody; forward dynamics realises the stages up to acceleration.
 #include <SimTKsimbody.h>
 
 #include <algorithm>
@@ -53,7 +52,7 @@ struct SimbodySystem {
         SimTK::MassProperties(b.mass, com, about_com.shiftFromMassCenter(com, b.mass)));
     SimTK::MobilizedBody& parent =
         b.parent < 0 ? static_cast<SimTK::MobilizedBody&>(matter.Ground()) : links[index(b.parent)];
-    // its pin turns about z: frames whose z is the body's axis
+    // a pin rotates about z: frames with z along the body's axis
     const Eigen::Matrix3d to_axis = b.joint == Joint::revolute
                                         ? rotation_taking_z_to(axis_of(b))
                                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
@@ -103,7 +102,7 @@ class Simbody final : public Engine {
     integrator_->initialize(state);
   }
   void step() override { integrator_->stepBy(SimTK::Infinity); }
-  // Said to be an event, or a state between two steps is interpolated.
+  // Declared as an event; otherwise a state between two steps is interpolated.
   void advance(double t) override {
     while (integrator_->getTime() < t - 1e-12) integrator_->stepTo(t, t);
   }
@@ -150,7 +149,7 @@ class Simbody final : public Engine {
     run(Algorithm::forward_dynamics, states_[k]);
     std::vector<double> qdd;
     for (int i = 0; i < state_.getNU(); ++i) qdd.push_back(state_.getUDot()[i]);
-    if (scene_.floats()) {  // alpha in world axes
+    if (scene_.floats()) {  // angular acceleration, world axes
       const Eigen::Vector3d alpha =
           Base(situations_[k]).R.conjugate() * Eigen::Vector3d(qdd.data());
       std::copy_n(alpha.data(), 3, qdd.begin());
@@ -165,14 +164,13 @@ class Simbody final : public Engine {
   }
 
  private:
-  // In Simbody's coordinates: of a base its quaternion and position; velocities and forces
-  // angular part first, all in world axes.
+  // Simbody's coordinates: of a base the quaternion and position; velocities and forces in world
+  // axes, angular part first.
   struct Converted {
     SimTK::Vector q, u, tau, udot;
   };
 
-  // Of a spherical or a free joint the quaternion comes first, and velocities are in the parent's
-  // axes.
+  // Spherical and free joints: quaternion first, velocities in parent axes.
   void write(const double* q, const double* v, SimTK::State& state) const {
     for (std::size_t i = 0; i < run_->links.size(); ++i) {
       const SimTK::MobilizedBody& link = run_->links[i];
@@ -235,7 +233,7 @@ class Simbody final : public Engine {
         state_.updU() += step_length * state_.getUDot();
         system.realize(state_, Stage::Velocity);
         state_.updQ() += step_length * state_.getQDot();
-        // the quaternion of a free base is projected back to length 1 on the next realisation
+        // the quaternion of a free base is normalised at the next realisation
     }
   }
 

@@ -1,5 +1,5 @@
-// twinarm itself: scenes as any program runs them, and algorithms through the passes as any program
-// calls them. S is double, float or Batch<N>; a batch takes N situations in one call.
+// twinarm: scenes and algorithms through its public interface. S is double, float or Batch<N>; a
+// batch takes N situations per call.
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
@@ -11,7 +11,7 @@
 namespace twinarm::bench {
 namespace {
 
-// How many situations an S holds, and one of them.
+// The number of situations in an S, and one of them.
 template <class S>
 constexpr std::size_t lanes = 1;
 template <class S>
@@ -40,8 +40,8 @@ class TwinarmPasses : public Engine {
 
   std::string name() const override { return name_; }
   bool has(Algorithm) const override { return true; }
-  // In single precision the error of the articulated-body algorithm was seen to be a tenth of this,
-  // from 1 joint to 512.
+  // Single precision: the measured error of the articulated-body algorithm is a tenth of this, from
+  // 1 to 512 joints.
   double tolerance(const Scene& mechanism) const override {
     const auto n = static_cast<double>(mechanism.bodies.size() + (mechanism.floats() ? 5 : 0));
     return std::is_same_v<S, float> ? 1e-6 * (10 + n) : Engine::tolerance(mechanism);
@@ -78,7 +78,7 @@ class TwinarmPasses : public Engine {
   }
 
  protected:
-  struct Call {  // what one call of a pass is given
+  struct Call {  // input of one call of a pass
     State<S> x;
     Forces<S> forces;
     std::vector<S> qdd;
@@ -101,7 +101,7 @@ class TwinarmPasses : public Engine {
       case Algorithm::mass_matrix:
         passes_.crba(model_, call.x, *w_, M_);
         return;
-      case Algorithm::kinematics:  // with the velocities: there is no less
+      case Algorithm::kinematics:  // includes velocities
         passes_.kinematics(model_, call.x, *w_);
         return;
       case Algorithm::step:
@@ -133,7 +133,7 @@ class TwinarmPasses : public Engine {
   std::vector<S> shift_;
 };
 
-// The one that runs scenes.
+// The variant that runs scenes.
 class Twinarm final : public TwinarmPasses<double> {
  public:
   Twinarm() : TwinarmPasses("twinarm double", best_isa()) {}
@@ -180,7 +180,7 @@ class Twinarm final : public TwinarmPasses<double> {
   long steps_ = 0;
 };
 
-// Forward dynamics with everything kept that a body passes on: what looking inside costs.
+// Forward dynamics with a full trace: the cost of tracing.
 class Traced final : public TwinarmPasses<double> {
  public:
   Traced() : TwinarmPasses("twinarm double traced", Isa::generic) {}

@@ -1,5 +1,5 @@
-// A scene in twinarm: the step that any program calls, with every integrator; contacts by the rigid
-// response, as they come and with impacts located in time.
+// A scene in twinarm with every integrator; contacts by the rigid response, with fixed steps and
+// with located impacts.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 namespace twinarm::bench {
 
-inline constexpr const char* kLocated = "located";  // the scheme that locates events of contacts
+inline constexpr const char* kLocated = "located";  // the scheme that locates contact events
 
 inline std::vector<Scheme> twinarm_schemes(const Scene& scene) {
-  constexpr std::size_t kMaxLocated = 50;  // bodies; a pile has more impacts than can be located
+  constexpr std::size_t kMaxLocated = 50;  // bodies; larger piles have too many impacts to locate
   if (scene.has_contacts() && scene.bodies.size() > kMaxLocated) return {{"semi-implicit"}};
   if (scene.has_contacts()) return {{"semi-implicit"}, {kLocated}};
   std::vector<Scheme> all{{"semi-implicit"}};
@@ -28,7 +28,7 @@ inline std::vector<Scheme> twinarm_schemes(const Scene& scene) {
   return all;
 }
 
-// The constant forces on the bodies that have one, and the torques of the control.
+// Constant forces on bodies, and the control torques.
 class ScenePushes final : public ForceSource {
  public:
   explicit ScenePushes(const Scene& scene) : scene_(scene) {}
@@ -53,19 +53,21 @@ class ScenePushes final : public ForceSource {
   const Scene& scene_;
 };
 
-// Contacts with clocks around their detection and around what the solver does between add and take.
+// Contacts with timers around detection and around the solver's part between add and take.
 class WatchedContacts final : public ConstraintSource {
  public:
   explicit WatchedContacts(ContactConstraints& contacts) : contacts_(contacts) {}
   bool watched = false;
-  double detection = 0, solver = 0;  // since they were set to 0 [s]
+  double detection = 0, solver = 0;  // since last reset [s]
 
   void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override {
     const double start = now();
     contacts_.begin_step(k, x, h);
     detection += now() - start;
   }
-  bool closes(const ConstraintFrame& frame) noexcept override { return contacts_.closes(frame); }
+  bool has_closing_contact(const ConstraintFrame& frame) noexcept override {
+    return contacts_.has_closing_contact(frame);
+  }
   bool extend_detection(const Kinematics& k, double h) noexcept override {
     return contacts_.extend_detection(k, h);
   }
@@ -111,7 +113,7 @@ struct TwinarmRun {
     x.q = scene.q, x.qd = scene.v;
     return x;
   }
-  // A pair takes the geometric mean of the frictions and the product of the restitutions.
+  // Friction of a pair is the geometric mean, restitution the product.
   void add_shapes() {
     ContactSurface body, fixed;
     body.friction = fixed.friction = scene.friction;

@@ -1,4 +1,5 @@
-// Scenes with contacts and closed forms (docs/reference/verification_cases.md, group E): free balls and boxes on a floor.
+// Scenes with contacts and closed forms (docs/reference/verification_cases.md, group E): free balls
+// and boxes on a floor.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -26,7 +27,7 @@ Body cube(double mass, double edge) {
   b.inertia = {I, I, I, 0, 0, 0};
   return b;
 }
-// At rest but for a linear velocity.
+// At rest except for a linear velocity.
 void add(Scene& scene, const Body& b, const Numbers3& p, const Numbers3& v = {}) {
   scene.bodies.push_back(b);
   scene.q.insert(scene.q.end(), {p[0], p[1], p[2], 1, 0, 0, 0});
@@ -52,7 +53,7 @@ std::function<Judge()> at_the_end(Error error) {
     return [error](double, const Values& q, const Values& v) { return std::abs(error(q, v)); };
   };
 }
-// The angular velocity in world axes of body 0, from body axes.
+// Angular velocity of body 0 in world axes.
 Numbers3 turning(const Values& q, const Values& v) {
   const Numbers3 u{q[4], q[5], q[6]}, w{v[0], v[1], v[2]};
   const auto cross = [](const Numbers3& a, const Numbers3& b) {
@@ -112,7 +113,7 @@ SceneCase heading(int degrees) {
   return c;
 }
 
-// Of a ball that touches the floor: its speed along x, and that of its surface.
+// A ball on the floor: speed along x, and the surface speed R w.
 std::function<Judge()> speed_and_spin(double radius, double v_x, double spin) {
   return at_the_end([=](const Values& q, const Values& v) {
     return std::hypot(v[3] - v_x, radius * turning(q, v)[1] - spin);
@@ -137,7 +138,7 @@ SceneCase slipping_sphere() {
   return c;
 }
 
-// Rolls with (5 v + 2 R w)/7 of the start.
+// Rolls at (5 v + 2 R w)/7 of the initial values.
 SceneCase billiard(const std::string& name, const std::string& what, double top_spin) {
   constexpr double kBilliard = 0.0286, kSpeed = 2;
   SceneCase c{name, "contact", what, "m/s", floored(0.2)};
@@ -149,7 +150,7 @@ SceneCase billiard(const std::string& name, const std::string& what, double top_
   return c;
 }
 
-// Balls in a row along x, weightless, the first with a velocity: what they have in the end.
+// Balls in a row along x without gravity, the first with a velocity; final velocities.
 SceneCase in_a_row(const std::string& name, const std::string& what, double restitution,
                    const Values& masses, double speed, const Values& exact) {
   constexpr double kGap = 0.01;

@@ -1,4 +1,4 @@
-// The plain numbers of scene.h as Eigen sees them, for the conversions of the engines.
+// Numbers of scene.h as Eigen types, for the conversions of the engines.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +33,7 @@ inline std::size_t index(int body) {
   return static_cast<std::size_t>(body);
 }
 
-// A floating base in one situation: coordinates and velocities, and the forces on it.
+// A floating base: coordinates, velocities and forces.
 struct Base {
   Eigen::Vector3d p;         // of its origin, world
   Eigen::Quaterniond R;      // body axes to world axes

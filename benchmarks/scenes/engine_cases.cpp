@@ -1,10 +1,10 @@
-// RaiSim's SimBenchmark (github.com/leggedrobotics/SimBenchmark) as benchmarks/analytic/ has it
-// (engine_tasks.h), in every engine; overlaps are not corrected, as there. The published errors are
-// those of its tables at 1 ms, by engines of 2018.
+// RaiSim's SimBenchmark (github.com/leggedrobotics/SimBenchmark) as in benchmarks/analytic/
+// (engine_tasks.h), in every engine, without correction of overlaps. Published errors: its tables
+// at 1 ms, engines of 2018.
 //
-// And the planar chain by which Erez, Tassa and Todorov (ICRA 2015) judge the smooth part of
-// engines: without gravity its energy and its angular momentum about the fixed hinge stay. Their
-// numbers are of rates that were drawn and are not published: the rates here are ours.
+// The planar chain by which Erez, Tassa and Todorov (ICRA 2015) assess smooth dynamics: without
+// gravity its energy and its angular momentum about the fixed hinge are conserved. Their initial
+// rates are random and not published; those used here are ours.
 
 #include <algorithm>
 #include <cmath>
@@ -70,22 +70,22 @@ SceneCase from_task(const Task& task, std::vector<std::pair<std::string, double>
 
 constexpr double kRod = 0.2, kRodMass = 1, kRodInertia = kRodMass * kRod * kRod / 12;
 
-struct Kept {
+struct ChainInvariants {
   double energy = 0, momentum = 0;
 };
-// Of rods in a row that turn about z, the first about the origin.
-Kept kept_of(const Values& q, const Values& v) {
-  Kept kept;
-  double angle = 0, w = 0, x = 0, y = 0, vx = 0, vy = 0;  // of a rod, of where it begins
+// Of rods in a row, rotating about z, the first about the origin.
+ChainInvariants chain_invariants(const Values& q, const Values& v) {
+  ChainInvariants result;
+  double angle = 0, w = 0, x = 0, y = 0, vx = 0, vy = 0;  // of a rod and its start
   for (std::size_t i = 0; i < q.size(); ++i) {
     angle += q[i], w += v[i];
     const double cx = kRod / 2 * std::cos(angle), cy = kRod / 2 * std::sin(angle);
-    x += cx, y += cy, vx -= w * cy, vy += w * cx;  // to its centre
-    kept.energy += (kRodMass * (vx * vx + vy * vy) + kRodInertia * w * w) / 2;
-    kept.momentum += kRodMass * (x * vy - y * vx) + kRodInertia * w;
-    x += cx, y += cy, vx -= w * cy, vy += w * cx;  // and to its end
+    x += cx, y += cy, vx -= w * cy, vy += w * cx;  // at its centre
+    result.energy += (kRodMass * (vx * vx + vy * vy) + kRodInertia * w * w) / 2;
+    result.momentum += kRodMass * (x * vy - y * vx) + kRodInertia * w;
+    x += cx, y += cy, vx -= w * cy, vy += w * cx;  // at its end
   }
-  return kept;
+  return result;
 }
 
 SceneCase planar_chain() {
@@ -106,10 +106,10 @@ SceneCase planar_chain() {
   c.scene.q = {0.3, -0.8, 0.5, 1.1, -0.4};
   c.scene.v = {1.3, -2.1, 3.2, 0.7, -1.6};
   c.duration = 10;
-  c.judge = [start = kept_of(c.scene.q, c.scene.v)] {
+  c.judge = [start = chain_invariants(c.scene.q, c.scene.v)] {
     double worst = 0;
     return [=](double, const Values& q, const Values& v) mutable {
-      const Kept now = kept_of(q, v);
+      const ChainInvariants now = chain_invariants(q, v);
       worst = nan_max(worst, std::abs(now.energy / start.energy - 1));
       return worst = nan_max(worst, std::abs(now.momentum / start.momentum - 1));
     };
@@ -142,19 +142,18 @@ std::vector<SceneCase> engine_cases() {
           planar_chain()};
 }
 
-// Motions without contacts: cases of the list (benchmarks/analytic/), with their own readings,
-// references and measures, and the PUMA 560's size falling from rest, whose reference is our dopri5
-// to 1e-14, good to about 3e-13.
+// Motions without contacts: analytic cases (benchmarks/analytic/) with their readings, references
+// and measures, and an arm of the size of a PUMA 560 released from rest, with dopri5 at 1e-14 as
+// reference (accurate to about 3e-13).
 //
-// Those whose bodies have no extent somewhere (point masses, thin rods) are left out: MuJoCo and
-// ODE take no such inertia.
+// Cases with point masses or thin rods are omitted: MuJoCo and ODE reject such inertias.
 namespace {
 
 Numbers3 numbers(const Vec3<double>& v) {
   return {v.x, v.y, v.z};
 }
 
-// In body axes, where the axis of a revolute is z.
+// Body axes, with z along the axis of a revolute.
 Scene scene_of(const std::string& name, const Model<double>& model, const State<double>& start) {
   Scene scene;
   scene.name = name;
@@ -189,7 +188,7 @@ Scene scene_of(const std::string& name, const Model<double>& model, const State<
   return scene;
 }
 
-// Times between two steps of 10 ms are left out: no engine but ours stands there.
+// Times that are not multiples of 10 ms are omitted: only our engine can stop there.
 SceneCase from_list(const std::string& name, const std::string& what, const std::string& unit,
                     bool work_precision = false) {
   for (const AnalyticCase& c : analytic_cases()) {
@@ -238,7 +237,7 @@ SceneCase falling_puma() {
       const State<double>& there = t < 0.75 ? exact->front() : exact->back();
       for (std::size_t i = 0; i < q.size(); ++i) {
         constexpr double kTurn =
-            2 * std::numbers::pi;  // the wrist turns round; ODE counts no turns
+            2 * std::numbers::pi;  // the wrist exceeds a turn; ODE does not count turns
         worst = nan_max(worst, std::abs(std::remainder(q[i] - there.q[i], kTurn)));
         worst = nan_max(worst, std::abs(v[i] - there.qd[i]));
       }

@@ -35,7 +35,7 @@ Numbers9 transpose(const Numbers9& A) {
   return {A[0], A[3], A[6], A[1], A[4], A[7], A[2], A[5], A[8]};
 }
 
-// By roll about x, then pitch about y, then yaw about z, all fixed axes.
+// Roll about x, pitch about y, yaw about z, fixed axes, in this order.
 Numbers9 rotation(const Numbers3& rpy) {
   using std::cos, std::sin;
   const auto [roll, pitch, yaw] = rpy;
@@ -45,7 +45,7 @@ Numbers9 rotation(const Numbers3& rpy) {
   return product(product(Z, Y), X);
 }
 
-// With these principal moments about axes that are rotated so against the body's.
+// With these principal moments, about axes rotated by R against the body axes.
 Numbers6 inertia(const Numbers3& principal, const Numbers3& rpy = {0, 0, 0}) {
   const Numbers9 R = rotation(rpy);
   const Numbers9 D = {principal[0], 0, 0, 0, principal[1], 0, 0, 0, principal[2]};
@@ -95,8 +95,8 @@ Scene puma6() {
             forward)});
 }
 
-// The random numbers of a link are drawn last property first: the order that published timings of
-// these models were made with.
+// Random numbers of a link are drawn last property first, as in the published timings of these
+// models.
 Scene chain(int n) {
   Scene chain = of_links("chain" + std::to_string(n), {});
   Random random(7);
@@ -120,7 +120,7 @@ Scene chain(int n) {
 Scene humanoid30() {
   Scene body = of_links("humanoid30", {});
   Random random(11);
-  // A link of this mass, its com at this height, and this radius of gyration; all of it roughly.
+  // A link of about this mass, height of the com and radius of gyration.
   const auto add = [&](int parent, std::size_t axis, const Numbers3& position, double mass,
                        double height, double radius) {
     Body b = link(parent, axis, position, mass, {0, 0, height}, {});
@@ -224,7 +224,7 @@ std::vector<Situation> situations(const Scene& mechanism, std::size_t count) {
   Random random(42);
   const bool floats = mechanism.floats();
   const std::size_t joints = mechanism.bodies.size() - (floats ? 1 : 0);
-  // Of the base linear before angular; then as Joint says.
+  // Base: linear before angular; then in the order of Joint.
   const auto swap_base = [floats](std::vector<double>& v) {
     if (floats) std::rotate(v.begin(), v.begin() + 3, v.begin() + 6);
   };

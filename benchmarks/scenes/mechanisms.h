@@ -1,10 +1,10 @@
-// The mechanisms and scenes that are timed.
+// Mechanisms and scenes for timing.
 //
 //   scara3, puma6 (of the size of a PUMA 560), chainN (n links with full inertia tensors, axes
 //   x, y, z in turn), humanoid30 (30 revolutes on a free base)
 //
-//   wall100  ten columns of ten boxes; the gaps of 1 mm close by falling, then all is at rest
-//   pyr55    a pyramid of 55 boxes, dropped likewise: every box lies on two others
+//   wall100  ten columns of ten boxes; gaps of 1 mm close by falling, then at rest
+//   pyr55    a pyramid of 55 boxes, dropped likewise; each box rests on two others
 //   scara    the arm scara3; PD control pushes a ball at its tip into a fixed box
 #pragma once
 
@@ -16,11 +16,10 @@ namespace twinarm::bench {
 // By name: "scara3", "puma6", "humanoid30", "chainN". Throws std::invalid_argument.
 Scene mechanism(const std::string& name);
 
-// Seeded: every run and every engine gets the same ones. Of a mechanism of revolutes, whose first
-// body may be free.
+// Seeded: identical for every run and engine. For revolute trees, optionally with a free base.
 std::vector<Situation> situations(const Scene& mechanism, std::size_t count);
 
-// A scene with contacts that is run by steps of h [s].
+// A scene with contacts and its step h [s].
 struct TimedScene {
   Scene scene;
   double h;
@@ -29,7 +28,7 @@ struct TimedScene {
 inline constexpr std::array<const char*, 3> timed_scene_names = {"wall100", "pyr55", "scara"};
 TimedScene timed_scene(const std::string& name);  // throws std::invalid_argument
 
-// A scene's mechanism as a model of ours: its coordinates and velocities are those of the scene.
+// The mechanism of a scene as a Model with the same coordinates and velocities.
 Model<double> model_of(const Scene& scene);
 
 }  // namespace twinarm::bench

@@ -1,5 +1,5 @@
-// A mechanism or a scene in plain numbers, so that every engine gets the same one and converts it
-// itself. No engine's types, none of ours, and C++17: Simbody's headers know no later one.
+// A mechanism or a scene in plain numbers, converted by every engine. C++17 without types of
+// engines or of twinarm, as Simbody's headers require C++17.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ enum class Joint {
 enum class Form { none, sphere, box };
 
 struct Body {
-  int parent = -1;  // the number of another body, before this one; -1: the world
+  int parent = -1;  // index of an earlier body; -1: the world
   Joint joint = Joint::free;
   Numbers3 position{};  // of the body's origin in the parent at q = 0 [m]
   Numbers9 rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // body axes to parent axes at q = 0
@@ -41,7 +41,7 @@ struct Body {
   Numbers3 push{};     // a constant force at the com, which is the origin; world axes [N]
 };
 
-// Of all joints, which are revolutes: tau = stiffness (target - q) - damping qd, once in each step.
+// For all joints (revolutes): tau = stiffness (target - q) - damping qd, once per step.
 struct Control {
   std::vector<double> target;         // [rad]
   double stiffness = 0, damping = 0;  // [N m/rad], [N m s/rad]
@@ -54,15 +54,15 @@ struct Scene {
   std::string name;
   Numbers3 gravity{0, 0, -standard_gravity};
   std::vector<Body> bodies;
-  std::vector<double> q, v;                 // at the start, body by body as Joint says
+  std::vector<double> q, v;                 // initial, body by body in the order of Joint
   bool floor = false;                       // z = 0
-  double floor_friction = 0, friction = 0;  // of a body with the floor; of two bodies
-  double restitution = 0;                   // of every pair
-  bool uncorrected = false;  // overlaps are not pushed apart where an engine can be told so
+  double floor_friction = 0, friction = 0;  // body with floor; two bodies
+  double restitution = 0;                   // of all pairs
+  bool uncorrected = false;  // no correction of overlaps, where an engine supports that
   struct FixedBox {
     Numbers3 centre, half;  // axes along the world's [m]
   };
-  std::optional<FixedBox> obstacle{};  // with the friction of two bodies
+  std::optional<FixedBox> obstacle{};  // friction as of two bodies
   std::optional<Control> control{};
 
   bool has_contacts() const { return floor || obstacle; }
@@ -76,17 +76,16 @@ inline std::size_t velocities_of(Joint joint) {
   return joint == Joint::revolute ? 1 : joint == Joint::spherical ? 3 : 6;
 }
 
-// A state of a mechanism and what acts in it, body by body as Joint says: tau are torques and
-// forces on v, a free body's force at its origin; qdd the time derivative of v, for inverse
-// dynamics.
+// State and forces of a mechanism, body by body in the order of Joint: tau are generalised forces
+// conjugate to v, the force of a free body at its origin; qdd = dv/dt, for inverse dynamics.
 struct Situation {
   std::vector<double> q, v, tau, qdd;
 };
 
-// The scenes that are run in every engine, and by what each is judged: always the same number, from
-// the coordinates that an engine gives back.
+// Scenes that are run in every engine, and their error measures, computed from the coordinates
+// returned by the engine.
 
-// Is told every state that is looked at, in order; says how large the error is up to there.
+// Called with every observed state, in order; returns the error up to there.
 using Judge =
     std::function<double(double t, const std::vector<double>& q, const std::vector<double>& v)>;
 
@@ -96,11 +95,11 @@ struct SceneCase {
   std::string unit;         // of the error, with its measure: "m", "rad, rad/s"
   Scene scene;
   double step = 1e-3;           // [s]
-  std::vector<double> times{};  // when it is looked at, multiples of 10 ms; none: after every step
+  std::vector<double> times{};  // of observation, multiples of 10 ms; empty: after every step
   double duration = 0;          // [s]
   std::function<Judge()> judge{};
-  bool work_precision = false;                              // also with many steps and tolerances
-  std::vector<std::pair<std::string, double>> published{};  // by whom, error
+  bool work_precision = false;  // also with several steps and tolerances
+  std::vector<std::pair<std::string, double>> published{};  // engine, error
 };
 
 std::vector<SceneCase> smooth_cases();   // without contacts

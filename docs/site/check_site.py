@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Looks at a site on disk: every page has a title, every link, anchor, picture and style is there, and
-nothing is fetched from a network.
+"""Checks a generated site: every page has a title, every link, anchor, picture and style exists, and no page
+needs a network.
 
     check_site.py FOLDER
 """
@@ -62,7 +62,7 @@ def faults_of(folder):
 def faults_of_link(link, file, pages):
     parts = urllib.parse.urlparse(link)
     if parts.scheme or parts.netloc:
-        return []  # elsewhere; not ours to keep
+        return []  # external: not checked
     target = (file.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else file
     if not target.is_file():
         return [f"{link} leads nowhere"]

@@ -1,20 +1,20 @@
-"""The program's own manual (`twinarm help --man`) as Markdown: what docs/reference/commands.md holds on the site."""
+"""Converts the program's manual (`twinarm help --man`) to Markdown for docs/reference/commands.md on the site."""
 import html
 import re
 
 
 def plain(line):
-    """Without roff's signs; what was bold or slanted stays as words."""
+    """Text without roff markup."""
     return re.sub(r"\\f[BIRP]", "", line).replace("\\-", "-").replace("\\&", "").replace("\\e", "\\").replace("\\(aq", "'")
 
 
 def written(line):
-    """As words of a page: none of Markdown's signs means anything."""
+    """Text with Markdown characters escaped."""
     return re.sub(r"([\\`*_{}\[\]#|$~^])", r"\\\1", html.escape(plain(line), quote=False))
 
 
 def markdown_of(manual):
-    """Its commands; what stands before and after them is said on other pages."""
+    """The section COMMANDS as Markdown."""
     made = []
     lines = iter(re.search(r"^\.SH COMMANDS\n(.*?)(?=^\.SH|\Z)", manual, re.M | re.S)[1].splitlines())
     for line in lines:

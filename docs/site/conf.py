@@ -1,7 +1,7 @@
-"""Sphinx makes docs/ a site that needs no network: scripts/generate/site.
+"""Sphinx configuration of the offline documentation site: scripts/generate/site.
 
-Formulas are set by KaTeX while the site is built (katex_lines.js, one process for all of them), so a page
-carries them as HTML and MathML, and no script has to run for them.
+KaTeX renders formulas at build time (katex_lines.js, one process for all pages), so pages contain them as HTML and
+MathML and need no script.
 """
 import atexit
 import json
@@ -19,7 +19,7 @@ import commands  # noqa: E402
 
 PROGRAM = HERE.parents[1] / "build/release/twinarm"
 KATEX = pathlib.Path("/usr/share/javascript/katex")  # Debian's libjs-katex
-NORMALIZE = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")  # that Furo stands on
+NORMALIZE = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")  # imported by Furo
 
 project = "twinarm"
 html_title = "twinarm"
@@ -33,7 +33,7 @@ highlight_language = "none"
 
 myst_enable_extensions = ["dollarmath"]
 myst_heading_anchors = 4  # of each heading, as GitHub has them
-suppress_warnings = ["myst.header"]  # README.md of docs begins with the folder's name
+suppress_warnings = ["myst.header"]
 
 html_theme = "furo"
 html_static_path = ["static"]
@@ -46,7 +46,7 @@ html_theme_options = {"navigation_with_keys": True}
 
 
 class Katex:
-    """KaTeX in a process of its own: a formula in, its HTML out, a line each."""
+    """KaTeX in a child process: one formula per input line, its HTML per output line."""
 
     process = None
 
@@ -82,19 +82,19 @@ def raise_skip():
 
 
 def name_what_is_outside(app, docname, source):
-    """A link to a Markdown file beside docs/ keeps its words alone: that file is in the sources, not on the site."""
+    """A link to a Markdown file outside docs/ becomes plain text: that file is in the sources, not on the site."""
     here = pathlib.Path(app.env.doc2path(docname)).parent
 
     def words(link):
         target = (here / link[2]).resolve()
         outside = not target.is_relative_to(pathlib.Path(app.srcdir).resolve())
-        return link[1] if outside and target.is_file() else link[0]  # what is not there stays, and is told
+        return link[1] if outside and target.is_file() else link[0]  # a broken link stays, and is reported
 
     source[0] = re.sub(r"\[([^\]]*)\]\((\.\./[^)#]*\.md)(?:#[^)]*)?\)", words, source[0])
 
 
 def set_the_commands(app, docname, source):
-    """The program's own manual, where it is built; else a line that says so."""
+    """Inserts the program's manual; without a built program, a line that says so."""
     if docname != "reference/commands":
         return
     program = os.environ.get("TWINARM_PROGRAM", PROGRAM)
@@ -108,23 +108,32 @@ def set_the_commands(app, docname, source):
 
 
 def link_the_headers(app, docname, source):
-    """To the pages that Doxygen makes of the headers, where scripts/generate/site has them made."""
+    """Links the pages that Doxygen generates from the headers (scripts/generate/site)."""
     if docname == "reference/cpp_api" and os.environ.get("TWINARM_HEADERS"):
         source[0] = source[0].replace("<!-- headers -->", '<p><a href="../headers/index.html">To the headers</a></p>')
 
 
-def list_the_rest(app, docname, source):
-    """Pages that index.md does not name go into a last list, so that none is lost."""
-    if docname == root_doc:
-        named = set(re.split(r"[\s<>]+", source[0]))
-        rest = sorted(name for name in app.env.found_docs - named - {root_doc} if "lessons/" not in name)
-        if rest:
-            source[0] += "\n".join(["", "```{toctree}", ":hidden:", ":caption: More", "", *rest, "```", ""])
+def make_toctrees(app, docname, source):
+    """index.md is the one table of contents: the links of each section become a toctree. A page that it does not link is
+    an error, except the lessons and the texts of the analytic cases."""
+    if docname != root_doc:
+        return
+    listed = set()
+    for caption, text in re.findall(r"^## (.+?)\n(.*?)(?=^## |\Z)", source[0], re.M | re.S):
+        pages = re.findall(r"\]\((\w[^)#:]*)\.md\)", text)
+        if "learn/lessons/README" in pages:
+            lessons = sorted(name for name in app.env.found_docs if name.endswith("/lesson"))
+            pages[pages.index("learn/lessons/README") + 1:0] = lessons
+        listed |= set(pages)
+        source[0] += "\n".join(["", "```{toctree}", ":hidden:", f":caption: {caption}", "", *pages, "```", ""])
+    lost = sorted(name for name in app.env.found_docs - listed - {root_doc} if not name.startswith("reference/cases/"))
+    if lost:
+        raise ValueError(f"docs/index.md does not link {', '.join(lost)}")
 
 
 def bring_styles(app, error):
-    """What the pages' styles ask for: KaTeX's; and what Debian's Furo has lost: the style that it stands on, the
-    module that its script imports (a page on disk can import none), and its colours in a dark browser."""
+    """Adds KaTeX's styles, and what Debian's Furo lacks: its base style, the module that its script imports (a page
+    opened from disk cannot import modules), and dark colours."""
     if error:
         return
     static = pathlib.Path(app.outdir) / "_static"
@@ -146,5 +155,5 @@ def setup(app):
     app.connect("source-read", name_what_is_outside)
     app.connect("source-read", set_the_commands)
     app.connect("source-read", link_the_headers)
-    app.connect("source-read", list_the_rest)
+    app.connect("source-read", make_toctrees)
     app.add_html_math_renderer("katex", (visit_inline, None), (visit_block, None))

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Headers of this project as Doxygen reads them: their plain comments, made Doxygen's. The code stays as it is.
+"""Converts plain // comments of headers into Doxygen comments; the code is unchanged.
 
-    doxygen_filter.py TO_FOLDER ROOM...
+    doxygen_filter.py TO_FOLDER SOURCE_FOLDER...
 
-- the head of the file is of the file;
-- a comment that ends right above a line of code is of what that line declares;
-- a comment behind code is of what stands before it, and goes on in lines below in the same column;
-- lines that are set in by three or more are a table, and keep their shape.
-All else (a comment alone, what is behind a closing brace, notes for tools) stays a plain comment.
+- the first comment of a file describes the file;
+- a comment directly above a line of code describes what that line declares;
+- a comment after code describes that code, and continues below in the same column;
+- lines indented by three or more are a table and keep their layout.
+Other comments (isolated, after a closing brace, notes for tools) stay plain.
 """
 import pathlib
 import re
@@ -23,7 +23,7 @@ def escaped(text):
 
 
 def comment_of(line):
-    """Where the comment of a line begins; -1: it has none. Texts in quotes may hold slashes."""
+    """Column at which the comment of a line begins; -1: none. Slashes in string literals do not count."""
     quoted = False
     for at, character in enumerate(line):
         if character == '"' and (at == 0 or line[at - 1] != "\\"):
@@ -34,7 +34,7 @@ def comment_of(line):
 
 
 def block(lines, indent, head=False):
-    """The words of a comment as Doxygen's, line for line."""
+    """The lines of a comment as a Doxygen comment."""
     made, in_table = [], False
     for number, words in enumerate(lines):
         is_table = words.startswith("  ") and (in_table or words.strip() != "")
@@ -52,7 +52,7 @@ def filtered(text):
     while at < len(lines):
         line = lines[at]
         alone = ALONE.match(line)
-        if alone and column >= 0 and len(alone[1]) == column:  # goes on from behind the code above
+        if alone and column >= 0 and len(alone[1]) == column:  # continues the comment after the code above
             made.append(f"{alone[1]}///< {escaped(alone[2] or '')}")
             at += 1
             continue
@@ -73,7 +73,7 @@ def filtered(text):
         code = line[:begin].rstrip() if begin > 0 else line
         if begin < 0 or FOR_TOOLS.search(line[begin:]) or code.lstrip().startswith(("}", "#")) or code.endswith(":"):
             made.append(line)
-        elif code.endswith("{"):  # of what opens here
+        elif code.endswith("{"):  # describes the block that opens here
             opens_type = re.match(r" *(struct|class|enum|union)\b", code)
             made.append(f"/** {escaped(line[begin + 2:].strip())} */ {code}" if opens_type else line)
         else:
@@ -85,8 +85,8 @@ def filtered(text):
 
 def main():
     to = pathlib.Path(sys.argv[1])
-    for room in sys.argv[2:]:
-        for header in sorted(pathlib.Path(room).rglob("*.h")):
+    for folder in sys.argv[2:]:
+        for header in sorted(pathlib.Path(folder).rglob("*.h")):
             (to / header).parent.mkdir(parents=True, exist_ok=True)
             (to / header).write_text(filtered(header.read_text()))
 

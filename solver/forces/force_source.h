@@ -13,7 +13,7 @@
 
 namespace twinarm {
 
-// How a spring-damper enters a step of size h (docs/understand/couplings.md).
+// How a spring-damper enters a step of size h (docs/understand/coupling_laws.md).
 enum class Discretization {
   explicit_,      // force at the start of the step
   semi_implicit,  // spring at the start, damper at the end: m* = h b

@@ -3,8 +3,8 @@
 //   qdd = M^-1 (tau - C(q, qd, f_ext)),  in O(n).
 //
 // All quantities in body axes. Inputs beyond the book: the rotors' armature is added to D; and for
-// implicit spring-dampers (docs/understand/couplings.md) forces.armature to D, forces.impedance to IA, and
-// neither to anything else. Callers include solver/dynamics/dynamics.h.
+// implicit spring-dampers (docs/understand/coupling_laws.md) forces.armature to D, forces.impedance
+// to IA, and neither to anything else. Callers include solver/dynamics/dynamics.h.
 #pragma once
 
 #include "solver/model/joint_slice.h"

@@ -72,7 +72,7 @@ class CouplingTypes(RobotCommand):
                     self.assertAlmostEqual(q - end["q"]["hinge"], lags.get(kind, 0), delta=2e-3)
 
     def test_a_tip_held_stiffly_comes_in_from_7_mm_and_is_told_to_be_lost_from_71_mm(self):
-        """w h = 100 on the stiffest mode, without damper: docs/understand/couplings.md, 3."""
+        """w h = 100 on the stiffest mode, without damper: docs/understand/stability_of_spring_dampers.md."""
         stiffness = 2.887e8
 
         def tip(off, *options, code=0):

@@ -19,7 +19,7 @@ from whole_files import check_whole, recorded_blocks
 from writers import PENDULUM, ROBOT, WRITERS, WritersTest
 
 NOBODY = 65534
-BAD_INPUT = 2  # docs/reference/output_formats.md
+BAD_INPUT = 2  # docs/reference/exit_codes_and_errors.md
 # Mounts a disk, fills it, runs the rest there, and copies out what is left.
 ON_FULL_DISK = """
 mount -t tmpfs -o size=8k,mode=777 none "$0" || exit 99

@@ -22,7 +22,7 @@ from whole_files import check_whole
 from writers import PENDULUM, SMALL, WRITERS, WritersTest
 
 HAND, LONG = SCENES / "hand_and_obstacles.toml", SCENES / "robot_beside_obstacles.toml"
-BAD_INPUT = 2  # docs/reference/output_formats.md
+BAD_INPUT = 2  # docs/reference/exit_codes_and_errors.md
 NEED_GNUPLOT = ("picture of a map", "fork", "cases", "study")
 DAY = 86400
 

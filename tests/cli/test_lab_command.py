@@ -176,7 +176,7 @@ class LabCommand(LabTest):
     def test_only_the_page_that_has_control_uploads_files(self):
         with self.lab.live() as other:
             refused = self.lab.upload("fresh.urdf", ROD, other)
-            self.assertEqual((refused.status, refused.body), (403, b"another page has control; ask for it\n"))
+            self.assertEqual((refused.status, refused.body), (403, b"another client has control; request it\n"))
             self.assertEqual(self.lab.post("/open?name=fresh.urdf", ROD).status, 403)
             self.assertEqual(self.lab.post("/open?name=fresh.urdf&secret=", ROD).status, 403)
             self.live.do("give", to=self.state(live=other)["you"])

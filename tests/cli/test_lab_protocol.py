@@ -121,7 +121,7 @@ class LabProtocol(LabTest):
         rows = re.findall(r"(\w+): \[(\w+)Array, '([^']+)', (\d)\]", table)
         codes = {"Float64": "d", "Float32": "f", "Int16": "h", "Uint32": "I", "Uint16": "H", "Uint8": "B"}
         frame = self.frame(lambda f: f.instances > 0)
-        counts = {"channels": len(frame.channels), "ledger rows": len(frame.works), "bodies": len(frame.link) // 7,
+        counts = {"channels": len(frame.channels), "works": len(frame.works), "bodies": len(frame.link) // 7,
                   "instances": frame.instances, "labels": frame.labels, "layers and an end": frame.layers + 1}
         own = {"flags": "instance_flags"}
         arrays = [value for value in vars(frame).values() if isinstance(value, memoryview)]

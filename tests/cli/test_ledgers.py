@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The ledgers of energy and momentum on every scene of assets/scenes, against what the bodies have
-by their poses and velocities (bodies_of_scene.py).
+"""Energy and momentum balance on every scene of assets/scenes, against energy and momentum from poses
+and velocities (bodies_of_scene.py).
 
     test_ledgers.py PATH/TO/twinarm
 """
@@ -13,7 +13,7 @@ from recording_command import DRIVEN, RecordingCommand
 from robot_command import COM, INERTIA, MASS, joint, link, robot
 
 SCENES = [scene for scene in sorted(program.SCENES.glob("*.toml")) if not has_motors(scene)]
-# Seconds that are enough for something to happen, and not more.
+# Durations [s] that include contact.
 DURATION = {"pyramid": 0.05, "box_stack": 0.1, "bouncing_ball": 0.6, "cradle": 0.4,
             "rattleback": 0.1, "spinning_coin": 0.05, "four_bar": 0.4, "slider_crank": 0.4,
             "robot_beside_obstacles": 0.3, "peg_in_hole": 0.3}
@@ -36,10 +36,10 @@ class Ledgers(RecordingCommand):
         return json.loads(result.stdout), result.stderr
 
     def balance(self, scene, *options, bodies=None):
-        """What both ledgers leave over of what the bodies have gained, as parts of what moved."""
+        """Residuals of both balances, relative to what was exchanged."""
         answer, error = self.run_scene(scene, *options)
         if answer is None:
-            self.assertIn('contact = "event"', error)  # the scene says why it has no such contact
+            self.assertIn('contact = "event"', error)  # event-driven contact is not possible here
             return None
         self.assertNotIn("alarm", answer)
         bodies = bodies or bodies_of(scene)
@@ -64,7 +64,7 @@ class Ledgers(RecordingCommand):
                 "angular": size(momenta["numerical"]["angular"]) / pushed["angular"],
                 "rows": rows, "momenta": momenta}
 
-    def test_on_every_scene_the_rows_sum_to_what_the_bodies_gained(self):
+    def test_on_every_scene_the_rows_sum_to_the_change_of_energy_and_momentum(self):
         for scene in SCENES:
             for contact in ("rigid", "compliant", "event"):
                 duration = DURATION.get(scene.stem, 0.3)
@@ -73,7 +73,7 @@ class Ledgers(RecordingCommand):
                 with self.subTest(scene=scene.stem, contact=contact):
                     self.balance(scene, "--duration", duration, "--contact", contact)
 
-    def test_the_numerical_rows_fall_by_the_integrators_order(self):
+    def test_the_residuals_fall_with_the_order_of_the_integrator(self):
         for name, integrator, order, steps, duration in (
                 ("four_bar", "semi-implicit", 1, (4e-3, 2e-3), 0.4),
                 ("four_bar", "verlet", 2, (4e-3, 2e-3), 0.4),
@@ -82,7 +82,7 @@ class Ledgers(RecordingCommand):
                 ("slider_crank", "semi-implicit-xv", 1, (2e-3, 1e-3), 0.4),
                 ("slider_crank", "implicit-midpoint", 2, (4e-3, 2e-3), 0.4),
                 ("slider_crank", "rk4", 4, (1e-2, 5e-3), 0.4),
-                # rolling, rocking, held by springs, swinging: contacts that stay as they are
+                # rolling, rocking, springs, swinging: permanent contacts
                 ("rattleback", "semi-implicit", 1, (4e-4, 2e-4), 0.55),
                 ("spinning_coin", "semi-implicit", 1, (4e-4, 2e-4), 0.1),
                 ("peg_in_hole", "semi-implicit", 1, (1e-3, 5e-4), 0.1),
@@ -95,9 +95,8 @@ class Ledgers(RecordingCommand):
                 self.assertLess(fine[key], max(0.7 * coarse[key] / 2 ** (order - 1), 1e-11),
                                 f"{name} {integrator} {key} {coarse[key]}")
 
-    def test_what_the_drive_puts_in_stands_in_the_row_of_the_constraint(self):
-        """A body hangs by a ball joint on another that turns by a law: no energy is kept, and
-        what it gains is that row alone."""
+    def test_the_work_of_a_prescribed_body_is_in_the_row_of_the_constraint(self):
+        """A body hangs by a ball joint on a body with prescribed rotation: its energy changes by that row."""
         scene = self.write("driven.toml", DRIVEN)
         for integrator, options, tolerance in (
                 ("dopri5", ("--tolerance", 1e-11), 1e-9), ("rk4", ("--step", 1e-3), 1e-8),
@@ -107,8 +106,8 @@ class Ledgers(RecordingCommand):
                 self.assertLess(found[key], tolerance, f"{integrator} {key} {found['rows']}")
             self.assertGreater(abs(found["rows"]["constraint/hook"]), 0.1)
 
-    def test_a_driven_constraint_does_the_same_work_in_steps_by_impulses(self):
-        """With a floor far below the step is one for contacts; the drive puts in what it did."""
+    def test_a_driven_constraint_does_the_same_work_in_impulse_based_steps(self):
+        """A floor far below selects steps with contacts; the work is the same."""
         by_force = self.write("driven.toml", DRIVEN)
         by_impulse = self.write("floor.toml", DRIVEN.replace('integrator = "rk4"\n', "") + FLOOR)
         exact = self.balance(by_force, "--duration", 0.5, "--integrator", "dopri5", "--tolerance",
@@ -120,8 +119,8 @@ class Ledgers(RecordingCommand):
             self.assertLess(found["linear"], tolerance, contact)
             self.close(found["rows"]["constraint/hook"] / exact, 1, tolerance, contact)
 
-    def test_a_joint_that_is_moved_back_to_its_limit_has_a_row_of_its_own(self):
-        """Let go 0.1 rad beyond it, alone and beside a ball that rests on a floor."""
+    def test_the_correction_of_a_joint_beyond_its_limit_has_its_own_row(self):
+        """Released 0.1 rad beyond it, alone and beside a ball at rest on a floor."""
         self.write("test.urdf", robot(
             '<link name="base"/>', link("rod"),
             joint("hinge", "revolute", "base", "rod", axis="0 1 0",
@@ -134,15 +133,15 @@ class Ledgers(RecordingCommand):
             self.assertGreater(abs(rows["joint/hinge/limit/stabilisation"]), 1e-3)
             self.assertNotIn("contact/stabilisation", rows)
 
-    def test_with_dormand_prince_the_ledgers_close_where_the_scene_is_smooth(self):
+    def test_with_dormand_prince_both_balances_close_on_smooth_scenes(self):
         for name in ("four_bar", "slider_crank"):
             found = self.balance(program.SCENES / f"{name}.toml", "--integrator",
                                  "dopri5", "--tolerance", 1e-11, "--duration", 0.5)
             for key in ("energy", "linear", "angular"):
                 self.assertLess(found[key], 1e-9, f"{name} {key}")
 
-    def test_the_ground_bears_the_blow_of_a_hammer_that_hangs_on_it(self):
-        """Off its centre of percussion: the hinge takes an impulse in the same instant."""
+    def test_the_ground_receives_the_impulse_of_a_hinged_hammer(self):
+        """Off the centre of percussion the hinge transmits an impulse at the impact."""
         self.write("test.urdf", HAMMER)
         scene = self.write("hammer.toml", data("blow.toml"))
         bodies = {"ball": (1, (0, 0, 0), symmetric(0.004, 0.004, 0.004)),
@@ -155,15 +154,14 @@ class Ledgers(RecordingCommand):
             for part in ("linear", "angular"):
                 self.assertLess(found[part], tolerance, f"{contact} {step} {part}")
             self.assertIn("joint/hinge", found["momenta"])
-            self.assertNotIn("contact/head-ball", found["momenta"])  # between two that move
+            self.assertNotIn("contact/head-ball", found["momenta"])  # between two moving bodies
 
 
 class Joints(RecordingCommand):
     command = "simulate"
 
-    def test_what_goes_through_the_joint_to_the_ground_is_newtons_law_for_the_whole_robot(self):
-        """By three integrators, with a motor, friction and a wrench; of the total momentum that
-        is computed from the links alone."""
+    def test_the_impulse_through_the_joint_to_the_ground_is_newtons_law_for_the_robot(self):
+        """With three integrators, motor, friction and wrench, from the total momentum of the links."""
         urdf = robot('<link name="base"/>', link("upper"), link("lower"),
                      joint("shoulder", "continuous", "base", "upper", axis="0 1 0",
                            more='<dynamics damping="0.4" friction="0.2"/>'),

@@ -13,7 +13,7 @@ from program import main, run
 
 class Maps(MapCommand):
     def test_cells_and_the_curve_on_top_are_those_of_the_closed_form_of_each_scheme(self):
-        """docs/understand/couplings.md, section 4."""
+        """docs/understand/stability_of_spring_dampers.md."""
         for treatment, options, is_stable in (("explicit", (), lambda a, b: a < 4 - 2 * b),
                                               ("semi-implicit", (), lambda a, b: a < 4 + 2 * b),
                                               ("implicit", (), lambda a, b: True),

@@ -70,7 +70,7 @@ class Planes(MapCommand):
         r, R = 0.2, 1.0
         inertia = 0.5 + 0.01 + r * r
         self.assertEqual(len(curve["x"]), 3)
-        for h, k in zip(curve["x"], curve["y"]):  # docs/understand/couplings.md, 3, with b = 0
+        for h, k in zip(curve["x"], curve["y"]):  # docs/understand/stability_of_spring_dampers.md, with b = 0
             self.assertAlmostEqual(k / (4 * inertia / (h * h * r * (R - 2 * r))), 1, delta=3e-3)
 
     def test_the_error_is_that_of_the_joint_where_it_is_largest(self):

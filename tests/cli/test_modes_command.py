@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm modes`: frequencies and damping that are known in closed form, and what is refused.
+"""`twinarm modes`: frequencies and damping against closed forms, and rejected input.
 
     test_modes_command.py PATH/TO/twinarm
 """
@@ -54,8 +54,8 @@ class Modes(RobotCommand):
         modes = self.answer(two, "--floating", "--gravity", "0,0,0")["modes"]
         self.assertEqual([m["frequency"] for m in modes], [0] * 14)
 
-    def test_a_follower_counts_through_its_ratio(self):
-        # Leader and follower slide along x: (m1 + ratio^2 m2) with the leader's spring.
+    def test_a_mimic_joint_adds_inertia_by_its_ratio(self):
+        # Both joints slide along x: m1 + ratio^2 m2 on the spring of the mimicked joint.
         both = robot('<link name="base"/>', link("a", 2, (0, 0, 0)), link("b", 3, (0, 0, 0)),
                      joint("j1", "prismatic", "base", "a", axis="1 0 0"),
                      joint("j2", "prismatic", "base", "b", axis="1 0 0",
@@ -65,14 +65,14 @@ class Modes(RobotCommand):
         mode, = self.answer(scene)["modes"]
         self.close([mode["frequency"]], [math.sqrt(56 / (2 + 4 * 3))], 1e-11)
 
-    def test_the_table_for_people_tells_periods_and_shapes(self):
+    def test_the_table_has_periods_and_shapes(self):
         text = self.run_it("assets/robots/puma560/puma560.urdf").stdout
         for word in ("[Hz]", "period", "damping ratio", "shapes"):
             self.assertIn(word, text)
 
-    def test_about_what_is_no_equilibrium_a_warning_says_so(self):
+    def test_a_state_that_is_not_an_equilibrium_gives_a_warning(self):
         tilted = self.answer(PENDULUM, state={"q": {"hinge": 0.5}})
-        self.assertIn("no equilibrium: 'hinge' accelerates", tilted["warnings"][-1])
+        self.assertIn("not an equilibrium: 'hinge' accelerates", tilted["warnings"][-1])
         self.assertNotIn("equilibrium", "".join(self.answer(PENDULUM)["warnings"]))
 
 
@@ -99,7 +99,7 @@ class ModesOfLoops(RobotCommand):
     command = "modes"
     scene = Modes.scene
 
-    def test_a_parallelogram_swings_as_its_energies_say_with_every_type_of_pin(self):
+    def test_a_parallelogram_has_the_frequency_of_its_energies_with_every_type_of_pin(self):
         for kind, more in (("ball", ""), ("hinge", "axis = [0, 1, 0]\n")):
             scene = self.scene(PARALLELOGRAM, '[[constraint]]\nname = "far"\n'
                                f'type = "{kind}"\na = "arm/bar"\nb = "arm/right"\n'
@@ -122,8 +122,8 @@ class ModesOfLoops(RobotCommand):
         w = math.sqrt((STIFFNESS + k) / SWINGING)
         self.close([mode["frequency"], mode["damping_ratio"]], [w, b / (2 * SWINGING * w)], 1e-10)
 
-    def test_free_bodies_that_constraints_hold_swing_under_their_own_names(self):
-        # The same of three bodies, and a fourth that nothing holds: it is left out.
+    def test_free_bodies_with_constraints_have_shapes_under_their_names(self):
+        # The same with three bodies; a fourth without constraints is left out.
         about = CRANK * LENGTH ** 2 / 12
         rod = ('shape = {{ box = {{ size = [0.02, 0.02, 0.5] }} }}\nmass = {m}\ngroup = 1\n'
                'inertia = [{i}, {i}, 0.001, 0, 0, 0]\ncom = [0, 0, 0]\n')
@@ -143,18 +143,18 @@ class ModesOfLoops(RobotCommand):
         self.close(mode["frequency"], math.sqrt(STIFFNESS / SWINGING), 1e-9)
         shape = mode["shape"]
         self.assertEqual(sorted(shape), ["bar", "left", "right"])
-        # The cranks' middles go half as far as the bar; the bar does not turn.
+        # The centres of the cranks move half as far as the bar, which does not rotate.
         turn = shape["left"][4]
         self.close(shape["bar"], [-LENGTH * turn, 0, 0, 0, 0, 0], 1e-9)
         self.close(shape["right"], [-LENGTH / 2 * turn, 0, 0, 0, turn, 0], 1e-9)
 
-    def test_a_constraint_that_asks_for_nothing_changes_nothing(self):
+    def test_a_redundant_constraint_changes_nothing(self):
         scene = self.scene(PENDULUM, '[[constraint]]\nname = "tie"\ntype = "ball"\n'
                            'a = "arm/bob"\nb = "world"\npoint = [0, 0, 0]\n')
         mode, = self.answer(scene)["modes"]
         self.close(mode["frequency"], math.sqrt(9.81), 1e-11)
 
-    def test_a_gear_counts_the_far_wheel_by_its_ratio(self):
+    def test_a_gear_adds_inertia_by_its_ratio(self):
         wheels = robot('<link name="base"/>', link("a", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.2)),
                        link("b", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
                        joint("ja", "continuous", "base", "a"),

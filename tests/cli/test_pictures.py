@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Pictures of `twinarm render` beside those that were looked at and found good (golden/).
+"""Pictures of `twinarm render` against reviewed ones (golden/).
 
     test_pictures.py PATH/TO/twinarm           compares
-    test_pictures.py PATH/TO/twinarm --make    makes them anew: look at each before it is committed
+    test_pictures.py PATH/TO/twinarm --make    replaces them: review each before it is committed
 
-Another version of Mesa or FreeType may set some pixels otherwise; another picture is another one to
-the eye: squares of 6 x 6 pixels whose mean differs by more than what an observer just sees.
+Versions of Mesa and FreeType may differ in some pixels. Pictures differ visibly in squares of 6 x 6 pixels
+whose mean differs by more than a just noticeable difference.
 """
 import os
 import pathlib
@@ -19,10 +19,10 @@ import program
 from program import ROOT, SCENES, run
 
 HERE = pathlib.Path(__file__).resolve().parent
-MOST_SEEN = 0.002  # of the squares: 7 of the 3600
+MAX_VISIBLE = 0.002  # of the squares: 7 of the 3600
 SIZE = "480x270"
 GOLDEN = {
-    "arm_and_twin": [SCENES / "robot_beside_obstacles.toml", "--at", "1", "--camera", "128,25",
+    "arm_and_target": [SCENES / "robot_beside_obstacles.toml", "--at", "1", "--camera", "128,25",
                      "--show", "ghost,couplings,contacts,forces,energy"],
     "boxes": [SCENES / "box_stack.toml", "--at", "0.3", "--show", "contacts,forces,com,gravity"],
     "bars": [SCENES / "four_bar.toml", "--at", "0.4", "--show", "trails,labels,frames,momentum"],
@@ -51,19 +51,19 @@ class Pictures(unittest.TestCase):
         return picture.share_seen(picture.read_png(HERE / "golden" / f"{name}.png"),
                                   picture.read_png(path))
 
-    def test_each_picture_is_to_the_eye_the_one_that_was_found_good(self):
+    def test_each_picture_equals_its_golden_picture_visibly(self):
         for name, path in self.painted.items():
             with self.subTest(picture=name):
-                self.assertLess(self.share(name, path), MOST_SEEN)
+                self.assertLess(self.share(name, path), MAX_VISIBLE)
 
-    def test_a_missing_overlay_another_instant_and_another_view_are_seen(self):
+    def test_a_missing_overlay_another_instant_and_another_view_are_detected(self):
         words = GOLDEN["boxes"]
         for what, other in (("no weights", [*words[:-1], "contacts,forces,com"]),
                             ("no cones", [*words[:-1], "forces,com,gravity"]),
                             ("a degree", [*words, "--camera", "-51,22"])):
             with self.subTest(what=what):
                 self.assertGreater(self.share("boxes", paint(self.holder.name, "other", other)),
-                                   2 * MOST_SEEN)
+                                   2 * MAX_VISIBLE)
         for background in ("studio", "white"):
             with self.subTest(what=background):
                 other = [*GOLDEN["sky"][:-1], background]
@@ -71,7 +71,7 @@ class Pictures(unittest.TestCase):
         words = GOLDEN["bars"]
         later = [*words[:1], "--at", "0.41", *words[3:]]
         self.assertGreater(self.share("bars", paint(self.holder.name, "other", later)),
-                           2 * MOST_SEEN)
+                           2 * MAX_VISIBLE)
 
     def test_both_back_ends_and_any_number_of_threads_give_the_same_bytes(self):
         for gl in ("osmesa", "egl"):
@@ -80,7 +80,7 @@ class Pictures(unittest.TestCase):
                     other = paint(self.holder.name, "other", [*GOLDEN["boxes"], "--gl", gl],
                                   LP_NUM_THREADS=threads)
                     self.assertEqual(other.read_bytes(), self.painted["boxes"].read_bytes())
-        for quality, name in (("draft", "bars"), ("studio", "bars"), ("draft", "arm_and_twin"),
+        for quality, name in (("draft", "bars"), ("studio", "bars"), ("draft", "arm_and_target"),
                               ("normal", "sky")):
             a, b = (paint(self.holder.name, gl, [*GOLDEN[name], "--gl", gl, "--quality", quality],
                           LP_NUM_THREADS=threads)

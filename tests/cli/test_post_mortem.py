@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm inspect RECORDING --at T`, and what a run that stops by itself says.
+"""`twinarm inspect RECORDING --at T`, and the post-mortem of a diverged run.
 
     test_post_mortem.py PATH/TO/twinarm
 """
@@ -13,7 +13,7 @@ from robot_command import PENDULUM, slider
 
 
 class Instants(RecordingCommand):
-    def test_an_instant_is_inspected_as_the_state_file_of_that_instant_is(self):
+    def test_an_instant_is_inspected_like_its_state_file(self):
         state = {"q": {"shoulder": 1.0}, "tau": {"elbow": 0.2}}
         file = self.record(DOUBLE, "--duration", 0.1, state=state)
         recorded = self.json_of("inspect", file, "--at", 0.05)
@@ -32,24 +32,24 @@ class Instants(RecordingCommand):
         self.assertTrue(any(w["source"].startswith("contact/")
                             for w in by_body["low"]["wrenches"]))
 
-    def test_an_instant_has_the_ledger_up_to_it(self):
+    def test_an_instant_has_the_energy_balance_up_to_it(self):
         file = self.record(BOXES, "--duration", 0.4)
         frame = [f for f in self.exported(file)["frames"] if f["t"] <= 0.3 + 1e-9][-1]
         answer = self.json_of("inspect", file, "--at", 0.3)
         self.assertEqual(answer["ledger"], frame["ledger"])
         page = self.twinarm("inspect", file, "--at", 0.3).stdout
-        self.assertIn("WORK ON THE BODIES", page)
+        self.assertIn("ENERGY BALANCE", page)
         self.assertIn("contact/floor-low/friction", page)
         self.assertLessEqual(max(map(len, page.splitlines())), 100)
 
-    def test_times_outside_are_refused(self):
+    def test_times_outside_the_recording_are_rejected(self):
         file = self.record(PENDULUM, "--duration", 0.1)
         self.assertIn("--at", self.refused("inspect", file, "--at", 3))
 
 
 class PostMortems(RecordingCommand):
-    def test_a_spring_above_its_limit_is_named_and_the_remedy_holds(self):
-        """One spring on I = 0.5 without damper: semi-implicit Euler holds up to w h = 2."""
+    def test_a_spring_above_its_limit_is_named_and_the_fix_is_stable(self):
+        """One spring on I = 0.5 without damper: semi-implicit Euler is stable up to omega h = 2."""
         inertia, h, k = 0.5, 0.001, 4e6
         file = self.folder / "last.twinrec"
         self.record(held(k, 0), "--duration", 1, "--step", h, "--post-mortem", file, code=3)
@@ -64,14 +64,14 @@ class PostMortems(RecordingCommand):
         self.assertIn("'pull'", self.simulated.stderr)
         self.assertTrue(found["ledger_row"])
         self.assertGreater(found["ledger_growth"], 1)
-        # What it says holds, holds; a little beyond the limit it does not.
+        # Stable below the reported limit, unstable above it.
         for step, code in ((0.9 * suspect["largest_step"], 0), (1.2 * suspect["largest_step"], 3)):
             self.record(held(k, 0), "--duration", 1, "--step", step, "--post-mortem", file,
                         code=code)
         self.record(held(0.9 * suspect["largest_gain"], 0), "--duration", 1, "--step", h)
 
     def test_the_last_thousand_steps_are_those_of_the_run(self):
-        """A spring a hair beyond its limit, recorded in full beside its post-mortem."""
+        """A spring 1e-5 above its limit: the full recording ends with the same steps."""
         k = 4 * 0.5 / 0.001 ** 2 * 1.00002
         last = self.folder / "last.twinrec"
         full = self.record(held(k, 0), "--duration", 60, "--energy-bound", 1e25,
@@ -83,13 +83,13 @@ class PostMortems(RecordingCommand):
         self.assertGreater(len(all_frames), 1500)
         self.assertEqual([f["hash"] for f in ours], [f["hash"] for f in all_frames[-1000:]])
         self.assertEqual(ours[-1]["step"], found["step"])
-        # It opens; at such speeds a check by a second way may fall short, and then says so.
+        # It opens; at such speeds a cross-check may fail, which the return code reports.
         opened = run("inspect", last, "--at", ours[500]["t"], "--json")
         self.assertIn(opened.returncode, (0, 1), opened.stderr)
         self.assertTrue(json.loads(opened.stdout)["balance"])
 
-    def test_a_run_that_creates_energy_says_so_once_and_before_it_stops(self):
-        """A spring a hair beyond its limit; a little below it nothing is said."""
+    def test_energy_growth_raises_one_alarm_before_the_run_stops(self):
+        """A spring 1e-5 above its limit; below it there is no alarm."""
         limit = 4 * 0.5 / 0.001 ** 2
         file = self.record(held(limit * 1.00002, 0), "--duration", 60,
                            "--post-mortem", self.folder / "last.twinrec", code=3)
@@ -106,21 +106,21 @@ class PostMortems(RecordingCommand):
             self.record(held(limit * part, 0), "--duration", 5)
             self.assertNotIn("alarm", json.loads(self.simulated.stdout))
 
-    def test_a_spring_near_its_limit_is_named_where_none_is_beyond_it(self):
-        """Two springs of 0.8 of the limit each pull at one joint: only together are they too stiff."""
+    def test_a_spring_near_its_limit_is_named_if_none_exceeds_it(self):
+        """Two springs at one joint, each at 0.8 of the limit: only both together are unstable."""
         limit = 4 * 0.5 / 0.001 ** 2
         other = (held(limit * 0.8, 0)).split("[[coupling]]")[1].replace('"pull"', '"other"')
         self.record(held(limit * 0.8, 0) + "[[coupling]]" + other, "--duration", 60,
                     "--post-mortem", self.folder / "last.twinrec", code=3)
         answer = json.loads(self.simulated.stdout)
         words = "\n".join(answer["post_mortem"]["words"])
-        self.assertIn("nearest its limit", words)
+        self.assertIn("Near its limit", words)
         self.assertIn("coupling 'pull'", words)
-        steps = int(re.search(r"its last (\d+) steps are in", words)[1])
+        steps = int(re.search(r"last (\d+) steps: ", words)[1])
         self.assertLessEqual(steps, answer["post_mortem"]["step"])
 
-    def test_a_method_that_always_gains_is_told_by_an_alarm_alone(self):
-        """Explicit Euler on a spring: energy grows by 1 + (w h)^2 in each step, and runs on."""
+    def test_an_always_unstable_method_raises_an_alarm(self):
+        """Explicit Euler on a spring: energy grows by 1 + (omega h)^2 in each step."""
         self.record(held(100, 0), "--duration", 20, "--integrator", "euler")
         answer = json.loads(self.simulated.stdout)
         self.assertNotIn("post_mortem", answer)
@@ -128,7 +128,7 @@ class PostMortems(RecordingCommand):
         # By then it has at least doubled: (1 + (w h)^2)^n, w^2 = 100 / 0.5.
         self.assertGreater(1.0002 ** (answer["alarm"]["time"] / 0.001), 2)
 
-    def test_the_damper_of_a_joint_is_named_where_the_integrator_takes_it_explicitly(self):
+    def test_an_explicit_joint_damper_beyond_its_limit_is_named(self):
         self.record(slider(damping=1e5), "--duration", 1, "--integrator", "euler",
                     "--energy-bound", "inf", "--post-mortem", self.folder / "last.twinrec",
                     state={"qd": {"slide": 1}}, code=3)

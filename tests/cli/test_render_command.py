@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm render`: stills and films, and what is refused.
+"""`twinarm render`: stills, films, rejected input.
 
     test_render_command.py PATH/TO/twinarm
 """
@@ -10,7 +10,7 @@ import picture
 from program import SCENES, ProgramTest, data, main
 
 BALL = data("dropped_ball.toml")
-# In place of ffmpeg: writes what it was told and how many bytes it was given; fails on demand.
+# Replaces ffmpeg: writes its arguments and the number of input bytes; fails on demand.
 FAKE = """#!/bin/sh
 for word in "$@"; do last=$word; done
 if [ -n "$FAIL" ]; then echo "no such codec" >&2; exit 3; fi
@@ -67,7 +67,7 @@ class Render(ProgramTest):
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[0], pictures[2])
 
-    def test_a_film_has_its_pictures_at_the_rate_and_slowness_that_are_asked_for(self):
+    def test_a_film_has_the_given_rate_and_slow_motion_factor(self):
         out = self.folder / "film"
         told = self.rendered(self.ball, "--frames", out, "--size", "64x48", "--quality", "draft",
                              "--from", 0.1, "--to", 0.3, "--slow", 2, "--fps", 10)
@@ -90,7 +90,7 @@ class Render(ProgramTest):
         self.twinarm("simulate", scene, "--record", recording)
         return recording
 
-    def test_two_recordings_stand_side_by_side_to_the_end_of_the_longer_one(self):
+    def test_two_recordings_are_shown_side_by_side_to_the_end_of_the_longer_one(self):
         left, right = self.record("a"), self.record("b", duration=0.3)
         out = self.folder / "film"
         told = self.rendered(left, "--beside", right, "--frames", out, "--size", "200x60", "--fps",
@@ -100,10 +100,10 @@ class Render(ProgramTest):
         left_of = [[bytes(row[:3 * 90]) for row in rows] for _, _, rows in pictures]
         right_of = [[bytes(row[3 * 110:]) for row in rows] for _, _, rows in pictures]
         self.assertEqual(len({tuple(map(bytes, rows)) for rows in left_of}), 6)
-        self.assertEqual(len({tuple(map(bytes, rows)) for rows in right_of}), 4)  # then it stands
+        self.assertEqual(len({tuple(map(bytes, rows)) for rows in right_of}), 4)  # then its last frame
         self.assertTrue(self.refusals(left, "--beside", self.ball, "--frames", out))
 
-    def test_a_plot_takes_the_foot_of_the_picture_and_its_cursor_goes_with_the_time(self):
+    def test_a_plot_is_at_the_bottom_and_its_cursor_moves_with_time(self):
         recording = self.record("a")
         columns = []
         for at in (0.1, 0.2, 0.3):
@@ -111,14 +111,14 @@ class Render(ProgramTest):
             self.rendered(recording, "--png", out, "--at", at, "--size", "640x360", "--quality",
                           "draft", "--plot", "energy")
             _, _, rows = picture.read_png(out)
-            # The upright red line: the column that is reddest over some rows of the panel.
+            # The red cursor: the reddest column over some rows of the panel.
             columns.append(min(range(640), key=lambda x: sum(
                 abs(row[3 * x] - 204) + abs(row[3 * x + 1] - 41) + abs(row[3 * x + 2] - 36)
                 for row in rows[300:330])))
         self.assertAlmostEqual(columns[1] - columns[0], columns[2] - columns[1], delta=1.01)
         self.assertGreater(columns[1] - columns[0], 80)  # a fifth of the panel
 
-    def test_ffmpeg_is_given_all_pixels_and_the_film_gets_its_name_at_the_end(self):
+    def test_ffmpeg_receives_all_pixels_and_the_film_is_renamed_at_the_end(self):
         path = self.fake_ffmpeg()
         for option, format_word in (("--mp4", "mp4"), ("--gif", "gif")):
             out = self.folder / f"film.{format_word}"
@@ -130,7 +130,7 @@ class Render(ProgramTest):
             self.assertIn(f"-f {format_word} ", words)
         self.assertEqual(list(self.folder.glob("*.part")), [])
 
-    def test_where_ffmpeg_is_missing_or_fails_it_is_said_and_nothing_stays(self):
+    def test_a_missing_or_failing_ffmpeg_is_reported_and_no_file_remains(self):
         out = self.folder / "film.mp4"
         (fault,) = self.refusals(self.ball, "--mp4", out, path=self.folder)
         self.assertEqual(fault["where"], "--mp4")
@@ -138,13 +138,13 @@ class Render(ProgramTest):
         self.refusals(self.ball, "--mp4", out, "--size", "64x48", path=self.fake_ffmpeg(), FAIL="1")
         self.assertEqual(list(self.folder.glob("film*")), [])
 
-    def test_ctrl_c_leaves_no_half_film(self):
+    def test_ctrl_c_leaves_no_partial_film(self):
         self.interrupted("render", self.ball, "--mp4", self.folder / "film.mp4", "--fps", 1000,
                          env=self.environment(self.fake_ffmpeg()),
                          is_ready=lambda _: (self.folder / "film.mp4.part").exists())
         self.assertEqual(list(self.folder.glob("film*")), [])
 
-    def test_what_cannot_be_is_told_by_the_words_that_were_typed_and_before_the_work(self):
+    def test_invalid_options_are_reported_as_typed_and_before_rendering(self):
         run, out, film = self.record("a"), self.folder / "b.png", self.folder / "film"
         for words in (["--to", "9"], ["--from", "7", "--to", "9"]):
             faults = self.refusals(run, "--frames", film, *words)
@@ -155,7 +155,7 @@ class Render(ProgramTest):
         self.assertIn("--gravity", self.refusals(run, "--png", out, "--gravity", "0,0,-1")[0]["where"])
         self.assertEqual(len(self.refusals(self.ball, "--frames", run, path=self.fake_ffmpeg())), 1)
 
-    def test_a_link_whose_mesh_is_missing_is_drawn_by_its_collision_shapes_and_that_is_said(self):
+    def test_a_link_with_a_missing_mesh_is_drawn_by_its_collision_shapes_with_a_warning(self):
         urdf = self.folder / "rod.urdf"
         urdf.write_text("""<robot name="rod"><link name="base"><inertial><mass value="1"/>
 <inertia ixx="1" iyy="1" izz="1" ixy="0" ixz="0" iyz="0"/></inertial>

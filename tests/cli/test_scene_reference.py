@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""docs/reference/scene_file.md names each key that a scene may have, and no other; docs/use/run_the_study.md each of the study's settings;
-docs/reference/output_formats.md each exit code.
+"""docs/reference/scene_file.md names each key that a scene may have, and no other; docs/reference/study_files.md each of the study's settings;
+docs/reference/exit_codes_and_errors.md each exit code.
 
     test_scene_reference.py PROGRAM
 
@@ -142,7 +142,7 @@ class Settings(ProgramTest):
                 if not place.startswith("settings, ")}  # the tables themselves
 
     def test_each_setting_is_in_docs_study_and_in_the_file_and_no_other(self):
-        text = re.search(r"^## Settings.*?\n(.*?)(?=^## )", (ROOT / "docs/use/run_the_study.md").read_text(), re.M | re.S)[1]
+        text = re.search(r"^## Settings.*?\n(.*?)(?=^## )", (ROOT / "docs/reference/study_files.md").read_text(), re.M | re.S)[1]
         said = {key for line in text.splitlines() if line.startswith("| `") for key in spans(CELLS.split(line)[1])}
         self.assertEqual(sorted(said), sorted(self.missed()))
         shipped = set()
@@ -155,7 +155,7 @@ class Settings(ProgramTest):
 
 class ExitCodes(unittest.TestCase):
     def test_each_code_of_the_sources_is_in_the_table_and_no_other(self):
-        table = re.search(r"^## Exit codes\n(.*?)(?=^## )", (ROOT / "docs/reference/output_formats.md").read_text(), re.M | re.S)[1]
+        table = re.search(r"^## Exit codes\n(.*?)(?=^## )", (ROOT / "docs/reference/exit_codes_and_errors.md").read_text(), re.M | re.S)[1]
         said = {int(code) for code in re.findall(r"^\| (\d+) \|", table, re.M)}
         there = {0, 1}  # of commands whose result can fall short: no name of their own
         for file in (ROOT / "app").rglob("*.cpp"):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The examples of app/python/examples and of docs/use/python.md run, and print what they promise."""
+"""The examples of app/python/examples, README.md and docs/use/python.md run and print what they show."""
 import importlib.machinery
 import importlib.util
 import os
@@ -42,7 +42,7 @@ class Examples(unittest.TestCase):
         scripts = {file.stem for file in EXAMPLES.glob("*.py")} - {"lesson"}
         self.assertEqual(scripts, {lesson.name for lesson in lessons})
         for lesson in lessons:
-            link = f"(../../../app/python/examples/{lesson.name}.py)"
+            link = f"(../../../../app/python/examples/{lesson.name}.py)"
             self.assertIn(link, (lesson / "lesson.md").read_text(encoding="utf-8"))
 
     def test_each_script_finds_the_numbers_that_its_lesson_claims(self):
@@ -61,8 +61,8 @@ class Examples(unittest.TestCase):
         for (what, value), (_, *claim) in zip(found, claims):
             self.assertTrue(LESSONS.holds(float(value), *claim), f"{what.strip()}: {value}; the lesson says {claim}")
 
-    def test_the_page_prints_what_it_shows(self):
-        text = (ROOT / "docs" / "use" / "python.md").read_text(encoding="utf-8")
+    def test_the_pages_print_what_they_show(self):
+        text = "".join((ROOT / page).read_text(encoding="utf-8") for page in ("README.md", "docs/use/python.md"))
         blocks = re.findall(r"```python\n(.*?)```(?:\n+prints\n+```\n(.*?)```)?", text, re.DOTALL)
         self.assertGreater(len(blocks), 0)
         shown = [(code, output) for code, output in blocks if output]

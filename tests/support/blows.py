@@ -13,7 +13,7 @@ from waiting import TIMEOUT
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOFT = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-LEFT_OVER = re.compile(r"\.part$|\.\d+\.tmp$")  # docs/reference/output_formats.md: these are named there
+LEFT_OVER = re.compile(r"\.part$|\.\d+\.tmp$")  # docs/reference/exit_codes_and_errors.md: these are named there
 
 
 class Fault(Exception):

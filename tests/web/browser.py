@@ -1,4 +1,4 @@
-"""A headless Chromium that tests drive, by its debugging pipe: no port, no package.
+"""Headless Chromium for tests, controlled through its debugging pipe: no port, no package.
 
     with Browser() as page:
         page.open("file:///tmp/run.html")
@@ -26,16 +26,16 @@ CODES = {" ": 32, "Tab": 9, "Enter": 13, "Escape": 27, "PageUp": 33, "PageDown":
 TEXTS = {"Enter": "\r"}
 SHIFT = 8
 NO_BROWSER = "no Chromium: scripts/setup --lab"
-OWN_WORDS = "GPU stall due to ReadPixels"  # what it says where it draws without a graphics card
+OWN_WORDS = "GPU stall due to ReadPixels"  # message of software rendering
 
 
 def find_browser():
-    """Its path, or None."""
+    """Path, or None."""
     return next((path for path in map(shutil.which, PROGRAMS) if path), None)
 
 
 def folder_for_pictures():
-    """The second argument of a test, taken out and made; None where there is none."""
+    """Removes the second argument of a test and creates the folder; None: no argument."""
     if len(sys.argv) < 3 or sys.argv[2].startswith("-") or "." in sys.argv[2]:
         return None
     folder = pathlib.Path(sys.argv.pop(2))
@@ -46,19 +46,19 @@ def folder_for_pictures():
 class Browser:
     def __init__(self, width=1280, height=720, timeout=TIMEOUT, dark=False, scale=1):
         self.timeout = timeout
-        self.scale = scale  # pixels for each of the layout's: drawn without a graphics card, they are what takes time
-        self.errors = []  # of the console, and exceptions
-        self.requests = []  # whatever the page asked for besides itself
+        self.scale = scale  # device pixel ratio: pixels cost time in software rendering
+        self.errors = []  # console messages and exceptions
+        self.requests = []  # besides the page itself
         self.waiting = b""
         self.events = []
         self.number = 0
         self.folder = tempfile.mkdtemp(prefix="twinarm-browser-")
         to_browser, ours = os.pipe()
         theirs, from_browser = os.pipe()
-        # One file for all streams: nothing blocks on a pipe that nobody reads.
+        # A file for all streams: an unread pipe would block.
         command = [find_browser(), "--headless=new", "--no-sandbox", "--disable-dev-shm-usage",
                    "--no-first-run", "--disable-extensions", "--disable-background-networking",
-                   "--enable-unsafe-swiftshader",  # draws WebGL where there is no graphics card
+                   "--enable-unsafe-swiftshader",  # software rendering of WebGL
                    "--hide-scrollbars", f"--window-size={width},{height}",
                    f"--user-data-dir={self.folder}", "--remote-debugging-pipe", "about:blank"]
 
@@ -71,7 +71,7 @@ class Browser:
             os.set_inheritable(4, True)
 
         self.process = subprocess.Popen(command, preexec_fn=take_pipes, close_fds=False,
-                                        env=dict(os.environ, TMPDIR=self.folder),  # of which it leaves something
+                                        env=dict(os.environ, TMPDIR=self.folder),  # it leaves files there
                                         stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                         stderr=subprocess.DEVNULL)
         os.close(to_browser)
@@ -158,7 +158,7 @@ class Browser:
         return result["result"].get("value")
 
     def heap(self):
-        """Bytes that its scripts use, without garbage."""
+        """JavaScript heap after garbage collection, in bytes."""
         self.call("HeapProfiler.collectGarbage")
         return self.call("Runtime.getHeapUsage")["usedSize"]
 
@@ -170,7 +170,7 @@ class Browser:
             time.sleep(0.02)
 
     def open(self, url):
-        """Opens it and waits until the page says that it is ready, and has drawn."""
+        """Opens an address and waits until the page is ready and has drawn."""
         self.call("Page.navigate", url="about:blank")
         self.requests.clear()
         self.errors.clear()
@@ -179,7 +179,7 @@ class Browser:
         self.frames(2)
 
     def frames(self, count):
-        """Lets the page draw so many times."""
+        """Waits for a number of frames."""
         self.evaluate("new Promise(done => { let n = %d; const next = () => n-- > 0 ? "
                       "requestAnimationFrame(next) : done(true); next(); })" % count)
 
@@ -194,7 +194,7 @@ class Browser:
         self.frames(2)
 
     def touch(self, kind, points, at=None):
-        """touchStart, touchMove, touchEnd: of all fingers that are down; `at`: as if at that time [s]."""
+        """touchStart, touchMove, touchEnd with all fingers on the screen; `at`: time stamp [s]."""
         self.call("Input.dispatchTouchEvent", type=kind, **({"timestamp": at} if at else {}),
                   touchPoints=[{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)])
 
@@ -210,7 +210,7 @@ class Browser:
         self.frames(2)
 
     def drop(self, name, text):
-        """A file let go over the page."""
+        """Drops a file on the page."""
         self.evaluate("""((name, text) => { const data = new DataTransfer();
             data.items.add(new File([text], name));
             for (const kind of ['dragenter', 'dragover', 'drop']) document.body.dispatchEvent(
@@ -218,7 +218,7 @@ class Browser:
             })(%s, %s)""" % (json.dumps(name), json.dumps(text)))
 
     def colors(self, points):
-        """Of the picture as it is seen: (red, green, blue) at (x, y)."""
+        """(red, green, blue) at each (x, y) of a screenshot."""
         shot = self.call("Page.captureScreenshot", format="png")["data"]
         return self.evaluate("""(async () => {
             const image = new Image();

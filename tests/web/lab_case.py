@@ -1,4 +1,4 @@
-"""A lab with its page in a real browser: what tests of it have in common."""
+"""Common parts of the tests of the lab's page in a browser."""
 import json
 import pathlib
 import signal
@@ -17,7 +17,7 @@ from waiting import TIMEOUT, wait_for
 
 SCENE = ROOT / "assets/scenes/hand_and_obstacles.toml"
 STATE = "twinarm.page.state"
-KNOB = "document.getElementById('knob-coupling-0--%s')"
+PARAMETER = "document.getElementById('parameter-coupling-0--%s')"
 
 
 class Program:
@@ -28,14 +28,14 @@ class Program:
         self.url = json.loads(self.process.stdout.readline())["url"]
 
     def end(self):
-        """Its exit code, and what it said."""
+        """Its exit code and stderr."""
         self.process.send_signal(signal.SIGINT)
-        _, said = self.process.communicate(timeout=TIMEOUT)
-        return self.process.returncode, said
+        _, errors = self.process.communicate(timeout=TIMEOUT)
+        return self.process.returncode, errors
 
 
 class LabCase(unittest.TestCase):
-    """A browser for all tests; a lab for each, at a port of its own, so that the browser remembers nothing of it."""
+    """One browser for all tests; a lab for each test, at its own port, so that the browser has no data of it."""
     program = None
     pictures = None  # a folder
 
@@ -57,7 +57,7 @@ class LabCase(unittest.TestCase):
 
     def tearDown(self):
         errors = list(self.page.errors)
-        self.page.call("Page.navigate", url="about:blank")  # or it misses the lab
+        self.page.call("Page.navigate", url="about:blank")  # before the lab ends
         self.assertEqual(self.lab.end(), (0, ""))
         self.assertEqual(errors, [])
         self.folder.cleanup()
@@ -74,7 +74,7 @@ class LabCase(unittest.TestCase):
         self.page.wait_for(f"!!({expression})")
 
     def click(self, text, within="document"):
-        """A button by its words."""
+        """Clicks a button by its text."""
         self.until(f"[...{within}.querySelectorAll('button')].some(b => b.offsetParent && "
                    f"b.textContent.trim().startsWith({text!r}))")
         self.value(f"[...{within}.querySelectorAll('button')].find(b => b.offsetParent && "
@@ -85,7 +85,7 @@ class LabCase(unittest.TestCase):
                           f"{name!r})])(twinarm.page)")
 
     def type_into(self, field, text):
-        """As a person does: all of it replaced, then Enter."""
+        """Replaces the text of a field and presses Enter."""
         self.value(f"{field}.scrollIntoView(); {field}.focus(); {field}.select()")
         self.page.call("Input.insertText", text=text)
         self.page.press("Enter")
@@ -110,7 +110,7 @@ class LabCase(unittest.TestCase):
 
 
 def why_no_page(program):
-    """The reason for which the page cannot be opened here, or None."""
+    """The reason why the page cannot be opened here, or None."""
     if not find_browser():
         return NO_BROWSER
     lab = Program(program)

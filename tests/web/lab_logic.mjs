@@ -1,5 +1,5 @@
-// What the lab's page computes without a browser: sliders, what plots keep, files. Run by
-// test_lab_logic.py, which bundles the modules: node --test lab_logic.mjs, MODULES in the environment.
+// Logic of the lab's page without a browser: sliders, data of plots, files. Run by test_lab_logic.py, which
+// bundles the modules: node --test lab_logic.mjs, MODULES in the environment.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
@@ -10,7 +10,7 @@ const { Store, bucketsOf, outline, samples, timesOf, csvText, fileName } = page;
 const { RunRecord, decodeHistory, PlotSpecs } = page;
 const { chosen, post } = page;
 
-// The same numbers each time.
+// Reproducible random numbers.
 function random(seed) {
   let state = seed;
   return () => (state = (1103515245 * state + 12345) % 2 ** 31) / 2 ** 31;
@@ -24,7 +24,7 @@ const scales = [
   { form: 'linear', low: 0, high: 1.5 },
 ];
 
-test('a slider gives back the value that it was set to, to a slider’s digits', () => {
+test('slider: position and value are inverse to three digits', () => {
   for (const scale of scales)
     for (let i = 0; i <= 200; ++i) {
       const value = valueAt(scale, i / 200);
@@ -35,12 +35,12 @@ test('a slider gives back the value that it was set to, to a slider’s digits',
     }
 });
 
-test('the middle of a logarithmic slider is the geometric mean', () => {
+test('logarithmic slider: the middle is the geometric mean', () => {
   assert.equal(valueAt({ form: 'log', low: 1, high: 1e6 }, 0.5), 1000);
   assert.equal(placeOf({ form: 'log', low: 1, high: 1e6 }, 1000), 0.5);
 });
 
-test('a logarithmic slider that begins at zero has zero at its left end', () => {
+test('logarithmic slider with lower end 0: the left end is 0', () => {
   const scale = { form: 'log', low: 0, high: 1000 };
   assert.equal(valueAt(scale, 0), 0);
   assert.equal(placeOf(scale, 0), 0);
@@ -50,7 +50,7 @@ test('a logarithmic slider that begins at zero has zero at its left end', () => 
   assert.equal(value, 0);
 });
 
-test('arrows go up and down by about a tenth or by half, and stop at the ends', () => {
+test('arrow keys change a slider by a tenth or a factor of two, within its range', () => {
   for (const scale of scales) {
     let value = scale.low;
     for (let i = 0; i < 2000; ++i) {
@@ -65,12 +65,12 @@ test('arrows go up and down by about a tenth or by half, and stop at the ends', 
   assert.equal(stepped(scales[3], -9.8, 1, false), -9.6);
 });
 
-test('steps are 1, 2 or 5 times a power of ten', () => {
+test('niceStep: 1, 2 or 5 times a power of ten', () => {
   for (const [size, step] of [[0.04, 0.02], [1, 1], [4.9, 2], [5, 5], [73, 50], [0.001, 0.001]])
     assert.equal(niceStep(size), step);
 });
 
-test('what is typed is read in the knob’s unit, with its prefixes, or refused', () => {
+test('parseNumber: unit, prefixes, invalid text', () => {
   const read = [
     ['800', 'N/m', 800], ['1.2e4', 'N/m', 12000], ['12k', 'N/m', 12000], ['12 kN/m', 'N/m', 12000],
     ['0.5 ms', 's', 0.0005], ['−3,5', 'm', -3.5], ['63 µs', 's', 63e-6], ['2 m', 'm', 2],
@@ -81,13 +81,13 @@ test('what is typed is read in the knob’s unit, with its prefixes, or refused'
     assert.ok(Number.isNaN(parseNumber(text, 'N/m')), text);
 });
 
-test('numbers stand in a field so that they read back', () => {
+test('numberText and parseNumber are inverse', () => {
   for (const value of [0, 1, -9.81, 0.001, 800, 1e6, 123456, 2.5e-7, 1e9])
     assert.equal(parseNumber(numberText(value), ''), value);
   assert.ok(numberText(1 / 3).length <= 9);
 });
 
-// A store without memory management, to compare with.
+// Reference implementation of Store.
 class Plain {
   rows = [];
   dropped = 0;
@@ -112,7 +112,7 @@ function same(store, plain) {
     assert.deepEqual([...store.column(c)], plain.rows.map((row) => row[c + 1]));
 }
 
-test('a store keeps the newest rows, as a plain list would', () => {
+test('store: equals the reference implementation for random operations', () => {
   const next = random(3);
   const store = new Store(2, 50);
   const plain = new Plain(50);
@@ -125,7 +125,7 @@ test('a store keeps the newest rows, as a plain list would', () => {
       plain.rows = plain.rows.filter((row) => row[0] <= time);
     } else {
       if (what < 0.9) time += next();
-      const asked = what > 0.97 ? time - 1 : time; // sometimes too late
+      const asked = what > 0.97 ? time - 1 : time; // sometimes earlier than the last row
       const values = [next(), next() < 0.1 ? NaN : next()];
       const put = store.add(asked);
       if (put) values.forEach((value, c) => put(c, value));
@@ -138,7 +138,7 @@ test('a store keeps the newest rows, as a plain list would', () => {
   assert.equal(store.dropped, plain.dropped);
 });
 
-test('a copy has what is later, and one row more, and stays as it is', () => {
+test('store: a copy has the later rows and one more, and does not change', () => {
   const store = new Store(1, 10);
   for (let i = 0; i < 14; ++i) store.add(i)(0, 10 * i);
   const copy = store.copy(8.5);
@@ -147,7 +147,7 @@ test('a copy has what is later, and one row more, and stays as it is', () => {
   assert.deepEqual([...copy.column(0)], [80, 90, 100, 110, 120, 130]);
 });
 
-test('thinning loses no peak and keeps time in order', () => {
+test('decimation keeps minima, maxima and the order of time', () => {
   const next = random(5);
   const values = Float64Array.from({ length: 5000 }, () => next() ** 9);
   const times = Float64Array.from(values, (_, i) => 0.01 * i);
@@ -165,7 +165,7 @@ test('thinning loses no peak and keeps time in order', () => {
   }
 });
 
-test('curves do not shiver: thinned points stay when rows come and go', () => {
+test('decimation: points do not change when rows are added and dropped', () => {
   const store = new Store(1, 400);
   const next = random(7);
   const seen = new Map(); // begin of a bucket -> its points
@@ -184,19 +184,19 @@ test('curves do not shiver: thinned points stay when rows come and go', () => {
   }
 });
 
-test('what has no value makes a gap', () => {
+test('decimation: NaN makes a gap', () => {
   const values = Float64Array.from([1, NaN, NaN, NaN, NaN, 2, 3, NaN]);
   assert.deepEqual(outline(values, bucketsOf(0, 8, 0, 4)), [1, 1, null, null, 2, 2, 3, 3]);
   assert.deepEqual(outline(values, bucketsOf(0, 3, 0, 4)), [1, null, null]);
 });
 
-test('a table reads back bit by bit', () => {
+test('CSV: numbers are read back bit by bit', () => {
   const next = random(11);
   const rows = Array.from({ length: 40 }, () => [next() * 1e-7, -next() * 1e12, next() < 0.3 ? NaN : next()]);
   const names = ['time', 'contact/"a",b', 'line\nend'];
   const columns = names.map((name, c) => ({ name, unit: c === 0 ? 's' : '', value: (row) => rows[row][c] }));
   const text = csvText(columns, rows.length);
-  // RFC 4180, read letter by letter.
+  // Parser of RFC 4180.
   const read = [[]];
   let field = '';
   let quoted = false;
@@ -243,10 +243,10 @@ const frame = (time, a, b, number = 1, extra = []) => ({
   works: Float64Array.from([3 * time, -time]),
 });
 
-test('the running largest and mean error are those of all that was seen, at uneven times', () => {
+test('record: maximum and mean error over all frames, at uneven times', () => {
   const next = random(13);
-  const record = new RunRecord(scene(), 30); // less than what comes
-  const [{ most, mean }] = record.errors;
+  const record = new RunRecord(scene(), 30); // fewer than the frames
+  const [{ max, mean }] = record.errors;
   let time = 0;
   let largest = 0;
   let area = 0;
@@ -259,13 +259,13 @@ test('the running largest and mean error are those of all that was seen, at unev
     area += now * passed;
     record.addFrame(frame(time, a, b));
     const row = record.store.length - 1;
-    assert.equal(record.store.value(most, row), largest);
+    assert.equal(record.store.value(max, row), largest);
     if (i > 0) assert.ok(Math.abs(record.store.value(mean, row) - area / time) < 1e-12);
     assert.ok(Math.abs(record.store.value(record.sum, row) - 2 * time) < 1e-9);
   }
 });
 
-test('going back leaves the branch beside the run, whichever message comes first', () => {
+test('record: a new branch keeps the previous one, in either order of messages', () => {
   for (const stateFirst of [true, false]) {
     const record = new RunRecord(scene());
     for (let i = 0; i <= 100; ++i) record.addFrame(frame(i, i, 0));
@@ -284,12 +284,12 @@ test('going back leaves the branch beside the run, whichever message comes first
   }
 });
 
-test('frames of the past and of other scenes are not remembered twice', () => {
+test('record: earlier instants and other scenes are ignored', () => {
   const record = new RunRecord(scene());
   for (let i = 0; i <= 10; ++i) record.addFrame(frame(i, i, 0));
   record.addFrame({ ...frame(4, 99, 0), lookedBack: true });
   record.addFrame({ ...frame(40, 99, 0), scene: 8 });
-  record.addFrame(frame(10, 11, 0)); // it stands, and something was changed
+  record.addFrame(frame(10, 11, 0)); // changed while paused
   assert.equal(record.store.length, 11);
   assert.equal(record.store.value(0, 10), 11);
 });
@@ -306,7 +306,7 @@ function history(frames, width) {
   return buffer;
 }
 
-test('what was missed is filled in, and what came later stays', () => {
+test('record: missed frames are filled in, later ones stay', () => {
   const all = Array.from({ length: 50 }, (_, i) => frame(i, Math.sin(i), 0, i));
   const whole = new RunRecord(scene());
   for (const one of all) whole.addFrame(one);
@@ -324,7 +324,7 @@ test('what was missed is filled in, and what came later stays', () => {
   assert.equal(decodeHistory(new ArrayBuffer(8)), null);
 });
 
-test('pairs that begin to touch get a column, and nothing is forgotten', () => {
+test('record: a new contact pair adds a column', () => {
   const record = new RunRecord(scene());
   for (let i = 0; i <= 20; ++i) record.addFrame(frame(i, i, 0, i));
   record.onState({ branch: { from: 15, changes: [], number: 1 } });
@@ -341,7 +341,7 @@ test('pairs that begin to touch get a column, and nothing is forgotten', () => {
   assert.equal(grown.lost, null);
 });
 
-test('plots show what moves and acts, in colours that stay', () => {
+test('plots: nonzero quantities, with stable colours', () => {
   const pairs = ['x', 'y', 'z'].map((of) => ({ name: `contact/${of}`, unit: 'N', kind: 'contact', of }));
   const record = new RunRecord(scene(pairs));
   const specs = new PlotSpecs(record);
@@ -359,7 +359,7 @@ test('plots show what moves and acts, in colours that stay', () => {
   assert.deepEqual(named('angles').curves.map((curve) => curve.style), ['line', 'dashed']);
 });
 
-test('lanes have a plot for each quantity, with a curve each in the lane’s own colour', () => {
+test('plots: one per quantity of the variants, one curve per variant', () => {
   const values = ['rk4', 'a/b'];
   const quantities = [['q/hinge', 'rad'], ['total_energy', 'J'], ['numerical', 'J']];
   const lanes = values.flatMap((of) =>
@@ -379,19 +379,19 @@ test('lanes have a plot for each quantity, with a curve each in the lane’s own
     assert.deepEqual(spec.curves.map(({ color }) => color), [0, 1]);
   }
   assert.deepEqual(all[1].curves.map(({ column }) => column), [2, 5]);
-  assert.equal(all.find(({ id }) => id === 'angles'), undefined); // they stand there already
+  assert.equal(all.find(({ id }) => id === 'angles'), undefined); // shown per variant
 });
 
-test('which hand is chosen follows from how it was asked for, not from its description', () => {
-  const hand = (source, spec, felt) => chosen({ source, spec, felt, mapping: '', q: [] });
-  assert.equal(hand('drag', '', 'a trace of a synthetic hand'), 'drag');
-  assert.equal(hand('device', 'virtual:synthetic:7', 'other words'), 'synthetic');
-  assert.equal(hand('device', 'virtual:trace:a.csv', 'other words'), 'trace');
-  assert.equal(hand('device', 'vrpn:Phantom0@localhost', 'synthetic'), 'device');
-  assert.equal(hand('device', 'gamepad', ''), 'device');
+test('input source follows from the spec, not from the description', () => {
+  const source = (source, spec, felt) => chosen({ source, spec, felt, mapping: '', q: [] });
+  assert.equal(source('drag', '', 'a trace of a synthetic motion'), 'drag');
+  assert.equal(source('device', 'virtual:synthetic:7', 'other words'), 'synthetic');
+  assert.equal(source('device', 'virtual:trace:a.csv', 'other words'), 'trace');
+  assert.equal(source('device', 'vrpn:Phantom0@localhost', 'synthetic'), 'device');
+  assert.equal(source('device', 'gamepad', ''), 'device');
 });
 
-test('whether a file is open or kept is told by the status of the answer, not by its text', async () => {
+test('upload: the HTTP status determines the result, not the text', async () => {
   const answered = (status) => {
     globalThis.fetch = async () => new Response('words', { status });
     return post(new File([], 'a.toml')).then(({ state }) => state);

@@ -1,5 +1,5 @@
-// What the lab's view computes without a browser: frames as they come, and points that a pointer
-// leads. Run by test_lab_logic.py: node --test lab_view.mjs, MODULES in the environment.
+// The lab's 3-D view without a browser: decoding of frames, dragged points. Run by test_lab_logic.py: node --test
+// lab_view.mjs, MODULES in the environment.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
@@ -8,7 +8,7 @@ const page = await import(pathToFileURL(process.env.MODULES).href);
 const { decodeFrame, labelText, placeOf, decodeMesh, inWorld, inLink, THREE } = page;
 const { PointDrag, JointDrag, Pace } = page;
 
-// A frame by the protocol's table, written down here once more.
+// Independent copy of the protocol's table.
 const ORDER = [
   ['channels', Float64Array], ['works', Float64Array], ['link', Float32Array], ['twin', Float32Array],
   ['position', Float32Array], ['scale', Float32Array], ['turn', Int16Array],
@@ -49,7 +49,7 @@ const frame = {
   color: [1, 2, 3, 255], flags: [1], shininess: [80], texture: [0], text: [...text],
 };
 
-test('a frame is read as the protocol has it, without a copy', () => {
+test('frame: all arrays are decoded, without a copy', () => {
   const buffer = bytesOf(frame);
   const read = decodeFrame(buffer);
   for (const [name, Kind] of ORDER) {
@@ -64,7 +64,7 @@ test('a frame is read as the protocol has it, without a copy', () => {
   assert.equal(placeOf(read.twin, 0), null);
 });
 
-test('a frame that was cut off anywhere is none, and nothing throws', () => {
+test('frame: truncated data gives null', () => {
   const whole = bytesOf(frame);
   for (let size = 0; size < whole.byteLength; ++size)
     assert.equal(decodeFrame(whole.slice(0, size)), null, `${size} bytes`);
@@ -73,7 +73,7 @@ test('a frame that was cut off anywhere is none, and nothing throws', () => {
   assert.equal(decodeFrame(other), null);
 });
 
-test('a mesh is read as the protocol has it', () => {
+test('mesh: all arrays are decoded', () => {
   const out = Buffer.alloc(16 + 4 * (3 + 3 + 2 + 3));
   [1, 3, 3, 0].forEach((word, i) => out.writeUInt32LE(word, 4 * i));
   [1, 2, 3, 0, 0, 1, 0.25, 0.5].forEach((value, i) => out.writeFloatLE(value, 16 + 4 * i));
@@ -87,8 +87,8 @@ test('a mesh is read as the protocol has it', () => {
 
 const near = (a, b, limit, words) => assert.ok(Math.abs(a - b) < limit, `${words ?? ''} ${a} ${b}`);
 
-test('link axes and world axes lead to one another', () => {
-  const half = Math.SQRT1_2; // a quarter turn about z at (1, 2, 3): x goes to y
+test('link axes and world axes are inverse transforms', () => {
+  const half = Math.SQRT1_2; // rotation by 90 degrees about z at (1, 2, 3)
   const places = Float32Array.from([0, 0, 0, 0, 0, 0, 1, 1, 2, 3, 0, 0, half, half]);
   const world = inWorld(places, 1, [0.5, 0, 0.25]);
   [1, 2.5, 3.25].forEach((value, i) => near(world.toArray()[i], value, 1e-6));
@@ -111,7 +111,7 @@ function stageAt(eye) {
 const EYES = [[2, -1, 1], [0.3, 2, 0.2], [-1.5, -1.5, 2.5], [0.1, 0.05, 3]];
 const START = [0.3, -0.1, 0.35];
 
-test('a point on the drag stays as far from the pointer as it was taken, in the plane of the view', () => {
+test('point drag: constant offset from the pointer, in the plane of the view', () => {
   for (const eye of EYES) {
     const stage = stageAt(eye);
     const goal = new THREE.Vector3(...START);
@@ -126,7 +126,7 @@ test('a point on the drag stays as far from the pointer as it was taken, in the 
   }
 });
 
-test('with shift only the height changes; back without it, nothing jumps', () => {
+test('point drag: shift changes the height only, without a jump after it', () => {
   for (const eye of EYES) {
     const stage = stageAt(eye);
     const begin = stage.project(...START);
@@ -140,7 +140,7 @@ test('with shift only the height changes; back without it, nothing jumps', () =>
   }
 });
 
-test('the wheel leads along the line of sight', () => {
+test('point drag: the wheel moves along the line of sight', () => {
   const stage = stageAt(EYES[0]);
   const begin = stage.project(...START);
   const drag = new PointDrag(stage, new THREE.Vector3(...START), begin);
@@ -152,8 +152,8 @@ test('the wheel leads along the line of sight', () => {
   near(end.y, begin.y, 1e-6);
 });
 
-// Where the point moves along the line of sight, no pixel says how far.
-test('a joint goes to where the grabbed point is under the pointer, from sides that show it', () => {
+// Only from views in which the motion is visible.
+test('joint drag: the grabbed point follows the pointer', () => {
   const axes = [
     { direction: [0, 0, 1], slides: false }, { direction: [0, 1, 0], slides: false },
     { direction: [0.6, 0, 0.8], slides: true },
@@ -177,7 +177,7 @@ test('a joint goes to where the grabbed point is under the pointer, from sides t
     }
 });
 
-test('a joint stops at its limits and needs none', () => {
+test('joint drag: joint limits', () => {
   const stage = stageAt(EYES[0]);
   const axis = { origin: new THREE.Vector3(), direction: new THREE.Vector3(0, 0, 1), slides: false };
   const drag = new JointDrag(stage, axis, new THREE.Vector3(...START), 0, { low: -0.1, high: 0.1 });
@@ -186,7 +186,7 @@ test('a joint stops at its limits and needs none', () => {
   assert.equal(Math.abs(drag.move({ x: x - 300, y })), 0.1);
 });
 
-test('pictures that come slowly for a while ask for coarser ones; a pause does not', () => {
+test('frame rate: slow drawing is detected, a pause is not', () => {
   const asked = (times) => {
     const pace = new Pace();
     return times.map((time) => pace.painted(time)).filter(Boolean).length;

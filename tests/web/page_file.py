@@ -1,4 +1,4 @@
-"""A page as the program wrote it, read without a browser."""
+"""Data of a page, read without a browser."""
 import array
 import base64
 import json
@@ -20,7 +20,7 @@ def main():
 
 
 def setUpModule():
-    """Of files that test pages: none is there where the program was built without them."""
+    """Skips the file if the program was built without pages."""
     with tempfile.TemporaryDirectory() as folder:
         done = program.run("inspect", "assets/robots/s103/s103.urdf", "--html", f"{folder}/page.html")
         if done.returncode == 2 and "there is no page to fill in" in done.stderr:
@@ -28,7 +28,7 @@ def setUpModule():
 
 
 def page_browser():
-    """Drawn by the processor: where nobody looks, a small window is quicker."""
+    """A small window is faster in software rendering."""
     return Browser(*((1280, 720) if PageTest.pictures else (840, 480)))
 
 
@@ -41,7 +41,7 @@ class PageTest(unittest.TestCase):
 
 
 def with_arrays(value, block):
-    """The page's JSON with its arrays in the place of what points to them."""
+    """Replaces references to arrays in the page's JSON by the arrays."""
     if isinstance(value, list):
         return [with_arrays(item, block) for item in value]
     if not isinstance(value, dict):
@@ -54,7 +54,7 @@ def with_arrays(value, block):
 
 
 def png(rows):
-    """The bytes of a picture; rows of (red, green, blue)."""
+    """PNG of rows of (red, green, blue)."""
     def chunk(kind, data):
         body = kind + data
         return len(data).to_bytes(4, "big") + body + zlib.crc32(body).to_bytes(4, "big")
@@ -65,7 +65,7 @@ def png(rows):
 
 
 def data_of(html):
-    """What the page carries."""
+    """Embedded data of the page."""
     text = re.search(r'<script type="application/json" id="run">(.*?)</script>', html, re.S)
     block = re.search(r'id="run-bytes">(.*?)</script>', html, re.S)
     return with_arrays(json.loads(text[1]), zlib.decompress(base64.b64decode(block[1])))

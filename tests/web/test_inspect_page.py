@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of `inspect --html`: the JSON of `inspect --json`, and a walk through the passes.
+"""Page of `inspect --html`: JSON of `inspect --json`, and steps through the passes.
 
     test_inspect_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]
 """
@@ -25,33 +25,33 @@ class InspectPage(PageTest):
         state.write_text(json.dumps(STATE), encoding="utf-8")
         cls.file = folder / "page.html"
         done = twinarm("inspect", ROBOT, "--state", state, "--json", "--html", cls.file)
-        cls.told = json.loads(done.stdout)
+        cls.exported = json.loads(done.stdout)
         cls.html = cls.file.read_text(encoding="utf-8")
         cls.page = data_of(cls.html)
 
-    def test_it_carries_what_json_tells(self):
-        self.assertEqual(json.loads(self.page["inspection"]), self.told)
+    def test_data_equals_the_json_output(self):
+        self.assertEqual(json.loads(self.page["inspection"]), self.exported)
 
-    def test_each_body_has_a_layer_of_its_own_and_together_they_are_the_robot(self):
+    def test_each_body_has_a_layer(self):
         def entries(layer):
             return len(layer["instances"]["mesh"])
         apart = {layer["name"]: entries(layer) for layer in self.page["layers"]
                  if layer["name"].startswith("body/")}
-        bodies = {step["body"] for step in self.told["passes"]}
+        bodies = {step["body"] for step in self.exported["passes"]}
         self.assertEqual(set(apart), {f"body/{name}" for name in bodies} | {"body/world"})
         whole = next(layer for layer in self.page["layers"] if layer["name"] == "bodies")
         self.assertEqual(sum(apart.values()), entries(whole))
         self.assertGreater(apart["body/arm2"], 0)
 
-    def test_it_asks_nobody_for_anything_and_is_small(self):
+    def test_no_requests_and_small(self):
         self.assertIn("default-src 'none'", self.html)
         self.assertLess(len(self.html), 5e6)
 
     @unittest.skipUnless(find_browser(), NO_BROWSER)
-    def test_keys_step_through_the_passes_and_show_the_numbers(self):
+    def test_keys_step_through_the_passes(self):
         with page_browser() as browser:
             browser.open(self.file.as_uri())
-            steps = self.told["passes"]
+            steps = self.exported["passes"]
             wanted = [(step["pass"], step["body"]) for step in steps]
             walked = []
             for _ in steps:
@@ -72,7 +72,7 @@ class InspectPage(PageTest):
             self.assertEqual(browser.errors, [])
 
     def check_numbers(self, browser, step):
-        """All digits stand where the pointer rests."""
+        """Tooltips have all digits."""
         shown = browser.evaluate(
             "Object.fromEntries([...document.querySelectorAll('[data-quantity]')].map(card => "
             "[card.dataset.quantity, [...card.querySelectorAll('[title]')].map(e => e.title)]))")

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The lab without a mouse: each stop of the tab key shows itself and has a name for ears; time,
-branch, knobs, overlays, hand, scenes, files and glass by keys alone; dialogs give the focus back.
+"""The lab by keyboard: each tab stop is visible and has an accessible name; time, branch, parameters,
+overlays, input, scenes, files and inspector; dialogs restore the focus.
 
     test_lab_keyboard.py PATH/TO/twinarm
 """
@@ -8,7 +8,7 @@ from lab_case import STATE, LabCase, main
 
 AT = "document.activeElement"
 HAS_FOCUS = f"{AT} !== null && {AT} !== document.body"
-MOST = 160  # stops
+MAX_STOPS = 160
 
 
 class Keyboard(LabCase):
@@ -21,15 +21,15 @@ class Keyboard(LabCase):
             self.page.press(letter)
 
     def tab_to(self, selector, shift=False):
-        """By the tab key alone."""
-        for _ in range(MOST):
+        """Presses tab until the focus is there."""
+        for _ in range(MAX_STOPS):
             if self.value(f"{AT}.matches({selector!r})"):
                 return
             self.page.press("Tab", shift)
         self.fail(f"the tab key does not come to {selector}")
 
     def at_focus(self):
-        """Role and name, as a screen reader tells them; whether it is seen; its place on the page."""
+        """Accessible role and name; has a focus ring; is inside the window; index in the document."""
         found = self.page.call("Runtime.evaluate", expression=AT)["result"]["objectId"]
         tree = self.page.call("Accessibility.getPartialAXTree", objectId=found, fetchRelatives=False)
         node = tree["nodes"][0]
@@ -42,20 +42,20 @@ class Keyboard(LabCase):
         text = {key: node.get(key, {}).get("value", "") for key in ("role", "name")}
         return text["role"], text["name"], seen, inside, number
 
-    def test_each_stop_of_the_tab_key_is_seen_and_has_a_name(self):
+    def test_each_tab_stop_is_visible_and_has_a_name(self):
         self.page.call("Accessibility.enable")
-        for tab in ("Knobs", "Plots", "Glass", "Ledger"):
+        for tab in ("Parameters", "Plots", "Inspector", "Energy"):
             with self.subTest(tab):
                 self.value(f"{AT}.blur(); twinarm.page.showTab({tab!r}); twinarm.page.send({{do: 'play', on: false}})")
                 self.page.frames(30)
                 stops = []
-                for _ in range(MOST):
+                for _ in range(MAX_STOPS):
                     self.page.press("Tab")
                     if not self.value(HAS_FOCUS) or (stops and self.at_focus()[4] == stops[0][4]):
                         break
                     stops.append(self.at_focus())
                 self.assertGreater(len(stops), 15)
-                self.assertLess(len(stops), MOST)
+                self.assertLess(len(stops), MAX_STOPS)
                 for role, name, seen, inside, _ in stops:
                     self.assertTrue(name.strip(), f"a {role} without a name")
                     self.assertNotIn(role, ("generic", "none"), name)
@@ -63,10 +63,10 @@ class Keyboard(LabCase):
                 numbers = [stop[4] for stop in stops]
                 self.assertEqual(numbers, sorted(numbers))
                 names = [stop[:2] for stop in stops if stop[0] != "radio"]  # of named groups
-                if tab == "Knobs":  # of many couplings
+                if tab == "Parameters":  # of several couplings
                     self.assertEqual(sorted(set(names)), sorted(names))
 
-    def test_time_goes_back_and_on_in_a_branch_and_dialogs_give_the_focus_back(self):
+    def test_seek_branch_and_dialogs_restore_the_focus(self):
         self.until(f"{STATE}.time > 1.5")
         self.keys(" ")
         self.until(f"!{STATE}.playing")
@@ -91,13 +91,13 @@ class Keyboard(LabCase):
             self.until("!document.querySelector('dialog[open]')")
             self.assertTrue(self.value("before === document.activeElement"), dialog)
 
-    def test_knobs_are_turned_and_presets_and_tabs_chosen(self):
+    def test_parameters_presets_and_tabs(self):
         self.tab_to("[role=tab]")
         self.keys("ArrowRight")
         self.until(f"{AT}.textContent === 'Plots' && {AT}.getAttribute('aria-selected') === 'true'")
         self.keys("Home")
-        self.until(f"{AT}.textContent === 'Knobs'")
-        self.tab_to("#knob-coupling-0--stiffness")
+        self.until(f"{AT}.textContent === 'Parameters'")
+        self.tab_to("#parameter-coupling-0--stiffness")
         self.type("777")
         self.keys("Enter")
         self.until(f"{STATE}.knobs.find(k => k.path === 'coupling[0].stiffness').value === 777")
@@ -105,14 +105,14 @@ class Keyboard(LabCase):
         self.assertEqual(self.value(f"{AT}.type"), "range")
         self.keys("ArrowRight")
         self.until(f"{STATE}.knobs.find(k => k.path === 'coupling[0].stiffness').value === 855")
-        self.tab_to(".knobs > button")
+        self.tab_to(".parameters > button")
         self.keys("Enter")
         self.until(f"{STATE}.changes.length === 0")
         self.tab_to(".presets button:nth-child(3)", shift=True)
         self.keys("Enter")
         self.until(f"{STATE}.name === 'E3'")
 
-    def test_overlays_files_and_scenes_are_chosen_and_closed_where_they_were_opened(self):
+    def test_overlays_files_and_scenes_open_and_restore_the_focus(self):
         self.keys("o")
         self.tab_to(".overlays [data-layer=frames]")
         self.keys(" ")
@@ -140,7 +140,7 @@ class Keyboard(LabCase):
         self.until(f"{STATE}.name === {chosen!r}")
         self.assertFalse(self.value("document.querySelector('dialog.gallery').open"))
 
-    def test_the_hand_joints_a_body_and_the_glass(self):
+    def test_end_effector_joints_spring_and_inspector(self):
         self.keys("j")
         self.until(f"{AT}.matches('.grip')")
         self.keys("ArrowUp", "ArrowUp", "ArrowUp")
@@ -150,13 +150,13 @@ class Keyboard(LabCase):
         self.keys("Escape", "m")
         self.until("twinarm.page.selected !== null")
         self.keys("x", "ArrowUp", "ArrowUp")
-        self.until("twinarm.page.keys.pulling !== null")
+        self.until("twinarm.page.keys.spring !== null")
         self.keys("x", " ", "i")
-        self.until("document.querySelector('.glass').checkVisibility() && "
-                   "document.querySelector('.glass .place').textContent.startsWith('step')")
-        before = self.value("document.querySelector('.glass .place').textContent")
+        self.until("document.querySelector('.inspector').checkVisibility() && "
+                   "document.querySelector('.inspector .place').textContent.startsWith('step')")
+        before = self.value("document.querySelector('.inspector .place').textContent")
         self.keys(".")
-        self.until(f"document.querySelector('.glass .place').textContent !== {before!r}")
+        self.until(f"document.querySelector('.inspector .place').textContent !== {before!r}")
         self.keys("Escape")
         self.assertIsNone(self.value("twinarm.page.selected"))
 

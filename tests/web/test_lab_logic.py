@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the lab's page computes without a browser, in Node.
+"""Logic of the lab's page without a browser, in Node.
 
     test_lab_logic.py FOLDER_OF_MODULES
 """
@@ -17,7 +17,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SOURCE = HERE.parents[1] / "app" / "web" / "src"
 MODULES = pathlib.Path(sys.argv.pop(1)).resolve()
 NODE = shutil.which("node") or shutil.which("nodejs")
-# What is tested, and of which modules.
+# Test files and the modules that they test.
 PARTS = {
     "lab_logic": ("ui/scale", "source/store", "source/run_record", "plot/export", "plot/specs",
                   "panels/input_bar", "panels/gallery"),
@@ -36,12 +36,12 @@ await esbuild.build({ entryPoints: [entry], outfile: out, bundle: true, format: 
 class LabLogic(unittest.TestCase):
     @unittest.skipUnless(NODE and (MODULES / "esbuild").is_dir(),
                          "the program was built without its pages: scripts/setup --web, then build")
-    def test_it_holds_what_its_sentences_say(self):
-        for sentences, parts in PARTS.items():
-            with self.subTest(sentences):
-                self.run_in_node(sentences, parts)
+    def test_node_tests(self):
+        for file, parts in PARTS.items():
+            with self.subTest(file):
+                self.run_in_node(file, parts)
 
-    def run_in_node(self, sentences, parts):
+    def run_in_node(self, file, parts):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             (folder / "bundle.mjs").write_text(BUNDLE, encoding="utf-8")
@@ -51,7 +51,7 @@ class LabLogic(unittest.TestCase):
             out = folder / "lab.mjs"
             subprocess.run([NODE, folder / "bundle.mjs", MODULES, folder / "entry.ts", out],
                            check=True, timeout=TIMEOUT)
-            done = subprocess.run([NODE, "--test", HERE / f"{sentences}.mjs"], check=False,
+            done = subprocess.run([NODE, "--test", HERE / f"{file}.mjs"], check=False,
                                   env={**os.environ, "MODULES": str(out)}, timeout=TIMEOUT,
                                   capture_output=True, text=True)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""The lab's page in a real browser: a newcomer's first minutes, hand, knobs, time, files.
+"""The lab's page in a browser: input, parameters, time, files.
 
     test_lab_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]
 """
 import csv
 import json
 
-from lab_case import KNOB, STATE, Lab, LabCase, main
+from lab_case import PARAMETER, STATE, Lab, LabCase, main
 from program import data, twinarm
 from waiting import wait_for
 
 ROD = data("rod.urdf")
 
-# Texts that are seen with less than WCAG's 4.5 (3 where they are large); disabled ones may be faint.
+# Visible texts with less contrast than WCAG's 4.5 (large ones: 3), without disabled controls.
 FAINT = """(() => {
   const parts = text => (text.match(/[\\d.]+/g) ?? [0, 0, 0, 0]).map((part, i) =>
     part * (text.startsWith('color(') && i < 3 ? 255 : 1));  // color(srgb 0.5 ..) of a mixture
@@ -46,7 +46,7 @@ FAINT = """(() => {
 
 
 class LabPage(LabCase):
-    def test_the_dynamic_robot_follows_a_tip_that_is_dragged(self):
+    def test_robot_follows_a_dragged_end_effector(self):
         self.until("document.querySelector('h1').textContent.includes('ten obstacles')")
         self.picture("start")
         before = self.channel("q/joint1")
@@ -57,12 +57,12 @@ class LabPage(LabCase):
         self.assertAlmostEqual(self.channel("q/joint1"), self.channel("target/joint1"), delta=0.5)
         self.mouse("mouseReleased", end)
 
-    def test_a_body_is_selected_and_looked_into_and_overlays_come_and_go(self):
+    def test_inspector_follows_the_selection_and_overlays_toggle(self):
         self.value("twinarm.page.select(2)")
-        self.click("Glass")
+        self.click("Inspector")
         self.until("document.querySelector('aside').textContent.includes('arm1')")
         self.until("document.querySelectorAll('aside math').length > 0")
-        self.picture("glass")
+        self.picture("inspector")
         self.click("Show")
         shown = "twinarm.page.overlays.names"
         for name in ("frames", "inertia"):
@@ -74,20 +74,20 @@ class LabPage(LabCase):
             self.until(f"{shown}.includes({name!r})")
             self.until(f"{count} > 0")
         self.picture("overlays")
-        self.page.open(self.url)  # a page that reloads finds everything as it was
+        self.page.open(self.url)  # a reloaded page has the same overlays
         self.until(f"{shown}.includes('frames')")
 
-    def test_beyond_the_limit_it_stops_says_why_and_the_remedy_holds(self):
+    def test_beyond_the_stability_limit_the_run_diverges_and_the_first_remedy_is_stable(self):
         self.until(f"{STATE}.time > 0.5")
         self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].treatment=explicit']})")
         self.until(f"{STATE}.changes.length === 1")
         self.until(f"{STATE}.knobs.find(k => k.path === 'coupling[0].stiffness').limit?.value > 0")
         limit = self.value(f"{STATE}.knobs.find(k => k.path === 'coupling[0].stiffness').limit.value")
-        self.type_into(KNOB % "stiffness", f"{0.9 * limit:.3g}")
+        self.type_into(PARAMETER % "stiffness", f"{0.9 * limit:.3g}")
         self.until("document.querySelector('.predicted .near')")
         self.assertIsNone(self.value(f"{STATE}.dead"))
         self.picture("amber")
-        self.type_into(KNOB % "stiffness", f"{20 * limit:.3g}")
+        self.type_into(PARAMETER % "stiffness", f"{20 * limit:.3g}")
         self.until(f"{STATE}.changes.length === 2")
         self.value("twinarm.page.send({do: 'pull', body: 3, point: [0, 0, 0], goal: [1, 1, 1]})")
         self.until(f"{STATE}.dead")
@@ -99,7 +99,7 @@ class LabPage(LabCase):
         self.until(f"{STATE}.time > {then} + 1")
         self.assertIsNone(self.value(f"{STATE}.dead"))
 
-    def test_time_goes_back_and_on_in_a_branch(self):
+    def test_seek_and_branch(self):
         self.until(f"{STATE}.time > 3")
         bar = "document.querySelector('input[type=range][title^=instant], " \
               "input[type=range][aria-label^=instant]')"
@@ -115,7 +115,7 @@ class LabPage(LabCase):
         self.assertAlmostEqual(self.value(f"{STATE}.branch.from"), at, delta=0.1)
         self.until(f"{STATE}.time > {STATE}.branch.from + 0.5")
 
-    def test_a_robot_is_dropped_and_what_is_none_is_told_of(self):
+    def test_dropped_robots_open_and_other_files_are_rejected(self):
         for name in ("fresh.urdf", "arm.xml"):
             scene = self.value("twinarm.page.scene.scene")
             self.page.drop(name, ROD)
@@ -126,32 +126,32 @@ class LabPage(LabCase):
         for name, text, words in (("bad.urdf", ROD.replace('type="continuous"', 'type="bendy"'), "bendy"),
                                   ("ant.xml", '<mujoco model="ant"/>', "MJCF"),
                                   ("half.xacro", ROD.replace('value="1"', 'value="${m}"'), "xacro"),
-                                  ("photo.heic", "junk", ".urdf"), ("a.stl", "solid", "is kept")):
+                                  ("photo.heic", "junk", ".urdf"), ("a.stl", "solid", "is stored")):
             self.page.drop(name, text)
-            self.until(f"document.querySelector('.gallery .said').innerText.includes({words!r})")
-            self.until(f"document.querySelector('.gallery .said').innerText.includes({name!r})")
+            self.until(f"document.querySelector('.gallery .message').innerText.includes({words!r})")
+            self.until(f"document.querySelector('.gallery .message').innerText.includes({name!r})")
         self.picture("not_opened")
         self.assertEqual(self.value("twinarm.page.scene.file"), "arm.xml")
-        self.page.errors.clear()  # the browser's own words for 422
+        self.page.errors.clear()  # the browser's message for HTTP 422
 
-    def test_reset_knobs_sets_what_others_have_turned_too_and_the_run_goes_on(self):
+    def test_restore_resets_changes_of_all_clients_and_the_run_continues(self):
         first = self.value(f"{STATE}.knobs.map(k => [k.path, k.value])")
         self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].stiffness=321', "
                    "'step=0.0005', 'coupling[0].treatment=explicit']})")
         self.until(f"{STATE}.changes.length === 3")
-        self.page.open(self.url)  # a page that comes later has turned nothing
+        self.page.open(self.url)  # a new client
         self.until(f"{STATE} && {STATE}.time > 1")
-        self.until("document.querySelectorAll('.knob.turned').length === 3")
-        self.picture("turned")
+        self.until("document.querySelectorAll('.parameter.changed').length === 3")
+        self.picture("changed")
         scene, time_then = self.value(f"[twinarm.page.scene.scene, {STATE}.time]")
-        self.click("Reset knobs")
+        self.click("Reset")
         self.until(f"{STATE}.changes.length === 0")
         self.assertEqual(self.value(f"{STATE}.knobs.map(k => [k.path, k.value])"), first)
-        self.until("document.querySelectorAll('.knob.turned').length === 0")
+        self.until("document.querySelectorAll('.parameter.changed').length === 0")
         self.assertEqual(self.value("twinarm.page.scene.scene"), scene)
         self.assertGreater(self.value(f"{STATE}.time"), time_then)
 
-    def test_numbers_of_the_page_are_those_of_the_recording(self):
+    def test_csv_has_the_values_of_the_recording(self):
         self.click("Plots")
         self.drag_tip(-60, 0)
         self.until(f"{STATE}.time > 3")
@@ -165,9 +165,9 @@ class LabPage(LabCase):
         lab = Lab(self.url)
         recording = self.path / "saved"
         recording.write_bytes(lab.get("/save").body)
-        told = json.loads(twinarm("export", recording, "--json").stdout)
-        names = [column["name"] for column in told["columns"]]
-        frames = {round(f["t"], 9): dict(zip(names, f["values"])) for f in told["frames"]}
+        exported = json.loads(twinarm("export", recording, "--json").stdout)
+        names = [column["name"] for column in exported["columns"]]
+        frames = {round(f["t"], 9): dict(zip(names, f["values"])) for f in exported["frames"]}
         column = next(i for i, name in enumerate(head) if name.startswith("q/joint1"))
         both = 0
         for row in rows:
@@ -178,11 +178,11 @@ class LabPage(LabCase):
         self.assertGreater(both, 10)
         self.assertGreater(len(lab.get("/share").body), 100_000)
 
-    def test_the_page_forgets_the_plots_of_scenes_that_were_left(self):
+    def test_plots_of_previous_scenes_are_freed(self):
         self.click("Plots")
         names = ("pendulum", "gyroscope")
 
-        def go_round(times):
+        def open_scenes(times):
             for name in times * names:
                 self.value(f"twinarm.page.send({json.dumps({'do': 'scene', 'name': name})})")
                 self.until(f"{STATE}.name === {name!r} && twinarm.page.frame?.scene === twinarm.page.scene.scene")
@@ -190,13 +190,13 @@ class LabPage(LabCase):
                 self.page.frames(12)
             return self.page.heap()
 
-        first = go_round(2)
-        self.assertLess(go_round(5) - first, 1.5e6)  # charts that are kept: 0.3 MB for each scene
+        first = open_scenes(2)
+        self.assertLess(open_scenes(5) - first, 1.5e6)  # a leak of the charts: 0.3 MB per scene
 
-    def test_all_text_stands_out_from_what_is_behind_it(self):
+    def test_text_contrast(self):
         for dark in (False, True):
             self.value(f"twinarm.page.theme.set({json.dumps(dark)})")
-            for tab in ("Knobs", "Plots", "Ledger", "Glass"):
+            for tab in ("Parameters", "Plots", "Energy", "Inspector"):
                 self.value(f"twinarm.page.showTab({tab!r}); twinarm.page.select(3)")
                 self.page.frames(30)
                 self.assertEqual(self.value(FAINT), [], f"{tab}, dark: {dark}")
@@ -204,7 +204,7 @@ class LabPage(LabCase):
             self.assertEqual(self.value(FAINT), [], f"gallery, dark: {dark}")
             self.page.press("Escape")
 
-    def test_dark_and_on_a_tablet(self):
+    def test_dark_theme_and_tablet_layout(self):
         self.value("[...document.querySelectorAll('header button')].find(b => "
                    "b.title.startsWith('light')).click()")
         self.until("document.documentElement.dataset.theme === 'dark'")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The lab under fingers, in a real browser that says it has a touch screen.
+"""The lab with touch input, in a browser with an emulated touch screen.
 
     test_lab_touch.py PATH/TO/twinarm
 """
@@ -15,13 +15,13 @@ BODY = """(() => {
   const {x, y, width, height} = %s.getBoundingClientRect(), {drag} = twinarm.page;
   for (let v = .1; v < .9; v += .01) for (let u = .2; u < .8; u += .01) {
     const at = {x: u * width, y: v * height};
-    const found = drag.find(drag.seen(), at);
+    const found = drag.find(drag.view(), at);
     if (found.kind === 'body' && twinarm.page.scene.bodies[found.hit?.body]?.moves &&
         document.elementFromPoint(x + at.x, y + at.y) instanceof HTMLCanvasElement)
       return [x + at.x, y + at.y];
   }
   return null; })()""" % CANVAS
-SEEN = """(() => {
+VIEW = """(() => {
   const {x, y, width, height} = %s.getBoundingClientRect(), {live, state} = twinarm.page;
   const over = document.elementFromPoint(x + width / 2, y + height / 2)?.outerHTML.slice(0, 200);
   return JSON.stringify({x, y, width, height, over, camera: live.stage.camera.position,
@@ -49,16 +49,16 @@ class Touch(LabCase):
         return self.value("(r => [r.x + r.width / 2, r.y + r.height / 2])(%s.getBoundingClientRect())" % CANVAS)
 
     def body(self):
-        """A point of the view where a solid body that moves is seen, away from the ring."""
+        """A point of the view on a moving body, away from the ring."""
         deadline = time.monotonic() + self.page.timeout
         while (at := self.value(BODY)) is None:
             if time.monotonic() > deadline:
-                self.fail(f"no body that moves is seen: {self.value(SEEN)}")
+                self.fail(f"no moving body in the view: {self.value(VIEW)}")
             self.page.frames(2)
         return at
 
     def pinch(self, first, second, early=None):
-        """Fingers part by half as much again; `early`: the first moves there before the second comes."""
+        """Increases the distance of two fingers by 50 %; `early`: the first moves there before the second touches."""
         now = time.time()
         if early:
             self.page.touch("touchStart", [first], now - 0.15)
@@ -74,7 +74,7 @@ class Touch(LabCase):
         self.page.touch("touchEnd", [])
         self.page.frames(2)
 
-    def test_two_fingers_zoom_and_neither_turn_the_view_nor_pull_what_they_lie_on(self):
+    def test_two_fingers_zoom_without_rotation_or_spring_force(self):
         x, y = self.center()
         on_body = self.body()
         for name, first, second, early in (
@@ -96,7 +96,7 @@ class Touch(LabCase):
                 self.assertTrue(self.value("twinarm.page.live.stage.controls.enabled"))
                 self.value("twinarm.page.live.stage.look('start')")
 
-    def test_one_finger_turns_the_view_and_pulls_a_body(self):
+    def test_one_finger_rotates_the_view_and_applies_a_spring_force(self):
         _, y = self.center()
         around = self.value(CAMERA)[0]
         self.page.touch("touchStart", [(60, y)])
@@ -111,15 +111,15 @@ class Touch(LabCase):
         for i in range(1, 9):
             self.page.touch("touchMove", [(at[0] + 5 * i, at[1])])
             self.page.frames(1)
-        self.until("twinarm.page.drag.held?.kind === 'pull'")
+        self.until("twinarm.page.drag.held?.kind === 'spring'")
         self.page.touch("touchEnd", [])
         self.page.frames(2)
         self.assertIsNone(self.value("twinarm.page.drag.held"))
 
-    def test_whatever_is_touched_is_44_pixels_high_and_wide(self):
+    def test_touch_targets_have_44_pixels(self):
         self.assertTrue(self.value("matchMedia('(pointer: coarse)').matches"))
         self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].treatment=explicit']})")
-        for tab in ("Knobs", "Plots", "Glass", "Ledger"):
+        for tab in ("Parameters", "Plots", "Inspector", "Energy"):
             self.value(f"twinarm.page.showTab({tab!r}); twinarm.page.overlays.fold(false)")
             self.page.frames(20)
             self.assertEqual(self.value(SMALL), [], tab)

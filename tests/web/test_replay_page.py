@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The page of a recording: what it carries, and what a browser makes of it.
+"""Replay page: its data, and the page in a browser.
 
     test_replay_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]
 """
@@ -13,7 +13,7 @@ from page_file import PageTest, data_of, main, page_browser, png, setUpModule  #
 from program import SCENES, data, twinarm
 
 
-# What lies on the flag of tests/data, as who looks along y sees it.
+# Texture of the flag of tests/data, seen along y.
 RED, GREEN, BLUE = (230, 20, 20), (20, 200, 20), (20, 20, 230)
 CLOTH = [[RED] * 4 + [GREEN] * 4] * 4 + [[BLUE] * 8] * 4
 
@@ -27,13 +27,13 @@ def write_flag(folder):
 
 
 class Page:
-    """A recording of some scene, its page, and both read back."""
+    """A recording, its page, and the data of both."""
 
     def __init__(self, folder, scene, *options):
         self.recording = folder / f"{pathlib.Path(scene).stem}.twinrec"
         self.file = self.recording.with_suffix(".html")
         twinarm("simulate", scene, "--record", self.recording, "--json", *options)
-        self.said = json.loads(twinarm("export", self.recording, self.file, "--json").stdout)
+        self.report = json.loads(twinarm("export", self.recording, self.file, "--json").stdout)
         self.html = self.file.read_text(encoding="utf-8")
         self.run = data_of(self.html)
         self.exported = json.loads(twinarm("export", self.recording, "--json").stdout)
@@ -59,7 +59,7 @@ class Pages(PageTest):
 
 
 class Contents(Pages):
-    def test_all_numbers_are_those_of_the_recording(self):
+    def test_channels_and_works_equal_the_recording(self):
         for page in (self.arm, self.ball):
             frames = page.exported_frames()
             for i, column in enumerate(page.exported["columns"]):
@@ -73,13 +73,13 @@ class Contents(Pages):
             end = dict(zip(rows, map(float, page.run["ledger"]["end"])))
             self.assertEqual(end, {row: frames[-1]["ledger"].get(row, 0) for row in rows})
 
-    def test_the_first_and_the_last_recorded_frame_are_in_it(self):
+    def test_first_and_last_recorded_frame(self):
         for page in (self.arm, self.ball):
             times = [frame["t"] for frame in page.exported["frames"]]
             self.assertEqual((page.run["times"][0], page.run["times"][-1]), (times[0], times[-1]))
             self.assertEqual(page.run["times"], sorted(set(page.run["times"])))
 
-    def test_a_ball_is_drawn_where_it_was(self):
+    def test_ball_is_drawn_at_its_position(self):
         layer = self.ball.layer("bodies")["instances"]
         names = [f"links/ball/{axis}" for axis in "xyz"]
         moved = [self.ball.channel(name) for name in names]
@@ -90,7 +90,7 @@ class Contents(Pages):
             off = min(max(abs(a - b) for a, b in zip(p, wanted)) for p in places)
             self.assertLess(off, 1e-6)
 
-    def test_error_is_the_dynamic_less_the_kinematic_robot(self):
+    def test_tracking_error_is_actual_minus_target(self):
         errors = [c for c in self.arm.run["channels"] if c["kind"] == "error"]
         self.assertTrue(errors)
         for error in errors:
@@ -98,17 +98,17 @@ class Contents(Pages):
             pairs = zip(self.arm.channel(f"q/{of}"), self.arm.channel(f"target/{of}"))
             self.assertEqual(error["values"], [a - b for a, b in pairs])
 
-    def test_the_ledger_of_momentum_is_that_of_the_recording(self):
+    def test_momentum_balance_equals_the_recording(self):
         for page in (self.arm, self.ball):
             rows, values = page.run["momentum"]["rows"], page.run["momentum"]["values"]
             self.assertTrue(rows)
             for n, frame in enumerate(page.exported_frames()):
                 for i, row in enumerate(rows):
-                    told = frame["momentum"].get(row, {"linear": [0] * 3, "angular": [0] * 3})
+                    recorded = frame["momentum"].get(row, {"linear": [0] * 3, "angular": [0] * 3})
                     at = 6 * (n * len(rows) + i)
-                    self.assertEqual(values[at:at + 6], told["linear"] + told["angular"])
+                    self.assertEqual(values[at:at + 6], recorded["linear"] + recorded["angular"])
 
-    def test_command_and_settings_are_told(self):
+    def test_command_and_settings(self):
         facts = dict(self.arm.run["facts"])
         self.assertEqual(facts["step"], "1 ms")
         self.assertEqual(facts["integrator"], self.arm.exported["integrator"])
@@ -119,22 +119,22 @@ class Contents(Pages):
         scene = (SCENES / "robot_beside_obstacles.toml").read_text(encoding="utf-8")
         self.assertEqual(files["robot_beside_obstacles.toml"], scene)
 
-    def test_it_asks_nobody_for_anything_and_is_small(self):
+    def test_no_requests_and_small(self):
         for page in (self.arm, self.ball):
-            self.assertLess(page.said["bytes"], 5e6)
-            self.assertEqual(page.said["bytes"], page.file.stat().st_size)
+            self.assertLess(page.report["bytes"], 5e6)
+            self.assertEqual(page.report["bytes"], page.file.stat().st_size)
             self.assertIn("default-src 'none'", page.html)
             head = page.html[:page.html.index('id="run"')]
             self.assertNotRegex(head, r"""(src|href)\s*=\s*(?!"data:)|@import|url\(\s*['\"]?http""")
 
-    def test_licences_of_what_it_contains_are_in_it(self):
+    def test_licences_of_libraries(self):
         for words in ("three.js authors", "Leon Sorokin", "Permission is hereby granted"):
             self.assertIn(words, self.arm.html)
 
-    def test_wrong_names_and_options_are_refused_together(self):
-        said = twinarm("export", self.ball.recording, "page.txt", "--csv", code=2).stderr
-        self.assertIn("page.txt", said)
-        self.assertIn("--csv", said)
+    def test_all_wrong_options_are_reported(self):
+        errors = twinarm("export", self.ball.recording, "page.txt", "--csv", code=2).stderr
+        self.assertIn("page.txt", errors)
+        self.assertIn("--csv", errors)
         for place, word in (("/nonexistent/page.html", "mkdir"), ("/proc/page.html", "/proc")):
             self.assertIn(word, twinarm("export", self.ball.recording, place, code=2).stderr)
 
@@ -157,13 +157,13 @@ class InTheBrowser(Pages):
                   if not url.startswith((page.file.as_uri(), "data:", "blob:", "about:"))]
         self.assertEqual(others, [])
 
-    def test_it_opens_from_a_file_without_a_word_in_the_console(self):
+    def test_opens_from_a_file_without_console_messages(self):
         for dark in (False, True):
             browser = self.open(self.arm, "#t=1.5", dark=dark)
             self.picture(browser, f"arm_{'dark' if dark else 'light'}")
             self.check_quiet(browser, self.arm)
 
-    def test_numbers_read_back_in_the_page_are_those_of_the_recording(self):
+    def test_numbers_in_the_page_equal_the_recording(self):
         browser = self.open(self.arm)
         frames = self.arm.exported_frames()
         for i, column in enumerate(self.arm.exported["columns"]):
@@ -179,7 +179,7 @@ class InTheBrowser(Pages):
                                  ".map(cell => [cell.dataset.fact, cell.textContent]))")
         self.assertEqual(facts, dict(self.arm.run["facts"]))
 
-    def test_scrubbing_and_keys_move_the_clock_and_the_robot(self):
+    def test_slider_and_keys_seek(self):
         browser = self.open(self.arm)
         state = "window.twinarm.page.state"
         seen = []
@@ -210,7 +210,7 @@ class InTheBrowser(Pages):
         self.check_quiet(browser, self.arm)
 
     def pixels(self, browser):
-        """The picture of the stage, without plots and numbers."""
+        """Screenshot of the 3-D view."""
         browser.evaluate("document.querySelectorAll('.switches, .legend, .views, .labels')"
                          ".forEach(e => e.style.visibility = 'hidden')")
         box = browser.evaluate("(() => { const b = document.querySelector('.stage')"
@@ -218,7 +218,7 @@ class InTheBrowser(Pages):
         clip = dict(zip(("x", "y", "width", "height"), box), scale=1)
         return browser.call("Page.captureScreenshot", format="png", clip=clip)["data"]
 
-    def test_a_texture_lies_on_its_mesh_the_right_way_up(self):
+    def test_orientation_of_a_texture(self):
         browser = self.open(self.flag)
         browser.evaluate("[...document.querySelectorAll('.views button')]"
                          ".find(b => b.textContent === 'front').click()")
@@ -233,7 +233,7 @@ class InTheBrowser(Pages):
             self.assertEqual(got.index(max(got)), wanted.index(max(wanted)), got)
             self.assertGreater(max(got), 2 * sorted(got)[1], got)
 
-    def test_no_label_lies_under_what_stands_on_the_picture(self):
+    def test_labels_do_not_overlap_controls(self):
         browser = self.open(self.arm, "#t=1.5&show=labels,couplings,forces,joints,frames")
         hidden = """(() => {
             const box = (e) => e.getBoundingClientRect();
@@ -253,7 +253,7 @@ class InTheBrowser(Pages):
         self.assertGreater(max(seen), 3)
         self.picture(browser, "arm_labels")
 
-    def test_every_layer_can_be_shown_and_hidden(self):
+    def test_each_layer_toggles(self):
         browser = self.open(self.arm, "#t=1.5")
         names = browser.evaluate("[...document.querySelectorAll('[data-layer]')]"
                                  ".map(box => box.dataset.layer)")
@@ -274,7 +274,7 @@ class InTheBrowser(Pages):
                          {"bodies", *names})
         self.check_quiet(browser, self.arm)
 
-    def test_plots_ledger_and_settings_are_to_be_seen(self):
+    def test_plots_energy_and_setup_tabs(self):
         browser = self.open(self.arm, "#t=2")
         plots = browser.evaluate("[...document.querySelectorAll('.plot')].map(plot => plot.id)")
         self.assertLessEqual({"plot-angles", "plot-error", "plot-ledger", "plot-couplings",
@@ -288,7 +288,7 @@ class InTheBrowser(Pages):
         self.assertEqual(browser.evaluate("document.documentElement.dataset.theme"), "dark")
         self.check_quiet(browser, self.arm)
 
-    def test_a_drag_turns_the_view(self):
+    def test_drag_rotates_the_view(self):
         browser = self.open(self.ball, "#t=0.5")
         before = browser.evaluate("window.twinarm.page.state.eye")
         browser.drag((500, 400), (600, 380))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/ as a site: every page has a title, no link leads nowhere, formulas are set, the browser has nothing to say.
+"""docs/ as a site: titles, links, formulas, no console messages.
 
     test_site.py [FOLDER_FOR_PICTURES]
 """
@@ -25,7 +25,7 @@ HAS_GENERATOR = bool(shutil.which("sphinx-build") and pathlib.Path("/usr/share/j
 
 
 class Checker(unittest.TestCase):
-    """What check_site.py is there to find."""
+    """Errors that check_site.py finds."""
 
     def faults(self, **pages):
         with tempfile.TemporaryDirectory() as place:
@@ -33,18 +33,18 @@ class Checker(unittest.TestCase):
                 (pathlib.Path(place) / f"{name}.html").write_text(body)
             return check_site.faults_of(pathlib.Path(place).resolve())[0]
 
-    def test_pages_that_lead_to_each_other_are_right(self):
+    def test_valid_links(self):
         self.assertEqual(self.faults(a="<title>A</title><a href='b.html#here'>b</a><a href='https://example.org'>",
                                      b="<title>B</title><p id='here'><img src='data:image/png;base64,AA'>"), [])
 
-    def test_a_style_that_asks_for_what_is_not_there_is_told(self):
+    def test_missing_files_of_styles(self):
         with tempfile.TemporaryDirectory() as place:
             folder = pathlib.Path(place).resolve()
             (folder / "a.html").write_text("<title>A</title>")
             (folder / "a.css").write_text("@import url(b.css); p { background: url('data:image/png;base64,AA') }")
             self.assertEqual(check_site.faults_of(folder)[0], ["a.css: b.css leads nowhere"])
 
-    def test_each_fault_is_told(self):
+    def test_each_error_is_reported(self):
         title = "<title>A</title>"
         for body, said in (("<svg><title>picture</title></svg>", "no title"),
                            (title + "<a href='c.html'>", "leads nowhere"),
@@ -63,7 +63,7 @@ class Site(unittest.TestCase):
     def setUpClass(cls):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.site = pathlib.Path(cls.temporary.name) / "site"
-        # As scripts/generate/site does it, but for the look at the packages.
+        # As scripts/generate/site, without the check of packages.
         made = subprocess.run(["sphinx-build", "-q", "-W", "--keep-going", "-c", ROOT / "docs/site", "-d",
                                cls.site.parent / "doctrees", "-b", "html", ROOT / "docs", cls.site],
                               capture_output=True, text=True, timeout=TIMEOUT)
@@ -75,26 +75,26 @@ class Site(unittest.TestCase):
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
-    def test_every_page_has_a_title_and_every_link_an_end(self):
+    def test_titles_and_links(self):
         faults, pages, links = check_site.faults_of(self.site.resolve())
         self.assertEqual(faults, [])
         self.assertGreater(pages, 40)
         self.assertGreater(links, 1000)
 
-    def test_each_page_of_docs_is_there(self):
+    def test_all_pages_of_docs(self):
         for page in (ROOT / "docs").rglob("*.md"):
             self.assertTrue((self.site / page.relative_to(ROOT / "docs")).with_suffix(".html").is_file(), page)
 
-    def test_formulas_are_set_and_none_is_left_as_text(self):
-        lesson = (self.site / "lessons/01_six_integrators/lesson.html").read_text()
+    def test_formulas_are_rendered(self):
+        lesson = (self.site / "learn/lessons/01_six_integrators/lesson.html").read_text()
         self.assertGreater(lesson.count('class="katex"'), 20)
         self.assertNotIn("$\\omega", lesson)
 
     @unittest.skipUnless(find_browser(), NO_BROWSER)
-    def test_it_is_as_light_or_dark_as_the_browser_likes_and_a_click_changes_it(self):
+    def test_theme_follows_the_browser_and_a_click(self):
         for dark in (False, True):
             with Browser(width=1500, height=900, dark=dark) as page:
-                page.call("Page.navigate", url=(self.site / "contact.html").as_uri())
+                page.call("Page.navigate", url=(self.site / "understand/contact.html").as_uri())
                 page.wait_for("location.protocol === 'file:' && document.readyState === 'complete'")
                 red = "Number(getComputedStyle(document.body).backgroundColor.match(/[0-9]+/)[0])"
                 self.assertEqual(page.evaluate(red) < 50, dark)
@@ -102,14 +102,14 @@ class Site(unittest.TestCase):
                 self.assertEqual(page.evaluate(red) < 50, not dark)
 
     @unittest.skipUnless(find_browser(), NO_BROWSER)
-    def test_the_search_finds_a_page_without_a_server(self):
+    def test_search_without_a_server(self):
         with Browser() as page:
             page.call("Page.navigate", url=(self.site / "search.html").as_uri() + "?q=torsional")
             page.wait_for("document.querySelectorAll('#search-results li').length > 3")
             self.assertEqual(page.errors, [])
 
     @unittest.skipUnless(find_browser(), NO_BROWSER)
-    def test_the_browser_opens_every_page_without_a_word_and_without_a_network(self):
+    def test_all_pages_open_without_console_messages_or_network(self):
         with Browser(width=1280, height=900) as page:
             for file in self.pages:
                 page.errors.clear()

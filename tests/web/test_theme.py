@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The pages' colours by numbers: text and curves stand out from what is behind them, and curves
-from one another, for eyes that lack a kind of cones too.
+"""Contrast of the pages' colours: text and curves against their background, curves among each other,
+with colour vision deficiencies too.
 
     test_theme.py
 """
@@ -10,15 +10,15 @@ import unittest
 from theme_colors import EYES, contrast, delta_e, lab, over, themes
 
 TEXT, GRAPHICS = 4.5, 3.0  # WCAG 2.1, 1.4.3 and 1.4.11
-APART = 10.0  # CIEDE2000: 1 is the least that is seen side by side
+APART = 10.0  # CIEDE2000; 1: just noticeable
 CURVES = [f"--c{i}" for i in range(8)]
-# What is written, and on what. Of the view, the card over whatever is drawn: white and black.
+# Text colours and backgrounds. On the 3-D view: the card over white and over black.
 WORDS = ("--ink", "--muted", "--accent", "--ok", "--near", "--beyond")
 GROUNDS = ("--surface", "--paper", "--accent-soft", "--near-soft", "--beyond-soft")
 
 
 class ThemeColors(unittest.TestCase):
-    def test_the_formulas_agree_with_published_numbers(self):
+    def test_formulas_agree_with_published_values(self):
         # Sharma, Wu and Dalal 2005, table 1: pairs 1, 7, 17, 24, 31, 34.
         pairs = [((50, 2.6772, -79.7751), (50, 0, -82.7485), 2.0425),
                  ((50, 0, 0), (50, -1, 2), 2.3669), ((50, 2.5, 0), (73, 25, -18), 27.1492),
@@ -33,7 +33,7 @@ class ThemeColors(unittest.TestCase):
         for eyes in EYES:  # grey is grey to all
             self.assertLess(max(map(abs, lab((128, 128, 128, 1), eyes)[1:])), 0.1)
 
-    def test_text_stands_out_from_what_is_behind_it(self):
+    def test_contrast_of_text(self):
         for theme, colors in themes().items():
             for word, ground in itertools.product(WORDS, GROUNDS):
                 with self.subTest(theme=theme, text=word, ground=ground):
@@ -41,20 +41,20 @@ class ThemeColors(unittest.TestCase):
             with self.subTest(theme=theme, text="on the main button"):
                 self.assertGreaterEqual(contrast(colors["--surface"], colors["--accent"]), TEXT)
 
-    def test_text_on_the_view_stands_out_whatever_is_drawn_behind_its_card(self):
+    def test_contrast_of_text_on_the_3d_view(self):
         for theme, colors in themes().items():
             for word, behind in itertools.product(WORDS, ((0, 0, 0, 1), (255, 255, 255, 1))):
                 ground = over(colors["--card"], behind)
                 with self.subTest(theme=theme, text=word, behind=behind):
                     self.assertGreaterEqual(contrast(colors[word], ground), TEXT)
 
-    def test_curves_signs_and_edges_of_fields_stand_out(self):
+    def test_contrast_of_curves_icons_and_field_borders(self):
         for theme, colors in themes().items():
-            for name in (*CURVES, "--edge", "--ghost"):
+            for name in (*CURVES, "--edge", "--branch"):
                 with self.subTest(theme=theme, color=name):
                     self.assertGreaterEqual(contrast(colors[name], colors["--surface"]), GRAPHICS)
 
-    def test_curves_are_told_apart_by_all_eyes(self):
+    def test_curves_are_distinguishable_with_colour_vision_deficiencies(self):
         for theme, colors in themes().items():
             for eyes in EYES:
                 seen = {name: lab(colors[name], eyes) for name in (*CURVES, "--ink")}

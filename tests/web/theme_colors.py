@@ -1,5 +1,5 @@
-"""Colours of the pages' themes, and what eyes make of them: contrast (WCAG 2.1), differences
-(CIEDE2000), and how those see them who lack one kind of cones (Machado, Oliveira and Fernandes 2009).
+"""Colours of the pages' themes, and their perception: contrast (WCAG 2.1), differences
+(CIEDE2000), colour vision deficiencies (Machado, Oliveira and Fernandes 2009).
 """
 import math
 import pathlib
@@ -44,7 +44,7 @@ def color_of(text):
 
 
 def over(top, below):
-    """A colour that is seen through, on another."""
+    """A translucent colour over another."""
     share = top[3]
     return *(share * a + (1 - share) * b for a, b in zip(top[:3], below[:3])), 1.0
 
@@ -64,7 +64,7 @@ def contrast(one, other):
 
 
 def lab(color, eyes="all cones"):
-    """CIELAB (D65) of a colour as these eyes see it."""
+    """CIELAB (D65) of a colour, with a colour vision deficiency."""
     rgb = linear(color)
     r, g, b = (min(1, max(0, sum(m * c for m, c in zip(row, rgb)))) for row in EYES[eyes])
     x = (0.4124564 * r + 0.3575761 * g + 0.1804375 * b) / 0.95047

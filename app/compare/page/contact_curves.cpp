@@ -1,4 +1,4 @@
-// The curves of a contact case: its own experiment, with somebody who looks on.
+// Curves of a contact case: its experiment, recorded.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,13 +11,13 @@
 namespace twinarm::compare_page {
 namespace {
 
-// The case as it is judged, watched; nothing where the recorder had enough before its end.
-std::optional<CaseResult> watched(const AnalyticCase& c, ContactRecorder& recorder) {
+// Result of the recorded case; empty if the recorder was complete before its end.
+std::optional<CaseResult> recorded(const AnalyticCase& c, ContactRecorder& recorder) {
   std::optional<CaseResult> result;
   contact_recorder = &recorder;
   try {
     result = c.run();
-  } catch (const ContactRecorder::Enough&) {
+  } catch (const ContactRecorder::Complete&) {
   } catch (...) {
     contact_recorder = nullptr;
     throw;
@@ -26,7 +26,7 @@ std::optional<CaseResult> watched(const AnalyticCase& c, ContactRecorder& record
   return result;
 }
 
-// At the times of another run, on straight lines; not a number after the end.
+// Linear interpolation at the times of another run; NAN after the end.
 std::vector<double> at_times(const std::vector<double>& times, const std::vector<double>& t,
                              const std::vector<double>& values) {
   std::vector<double> all;
@@ -48,41 +48,42 @@ std::string unit_in(const std::string& reading) {
   return reading.substr(reading.find('['));
 }
 
-// Several runs of one reading have their own names, a search tells what was tried.
-std::string curve_name(const ContactCasePlot& look, const ContactRun& run, std::size_t number,
+// Of a bisection the parameter, else the name of the run or of the reading.
+std::string curve_name(const ContactCasePlot& plot, const ContactRun& run, std::size_t number,
                        std::size_t reading) {
-  const std::string& name = look.readings[reading];
-  if (look.search) return fmt::format("{} = {:.4g} {}", look.search, run.tried, unit_in(name));
-  return look.runs.empty() ? name : look.runs[number] + " " + unit_in(name);
+  const std::string& name = plot.readings[reading];
+  if (plot.searched)
+    return fmt::format("{} = {:.4g} {}", plot.searched, run.parameter, unit_in(name));
+  return plot.runs.empty() ? name : plot.runs[number] + " " + unit_in(name);
 }
 
-void add_run(const ContactCasePlot& look, const ContactRun& run, std::size_t number,
+void add_run(const ContactCasePlot& plot, const ContactRun& run, std::size_t number,
              CaseCurves& all) {
-  for (std::size_t k = 0; k < run.seen.size(); ++k) {
-    all.names.push_back(curve_name(look, run, number, k));
-    all.seen.push_back(at_times(all.t, run.t, run.seen[k]));
-    if (!look.from_start) continue;
-    const double start = run.seen[k][0];
-    for (double& x : all.seen.back()) x -= start;
+  for (std::size_t k = 0; k < run.values.size(); ++k) {
+    all.names.push_back(curve_name(plot, run, number, k));
+    all.values.push_back(at_times(all.t, run.t, run.values[k]));
+    if (!plot.from_start) continue;
+    const double start = run.values[k][0];
+    for (double& x : all.values.back()) x -= start;
   }
   std::vector<double> energy = run.energy;
   for (double& e : energy) e -= run.energy[0];
   all.energy.push_back(at_times(all.t, run.t, energy));
 }
 
-void add_exact(const ContactCasePlot& look, CaseCurves& all) {
+void add_exact(const ContactCasePlot& plot, CaseCurves& all) {
   constexpr int kPoints = 24;
   all.exact.resize(all.names.size());
-  if (!look.exact) return;
-  if (!std::isnan(look.known_at))
-    all.exact_t = {look.known_at};
+  if (!plot.exact) return;
+  if (!std::isnan(plot.known_at))
+    all.exact_t = {plot.known_at};
   else
     for (int n = 0; n <= kPoints; ++n) all.exact_t.push_back(all.t.back() * n / kPoints);
   for (std::size_t k = 0; k < all.names.size(); ++k)
-    for (const double t : all.exact_t) all.exact[k].push_back(look.exact(k, t));
+    for (const double t : all.exact_t) all.exact[k].push_back(plot.exact(k, t));
 }
 
-// The same experiment with other steps.
+// The case with other steps.
 ErrorCurve errors_of(const AnalyticCase& c, double step) {
   ErrorCurve curve{Integrator::semi_implicit, {}, {}, {}};
   std::vector<double> all;
@@ -90,7 +91,7 @@ ErrorCurve errors_of(const AnalyticCase& c, double step) {
     check_interrupt();
     ContactRecorder recorder;
     recorder.step_scale = scale;
-    all.push_back(watched(c, recorder)->error);
+    all.push_back(recorded(c, recorder)->error);
     if (!std::isfinite(all.back())) continue;
     curve.step.push_back(scale * step);
     curve.error.push_back(all.back());
@@ -100,43 +101,44 @@ ErrorCurve errors_of(const AnalyticCase& c, double step) {
   return curve;
 }
 
-void add_errors(const ContactCasePlot& look, const ErrorCurve& curve, CaseCurves& all) {
-  constexpr double kSolver = 1e-8;  // relative; what is below has been left by the impulses' solver
+void add_errors(const ContactCasePlot& plot, const ErrorCurve& curve, CaseCurves& all) {
+  constexpr double kSolver = 1e-8;  // relative tolerance of the impulse solver
   const auto worst = std::max_element(curve.error.begin(), curve.error.end());
-  if (*look.about_steps)
-    all.about_errors = look.about_steps;
+  if (*plot.convergence_note)
+    all.convergence_note = plot.convergence_note;
   else if (worst != curve.error.end() && *worst < kSolver)
-    all.about_errors = "No step makes it: the tolerance of the impulses' solver is left.";
+    all.convergence_note =
+        "The error does not depend on the step: it is the tolerance of the impulse solver.";
   else if (curve.order)
-    all.about_errors = "Behind the name stands its slope.";
+    all.convergence_note = "The number after the name is the slope.";
   all.errors.push_back(curve);
 }
 
 }  // namespace
 
 std::optional<CaseCurves> contact_curves_of(const AnalyticCase& c) {
-  const ContactCasePlot* look = c.look.get();
-  if (!look) return {};
+  const ContactCasePlot* plot = c.plot.get();
+  if (!plot) return {};
   ContactRecorder recorder;
-  recorder.look = look->read;
-  recorder.count = std::max<std::size_t>(look->runs.size(), 1);
-  recorder.every = look->every;
-  recorder.until = look->until;
-  recorder.search = look->search != nullptr;
-  watched(c, recorder);
+  recorder.read = plot->read;
+  recorder.count = std::max<std::size_t>(plot->runs.size(), 1);
+  recorder.every = plot->every;
+  recorder.until = plot->until;
+  recorder.bisects = plot->searched != nullptr;
+  recorded(c, recorder);
   CaseCurves all;
   all.energy_label = "E − E₀  [J]";
   for (const ContactRun& run : recorder.runs)
     if (all.t.empty() || run.t.back() > all.t.back()) all.t = run.t;
-  for (std::size_t i = 0; i < recorder.runs.size(); ++i) add_run(*look, recorder.runs[i], i, all);
-  add_exact(*look, all);
-  all.cut = std::isfinite(look->until);
-  if (look->search || !look->runs.empty())
-    all.drawn = look->readings[0].substr(0, look->readings[0].find(" ["));
-  if (look->no_steps)
-    all.no_errors = look->no_steps;
+  for (std::size_t i = 0; i < recorder.runs.size(); ++i) add_run(*plot, recorder.runs[i], i, all);
+  add_exact(*plot, all);
+  all.is_cut = std::isfinite(plot->until);
+  if (plot->searched || !plot->runs.empty())
+    all.drawn = plot->readings[0].substr(0, plot->readings[0].find(" ["));
+  if (plot->no_convergence)
+    all.no_convergence = plot->no_convergence;
   else
-    add_errors(*look, errors_of(c, look->step), all);
+    add_errors(*plot, errors_of(c, plot->step), all);
   return all;
 }
 

@@ -11,12 +11,12 @@ namespace twinarm::compare_page {
 namespace {
 
 constexpr long kMaxSteps = 50000;                // of the run that is drawn
-constexpr long kFinestSteps = 4000, kSteps = 5;  // of those in the diagram of errors
-constexpr std::size_t kMany = 60;                // dofs of which implicit steps take long
+constexpr long kFinestSteps = 4000, kSteps = 5;  // of those in the figure of errors
+constexpr std::size_t kManyDofs = 60;            // with which implicit steps are slow
 constexpr int kExactPoints = 24;
 
-// References may cost more than a run; every run asks for the same.
-std::function<CaseReadings(double)> remembered(std::function<CaseReadings(double)> reference) {
+// A reference may cost more than a run, and all runs evaluate it at the same times.
+CaseReference cached(CaseReference reference) {
   return [reference = std::move(reference),
           known = std::map<double, CaseReadings>()](double t) mutable {
     const auto found = known.find(t);
@@ -28,12 +28,11 @@ double end_of(const TrajectoryCase& c) {
   return c.events.count > 0 ? c.reference(c.events.count)[0] : c.times.back();
 }
 
-// Where the reference stands: at its times or events, and between them where it is known for all
-// times.
+// Reference at its times or events; at equal intervals if it is known for all times.
 void sample_reference(const TrajectoryCase& c, double until, CaseCurves& curves) {
   std::vector<double> arguments = c.times;
   for (int n = 1; n <= c.events.count; ++n) arguments.push_back(n);
-  if (c.takes_lanes() && c.events.count == 0 && !c.at_times_only) {
+  if (c.takes_any_integrator() && c.events.count == 0 && !c.at_times_only) {
     arguments = {0};
     for (int n = 1; n <= kExactPoints; ++n) arguments.push_back(until * n / kExactPoints);
   }
@@ -45,7 +44,7 @@ void sample_reference(const TrajectoryCase& c, double until, CaseCurves& curves)
     if (c.events.count > 0) {
       t = exact[0];
       exact.erase(exact.begin());
-      exact.push_back(0);  // of what passes zero
+      exact.push_back(0);  // the event function
     }
     if (t > until * (1 + 1e-9)) continue;
     curves.exact_t.push_back(t);
@@ -54,8 +53,8 @@ void sample_reference(const TrajectoryCase& c, double until, CaseCurves& curves)
   }
 }
 
-// Two quaternions stand for each attitude: the one on the run's side is shown.
-void choose_sides(CaseCurves& curves) {
+// q and -q are the same attitude: chooses the sign of the run.
+void choose_signs(CaseCurves& curves) {
   const auto first = std::find(curves.names.begin(), curves.names.end(), "qw");
   const auto qw = static_cast<std::size_t>(first - curves.names.begin());
   if (qw + 4 > curves.names.size()) return;
@@ -63,17 +62,17 @@ void choose_sides(CaseCurves& curves) {
     const auto after = std::lower_bound(curves.t.begin(), curves.t.end(), curves.exact_t[n]);
     const auto at =
         std::min(static_cast<std::size_t>(after - curves.t.begin()), curves.t.size() - 1);
-    double side = 0;
-    for (std::size_t k = qw; k < qw + 4; ++k) side += curves.seen[k][at] * curves.exact[k][n];
-    for (std::size_t k = qw; side < 0 && k < qw + 4; ++k) curves.exact[k][n] *= -1;
+    double dot = 0;
+    for (std::size_t k = qw; k < qw + 4; ++k) dot += curves.values[k][at] * curves.exact[k][n];
+    for (std::size_t k = qw; dot < 0 && k < qw + 4; ++k) curves.exact[k][n] *= -1;
   }
 }
 
 void record(const TrajectoryCase& c, CaseCurves& curves) {
-  const double end = end_of(c), longest = static_cast<double>(kMaxSteps) * c.lane.step;
-  const bool adaptive = c.lane.integrator == Integrator::dopri5;
+  const double end = end_of(c), longest = static_cast<double>(kMaxSteps) * c.integration.step;
+  const bool adaptive = c.integration.integrator == Integrator::dopri5;
   const double until = adaptive ? end : std::min(end, longest);
-  curves.cut = until < end;
+  curves.is_cut = until < end;
   curves.names = c.readings;
   TrajectoryCase shown = c;
   shown.events = {};
@@ -81,7 +80,7 @@ void record(const TrajectoryCase& c, CaseCurves& curves) {
   shown.reference = [](double) { return CaseReadings{}; };
   shown.measure = [](const CaseReadings&, const CaseReadings&) { return 0.0; };
   if (c.events.count > 0) {
-    // The function whose zeros are the events is drawn too.
+    // The event function is drawn too.
     curves.names.push_back(kEventFunction);
     shown.observe = [&c](const Model<double>& model, const State<double>& x) {
       CaseReadings seen = c.observe(model, x);
@@ -90,24 +89,24 @@ void record(const TrajectoryCase& c, CaseCurves& curves) {
     };
   }
   std::vector<TrajectoryPoint> points;
-  const LaneResult run = run_lane(shown, c.lane, &points);
-  double strayed = 0;
+  const TrajectoryResult run = run_trajectory(shown, c.integration, &points);
+  double max_error = 0;
   for (const TrajectoryPoint& p : points)
-    strayed = std::max(strayed, std::abs(p.energy - points[0].energy));
-  curves.energy_kept = run.energy_drift.has_value();
-  const double scale = strayed > 0 ? run.energy_drift.value_or(0) / strayed : 0;
-  if (curves.energy_kept) curves.energy_label = "(E − E₀) / largest kinetic energy  [1]";
-  curves.seen.resize(curves.names.size());
+    max_error = std::max(max_error, std::abs(p.energy - points[0].energy));
+  curves.energy_is_relative = run.energy_drift.has_value();
+  const double scale = max_error > 0 ? run.energy_drift.value_or(0) / max_error : 0;
+  if (curves.energy_is_relative) curves.energy_label = "(E − E₀) / max kinetic energy  [1]";
+  curves.values.resize(curves.names.size());
   curves.energy.resize(1);
   for (const TrajectoryPoint& p : points) {
     curves.t.push_back(p.t);
-    curves.energy[0].push_back(curves.energy_kept ? (p.energy - points[0].energy) * scale
-                                                  : p.energy);
+    curves.energy[0].push_back(curves.energy_is_relative ? (p.energy - points[0].energy) * scale
+                                                         : p.energy);
     for (std::size_t i = 0; i < curves.names.size() && i < p.seen.size(); ++i)
-      curves.seen[i].push_back(p.seen[i]);
+      curves.values[i].push_back(p.seen[i]);
   }
   sample_reference(c, until, curves);
-  choose_sides(curves);
+  choose_signs(curves);
 }
 
 ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double end, double finest) {
@@ -115,20 +114,20 @@ ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double en
   if (integrator == Integrator::dopri5) {
     for (const double tolerance : {1e-12, 1e-10, 1e-8, 1e-6, 1e-4}) {
       check_interrupt();
-      const LaneResult run = run_lane(c, dopri5_lane(tolerance));
+      const TrajectoryResult run = run_trajectory(c, dopri5_with(tolerance));
       if (!std::isfinite(run.error) || run.steps == 0) continue;
       curve.step.push_back(end / static_cast<double>(run.steps));
       curve.error.push_back(run.error);
     }
     return curve;
   }
-  std::vector<double> all;  // also those that are not finite
-  // Schemes that solve an equation in each step would take most of the time.
+  std::vector<double> all;  // including those that are not finite
+  // Implicit schemes skip the short steps, which would take most of the time.
   const int first = facts_of(integrator).solves ? 2 : 0;
   double h = finest * (1 << first);
   for (int i = first; i < kSteps; ++i, h *= 2) {
     check_interrupt();
-    all.push_back(run_lane(c, {integrator, h}).error);
+    all.push_back(run_trajectory(c, {integrator, h}).error);
     if (!std::isfinite(all.back())) continue;
     curve.step.push_back(h);
     curve.error.push_back(all.back());
@@ -139,40 +138,32 @@ ErrorCurve error_curve(const TrajectoryCase& c, Integrator integrator, double en
 
 }  // namespace
 
-CaseCurves curves_of(const TrajectoryCase& original, double judged) {
+CaseCurves curves_of(const TrajectoryCase& original, double own_error) {
   TrajectoryCase c = original;
-  c.reference = remembered(original.reference);
+  c.reference = cached(original.reference);
   CaseCurves curves;
   record(c, curves);
-  if (!c.takes_lanes()) return curves;
+  if (!c.takes_any_integrator()) return curves;
   c.scene = [scene = original.scene] {
     CaseScene all = scene();
-    all.conserves = false;  // nobody asks for its energy
+    all.conserves = false;  // its energy is not needed
     return all;
   };
   const double end = end_of(c);
-  double finest = c.lane.integrator == Integrator::dopri5 ? 1e-3 : c.lane.step;
+  double finest = c.integration.integrator == Integrator::dopri5 ? 1e-3 : c.integration.step;
   while (end / finest > static_cast<double>(kFinestSteps)) finest *= 2;
-  if (c.scene().model.nv > kMany) finest *= 4;
+  if (c.scene().model.nv > kManyDofs) finest *= 4;
   for (const IntegratorFacts& facts : all_integrators) {
     ErrorCurve curve = error_curve(c, facts.integrator, end, finest);
-    // Where that would take long the diagram begins with longer steps; the case's own is known.
-    if (facts.integrator == c.lane.integrator && c.lane.step < finest && std::isfinite(judged)) {
-      curve.step.insert(curve.step.begin(), c.lane.step);
-      curve.error.insert(curve.error.begin(), judged);
+    // The error of the case's own step is known, even if that step is too short for this figure.
+    if (facts.integrator == c.integration.integrator && c.integration.step < finest &&
+        std::isfinite(own_error)) {
+      curve.step.insert(curve.step.begin(), c.integration.step);
+      curve.error.insert(curve.error.begin(), own_error);
     }
     curves.errors.push_back(curve);
   }
   return curves;
-}
-
-std::vector<Reading> readings_of(const TrajectoryCase& c) {
-  const CaseScene scene = c.scene();
-  const CaseReadings seen = c.observe(scene.model, scene.start), exact = c.reference(0);
-  std::vector<Reading> all;
-  for (std::size_t i = 0; i < c.readings.size() && i < seen.size() && i < exact.size(); ++i)
-    all.push_back({c.readings[i], seen[i], exact[i]});
-  return all;
 }
 
 }  // namespace twinarm::compare_page

@@ -15,7 +15,7 @@
 namespace twinarm::compare_page {
 namespace {
 
-// What the page adds to the style sheet of the study's report.
+// Additions to the style sheet of the study's report.
 constexpr const char* kPageStyle = R"css(
 table.index td { white-space: nowrap; }
 table.index td.text { white-space: normal; min-width: 16rem; width: 100%; }
@@ -75,7 +75,7 @@ std::string group_title(std::string group) {
   return escaped(group);
 }
 
-// With all digits beside those that are shown.
+// All digits in an attribute.
 std::string cell(double value, const char* format) {
   return fmt::format("<td data-value=\"{:.17g}\">{}</td>", value,
                      fmt::format(fmt::runtime(format), value));
@@ -90,7 +90,7 @@ std::string index_row(const CompareRow& row) {
              "<tr data-case=\"{0}\"><td><a href=\"#{0}\">{0}</a></td><td class=text>{1}</td>",
              escaped(c.name), in_unicode(c.reference)) +
          cell(row.result.error, "{:.3g}") + cell(c.tolerance, "{:.3g}") + "<td>" +
-         yes_no(passes(c, row.result), "pass", "short") + "</td>" +
+         yes_no(passes(c, row.result), "pass", "fail") + "</td>" +
          cell(row.result.order, "{:.2f}") + cell(row.result.energy_drift, "{:.1e}") +
          cell(row.seconds, "{:.2f}") + "</tr>\n";
 }
@@ -103,7 +103,8 @@ std::string group_row(const std::string& group) {
 std::string index_table(const std::vector<CompareRow>& rows,
                         const std::vector<const SkippedCase*>& skipped) {
   std::string html =
-      "<table class=index><thead><tr><th>case</th><th class=text>what it shows [unit of error and "
+      "<table class=index><thead><tr><th>case</th><th class=text>what is checked [unit of error "
+      "and "
       "tolerance]</th><th>error</th><th>tolerance</th><th></th><th>order</th><th>energy drift</th>"
       "<th>time [s]</th></tr></thead><tbody>\n";
   std::string group;
@@ -120,35 +121,35 @@ std::string index_table(const std::vector<CompareRow>& rows,
   return html + "</tbody></table>\n";
 }
 
-std::string sums(const std::vector<CompareRow>& rows, std::size_t skipped) {
+std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped) {
   const std::size_t failed = failures(rows);
-  std::string text = fmt::format("{} passed, {} fell short", rows.size() - failed, failed);
+  std::string text = fmt::format("{} passed, {} failed", rows.size() - failed, failed);
   if (skipped > 0) text += fmt::format(", {} skipped", skipped);
   return text;
 }
 
 constexpr const char* kHowToRead =
-    "<h2 id=reading>How to read this</h2>\n"
-    "<p><b>Numbers.</b> Error and tolerance are in the unit that the case names; a case passes "
-    "where its error is no larger than its tolerance. Order: by which power the error falls with "
-    "the step, where three steps agree. Energy drift: the largest change of energy over the "
-    "largest kinetic "
-    "energy, where energy is kept.</p>\n"
-    "<p><b>Run and reference.</b> Lines are the run in the lane in which the case is judged; "
-    "circles are the reference. Where events are timed, the function whose zeros they are is "
-    "drawn, and a "
-    "circle lies where the reference has it pass zero.</p>\n"
-    "<p><b>Error against step.</b> All integrators, with steps that double; on logarithmic axes an "
-    "order is a slope, and stands behind the name. Colours are orders, marks are schemes. dopri5 "
+    "<h2 id=reading>How to read this page</h2>\n"
+    "<p><b>Numbers.</b> Error and tolerance are in the unit that the case names; a case passes if "
+    "its error does not exceed its tolerance. Order: the power of the step to which the error is "
+    "proportional, if three steps agree. Energy drift: the largest change of energy over the "
+    "largest kinetic energy, if energy is conserved.</p>\n"
+    "<p><b>Run and reference.</b> Lines are the run with the integrator and step of the case; "
+    "circles are the reference. For timed events the event function is drawn, with a circle at "
+    "each zero of the reference.</p>\n"
+    "<p><b>Error against step.</b> All integrators, with steps that double. On logarithmic axes "
+    "the "
+    "order is the slope, printed after the name. A colour is an order, a mark is a scheme. dopri5 "
     "chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. Implicit "
-    "schemes have the longest steps only: they take long. The dashed line is the tolerance of the "
-    "case. A slope above the order: the error is mostly one of energy, which rk4 has in the fifth "
-    "order, or its largest terms cancel. Where an error is as large as "
-    "the motion itself, or is rounding, a slope tells nothing.</p>\n"
-    "<p><b>The code</b> of all cases stands at the end, as it was compiled. A case of your own is "
-    "one file: docs/develop/adding_a_case.md. What is measured, and how: docs/reference/verification_cases.md.</p>\n";
+    "schemes are run with the longest steps only, because they are slow. The dashed line is the "
+    "tolerance of the case. A slope can exceed the order if the error is mostly one of energy, "
+    "which rk4 has at fifth order, or if the largest terms cancel. A slope has no meaning if the "
+    "error is as large as the motion, or is rounding.</p>\n"
+    "<p><b>The code</b> of all cases is at the end of the page, as compiled. To add a case: "
+    "docs/develop/adding_a_case.md. What is measured, and how: "
+    "docs/reference/verification_cases.md.</p>\n";
 
-// What the links lead to: each file once, whole, to be unfolded.
+// Source files of the cases, each once, as targets of the links.
 std::string code_of(const std::vector<std::string>& case_names) {
   std::set<std::string> files;
   for (const std::string& name : case_names) files.insert(place_of(name).file);
@@ -164,8 +165,8 @@ std::string code_of(const std::vector<std::string>& case_names) {
 
 }  // namespace
 
-// The name may be put together from a beginning that ends with a hyphen. The mechanism's own name
-// may stand before; what registers comes last.
+// A name may be composed from a prefix that ends with a hyphen. The last occurrence is the
+// registration.
 CasePlace place_of(const std::string& case_name) {
   for (std::string name = case_name; name.size() >= 2; name.pop_back())
     for (const EmbeddedFile& source : case_sources()) {
@@ -209,13 +210,13 @@ std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std
                       const std::vector<const SkippedCase*>& skipped, const std::string& command,
                       double seconds) {
   HtmlPage page;
-  page.title = "twinarm against what is known";
+  page.title = "Analytic test cases of twinarm";
   page.style = kPageStyle;
   page.header =
-      "<h1>How far the solver is from the truth</h1>\n<p class=lead>Motions, impacts and states "
-      "whose outcome is known, by closed form or by an independent computation, run by twinarm: " +
-      sums(rows, skipped.size()) + ".</p>\n";
-  page.contents = {{"index", "Index"}, {"reading", "How to read this"}};
+      "<h1>Errors of the solver in analytic test cases</h1>\n<p class=lead>Motions, impacts and "
+      "states with a known result, from a closed form or an independent computation: " +
+      totals(rows, skipped.size()) + ".</p>\n";
+  page.contents = {{"index", "Index"}, {"reading", "How to read this page"}};
   page.main = "<h2 id=index>Index</h2>\n<div class=scroll>" + index_table(rows, skipped) +
               "</div>\n" + kHowToRead;
   std::string group;

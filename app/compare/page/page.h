@@ -1,4 +1,4 @@
-// `twinarm compare --html`: one page with all that was run, nothing outside of it.
+// Page of `twinarm compare --html`: one self-contained file.
 #pragma once
 
 #include <filesystem>
@@ -9,27 +9,27 @@
 
 namespace twinarm::compare_page {
 
-// The file that --html FOLDER or --html FILE.html means.
+// File of --html FOLDER or --html FILE.html.
 std::filesystem::path page_file(const std::filesystem::path& asked);
 
-// Whether the file could be written, and gnuplot is there: before anything is run. Adds to faults.
+// Adds diagnostics if the file cannot be written or gnuplot is missing; called before any run.
 void check_page(const std::filesystem::path& file, DiagnosticList& faults);
 
-// What a terminal shows as "mu" or "rad/s^2"; escaped.
+// Replaces "mu", "rad/s^2" .. by Unicode characters, and escapes the text for HTML.
 std::string in_unicode(std::string words);
 
-// Where a case is written, of the files as they were compiled.
+// Place of a case in the compiled source.
 struct CasePlace {
-  std::string file;  // "joints/pendulum.cpp", of benchmarks/analytic/; empty: not found
+  std::string file;  // "joints/pendulum.cpp", in benchmarks/analytic/; empty: not found
   std::size_t line = 0;
 };
 CasePlace place_of(const std::string& case_name);
 
-// The section of one case: statement, figures, place of its code. Runs it again to be looked at,
-// and all integrators beside; takes a temporary folder.
-std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes);
+// Section of one case: statement, figures, place of its code. Runs the case again for the figures,
+// with all integrators.
+std::string case_section(const CompareRow& row, const std::vector<Lane>& integrations);
 
-// The whole page, from the sections in the order of rows. `command` made it.
+// The whole page, sections in the order of rows; `command` is printed in the footer.
 std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std::string>& sections,
                       const std::vector<const SkippedCase*>& skipped, const std::string& command,
                       double seconds);

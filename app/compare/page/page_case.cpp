@@ -1,4 +1,4 @@
-// One case of the page.
+// Section of one case.
 #include <fmt/format.h>
 
 #include <regex>
@@ -11,10 +11,9 @@
 namespace twinarm::compare_page {
 namespace {
 
-// gnuplot opens a group at each change of its pen, writes hundredths of a pixel, and says again
-// what the style sheet says of all figures (page.cpp, `figure svg`): more than half of a page
-// of hundreds of figures. Its names of plots are not unique in the page, and would be shown where
-// the pointer is.
+// Removes from gnuplot's SVG what makes up half of a page of hundreds of figures: empty groups,
+// hundredths of a pixel, and attributes that the style sheet sets for all figures (page.cpp,
+// `figure svg`). Also titles and ids of plots, which are not unique in the page.
 std::string figure(const std::string& drawn, const std::string& caption, const char* kind = "") {
   static const std::regex kIdle(
       R"re(<g fill="none"[^>]*>\s*</g>\s*|<title>[^<]*</title>| id="gnuplot_plot[^"]*")re"
@@ -27,7 +26,7 @@ std::string figure(const std::string& drawn, const std::string& caption, const c
                      inline_svg(std::regex_replace(drawn, kIdle, "$1")), caption);
 }
 
-// HTML; formulas stand in paragraphs of their own.
+// HTML with formulas in paragraphs.
 std::string statement_html(const AnalyticCase& c) {
   const char* statement = c.statement;
   std::string html = statement ? statement : "";
@@ -36,10 +35,10 @@ std::string statement_html(const AnalyticCase& c) {
   return "<div class=statement>" + html + "</div>\n";
 }
 
-std::string lane_words(const Lane& lane) {
-  if (lane.integrator == Integrator::dopri5)
-    return fmt::format("dopri5, tolerance {:g}", lane.tolerance);
-  return fmt::format("{}, step {:g} s", integrator_name(lane.integrator), lane.step);
+std::string integration_words(const Lane& integration) {
+  if (integration.integrator == Integrator::dopri5)
+    return fmt::format("dopri5, tolerance {:g}", integration.tolerance);
+  return fmt::format("{}, step {:g} s", integrator_name(integration.integrator), integration.step);
 }
 
 std::string fact(const std::string& name, const std::string& value) {
@@ -54,18 +53,20 @@ std::string facts_of_case(const CompareRow& row, const TrajectoryCase* motion) {
   if (row.result.energy_drift)
     html += fact("energy drift", fmt::format("{:.1e}", *row.result.energy_drift));
   html += fact("time", fmt::format("{:.2f} s", row.seconds));
-  if (motion && motion->has_steps()) html += fact("judged with", lane_words(motion->lane));
+  if (motion && motion->has_steps())
+    html += fact("integrator", integration_words(motion->integration));
   return html + "</div>\n";
 }
 
-std::string lanes_table(const CompareRow& row) {
-  if (row.lanes.empty()) return "";
+std::string integrations_table(const CompareRow& row) {
+  if (row.integrations.empty()) return "";
   std::string html =
-      "<table class=readings><thead><tr><th>beside it<th>error<th>order<th>energy drift<th>time"
+      "<table class=readings><thead><tr><th>integrator<th>error<th>order<th>energy drift<th>time"
       "</thead><tbody>\n";
-  for (const LaneRow& r : row.lanes)
-    html += fmt::format("<tr><td>{}<td>{:.3g}<td>{}<td>{}<td>{:.2f} s\n", lane_words(r.lane),
-                        r.result.error, r.order ? fmt::format("{:.2f}", *r.order) : "–",
+  for (const IntegrationRow& r : row.integrations)
+    html += fmt::format("<tr><td>{}<td>{:.3g}<td>{}<td>{}<td>{:.2f} s\n",
+                        integration_words(r.integration), r.result.error,
+                        r.order ? fmt::format("{:.2f}", *r.order) : "–",
                         r.result.energy_drift ? fmt::format("{:.1e}", *r.result.energy_drift) : "–",
                         r.result.seconds);
   return html + "</tbody></table>\n";
@@ -75,10 +76,12 @@ std::string readings_table(const TrajectoryCase& c) {
   std::string html =
       "<table class=readings><thead><tr><th>reading<th>twinarm<th>exact<th>difference</thead>"
       "<tbody>\n";
-  for (const Reading& r : readings_of(c)) {
-    const double off = r.seen - r.exact;
-    html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{}\n", in_unicode(r.name), r.seen,
-                        r.exact + 0.0, off == 0 ? "0" : fmt::format("{:.1e}", off));
+  const CaseScene scene = c.scene();
+  const CaseReadings seen = c.observe(scene.model, scene.start), exact = c.reference(0);
+  for (std::size_t i = 0; i < c.readings.size() && i < seen.size() && i < exact.size(); ++i) {
+    const double error = seen[i] - exact[i];
+    html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{}\n", in_unicode(c.readings[i]),
+                        seen[i], exact[i] + 0.0, error == 0 ? "0" : fmt::format("{:.1e}", error));
   }
   return html + "</tbody></table>\n";
 }
@@ -87,15 +90,16 @@ std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
   const std::string name = row.test->name;
   const CaseCurves curves = curves_of(c, row.result.error);
   Gnuplot gnuplot{std::filesystem::path()};
-  std::string caption = "Run (" + lane_words(c.lane) + ") and reference.";
-  if (c.events.count > 0) caption += " Known are the events: times, and what is read at them.";
-  if (curves.cut) caption += " Only the beginning is drawn.";
+  std::string caption = "Run (" + integration_words(c.integration) + ") and reference.";
+  if (c.events.count > 0)
+    caption += " The reference gives the times of the events and the readings there.";
+  if (curves.is_cut) caption += " Only the beginning is drawn.";
   const std::string pair =
       figure(error_figure(gnuplot, name, curves, row.test->tolerance),
-             "Error against step, with the slopes.") +
+             "Error against step, with slopes.") +
       figure(energy_figure(gnuplot, name, curves),
-             curves.energy_kept ? "Energy over time; nothing but the scheme changes it."
-                                : "Energy over time; forces change it, or hold some of it.");
+             curves.energy_is_relative ? "Energy error of the scheme over time."
+                                       : "Energy over time, including the work of forces.");
   return figure(motion_figure(gnuplot, name, curves), caption, " class=wide") + "<div class=pair>" +
          pair + "</div>\n";
 }
@@ -107,28 +111,31 @@ std::string contact_figures(const CompareRow& row) {
   Gnuplot gnuplot{std::filesystem::path()};
   std::string caption = curves->exact_t.empty() ? "The run." : "Run and reference.";
   if (!curves->drawn.empty())
-    caption = fmt::format("Drawn: {}, {}.", escaped(curves->drawn),
-                          curves->exact_t.empty() ? "in several runs" : "runs and reference");
-  if (curves->cut) caption += " Only the beginning is drawn.";
-  const std::string errors = figure(error_figure(gnuplot, name, *curves, row.test->tolerance),
-                                    "Error of the case against the step. " + curves->about_errors);
+    caption = fmt::format("{}, {}.", escaped(curves->drawn),
+                          curves->exact_t.empty() ? "several runs" : "runs and reference");
+  if (curves->is_cut) caption += " Only the beginning is drawn.";
+  const std::string errors =
+      figure(error_figure(gnuplot, name, *curves, row.test->tolerance),
+             "Error of the case against the step. " + curves->convergence_note);
   const std::string note =
-      curves->no_errors.empty() ? "" : "<p class=note>" + curves->no_errors + "</p>\n";
+      curves->no_convergence.empty() ? "" : "<p class=note>" + curves->no_convergence + "</p>\n";
   return figure(motion_figure(gnuplot, name, *curves), caption, " class=wide") +
          "<div class=pair>" + errors +
-         figure(
-             energy_figure(gnuplot, name, *curves),
-             "Change of energy over time, by impacts, friction and other forces, and by what the "
-             "steps lose or win.") +
+         figure(energy_figure(gnuplot, name, *curves),
+                "Change of energy over time, by impacts, friction and other forces, and by the "
+                "error of "
+                "the integrator.") +
          note + "</div>\n";
 }
 
-std::string command_of(const CompareRow& row, const std::vector<Lane>& lanes) {
+std::string command_of(const CompareRow& row, const std::vector<Lane>& integrations) {
   std::string command = std::string("twinarm compare ") + row.test->name;
   const TrajectoryCase* c = row.test->trajectory.get();
-  if (c && c->takes_lanes() && lanes.empty() && c->lane.integrator != Integrator::dopri5)
+  if (c && c->takes_any_integrator() && integrations.empty() &&
+      c->integration.integrator != Integrator::dopri5)
     command += fmt::format(" --integrator {},dopri5 --step {:g},{:g}",
-                           integrator_name(c->lane.integrator), c->lane.step, 2 * c->lane.step);
+                           integrator_name(c->integration.integrator), c->integration.step,
+                           2 * c->integration.step);
   return "<pre class=command>" + escaped(command) + "</pre>\n";
 }
 
@@ -142,17 +149,17 @@ std::string link_to_code(const std::string& case_name) {
 
 }  // namespace
 
-std::string case_section(const CompareRow& row, const std::vector<Lane>& lanes) {
+std::string case_section(const CompareRow& row, const std::vector<Lane>& integrations) {
   const AnalyticCase& c = *row.test;
   const bool pass = passes(c, row.result);
   std::string html =
       fmt::format("<section class=case id=\"{0}\"><h3>{0}{1}<span class=what>{2}</span></h3>\n",
-                  escaped(c.name), yes_no(pass, "pass", "short"), in_unicode(c.reference));
+                  escaped(c.name), yes_no(pass, "pass", "fail"), in_unicode(c.reference));
   const TrajectoryCase* motion = c.trajectory.get();
-  html += statement_html(c) + facts_of_case(row, motion) + lanes_table(row);
+  html += statement_html(c) + facts_of_case(row, motion) + integrations_table(row);
   if (motion) html += motion->has_steps() ? figures_of(row, *motion) : readings_table(*motion);
   if (!motion) html += contact_figures(row);
-  return html + command_of(row, lanes) + link_to_code(c.name) + "</section>\n";
+  return html + command_of(row, integrations) + link_to_code(c.name) + "</section>\n";
 }
 
 }  // namespace twinarm::compare_page

@@ -9,27 +9,26 @@
 namespace twinarm::compare_page {
 namespace {
 
-// A page has hundreds of curves: fewer points than in a report of ten figures.
-constexpr std::size_t kStretches = 80;
+constexpr std::size_t kStretches = 80;  // few points: a page has hundreds of curves
 constexpr std::size_t kMaxPanels = 4;
 
-struct LineLook {
+struct LineStyle {
   const char* colour;
   const char* dash;
 };
-// Alternately dark and light, so that neighbours differ in grey as well.
-constexpr LineLook kLines[] = {{"#3F6FB5", "solid"},       {palette::dvr, "solid"},
-                               {palette::linear, "solid"}, {palette::torsional, "solid"},
-                               {palette::faint, "solid"},  {"#C58AD0", "(6,4)"},
-                               {"#8DB0DD", "(6,4)"},       {palette::ink, "(6,4)"}};
+// Alternately dark and light, to differ in greyscale as well.
+constexpr LineStyle kLines[] = {{"#3F6FB5", "solid"},       {palette::dvr, "solid"},
+                                {palette::linear, "solid"}, {palette::torsional, "solid"},
+                                {palette::faint, "solid"},  {"#C58AD0", "(6,4)"},
+                                {"#8DB0DD", "(6,4)"},       {palette::ink, "(6,4)"}};
 
-// One colour for an order, one point for a scheme: what matters here is who falls how steeply.
-struct SchemeLook {
+// A colour for each order, a point type for each scheme.
+struct SchemeStyle {
   Integrator integrator;
   const char* colour;
   int point;
 };
-constexpr SchemeLook kSchemes[] = {
+constexpr SchemeStyle kSchemes[] = {
     {Integrator::euler, palette::dvr, 6},
     {Integrator::semi_implicit, palette::dvr, 7},
     {Integrator::semi_implicit_xv, palette::dvr, 5},
@@ -43,7 +42,7 @@ constexpr SchemeLook kSchemes[] = {
     {Integrator::dopri5, palette::linear, 5},
 };
 
-// Of a figure in the page: an id may not begin with a digit, nor hold points.
+// Id of a figure: letters, digits and underscores, not beginning with a digit.
 std::string id_of(const char* kind, const std::string& name) {
   std::string id = kind;
   for (const char c : name)
@@ -69,24 +68,24 @@ std::string without_unit(const std::string& reading) {
 }
 
 double largest(const std::vector<double>& values) {
-  double most = 0;
+  double size = 0;
   for (const double x : values)
-    if (std::isfinite(x)) most = std::max(most, std::abs(x));
-  return most;
+    if (std::isfinite(x)) size = std::max(size, std::abs(x));
+  return size;
 }
 
-// Readings that share a unit share a panel, unless one would be a straight line beside the other.
+// Readings of one unit and similar size share a panel.
 std::vector<std::vector<std::size_t>> panels_of(const CaseCurves& curves) {
   constexpr double kMuchLarger = 8;
   std::vector<std::vector<std::size_t>> panels;
   for (std::size_t i = 0; i < curves.names.size(); ++i) {
-    if (curves.seen[i].empty()) continue;
+    if (curves.values[i].empty()) continue;
     const auto same_unit = [&](const auto& panel) {
       return unit_of(curves.names[panel[0]]) == unit_of(curves.names[i]);
     };
-    const double mine = largest(curves.seen[i]);
+    const double mine = largest(curves.values[i]);
     const auto alike = [&](const auto& panel) {
-      const double its = largest(curves.seen[panel[0]]);
+      const double its = largest(curves.values[panel[0]]);
       return same_unit(panel) && mine <= kMuchLarger * its && its <= kMuchLarger * mine;
     };
     auto panel = std::find_if(panels.begin(), panels.end(), alike);
@@ -100,16 +99,16 @@ std::vector<std::vector<std::size_t>> panels_of(const CaseCurves& curves) {
   return panels;
 }
 
-// All lines, then all points: the legend names the points last.
+// All lines, then all points, so that the points are the last in the legend.
 std::string panel_plots(Gnuplot& gnuplot, const CaseCurves& curves,
                         const std::vector<std::size_t>& panel) {
   std::string lines, points;
   for (std::size_t k = 0; k < panel.size(); ++k) {
     const std::size_t i = panel[k];
-    const LineLook& look = kLines[k % std::size(kLines)];
+    const LineStyle& style = kLines[k % std::size(kLines)];
     lines +=
         fmt::format("{}{} with lines lw 1.8 dt {} lc '{}' title {}", lines.empty() ? "plot " : ", ",
-                    gnuplot.curve(curves.t, curves.seen[i], kStretches), look.dash, look.colour,
+                    gnuplot.curve(curves.t, curves.values[i], kStretches), style.dash, style.colour,
                     in_quotes(without_unit(curves.names[i])));
     const std::size_t known = std::min(curves.exact_t.size(), curves.exact[i].size());
     if (known > 0)
@@ -123,9 +122,9 @@ std::string panel_plots(Gnuplot& gnuplot, const CaseCurves& curves,
   return lines + points;
 }
 
-// Axes as lines of a gnuplot script; `axis` is "x" or "y".
+// Lines of a gnuplot script for an axis, "x" or "y".
 
-// A mark at every 1, 2 or 5 times a power of ten, about so many.
+// About so many tics, at multiples of 1, 2 or 5 times a power of ten.
 std::string tics(const char* axis, double low, double high, int about) {
   const double wish = (high - low) / about;
   if (!(wish > 0) || !std::isfinite(wish)) return "";
@@ -136,7 +135,7 @@ std::string tics(const char* axis, double low, double high, int about) {
   return fmt::format("set {}tics {:.9g}\n", axis, step);
 }
 
-// Around all that is finite; what is constant to all its digits has room around it.
+// Around all finite values, with a margin; a larger one around constant values.
 std::string range_of(const std::vector<const std::vector<double>*>& all) {
   double low = HUGE_VAL, high = -HUGE_VAL;
   for (const auto* values : all)
@@ -150,7 +149,7 @@ std::string range_of(const std::vector<const std::vector<double>*>& all) {
   return fmt::format("set yrange [{:.9g}:{:.9g}]\n", low, high) + tics("y", low, high, 5);
 }
 
-// Around the numbers; less than a decade and a half is marked at 1, 2 and 5.
+// Tics at powers of ten; in less than a decade and a half also at 2 and 5 times them.
 std::string log_axis(const char* axis, double low, double high) {
   constexpr double kShort = 30;
   low /= 1.6, high *= 1.6;
@@ -176,7 +175,7 @@ std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
   if (panels.empty() || curves.t.size() < 2) return "";
   constexpr int kPanel = 165, kRest = 50, kEntry = 20, kAround = 14;
   int height = kRest;
-  std::vector<int> heights;  // of panels; the legend shall fit beside
+  std::vector<int> heights;  // of panels, at least that of the legend
   for (const auto& panel : panels) {
     heights.push_back(std::max(kPanel, kEntry * static_cast<int>(panel.size() + 1) + 2 * kAround));
     height += heights.back();
@@ -184,7 +183,7 @@ std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
   std::string script = "set multiplot\nset lmargin at screen 0.105\nset rmargin at screen 0.80\n";
   const double known = curves.exact_t.empty() ? 0 : curves.exact_t.back();
   const double end = std::max(curves.t.back(), known);
-  // A point on the border is drawn, one beyond it is not; data have seven digits.
+  // A point beyond the border is not drawn; data have seven digits.
   script += fmt::format("set xrange [0:{:.9g}]\n", end * (1 + 1e-6)) + tics("x", 0, end, 8);
   int above = 0;
   for (std::size_t p = 0; p < panels.size(); ++p) {
@@ -201,7 +200,7 @@ std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
                                      : "set format x ''\nunset xlabel\n";
     std::vector<const std::vector<double>*> shown;
     for (const std::size_t i : panels[p])
-      shown.insert(shown.end(), {&curves.seen[i], &curves.exact[i]});
+      shown.insert(shown.end(), {&curves.values[i], &curves.exact[i]});
     script += range_of(shown) + panel_plots(gnuplot, curves, panels[p]) + "\n";
   }
   return gnuplot.svg(id_of("m", name), name + ": readings over time, run and exact", 900, height,
@@ -210,25 +209,25 @@ std::string motion_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
 
 std::string error_figure(Gnuplot& gnuplot, const std::string& name, const CaseCurves& curves,
                          double tolerance) {
-  constexpr double kWorst = 10, kBest = 1e-17;  // nothing can be read off beyond
+  constexpr double kMaxError = 10, kMinError = 1e-17;
   double low = HUGE_VAL, high = 0, short_step = HUGE_VAL, long_step = 0;
   std::string plots;
-  for (const SchemeLook& look : kSchemes)
+  for (const SchemeStyle& style : kSchemes)
     for (const ErrorCurve& curve : curves.errors) {
-      if (curve.integrator != look.integrator) continue;
+      if (curve.integrator != style.integrator) continue;
       std::vector<double> x, y;
       for (std::size_t i = 0; i < curve.step.size(); ++i) {
-        if (curve.error[i] > kWorst) continue;
+        if (curve.error[i] > kMaxError) continue;
         x.push_back(curve.step[i]);
-        y.push_back(std::max(curve.error[i], kBest));
+        y.push_back(std::max(curve.error[i], kMinError));
         low = std::min(low, y.back()), high = std::max(high, y.back());
         short_step = std::min(short_step, x.back()), long_step = std::max(long_step, x.back());
       }
       if (x.empty()) continue;
       const std::string slope = curve.order ? fmt::format("  {:.2f}", *curve.order) : "";
       plots += fmt::format("{}{} with linespoints lw 1.5 pt {} ps 0.6 lc '{}' title {}",
-                           plots.empty() ? "plot " : ", ", gnuplot.data({x, y}), look.point,
-                           look.colour, in_quotes(integrator_name(curve.integrator) + slope));
+                           plots.empty() ? "plot " : ", ", gnuplot.data({x, y}), style.point,
+                           style.colour, in_quotes(integrator_name(curve.integrator) + slope));
     }
   if (plots.empty()) return "";
   if (tolerance > 0) {
@@ -260,8 +259,8 @@ std::string energy_figure(Gnuplot& gnuplot, const std::string& name, const CaseC
   script += range_of(shown);
   script += fmt::format("set label 1 {} at graph 0,1.045 left font ',12' textcolor '#333333'\n",
                         in_quotes(curves.energy_label));
-  if (curves.energy_kept) script += "set format y '%.2g'\n";
-  // Runs have the colours that they have in the figure of the motion.
+  if (curves.energy_is_relative) script += "set format y '%.2g'\n";
+  // The colours of the motion figure.
   for (std::size_t i = 0; i < curves.energy.size(); ++i)
     script += fmt::format(
         "{}{} with lines lw 1.6 lc '{}'", i == 0 ? "plot " : ", ",

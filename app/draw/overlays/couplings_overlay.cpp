@@ -1,5 +1,5 @@
-// Spring-dampers: those between two points as springs that stretch, the others as the couple or
-// force that they put on the link. Coloured by the size of the pull, in share of the run's largest.
+// Spring-dampers between two points as springs, the others as force or torque on the link, coloured
+// by force over the largest force of the run; the mouse spring.
 #include <algorithm>
 #include <cmath>
 
@@ -9,68 +9,73 @@
 namespace twinarm {
 namespace {
 
-constexpr double kMinPull = 1e-3;    // of the largest
-constexpr double kMinArrow = 0.005;  // of the weight, and of that at half the scene's extent
+constexpr double kMinForceShare = 1e-3;  // of the largest
+constexpr double kMinArrow = 0.005;      // of the weight; of the weight times the scene's radius
 
-struct DrawnPulls {
-  bool force = false, couple = false;
-};
-
-void draw_spring(SceneView& stage, const ShownCouplingForce& pull, const Color& color) {
-  const double radius = 3 * stage.scales.radius();
-  add_spring(stage.list, pull.p_D, pull.p_K, radius, color);
-  add_sphere(stage.list, pull.p_D, 1.15 * radius, color);
-  add_sphere(stage.list, pull.p_K, 1.15 * radius, palette::kGhostSwatch);
-  add_label(stage.list, 0.5 * (pull.p_D + pull.p_K), with_unit(pull.pull_W.norm(), "N"), {24, -34});
+void draw_spring(SceneView& view, const ShownCouplingForce& coupling, const Color& color) {
+  const double radius = 3 * view.scales.radius();
+  add_spring(view.list, coupling.p_D, coupling.p_K, radius, color);
+  add_sphere(view.list, coupling.p_D, 1.15 * radius, color);
+  add_sphere(view.list, coupling.p_K, 1.15 * radius, palette::kTargetRobotSwatch);
+  add_label(view.list, 0.5 * (coupling.p_D + coupling.p_K), with_unit(coupling.pull_W.norm(), "N"),
+            {24, -34});
 }
 
-void draw_pull(SceneView& stage, const ShownCouplingForce& pull, const Color& color) {
-  const double size = pull.pull_W.norm(), radius = stage.scales.radius();
-  if (pull.kind == ShownCouplingForce::Kind::force) {
-    const double scale = stage.scales.metres_per(stage.scales.force);
-    add_arrow(stage.list, pull.p_D, pull.p_D + scale * pull.pull_W, radius, color);
-    add_label(stage.list, pull.p_D, with_unit(size, "N"), {24, -24});
+void draw_coupling_force(SceneView& view, const ShownCouplingForce& coupling, const Color& color) {
+  const double size = coupling.pull_W.norm(), radius = view.scales.radius();
+  if (coupling.kind == ShownCouplingForce::Kind::force) {
+    const double scale = view.scales.metres_per(view.scales.force);
+    add_arrow(view.list, coupling.p_D, coupling.p_D + scale * coupling.pull_W, radius, color);
+    add_label(view.list, coupling.p_D, with_unit(size, "N"), {24, -24});
   } else {
-    const double share = std::max(0.3, std::sqrt(size / stage.scales.couple));
-    add_turn_arrow(stage.list, pull.p_D, pull.pull_W, 0.16 * share * stage.scales.length, radius,
-                   color);
-    add_label(stage.list, pull.p_D, with_unit(size, "N m"), {24, -24});
+    const double share = std::max(0.3, std::sqrt(size / view.scales.couple));
+    add_rotation_arrow(view.list, coupling.p_D, coupling.pull_W, 0.16 * share * view.scales.length,
+                       radius, color);
+    add_label(view.list, coupling.p_D, with_unit(size, "N m"), {24, -24});
   }
 }
 
-void add_ramp_legend(SceneView& stage, const DrawnPulls& drawn) {
-  if (drawn.force) {
-    stage.list.legend.push_back({palette::ramp(0), "spring-damper that pulls little"});
-    stage.list.legend.push_back(
-        {palette::ramp(1), "most in this run", ": " + with_unit(stage.scales.force, "N")});
-  }
-  if (drawn.couple)
-    stage.list.legend.push_back({palette::ramp(1), "most couple of a spring-damper",
-                                 ": " + with_unit(stage.scales.couple, "N m")});
-}
-
-void show_couplings(SceneView& stage, const Snapshot& moment) {
-  DrawnPulls drawn;
-  const Model<double>& model = *stage.model;
-  const double weight = total_motion(model, moment.k).mass * to_eigen(model.gravity).norm();
-  for (const ShownCouplingForce& pull : moment.pulls) {
-    const bool is_force = pull.kind == ShownCouplingForce::Kind::force;
-    const double largest = is_force ? stage.scales.force : stage.scales.couple;
-    const double size = pull.pull_W.norm();
-    // What holds a joint against next to nothing must not look like what moves the robot.
-    const double least =
-        pull.has_ends ? 0 : kMinArrow * weight * (is_force ? 1 : stage.scales.length);
-    if (largest < least) continue;
-    (is_force ? drawn.force : drawn.couple) = true;
-    if (!(largest > 0) || size < std::max(least, kMinPull * largest)) continue;
+void show_couplings(SceneView& view, const Snapshot& snapshot) {
+  bool any_force = false, any_torque = false;
+  const Model<double>& model = *view.model;
+  const double weight = total_motion(model, snapshot.k).mass * to_eigen(model.gravity).norm();
+  for (const ShownCouplingForce& coupling : snapshot.pulls) {
+    const bool is_force = coupling.kind == ShownCouplingForce::Kind::force;
+    const double largest = is_force ? view.scales.force : view.scales.couple;
+    const double size = coupling.pull_W.norm();
+    // Forces far below the weight are not drawn as arrows.
+    const double smallest =
+        coupling.has_ends ? 0 : kMinArrow * weight * (is_force ? 1 : view.scales.length);
+    if (largest < smallest) continue;
+    (is_force ? any_force : any_torque) = true;
+    if (!(largest > 0) || size < std::max(smallest, kMinForceShare * largest)) continue;
     const Color color = palette::ramp(size / largest);
-    const OfBody mark(stage.list, pull.body);
-    if (pull.has_ends)
-      draw_spring(stage, pull, color);
+    const OfBody mark(view.list, coupling.body);
+    if (coupling.has_ends)
+      draw_spring(view, coupling, color);
     else
-      draw_pull(stage, pull, color);
+      draw_coupling_force(view, coupling, color);
   }
-  add_ramp_legend(stage, drawn);
+  std::vector<LegendLine>& legend = view.list.legend;
+  if (any_force) legend.push_back({palette::ramp(0), "small coupling force"});
+  if (any_force)
+    legend.push_back(
+        {palette::ramp(1), "largest of this run", ": " + with_unit(view.scales.force, "N")});
+  if (any_torque)
+    legend.push_back(
+        {palette::ramp(1), "largest coupling torque", ": " + with_unit(view.scales.couple, "N m")});
+}
+
+void show_mouse_spring(SceneView& view, const Snapshot& snapshot) {
+  if (!snapshot.grip) return;
+  const ShownMouseSpring& grip = *snapshot.grip;
+  const double radius = 2.4 * view.scales.radius();
+  const OfBody mark(view.list, grip.body);
+  add_spring(view.list, grip.p_W, grip.goal_W, radius, palette::kMouse);
+  add_sphere(view.list, grip.p_W, 1.2 * radius, palette::kMouse);
+  add_sphere(view.list, grip.goal_W, 1.2 * radius, palette::kMouse);
+  add_label(view.list, grip.goal_W, with_unit(grip.force_W.norm(), "N"), {18, -20});
+  view.list.legend.push_back({palette::kMouse, "mouse spring"});
 }
 
 }  // namespace
@@ -78,9 +83,14 @@ void show_couplings(SceneView& stage, const Snapshot& moment) {
 Overlays couplings_overlay() {
   return {{.place = 40,
            .name = "couplings",
-           .what = "spring-dampers, coloured by their force",
+           .what = "spring-dampers, coloured by force",
            .add = show_couplings,
-           .shown = Overlay::Shown::everywhere}};
+           .shown = Overlay::Shown::everywhere},
+          {.place = 220,
+           .name = "pull",
+           .what = "mouse spring on a body",
+           .add = show_mouse_spring,
+           .is_live = true}};
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Axes of joints, and of links and bodies.
+// Axes of joints; frames and names of links and bodies.
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"
 
@@ -8,22 +8,22 @@ namespace {
 bool has_one_axis(JointType type) {
   return facts_of(type).axis == AxisUse::motion;
 }
-bool turns(JointType type) {
+bool is_rotational(JointType type) {
   return has_one_axis(type) && !is_translational(type);
 }
 
-const Color kTurns{0.55f, 0.20f, 0.60f, 1.0f}, kSlides{0.05f, 0.45f, 0.55f, 1.0f};
+const Color kRotational{0.55f, 0.20f, 0.60f, 1.0f}, kTranslational{0.05f, 0.45f, 0.55f, 1.0f};
 
-void draw_axis(SceneView& stage, const Snapshot& moment, std::size_t body) {
-  const Vector3 p = moment.k.X_WL[body].p, z = moment.k.R_WB[body].col(2);
-  const double reach = 0.17 * stage.scales.length, radius = 0.6 * stage.scales.radius();
-  if (turns(stage.model->joint[body])) {
-    add_arrow(stage.list, p - reach * z, p + reach * z, radius, kTurns);
-    add_turn_arrow(stage.list, p + 0.7 * reach * z, z, 0.3 * reach, 0.7 * radius, kTurns);
+void draw_axis(SceneView& view, const Snapshot& snapshot, std::size_t body) {
+  const Vector3 p = snapshot.k.X_WL[body].p, z = snapshot.k.R_WB[body].col(2);
+  const double reach = 0.17 * view.scales.length, radius = 0.6 * view.scales.radius();
+  if (is_rotational(view.model->joint[body])) {
+    add_arrow(view.list, p - reach * z, p + reach * z, radius, kRotational);
+    add_rotation_arrow(view.list, p + 0.7 * reach * z, z, 0.3 * reach, 0.7 * radius, kRotational);
   } else {
-    add_arrow(stage.list, p - reach * z, p + reach * z, 1.3 * radius, kSlides);
+    add_arrow(view.list, p - reach * z, p + reach * z, 1.3 * radius, kTranslational);
   }
-  add_label(stage.list, p + reach * z, stage.model->joint_name[body], {10, -8}, 13);
+  add_label(view.list, p + reach * z, view.model->joint_name[body], {10, -8}, 13);
 }
 
 void draw_frame(DrawList& list, const Pose& X_W, double length, double radius) {
@@ -32,36 +32,42 @@ void draw_frame(DrawList& list, const Pose& X_W, double length, double radius) {
               palette::kAxes[static_cast<std::size_t>(c)]);
 }
 
-void show_joints(SceneView& stage, const Snapshot& moment) {
-  bool any_turns = false, any_slides = false;
-  for (std::size_t i = 1; i < stage.model->parent.size(); ++i) {
-    const JointType type = stage.model->joint[i];
+void show_joints(SceneView& view, const Snapshot& snapshot) {
+  bool any_rotational = false, any_translational = false;
+  for (std::size_t i = 1; i < view.model->parent.size(); ++i) {
+    const JointType type = view.model->joint[i];
     if (!has_one_axis(type)) continue;
-    (turns(type) ? any_turns : any_slides) = true;
-    const OfBody mark(stage.list, i);
-    draw_axis(stage, moment, i);
+    (is_rotational(type) ? any_rotational : any_translational) = true;
+    const OfBody mark(view.list, i);
+    draw_axis(view, snapshot, i);
   }
-  if (any_turns) stage.list.legend.push_back({kTurns, "joint that turns: axis and sense"});
-  if (any_slides) stage.list.legend.push_back({kSlides, "joint that slides"});
+  if (any_rotational) view.list.legend.push_back({kRotational, "rotational joint: axis and sense"});
+  if (any_translational) view.list.legend.push_back({kTranslational, "prismatic joint"});
 }
 
-void show_frames(SceneView& stage, const Snapshot& moment) {
-  const double length = 0.12 * stage.scales.length, radius = 0.45 * stage.scales.radius();
-  for (std::size_t i = 1; i < stage.model->parent.size(); ++i) {
-    const OfBody mark(stage.list, i);
-    draw_frame(stage.list, moment.k.X_WL[i], length, radius);
+void show_frames(SceneView& view, const Snapshot& snapshot) {
+  const double length = 0.12 * view.scales.length, radius = 0.45 * view.scales.radius();
+  for (std::size_t i = 1; i < view.model->parent.size(); ++i) {
+    const OfBody mark(view.list, i);
+    draw_frame(view.list, snapshot.k.X_WL[i], length, radius);
   }
   const char* names[] = {"x", "y", "z"};
   for (std::size_t c = 0; c < 3; ++c)
-    stage.list.legend.push_back(
-        {palette::kAxes[c], std::string(names[c]) + " of links and bodies"});
+    view.list.legend.push_back({palette::kAxes[c], std::string(names[c]) + " of links and bodies"});
+}
+
+void show_labels(SceneView& view, const Snapshot& snapshot) {
+  for (std::size_t i = 1; i < view.model->parent.size(); ++i)
+    add_label(view.list, com_of(*view.model, snapshot.k, i), view.model->body_name[i], {26, -22},
+              14);
 }
 
 }  // namespace
 
 Overlays joints_overlay() {
-  return {{.place = 80, .name = "joints", .what = "axes of joints", .add = show_joints},
-          {.place = 90, .name = "frames", .what = "axes of links and bodies", .add = show_frames}};
+  return {{.place = 80, .name = "joints", .what = "joint axes", .add = show_joints},
+          {.place = 90, .name = "frames", .what = "frames of links and bodies", .add = show_frames},
+          {.place = 140, .name = "labels", .what = "names of bodies", .add = show_labels}};
 }
 
 }  // namespace twinarm

@@ -7,9 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/support/text.h"
+#include "app/draw/curves.h"
 #include "solver/spatial/rotation_to_axis.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
@@ -35,40 +34,28 @@ const Overlays& live_overlays() {
   return all;
 }
 
-std::vector<std::string> usual_overlays(Overlay::Shown least) {
+std::vector<std::string> usual_overlays(Overlay::Shown at_least) {
   std::vector<std::string> names;
   for (const Overlay& overlay : all_overlays())
-    if (overlay.shown >= least) names.emplace_back(overlay.name);
+    if (overlay.shown >= at_least) names.emplace_back(overlay.name);
   return names;
 }
 
 std::vector<std::string> parse_overlays(const std::string& text) {
-  std::vector<std::string> known, chosen;
-  for (const Overlay& overlay : all_overlays()) known.emplace_back(overlay.name);
-  DiagnosticList faults;
-  for (const std::string& word : split(text)) {
-    if (word == "none" || word.empty()) continue;
-    if (word == "all") return known;
-    if (std::ranges::find(known, word) == known.end())
-      faults.add({"", 0, "--show", "there is no overlay '" + word + "'",
-                  name_remedy(word, known, "overlays"), "option.choice"});
-    chosen.push_back(word);
-  }
-  faults.check();
-  return chosen;
+  return parse_names(text, "--show", "overlay", usual_overlays(Overlay::Shown::no));
 }
 
-std::vector<Drawn> draw(SceneView& stage, const Snapshot& moment,
+std::vector<Drawn> draw(SceneView& view, const Snapshot& snapshot,
                         const std::vector<std::string>& overlays) {
-  DrawList& list = stage.list;
-  draw_bodies(stage, moment);
+  DrawList& list = view.list;
+  draw_bodies(view, snapshot);
   std::vector<Drawn> drawn{{}};
   for (const auto* known : {&all_overlays(), &live_overlays()})
     for (const Overlay& overlay : *known) {
       if (std::ranges::find(overlays, overlay.name) == overlays.end()) continue;
       const std::size_t first = list.instances.size();
       drawn.push_back({&overlay, first, list.labels.size(), list.legend.size()});
-      overlay.add(stage, moment);
+      overlay.add(view, snapshot);
       for (std::size_t i = first; i < list.instances.size(); ++i)
         list.instances[i].seen_through = overlay.seen_through;
     }
@@ -84,7 +71,7 @@ std::string with_unit(double value, const std::string& unit) {
   };
   constexpr std::array<Prefix, 5> kPrefixes{
       {{1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "\u00b5"}}};
-  // Only single units take a prefix that everybody reads alike.
+  // No prefix for products of units and kg.
   const bool plain = unit.find(' ') == std::string::npos && unit != "kg";
   for (const Prefix& prefix : kPrefixes)
     if (plain && size >= 0.9995 * prefix.factor)
@@ -92,8 +79,8 @@ std::string with_unit(double value, const std::string& unit) {
   return fmt::format("{:.3g} {}", value, unit);
 }
 
-void add_turn_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis_W, double radius,
-                    double thickness, const Color& color) {
+void add_rotation_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis_W,
+                        double radius, double thickness, const Color& color) {
   if (!(axis_W.norm() > 0) || !axis_W.allFinite()) return;
   constexpr int kPieces = 20;
   constexpr double kTurn = 1.5 * std::numbers::pi;

@@ -1,6 +1,6 @@
-// Overlays: what can be laid over the bodies, by name, as entries of the DrawList. A file
-// NAME_overlay.cpp of this folder defines `Overlays NAME_overlay()`, one or those that are alike;
-// --show, the legend, the lab and pages list them (docs/develop/extending_overlay.md).
+// Overlays: named layers of the DrawList over the bodies. A file NAME_overlay.cpp of this folder
+// defines `Overlays NAME_overlay()`, one or several related; --show, the legend, the lab and pages
+// list them (docs/develop/extending.md).
 #pragma once
 
 #include <string>
@@ -12,42 +12,42 @@ namespace twinarm {
 
 struct Overlay {
   enum class Shown { no, on_pages, everywhere };
-  int place = 0;          // in which they are drawn and stand in the legend, ascending
+  int place = 0;          // order of drawing and of the legend
   const char* name = "";  // of --show
   const char* what = "";  // in the help
-  void (*add)(SceneView& stage, const Snapshot& moment) = nullptr;
-  bool seen_through = true;  // faintly where bodies hide it
-  Shown shown = Shown::no;   // where nobody has chosen
-  bool is_live = false;      // of a run that somebody works on: no recording has what it shows
+  void (*add)(SceneView& view, const Snapshot& snapshot) = nullptr;
+  bool seen_through = true;  // faintly visible through bodies
+  Shown shown = Shown::no;   // by default
+  bool is_live = false;      // of the lab only: recordings lack its data
 };
 using Overlays = std::vector<Overlay>;
 const std::vector<Overlays>& overlays_of_files();
 
-// In their order; after them those of a run that somebody works on.
+// By `place`: all but the live ones; the live ones.
 const Overlays& all_overlays();
 const Overlays& live_overlays();
 
-// Names of those that are shown where nobody has chosen, in their order.
-std::vector<std::string> usual_overlays(Overlay::Shown least);
+// Names of those shown by default, by `place`.
+std::vector<std::string> usual_overlays(Overlay::Shown at_least);
 
-// "forces,contacts"; "none"; "all". Throws InputError with all faults.
+// "forces,contacts"; "none"; "all". Throws InputError.
 std::vector<std::string> parse_overlays(const std::string& text);
 
-// What one of them has put into stage.list: from there to where the next one begins.
+// First entries of an overlay in view.list; they end where the next overlay begins.
 struct Drawn {
   const Overlay* overlay = nullptr;  // null: the bodies
   std::size_t instance = 0, label = 0, legend = 0;
 };
-// Names of overlays. Fills stage.list: the bodies first, then the overlays in the order above.
-std::vector<Drawn> draw(SceneView& stage, const Snapshot& moment,
+// Fills view.list: the bodies, then the named overlays by `place`.
+std::vector<Drawn> draw(SceneView& view, const Snapshot& snapshot,
                         const std::vector<std::string>& overlays);
 
 // "12.3 N", "4.57 kN": three digits.
 std::string with_unit(double value, const std::string& unit);
-// An arc about an axis with an arrow's head, three quarters of a turn in the sense of the axis.
-void add_turn_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis_W, double radius,
-                    double thickness, const Color& color);
-// The scale of arrows, as the legend says it behind their name: " (0.1 m = 50 N)".
+// An arc of 270 degrees about an axis with an arrow's head.
+void add_rotation_arrow(DrawList& list, const Vector3& center_W, const Vector3& axis_W,
+                        double radius, double thickness, const Color& color);
+// Scale of arrows for the legend: " (0.1 m = 50 N)".
 std::string scale_words(double metres_per, double length, const std::string& unit);
 
 }  // namespace twinarm

@@ -11,35 +11,38 @@
 namespace twinarm {
 namespace {
 
-constexpr double kNoPull = 1e-13;  // of what it is compared with
+constexpr double kZeroForce = 1e-13;  // relative to the largest force
 
 Vector6 six_of(const NamedWrench& wrench) {
   return (Vector6() << wrench.force, wrench.torque).finished();
 }
 
-std::string joint_label(const Inspection& in, std::size_t body, std::size_t dof) {
-  std::string text = in.model.joint_name[body].empty() ? "base" : in.model.joint_name[body];
+std::string dof_label(const Inspection& in, std::size_t body, std::size_t dof) {
+  std::string text = joint_label(in, body);
   if (in.model.dofs(body) > 1) text += fmt::format("[{}]", dof - in.model.iv[body] + 1);
   return text;
 }
 
-// What pulls along a degree of freedom, where anything does.
+const char* force_unit(const Inspection& in, std::size_t body) {
+  if (in.model.dofs(body) > 1) return "";
+  return is_translational(in.model.joint[body]) ? "N" : "N m";
+}
+
 void write_joint_balance(const Inspection& in, const JointBalance& joint, Sheet& sheet) {
-  double pull = 0;
+  double largest = 0;
   for (const JointBalance::Torque& torque : joint.torques)
-    pull = std::max(pull, std::abs(torque.value));
-  if (pull <= kNoPull * joint.largest) return;
-  std::string text = fmt::format("      along {}", joint_label(in, joint.body, joint.dof));
-  if (in.model.dofs(joint.body) == 1)
-    text += is_translational(in.model.joint[joint.body]) ? " [N]" : " [N m]";
+    largest = std::max(largest, std::abs(torque.value));
+  if (largest <= kZeroForce * joint.largest) return;
+  std::string text = fmt::format("      along {}", dof_label(in, joint.body, joint.dof));
+  if (const std::string unit = force_unit(in, joint.body); !unit.empty()) text += " [" + unit + "]";
   for (std::size_t k = 0; k < joint.torques.size(); ++k)
     text += fmt::format("{} {} {}", k ? "," : ":", joint.torques[k].source,
                         short_number(joint.torques[k].value, joint.largest));
   sheet.line(wrapped(text, 10));
 }
 
-// Whether it acts on one of the bodies that are asked for.
-bool concerns(const InspectView& view, const NamedForce& named) {
+// Whether it acts on one of the bodies in view.
+bool acts_in_view(const InspectView& view, const NamedForce& named) {
   const auto is_shown = [&](std::size_t body) {
     return std::ranges::find(view.bodies, body) != view.bodies.end();
   };
@@ -55,9 +58,8 @@ std::string point_text(const Vector3& p) {
                      short_number(p.z(), size));
 }
 
-}  // namespace
-
-std::string viewpoint_in_words(const InspectView& view) {
+// "world axes, about its link's origin".
+std::string viewpoint_text(const InspectView& view) {
   using Axes = Viewpoint::Axes;
   using About = Viewpoint::About;
   const std::string axes = view.from.axes == Axes::world ? "world axes"
@@ -70,6 +72,8 @@ std::string viewpoint_in_words(const InspectView& view) {
   return axes + ", about " + about;
 }
 
+}  // namespace
+
 std::vector<NamedForce> forces_in_view(const Inspection& in, const InspectView& view) {
   std::vector<NamedForce> all = named_forces(in, view.from);
   if (view.forces_alone)
@@ -80,7 +84,7 @@ std::vector<NamedForce> forces_in_view(const Inspection& in, const InspectView& 
 }
 
 void write_balances(const Inspection& in, const InspectView& view, Sheet& sheet) {
-  sheet.title("WRENCHES ON EACH BODY: force [N] | torque [N m]", viewpoint_in_words(view));
+  sheet.title("WRENCHES ON EACH BODY: force [N] | torque [N m]", viewpoint_text(view));
   const std::vector<JointBalance> joints = joint_balances(in);
   for (const std::size_t body : view.bodies) {
     const BodyBalance balance = balance_of(in, body, view.from);
@@ -88,7 +92,7 @@ void write_balances(const Inspection& in, const InspectView& view, Sheet& sheet)
     const Vector6 size = Vector6::Constant(balance.largest);
     for (const NamedWrench& wrench : balance.wrenches)
       sheet.row(wrench.source, six_of(wrench), size);
-    sheet.line(fmt::format("      they sum to zero, but for {:.1e} of the largest, {}",
+    sheet.line(fmt::format("      sum: zero, relative residual {:.1e} (largest {})",
                            balance.residual, short_number(balance.largest)));
     for (const JointBalance& joint : joints)
       if (joint.body == body) write_joint_balance(in, joint, sheet);
@@ -98,11 +102,11 @@ void write_balances(const Inspection& in, const InspectView& view, Sheet& sheet)
 void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sheet) {
   std::vector<NamedForce> all = forces_in_view(in, view);
   if (!view.forces_alone)
-    std::erase_if(all,
-                  [&](const NamedForce& named) { return !named.is_tie || !concerns(view, named); });
+    std::erase_if(all, [&](const NamedForce& named) {
+      return !named.is_interaction || !acts_in_view(view, named);
+    });
   if (all.empty()) return;
-  sheet.title("FORCES BY NAME, on bodies that move: force [N] | torque [N m]",
-              viewpoint_in_words(view));
+  sheet.title("NAMED FORCES on moving bodies: force [N] | torque [N m]", viewpoint_text(view));
   for (const NamedForce& named : all) {
     std::string head = "\n" + named.source;
     if (named.point) head += " at " + point_text(*named.point);
@@ -114,11 +118,8 @@ void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sh
       sheet.row("on " + in.model.body_name[end.body], six_of(end.wrench),
                 Vector6::Constant(six_of(end.wrench).lpNorm<Eigen::Infinity>()));
     for (const NamedForce::OnJoint& on : named.joints)
-      sheet.line(fmt::format("      along {}: {} {}", joint_label(in, on.body, on.dof),
-                             short_number(on.value),
-                             in.model.dofs(on.body) > 1                  ? ""
-                             : is_translational(in.model.joint[on.body]) ? "N"
-                                                                         : "N m"));
+      sheet.line(fmt::format("      along {}: {} {}", dof_label(in, on.body, on.dof),
+                             short_number(on.value), force_unit(in, on.body)));
   }
 }
 
@@ -146,7 +147,7 @@ std::vector<AppliedForce> given_actors(const RobotInput& input) {
     const Wrench& wrench = input.state.wrenches[i];
     AppliedForce actor{
         "wrench/" + std::to_string(i), {{wrench.body, in_body_axes(wrench, k), {}}}, {}};
-    actor.is_tie = true;
+    actor.is_interaction = true;
     actor.point_W = wrench.in_link_axes ? k.X_WL[wrench.body] * wrench.point : wrench.point;
     actors.push_back(std::move(actor));
   }

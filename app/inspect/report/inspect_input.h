@@ -1,4 +1,4 @@
-// What `twinarm inspect` looks at: a robot's URDF or a scene, the state, and who pushes.
+// Input of `twinarm inspect`: state and named forces of a robot or of a step of a scene.
 #pragma once
 
 #include <memory>
@@ -15,38 +15,37 @@
 
 namespace twinarm {
 
-// An impulse that was over before the forces act: velocities are those after it.
+// Velocities are those after impacts at the start of the step.
 struct Inspected {
   State<double> x;
   std::vector<AppliedForce> actors;
   std::vector<std::string> warnings;
-  // Of a scene: accelerations of the step that was run, to be found again. Empty for a URDF.
-  std::vector<double> qdd_of_step;
-  std::vector<LoopClosure> loops;  // of a scene
+  std::vector<double> qdd_of_step;  // of a scene, for the cross-check
+  std::vector<LoopClosure> loops;   // of a scene
 };
 
-// Friction, mimics, given torques and wrenches at the state.
+// Friction, mimic joints, given torques and wrenches at the state.
 Inspected inspect_robot(const RobotInput& input);
 
-// What pushes besides all that the scene has; added after its couplings.
+// A force source besides those of the scene; added after its couplings.
 struct NamedSource {
   std::string name;
   ForceSource* source;                          // Rewindable
-  std::optional<std::pair<int, Vector3>> at{};  // body and point of it, link axes
+  std::optional<std::pair<int, Vector3>> at{};  // body and point, link axes
 };
 
-// The forces of the semi-implicit step of h from an instant: those given, couplings, contacts,
-// limits, constraints. What it is made of is read and built once, for as many instants as are asked
-// for; the input and the sources must outlive it, and the input's state goes along.
+// Forces of a semi-implicit step of h from an instant: given forces, couplings, contacts, limits,
+// constraints. Built once for any number of instants; the input and the sources must outlive it,
+// and look() changes the input's state.
 class SceneInspector {
  public:
-  // `of_run`: the integrator of the run that the memory of look() is of. With it limits act or do
-  // not, and free bodies are stepped under constraints or are not.
+  // `of_run`: integrator of the run whose archives look() reads. It decides whether limits act and
+  // whether free bodies are stepped with constraints.
   SceneInspector(SimulateInput& input, double h, const std::vector<NamedSource>& others = {},
                  Integrator of_run = Integrator::semi_implicit);
   ~SceneInspector();
-  // From the state of the last call, or of the input; or from an instant within a run that was
-  // built alike (Simulation::serialize; throws as that does).
+  // From the archive of an instant of the run (Simulation::serialize, throws likewise); without
+  // one, from the state of the last call or of the input.
   Inspected look(StateArchive* memory = nullptr);
 
  private:
@@ -54,13 +53,13 @@ class SceneInspector {
   std::unique_ptr<FirstStep> step_;
 };
 
-// The same of one instant.
+// SceneInspector of one instant.
 Inspected inspect_scene(SimulateInput& input, double h, StateArchive* memory = nullptr,
                         Integrator of_run = Integrator::semi_implicit);
 
-// Used by both: torques of the state file by joint, and its wrenches.
+// Torques and wrenches of the state file.
 std::vector<AppliedForce> given_actors(const RobotInput& input);
-// By joint, of what acts on velocities; nothing of joints where it is zero.
+// Adds a force "BEFORE joint AFTER" for each joint with nonzero tau (by velocity).
 void add_by_joint(const Model<double>& model, const std::vector<double>& tau,
                   const std::string& before, const std::string& after,
                   std::vector<AppliedForce>& actors);

@@ -1,5 +1,3 @@
-// The pages for people, one after the other: passes, wrenches, forces by name, checks.
-
 #include "app/inspect/report/inspect_output.h"
 
 #include <fmt/format.h>
@@ -18,7 +16,7 @@ namespace {
 void write_bodies(const Inspection& in, const InspectView& view, int pass,
                   const SubtreeErrors& errors, Sheet& sheet) {
   static constexpr std::array titles{
-      "PASS 1, base to tips: velocities, and bias forces of the bodies alone",
+      "PASS 1, base to tips: velocities, velocity-product accelerations, bias forces",
       "PASS 2, tips to base: articulated-body inertias and bias forces",
       "PASS 3, base to tips: accelerations"};
   sheet.title(titles[static_cast<std::size_t>(pass - 1)], "RBDA table 7.1");
@@ -31,8 +29,8 @@ void write_bodies(const Inspection& in, const InspectView& view, int pass,
 }
 
 void write_checks(const std::vector<Check>& checks, Sheet& sheet) {
-  sheet.title("CHECKS by independent algorithms", "of all bodies");
-  TextTable table({"check", "worst error", "allowed", "at", ""});
+  sheet.title("CROSS-CHECKS by independent algorithms", "of all bodies");
+  TextTable table({"quantity", "largest error", "tolerance", "at", ""});
   for (const Check& check : checks)
     table.add({fmt::format("{:<9} {}", check.name, check.meaning),
                fmt::format("{:.1e}", check.error), fmt::format("{:.0e}", check.tolerance),
@@ -40,9 +38,9 @@ void write_checks(const std::vector<Check>& checks, Sheet& sheet) {
   sheet.line(table.str());
 }
 
-// The largest rows, one after the other; what did nothing is left out.
+// The largest rows; zero rows are left out.
 void write_ledger(std::vector<EnergyRow> rows, Sheet& sheet) {
-  constexpr std::size_t most = 24;
+  constexpr std::size_t kMaxRows = 24;
   if (rows.empty()) return;
   double change = 0;
   for (const EnergyRow& row : rows) change += row.work;
@@ -51,12 +49,11 @@ void write_ledger(std::vector<EnergyRow> rows, Sheet& sheet) {
     return std::abs(a.work) > std::abs(b.work);
   });
   std::string text = " ";
-  for (std::size_t i = 0; i < std::min(rows.size(), most); ++i)
+  for (std::size_t i = 0; i < std::min(rows.size(), kMaxRows); ++i)
     text += fmt::format(" {} {},", rows[i].name, cell(rows[i].work));
-  if (rows.size() > most) text += fmt::format(" and {} smaller ones,", rows.size() - most);
-  sheet.title("WORK ON THE BODIES since the start of the run [J]", "the largest first");
-  sheet.line(
-      wrapped(text + fmt::format(" together {}, the change of kinetic energy", cell(change))));
+  if (rows.size() > kMaxRows) text += fmt::format(" {} smaller rows,", rows.size() - kMaxRows);
+  sheet.title("ENERGY BALANCE since the start of the run: work [J]", "largest first");
+  sheet.line(wrapped(text + fmt::format(" sum = change of kinetic energy {}", cell(change))));
 }
 
 }  // namespace
@@ -84,7 +81,7 @@ std::vector<double> list_of(const Eigen::MatrixXd& column) {
   return {column.data(), column.data() + column.size()};
 }
 
-// A number alone; six numbers; a list of columns where a joint has several; else a matrix by rows.
+// A number, a list of numbers, a list of columns (S, U), or a matrix by rows.
 void write_value(JsonWriter& json, const DisplayedQuantity& shown) {
   using By = Quantity::By;
   const Eigen::MatrixXd& m = shown.value;

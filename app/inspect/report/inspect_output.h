@@ -1,6 +1,8 @@
-// What `twinarm inspect` prints: one JSON object, or pages for people.
+// Options and output of `twinarm inspect`: a JSON object or text pages.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,33 +12,59 @@
 #include "app/inspect/cross_checks.h"
 #include "app/inspect/force_balance.h"
 #include "app/inspect/inspection.h"
+#include "app/robot/robot_input.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
+// What is shown.
 struct InspectView {
   std::vector<int> passes{1, 2, 3};
   std::vector<std::size_t> bodies;               // in the order of the model
   Viewpoint from;                                // of wrenches
-  std::string axes = "world", about = "origin";  // as they were asked for
-  std::vector<std::string> forces;               // sources to be read out; none: all
-  bool forces_alone = false;                     // pages for people tell of nothing else
+  std::string axes = "world", about = "origin";  // as typed
+  std::vector<std::string> forces;               // sources that are shown
+  bool forces_alone = false;                     // of --force: the text has only these forces
   std::string title;
   std::vector<EnergyRow> ledger;  // of a recording, up to its instant [J]
   std::vector<std::string> warnings;
 };
 
-// Those that the view asks for.
+// Options of `twinarm inspect`.
+struct InspectOptions {
+  std::filesystem::path html;  // a page; empty: text on stdout
+  RobotOptions robot;
+  std::vector<std::string> passes, bodies;  // none: all
+  std::string axes = "world";               // of the wrenches: world, link, or a body's name
+  std::string about = "origin";             // origin, com, a body's name, or x,y,z in the world
+  std::vector<std::string> forces;          // by name; none: all
+  std::optional<double> step;               // of a scene [s]; default: the scene's
+  std::optional<double> at;                 // of a recording [s]; default: its end
+  bool json = false;
+};
+
+// --pass; all if none is given.
+void read_passes(const InspectOptions& options, InspectView& view, DiagnosticList& faults);
+// --body, --axes, --about.
+void read_bodies(const InspectOptions& options, const Model<double>& model, InspectView& view,
+                 DiagnosticList& faults);
+// --force: the full name of a force, or its part after the first slash; the name of a contact
+// selects all of its points.
+void read_forces(const InspectOptions& options, const std::vector<AppliedForce>& actors,
+                 InspectView& view, DiagnosticList& faults);
+
+// Those that the view selects.
 std::vector<NamedForce> forces_in_view(const Inspection& in, const InspectView& view);
 
-// Of a scene: what is inspected is what the step did.
+// Accelerations of the inspected forces against those of the scene's step.
 Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step);
-// After a run that broke: where the passes break.
+// Names the first quantity that is not finite.
 void warn_of_bad_numbers(const Inspection& in, std::vector<std::string>& warnings);
 
-// Keys of the object that is open: what `inspect --json` prints.
+// Members of the JSON object of `inspect --json`.
 void write_inspection(JsonWriter& json, const Inspection& in, const InspectView& view,
                       const std::vector<Check>& checks);
-// The list at its key "passes", in the order in which aba() goes.
+// The list of "passes", in the order of aba().
 void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>& passes,
                   const std::vector<std::size_t>& bodies);
 void write_quantities(JsonWriter& json, const std::vector<DisplayedQuantity>& quantities);
@@ -45,22 +73,14 @@ std::string inspect_json(const Inspection& in, const InspectView& view,
 std::string inspect_text(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks);
 
-// "world axes, about each link's origin".
-std::string viewpoint_in_words(const InspectView& view);
-
-// The wrenches on each body, and the forces that have names of their own.
+// Wrenches on each body; named forces.
 void write_balances(const Inspection& in, const InspectView& view, Sheet& sheet);
 void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sheet);
 
-// A number, or several in brackets.
-std::string name_of_number(const Eigen::VectorXd& v);
-// Of a unit "angular; linear": that of the body's joint. Empty where it has several velocities.
-std::string unit_at_joint(const Inspection& in, std::size_t body, std::string_view unit);
-
-// Which joint carries the body, and where it stands.
+// Joint, parent and joint position of the body.
 void write_body_head(const Inspection& in, std::size_t body, Sheet& sheet);
-// The quantities of a pass (1 to 3) by the equations of table 7.1, with the numbers put in, in the
-// order in which they are found. `D_error`: of the cross-check of D.
+// Equations of a pass (1 to 3) from table 7.1 with their numbers, in the order of computation.
+// `D_error`: of the cross-check of D.
 void write_pass(const Inspection& in, int pass, std::size_t body, double D_error, Sheet& sheet);
 
 }  // namespace twinarm

@@ -1,10 +1,9 @@
-#include "app/inspect/report/inspect_view.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "app/inspect/report/inspect_output.h"
 #include "app/support/text.h"
 #include "solver/model/non_finite.h"
 
@@ -15,7 +14,7 @@ std::vector<std::string> names_of_bodies(const Model<double>& model) {
   return {model.body_name.begin() + 1, model.body_name.end()};
 }
 
-// The body's index; 0, told, where there is none.
+// The body's index; 0 and a diagnostic where there is none.
 std::size_t index_of_body(const std::string& option, const std::string& name,
                           const std::string& others, const Model<double>& model,
                           DiagnosticList& faults) {
@@ -27,8 +26,8 @@ std::size_t index_of_body(const std::string& option, const std::string& name,
   return 0;
 }
 
-// Also all points of a contact, "contact/A-B/1", by the contact's name.
-bool is_called(const std::string& name, const std::string& wanted) {
+// The name of a contact, "contact/A-B", matches all of its points, "contact/A-B/1".
+bool matches(const std::string& name, const std::string& wanted) {
   const std::string rest = name.substr(std::min(wanted.size(), name.size()));
   const bool is_point = rest.size() > 1 && rest[0] == '/' &&
                         rest.find_first_not_of("0123456789", 1) == std::string::npos;
@@ -59,8 +58,8 @@ void read_about(const std::string& text, const Model<double>& model, InspectView
     if (numbers.size() == 3)
       view.from.point = Vector3(numbers[0], numbers[1], numbers[2]);
     else
-      faults.add({"", 0, "--about", "'" + text + "' is no point",
-                  "give three numbers x,y,z [m], of the world", "option.form"});
+      faults.add({"", 0, "--about", "'" + text + "' is not a point",
+                  "give three world coordinates x,y,z [m]", "option.form"});
   } else {
     view.from.about = About::body;
     view.from.about_body =
@@ -105,20 +104,20 @@ void read_forces(const InspectOptions& options, const std::vector<AppliedForce>&
   for (const std::string& wanted : options.forces) {
     bool found = false;
     for (const std::string& name : names)
-      if (is_called(name, wanted) || is_called(name.substr(name.find('/') + 1), wanted)) {
+      if (matches(name, wanted) || matches(name.substr(name.find('/') + 1), wanted)) {
         view.forces.push_back(name);
         found = true;
       }
     if (!found)
-      faults.add({"", 0, "--force", "nothing called '" + wanted + "' acts in this state",
-                  names.empty() ? "gravity alone does" : name_remedy(wanted, names, "forces"),
+      faults.add({"", 0, "--force", "no force '" + wanted + "' acts in this state",
+                  names.empty() ? "only gravity acts" : name_remedy(wanted, names, "forces"),
                   "option.unknown-name"});
   }
 }
 
 Check step_check(const Inspection& in, const std::vector<double>& qdd_of_step) {
-  constexpr double kTolerance = 1e-9;  // of what the impulse solver leaves
-  Check check{"step", "the step's own accelerations, forces by name", 0, kTolerance, ""};
+  constexpr double kTolerance = 1e-9;  // residual of the impulse solver
+  Check check{"step", "accelerations of the scene's step", 0, kTolerance, ""};
   const Vector3 g = to_eigen(in.model.gravity);
   double size = std::max(g.norm(), 1e-300);
   for (const double qdd : qdd_of_step) size = std::max(size, std::abs(qdd));
@@ -137,10 +136,9 @@ void warn_of_bad_numbers(const Inspection& in, std::vector<std::string>& warning
   const NonFiniteField bad = first_bad_quantity(in.model, in.forces, in.w);
   if (bad.body == 0) return;
   const std::string pass = bad.pass == 0 ? "an input" : "of pass " + std::to_string(bad.pass);
-  warnings.push_back(fmt::format(
-      "not all numbers are finite; the first that is not is '{}' of body '{}', {}: look at an "
-      "earlier instant",
-      bad.name, in.model.body_name[bad.body], pass));
+  warnings.push_back(
+      fmt::format("first non-finite quantity: '{}' of body '{}', {}; inspect an earlier instant",
+                  bad.name, in.model.body_name[bad.body], pass));
 }
 
 }  // namespace twinarm

@@ -11,16 +11,34 @@
 namespace twinarm {
 namespace {
 
-// Where several act at the joint, or one that is not its motor: which.
+// Contributions to the joint force tau.
 void write_tau(const Inspection& in, std::size_t i, Sheet& sheet) {
-  std::string who;
+  std::string terms;
   for (std::size_t dof = in.model.iv[i]; dof < in.model.iv[i] + in.model.dofs(i); ++dof)
     for (const AppliedForce& actor : in.actors)
       for (const AppliedForce::OnJoint& on : actor.joints)
         if (on.dof == dof && on.tau != 0)
-          who +=
-              fmt::format("{}{} {}", who.empty() ? "" : ", ", actor.source, short_number(on.tau));
-  if (!who.empty()) sheet.line(wrapped("      of tau: " + who, 14));
+          terms +=
+              fmt::format("{}{} {}", terms.empty() ? "" : ", ", actor.source, short_number(on.tau));
+  if (!terms.empty()) sheet.line(wrapped("      tau: " + terms, 11));
+}
+
+// A number, or several in parentheses.
+std::string text_of(const Eigen::VectorXd& v) {
+  if (v.size() == 1) return short_number(v[0], std::abs(v[0]));
+  std::string text = "(";
+  for (Eigen::Index k = 0; k < v.size(); ++k)
+    text += (k ? ", " : "") + short_number(v[k], v.lpNorm<Eigen::Infinity>());
+  return text + ")";
+}
+
+// Of a unit "angular; linear" that of the body's joint; empty for several degrees of freedom.
+std::string unit_at_joint(const Inspection& in, std::size_t body, std::string_view unit) {
+  if (in.model.dofs(body) > 1) return "";
+  const std::size_t end = unit.find("; ");
+  if (end == std::string_view::npos) return std::string(unit);
+  return std::string(in.model.joint[body] == JointType::prismatic ? unit.substr(end + 2)
+                                                                  : unit.substr(0, end));
 }
 
 std::string three(const Vector3& v) {
@@ -32,7 +50,7 @@ class PassPage {
   PassPage(const Inspection& in, std::size_t body, double D_error, Sheet& sheet)
       : in_(in), i_(body), D_error_(D_error), axes_(in, body), sheet_(sheet) {}
 
-  // What no equation makes comes before the next quantity that one makes.
+  // In the order of computation; quantities without an equation keep their place.
   void write(int pass) {
     const std::vector<DisplayedQuantity> all = shown_quantities(in_, pass, i_);
     const std::vector<Equation> equations = equations_of(in_, pass, i_);
@@ -65,11 +83,11 @@ class PassPage {
   void write(const DisplayedQuantity& shown) {
     const std::string name = shown.quantity.name;
     if (shown.value.size() == 1)
-      return heading(name + " = " + name_of_number(shown.value), &shown.quantity);
+      return heading(name + " = " + text_of(shown.value), &shown.quantity);
     heading(name, &shown.quantity);
     if (name == "Xup") {
-      sheet_.line("      r = " + three(axes_.shift_from_parent(in_.w.Xup[i_])) + ",  E =");
-      return sheet_.matrix(axes_.turn_from_parent(in_.w.Xup[i_]));
+      sheet_.line("      r = " + three(axes_.translation_from_parent(in_.w.Xup[i_])) + ",  E =");
+      return sheet_.matrix(axes_.rotation_from_parent(in_.w.Xup[i_]));
     }
     if (name == "I") write_mass();
     write_value(name, shown.value, shown.quantity.by == Quantity::By::velocity,
@@ -82,7 +100,7 @@ class PassPage {
     sheet_.line(
         fmt::format("      mass {} kg, centre of mass {} m", short_number(I.m), three(com)));
   }
-  // `size`: beside which rounding is 0; of six numbers.
+  // `size`: scale below which rounding errors are shown as 0.
   void write_value(const std::string& name, const Eigen::MatrixXd& value, bool by_columns,
                    const Eigen::MatrixXd& size) {
     if (value.rows() != 6 || (value.cols() > 1 && !by_columns))
@@ -92,23 +110,22 @@ class PassPage {
                  size.col(k));
   }
   void write_numbers(const std::string& name, const Eigen::VectorXd& values) {
-    sheet_.line(fmt::format("      {:<22}{}", name, name_of_number(values)));
+    sheet_.line(fmt::format("      {:<22}{}", name, text_of(values)));
   }
 
   void write(const Equation& equation, const Quantity* quantity) {
     if (equation.value.size() == 1) {
       heading(equation.text + " = " + sum_of_numbers(equation), quantity);
     } else {
-      heading(text_of(equation), quantity);
+      heading(equation_text(equation), quantity);
       write_terms(equation, quantity && quantity->by == Quantity::By::velocity);
     }
     if (equation.name == "D")
-      sheet_.line(
-          fmt::format("      the same by the mass matrix (CRBA), but for {:.1e} of it", D_error_));
+      sheet_.line(fmt::format("      cross-check with CRBA: relative difference {:.1e}", D_error_));
     if (equation.name == "u") write_tau(in_, i_, sheet_);
   }
-  // With the names of other bodies whose numbers come in.
-  std::string text_of(const Equation& equation) const {
+  // With the names of the children that contribute.
+  std::string equation_text(const Equation& equation) const {
     std::string others;
     for (const EquationTerm& term : equation.terms)
       if (term.of != i_ && term.of != in_.parent(i_))
@@ -130,7 +147,7 @@ class PassPage {
     const std::string sum = short_number(equation.value(0, 0), size);
     return equation.terms.size() > 1 ? text + " = " + sum : sum;
   }
-  // Of sums of matrices the sum alone, but for what the body has of them by itself.
+  // Matrices without their terms, except for the added inertia of implicit spring-dampers.
   void write_terms(const Equation& equation, bool by_columns) {
     if (equation.value.cols() == 1 && equation.value.rows() == 6) return write_sum(equation);
     if (equation.value.cols() == 1)
@@ -140,19 +157,19 @@ class PassPage {
     write_value(equation.name, equation.value, by_columns, size);
     for (const EquationTerm& term : equation.terms)
       if (term.symbol == "impedance") {
-        sheet_.heading("of it impedance", term.words, "");
+        sheet_.heading("impedance, included", term.words, "");
         sheet_.matrix(term.value);
       }
   }
   void write_sum(const Equation& equation) {
     std::vector<std::pair<std::string, Vector6>> terms;
-    double made_of = 0;
+    double size = 0;
     for (const EquationTerm& term : equation.terms) {
       const bool is_own = term.of == i_ || term.of == in_.parent(i_);
       terms.emplace_back(is_own ? term.symbol : "of " + in_.model.body_name[term.of], term.value);
-      made_of = std::max(made_of, term.size);
+      size = std::max(size, term.size);
     }
-    sheet_.sum(terms, equation.name, equation.value, Vector6::Constant(made_of));
+    sheet_.sum(terms, equation.name, equation.value, Vector6::Constant(size));
   }
 
   const Inspection& in_;
@@ -164,27 +181,10 @@ class PassPage {
 
 }  // namespace
 
-std::string name_of_number(const Eigen::VectorXd& v) {
-  if (v.size() == 1) return short_number(v[0], std::abs(v[0]));
-  std::string text = "(";
-  for (Eigen::Index k = 0; k < v.size(); ++k)
-    text += (k ? ", " : "") + short_number(v[k], v.lpNorm<Eigen::Infinity>());
-  return text + ")";
-}
-
-std::string unit_at_joint(const Inspection& in, std::size_t body, std::string_view unit) {
-  if (in.model.dofs(body) > 1) return "";
-  const std::size_t end = unit.find("; ");
-  if (end == std::string_view::npos) return std::string(unit);
-  return std::string(in.model.joint[body] == JointType::prismatic ? unit.substr(end + 2)
-                                                                  : unit.substr(0, end));
-}
-
 void write_body_head(const Inspection& in, std::size_t i, Sheet& sheet) {
-  const std::string& joint = in.model.joint_name[i];
-  std::string text = "\n" + in.model.body_name[i];
-  text += fmt::format(", carried by {} ({}) on {}", joint.empty() ? "the base" : joint,
-                      name_of(in.model.joint[i]), in.model.body_name[in.parent(i)]);
+  std::string text =
+      fmt::format("\n{}: child of joint {} ({}), parent {}", in.model.body_name[i],
+                  joint_label(in, i), name_of(in.model.joint[i]), in.model.body_name[in.parent(i)]);
   if (in.model.dofs(i) == 1) {
     const std::string unit = unit_at_joint(in, i, "rad; m");
     text += fmt::format("    q = {} {}, qd = {} {}/s", short_number(in.x.q[in.model.iq[i]]), unit,

@@ -1,4 +1,4 @@
-// One step of a scene, and by whose name each of its forces acts.
+// Named forces of one step of a scene.
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -67,10 +67,9 @@ class SceneInspector::FirstStep {
       for (std::size_t dof = 0; dof < model_.nv; ++dof)
         x_.qd[dof] = sim_.state().qd[dof] - h_ * inspected.qdd_of_step[dof];
       inspected.warnings.emplace_back(
-          "the step begins with an impact: velocities and forces are those after it");
+          "impact at the start of the step: velocities and forces are those after it");
     }
-    if (!report.ok())
-      inspected.warnings.emplace_back("the equation of the step was not solved to rounding");
+    if (!report.ok()) inspected.warnings.emplace_back("implicit step did not converge");
     forward_kinematics(model_, x_, k_);
     inspected.x = x_;
     actors_ = given_actors(input_.robot);
@@ -82,7 +81,7 @@ class SceneInspector::FirstStep {
                  constrained ? sim_.constraints().coulomb_torque()
                              : sim_.mechanism().dynamics.torques().coulomb,
                  "joint/", "/friction", actors_);
-    find_rest(constrained);
+    find_constraint_force(constrained);
     add_contacts();
     add_limits();
     add_bilateral();
@@ -94,12 +93,12 @@ class SceneInspector::FirstStep {
   void add_couplings() {
     for (std::size_t c = 0; c < input_.couplings->size(); ++c) {
       ForceSource* source = input_.couplings->source(c);
-      if (!source) continue;  // a further pull of the one before
+      if (!source) continue;  // a further component of the coupling before
       Forces<double> added(model_);
       source->add_forces(x_, k_, added);
       const SceneCoupling& spec = input_.couplings->spec(c);
       actors_.push_back(actor_of("coupling/" + spec.coupling, added));
-      actors_.back().is_tie = true;
+      actors_.back().is_interaction = true;
       if (spec.type == CouplingDescription::Type::linear)
         actors_.back().point_W = k_.position(spec.spring.body, spec.spring.p_L);
     }
@@ -114,7 +113,7 @@ class SceneInspector::FirstStep {
       if (other.at) actors_.back().point_W = k_.position(other.at->first, other.at->second);
     }
   }
-  // At the end of the step: h b as armature.
+  // Implicit: at the end of the step, h b is an armature.
   void add_damping() {
     for (std::size_t i = 1; i < model_.parent.size(); ++i) {
       AppliedForce actor{"joint/" + model_.joint_name[i] + "/damping", {}, {}};
@@ -124,8 +123,8 @@ class SceneInspector::FirstStep {
       if (!actor.joints.empty()) actors_.push_back(std::move(actor));
     }
   }
-  // The generalised force of all constraints; each that is read out is taken off.
-  void find_rest(bool constrained) {
+  // Generalised force of all constraints; contacts and limits are subtracted as they are added.
+  void find_constraint_force(bool constrained) {
     rest_ = Eigen::VectorXd::Zero(index(model_.nv));
     for (std::size_t dof = 0; dof < model_.nv; ++dof)
       rest_[index(dof)] = constrained ? sim_.constraints().constraint_force()[dof]
@@ -133,8 +132,8 @@ class SceneInspector::FirstStep {
                                             sim_.mechanism().dynamics.torques().loop[dof];
   }
 
-  void push(AppliedForce& actor, int body, const Vector3& p_W, const Vector3& force,
-            const Vector3& torque) {
+  void add_wrench(AppliedForce& actor, int body, const Vector3& p_W, const Vector3& force,
+                  const Vector3& torque) {
     if (body <= 0) return;
     Wrench wrench;
     wrench.body = static_cast<std::size_t>(body);
@@ -157,28 +156,28 @@ class SceneInspector::FirstStep {
     const ContactConstraints* all = contacts_->contacts();
     if (!all) return;
     std::map<std::pair<int, int>, int> count, number;
-    const auto presses = [](const ContactPoint& p) {
+    const auto is_active = [](const ContactPoint& p) {
       return !p.force_W.isZero(0) || !p.couple_W.isZero(0);
     };
     for (const ContactPoint& p : all->points())
-      if (presses(p)) ++count[{p.contact.a, p.contact.b}];
+      if (is_active(p)) ++count[{p.contact.a, p.contact.b}];
     for (const ContactPoint& p : all->points()) {
-      if (!presses(p)) continue;
+      if (!is_active(p)) continue;
       const std::pair pair(p.contact.a, p.contact.b);
       const ContactGeometry &a = all->bodies().geometry(pair.first),
                             &b = all->bodies().geometry(pair.second);
       std::string name = "contact/" + a.name + "-" + b.name;
       if (count[pair] > 1) name += "/" + std::to_string(++number[pair]);
       AppliedForce actor{std::move(name), {}, {}};
-      // A gap that closes within the step closes on the side that can move.
+      // A gap that closes within the step is closed by the body that can move.
       const Vector3 half = 0.5 * std::max(0.0, -p.contact.depth) * p.contact.n_W;
       const Vector3 on_b = p.contact.p_WC + (moves(a.body) ? Vector3::Zero() : half);
       const Vector3 on_a = p.contact.p_WC - (moves(b.body) ? Vector3::Zero() : half);
-      actor.is_tie = true;
+      actor.is_interaction = true;
       actor.point_W = p.contact.p_WC;
       actor.normal_W = p.contact.n_W;
-      push(actor, b.body, on_b, p.force_W, p.couple_W);
-      push(actor, a.body, on_a, -p.force_W, -p.couple_W);
+      add_wrench(actor, b.body, on_b, p.force_W, p.couple_W);
+      add_wrench(actor, a.body, on_a, -p.force_W, -p.couple_W);
       actors_.push_back(std::move(actor));
     }
   }
@@ -193,7 +192,7 @@ class SceneInspector::FirstStep {
     }
   }
 
-  // What is left are loops and mimics: A^T lambda = rest, the shortest lambda.
+  // The rest are loops and mimic joints: A^T lambda = rest, lambda of minimum norm.
   void add_bilateral() {
     LoopClosures loops(model_, sim_.mechanism().dynamics.bilateral().loops().loops());
     const std::size_t mimics = model_.mimics.size();
@@ -219,7 +218,7 @@ class SceneInspector::FirstStep {
   void add_loop(const LoopClosures& loops, std::size_t l, const Eigen::VectorXd& lambda) {
     const LoopClosure& loop = loops.loops()[l];
     AppliedForce actor{"constraint/" + loop.name, {}, {}};
-    actor.is_tie = true;
+    actor.is_interaction = true;
     if (facts_of(loop.type).ends != LoopBetween::bodies) {
       const std::size_t row = loops.first_row(l);
       for (const std::size_t dof : loops.dofs_of(row))
@@ -231,8 +230,8 @@ class SceneInspector::FirstStep {
       const Vector3 C_b = k_.X_WL[b] * loop.X_LbC.p;
       const Vector3 C_a = loop.type == LoopType::distance ? k_.X_WL[a] * loop.X_LaC.p : C_b;
       actor.point_W = C_b;
-      push(actor, loop.body_a, C_a, on_a.force, on_a.couple);
-      push(actor, loop.body_b, C_b, -on_a.force, -on_a.couple);
+      add_wrench(actor, loop.body_a, C_a, on_a.force, on_a.couple);
+      add_wrench(actor, loop.body_b, C_b, -on_a.force, -on_a.couple);
     }
     actors_.push_back(std::move(actor));
   }
@@ -246,10 +245,10 @@ class SceneInspector::FirstStep {
   GivenTorques torques_;
   std::vector<GivenWrench> wrenches_;
   std::optional<SceneContacts> contacts_;
-  State<double> x_;  // when the forces act
+  State<double> x_;  // at which the forces act
   Kinematics k_;
   std::vector<AppliedForce> actors_;
-  Eigen::VectorXd rest_;
+  Eigen::VectorXd rest_;  // constraint force not yet assigned, by velocity
 };
 
 SceneInspector::SceneInspector(SimulateInput& input, double h,

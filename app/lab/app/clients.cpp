@@ -5,7 +5,6 @@
 #include <set>
 
 #include "app/data/json_writer.h"
-#include "app/lab/parameters/gallery.h"
 #include "app/lab/server/http_text.h"
 #include "app/support/files.h"
 
@@ -14,43 +13,43 @@ namespace twinarm {
 void Clients::opened(ClientId client) {
   const std::lock_guard lock(mutex_);
   clients_.try_emplace(client);
-  if (holder_ == 0) holder_ = client;
+  if (controller_ == 0) controller_ = client;
 }
 
 void Clients::closed(ClientId client) {
   const std::lock_guard lock(mutex_);
   clients_.erase(client);
-  std::erase(asked_, client);
-  if (holder_ != client) return;
-  holder_ = 0;
-  if (!asked_.empty()) {
-    holder_ = asked_.front();
-    asked_.erase(asked_.begin());
+  std::erase(waiting_, client);
+  if (controller_ != client) return;
+  controller_ = 0;
+  if (!waiting_.empty()) {
+    controller_ = waiting_.front();
+    waiting_.erase(waiting_.begin());
   } else if (clients_.size() == 1) {
-    holder_ = clients_.begin()->first;
+    controller_ = clients_.begin()->first;
   }
 }
 
 void Clients::take(ClientId client) {
   const std::lock_guard lock(mutex_);
-  if (!clients_.contains(client) || holder_ == client) return;
-  if (holder_ == 0)
-    holder_ = client;
-  else if (std::ranges::find(asked_, client) == asked_.end())
-    asked_.push_back(client);
+  if (!clients_.contains(client) || controller_ == client) return;
+  if (controller_ == 0)
+    controller_ = client;
+  else if (std::ranges::find(waiting_, client) == waiting_.end())
+    waiting_.push_back(client);
 }
 
 bool Clients::give(ClientId from, ClientId to) {
   const std::lock_guard lock(mutex_);
-  if (holder_ != from || !clients_.contains(to)) return false;
-  holder_ = to;
-  std::erase(asked_, to);
+  if (controller_ != from || !clients_.contains(to)) return false;
+  controller_ = to;
+  std::erase(waiting_, to);
   return true;
 }
 
 bool Clients::has_hand(ClientId client) const {
   const std::lock_guard lock(mutex_);
-  return holder_ == client;
+  return controller_ == client;
 }
 
 std::string Clients::secret(ClientId client) const {
@@ -61,7 +60,7 @@ std::string Clients::secret(ClientId client) const {
 
 bool Clients::has_hand(std::string_view secret) const {
   const std::lock_guard lock(mutex_);
-  const auto found = clients_.find(holder_);
+  const auto found = clients_.find(controller_);
   return found != clients_.end() && is_secret(secret, found->second.secret);
 }
 
@@ -73,7 +72,8 @@ void Clients::want_layers(ClientId client, std::vector<std::string> names) {
 
 void Clients::want_glass(ClientId client, std::optional<long> body) {
   const std::lock_guard lock(mutex_);
-  if (const auto found = clients_.find(client); found != clients_.end()) found->second.glass = body;
+  if (const auto found = clients_.find(client); found != clients_.end())
+    found->second.inspected = body;
 }
 
 std::vector<std::string> Clients::layers() const {
@@ -83,17 +83,17 @@ std::vector<std::string> Clients::layers() const {
   return {all.begin(), all.end()};
 }
 
-std::map<ClientId, long> Clients::glass() const {
+std::map<ClientId, long> Clients::inspected() const {
   const std::lock_guard lock(mutex_);
   std::map<ClientId, long> all;
   for (const auto& [id, client] : clients_)
-    if (client.glass) all[id] = *client.glass;
+    if (client.inspected) all[id] = *client.inspected;
   return all;
 }
 
 Clients::View Clients::view() const {
   const std::lock_guard lock(mutex_);
-  View view{holder_, asked_, {}};
+  View view{controller_, waiting_, {}};
   for (const auto& [id, client] : clients_) view.clients.push_back(id);
   return view;
 }
@@ -105,10 +105,10 @@ void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
       changes, [&](const Change& change) { json.text(change.path + "=" + change.value); });
 }
 
-void write_audience(JsonWriter& json, const Clients::View& audience) {
-  const auto holder = audience.holder != 0 ? std::optional(audience.holder) : std::nullopt;
+void write_clients(JsonWriter& json, const Clients::View& clients) {
+  const auto holder = clients.controller != 0 ? std::optional(clients.controller) : std::nullopt;
   json.members(
-      {{"holder", holder}, {"clients", audience.clients.size()}, {"asked", audience.asked}});
+      {{"holder", holder}, {"clients", clients.clients.size()}, {"asked", clients.waiting}});
 }
 
 void write_time(JsonWriter& json, const LabStatus& status) {
@@ -128,8 +128,8 @@ void write_time(JsonWriter& json, const LabStatus& status) {
   json.members({{"pace", status.pace}, {"step", status.step}, {"step_us", 1e6 * status.step_time}});
 }
 
-// A recorded hand to begin with; empty where the assets are not there.
-const std::string& recorded_hand() {
+// A recorded operator motion to start with; empty without the assets.
+const std::string& example_trace() {
   static const std::string file = [] {
     try {
       const auto trace = std::filesystem::absolute(find_assets()) / "traces/synthetic_seed1.csv";
@@ -143,34 +143,35 @@ const std::string& recorded_hand() {
 
 void write_lanes(JsonWriter& json, const LabStatus& status) {
   json.key("lanes");
-  if (status.lanes.empty()) return json.null();
-  std::vector<std::optional<double>> stopped(1);  // the first, of which `dead` tells
-  stopped.insert(stopped.end(), status.lane_ends.begin(), status.lane_ends.end());
-  json.object({{"path", status.lanes.path}, {"values", status.lanes.values}, {"stopped", stopped}});
+  if (status.variants.empty()) return json.null();
+  std::vector<std::optional<double>> stopped(1);  // the first one's stop is in `dead`
+  stopped.insert(stopped.end(), status.variant_ends.begin(), status.variant_ends.end());
+  json.object(
+      {{"path", status.variants.path}, {"values", status.variants.values}, {"stopped", stopped}});
 }
 
-void write_hand(JsonWriter& json, const LabHandStatus& hand) {
+void write_hand(JsonWriter& json, const OperatorStatus& hand) {
   json.key("hand").begin_object();
   json.members({{"source", hand.source},
                 {"spec", hand.spec},
                 {"mapping", hand.mapping},
                 {"q", hand.q},
-                {"felt", hand.felt},
+                {"felt", hand.device},
                 {"mode", hand.mode},
                 {"gripper", hand.gripper_closed}});
-  if (!recorded_hand().empty()) json.key("trace").text(recorded_hand());
+  if (!example_trace().empty()) json.key("trace").text(example_trace());
   json.end_object();
 }
 
 void write_end(JsonWriter& json, const LabStatus& status) {
-  json.key("dead").or_null(status.dead, [&](const LabEnd& dead) {
-    json.object({{"words", dead.words},
-                 {"time", dead.time},
-                 {"from", dead.from},
-                 {"quantity", dead.quantity},
-                 {"body", dead.body},
-                 {"spring", dead.spring},
-                 {"remedies", [&] { write_remedies(dead.remedies, json); }}});
+  json.key("dead").or_null(status.failure, [&](const RunFailure& failure) {
+    json.object({{"words", failure.words},
+                 {"time", failure.time},
+                 {"from", failure.from},
+                 {"quantity", failure.quantity},
+                 {"body", failure.body},
+                 {"spring", failure.spring},
+                 {"remedies", [&] { write_remedies(failure.remedies, json); }}});
   });
 }
 
@@ -182,8 +183,8 @@ void write_notes(JsonWriter& json, const std::vector<LabNote>& notes) {
 
 }  // namespace
 
-std::string state_message(const LabStatus& status, const Clients::View& audience,
-                          const std::vector<LabParameter>& knobs,
+std::string state_message(const LabStatus& status, const Clients::View& clients,
+                          const std::vector<LabParameter>& parameters,
                           const std::vector<GalleryScene>& gallery) {
   return json_text([&](JsonWriter& json) {
     json.members({{"kind", "state"},
@@ -192,10 +193,10 @@ std::string state_message(const LabStatus& status, const Clients::View& audience
                   {"building", status.building}});
     write_changes(json, status.changes);
     write_lanes(json, status);
-    write_audience(json, audience);
+    write_clients(json, clients);
     write_time(json, status);
     write_hand(json, status.hand);
-    write_knobs(knobs, json.key("knobs"));
+    write_parameters(parameters, json.key("knobs"));
     write_presets(json.key("presets"));
     write_gallery(gallery, json.key("gallery"));
     write_end(json, status);

@@ -1,7 +1,7 @@
-// Who looks on, who has the hand, and what each wants to see. From any thread.
+// Connected clients, the one in control, and what each subscribes to. Thread-safe.
 //
-// One client has the hand; the first who comes gets it. Others ask, and get it when the holder
-// gives it or leaves.
+// The first client gets control. Others request it, and get it when the controlling client grants
+// it or leaves.
 #pragma once
 
 #include <map>
@@ -21,45 +21,44 @@ namespace twinarm {
 class Clients {
  public:
   struct View {
-    ClientId holder = 0;          // 0: nobody
-    std::vector<ClientId> asked;  // in their order
+    ClientId controller = 0;        // 0: none
+    std::vector<ClientId> waiting;  // for control, in order
     std::vector<ClientId> clients;
   };
 
   void opened(ClientId client);
   void closed(ClientId client);
-  void take(ClientId client);
-  // False where `from` has nothing to give, or `to` is not there.
+  void take(ClientId client);  // requests control
+  // False: `from` is not in control, or `to` is not connected.
   bool give(ClientId from, ClientId to);
-  bool has_hand(ClientId client) const;
-  // Over HTTP all clients look alike: each has a secret, which only its own state message carries.
-  std::string secret(ClientId client) const;  // empty: it is not there
+  bool has_hand(ClientId client) const;  // is in control
+  // HTTP requests do not name their client: each has a secret, sent in its own state message.
+  std::string secret(ClientId client) const;  // empty: not connected
   bool has_hand(std::string_view secret) const;
 
   void want_layers(ClientId client, std::vector<std::string> names);
   void want_glass(ClientId client, std::optional<long> body);
-  std::vector<std::string> layers() const;  // of all clients together, each once
-  std::map<ClientId, long> glass() const;   // the body that each looks into
+  std::vector<std::string> layers() const;     // of all clients, each once
+  std::map<ClientId, long> inspected() const;  // body inspected by each client
 
   View view() const;
 
  private:
   struct Client {
     std::vector<std::string> layers{"bodies", "ghost", "couplings", "contacts"};
-    std::optional<long> glass;
+    std::optional<long> inspected;
     std::string secret = random_token();
   };
   mutable std::mutex mutex_;
   std::map<ClientId, Client> clients_;
-  ClientId holder_ = 0;
-  std::vector<ClientId> asked_;
+  ClientId controller_ = 0;
+  std::vector<ClientId> waiting_;
 };
 
-// The message `state` of docs/reference/lab_protocol.md.
-
-// For all clients alike, but for `you` and `secret`: addressed() puts them in.
-std::string state_message(const LabStatus& status, const Clients::View& audience,
-                          const std::vector<LabParameter>& knobs,
+// The message `state` of docs/reference/lab_protocol.md, without `you` and `secret`, which
+// addressed() adds for each client.
+std::string state_message(const LabStatus& status, const Clients::View& clients,
+                          const std::vector<LabParameter>& parameters,
                           const std::vector<GalleryScene>& gallery);
 std::string addressed(const std::string& state, ClientId you, const std::string& secret);
 

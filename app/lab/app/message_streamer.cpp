@@ -2,28 +2,35 @@
 
 #include <pthread.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "app/film/filmed_run.h"
-#include "app/lab/app/clients.h"
 #include "app/support/progress.h"
 
 namespace twinarm {
 namespace {
 
-constexpr double kGlassEvery = 0.2, kGlassStanding = 0.05, kKnobsEvery = 0.4, kIdle = 0.1;  // [s]
-constexpr double kFailureEvery = 5;                                                         // [s]
-constexpr double kRate = 60, kSlowRate = 30;  // frames a second, to few clients and to more
+constexpr double kInspectEvery = 0.2, kInspectPaused = 0.05, kLimitsEvery = 0.4,
+                 kIdle = 0.1;                 // [s]
+constexpr double kFailureEvery = 5;           // [s]
+constexpr double kRate = 60, kSlowRate = 30;  // [frames/s], to few clients and to many
 constexpr std::size_t kManyClients = 2;
-// A run whose frames cannot stand so evenly, by its step, may send so much more of them.
-constexpr double kMore = 1.05;
+// Factor of the rate, for frames that the step does not permit to be evenly spaced.
+constexpr double kRateMargin = 1.05;
+
+// Whether the interval has passed since `last`, which is then set to now.
+bool is_due(std::chrono::steady_clock::time_point& last, double interval) {
+  const auto now = std::chrono::steady_clock::now();
+  if (as_seconds(now - last) < interval) return false;
+  last = now;
+  return true;
+}
 
 }  // namespace
 
-MessageStreamer::MessageStreamer(LabSession& session, Clients& audience,
+MessageStreamer::MessageStreamer(LabSession& session, Clients& clients,
                                  const std::vector<GalleryScene>& gallery, Post post)
-    : session_(session), audience_(audience), gallery_(gallery), post_(std::move(post)) {}
+    : session_(session), clients_(clients), gallery_(gallery), post_(std::move(post)) {}
 
 void MessageStreamer::begin() {
   thread_ = std::thread([this] { work(); });
@@ -48,15 +55,15 @@ void MessageStreamer::ask(std::function<void(MessageStreamer&)> job) {
 }
 
 void MessageStreamer::work() {
-  pthread_setname_np(pthread_self(), "lab painter");
+  pthread_setname_np(pthread_self(), "lab streamer");
   for (;;) {
     const LabNow now = session_.shown().now();
     double left = kIdle;
     try {
       take_scene(now);
       do_jobs();
-      look_at_clients();
-      left = paint(now);
+      greet_new_clients();
+      left = stream(now);
     } catch (const std::exception& error) {
       show_failure(error.what());
     }
@@ -68,17 +75,17 @@ void MessageStreamer::work() {
   }
 }
 
-double MessageStreamer::paint(const LabNow& now) {
-  const double rate = clients_.size() > kManyClients ? kSlowRate : kRate;
+double MessageStreamer::stream(const LabNow& now) {
+  const double rate = greeted_.size() > kManyClients ? kSlowRate : kRate;
   session_.set_rate(rate);
-  look_at_knobs(now);
-  tell_state(now);
-  const double left = tell_frame(now, kMore * rate);
-  tell_glass(now);
+  update_limits(now);
+  send_state(now);
+  const double left = send_frame(now, kRateMargin * rate);
+  send_inspections(now);
   return left;
 }
 
-// What fails may fail again with each frame: the same failure is shown every few seconds.
+// A failure may repeat with each frame: it is shown every kFailureEvery.
 void MessageStreamer::show_failure(const std::string& why) {
   if (why == failure_ && !is_due(last_failure_, kFailureEvery)) return;
   failure_ = why;
@@ -95,102 +102,103 @@ void MessageStreamer::do_jobs() {
   for (const auto& job : jobs) job(*this);
 }
 
-// A newcomer is told everything, the scene first and each frame once.
-void MessageStreamer::look_at_clients() {
-  std::vector<ClientId> clients = audience_.view().clients;
-  for (const ClientId client : clients) {
-    if (std::ranges::find(clients_, client) != clients_.end()) continue;
+// New clients get the scene first, and each frame once.
+void MessageStreamer::greet_new_clients() {
+  std::vector<ClientId> current = clients_.view().clients;
+  for (const ClientId client : current) {
+    if (std::ranges::find(greeted_, client) != greeted_.end()) continue;
     post_(client, scene_channel, shared_bytes(view_->scene_message()), false);
     if (last_frame_) post_(client, frame_channel, last_frame_, true);
-    state_.clear();  // told anew, to all: who has the hand may have changed
+    state_.clear();  // sent to all clients: control may have changed
   }
-  clients_ = std::move(clients);
+  greeted_ = std::move(current);
 }
 
-// The scene of this instant, with plans of the painter's own.
 void MessageStreamer::take_scene(const LabNow& now) {
   if (now.change_number == change_number_) return;
   const auto plan_of = [](const std::shared_ptr<LabScene::Plan>& plan) {
     return std::shared_ptr<const SimulatePlan>(plan, &plan->prepared);
   };
   const std::shared_ptr<const SimulatePlan> plan = plan_of(now.scene->view);
-  const VariantSet& lanes = now.scene->order.lanes;
-  std::vector<std::shared_ptr<const SimulatePlan>> lane_plans;
-  for (const auto& lane : now.scene->lane_views) lane_plans.push_back(plan_of(lane));
+  const VariantSet& variants = now.scene->request.lanes;
+  std::vector<std::shared_ptr<const SimulatePlan>> variant_plans;
+  for (const auto& variant : now.scene->variant_views) variant_plans.push_back(plan_of(variant));
   const std::lock_guard drawing(view_mutex_);
   if (now.scene_number != scene_number_) {
     view_ = std::make_unique<LabView>(static_cast<std::uint32_t>(now.scene_number), plan,
-                                      now.scene->header, now.scene->order.words,
-                                      ViewVariants{lanes, std::move(lane_plans)});
+                                      now.scene->header, now.scene->request.words,
+                                      ViewVariants{variants, std::move(variant_plans)});
     last_frame_.reset();
   } else {
-    view_->change(plan, std::move(lane_plans));
+    view_->change(plan, std::move(variant_plans));
   }
   if (now.scene_number != scene_number_)
-    unchanged_ = now.scene->order.changes.empty() ? knobs_of(*plan)
-                                                  : knobs_of(now.scene->scene->plan()->prepared);
-  glass_.reset();
-  knobs_ = knobs_of(*plan);
-  know_starts(unchanged_, knobs_);
-  std::erase_if(knobs_, [&](const LabParameter& knob) { return knob.path == lanes.path; });
-  last_knobs_ = {};
+    unchanged_ = now.scene->request.changes.empty()
+                     ? parameters_of(*plan)
+                     : parameters_of(now.scene->scene->plan()->prepared);
+  inspector_.reset();
+  parameters_ = parameters_of(*plan);
+  set_initial_values(unchanged_, parameters_);
+  std::erase_if(parameters_,
+                [&](const LabParameter& parameter) { return parameter.path == variants.path; });
+  last_limits_ = {};
   scene_number_ = now.scene_number;
   change_number_ = now.change_number;
-  tell_scene();
+  send_scene();
 }
 
-void MessageStreamer::tell_scene() {
+void MessageStreamer::send_scene() {
   revision_ = view_->revision();
-  to_all(scene_channel, view_->scene_message(), false);
+  const Bytes message = shared_bytes(view_->scene_message());
+  for (const ClientId client : greeted_) post_(client, scene_channel, message, false);
 }
 
-void MessageStreamer::look_at_knobs(const LabNow& now) {
-  if (!now.frame || !is_due(last_knobs_, kKnobsEvery)) return;
-  SimulatePlan& plan = now.scene->knobs->prepared;
+void MessageStreamer::update_limits(const LabNow& now) {
+  if (!now.frame || !is_due(last_limits_, kLimitsEvery)) return;
+  SimulatePlan& plan = now.scene->parameters->prepared;
   const State<double> x = instant_of(now.frame->recorded, plan.input.robot.model).x;
-  const auto is_finite = [](double value) { return std::isfinite(value); };
-  if (std::ranges::all_of(x.q, is_finite) && std::ranges::all_of(x.qd, is_finite))
-    predict_knobs(plan, x, knobs_);
+  const auto is_number = [](double value) { return std::isfinite(value); };
+  if (std::ranges::all_of(x.q, is_number) && std::ranges::all_of(x.qd, is_number))
+    predict_limits(plan, x, parameters_);
 }
 
-// To each its own, since it says who is who.
-void MessageStreamer::tell_state(const LabNow& now) {
-  std::string state = state_message(*now.status, audience_.view(), knobs_, gallery_);
+void MessageStreamer::send_state(const LabNow& now) {
+  std::string state = state_message(*now.status, clients_.view(), parameters_, gallery_);
   if (state == state_) return;
   state_ = std::move(state);
-  for (const ClientId client : clients_)
-    post_(client, state_channel, shared_bytes(addressed(state_, client, audience_.secret(client))),
+  for (const ClientId client : greeted_)
+    post_(client, state_channel, shared_bytes(addressed(state_, client, clients_.secret(client))),
           false);
 }
 
-// What has been told is not told again, whatever else is new. How long the next has to wait [s]:
-// what is new too soon is told then, or what is newer than that.
-double MessageStreamer::tell_frame(const LabNow& now, double per_second) {
+// Sends each frame once. Returns the time until the next may be sent [s]; a newer one may replace
+// it until then.
+double MessageStreamer::send_frame(const LabNow& now, double per_second) {
   if (!now.frame) return kIdle;
   LastSentFrame wanted{now.frame,
                        now.before,
-                       audience_.layers(),
+                       clients_.layers(),
                        !now.status->playing,
                        now.status->at.has_value(),
-                       now.status->dead.has_value()};
-  if (wanted == told_frame_) return kIdle;
+                       now.status->failure.has_value()};
+  if (wanted == sent_frame_) return kIdle;
   const Clock::time_point time = Clock::now();
   if (const double left = frames_.wait(time); left > 0) return left;
   frames_.take(time, per_second);
-  told_frame_ = std::move(wanted);
+  sent_frame_ = std::move(wanted);
   view_->name_rows(*now.rows);
   FrameFacts facts;
   facts.number = ++frame_;
-  facts.stands = told_frame_.stands;
-  facts.looked_back = told_frame_.looked_back;
-  facts.stopped = told_frame_.stopped;
+  facts.paused = sent_frame_.paused;
+  facts.looked_back = sent_frame_.looked_back;
+  facts.stopped = sent_frame_.stopped;
   facts.input_age = now.frame->input_stamp != 0 ? as_seconds(Clock::now() - now.input_came) : 0.0;
   std::unique_lock drawing(view_mutex_);
-  std::string frame = view_->frame(*now.frame, now.before.get(), told_frame_.layers, facts);
+  std::string frame = view_->frame(*now.frame, now.before.get(), sent_frame_.layers, facts);
   drawing.unlock();
-  if (view_->revision() != revision_) tell_scene();
+  if (view_->revision() != revision_) send_scene();
   last_frame_ = shared_bytes(std::move(frame));
-  for (const ClientId client : clients_) post_(client, frame_channel, last_frame_, true);
+  for (const ClientId client : greeted_) post_(client, frame_channel, last_frame_, true);
   return kIdle;
 }
 
@@ -199,27 +207,26 @@ DrawList MessageStreamer::drawn() {
   return view_ ? view_->drawn() : DrawList();
 }
 
-// What has been told is not told again: where time stands, it would cost the same each time.
-void MessageStreamer::tell_glass(const LabNow& now) {
+// Sends each inspection once.
+void MessageStreamer::send_inspections(const LabNow& now) {
   std::map<ClientId, SentInspection> wanted;
-  const bool stands = !now.status->playing;
-  for (const auto& [client, body] : audience_.glass())
-    wanted[client] = {now.scene_number, now.number, body, stands};
-  if (wanted == told_glass_ || !now.frame) return;
-  if (!is_due(last_glass_, stands ? kGlassStanding : kGlassEvery)) return;
-  if (!glass_) glass_.emplace(std::move(now.scene->scene->plan(now.status->changes)->prepared));
-  for (const auto& [client, told] : wanted) {
-    if (const auto before = told_glass_.find(client);
-        before != told_glass_.end() && before->second == told)
+  const bool paused = !now.status->playing;
+  for (const auto& [client, body] : clients_.inspected())
+    wanted[client] = {now.scene_number, now.number, body, paused};
+  if (wanted == sent_inspections_ || !now.frame) return;
+  if (!is_due(last_inspection_, paused ? kInspectPaused : kInspectEvery)) return;
+  if (!inspector_)
+    inspector_.emplace(std::move(now.scene->scene->plan(now.status->changes)->prepared));
+  for (const auto& [client, inspection] : wanted) {
+    if (const auto before = sent_inspections_.find(client);
+        before != sent_inspections_.end() && before->second == inspection)
       continue;
-    InspectRequest question;
-    question.body = static_cast<std::size_t>(std::max(0L, told.body));
-    question.stands = stands;
-    question.scene = static_cast<unsigned>(now.scene_number);
-    question.ledger = now.rows.get();
-    post_(client, glass_channel, shared_bytes(glass_->message(*now.frame, question)), false);
+    const InspectRequest request{static_cast<std::size_t>(std::max(0L, inspection.body)), paused,
+                                 static_cast<unsigned>(now.scene_number), now.rows.get()};
+    post_(client, inspection_channel, shared_bytes(inspector_->message(*now.frame, request)),
+          false);
   }
-  told_glass_ = std::move(wanted);
+  sent_inspections_ = std::move(wanted);
 }
 
 std::string MessageStreamer::history(double from) {
@@ -227,18 +234,6 @@ std::string MessageStreamer::history(double from) {
   std::vector<const LabFrame*> all;
   for (const auto& frame : frames) all.push_back(frame.get());
   return view_->history(all);
-}
-
-void MessageStreamer::to_all(Channel channel, const std::string& message, bool is_binary) {
-  const Bytes bytes = shared_bytes(message);
-  for (const ClientId client : clients_) post_(client, channel, bytes, is_binary);
-}
-
-bool MessageStreamer::is_due(Clock::time_point& last, double interval) const {
-  const Clock::time_point now = Clock::now();
-  if (as_seconds(now - last) < interval) return false;
-  last = now;
-  return true;
 }
 
 }  // namespace twinarm

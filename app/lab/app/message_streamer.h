@@ -1,6 +1,5 @@
-// Makes the messages: scene, state, frames, glass. A thread of its own; at most 60 frames a second
-// for one or two pages, 30 for more. Whatever takes long and is asked for over HTTP is done here
-// too, one thing after the other.
+// Makes and sends the messages scene, state, frame and glass, in its own thread: at most 60 frames
+// a second to one or two clients, 30 to more. Also answers HTTP requests that need the view.
 #pragma once
 
 #include <algorithm>
@@ -25,17 +24,16 @@
 
 namespace twinarm {
 
-// So many a second, and no more: what is evenly spaced goes on without a wait, and of what comes in
-// a burst two may go at once. After a pause nothing is made up for.
+// Rate limiter: evenly spaced events pass, of a burst two at once.
 class RateLimiter {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // Until the next may go [s]; 0: now.
+  // Until the next may pass [s]; 0: now.
   double wait(Time now) const {
     return std::max(0.0, std::chrono::duration<double>(next_ - now).count());
   }
-  // One goes now, at so many a second.
+  // One passes now, of at most `per_second`.
   void take(Time now, double per_second) {
     const auto interval =
         std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(1 / per_second));
@@ -48,25 +46,23 @@ class RateLimiter {
 
 class MessageStreamer {
  public:
-  // Where messages go: to one client. From the painter's thread.
-  enum Channel { scene_channel, state_channel, frame_channel, glass_channel };
+  enum Channel { scene_channel, state_channel, frame_channel, inspection_channel };
+  // Sends to one client; called from the streamer's thread.
   using Post = std::function<void(ClientId, Channel, Bytes, bool is_binary)>;
 
   // All must outlive it.
-  MessageStreamer(LabSession& session, Clients& audience, const std::vector<GalleryScene>& gallery,
+  MessageStreamer(LabSession& session, Clients& clients, const std::vector<GalleryScene>& gallery,
                   Post post);
   ~MessageStreamer() { end(); }
   void begin();
   void end();
 
-  // From any thread: to be done by the painter's, which alone may touch its view.
+  // From any thread: to be executed by the streamer's thread.
   void ask(std::function<void(MessageStreamer&)> job);
-  void look_again() { session_.shown().wake(); }  // something about clients has changed
+  void look_again() { session_.shown().wake(); }  // after a change of the clients
+  DrawList drawn();                               // a copy of what was drawn last
 
-  // A copy of what was drawn last, for whoever paints it elsewhere. From any thread.
-  DrawList drawn();
-
-  // Of the painter's thread.
+  // From the streamer's thread.
   LabView& view() { return *view_; }
   std::string history(double from);
 
@@ -74,21 +70,19 @@ class MessageStreamer {
   using Clock = std::chrono::steady_clock;
 
   void work();
-  double paint(const LabNow& now);
+  double stream(const LabNow& now);
   void show_failure(const std::string& why);
   void do_jobs();
-  void look_at_clients();
+  void greet_new_clients();
   void take_scene(const LabNow& now);
-  void tell_scene();
-  void tell_state(const LabNow& now);
-  double tell_frame(const LabNow& now, double per_second);
-  void tell_glass(const LabNow& now);
-  void look_at_knobs(const LabNow& now);
-  void to_all(Channel channel, const std::string& message, bool is_binary);
-  bool is_due(Clock::time_point& last, double interval) const;
+  void send_scene();
+  void send_state(const LabNow& now);
+  double send_frame(const LabNow& now, double per_second);
+  void send_inspections(const LabNow& now);
+  void update_limits(const LabNow& now);
 
   LabSession& session_;
-  Clients& audience_;
+  Clients& clients_;
   const std::vector<GalleryScene>& gallery_;
   Post post_;
 
@@ -98,33 +92,32 @@ class MessageStreamer {
   bool stop_ = false;
 
   std::unique_ptr<LabView> view_;
-  std::vector<ClientId> clients_;  // that have been told the scene
+  std::vector<ClientId> greeted_;  // clients that have got the scene
   struct SentInspection {
     long scene = 0;
-    std::uint64_t number = 0;  // LabNow's
+    std::uint64_t number = 0;  // LabNow::number
     long body = 0;
-    bool stands = false;
+    bool paused = false;
     bool operator==(const SentInspection&) const = default;
   };
-  std::optional<BodyInspector> glass_;
-  std::map<ClientId, SentInspection> told_glass_;
-  std::vector<LabParameter> knobs_, unchanged_;  // now; of the scene as it was opened
+  std::optional<BodyInspector> inspector_;
+  std::map<ClientId, SentInspection> sent_inspections_;
+  std::vector<LabParameter> parameters_, unchanged_;  // present; of the scene as opened
   long scene_number_ = -1, change_number_ = -1;
-  std::uint64_t revision_ = 0;  // of the view's scene message that was told
+  std::uint64_t revision_ = 0;  // of the scene message sent last
   std::uint32_t frame_ = 0;
-  std::string state_;  // that was told last
-  // What the last frame was made of.
-  struct LastSentFrame {
+  std::string state_;     // sent last
+  struct LastSentFrame {  // what it was made of
     std::shared_ptr<const LabFrame> frame, before;
     std::vector<std::string> layers;
-    bool stands = false, looked_back = false, stopped = false;
+    bool paused = false, looked_back = false, stopped = false;
     bool operator==(const LastSentFrame&) const = default;
   };
-  LastSentFrame told_frame_;
+  LastSentFrame sent_frame_;
   RateLimiter frames_;
   Bytes last_frame_;
-  Clock::time_point last_glass_{}, last_knobs_{}, last_failure_{};
-  std::string failure_;  // the last one that was shown
+  Clock::time_point last_inspection_{}, last_limits_{}, last_failure_{};
+  std::string failure_;  // shown last
   std::thread thread_;
 };
 

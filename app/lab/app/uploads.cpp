@@ -14,7 +14,7 @@ constexpr std::array kOpened{".toml", ".urdf", ".twinrec"};
 constexpr std::array kKept{".stl", ".obj", ".ply", ".dae", ".gltf", ".glb",
                            ".mtl", ".bin", ".png", ".jpg", ".jpeg"};
 
-// Of the first element; empty: there is none.
+// Name of the first element; empty: none.
 std::string root_of(const std::string& xml) {
   for (std::size_t at = 0; (at = xml.find('<', at)) != xml.npos;) {
     const char next = at + 1 < xml.size() ? xml[at + 1] : ' ';
@@ -30,10 +30,10 @@ std::string root_of(const std::string& xml) {
 }
 
 std::string why_no_robot(const std::string& root) {
-  if (root == "mujoco") return "this is MuJoCo's MJCF, not a URDF; convert it to URDF first";
-  if (root == "sdf") return "this is SDFormat, not a URDF; convert it to URDF first";
-  if (root.empty()) return "this is no XML; a robot is a URDF, whose first element is <robot>";
-  return "its first element is <" + root.substr(0, 40) + ">, that of a URDF is <robot>";
+  if (root == "mujoco") return "a MuJoCo MJCF file, not a URDF; convert it to URDF first";
+  if (root == "sdf") return "an SDFormat file, not a URDF; convert it to URDF first";
+  if (root.empty()) return "not an XML file; expected a URDF (root element <robot>)";
+  return "root element <" + root.substr(0, 40) + ">; expected a URDF (root element <robot>)";
 }
 
 }  // namespace
@@ -59,7 +59,7 @@ std::filesystem::path UploadFolder::write(const std::string& name, const std::st
   return file;
 }
 
-// With the folders that are empty then.
+// With folders that become empty.
 void UploadFolder::remove(const Upload& upload) {
   bytes_ -= upload.bytes;
   std::error_code error;
@@ -68,12 +68,12 @@ void UploadFolder::remove(const Upload& upload) {
     std::filesystem::remove(path, error);
 }
 
-BroughtFile brought_file(const std::string& name, const std::string& bytes) {
+UploadedFile classify_upload(const std::string& name, const std::string& bytes) {
   std::filesystem::path path = name;
   std::string end = path.extension().string();
   std::transform(end.begin(), end.end(), end.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  BroughtFile file{name, false, ""};
+  UploadedFile file{name, false, ""};
   const auto is_one_of = [&](const auto& all) { return std::ranges::find(all, end) != all.end(); };
   if (end == ".xml" || end == ".xacro") {
     const std::string root = root_of(bytes);
@@ -81,15 +81,15 @@ BroughtFile brought_file(const std::string& name, const std::string& bytes) {
       file.fault = why_no_robot(root);
       return file;
     }
-    end = ".urdf";  // the importer refuses what xacro has not yet replaced
+    end = ".urdf";  // the importer refuses unexpanded xacro macros
   }
   file.opens = is_one_of(kOpened);
   if (file.opens)
     file.path = path.replace_extension(end).string();
   else if (!is_one_of(kKept))
     file.fault =
-        "the lab opens a robot (.urdf, .xml), a scene (.toml) and a recording (.twinrec), with "
-        "meshes (.stl .obj .ply .dae .gltf .glb) and textures (.png .jpg) beside it";
+        "unknown file type; the lab opens robots (.urdf, .xml), scenes (.toml) and recordings "
+        "(.twinrec), with meshes (.stl .obj .ply .dae .gltf .glb) and textures (.png .jpg)";
   return file;
 }
 

@@ -1,4 +1,4 @@
-// The files that pages have uploaded. Their number and bytes are limited: the oldest are removed.
+// Files uploaded by clients, limited in number and bytes: the oldest are removed first.
 #pragma once
 
 #include <pthread.h>
@@ -22,7 +22,7 @@ class UploadFolder {
       : folder_(std::move(folder)), max_files_(max_files), max_bytes_(max_bytes) {}
 
   const std::filesystem::path& path() const { return folder_; }
-  // A relative name without "..". Returns the whole path. Throws InputError.
+  // `name`: relative, without "..". Returns the absolute path. Throws InputError.
   std::filesystem::path write(const std::string& name, const std::string& bytes);
 
  private:
@@ -37,37 +37,37 @@ class UploadFolder {
   std::deque<Upload> uploads_;  // the oldest first
 };
 
-// What a page brings: a robot, a scene or a recording is opened; meshes and textures wait for the
-// robot that names them; all else is refused with a word of what it is.
-struct BroughtFile {
-  std::string path;    // that it is written to: of a robot in .xml or .xacro, .urdf
-  bool opens = false;  // else it is kept
+// Robots, scenes and recordings are opened; meshes and textures are stored for a robot that names
+// them; anything else is refused.
+struct UploadedFile {
+  std::string path;    // to write to; .urdf for a robot in .xml or .xacro
+  bool opens = false;  // else it is stored
   std::string fault;   // empty: none
 };
 
-BroughtFile brought_file(const std::string& name, const std::string& bytes);
+UploadedFile classify_upload(const std::string& name, const std::string& bytes);
 
-// A thread that does one thing after the other, in the order in which they were asked for.
+// Executes tasks in its own thread, in order.
 class TaskQueue {
  public:
-  // `failed` gets what an errand throws, from the thread of the errands.
+  // `failed` is called from that thread with what a task throws.
   explicit TaskQueue(std::function<void(const std::string& why)> failed)
       : failed_(std::move(failed)), thread_([this] { work(); }) {}
   ~TaskQueue() { end(); }
   TaskQueue(const TaskQueue&) = delete;
   TaskQueue& operator=(const TaskQueue&) = delete;
 
-  // From any thread. False where too many wait already.
-  bool add(std::function<void()> errand) {
+  // From any thread. False: too many are waiting.
+  bool add(std::function<void()> task) {
     {
       const std::lock_guard lock(mutex_);
-      if (errands_.size() >= kMax || stop_) return false;
-      errands_.push_back(std::move(errand));
+      if (tasks_.size() >= kMax || stop_) return false;
+      tasks_.push_back(std::move(task));
     }
     wake_.notify_one();
     return true;
   }
-  // After the one that is being done; what waits is left.
+  // Finishes the present task and drops the waiting ones.
   void end() {
     {
       const std::lock_guard lock(mutex_);
@@ -81,18 +81,18 @@ class TaskQueue {
   static constexpr std::size_t kMax = 16;
 
   void work() {
-    pthread_setname_np(pthread_self(), "lab errands");
+    pthread_setname_np(pthread_self(), "lab tasks");
     for (;;) {
-      std::function<void()> errand;
+      std::function<void()> task;
       {
         std::unique_lock lock(mutex_);
-        wake_.wait(lock, [this] { return stop_ || !errands_.empty(); });
+        wake_.wait(lock, [this] { return stop_ || !tasks_.empty(); });
         if (stop_) return;
-        errand = std::move(errands_.front());
-        errands_.pop_front();
+        task = std::move(tasks_.front());
+        tasks_.pop_front();
       }
       try {
-        errand();
+        task();
       } catch (const std::exception& error) {
         failed_(error.what());
       }
@@ -102,7 +102,7 @@ class TaskQueue {
   std::function<void(const std::string&)> failed_;
   std::mutex mutex_;
   std::condition_variable wake_;
-  std::deque<std::function<void()>> errands_;
+  std::deque<std::function<void()>> tasks_;
   bool stop_ = false;
   std::thread thread_;
 };

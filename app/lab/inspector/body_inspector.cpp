@@ -2,78 +2,30 @@
 
 #include <algorithm>
 #include <exception>
-#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <utility>
 
 #include "app/inspect/equations.h"
-#include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
-#include "app/lab/run/input_override.h"
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
 #include "coupling/device/device_motion.h"
 #include "solver/dynamics/world_kinematics.h"
 #include "solver/forces/spring.h"
-#include "solver/support/checkpointable.h"
 
 namespace twinarm {
 namespace {
 
-// The newest hand of a frame, for all pulls that it leads.
-struct FrameHand {
-  std::optional<DeviceMotion> live;  // nothing: the scene's own hands lead
-
-  void take(const LabFrame& frame, double h) {
-    live.reset();
-    if (!frame.hand || !frame.hand->leads) return;
-    const LabHandFrame& hand = *frame.hand;
-    HandTarget target{hand.q_K, hand.qd_K, hand.gripper_closed};
-    target.qd.resize(target.q.size());
-    for (std::size_t j = 0; j < target.q.size(); ++j) target.q[j] += h * target.qd[j];
-    live.emplace(1);
-    live->set(target, frame.recorded.t, h);
-  }
-};
-
-// Those pulls that the run's hand would lead (input_override.h).
-HandInPlace in_place_of(InputOverride& lead, const FrameHand& hand) {
-  return [&hand, leads = lead.in_place()](
-             std::size_t pull,
-             std::unique_ptr<OperatorMotion> own) -> std::unique_ptr<OperatorMotion> {
-    const OperatorMotion* before = own.get();
-    std::unique_ptr<OperatorMotion> made = leads(pull, std::move(own));
-    if (made.get() == before) return made;
-    const auto instead = [&hand](double, double) { return hand.live ? &*hand.live : nullptr; };
-    return std::make_unique<ReplacedHand>(std::move(made), instead);
-  };
-}
-
-// The mouse's spring, with the force of the step that led to the frame.
-class HeldPull final : public ForceSource, public Checkpointable {
- public:
-  void hold(const std::optional<MousePoint>& pull) { pull_ = pull; }
-  void add_forces(const State<double>&, const Kinematics& k,
-                  Forces<double>& forces) noexcept override {
-    if (!pull_ || pull_->body <= 0) return;
-    add_point_force(k, pull_->body, k.position(pull_->body, pull_->p_L), pull_->force_W, forces);
-  }
-
- private:
-  std::optional<MousePoint> pull_;
-};
-
-bool acts_on(const AppliedForce& actor, const Model<double>& model, std::size_t body) {
-  const auto is_its = [&](const AppliedForce::OnJoint& on) {
+bool acts_on(const AppliedForce& force, const Model<double>& model, std::size_t body) {
+  const auto is_of_body = [&](const AppliedForce::OnJoint& on) {
     return on.dof >= model.iv[body] && on.dof < model.iv[body] + model.dofs(body);
   };
-  return std::ranges::any_of(actor.bodies,
-                             [&](const AppliedForce::OnBody& on) { return on.body == body; }) ||
-         std::ranges::any_of(actor.joints, is_its);
+  return std::ranges::find(force.bodies, body, &AppliedForce::OnBody::body) != force.bodies.end() ||
+         std::ranges::any_of(force.joints, is_of_body);
 }
 
-// Of six columns, what a joint of several velocities has of each; else as it lies.
+// A 6 x n matrix by columns, one for each velocity of the joint.
 void write_terms(JsonWriter& json, const Eigen::MatrixXd& value, bool by_columns) {
   if (value.cols() == 1)
     json.number_or_list({value.data(), value.data() + value.size()});
@@ -115,15 +67,15 @@ std::vector<DisplayedQuantity> some_of(const Inspection& in, int pass, std::size
   return all;
 }
 
-// What the equations of a body take from another one.
-void write_neighbour(JsonWriter& json, const Inspection& in, std::size_t body, const char* is,
+// The quantities of a neighbour that the body's equations use.
+void write_neighbour(JsonWriter& json, const Inspection& in, std::size_t body, const char* relation,
                      Names names) {
-  std::vector<DisplayedQuantity> taken;
+  std::vector<DisplayedQuantity> used;
   for (const int pass : {1, 2, 3})
     for (DisplayedQuantity& shown : some_of(in, pass, body, names))
-      taken.push_back(std::move(shown));
-  const auto quantities = [&] { write_quantities(json, taken); };
-  json.object({{"body", in.model.body_name[body]}, {"is", is}, {"quantities", quantities}});
+      used.push_back(std::move(shown));
+  const auto quantities = [&] { write_quantities(json, used); };
+  json.object({{"body", in.model.body_name[body]}, {"is", relation}, {"quantities", quantities}});
 }
 
 void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) {
@@ -134,7 +86,7 @@ void write_neighbours(JsonWriter& json, const Inspection& in, std::size_t body) 
   json.end_array();
 }
 
-// p'' = R (a_lin + w x v) + g, world axes: w.a is spatial, with gravity as a_0 = -g.
+// p'' = R (a_lin + w x v) + g, world axes; w.a is a spatial acceleration with a_0 = -g.
 DisplayedQuantity origin_acceleration(const Inspection& in, std::size_t body) {
   const Vec3<double> a_B = classical_acceleration(in.w.v[body], in.w.a[body], {});
   return {{"acceleration", 3, Quantity::By::body, "acceleration of the link's origin", "m/s^2",
@@ -143,7 +95,7 @@ DisplayedQuantity origin_acceleration(const Inspection& in, std::size_t body) {
           in.k.R_WB[body] * to_eigen(a_B) + to_eigen(in.model.gravity)};
 }
 
-// The whole call in its order: what a glance at each step tells.
+// The main results of each step of the call, in order.
 void write_call(JsonWriter& json, const Inspection& in) {
   json.begin_array();
   const auto step = [&](int pass, std::size_t body, Names names) {
@@ -159,103 +111,117 @@ void write_call(JsonWriter& json, const Inspection& in) {
   json.end_array();
 }
 
+InspectView view_of(const Inspection& in, const LabFrame& frame, std::size_t body,
+                    const std::vector<std::string>* rows) {
+  InspectView view;
+  view.bodies = {body};
+  view.forces_alone = true;
+  for (const AppliedForce& force : in.actors)
+    if (acts_on(force, in.model, body)) view.forces.push_back(force.source);
+  const RecordedFrame& recorded = frame.recorded;
+  for (std::size_t i = 0; rows && i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
+    if (recorded.rows[i] < rows->size())
+      view.ledger.push_back({EnergyRowKind::earlier, (*rows)[recorded.rows[i]], recorded.works[i]});
+  return view;
+}
+
 }  // namespace
 
-struct BodyInspector::Impl {
-  SimulatePlan plan;
-  GivenState given;  // of the start
-  LabHand nobody;    // asked for nothing
-  std::optional<InputOverride> lead;
-  FrameHand hand;
-  HeldPull pull;
-  std::optional<SceneInspector> scene;
+void BodyInspector::ConstantMouseForce::add_forces(const State<double>&, const Kinematics& k,
+                                                   Forces<double>& forces) noexcept {
+  if (!mouse_ || mouse_->body <= 0) return;
+  add_point_force(k, mouse_->body, k.position(mouse_->body, mouse_->p_L), mouse_->force_W, forces);
+}
 
-  explicit Impl(SimulatePlan of) : plan(std::move(of)), given(plan.input.robot.state) {
-    SimulateInput& input = plan.input;
-    input.robot.warnings.clear();  // of the scene: told when it was opened
-    if (!input.scene) return;
-    const double h = plan.run.step;
-    lead.emplace(input.scene.get(), nobody, h);
-    input.couplings =
-        std::make_unique<SceneCouplings>(*input.scene, h, nullptr, in_place_of(*lead, hand));
-    scene.emplace(input, h, std::vector<NamedSource>{{"mouse", &pull}}, plan.run.integrator);
+BodyInspector::BodyInspector(SimulatePlan plan)
+    : plan_(std::move(plan)), given_(plan_.input.robot.state) {
+  SimulateInput& input = plan_.input;
+  input.robot.warnings.clear();  // reported when the scene was opened
+  if (!input.scene) return;
+  const double h = plan_.run.step;
+  override_.emplace(input.scene.get(), unused_, h);
+  input.couplings = std::make_unique<SceneCouplings>(*input.scene, h, nullptr, in_place());
+  scene_.emplace(input, h, std::vector<NamedSource>{{"mouse", &mouse_}}, plan_.run.integrator);
+}
+
+// Replaces the motion of the couplings that the run's operator would drive.
+HandInPlace BodyInspector::in_place() {
+  return [this, in_run = override_->in_place()](
+             std::size_t coupling,
+             std::unique_ptr<OperatorMotion> own) -> std::unique_ptr<OperatorMotion> {
+    const OperatorMotion* before = own.get();
+    std::unique_ptr<OperatorMotion> made = in_run(coupling, std::move(own));
+    if (made.get() == before) return made;
+    const auto substitute = [this](double, double) { return motion_ ? &*motion_ : nullptr; };
+    return std::make_unique<OverridableMotion>(std::move(made), substitute);
+  };
+}
+
+// The operator motion continued from the frame.
+void BodyInspector::set_motion(const LabFrame& frame) {
+  motion_.reset();
+  if (!frame.hand || !frame.hand->active) return;
+  const OperatorFrame& hand = *frame.hand;
+  HandTarget target{hand.q_K, hand.qd_K, hand.gripper_closed};
+  target.qd.resize(target.q.size());
+  for (std::size_t j = 0; j < target.q.size(); ++j) target.q[j] += plan_.run.step * target.qd[j];
+  motion_.emplace(1);
+  motion_->set(target, frame.recorded.t, plan_.run.step);
+}
+
+Inspected BodyInspector::inspect(const LabFrame& frame) {
+  StateArchive memory = simulation_memory(frame.recorded.memory);
+  if (scene_) {
+    set_motion(frame);
+    plan_.input.couplings->forget_hands();
+    mouse_.set(frame.mouse);
+    return scene_->look(&memory);
   }
+  RobotInput& robot = plan_.input.robot;
+  State<double> x(robot.model);
+  visit_state(memory, robot.model, x);
+  robot.state = given_;
+  set_pose(robot, x);
+  return inspect_robot(robot);
+}
 
-  Inspected look(const LabFrame& frame) {
-    StateArchive memory = simulation_memory(frame.recorded.memory);
-    if (scene) {
-      hand.take(frame, plan.run.step);
-      plan.input.couplings->forget_hands();
-      pull.hold(frame.pull);
-      return scene->look(&memory);
-    }
-    RobotInput& robot = plan.input.robot;
-    State<double> x(robot.model);
-    visit_state(memory, robot.model, x);
-    robot.state = given;
-    set_pose(robot, x);
-    return inspect_robot(robot);
+void BodyInspector::write(JsonWriter& json, const LabFrame& frame, const InspectRequest& request) {
+  const Model<double>& model = plan_.input.robot.model;
+  if (model.parent.size() < 2) throw std::runtime_error("the scene has no moving body");
+  const bool is_body = request.body > 0 && request.body < model.parent.size();
+  const std::size_t body = is_body ? request.body : 1;
+  Inspected found = inspect(frame);
+  const Inspection in(model, found.x, std::move(found.actors), std::move(found.loops));
+  InspectView view = view_of(in, frame, body, request.rows);
+  view.warnings = std::move(found.warnings);
+  warn_of_bad_numbers(in, view.warnings);
+  std::vector<Check> checks;
+  if (request.paused) {
+    checks = run_checks(in);
+    if (scene_) checks.push_back(step_check(in, found.qdd_of_step));
   }
+  json.members({{"body", body}, {"name", model.body_name[body]}});
+  write_inspection(json, in, view, checks);
+  write_equations(json.key("equations"), in, body);
+  write_neighbours(json.key("neighbours"), in, body);
+  if (request.paused) write_call(json.key("rows"), in);
+}
 
-  static InspectView view_of(const Inspection& in, const LabFrame& frame, std::size_t body,
-                             const std::vector<std::string>& ledger) {
-    InspectView view;
-    view.bodies = {body};
-    view.forces_alone = true;
-    for (const AppliedForce& actor : in.actors)
-      if (acts_on(actor, in.model, body)) view.forces.push_back(actor.source);
-    const RecordedFrame& recorded = frame.recorded;
-    for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
-      if (recorded.rows[i] < ledger.size())
-        view.ledger.push_back(
-            {EnergyRowKind::earlier, ledger[recorded.rows[i]], recorded.works[i]});
-    return view;
-  }
-
-  void write(JsonWriter& json, const LabFrame& frame, const InspectRequest& question) {
-    const Model<double>& model = plan.input.robot.model;
-    if (model.parent.size() < 2) throw std::runtime_error("nothing moves here");
-    const std::size_t body =
-        question.body > 0 && question.body < model.parent.size() ? question.body : 1;
-    Inspected found = look(frame);
-    const Inspection in(model, found.x, std::move(found.actors), std::move(found.loops));
-    static const std::vector<std::string> no_names;
-    InspectView view = view_of(in, frame, body, question.ledger ? *question.ledger : no_names);
-    view.warnings = std::move(found.warnings);
-    warn_of_bad_numbers(in, view.warnings);
-    std::vector<Check> checks;
-    if (question.stands) {
-      checks = run_checks(in);
-      if (scene) checks.push_back(step_check(in, found.qdd_of_step));
-    }
-    json.members({{"body", body}, {"name", model.body_name[body]}});
-    write_inspection(json, in, view, checks);
-    write_equations(json.key("equations"), in, body);
-    write_neighbours(json.key("neighbours"), in, body);
-    if (question.stands) write_call(json.key("rows"), in);
-  }
-};
-
-BodyInspector::BodyInspector(SimulatePlan plan) : impl_(std::make_unique<Impl>(std::move(plan))) {}
-BodyInspector::~BodyInspector() = default;
-BodyInspector::BodyInspector(BodyInspector&&) noexcept = default;
-BodyInspector& BodyInspector::operator=(BodyInspector&&) noexcept = default;
-
-std::string BodyInspector::message(const LabFrame& frame, const InspectRequest& question) {
-  const auto text_with = [&](const auto& write) {
+std::string BodyInspector::message(const LabFrame& frame, const InspectRequest& request) {
+  const auto text_with = [&](const auto& write_rest) {
     return json_text([&](JsonWriter& json) {
       json.members({{"kind", "glass"},
-                    {"scene", question.scene},
+                    {"scene", request.scene},
                     {"t", frame.recorded.t},
                     {"step", frame.recorded.step},
-                    {"stands", question.stands}});
-      write(json);
+                    {"stands", request.paused}});
+      write_rest(json);
     });
   };
   try {
-    return text_with([&](JsonWriter& json) { impl_->write(json, frame, question); });
+    return text_with([&](JsonWriter& json) { write(json, frame, request); });
   } catch (const std::exception& error) {
-    const std::string warning = std::string("this frame cannot be looked into: ") + error.what();
+    const std::string warning = std::string("this frame cannot be inspected: ") + error.what();
     return text_with([&](JsonWriter& json) { json.key("warnings").texts({warning}); });
   }
 }

@@ -1,47 +1,69 @@
-// The lab's inspector: one frame, one body, as a `glass` message (docs/understand/articulated_body_algorithm.md).
+// Dynamics of one body at one frame: the message `glass`
+// (docs/understand/articulated_body_algorithm.md).
 //
-// The frame's memory is put back into a simulation that was built alike, one semi-implicit step is
-// taken there to learn by whose name each force acts, and aba() is asked once more with FullTrace:
-// what `twinarm inspect` does with a recording. A hand that leads goes on for that step as in the
-// one before, and the mouse pulls as it did. Nothing is shared with the thread that runs.
+// The frame's checkpoint is restored in a simulation with the same layout, one semi-implicit step
+// is taken to attribute forces to their sources, and aba() is evaluated with FullTrace, as `twinarm
+// inspect` does for a recording. For that step the operator motion continues at its rate and the
+// mouse spring keeps its force. Shares nothing with the run's thread.
 //
-// Cost: a step and an aba(); where time stands still also the second ways, O(n^4) at worst.
+// Cost: a step and an aba(); while paused also the cross-checks, O(n^4) at worst.
 #pragma once
 
 #include <cstddef>
-#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/inspect/report/inspect_input.h"
 #include "app/lab/run/history.h"
+#include "app/lab/run/input_override.h"
 #include "app/run/simulate_input.h"
+#include "solver/support/checkpointable.h"
 
 namespace twinarm {
 
 struct InspectRequest {
-  std::size_t body = 1;  // of the model; one that is not there is the first
-  bool stands = false;   // time stands still: with all bodies' steps of the call, and second ways
-  unsigned scene = 0;    // its number, for the page
-  const std::vector<std::string>* ledger =
-      nullptr;  // names of RecordedFrame::rows; null: no ledger
+  std::size_t body = 1;                            // of the model; an invalid index means the first
+  bool paused = false;                             // adds the call in its order, and cross-checks
+  unsigned scene = 0;                              // its number, for the page
+  const std::vector<std::string>* rows = nullptr;  // names of RecordedFrame::rows; null: none
 };
 
 class BodyInspector {
  public:
-  // A plan of its own, made of what the run was made of, its changes included; files that it names
-  // are read here. Throws InputError as a run would.
+  // Takes a plan of the run with its changes. Throws InputError.
   explicit BodyInspector(SimulatePlan plan);
-  ~BodyInspector();
-  BodyInspector(BodyInspector&&) noexcept;
-  BodyInspector& operator=(BodyInspector&&) noexcept;
+  BodyInspector(const BodyInspector&) = delete;
+  BodyInspector& operator=(const BodyInspector&) = delete;
 
-  // The message, JSON. Never throws for what is in a frame: numbers that are not finite are null,
-  // and a frame of another scene gives a message with a warning and no passes.
-  std::string message(const LabFrame& frame, const InspectRequest& question);
+  // JSON. Numbers that are not finite become null; a frame of another scene gives a warning and no
+  // passes.
+  std::string message(const LabFrame& frame, const InspectRequest& request);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  // The mouse spring's force of the step that led to the frame.
+  class ConstantMouseForce final : public ForceSource, public Checkpointable {
+   public:
+    void set(const std::optional<MouseSpringState>& mouse) { mouse_ = mouse; }
+    void add_forces(const State<double>&, const Kinematics& k,
+                    Forces<double>& forces) noexcept override;
+
+   private:
+    std::optional<MouseSpringState> mouse_;
+  };
+
+  HandInPlace in_place();
+  void set_motion(const LabFrame& frame);
+  Inspected inspect(const LabFrame& frame);
+  void write(JsonWriter& json, const LabFrame& frame, const InspectRequest& request);
+
+  SimulatePlan plan_;
+  GivenState given_;  // of the start
+  OperatorInput unused_;
+  std::optional<InputOverride> override_;
+  std::optional<DeviceMotion> motion_;  // none: the scene's own
+  ConstantMouseForce mouse_;
+  std::optional<SceneInspector> scene_;
 };
 
 }  // namespace twinarm

@@ -10,20 +10,20 @@ namespace twinarm {
 namespace {
 
 // lanes = { path = "integrator", values = ["verlet", "rk4"], apart = [0, 0.5, 0] }
-VariantSet read_lanes(TableReader& entry, const Value& told, const std::string& file,
+VariantSet read_lanes(TableReader& entry, const Value& value_of_key, const std::string& file,
                       DiagnosticList& faults) {
-  TableReader table(told, entry.where() + ", lanes", file, faults);
-  VariantSet lanes;
-  lanes.path = table.text("path").value_or("");
-  lanes.apart = table.vector("apart");
+  TableReader table(value_of_key, entry.where() + ", lanes", file, faults);
+  VariantSet variants;
+  variants.path = table.text("path").value_or("");
+  variants.apart = table.vector("apart");
   if (const Value* values = table.find("values"))
     for (const Value& value : values->items)
-      lanes.values.push_back(value.kind == Value::Kind::number ? fmt::format("{}", value.number)
-                                                               : value.text);
+      variants.values.push_back(value.kind == Value::Kind::number ? fmt::format("{}", value.number)
+                                                                  : value.text);
   table.done();
-  if (const auto fault = fault_of(lanes))
-    entry.fault("lanes", fault->problem, fault->fix, "gallery.lanes");
-  return lanes;
+  if (const auto found = problem_of(variants))
+    entry.fault("lanes", found->problem, found->fix, "gallery.lanes");
+  return variants;
 }
 
 GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
@@ -46,12 +46,12 @@ GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
                       return line.kind == Value::Kind::text && !line.text.empty();
                     });
   if (!fits)
-    table.fault("look", "is not three lines of text", "give what to look for, in three lines",
+    table.fault("look", "is not a list of three texts", "give what to look for, in three lines",
                 "gallery.look");
   else
     for (std::size_t i = 0; i < scene.look.size(); ++i) scene.look[i] = look->items[i].text;
-  if (const Value* lanes = table.table("lanes"))
-    scene.lanes = read_lanes(table, *lanes, file, faults);
+  if (const Value* variants = table.table("lanes"))
+    scene.variants = read_lanes(table, *variants, file, faults);
   table.done();
   return scene;
 }
@@ -68,7 +68,7 @@ std::vector<GalleryScene> read_gallery(const std::filesystem::path& file) {
     TableReader table(*entry, "scene", name, faults);
     gallery.push_back(read_entry(table, file.parent_path(), name, faults));
     if (find_scene(gallery, gallery.back().name) != &gallery.back())
-      table.fault("name", "the name is taken already", "give each scene its own name",
+      table.fault("name", "the name is used twice", "give each scene its own name",
                   "gallery.name-taken");
   }
   top.done();
@@ -83,8 +83,7 @@ std::vector<GalleryScene> read_gallery() {
 }
 
 const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const std::string& name) {
-  const auto found = std::find_if(gallery.begin(), gallery.end(),
-                                  [&](const GalleryScene& scene) { return scene.name == name; });
+  const auto found = std::ranges::find(gallery, name, &GalleryScene::name);
   return found == gallery.end() ? nullptr : &*found;
 }
 
@@ -94,8 +93,7 @@ void write_gallery(const std::vector<GalleryScene>& gallery, JsonWriter& json) {
   });
 }
 
-// Gains, step and masses stand in the scenes: those of `twinarm study` (assets/study), which a test
-// compares.
+// A test compares gains, step and masses of these scenes with those of `twinarm study`.
 const std::vector<Preset>& all_presets() {
   static const std::vector<Preset> presets{
       {"E1", "the paper's E1: torsional coupling, moved by hand", "study_e1.toml", {}, "drag"},
@@ -107,8 +105,7 @@ const std::vector<Preset>& all_presets() {
 
 const Preset* find_preset(const std::string& name) {
   const auto& all = all_presets();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Preset& p) { return p.name == name; });
+  const auto found = std::ranges::find(all, name, &Preset::name);
   return found == all.end() ? nullptr : &*found;
 }
 

@@ -1,5 +1,5 @@
-// The scenes that the lab offers: assets/scenes/gallery/gallery.toml, with its pictures beside
-// it; the scenes lie in the folder above.
+// Scenes offered by the lab: assets/scenes/gallery/gallery.toml, with pictures in the same folder
+// and scenes in the parent folder.
 #pragma once
 
 #include <array>
@@ -15,32 +15,31 @@ namespace twinarm {
 struct GalleryScene {
   std::string name, title;
   std::filesystem::path file;       // absolute
-  std::filesystem::path picture;    // absolute; empty: there is none
+  std::filesystem::path picture;    // absolute; empty: none
   std::array<std::string, 3> look;  // what to look for
-  VariantSet lanes;                 // that it is opened with; empty: one run
+  VariantSet variants;              // initial; empty: one run
 };
 
-// Throws InputError with all faults: a file that is not there, less than three lines.
+// Throws InputError with all faults.
 std::vector<GalleryScene> read_gallery(const std::filesystem::path& file);
-// Of the assets; the first is what `twinarm lab` opens where it is told nothing.
+// Of the assets; `twinarm lab` opens the first one by default.
 std::vector<GalleryScene> read_gallery();
-// nullptr where there is none of that name.
+// Null: unknown name.
 const GalleryScene* find_scene(const std::vector<GalleryScene>& gallery, const std::string& name);
 
 // The list `gallery` of docs/reference/lab_protocol.md.
 void write_gallery(const std::vector<GalleryScene>& gallery, JsonWriter& json);
 
-// The paper's four experiments, one click each: a scene of the gallery and what is changed in it.
+// The paper's four experiments: a scene of the gallery and changes to it.
 struct Preset {
   std::string name, what;            // "E3", one line
   std::string scene;                 // file below assets/scenes/
-  std::vector<std::string> changes;  // PATH=VALUE, after the scene is opened; may be empty
-  // Who moves the robot then: "scene" (the motion in the file), or "drag" (the hand on the page).
-  std::string hand = "scene";
+  std::vector<std::string> changes;  // PATH=VALUE; may be empty
+  std::string hand = "scene";        // input source: "scene" or "drag"
 };
 
 const std::vector<Preset>& all_presets();
-const Preset* find_preset(const std::string& name);  // nullptr where there is none
+const Preset* find_preset(const std::string& name);  // null: unknown name
 
 // The list `presets` of docs/reference/lab_protocol.md.
 void write_presets(JsonWriter& json);

@@ -1,14 +1,12 @@
-// What can be turned in a scene while it runs: for each knob its path, as `replay --set` and `map`
-// write it, its value now, a range that gives a scene, and, beside gains, step and rate, the limit
-// and the lag that linear theory predicts about the present state.
+// Parameters of a scene that can be changed while it runs. For each: its path, as in `replay --set`
+// and `map`, its value, a valid range, and for gains, step and rate the stability limit and
+// tracking error predicted by linear theory at the present state.
 //
-// The limit of a knob is where an error begins to grow in the step as it is really taken
-// (coupling/analysis/step_matrix.h), all couplings together, all other knobs as they stand.
-// Contacts and constraints are left out, and so is the geometric stiffness of points that are far
-// from their targets: the limit is about zero offset, in the pose of the moment.
+// A limit is where the spectral radius of the actual step (coupling/analysis/step_matrix.h) exceeds
+// 1, with all couplings and all other parameters as they are. Contacts, constraints and the
+// geometric stiffness of points far from their targets are not included.
 //
-// Cost: knobs_of less than 0.1 ms; predict_knobs of the S-103 with four couplings less than 5 ms of
-// processor time.
+// Cost: parameters_of() below 0.1 ms; predict_limits() of the S-103 with four couplings below 5 ms.
 #pragma once
 
 #include <optional>
@@ -21,51 +19,51 @@
 namespace twinarm {
 
 struct ParameterLimit {
-  enum class State { ok, near, beyond };  // near: less than a quarter of it is left
-  std::optional<double> value;            // in the knob's unit; none: any value holds, or none
+  enum class State { ok, near, beyond };  // near: more than three quarters of it
+  std::optional<double> value;            // none: any value is stable, or no value
   std::string words;
   State state = State::ok;
 };
 
 struct LabParameter {
-  // log and linear are sliders from low to high; number is typed; choice is one of `choices`.
+  // log, linear: sliders from low to high; number: typed; choice: one of `choices`.
   enum class Form { log, linear, choice, number };
   std::string path, label, group;
-  // Of a coupling: its number in the scene, -1 for all of them, and its key.
+  // Of a coupling: its index in the scene, -1 for all, and its key.
   std::optional<int> coupling;
   std::string key;
-  std::optional<double>
-      number;        // value now; none: as the scene leaves it out, "every step" of a rate
-  std::string text;  // value now of a choice
-  // VALUE of the scene as it was opened, as change() writes it; empty: that leaves it out; none:
-  // that has no such knob.
-  std::optional<std::string> start;
+  std::optional<double> number;  // value; none: not in the scene; of a rate: "every step"
+  std::string text;              // value of a choice
+  // VALUE in the scene as opened; empty: not given there; none: that scene has no such parameter.
+  std::optional<std::string> initial;
   std::string unit;
   Form form = Form::number;
-  double low = 0, high = 0;  // what a slider offers; the value may lie outside
+  double low = 0, high = 0;  // of the slider; the value may lie outside
   std::vector<std::string> choices;
-  std::string meaning;
+  std::string description;
   std::optional<ParameterLimit> limit;
-  std::string lag;
-  // The run goes on from coordinates and velocities alone: what laws remember of past steps
-  // (held forces, differences, contacts) begins anew.
-  bool restarts = false;
+  std::string tracking_error;
+  // A change keeps only positions and velocities: internal states of couplings and contacts (held
+  // forces, differences) are reset.
+  bool resets_state = false;
 
-  std::string value() const;   // as VALUE of PATH=VALUE; empty where it has none
-  std::string change() const;  // "PATH=VALUE" as it stands; likewise
+  std::string value() const;   // VALUE of PATH=VALUE; empty if it has none
+  std::string change() const;  // "PATH=VALUE"; empty likewise
 };
 
-// In the order of a page: time and world, robots, couplings, surfaces. Values that the file leaves
-// out are those of its reader.
-std::vector<LabParameter> knobs_of(const SimulatePlan& plan);
+// In the order of the page: time and world, couplings, masses, surfaces. Values not in the file are
+// the defaults.
+std::vector<LabParameter> parameters_of(const SimulatePlan& plan);
 
-// Fills `start` from the knobs of the scene without changes.
-void know_starts(const std::vector<LabParameter>& unchanged, std::vector<LabParameter>& knobs);
+// Fills `initial` from the parameters of the unchanged scene.
+void set_initial_values(const std::vector<LabParameter>& unchanged,
+                        std::vector<LabParameter>& parameters);
 
-// Adds limits and lags about `now`. The plan is the caller's own: its state is set to `now`.
-void predict_knobs(SimulatePlan& plan, const State<double>& now, std::vector<LabParameter>& knobs);
+// Adds limits and tracking errors at the state `now`, which is written to the plan.
+void predict_limits(SimulatePlan& plan, const State<double>& now,
+                    std::vector<LabParameter>& parameters);
 
 // The list `knobs` of docs/reference/lab_protocol.md.
-void write_knobs(const std::vector<LabParameter>& knobs, JsonWriter& json);
+void write_parameters(const std::vector<LabParameter>& parameters, JsonWriter& json);
 
 }  // namespace twinarm

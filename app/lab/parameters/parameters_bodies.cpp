@@ -1,40 +1,41 @@
-// The knobs of surfaces and masses. Where there are many bodies, one knob for all that agree.
+// Parameters of surfaces and masses. Many bodies with the same value share one parameter.
 #include <algorithm>
 
 #include "app/lab/parameters/parameter_makers.h"
 
-namespace twinarm::knob_makers {
+namespace twinarm::parameter_makers {
 namespace {
 
 constexpr std::size_t kManyBodies = 8;
 
-LabParameter knob_of(const SurfaceKey& key, std::string path, double value, std::string group) {
-  LabParameter knob = slider(std::move(path), key.slider, value, key.unit);
-  knob.group = std::move(group);
-  return knob;
+LabParameter parameter_of(const SurfaceKey& key, std::string path, double value,
+                          std::string group) {
+  LabParameter parameter = slider(std::move(path), key.slider, value, key.unit);
+  parameter.group = std::move(group);
+  return parameter;
 }
 
 class Surfaces {
  public:
-  Surfaces(const SceneModel& model, std::vector<LabParameter>& knobs)
-      : scene_(model.description), knobs_(knobs) {}
+  Surfaces(const SceneModel& model, std::vector<LabParameter>& parameters)
+      : scene_(model.description), parameters_(parameters) {}
 
   void add(const SurfaceKey& key) {
     const auto value = [&](const auto& owner) { return owner.surface.*key.member; };
     for (std::size_t i = 0; i < scene_.robots.size(); ++i)
       if (scene_.robots[i].collide)
-        knobs_.push_back(knob_of(key, item("robot", i, key.key), value(scene_.robots[i]),
-                                 scene_.robots[i].name));
+        parameters_.push_back(parameter_of(key, item("robot", i, key.key), value(scene_.robots[i]),
+                                           scene_.robots[i].name));
     const auto& bodies = scene_.bodies;
-    const bool agree = std::all_of(bodies.begin(), bodies.end(), [&](const BodyDescription& b) {
-      return value(b) == value(bodies[0]);
-    });
+    const bool agree = std::ranges::all_of(
+        bodies, [&](const BodyDescription& b) { return value(b) == value(bodies[0]); });
     if (bodies.size() > 1 && agree)
-      knobs_.push_back(
-          knob_of(key, std::string("body.") + key.key, value(bodies[0]), "all bodies"));
+      parameters_.push_back(
+          parameter_of(key, std::string("body.") + key.key, value(bodies[0]), "all bodies"));
     else if (bodies.size() <= kManyBodies)
       for (std::size_t i = 0; i < bodies.size(); ++i)
-        knobs_.push_back(knob_of(key, item("body", i, key.key), value(bodies[i]), bodies[i].name));
+        parameters_.push_back(
+            parameter_of(key, item("body", i, key.key), value(bodies[i]), bodies[i].name));
   }
 
   void add_pairs() {
@@ -43,30 +44,31 @@ class Surfaces {
       const std::string group = pair.a + " on " + pair.b;
       for (const SurfaceKey& key : surface_keys())
         if (key.slider.label && key.of_pair && !key.is_of_compliant && pair.*key.of_pair)
-          knobs_.push_back(knob_of(key, item("pair", i, key.key), *(pair.*key.of_pair), group));
+          parameters_.push_back(
+              parameter_of(key, item("pair", i, key.key), *(pair.*key.of_pair), group));
     }
   }
 
  private:
   const SceneDescription& scene_;
-  std::vector<LabParameter>& knobs_;
+  std::vector<LabParameter>& parameters_;
 };
 
 }  // namespace
 
-void add_surfaces(const SceneModel& model, std::vector<LabParameter>& knobs) {
-  Surfaces surfaces(model, knobs);
+void add_surfaces(const SceneModel& model, std::vector<LabParameter>& parameters) {
+  Surfaces surfaces(model, parameters);
   const bool is_compliant = model.description.contact == ContactMode::compliant;
   for (const SurfaceKey& key : surface_keys())
     if (key.slider.label && (is_compliant || !key.is_of_compliant)) surfaces.add(key);
   surfaces.add_pairs();
 }
 
-void add_masses(const SceneDescription& scene, std::vector<LabParameter>& knobs) {
+void add_masses(const SceneDescription& scene, std::vector<LabParameter>& parameters) {
   const auto put = [&](std::string path, const std::string& label, double value, const char* unit,
                        double low, double high, const std::string& group, const char* meaning) {
-    knobs.push_back(slider(std::move(path), {label.c_str(), low, high, meaning}, value, unit));
-    knobs.back().group = group;
+    parameters.push_back(slider(std::move(path), {label.c_str(), low, high, meaning}, value, unit));
+    parameters.back().group = group;
   };
   for (std::size_t i = 0; i < scene.robots.size(); ++i) {
     const RobotInScene& robot = scene.robots[i];
@@ -74,11 +76,11 @@ void add_masses(const SceneDescription& scene, std::vector<LabParameter>& knobs)
     for (std::size_t p = 0; p < robot.payloads.size(); ++p)
       put(own + item("payload", p, "mass"), "added mass on " + robot.payloads[p].link,
           robot.payloads[p].mass, "kg", 1e-3, 10, robot.name,
-          "A particle on the link: it makes what the coupling feels heavier, and slower.");
+          "Particle fixed to the link: increases the inertia at the coupling.");
     for (const auto& [link, factor] : robot.mass_scale)
       if (link.find_first_of(".[") == std::string::npos)
         put(own + "mass_scale." + link, "mass of " + link, factor, "times", 0.05, 20, robot.name,
-            "Mass and inertia of the link, times this.");
+            "Factor of the link's mass and inertia.");
   }
   std::size_t free = 0;
   for (const BodyDescription& body : scene.bodies) free += body.is_free() && body.mass;
@@ -87,8 +89,8 @@ void add_masses(const SceneDescription& scene, std::vector<LabParameter>& knobs)
     const BodyDescription& body = scene.bodies[i];
     if (body.is_free() && body.mass && !body.inertia)
       put(item("body", i, "mass"), "mass", *body.mass, "kg", 1e-2, 100, body.name,
-          "Of the uniform solid: its inertia grows with it.");
+          "Mass of the uniform solid; its inertia is proportional.");
   }
 }
 
-}  // namespace twinarm::knob_makers
+}  // namespace twinarm::parameter_makers

@@ -1,4 +1,4 @@
-// The knobs of couplings: type, treatment, gains, rate, and how their target is seen.
+// Parameters of couplings: type, discretization, gains, rate, and those of the target.
 #include <algorithm>
 #include <cmath>
 
@@ -7,12 +7,12 @@
 #include "coupling/laws/coupling_spec.h"
 #include "solver/support/number_text.h"
 
-namespace twinarm::knob_makers {
+namespace twinarm::parameter_makers {
 namespace {
 
 using CouplingKind = CouplingSpec::Type;
 
-// What acts at joints needs one.
+// Null: the link has no joint of its own. Required by laws that act on joints.
 const JointDescription* own_joint(const SceneDescription& scene, const CouplingDescription& c) {
   for (const RobotInScene& robot : scene.robots)
     if (robot.name == c.robot) return twinarm::own_joint(robot.description, c.link);
@@ -25,33 +25,34 @@ bool is_slide(const SceneDescription& scene, const CouplingDescription& c) {
          joint->type == JointDescription::Type::prismatic;
 }
 
-// From a point one may go to an orientation; back only where the file names the point.
+// A coupling at a point can change to one of the orientation; the reverse needs a point in the
+// file.
 std::vector<std::string> types_for(const SceneDescription& scene, const CouplingDescription& c,
                                    bool implicit_fits) {
   const CouplingFacts& now = facts_of(c.law, c.printed);
   std::vector<std::string> names;
   for (const CouplingFacts& facts : all_couplings) {
     const bool is_now = facts.type == c.law && facts.printed == c.printed;
-    const bool sees_end = facts.treatments == CouplingFacts::Discretizations::own ||
-                          facts.gains == CouplingFacts::Gains::reference;
+    const bool is_implicit = facts.treatments == CouplingFacts::Discretizations::own ||
+                             facts.gains == CouplingFacts::Gains::reference;
     const bool fits = facts.gains != CouplingFacts::Gains::none &&
                       (now.at_point || !facts.at_point) &&
-                      (!facts.at_joint || own_joint(scene, c)) && (implicit_fits || !sees_end);
+                      (!facts.at_joint || own_joint(scene, c)) && (implicit_fits || !is_implicit);
     if (is_now || fits) names.emplace_back(facts.name);
   }
   return names;
 }
 
-class CouplingKnobs {
+class CouplingParameters {
  public:
-  CouplingKnobs(const SceneDescription& scene, const RunPlan& run, std::size_t index,
-                std::vector<LabParameter>& knobs)
+  CouplingParameters(const SceneDescription& scene, const RunPlan& run, std::size_t index,
+                     std::vector<LabParameter>& parameters)
       : scene_(scene),
         run_(run),
         c_(scene.couplings[index]),
         facts_(facts_of(c_.law, c_.printed)),
         index_(index),
-        knobs_(knobs),
+        parameters_(parameters),
         implicit_fits_(twinarm::facts_of(run.integrator).implicit_force &&
                        scene.contact != ContactMode::event) {}
 
@@ -66,34 +67,34 @@ class CouplingKnobs {
   }
 
  private:
-  LabParameter& put(const char* key, LabParameter knob) {
-    knob.path = item("coupling", index_, key);
-    knob.group = c_.name;
-    knob.coupling = static_cast<int>(index_);
-    knob.key = key;
-    knobs_.push_back(std::move(knob));
-    return knobs_.back();
+  LabParameter& put(const char* key, LabParameter parameter) {
+    parameter.path = item("coupling", index_, key);
+    parameter.group = c_.name;
+    parameter.coupling = static_cast<int>(index_);
+    parameter.key = key;
+    parameters_.push_back(std::move(parameter));
+    return parameters_.back();
   }
   void add_slider(const CouplingKey& row) {
     if (!row.slider.label || !row.has(facts_)) return;
     const bool turns = c_.type == CouplingDescription::Type::torsional && !is_slide(scene_, c_);
-    LabParameter& knob = put(row.key, slider("", row.slider, row.value(c_), row.unit_of(turns)));
+    LabParameter& parameter =
+        put(row.key, slider("", row.slider, row.value(c_), row.unit_of(turns)));
     if (!turns || row.turning_low == 0) return;
-    knob.low = row.turning_low;
-    knob.high = row.turning_high;
+    parameter.low = row.turning_low;
+    parameter.high = row.turning_high;
   }
 
   void add_type() {
     const auto types = types_for(scene_, c_, implicit_fits_);
     if (types.size() > 1)
-      put("type", choice("", "type", facts_.name, types,
-                         "What is pulled together, and by which equations."))
-          .restarts = true;
+      put("type", choice("", "type", facts_.name, types, "Coupled quantity and coupling law."))
+          .resets_state = true;
     if (c_.law == CouplingKind::torsional && !c_.printed && own_joint(scene_, c_))
-      put("measure", choice("", "measures", c_.measure == SpringSpace::world ? "world" : "joint",
+      put("measure", choice("", "measure", c_.measure == SpringSpace::world ? "world" : "joint",
                             {"world", "joint"},
                             "The link's orientation in the world, or the angle of its own joint."))
-          .restarts = true;
+          .resets_state = true;
   }
 
   void add_treatment() {
@@ -101,30 +102,31 @@ class CouplingKnobs {
       return;
     if (!implicit_fits_) return;
     put("treatment",
-        choice("", "treatment", name_of(c_.treatment), {"explicit", "semi-implicit", "implicit"},
-               "explicit: the force of the start of the step; semi-implicit: the damper sees its "
-               "end; implicit: the spring too, and any stiffness holds."))
-        .restarts = true;
+        choice(
+            "", "treatment", name_of(c_.treatment), {"explicit", "semi-implicit", "implicit"},
+            "Evaluation of the spring-damper. explicit: at the start of the step; semi-implicit: "
+            "damper at its end; implicit: spring too, stable for any stiffness."))
+        .resets_state = true;
   }
 
   void add_time() {
-    // A held force sees the start of a step only, so it is offered to what is explicit.
+    // A held force is evaluated at the start of a step, as explicit ones are.
     const bool is_explicit = c_.treatment == Discretization::explicit_ || c_.printed;
     if (facts_.can_hold && is_explicit && !run_.is_adaptive()) {
-      LabParameter knob =
+      LabParameter parameter =
           choice("", "update rate", c_.rate > 0 ? number_text(c_.rate) : "",
                  rates_for_step(c_.rate, run_.step),
-                 "The force is computed so often, and held between. Empty: at every step.");
-      knob.unit = "Hz";
-      knob.restarts = true;
-      put("rate", std::move(knob));
+                 "Rate of force evaluations; the force is held in between. Empty: every step.");
+      parameter.unit = "Hz";
+      parameter.resets_state = true;
+      put("rate", std::move(parameter));
     }
     if (coupling_key("damper").has(facts_) &&
         facts_.treatments != CouplingFacts::Discretizations::own && !c_.outside)
       put("damper", choice("", "damper", c_.absolute_damper ? "absolute" : "relative",
                            {"relative", "absolute"},
-                           "Against the twin's velocity, or against the link's own: that one "
-                           "brakes, and lags."));
+                           "Damping of the velocity relative to the target, or of the link's "
+                           "absolute velocity, which increases the tracking error."));
   }
 
   const SceneDescription& scene_;
@@ -132,16 +134,16 @@ class CouplingKnobs {
   const CouplingDescription& c_;
   const CouplingFacts& facts_;
   std::size_t index_;
-  std::vector<LabParameter>& knobs_;
+  std::vector<LabParameter>& parameters_;
   bool implicit_fits_;
 };
 
-// One slider for all where they agree.
-void add_common(const SceneDescription& scene, std::vector<LabParameter>& knobs) {
+// One slider for all couplings with the same value.
+void add_common(const SceneDescription& scene, std::vector<LabParameter>& parameters) {
   const auto& all = scene.couplings;
   if (all.size() < 2) return;
   const auto agree = [&](auto value) {
-    return std::all_of(all.begin(), all.end(), [&](const CouplingDescription& c) {
+    return std::ranges::all_of(all, [&](const CouplingDescription& c) {
       return c.law == all[0].law && c.printed == all[0].printed && c.measure == all[0].measure &&
              is_slide(scene, c) == is_slide(scene, all[0]) && !c.outside && c.rate == all[0].rate &&
              value(c) == value(all[0]);
@@ -149,16 +151,18 @@ void add_common(const SceneDescription& scene, std::vector<LabParameter>& knobs)
   };
   for (const CouplingKey& row : coupling_keys()) {
     if (!row.turning_unit) continue;
-    const auto one = std::find_if(knobs.begin(), knobs.end(), [&](const LabParameter& knob) {
-      return knob.coupling == 0 && knob.key == row.key;
-    });
-    if (one == knobs.end() || !agree([&](const CouplingDescription& c) { return row.value(c); }))
+    const auto one =
+        std::find_if(parameters.begin(), parameters.end(), [&](const LabParameter& parameter) {
+          return parameter.coupling == 0 && parameter.key == row.key;
+        });
+    if (one == parameters.end() ||
+        !agree([&](const CouplingDescription& c) { return row.value(c); }))
       continue;
-    LabParameter knob = *one;
-    knob.path = std::string("coupling.") + row.key;
-    knob.coupling = -1;
-    knob.group = "all couplings";
-    knobs.push_back(std::move(knob));
+    LabParameter parameter = *one;
+    parameter.path = std::string("coupling.") + row.key;
+    parameter.coupling = -1;
+    parameter.group = "all couplings";
+    parameters.push_back(std::move(parameter));
   }
 }
 
@@ -169,16 +173,16 @@ std::vector<std::string> steps_for_rates(const SceneDescription& scene, double s
   for (const CouplingDescription& c : scene.couplings)
     if (c.rate > 0) rates.push_back(c.rate);
   if (rates.empty()) return {};
-  const double most = *std::max_element(rates.begin(), rates.end());
+  const double max_rate = std::ranges::max(rates);
   const auto fits = [&](double h) {
-    return std::all_of(rates.begin(), rates.end(), [&](double rate) {
+    return std::ranges::all_of(rates, [&](double rate) {
       const double steps = 1 / (rate * h);
       return std::round(steps) >= 1 && std::abs(steps - std::round(steps)) < 1e-9 * steps;
     });
   };
   std::vector<std::string> texts{number_text(step)};
   for (const int part : {1, 2, 4, 5, 10, 20, 50, 100}) {
-    const double h = 1 / (most * part);
+    const double h = 1 / (max_rate * part);
     if (h >= 1e-5 && std::abs(h - step) > 1e-9 * step && fits(h)) texts.push_back(number_text(h));
   }
   return texts;
@@ -195,13 +199,15 @@ std::vector<std::string> rates_for_step(double rate, double step) {
 }
 
 void add_couplings(const SceneDescription& scene, const RunPlan& run,
-                   std::vector<LabParameter>& knobs) {
+                   std::vector<LabParameter>& parameters) {
   std::vector<LabParameter> own;
-  for (std::size_t i = 0; i < scene.couplings.size(); ++i) CouplingKnobs(scene, run, i, own).add();
+  for (std::size_t i = 0; i < scene.couplings.size(); ++i)
+    CouplingParameters(scene, run, i, own).add();
   std::vector<LabParameter> common = own;
   add_common(scene, common);
-  knobs.insert(knobs.end(), common.begin() + static_cast<std::ptrdiff_t>(own.size()), common.end());
-  knobs.insert(knobs.end(), own.begin(), own.end());
+  parameters.insert(parameters.end(), common.begin() + static_cast<std::ptrdiff_t>(own.size()),
+                    common.end());
+  parameters.insert(parameters.end(), own.begin(), own.end());
 }
 
-}  // namespace twinarm::knob_makers
+}  // namespace twinarm::parameter_makers

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "app/record/recording_writer.h"
-#include "coupling/device/device_motion.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -27,10 +26,9 @@ std::size_t bytes_of(const LabFrame& frame) {
   std::size_t bytes = sizeof(LabFrame) + bytes_in(r.values) + bytes_in(r.pulls) +
                       bytes_in(r.contacts) + bytes_in(r.rows) + bytes_in(r.works) +
                       bytes_in(r.momentum_rows) + bytes_in(r.momenta) + r.memory.size() +
-                      (frame.hand ? bytes_in(frame.hand->q_K) : 0) + bytes_in(frame.lanes);
-  for (const VariantFrame& lane : frame.lanes)
-    if (!lane.stopped)
-      bytes += bytes_of(*lane.frame);  // else one for all, which is next to nothing
+                      (frame.hand ? bytes_in(frame.hand->q_K) : 0) + bytes_in(frame.variants);
+  for (const VariantFrame& variant : frame.variants)
+    if (!variant.stopped) bytes += bytes_of(*variant.frame);  // a stopped one shares its last frame
   return bytes;
 }
 
@@ -47,7 +45,7 @@ LabHistory::Frame LabHistory::add(LabFrame frame) {
 }
 
 void LabHistory::add(const LabInput& input) {
-  if (!input.hand && !input.pull) return;
+  if (!input.hand && !input.mouse) return;
   while (!inputs_.empty() && inputs_.back().step >= input.step) {
     inputs_.pop_back();
     bytes_ -= sizeof(LabInput);
@@ -77,7 +75,7 @@ void LabHistory::trim() {
 }
 
 std::size_t LabHistory::at(double t) const {
-  const double slack = 1e-9 * std::max(1.0, std::abs(t));  // sums of steps are rounded
+  const double slack = 1e-9 * std::max(1.0, std::abs(t));  // rounding of summed steps
   const auto later =
       std::upper_bound(frames_.begin(), frames_.end(), t + slack,
                        [](double time, const Frame& frame) { return time < frame->recorded.t; });
@@ -105,12 +103,12 @@ LabHistory LabHistory::cut(std::size_t n) {
   return left;
 }
 
-// The step after which neither changes, nor who moves the robot, nor a pull came.
+// First step after the last change, switch of the input source, and mouse input.
 long LabHistory::first_step_to_save() const {
   const long last = newest()->recorded.step, change = segments_.back().first_step;
   long step = last;
   if (input(last)) {
-    for (const LabInput* its = input(step); its && its->hand && !its->pull; its = input(step))
+    for (const LabInput* its = input(step); its && its->hand && !its->mouse; its = input(step))
       --step;
   } else {
     while (step > change && !input(step)) --step;
@@ -118,9 +116,9 @@ long LabHistory::first_step_to_save() const {
   return std::max(change, step);
 }
 
-// Of the steps that lead up to the newest frame, without a gap; those before what is saved too, for
-// couplings may see the hand late.
-std::string LabHistory::log_of_hand() const {
+// Contiguous operator steps up to the newest frame. Includes steps before the saved ones: couplings
+// may have a delay.
+std::string LabHistory::operator_log() const {
   const long last = newest()->recorded.step;
   long first = last + 1;
   for (const LabInput* its = input(last); its && its->hand; its = input(first - 1)) --first;
@@ -130,14 +128,14 @@ std::string LabHistory::log_of_hand() const {
 }
 
 LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
-                                   const std::vector<std::size_t>& led,
+                                   const std::vector<std::size_t>& driven,
                                    const std::filesystem::path& file) const {
   if (empty())
-    throw InputError({{file.string(), 0, "save", "nothing is remembered yet", "let it run",
+    throw InputError({{file.string(), 0, "save", "the run has no frames yet", "let it run",
                        "lab.nothing-saved"}});
   const long first = first_step_to_save();
-  RecordingHeader header = scene.header(segments_.back().changes, {led, log_of_hand()});
-  // Beyond the last step, so that this one ends on the grid of the run and not where the run ends.
+  RecordingHeader header = scene.header(segments_.back().changes, {driven, operator_log()});
+  // Half a step beyond the last one, which then ends on the time grid.
   header.duration = newest()->recorded.t + 0.5 * header.step;
   header.run.duration = header.duration;
   RecordingWriter writer(file, std::move(header));

@@ -1,10 +1,10 @@
-// How a hand leads the kinematic robot of one run: in place of the scene's own hand, from step to
-// step, never with a jump.
+// Lets the operator's input (lab_inputs.h) replace the scene's own motion of a target robot, from
+// step to step and without a jump.
 //
-// The pulls that are led are those of one kinematic robot: of the first that follows a device, else
-// of the first that follows any hand, else of the first. In each step the robot is told q and qd
-// for the step's start (coupling/device/device_motion.h); what is told is all that the step needs
-// to be taken again.
+// The driven couplings are those of one target robot: of the first whose target is "device", else
+// of the first with any operator motion, else of the first. Before each step q and qd of the driven
+// joints are set for its start (coupling/device/device_motion.h); these values are sufficient to
+// repeat the step.
 #pragma once
 
 #include <functional>
@@ -21,15 +21,15 @@
 
 namespace twinarm {
 
-// A hand in whose place another leads at times.
-class ReplacedHand final : public OperatorMotion {
+// Operator motion that another one can replace at times.
+class OverridableMotion final : public OperatorMotion {
  public:
-  // Null: its own.
-  using Instead = std::function<const OperatorMotion*(double t, double toward)>;
-  ReplacedHand(std::unique_ptr<OperatorMotion> own, Instead instead)
-      : own_(std::move(own)), instead_(std::move(instead)) {}
+  // Null: not replaced at that time.
+  using Substitute = std::function<const OperatorMotion*(double t, double toward)>;
+  OverridableMotion(std::unique_ptr<OperatorMotion> own, Substitute substitute)
+      : own_(std::move(own)), substitute_(std::move(substitute)) {}
   HandSample sample(double t, double toward) const override {
-    const OperatorMotion* other = instead_(t, toward);
+    const OperatorMotion* other = substitute_(t, toward);
     return (other ? *other : *own_).sample(t, toward);
   }
   double duration() const override { return own_->duration(); }
@@ -37,58 +37,61 @@ class ReplacedHand final : public OperatorMotion {
 
  private:
   std::unique_ptr<OperatorMotion> own_;
-  Instead instead_;
+  Substitute substitute_;
 };
 
 class InputOverride {
  public:
-  // Chooses the pulls; those whose target stands still get joints that a hand can turn. Before the
-  // couplings are made, with in_place(). All must outlive this. The scene may be null.
-  InputOverride(SceneModel* scene, LabHand& hand, double h);
+  // Selects the driven couplings, and adds driven joints to couplings whose target is fixed. To be
+  // made before the couplings, which take in_place(). All arguments must outlive it; scene may be
+  // null.
+  InputOverride(SceneModel* scene, OperatorInput& input, double h);
   HandInPlace in_place();
   void attach(SceneCouplings& couplings) { couplings_ = &couplings; }
-  // The robot stands where that frame left it.
-  void go_on_from(const LabHandFrame& frame);
-  // And until the next step, for who asks: as the step of h had it that ended there, at t.
-  void stand_as(const LabHandFrame& frame, double t, double h);
+  // The next step begins with the target robot as in that frame.
+  void continue_from(const OperatorFrame& frame);
+  // Until the next step the target moves as at the end of the step [t - h, t] of that frame.
+  void restore(const OperatorFrame& frame, double t, double h);
 
-  // For the step [t, t + h] from x: what the robot is told; nothing where the scene leads. Throws
-  // InputError where the hand's mapping cannot move these joints.
+  // For the step [t, t + h] from x: motion of the driven joints; none: the scene's own. Throws
+  // InputError: the device's mapping cannot move these joints.
   std::optional<HandStep> before_step(const State<double>& x, double t, double h);
-  // The same again.
-  void take_again(const std::optional<HandStep>& told);
+  void replay_step(const std::optional<HandStep>& motion);
   void after_step(const Simulation& simulation, double h, bool finite) noexcept;
 
-  std::optional<LabHandFrame> frame(double t) const;
-  const std::vector<int>& driven() const { return turned_; }
+  std::optional<OperatorFrame> frame(double t) const;
+  // Bodies of the driven joints and the joints' targets; empty: no coupling can be driven.
+  const std::vector<int>& driven() const { return driven_; }
   const std::vector<double>& q() const { return target_.q; }
-  std::optional<std::pair<int, Vector3>> tip() const;
-  // That are led, by their places in SceneDescription::couplings.
-  std::vector<std::size_t> couplings() const;
-  bool leads() const { return leads_; }
+  std::optional<std::pair<int, Vector3>> tip() const;  // point moved by the stylus, link axes
+  std::vector<std::size_t> couplings()
+      const;  // driven ones, indices of SceneDescription::couplings
+  // Also true while the target returns to the scene's motion.
+  bool is_active() const { return active_; }
 
  private:
-  void choose_pulls();
-  const OperatorMotion* source_at(double t, double toward) const;
+  void select_couplings();
+  const OperatorMotion* substitute_at(double t, double toward) const;
   std::vector<double> own_q(double t, double toward) const;
   void take_over(double t, double h);
   void make_loop(double h);
   void move_towards(const std::vector<double>& goal, double h);
   void follow_tip();
-  void ask_elsewhere(double t);
+  void invalidate_targets(double t);
+  void end_restored();
 
   SceneModel* scene_;
-  LabHand& hand_;
+  OperatorInput& input_;
   SceneCouplings* couplings_ = nullptr;
-  std::vector<std::size_t> led_;
-  std::vector<int> turned_;
-  const OperatorMotion* own_ = nullptr;  // of the first that is led
-  DeviceMotion live_, first_;            // what was told of late, and when this lead began
+  std::vector<std::size_t> coupled_;  // driven couplings: indices of SceneModel::couplings
+  std::vector<int> driven_;
+  const OperatorMotion* own_ = nullptr;  // of the first driven coupling
+  DeviceMotion live_, first_;            // recent motion; its first step since the take-over
   HandTarget target_;
-  std::unique_ptr<HandLoop> loop_;
-  unsigned long made_for_ = 0;  // of LabHand::chosen()
-  bool leads_ = false, is_live_ = false, goes_on_ = false, is_fresh_ = false;
-  bool stands_ = false;  // as a frame has it: not led by a step yet
+  std::unique_ptr<HapticLoop> loop_;
+  unsigned long loop_revision_ = 0;  // OperatorInput::revision() of loop_
+  bool active_ = false, is_live_ = false, continues_ = false, is_fresh_ = false;
+  bool is_restored_ = false;
 };
 
 }  // namespace twinarm

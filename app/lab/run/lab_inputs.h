@@ -1,12 +1,12 @@
-// Who moves the kinematic robot of a scene, and the device in the hand: it outlives the runs that
-// it moves. All calls come from the thread that steps.
+// External inputs of a run: who moves the target robot, and the mouse spring. OperatorInput
+// outlives the runs; only the thread that steps may call it.
 //
-//   scene    the scene's own targets, with the bits of `twinarm simulate`
-//   drag     a virtual Omni whose stylus is dragged, through a mapping; its force comes back
-//   joints   driven joint by joint, no faster than kFastest
-//   device   any hand device (app/device/devices.h), likewise through a mapping
+//   scene    the scene's own targets; same bits as `twinarm simulate`
+//   drag     virtual Omni whose stylus is dragged, through a mapping, with force feedback
+//   joints   targets joint by joint, at most kMaxJointSpeed
+//   device   any input device (app/device/devices.h), through a mapping
 //
-// The robot never jumps: whoever begins to move it goes on from where it stands.
+// Switching the source never makes the target robot jump.
 #pragma once
 
 #include <array>
@@ -26,34 +26,31 @@
 
 namespace twinarm {
 
-class LabHand {
+class OperatorInput {
  public:
   enum class Source { scene, drag, joints, device };
-  static constexpr double kFastest = 3;  // of joints that go to where they are told [rad/s, m/s]
+  static constexpr double kMaxJointSpeed = 3;  // of Source::joints [rad/s, m/s]
 
-  LabHand();
-  // Throws InputError: a device that is not known, or not there. `spec` only of Source::device.
+  OperatorInput();
+  // `spec`: of Source::device. Throws InputError: unknown device, or no answer.
   void choose(Source source, const std::string& spec = "");
 
   Source source() const { return source_; }
   const MappingSpec& mapping() const { return mapping_; }
   const HandForceSpec& force() const { return force_; }
-  // Null where the source has none.
-  HandDevice* device() const { return device_.get(); }
+  HandDevice* device() const { return device_.get(); }  // null: the source has none
   std::string description() const;
-  const std::string& spec() const { return spec_; }  // of the device that was chosen
+  const std::string& spec() const { return spec_; }
 
-  // What a user does. `stamp` comes back in frames.
-  void tip(const Vector3& goal_W, double stamp);  // where the led point is to go
+  // Input of a client. `stamp` is returned in frames.
+  void tip(const Vector3& goal_W, double stamp);  // goal of the driven point
   void joint(std::size_t driven, double value, double stamp);
-  void turn(double yaw, double pitch, double roll, double stamp);  // the stylus, by [rad]
-  void axes(const std::array<double, 6>& rates, double stamp);     // as DesktopInput::axes
-  void button(std::size_t index, bool down, double stamp);         // 0: gripper, 1: clutch
-  // Keys, axes and the clutch; the robot stays where it is, the gripper as it is.
-  void release();
+  void rotate_stylus(double yaw, double pitch, double roll, double stamp);  // [rad]
+  void axes(const std::array<double, 6>& rates, double stamp);              // as DesktopInput::axes
+  void button(std::size_t index, bool down, double stamp);                  // 0: gripper, 1: clutch
+  void release();  // keys, axes and clutch; target robot and gripper stay as they are
 
-  // For the run. Counts up with each choice: what was made of the old one is made anew.
-  unsigned long chosen() const { return chosen_; }
+  unsigned long revision() const { return revision_; }  // counts calls of choose()
   double stamp() const { return stamp_; }
   void set_stamp(double stamp) { stamp_ = stamp; }
   DesktopInput* gestures() const { return gestures_.get(); }
@@ -61,7 +58,7 @@ class LabHand {
   // By driven joint; no value: it stays.
   const std::vector<std::optional<double>>& joint_goals() const { return joints_; }
   bool gripper_closed() const { return gripper_; }
-  double tick(double h) { return clock_ += h; }  // the device's time, which never goes back
+  double tick(double h) { return clock_ += h; }  // time of the device, which never goes back
 
  private:
   Source source_ = Source::scene;
@@ -74,31 +71,31 @@ class LabHand {
   std::vector<std::optional<double>> joints_;
   bool gripper_ = false;
   double stamp_ = 0, clock_ = 0;
-  unsigned long chosen_ = 0;
+  unsigned long revision_ = 0;
 };
 
-// A mouse that pulls a body: a spring-damper from a point of the body to a goal in the world, with
-// books of its own in the run's ledgers.
+// Spring-damper from a point of a body to the mouse, with its own rows in energy and momentum
+// balance.
 //
-//   F = k (x_G - x) - b v,   k = m w^2,  b = 2 m w,
-// critically damped for the mass m that the body has as felt at the point: m = rank / trace of
-// J M^-1 J^T. The spring pulls with `most` at the most: the goal is then as if nearer. In
-// semi-implicit steps it is implicit (solver/forces/spring.h), m* = h b + h^2 k, and stable however
-// light the body is; with other integrators it is a force like any other.
+//   F = k (x_G - x) - b v,   k = m w^2,  b = 2 m w
+//
+// critically damped for the apparent mass m at the point: m = rank / trace of J M^-1 J^T. The
+// spring's force is limited to max_force. In semi-implicit steps it is implicit
+// (solver/forces/spring.h), with added mass m* = h b + h^2 k, and stable for any mass; for other
+// integrators it is an explicit force.
 class MouseSpring final : public OutsideForce {
  public:
-  static constexpr double kOmega = 15;            // [rad/s]
-  static constexpr double kLongestStretch = 0.3;  // that the spring pulls with [m]
+  static constexpr double kOmega = 15;        // [rad/s]
+  static constexpr double kMaxStretch = 0.3;  // max_force / k [m]
 
   // The model must outlive it.
   MouseSpring(const Model<double>& model, const RunPlan& plan);
 
-  // A pull at a point of a body (link axes) that stands at x. nullopt: no force can move it.
-  std::optional<PullInput> grab(const State<double>& x, int body, const Vector3& p_L,
-                                const Vector3& goal_W) const;
-  void set(const std::optional<PullInput>& pull) { pull_ = pull; }
-  const std::optional<PullInput>& input() const { return pull_; }
-  const Vector3& force() const { return shown_; }  // on the body, mean of the last step [N]
+  // Spring at a point of a body (link axes) in the state x. nullopt: no force moves that point.
+  std::optional<MouseSpringInput> grab(const State<double>& x, int body, const Vector3& p_L,
+                                       const Vector3& goal_W) const;
+  void set(const std::optional<MouseSpringInput>& input) { input_ = input; }
+  const Vector3& force() const { return mean_force_; }  // on the body, over the last step [N]
 
   void begin_step(const Kinematics&, double, double h) noexcept override { h_ = h; }
   void add_forces(const State<double>&, const Kinematics& k,
@@ -118,16 +115,16 @@ class MouseSpring final : public OutsideForce {
     double m_star = 0;
   };
   Reading read(const Kinematics& k) const;
-  void book_step(double h, const State<double>& start, const State<double>& end,
-                 EnergyMomentum& sum);
-  void book_part(double part, const State<double>& x, EnergyMomentum& sum);
+  void account_implicit(double h, const State<double>& start, const State<double>& end,
+                        EnergyMomentum& sum);
+  void account_part(double weight, const State<double>& x, EnergyMomentum& sum);
 
   const Model<double>& model_;
-  bool is_implicit_, drifts_first_;
+  bool is_implicit_, moves_first_;
   double h_ = 0;
-  std::optional<PullInput> pull_;
+  std::optional<MouseSpringInput> input_;
   Reading reading_, kept_;
-  Vector3 shown_ = Vector3::Zero();
+  Vector3 mean_force_ = Vector3::Zero();
   std::vector<Given> given_;
   Kinematics k_;
 };

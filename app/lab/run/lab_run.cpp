@@ -5,7 +5,6 @@
 
 #include "app/diagnose/post_mortem.h"
 #include "app/lab/run/input_override.h"
-#include "app/lab/run/lab_inputs.h"
 #include "app/record/record_run.h"
 #include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"
@@ -13,37 +12,53 @@
 namespace twinarm {
 namespace {
 
-// A run of the lab stops where its kinetic energy has grown so much, over the largest of 1 J, that
-// at the start, and the weight over 1 m: sooner than in `simulate` (RunPlan::kGrowth), for at such
-// speeds contacts and limits take a second a step, and somebody waits.
+// Bound of the kinetic energy over the largest of 1 J, its start value, and the weight times 1 m.
+// Lower than in `simulate` (RunPlan::kGrowth): at such speeds contacts and limits take up to a
+// second per step.
 constexpr double kMaxGrowth = 1e3;
+
+// The last state is finite, but wrong.
+PostMortem stopped_by_energy(const SteppedRun& run, double bound) {
+  const Simulation& simulation = run.simulation();
+  PostMortem found = examine_end({}, simulation, simulation.state(), run.time(), run.step());
+  found.by_energy = true;
+  found.energy_bound = bound;
+  found.reason = "it creates energy";
+  return found;
+}
 
 }  // namespace
 
-LabRun::LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand)
-    : LabRun(scene.plan(changes), hand, nullptr) {}
-
-LabRun::LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand,
-               const LabFrame& from)
-    : LabRun(scene.plan(changes), hand, &from) {}
-
-LabRun::LabRun(std::unique_ptr<LabScene::Plan> plan_of_changes, LabHand& hand, const LabFrame* from)
-    : hand_(hand), plan_(std::move(plan_of_changes)) {
+LabRun::LabRun(std::unique_ptr<LabScene::Plan> plan_of_changes, OperatorInput& operator_input,
+               const LabFrame* from)
+    : operator_(operator_input), plan_(std::move(plan_of_changes)) {
   SimulateInput& input = plan_->prepared.input;
-  const RunPlan& plan = plan_->prepared.run;
-  lead_ = std::make_unique<InputOverride>(input.scene.get(), hand_, plan.step);
+  override_ =
+      std::make_unique<InputOverride>(input.scene.get(), operator_, plan_->prepared.run.step);
   make_couplings();
   const RobotInput& robot = input.robot;
   max_energy_ = kMaxGrowth *
                 std::max({1.0, kinetic_energy(robot.model, robot.state.x), weight_of(robot.model)});
-  watch_.warn = [this](const std::string& words) { warnings_.push_back(words); };
+  watch_.warn = [this](const std::string& text) { warnings_.push_back(text); };
   watch_.alarm = [this](const Alarm& alarm) {
     warnings_.push_back(alarm_words(alarm, plan_->prepared));
     return warnings_.back();
   };
-  start(from);
-  if (from && from->hand) lead_->go_on_from(*from->hand);
-  warnings_.insert(warnings_.end(), input.robot.warnings.begin(), input.robot.warnings.end());
+  if (!from) {
+    begin(nullptr);
+    run_->begin();
+  } else {
+    try {
+      const RunStart start{from->recorded.memory};
+      begin(&start);
+    } catch (const InputError& error) {
+      if (error.faults().front().code != kOtherMemory) throw;
+      restart_reason_ = error.faults().front().problem;
+      restart(*from);
+    }
+    if (from->hand) override_->continue_from(*from->hand);
+  }
+  warnings_.insert(warnings_.end(), robot.warnings.begin(), robot.warnings.end());
 }
 
 LabRun::~LabRun() = default;
@@ -52,62 +67,49 @@ void LabRun::make_couplings() {
   SimulateInput& input = plan_->prepared.input;
   if (!input.scene) return;
   input.couplings = std::make_unique<SceneCouplings>(*input.scene, plan_->prepared.run.step,
-                                                     nullptr, lead_->in_place());
-  lead_->attach(*input.couplings);
+                                                     nullptr, override_->in_place());
+  override_->attach(*input.couplings);
 }
 
-void LabRun::start(const LabFrame* from) {
+void LabRun::begin(const RunStart* start) {
   const SimulatePlan& prepared = plan_->prepared;
-  pull_ = std::make_unique<MouseSpring>(prepared.input.robot.model, prepared.run);
-  if (!from) {
-    run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, nullptr, pull_.get());
-    run_->begin();
-    return;
-  }
-  try {
-    const RunStart start{from->recorded.memory};
-    run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, &start, pull_.get());
-  } catch (const InputError& error) {
-    if (error.faults().front().code != kOtherMemory) throw;
-    begun_anew_ = error.faults().front().problem;
-    begin_anew(*from);
-  }
+  spring_ = std::make_unique<MouseSpring>(prepared.input.robot.model, prepared.run);
+  run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, start, spring_.get());
 }
 
-// Where the frame stands. What was taken over in part is made again.
-void LabRun::begin_anew(const LabFrame& from) {
-  SimulatePlan& prepared = plan_->prepared;
+// From the frame's state. Couplings and spring, restored in part, are made again.
+void LabRun::restart(const LabFrame& from) {
+  RobotInput& robot = plan_->prepared.input.robot;
   try {
     StateArchive memory = simulation_memory(from.recorded.memory);
-    visit_state(memory, prepared.input.robot.model, prepared.input.robot.state.x);
+    visit_state(memory, robot.model, robot.state.x);
   } catch (const std::runtime_error&) {
-    throw InputError({{"", 0, "change", "the scene would have other joints",
-                       "begin from the start: reset", "change.joints"}});
+    throw InputError({{"", 0, "change", "the change gives the scene other joints",
+                       "reset the run to its start first", "change.joints"}});
   }
   make_couplings();
-  pull_ = std::make_unique<MouseSpring>(prepared.input.robot.model, prepared.run);
   RunStart start;
   start.anew = true;
   start.step = from.recorded.step;
   start.time = from.recorded.t;
-  run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, &start, pull_.get());
+  begin(&start);
 }
 
-void LabRun::keep_books(const LabFrame& from, const LabNames& names) {
-  std::vector<EnergyRow> told;
+void LabRun::carry_over_energy(const LabFrame& from, const LabNames& names) {
+  std::vector<EnergyRow> earlier;
   for (std::size_t i = 0; i < from.recorded.rows.size(); ++i)
-    told.push_back(
+    earlier.push_back(
         {EnergyRowKind::earlier, names.rows[from.recorded.rows[i]], from.recorded.works[i]});
-  // The springs are as long as they were there: the books hold their energy.
-  if (from.hand) lead_->stand_as(*from.hand, from.recorded.t, step_length());
-  run_->keep_books(told);
+  // Targets as in the frame: the balance contains the couplings' elastic energy.
+  if (from.hand) override_->restore(*from.hand, from.recorded.t, step_length());
+  run_->keep_books(earlier);
 }
 
-bool LabRun::take() {
-  pull_->set(input_.pull);
+bool LabRun::take_step() {
+  spring_->set(input_.mouse);
   const bool goes_on = run_->advance();
-  lead_->after_step(run_->simulation(), step_length(), goes_on);
   const Simulation& simulation = run_->simulation();
+  override_->after_step(simulation, step_length(), goes_on);
   stopped_ = !goes_on || run_->result().alarm ||
              kinetic_energy(simulation.mechanism().model, simulation.state()) > max_energy_;
   return !stopped_;
@@ -116,89 +118,49 @@ bool LabRun::take() {
 bool LabRun::step() {
   if (stopped_) return false;
   const State<double>& x = run_->simulation().state();
-  input_.step = run_->step() + 1;
-  input_.hand = lead_->before_step(x, x.t, step_length());
-  input_.pull = mouse_;
-  input_.stamp = hand_.stamp();
-  return take();
+  input_ = {run_->step() + 1, override_->before_step(x, x.t, step_length()), mouse_,
+            operator_.stamp()};
+  return take_step();
 }
 
-bool LabRun::step(const LabInput& again) {
+bool LabRun::step(const LabInput& replayed) {
   if (stopped_) return false;
-  input_ = again;
+  input_ = replayed;
   input_.step = run_->step() + 1;
-  lead_->take_again(input_.hand);
-  return take();
+  override_->replay_step(input_.hand);
+  return take_step();
 }
 
-bool LabRun::pull(int body, const Vector3& p_L, const Vector3& goal_W, double stamp) {
+bool LabRun::drag(int body, const Vector3& p_L, const Vector3& goal_W, double stamp) {
   if (!goal_W.allFinite()) return false;
-  hand_.set_stamp(stamp);
+  operator_.set_stamp(stamp);
   if (mouse_ && mouse_->body == body && mouse_->p_L == p_L)
     mouse_->goal_W = goal_W;
   else
-    mouse_ = pull_->grab(run_->simulation().state(), body, p_L, goal_W);
+    mouse_ = spring_->grab(run_->simulation().state(), body, p_L, goal_W);
   return mouse_.has_value();
-}
-
-void LabRun::drop() {
-  mouse_.reset();
 }
 
 LabFrame LabRun::frame(LabNames& names) {
   LabFrame frame;
   frame.recorded = frame_of(*run_, plan_->prepared);
   add_ledgers(*run_, names.rows, names.momentum_rows, frame.recorded);
-  frame.hand = hand_frame();
-  if (const auto& pull = input_.pull)
-    frame.pull = MousePoint{pull->body, pull->p_L, pull->goal_W, pull_->force()};
-  if (pull_->has_acted()) {
-    StateArchive books;
-    pull_->visit_books(books);
-    frame.outside_bytes = books.bytes().size();
+  frame.hand = override_->frame(run_->time());
+  if (const auto& mouse = input_.mouse)
+    frame.mouse = MouseSpringState{mouse->body, mouse->p_L, mouse->goal_W, spring_->force()};
+  if (spring_->has_acted()) {
+    StateArchive account;
+    spring_->visit_books(account);
+    frame.outside_bytes = account.bytes().size();
   }
   frame.input_stamp = input_.stamp;
   return frame;
 }
 
-const std::vector<int>& LabRun::driven() const {
-  return lead_->driven();
-}
-
-const std::vector<double>& LabRun::driven_q() const {
-  return lead_->q();
-}
-
-std::optional<LabHandFrame> LabRun::hand_frame() const {
-  return lead_->frame(run_->time());
-}
-
-std::optional<std::pair<int, Vector3>> LabRun::tip() const {
-  return lead_->tip();
-}
-
-std::vector<std::size_t> LabRun::led() const {
-  return lead_->tip() ? lead_->couplings() : std::vector<std::size_t>{};
-}
-
-bool LabRun::scene_leads() const {
-  return !lead_->leads();
-}
-
-// The last state is a good one, but nobody would believe it.
-PostMortem LabRun::stopped_by_energy() const {
-  const Simulation& simulation = run_->simulation();
-  PostMortem found = examine_end({}, simulation, simulation.state(), run_->time(), run_->step());
-  found.by_energy = true;
-  found.energy_bound = max_energy_;
-  found.reason = "it creates energy";
-  return found;
-}
-
 const PostMortem* LabRun::post_mortem(const std::vector<EnergyRow>& before) {
   if (!stopped_ || post_mortem_) return post_mortem_ ? &*post_mortem_ : nullptr;
   SimulateResult result = run_->finish();
-  if (!result.post_mortem) result.post_mortem = stopped_by_energy();
+  if (!result.post_mortem) result.post_mortem = stopped_by_energy(*run_, max_energy_);
   explain_at_once(plan_->prepared, *run_, before, result);
   post_mortem_ = std::move(result.post_mortem);
   return &*post_mortem_;

@@ -1,5 +1,5 @@
-// A run of the lab: one scene with its changes, stepped for as long as somebody watches. What
-// changes a scene makes a new LabRun from the last frame of the old one. One thread.
+// A run of the lab: one scene with its changes, stepped one by one without end. A changed scene is
+// run by a new LabRun, made from the last frame of the old one. Not thread-safe.
 #pragma once
 
 #include <memory>
@@ -15,79 +15,63 @@
 namespace twinarm {
 
 class InputOverride;
-class MouseSpring;
 
 class LabRun {
  public:
-  // From the scene's start. The hand must outlive it, and one run at a time is stepped with it.
-  // Throws InputError with all faults; the hand is then as before.
-  LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand);
-  // From a frame of the same scene with the same or other changes. What the run remembers is taken
-  // over where it has the same layout, and goes on with the same bits where nothing was changed;
-  // else it begins anew where the frame stands, ledgers at zero: begun_anew() says why.
-  LabRun(const LabScene& scene, const std::vector<Change>& changes, LabHand& hand,
-         const LabFrame& from);
-  // The same with a plan that was made elsewhere; `from` null: the start.
-  LabRun(std::unique_ptr<LabScene::Plan> plan, LabHand& hand, const LabFrame* from);
+  // From the scene's start, or from a frame of the same scene with the same or other changes. The
+  // frame's checkpoint is restored where its layout fits, bit for bit where nothing was changed;
+  // else the run begins at the frame's state with empty energy balance, see restart_reason(). One
+  // run at a time may be stepped with the input, which must outlive it. Throws InputError with all
+  // faults; the input is then unchanged.
+  LabRun(std::unique_ptr<LabScene::Plan> plan, OperatorInput& input,
+         const LabFrame* from = nullptr);
   ~LabRun();
 
-  // One step, moved by the hand as it is now. False: the run goes on no more, see post_mortem().
+  // One step with the present input. False: the run has stopped, see post_mortem().
   bool step();
-  // As it was moved before, with the same bits; live input goes on after it without a jump.
-  bool step(const LabInput& again);
+  // One step with earlier input, bit for bit; live input continues after it without a jump.
+  bool step(const LabInput& replayed);
   const LabInput& input() const { return input_; }  // of the last step
 
-  // A spring from a point of a body (link axes) to a goal in the world. False where no force moves
-  // the body. The same body and point again only move the goal.
-  bool pull(int body, const Vector3& p_L, const Vector3& goal_W, double stamp);
-  void drop();
+  // Mouse spring from a point of a body (link axes) to a goal in the world; a second call with the
+  // same point moves the goal. False: no force moves the body.
+  bool drag(int body, const Vector3& p_L, const Vector3& goal_W, double stamp);
+  void release_mouse() { mouse_.reset(); }
 
   double time() const { return run_->time(); }
-  long step_count() const { return run_->step(); }
   double step_length() const { return plan_->prepared.run.step; }
-  // With ledgers, memory and hash; numbers of rows by `names`, to which new ones are added.
+  // With energy balance, checkpoint and hash; new rows are added to `names`.
   LabFrame frame(LabNames& names);
 
-  // The ledger goes on from that of the frame that it began at.
-  void keep_books(const LabFrame& from, const LabNames& names);
+  // Continues the energy balance of the frame from which the run began.
+  void carry_over_energy(const LabFrame& from, const LabNames& names);
 
   const SimulatePlan& prepared() const { return plan_->prepared; }
   SteppedRun& view() { return *run_; }
-  const std::string& begun_anew() const { return begun_anew_; }  // empty: it was not
+  const InputOverride& input_override() const { return *override_; }
+  // Why the checkpoint could not be restored; empty: it was.
+  const std::string& restart_reason() const { return restart_reason_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
-  // Of the led kinematic robot: joints that a hand drives (bodies that they carry), and where they
-  // were told to stand; both empty where no coupling can be led. The point that the hand leads.
-  const std::vector<int>& driven() const;
-  const std::vector<double>& driven_q() const;
-  std::optional<LabHandFrame> hand_frame() const;  // at this instant
-  std::optional<std::pair<int, Vector3>> tip() const;
-  // The couplings that are led, by their places in the scene.
-  std::vector<std::size_t> led() const;
-  // Whether the scene itself moves the robot now: a hand that was given back may still be on its
-  // way.
-  bool scene_leads() const;
 
-  // Why it stopped (by itself, by the ledger's alarm, or as it has far too much energy), with
-  // suspects and their remedies; null while it goes on. `before`: the ledger some time before, to
-  // tell the row that grew.
+  // Why it stopped (diverged, energy alarm, kinetic energy beyond its bound), with suspects and
+  // fixes; null while it runs. `before`: an earlier energy balance, to find the row that grew.
   const PostMortem* post_mortem(const std::vector<EnergyRow>& before = {});
 
  private:
-  void start(const LabFrame* from);
+  void begin(const RunStart* start);
   void make_couplings();
-  void begin_anew(const LabFrame& from);
-  bool take();
-  PostMortem stopped_by_energy() const;
+  void restart(const LabFrame& from);
+  bool take_step();
 
-  LabHand& hand_;
+  OperatorInput& operator_;
   std::unique_ptr<LabScene::Plan> plan_;
   RunWatch watch_;
-  std::unique_ptr<InputOverride> lead_;
-  std::unique_ptr<MouseSpring> pull_;
+  std::unique_ptr<InputOverride> override_;
+  std::unique_ptr<MouseSpring> spring_;
   std::unique_ptr<SteppedRun> run_;
   LabInput input_;
-  std::optional<PullInput> mouse_;  // as it is now
-  std::string begun_anew_;
+  std::optional<MouseSpringInput> mouse_;  // present input
+  std::string restart_reason_;
   bool stopped_ = false;
   double max_energy_ = 0;  // kinetic [J]
   std::vector<std::string> warnings_;

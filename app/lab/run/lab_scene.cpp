@@ -10,12 +10,12 @@
 namespace twinarm {
 namespace {
 
-// What a change turns that stands beside the scene, as on the command line of `simulate`.
-bool turns_option(const Change& change, SimulateOptions& options, DiagnosticList& faults) {
+// A change of what is an option of `simulate`, not a key of the scene's items.
+bool apply_option(const Change& change, SimulateOptions& options, DiagnosticList& faults) {
   const auto number = [&](std::optional<double>& value) {
     value = parse_number(change.value);
     if (!value)
-      faults.add({"", 0, "--set " + change.path + "=" + change.value, "it is no number", "",
+      faults.add({"", 0, "--set " + change.path + "=" + change.value, "not a number", "",
                   "change.number"});
   };
   if (change.path == "step")
@@ -26,20 +26,23 @@ bool turns_option(const Change& change, SimulateOptions& options, DiagnosticList
     options.integrator = change.value;
   else if (change.path == "contact")
     options.contact = change.value;
+  else if (change.path == "gravity")
+    options.robot.gravity = change.value;
   else
     return false;
   return true;
 }
 
-std::vector<Change> of_the_scene(const std::vector<Change>& changes, SimulateOptions& options,
-                                 DiagnosticList& faults) {
+// The changes of the scene itself; the others are written to `options`.
+std::vector<Change> scene_changes(const std::vector<Change>& changes, SimulateOptions& options,
+                                  DiagnosticList& faults) {
   std::vector<Change> others;
   for (const Change& change : changes)
-    if (!turns_option(change, options, faults)) others.push_back(change);
+    if (!apply_option(change, options, faults)) others.push_back(change);
   return others;
 }
 
-SimulateOptions without_end(SimulateOptions options) {
+SimulateOptions without_outputs(SimulateOptions options) {
   if (!options.duration) options.duration = 1;
   options.every.reset();
   options.at.clear();
@@ -49,8 +52,8 @@ SimulateOptions without_end(SimulateOptions options) {
   return options;
 }
 
-// Faults of options by the change that set them.
-InputError by_change(const InputError& error, const std::vector<Change>& changes) {
+// Names the change in faults of the option that it set.
+InputError name_changes(const InputError& error, const std::vector<Change>& changes) {
   std::vector<Diagnostic> faults = error.faults();
   for (Diagnostic& fault : faults)
     for (const Change& change : changes)
@@ -59,7 +62,6 @@ InputError by_change(const InputError& error, const std::vector<Change>& changes
   return InputError(std::move(faults));
 }
 
-// As the last of them.
 void put_last(Value& scene, const std::string& key, Value value) {
   std::erase_if(scene.members, [&](const Value& member) { return member.key == key; });
   scene.put(key, std::move(value));
@@ -68,7 +70,7 @@ void put_last(Value& scene, const std::string& key, Value value) {
 }  // namespace
 
 LabScene::LabScene(const SimulateOptions& given, FileRoots roots) : roots_(std::move(roots)) {
-  const SimulateOptions options = without_end(given);
+  const SimulateOptions options = without_outputs(given);
   files_ = std::make_shared<const UnpackedRun>(header_of(options, prepare_simulation(options), {}));
   if (!roots_) return;
   roots_->push_back(files_->folder());
@@ -86,48 +88,46 @@ bool LabScene::is_scene() const {
 }
 
 std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& changes) const {
-  SimulateOptions beside = options_of(files_->header().run);
+  SimulateOptions changed = options_of(files_->header().run);
   DiagnosticList faults;
-  const std::vector<Change> others = of_the_scene(changes, beside, faults);
+  const std::vector<Change> others = scene_changes(changes, changed, faults);
   faults.check();
   try {
     SimulateOptions options = files_->options(others);
-    options.step = beside.step;
-    options.tolerance = beside.tolerance;
-    options.integrator = beside.integrator;
-    options.contact = beside.contact;
+    options.step = changed.step;
+    options.tolerance = changed.tolerance;
+    options.integrator = changed.integrator;
+    options.contact = changed.contact;
+    options.robot.gravity = changed.robot.gravity;
     options.has_hand = true;
     options.robot.roots = roots_;
     SimulatePlan prepared = prepare_simulation(options);
-    if (prepared.run.is_adaptive() && !options.step)  // not all of the run in one
+    if (prepared.run.is_adaptive() && !options.step)  // the tolerance alone sets none
       prepared.run.step = prepared.input.scene ? prepared.input.scene->description.step : 0.001;
     prepared.run.duration = HUGE_VAL;
     prepared.run.times.clear();
     return std::make_unique<Plan>(Plan{std::move(prepared), files_});
   } catch (const InputError& error) {
-    throw by_change(files_->as_typed(error, others), changes);
+    throw name_changes(files_->as_typed(error, others), changes);
   }
 }
 
 Value LabScene::tree(const std::vector<Change>& changes) const {
-  SimulateOptions beside = options_of(files_->header().run);
+  SimulateOptions changed = options_of(files_->header().run);
   DiagnosticList faults;
-  const std::vector<Change> others = of_the_scene(changes, beside, faults);
+  const std::vector<Change> others = scene_changes(changes, changed, faults);
   Value scene = read_toml(files_->options().robot.model);
-  for (std::size_t i = 0; i < others.size(); ++i)
-    if (others[i].path != "gravity") apply(others[i], 0, scene, faults);
-  for (const Change& change : others)
-    if (change.path == "gravity") beside.robot.gravity = change.value;
-  if (!beside.robot.gravity.empty())
-    if (const auto g = parse_gravity(beside.robot.gravity, faults)) {
+  for (const Change& change : others) apply(change, 0, scene, faults);
+  if (!changed.robot.gravity.empty())
+    if (const auto g = parse_gravity(changed.robot.gravity, faults)) {
       Value gravity = Value::list({});
       for (const double component : *g) gravity.items.push_back(Value::of(component));
       put_last(scene, "gravity", std::move(gravity));
     }
   faults.check();
-  if (beside.step) put_last(scene, "step", Value::of(*beside.step));
-  if (!beside.integrator.empty()) put_last(scene, "integrator", Value::of(beside.integrator));
-  if (!beside.contact.empty()) put_last(scene, "contact", Value::of(beside.contact));
+  if (changed.step) put_last(scene, "step", Value::of(*changed.step));
+  if (!changed.integrator.empty()) put_last(scene, "integrator", Value::of(changed.integrator));
+  if (!changed.contact.empty()) put_last(scene, "contact", Value::of(changed.contact));
   return scene;
 }
 
@@ -140,8 +140,7 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
   RecordingHeader header = files_->header();
   DiagnosticList faults;
   SimulateOptions options = options_of(header.run);
-  for (const Change& change : of_the_scene(changes, options, faults))
-    if (change.path == "gravity") options.robot.gravity = change.value;
+  scene_changes(changes, options, faults);
   header.run = recorded_run(options);
   describe_frames(planned->prepared, header);
   header.run.step = header.step;
@@ -149,9 +148,9 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
   const std::filesystem::path log = header.run.model.parent_path() / "lab_hand.csv";
   Value scene = tree(changes);
   for (Value& list : scene.members)
-    for (const std::size_t place : hand.couplings)
-      if (list.key == "coupling" && place < list.items.size() && !hand.log.empty())
-        put_last(list.items[place], "target", Value::of(log.string()));
+    for (const std::size_t index : hand.couplings)
+      if (list.key == "coupling" && index < list.items.size() && !hand.log.empty())
+        put_last(list.items[index], "target", Value::of(log.string()));
   for (RecordedFile& file : header.files)
     if (file.path == header.run.model) file.bytes = to_toml(scene);
   if (!hand.log.empty()) header.files.push_back({log.string(), hand.log});

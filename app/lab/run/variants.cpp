@@ -10,15 +10,15 @@
 namespace twinarm {
 namespace {
 
-// What the hand did in a step of the run, for a step of a lane: the same where both are as long.
-HandStep told_at(double t, double h, HandStep told) {
-  const double later = t - told.t;
+// Operator motion of a step of the run, extrapolated to the step [t, t + h] of a variant.
+HandStep shifted_to(double t, double h, HandStep step) {
+  const double later = t - step.t;
   if (later != 0)
-    for (std::size_t j = 0; j < told.hand.theta.size(); ++j)
-      told.hand.theta[j] += later * told.hand.theta_dot[j];
-  told.t = t;
-  told.h = h;
-  return told;
+    for (std::size_t j = 0; j < step.hand.theta.size(); ++j)
+      step.hand.theta[j] += later * step.hand.theta_dot[j];
+  step.t = t;
+  step.h = h;
+  return step;
 }
 
 }  // namespace
@@ -26,55 +26,56 @@ HandStep told_at(double t, double h, HandStep told) {
 LabVariants::LabVariants(const VariantSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
                          const LabFrame* from, const LabNames& names) {
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    Lane lane;
-    lane.name = set.values[i + 1];
-    const VariantFrame start = from ? from->lanes[i] : VariantFrame{};
+    Variant variant;
+    variant.name = set.values[i + 1];
+    const VariantFrame start = from ? from->variants[i] : VariantFrame{};
     if (start.stopped) {
-      lane.last = start.frame;
-      lane.stopped = true;
+      variant.last = start.frame;
+      variant.stopped = true;
     } else {
-      lane.nobody = std::make_unique<LabHand>();
-      lane.run = std::make_unique<LabRun>(std::move(plans[i]), *lane.nobody, start.frame.get());
-      if (from) lane.run->keep_books(*start.frame, names);
+      variant.unused = std::make_unique<OperatorInput>();
+      variant.run =
+          std::make_unique<LabRun>(std::move(plans[i]), *variant.unused, start.frame.get());
+      if (from) variant.run->carry_over_energy(*start.frame, names);
     }
-    lanes_.push_back(std::move(lane));
+    variants_.push_back(std::move(variant));
   }
 }
 
 void LabVariants::follow(const LabRun& run) {
-  for (Lane& lane : lanes_) {
-    if (lane.stopped) continue;
-    const double h = lane.run->step_length();
-    while (lane.run->time() + 0.5 * h < run.time()) {
+  for (Variant& variant : variants_) {
+    if (variant.stopped) continue;
+    const double h = variant.run->step_length();
+    while (variant.run->time() + 0.5 * h < run.time()) {
       LabInput input = run.input();
-      const double t = lane.run->view().simulation().state().t;
-      if (input.hand) input.hand = told_at(t, h, *input.hand);
-      if (lane.run->step(input)) continue;
-      stop(lane);
+      const double t = variant.run->view().simulation().state().t;
+      if (input.hand) input.hand = shifted_to(t, h, *input.hand);
+      if (variant.run->step(input)) continue;
+      stop(variant);
       break;
     }
   }
 }
 
-void LabVariants::stop(Lane& lane) {
-  lane.stopped = true;
-  const PostMortem* found = lane.run->post_mortem();
-  const std::string why = found ? found->reason : "";  // none: a number is not finite
-  words_.push_back(fmt::format("the lane {} stopped at {:.4g} s{}{}; the others go on", lane.name,
-                               lane.run->time(), why.empty() ? "" : ": ", why));
+void LabVariants::stop(Variant& variant) {
+  variant.stopped = true;
+  const PostMortem* found = variant.run->post_mortem();
+  const std::string why = found ? found->reason : "";
+  warnings_.push_back(fmt::format("variant {} stopped at {:.4g} s{}{}; the others continue",
+                                  variant.name, variant.run->time(), why.empty() ? "" : ": ", why));
 }
 
 void LabVariants::add_to(LabFrame& frame, LabNames& names) {
-  frame.lanes.clear();
-  for (Lane& lane : lanes_) {
-    if (lane.run) lane.last = std::make_shared<const LabFrame>(lane.run->frame(names));
-    if (lane.stopped) lane.run.reset();
-    frame.lanes.push_back({lane.last, lane.stopped});
+  frame.variants.clear();
+  for (Variant& variant : variants_) {
+    if (variant.run) variant.last = std::make_shared<const LabFrame>(variant.run->frame(names));
+    if (variant.stopped) variant.run.reset();
+    frame.variants.push_back({variant.last, variant.stopped});
   }
 }
 
-std::vector<std::string> LabVariants::take_words() {
-  return std::exchange(words_, {});
+std::vector<std::string> LabVariants::take_warnings() {
+  return std::exchange(warnings_, {});
 }
 
 namespace {
@@ -97,24 +98,25 @@ std::vector<std::string> split_values(const std::string& text) {
 
 VariantSet parse_lanes(const std::string& text) {
   const std::size_t equals = text.find('=');
-  VariantSet lanes;
-  lanes.path = text.substr(0, equals);
-  if (equals != std::string::npos) lanes.values = split_values(text.substr(equals + 1));
-  if (const auto fault = fault_of(lanes))
-    throw InputError({{"", 0, "--lanes " + text, fault->problem, fault->fix, "option.lanes"}});
-  return lanes;
+  VariantSet variants;
+  variants.path = text.substr(0, equals);
+  if (equals != std::string::npos) variants.values = split_values(text.substr(equals + 1));
+  if (const auto found = problem_of(variants))
+    throw InputError({{"", 0, "--lanes " + text, found->problem, found->fix, "option.lanes"}});
+  return variants;
 }
 
-std::optional<LaneFault> fault_of(const VariantSet& lanes) {
-  const std::vector<std::string>& values = lanes.values;
+std::optional<VariantProblem> problem_of(const VariantSet& variants) {
+  const std::vector<std::string>& values = variants.values;
   const auto is_empty = [](const std::string& value) { return value.empty(); };
-  if (lanes.path.empty() || values.empty() || std::ranges::any_of(values, is_empty))
-    return LaneFault{"a path or a value is missing", "write integrator=semi-implicit,rk4"};
+  if (variants.path.empty() || values.empty() || std::ranges::any_of(values, is_empty))
+    return VariantProblem{"a path or a value is missing", "write integrator=semi-implicit,rk4"};
   if (values.size() < 2 || values.size() > VariantSet::kMax)
-    return LaneFault{std::to_string(values.size()) + " values make no lanes", "give 2 to 7 values"};
+    return VariantProblem{std::to_string(values.size()) + " values; 2 to 7 variants are possible",
+                          "give 2 to 7 values"};
   for (auto value = values.begin(); value != values.end(); ++value)
     if (std::find(values.begin(), value, *value) != value)
-      return LaneFault{"'" + *value + "' stands there twice", "give each value once"};
+      return VariantProblem{"'" + *value + "' is given twice", "give each value once"};
   return std::nullopt;
 }
 

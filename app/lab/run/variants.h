@@ -1,9 +1,7 @@
-// The runs that stand beside a run: each a LabRun of its own, that takes the steps
-// of the first one's clock, led by the same hand and pulled by the same mouse. What changes the
-// scene makes new ones from the last frame of the old, as it does of the run. One thread.
-//
-// What they did is remembered within the frames of the run: LabFrame::lanes. One that stops by
-// itself stays where it is, in all frames that come, while the others go on.
+// Variants: runs of one scene side by side that differ in one parameter. The first is the run
+// itself; each other one is a LabRun that follows the first one's clock with the same operator and
+// mouse input. After a change of the scene they are made again from the last frame. Their frames
+// are stored in LabFrame::variants. A stopped variant keeps its last frame. Not thread-safe.
 #pragma once
 
 #include <cstddef>
@@ -18,58 +16,55 @@
 
 namespace twinarm {
 
-// Runs of one scene side by side, on one clock: for each its own value of one path. The first is
-// the run itself, that hands, knobs and recordings are about; the others stand beside it
-// (variants.h).
 struct VariantSet {
-  static constexpr std::size_t kMax = 7;  // that colours tell apart
+  static constexpr std::size_t kMax = 7;  // distinguishable colours
 
   std::string path;                 // as of a Change: "integrator", "coupling.stiffness"
-  std::vector<std::string> values;  // by lane
-  std::optional<Vector3> apart;     // from one to the next [m]; none: by the width of the scene
+  std::vector<std::string> values;  // by variant
+  std::optional<Vector3> apart;     // offset to the next one [m]; none: from the scene's width
 
   bool empty() const { return values.empty(); }
-  Change change(std::size_t lane) const { return {path, values[lane]}; }
+  Change change(std::size_t variant) const { return {path, values[variant]}; }
 };
 
-// "integrator=semi-implicit,rk4"; commas within brackets are of the value. Throws InputError.
+// "integrator=semi-implicit,rk4"; commas in brackets belong to a value. Throws InputError.
 VariantSet parse_lanes(const std::string& text);
 
-// What is wrong with it whatever the scene is; nothing: it may be tried.
-struct LaneFault {
+// What is wrong with the set in any scene.
+struct VariantProblem {
   std::string problem, fix;
 };
-std::optional<LaneFault> fault_of(const VariantSet& lanes);
+std::optional<VariantProblem> problem_of(const VariantSet& variants);
 
-// Behind all others: changes are applied in their order. One to the same path goes.
+// Appends a change (changes are applied in order), and removes an earlier one of the same path.
 void put(std::vector<Change>& changes, const Change& change);
 
 class LabVariants {
  public:
   LabVariants() = default;  // none
-  // Plans by lane, from the second on; `from` null: the start. Throws InputError.
+  // Plans from the second variant on; `from` null: the start. Throws InputError.
   LabVariants(const VariantSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
               const LabFrame* from, const LabNames& names);
 
-  // After each step of the run: all up to its time, by what came from outside in that step.
+  // After each step of the run: steps all to its time, with the input of that step.
   void follow(const LabRun& run);
-  // To a frame of the run, as they stand; new rows are named.
+  // Adds their frames to one of the run; new rows are added to `names`.
   void add_to(LabFrame& frame, LabNames& names);
-  // Who has stopped since this was asked last, and why: a line each.
-  std::vector<std::string> take_words();
+  // A line for each variant that has stopped since the last call.
+  std::vector<std::string> take_warnings();
 
  private:
-  struct Lane {
+  struct Variant {
     std::string name;
-    std::unique_ptr<LabHand> nobody;  // who is led by what the run's hand did needs none
-    std::unique_ptr<LabRun> run;      // null: it has stopped, and `last` has been made
+    std::unique_ptr<OperatorInput> unused;  // its motion is that of the run
+    std::unique_ptr<LabRun> run;            // null: stopped, and `last` is its last frame
     std::shared_ptr<const LabFrame> last;
     bool stopped = false;
   };
-  void stop(Lane& lane);
+  void stop(Variant& variant);
 
-  std::vector<Lane> lanes_;
-  std::vector<std::string> words_;
+  std::vector<Variant> variants_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace twinarm

@@ -1,7 +1,6 @@
-// One client: first requests, then perhaps a WebSocket. Lives in the server's thread alone.
+// One client: HTTP requests, then perhaps a WebSocket. Used by the server's thread only.
 //
-// It holds itself by the operations that it waits for; the server's list is for waking and
-// sweeping.
+// Pending operations own the connection; the server's list serves wake-up and timeouts.
 #pragma once
 
 #include <array>
@@ -33,7 +32,7 @@ namespace http = boost::beast::http;
 namespace websocket = boost::beast::websocket;
 using boost::beast::error_code;
 using Clock = std::chrono::steady_clock;
-// Of this one kind of executor: half of the templates are gone.
+// One concrete executor type: halves the number of template instances.
 using Executor = net::io_context::executor_type;
 using Socket = net::basic_stream_socket<net::ip::tcp, Executor>;
 using Acceptor = net::basic_socket_acceptor<net::ip::tcp, Executor>;
@@ -41,22 +40,22 @@ using WebSocket = websocket::stream<Socket, false>;  // without compression
 
 class Connection;
 
-// What all connections share.
+// Shared by all connections.
 struct Core : std::enable_shared_from_this<Core> {
   Core(const ServerOptions& given, ServerHandlers called);
   Clock::duration patience(double part = 1) const {
     return std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(part * options.patience));
   }
-  // The same text is often asked for again: the page.
+  // Gzipped body; the last one is cached (the page).
   Bytes packed(const Bytes& body);
 
   net::io_context io{1};
   const ServerOptions options;
   const ServerHandlers handlers;
   std::optional<HostNames> hosts;
-  std::string cookie;  // its name: with the port, for cookies are shared by all ports
-  OutgoingQueues mailboxes;
+  std::string cookie;  // name; contains the port, as browsers share cookies among ports
+  OutgoingQueues queues;
   std::set<std::shared_ptr<Connection>> connections;
   std::size_t live = 0;
   ClientId last_client = 0;
@@ -73,9 +72,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
         socket_(std::move(socket)),
         allowance_(core.options.messages_per_second),
         allowed_at_(Clock::now()) {}
-  void start();  // waits for a request
+  void start();  // reads the next request
   void send_next();
-  void sweep(Clock::time_point now);
+  void check_timeouts(Clock::time_point now);
 
  private:
   using Request = http::request<http::string_body>;
@@ -83,52 +82,52 @@ class Connection : public std::enable_shared_from_this<Connection> {
   // Requests: connection_http.inl
   void read_some();
   void parse();
-  bool is_welcome();  // false: it has been answered
+  bool is_permitted();  // false: refused with an answer
   void serve();
-  void answer(std::uint64_t turn, HttpReply reply);
+  void answer(std::uint64_t request, HttpReply reply);
   void refuse(int status, const std::string& why);
   void write(const ResponseHead& head, Bytes body);
-  void linger();
+  void drain_and_close();
   bool has_token(std::string_view target);
-  bool is_allowed();  // one message or request more, at this moment
+  bool is_within_rate();  // counts one message or request
 
   // The WebSocket: connection_live.inl
-  void go_live();
+  void upgrade_to_websocket();
   void read_message();
   void take_message();
   void take_control(websocket::frame_type kind, std::string_view text);
-  bool is_too_fast();  // true: it is told so
+  bool closes_flood();  // true: too many messages, closing
   void ping();
-  void say_goodbye(websocket::close_code code, const std::string& why);
+  void close_websocket(websocket::close_code code, const std::string& why);
   void drop();
 
   Core& core_;
-  Socket socket_;  // moved into ws_
+  Socket socket_;  // moved into ws_ by an upgrade
   Clock::time_point deadline_;
   bool is_gone_ = false;
 
   std::array<char, 16384> chunk_;
   std::string in_;  // not parsed yet
   std::optional<http::request_parser<http::string_body>> parser_;
-  bool is_welcome_ = false;  // the head of this request has been judged
+  bool is_permitted_ = false;  // the head of this request was accepted
   bool gives_cookie_ = false;
-  std::uint64_t turn_ = 0;   // of requests: a late answer is not for the next one
-  bool is_waiting_ = false;  // for an answer
-  std::string head_;         // that is being written
+  std::uint64_t request_ = 0;  // number; a late answer must not go to the next request
+  bool is_waiting_ = false;    // for an answer
+  std::string head_;           // being written
   Bytes body_;
 
   std::optional<WebSocket> ws_;
-  ClientId client_ = 0;  // 0: not (yet) live
+  ClientId client_ = 0;  // 0: no WebSocket
   boost::beast::flat_buffer message_;
-  Bytes writing_;  // the message under way
+  Bytes writing_;  // message being sent
   bool is_closing_ = false, is_pinging_ = false;
-  std::uint64_t sent_ = 0, pinged_ = 0, answered_ = 0;  // messages, by their number
+  std::uint64_t sent_ = 0, pinged_ = 0, answered_ = 0;  // numbers of messages
   Clock::time_point progress_, pinged_at_;
-  double allowance_;  // of messages, now
+  double allowance_;  // number of messages permitted now
   Clock::time_point allowed_at_;
 };
 
-// What the owner's functions throw is his fault, and not the end of the server.
-void tell_fault(const char* where);
+// Prints the present exception of a handler to stderr; the server continues.
+void log_exception(const char* where);
 
 }  // namespace twinarm::lab_server

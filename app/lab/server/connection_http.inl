@@ -1,4 +1,4 @@
-// Requests, one after the other. Part of lab_server.cpp.
+// HTTP requests of a connection. Part of lab_server.cpp.
 #pragma once
 
 #include "app/lab/server/connection.h"
@@ -7,7 +7,7 @@ namespace twinarm::lab_server {
 
 constexpr std::uint32_t kMaxHead = 16 << 10;  // [bytes]
 constexpr double kSlowestDownload = 50e3;     // [bytes/s]
-constexpr std::chrono::seconds kFarewell{2};  // for what is said last
+constexpr std::chrono::seconds kCloseTimeout{2};
 
 inline std::string_view view(boost::beast::string_view text) {
   return {text.data(), text.size()};
@@ -17,7 +17,7 @@ void Connection::start() {
   parser_.emplace();
   parser_->header_limit(kMaxHead);
   parser_->body_limit(core_.options.max_body);
-  is_welcome_ = gives_cookie_ = false;
+  is_permitted_ = gives_cookie_ = false;
   deadline_ = Clock::now() + core_.patience(0.25);
   in_.empty() ? read_some() : parse();
 }
@@ -35,20 +35,19 @@ void Connection::parse() {
   for (bool is_more = !in_.empty(); is_more && !parser_->is_done();) {
     error_code error;
     in_.erase(0, parser_->put(net::buffer(in_), error));
-    if (error == http::error::header_limit)
-      return refuse(431, "the head of the request is too long");
-    if (error == http::error::body_limit) return refuse(413, "the body is too large");
-    if (error && error != http::error::need_more) return refuse(400, "this is no HTTP request");
-    // The body is looked at only of who may send one.
-    if (!is_welcome_ && parser_->is_header_done()) {
-      if (!is_welcome()) return;
-      is_welcome_ = true;
+    if (error == http::error::header_limit) return refuse(431, "the request header is too long");
+    if (error == http::error::body_limit) return refuse(413, "the request body is too large");
+    if (error && error != http::error::need_more) return refuse(400, "not an HTTP request");
+    // The body is read only after the header was accepted.
+    if (!is_permitted_ && parser_->is_header_done()) {
+      if (!is_permitted()) return;
+      is_permitted_ = true;
       parser_->eager(true);
     }
     is_more = !in_.empty() && !error;
   }
   if (parser_->is_done()) return serve();
-  if (is_welcome_) deadline_ = Clock::now() + core_.patience(0.25);
+  if (is_permitted_) deadline_ = Clock::now() + core_.patience(0.25);
   read_some();
 }
 
@@ -63,7 +62,7 @@ bool Connection::has_token(std::string_view target) {
          is_secret(cookie_value(view(parser_->get()[http::field::cookie]), core_.cookie), token);
 }
 
-bool Connection::is_allowed() {
+bool Connection::is_within_rate() {
   const double most = core_.options.messages_per_second;
   const Clock::time_point now = Clock::now();
   const double gone = std::chrono::duration<double>(now - allowed_at_).count();
@@ -72,29 +71,27 @@ bool Connection::is_allowed() {
   return allowance_ >= 0;
 }
 
-bool Connection::is_welcome() {
+bool Connection::is_permitted() {
   const Request& request = parser_->get();
   const std::string_view host = view(request[http::field::host]);
   const std::string_view origin = view(request[http::field::origin]);
   const bool is_post = request.method() == http::verb::post;
   const bool is_live = websocket::is_upgrade(request);
   if (request.count(http::field::host) != 1 || !core_.hosts->has(host)) {
-    refuse(403,
-           "this server does not answer to that name: open the address that `twinarm lab` has "
-           "printed");
+    refuse(403, "unknown host name: open the address that `twinarm lab` printed");
   } else if (!has_token(view(request.target()))) {
     refuse(403,
-           "the token is missing: open the whole address that `twinarm lab` has printed, with "
+           "the token is missing: open the whole address that `twinarm lab` printed, with "
            "?token=..");
   } else if ((is_post || is_live) && !origin.empty() && origin != "http://" + std::string(host)) {
-    refuse(403, "this comes from another page, and is not done");
+    refuse(403, "cross-origin request refused");
   } else if (!is_post && request.method() != http::verb::get &&
              request.method() != http::verb::head) {
-    refuse(405, "GET, HEAD and POST are understood");
-  } else if (!is_allowed()) {
-    refuse(429, "too many requests a second");
+    refuse(405, "method not allowed; use GET, HEAD or POST");
+  } else if (!is_within_rate()) {
+    refuse(429, "too many requests per second");
   } else if (!is_post && !parser_->is_done()) {
-    refuse(400, "only POST has a body");
+    refuse(400, "only POST may have a body");
   } else {
     return true;
   }
@@ -106,37 +103,36 @@ void Connection::serve() {
   const std::string_view target = view(request.target());
   const std::size_t mark = std::min(target.find('?'), target.size());
   const std::optional<std::string> path = decoded_path(target.substr(0, mark));
-  if (!path) return refuse(400, "the path is not one that this server understands");
-  if (websocket::is_upgrade(request) && *path == "/live") return go_live();
-  HttpRequest asked{request.method() == http::verb::post ? "POST" : "GET", *path,
-                    std::string(target.substr(std::min(target.size(), mark + 1))),
-                    std::move(parser_->get().body())};
+  if (!path) return refuse(400, "invalid path");
+  if (websocket::is_upgrade(request) && *path == "/live") return upgrade_to_websocket();
+  HttpRequest parsed{request.method() == http::verb::post ? "POST" : "GET", *path,
+                     std::string(target.substr(std::min(target.size(), mark + 1))),
+                     std::move(parser_->get().body())};
   deadline_ = Clock::now() + 2 * core_.patience();
   is_waiting_ = true;
   auto answer = [core = core_.weak_from_this(), self = weak_from_this(),
-                 turn = ++turn_](HttpReply reply) {
+                 number = ++request_](HttpReply reply) {
     if (const auto alive = core.lock())
-      net::post(alive->io, [self, turn, reply = std::move(reply)]() mutable {
-        if (const auto connection = self.lock()) connection->answer(turn, std::move(reply));
+      net::post(alive->io, [self, number, reply = std::move(reply)]() mutable {
+        if (const auto connection = self.lock()) connection->answer(number, std::move(reply));
       });
   };
   try {
-    core_.handlers.http(asked, answer);
+    core_.handlers.http(parsed, answer);
   } catch (...) {
-    tell_fault("http");
-    answer({500,
-            "text/plain; charset=utf-8",
-            std::make_shared<std::string>("a fault of the lab\n"),
-            false,
-            {}});
+    log_exception("http");
+    HttpReply reply;
+    reply.status = 500;
+    reply.body = shared_bytes("internal error of the lab\n");
+    answer(std::move(reply));
   }
 }
 
-void Connection::answer(std::uint64_t turn, HttpReply reply) {
-  if (is_gone_ || !is_waiting_ || turn != turn_) return;
+void Connection::answer(std::uint64_t request_number, HttpReply reply) {
+  if (is_gone_ || !is_waiting_ || request_number != request_) return;
   is_waiting_ = false;
   const Request& request = parser_->get();
-  if (!reply.body) reply.body = std::make_shared<std::string>();
+  if (!reply.body) reply.body = shared_bytes("");
   ResponseHead head;
   head.status = reply.status;
   head.type = reply.type;
@@ -144,12 +140,12 @@ void Connection::answer(std::uint64_t turn, HttpReply reply) {
   head.keeps_alive = request.keep_alive();
   if (gives_cookie_) head.cookie = core_.cookie + "=" + core_.options.token;
   if (reply.lasts && reply.status == 200) {
-    // Its path names its content: that is the tag.
+    // The path contains the hash of the content: it serves as the tag.
     const std::string_view target = view(request.target());
     head.etag = '"' + std::string(target.substr(0, target.find_first_of("?\"\\"))) + '"';
     if (view(request[http::field::if_none_match]) == head.etag) {
       head.status = 304;
-      reply.body = std::make_shared<std::string>();
+      reply.body = shared_bytes("");
     }
   }
   const std::string_view accepts = view(request[http::field::accept_encoding]);
@@ -163,7 +159,7 @@ void Connection::answer(std::uint64_t turn, HttpReply reply) {
 
 void Connection::refuse(int status, const std::string& why) {
   ResponseHead head;
-  const Bytes body = std::make_shared<std::string>("twinarm lab: " + why + "\n");
+  const Bytes body = shared_bytes("twinarm lab: " + why + "\n");
   head.status = status;
   head.type = "text/plain; charset=utf-8";
   head.size = body->size();
@@ -173,7 +169,7 @@ void Connection::refuse(int status, const std::string& why) {
 
 void Connection::write(const ResponseHead& head, Bytes body) {
   head_ = to_string(head);
-  body_ = body ? std::move(body) : std::make_shared<std::string>();
+  body_ = body ? std::move(body) : shared_bytes("");
   deadline_ = Clock::now() + core_.patience(0.25) +
               std::chrono::milliseconds(
                   static_cast<long>(1e3 * static_cast<double>(body_->size()) / kSlowestDownload));
@@ -183,21 +179,21 @@ void Connection::write(const ResponseHead& head, Bytes body) {
       [self = shared_from_this(), goes_on = head.keeps_alive](error_code error, std::size_t) {
         self->body_.reset();
         if (error) return self->drop();
-        goes_on ? self->start() : self->linger();
+        goes_on ? self->start() : self->drain_and_close();
       });
 }
 
-// Whoever closes with words unheard takes back what he said: what still comes is read, for a while.
-void Connection::linger() {
+// Reads the remaining input before close(): otherwise TCP sends RST and the client loses the reply.
+void Connection::drain_and_close() {
   error_code ignored;
   if (!is_closing_) {
     is_closing_ = true;
-    deadline_ = Clock::now() + kFarewell;
+    deadline_ = Clock::now() + kCloseTimeout;
     socket_.shutdown(Socket::shutdown_send, ignored);
   }
   socket_.async_read_some(net::buffer(chunk_),
                           [self = shared_from_this()](error_code error, std::size_t) {
-                            error ? self->drop() : self->linger();
+                            error ? self->drop() : self->drain_and_close();
                           });
 }
 

@@ -7,13 +7,12 @@
 
 namespace twinarm::lab_server {
 
-constexpr std::uint64_t kMaxUnanswered = 4;  // messages on the way to a client
+constexpr std::uint64_t kMaxUnanswered = 4;  // messages whose ping was not answered
 
-void Connection::go_live() {
-  if (!in_.empty()) return refuse(400, "a WebSocket begins after its answer");
+void Connection::upgrade_to_websocket() {
+  if (!in_.empty()) return refuse(400, "data before the WebSocket handshake was answered");
   if (core_.live >= core_.options.max_clients)
-    return refuse(503,
-                  std::to_string(core_.live) + " pages are open, and no more can be: close one");
+    return refuse(503, std::to_string(core_.live) + " pages are open, the maximum: close one");
   ++core_.live;
   deadline_ = Clock::now() + core_.patience(0.25);
   ws_.emplace(std::move(socket_));
@@ -27,11 +26,11 @@ void Connection::go_live() {
     self->parser_.reset();
     self->progress_ = self->pinged_at_ = Clock::now();
     self->client_ = ++self->core_.last_client;
-    self->core_.mailboxes.open(self->client_);
+    self->core_.queues.open(self->client_);
     try {
       if (self->core_.handlers.opened) self->core_.handlers.opened(self->client_);
     } catch (...) {
-      tell_fault("opened");
+      log_exception("opened");
     }
     self->read_message();
     self->send_next();
@@ -47,21 +46,22 @@ void Connection::read_message() {
 
 void Connection::take_message() {
   if (is_closing_) return;
-  if (is_too_fast()) return;
-  if (!ws_->got_text()) return say_goodbye(websocket::close_code::unknown_data, "text only");
+  if (closes_flood()) return;
+  if (!ws_->got_text())
+    return close_websocket(websocket::close_code::unknown_data, "text messages only");
   const auto data = message_.data();
   const std::string text(static_cast<const char*>(data.data()), data.size());
   message_.consume(message_.size());
-  core_.mailboxes.count_received(client_);
+  core_.queues.count_received(client_);
   try {
     if (core_.handlers.message) core_.handlers.message(client_, text);
   } catch (...) {
-    tell_fault("message");
+    log_exception("message");
   }
   read_message();
 }
 
-// Pongs say how far a client has come; those that say nothing count as messages, as pings do.
+// A pong carries the number of the last message received. Other control frames count as messages.
 void Connection::take_control(websocket::frame_type kind, std::string_view text) {
   std::uint64_t number = 0;
   std::from_chars(text.data(), text.data() + text.size(), number);
@@ -70,21 +70,21 @@ void Connection::take_control(websocket::frame_type kind, std::string_view text)
     progress_ = Clock::now();
     net::post(core_.io, [self = shared_from_this()] { self->send_next(); });
   } else if (kind != websocket::frame_type::close) {
-    is_too_fast();
+    closes_flood();
   }
 }
 
-bool Connection::is_too_fast() {
-  if (is_allowed()) return false;
-  say_goodbye(websocket::close_code::policy_error,
-              "more than " + std::to_string(std::lround(core_.options.messages_per_second)) +
-                  " messages a second");
+bool Connection::closes_flood() {
+  if (is_within_rate()) return false;
+  close_websocket(websocket::close_code::policy_error,
+                  "more than " + std::to_string(std::lround(core_.options.messages_per_second)) +
+                      " messages per second");
   return true;
 }
 
 void Connection::send_next() {
   if (client_ == 0 || is_closing_ || writing_ || sent_ - answered_ >= kMaxUnanswered) return;
-  const std::optional<OutgoingQueues::Message> next = core_.mailboxes.take(client_);
+  const std::optional<OutgoingQueues::Message> next = core_.queues.take(client_);
   if (!next) return;
   if (sent_ == answered_) progress_ = Clock::now();
   writing_ = next->bytes;
@@ -92,7 +92,7 @@ void Connection::send_next() {
   ws_->async_write(net::buffer(*writing_),
                    [self = shared_from_this()](error_code error, std::size_t) {
                      self->writing_.reset();
-                     if (error) return;  // the read under way fails too, and drops it
+                     if (error) return;  // the pending read fails too, and drops the connection
                      self->progress_ = Clock::now();
                      ++self->sent_;
                      self->ping();
@@ -113,11 +113,11 @@ void Connection::ping() {
                   });
 }
 
-void Connection::say_goodbye(websocket::close_code code, const std::string& why) {
+void Connection::close_websocket(websocket::close_code code, const std::string& why) {
   if (is_closing_) return;
   is_closing_ = true;
-  deadline_ = Clock::now() + kFarewell;
-  // Not from within the read that found it.
+  deadline_ = Clock::now() + kCloseTimeout;
+  // Not inside the handler of a read.
   net::post(core_.io, [self = shared_from_this(), code, why] {
     if (self->is_gone_) return;
     self->ws_->async_close(websocket::close_reason(code, why),
@@ -125,20 +125,20 @@ void Connection::say_goodbye(websocket::close_code code, const std::string& why)
   });
 }
 
-void Connection::sweep(Clock::time_point now) {
-  // A WebSocket that has ended, by its client's will or fault, waits for the client to hang up.
+void Connection::check_timeouts(Clock::time_point now) {
+  // An ended WebSocket waits for the client to close the socket.
   if (client_ != 0 && !is_closing_ && !ws_->is_open()) {
     is_closing_ = true;
-    deadline_ = now + kFarewell;
+    deadline_ = now + kCloseTimeout;
   }
   if (client_ == 0 || is_closing_) {
     if (now > deadline_) drop();
     return;
   }
-  const bool is_owed = writing_ || sent_ != answered_;
-  if (is_owed && now - progress_ > core_.patience()) return drop();
-  if (!is_owed && now - pinged_at_ > core_.patience(0.25)) {
-    ++sent_;  // an empty message, as it were: is anybody there?
+  const bool is_unanswered = writing_ || sent_ != answered_;
+  if (is_unanswered && now - progress_ > core_.patience()) return drop();
+  if (!is_unanswered && now - pinged_at_ > core_.patience(0.25)) {
+    ++sent_;  // ping as for a message, to detect a lost client
     progress_ = now;
     ping();
   }
@@ -153,11 +153,11 @@ void Connection::drop() {
   core_.connections.erase(self);
   if (ws_) --core_.live;
   if (client_ == 0) return;
-  core_.mailboxes.close(client_);
+  core_.queues.close(client_);
   try {
     if (core_.handlers.closed) core_.handlers.closed(client_);
   } catch (...) {
-    tell_fault("closed");
+    log_exception("closed");
   }
 }
 

@@ -46,7 +46,7 @@ bool is_numeric(std::string_view host) {
   return inet_pton(AF_INET6, text.substr(1, text.size() - 2).c_str(), bytes.data()) == 1;
 }
 
-// A line of a head has no room for what would end it.
+// Without characters that would end a header line or a quoted string.
 std::string header_text(std::string_view text) {
   std::string safe(text);
   for (char& c : safe)
@@ -164,7 +164,7 @@ bool is_packable(const HttpReply& reply) {
 }
 
 std::string gzipped(const std::string& bytes) {
-  constexpr int kGzip = 15 + 16;  // the largest window, and gzip's own head
+  constexpr int kGzip = 15 + 16;  // largest window, gzip header
   z_stream stream{};
   if (deflateInit2(&stream, 6, Z_DEFLATED, kGzip, 8, Z_DEFAULT_STRATEGY) != Z_OK)
     throw std::runtime_error("zlib: deflateInit2 failed");

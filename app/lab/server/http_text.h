@@ -1,4 +1,4 @@
-// The words of HTTP that a server has to judge before it trusts them. No sockets here.
+// Parsing and checking of untrusted HTTP text. No sockets.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +11,21 @@
 
 namespace twinarm {
 
-// Well-formed UTF-8: nothing overlong, no surrogates, nothing beyond U+10FFFF.
+// Well-formed UTF-8: no overlong forms, no surrogates, nothing beyond U+10FFFF.
 bool is_utf8(std::string_view text);
-// "/a%20b" -> "/a b". Nothing where it does not begin with '/', has a broken escape or a step
-// upwards ("/../"), or is not UTF-8 or not text (control characters) once decoded.
+// "/a%20b" -> "/a b". Nothing if it does not begin with '/', has an invalid escape or "/../", or
+// decodes to invalid UTF-8 or control characters.
 std::optional<std::string> decoded_path(std::string_view path);
-// Takes as long for a wrong secret as for the right one. An empty one is never right.
+// Comparison in constant time. An empty secret never matches.
 bool is_secret(std::string_view given, std::string_view secret);
-// As it stands in "a=1; b=2"; empty where it is not there.
+// Of "a=1; b=2"; empty: not found.
 std::string_view cookie_value(std::string_view cookies, std::string_view name);
 
-// Who this server is: what may stand in Host. A foreign name that is made to lead here is not
-// among them. Where all addresses of the machine are listened on, any numeric one is right: only
-// names can be made to lead elsewhere.
+// Permitted values of the header Host, against DNS rebinding. If the server listens on all
+// addresses, any numeric one is permitted.
 class HostNames {
  public:
-  // address: as it is listened on, numeric; is_any: 0.0.0.0 or ::.
+  // address: numeric, of the listening socket; is_any: 0.0.0.0 or ::.
   HostNames(const std::string& address, std::uint16_t port, bool is_loopback, bool is_any);
   bool has(std::string_view host) const;
 
@@ -40,7 +39,7 @@ struct ResponseHead {
   int status = 200;
   std::string_view type;
   std::size_t size = 0;
-  std::string etag;  // where the content never changes; quoted
+  std::string etag;  // quoted; empty: the content may change
   std::string_view file_name;
   std::string cookie;      // "name=value"
   bool is_packed = false;  // gzip
@@ -48,7 +47,7 @@ struct ResponseHead {
 };
 std::string to_string(const ResponseHead& head);
 
-// Worth packing: text of some length.
+// Text of 1 kB to 8 MB.
 bool is_packable(const HttpReply& reply);
 std::string gzipped(const std::string& bytes);
 

@@ -13,13 +13,13 @@
 namespace twinarm {
 namespace lab_server {
 
-void tell_fault(const char* where) {
+void log_exception(const char* where) {
   try {
     throw;
   } catch (const std::exception& fault) {
-    std::fprintf(stderr, "twinarm lab: fault in '%s': %s\n", where, fault.what());
+    std::fprintf(stderr, "twinarm lab: exception in '%s': %s\n", where, fault.what());
   } catch (...) {
-    std::fprintf(stderr, "twinarm lab: fault in '%s'\n", where);
+    std::fprintf(stderr, "twinarm lab: exception in '%s'\n", where);
   }
 }
 
@@ -28,7 +28,7 @@ Core::Core(const ServerOptions& given, ServerHandlers called)
 
 Bytes Core::packed(const Bytes& body) {
   if (plain_.lock() != body) {
-    packed_ = std::make_shared<std::string>(gzipped(*body));
+    packed_ = shared_bytes(gzipped(*body));
     plain_ = body;
   }
   return packed_;
@@ -39,8 +39,8 @@ Bytes Core::packed(const Bytes& body) {
 namespace {
 
 using namespace lab_server;
-constexpr std::chrono::milliseconds kSweep{200};
-// A browser keeps several connections open for a page.
+constexpr std::chrono::milliseconds kTimeoutCheck{200};
+// A browser opens several connections for a page.
 constexpr std::size_t kConnectionsPerClient = 8;
 
 [[noreturn]] void refuse_address(const ServerOptions& options, const std::string& why) {
@@ -49,10 +49,9 @@ constexpr std::size_t kConnectionsPerClient = 8;
       {Diagnostic{{},
                   0,
                   is_port ? "--port " + std::to_string(options.port) : "--listen",
-                  "address " + options.address + " cannot be listened on: " + why,
-                  is_port ? "another program may have this port: leave --port out, and a "
-                            "free one is taken"
-                          : "give a numeric address of this machine, as 127.0.0.1",
+                  "cannot listen on address " + options.address + ": " + why,
+                  is_port ? "another program may use this port: omit --port to take a free one"
+                          : "give a numeric address of this machine, such as 127.0.0.1",
                   "lab.address"}});
 }
 
@@ -65,7 +64,7 @@ struct LabServer::Impl {
         timer(core->io) {
     listen();
     accept();
-    sweep();
+    check_timeouts();
     thread = std::thread([this] { work(); });
     pthread_setname_np(thread.native_handle(), "lab server");
   }
@@ -80,7 +79,7 @@ struct LabServer::Impl {
     error_code error;
     const net::ip::address address = net::ip::make_address(
         options.address == "localhost" ? "127.0.0.1" : options.address, error);
-    if (error) refuse_address(options, "it is not a numeric address");
+    if (error) refuse_address(options, "not a numeric address");
     const net::ip::tcp::endpoint place(address, options.port);
     acceptor.open(place.protocol(), error);
     if (!error) acceptor.set_option(Acceptor::reuse_address(true), error);
@@ -97,14 +96,14 @@ struct LabServer::Impl {
 
   void accept() {
     acceptor.async_accept(core->io, [this](error_code error, Socket socket) {
-      const std::size_t most = kConnectionsPerClient * core->options.max_clients;
-      if (!error && core->connections.size() < most) {
+      const std::size_t max = kConnectionsPerClient * core->options.max_clients;
+      if (!error && core->connections.size() < max) {
         socket.set_option(net::ip::tcp::no_delay(true), error);
         const auto connection = std::make_shared<Connection>(*core, std::move(socket));
         core->connections.insert(connection);
         connection->start();
       }
-      // Without descriptors left, the next try is that of the next sweep.
+      // Without free file descriptors check_timeouts() tries again.
       if (error)
         needs_accept = true;
       else
@@ -112,20 +111,20 @@ struct LabServer::Impl {
     });
   }
 
-  void sweep() {
-    timer.expires_after(kSweep);
+  void check_timeouts() {
+    timer.expires_after(kTimeoutCheck);
     timer.async_wait([this](error_code) {
       const Clock::time_point now = Clock::now();
-      const auto all = core->connections;  // they leave it
-      for (const auto& connection : all) connection->sweep(now);
+      const auto all = core->connections;  // drop() removes them from it
+      for (const auto& connection : all) connection->check_timeouts(now);
       if (std::exchange(needs_accept, false)) accept();
-      sweep();
+      check_timeouts();
     });
   }
 
   void wake() {
     net::post(core->io, [core = core.get()] {
-      core->mailboxes.awake();
+      core->queues.clear_wakeup();
       const auto all = core->connections;
       for (const auto& connection : all) connection->send_next();
     });
@@ -136,7 +135,7 @@ struct LabServer::Impl {
       try {
         core->io.run();
       } catch (...) {
-        tell_fault("server");
+        log_exception("server");
       }
     }
   }
@@ -162,15 +161,11 @@ std::string LabServer::url() const {
 }
 
 void LabServer::send(ClientId client, int channel, Bytes message, bool is_binary) {
-  if (impl_->core->mailboxes.put(client, channel, {std::move(message), is_binary})) impl_->wake();
-}
-
-void LabServer::send_all(int channel, Bytes message, bool is_binary) {
-  if (impl_->core->mailboxes.put_all(channel, {std::move(message), is_binary})) impl_->wake();
+  if (impl_->core->queues.put(client, channel, {std::move(message), is_binary})) impl_->wake();
 }
 
 LabServer::Traffic LabServer::traffic(ClientId client) const {
-  return impl_->core->mailboxes.traffic(client);
+  return impl_->core->queues.traffic(client);
 }
 
 std::string random_token() {

@@ -1,15 +1,15 @@
-// HTTP and WebSocket on one address, for a page and its clients. Knows nothing of what it serves.
+// HTTP and WebSocket server for a page and its clients, in its own thread. Independent of what it
+// serves.
 //
-// One thread of its own. For each client there is one place per channel of messages: a newer
-// message takes the place of one that has not been sent. So a client that does not read costs one
-// message a channel, whatever it does. After each message goes a ping, which a browser answers by
-// itself; no more than four are unanswered, so that nothing old piles up on a slow way either.
+// For each client and channel only the newest unsent message is stored, so a client that does not
+// read costs one message per channel. Each message is followed by a ping, which browsers answer; at
+// most four are unanswered, so that no old messages queue up on a slow connection.
 //
-// GET, HEAD (handed on as GET), POST; a WebSocket at /live.
+// GET, HEAD (handled as GET), POST; a WebSocket at /live.
 //
-// Who is let in: the token stands in the first address and then in a cookie (HttpOnly, SameSite
-// strict); Host must name an address that is listened on (so that no foreign name leads here), and
-// Origin, where a browser gives one, this very server. Without the token: 403, and what to do.
+// Access: the token is in the first address, then in a cookie (HttpOnly, SameSite=Strict). Host
+// must name an address of the server (against DNS rebinding), and Origin, if present, this server.
+// Without the token: 403.
 #pragma once
 
 #include <cstdint>
@@ -30,37 +30,36 @@ inline Bytes shared_bytes(std::string text) {
 
 struct HttpRequest {
   std::string method, path;  // decoded, without query
-  std::string query;         // as it came, without '?'
+  std::string query;         // not decoded, without '?'
   std::string body;          // of POST
 };
 struct HttpReply {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
   Bytes body;
-  bool lasts = false;     // it never changes (its name is its content's hash)
-  std::string file_name;  // offered as a download
+  bool lasts = false;     // never changes: its name is the hash of its content
+  std::string file_name;  // not empty: offered as a download
 };
 
 struct ServerOptions {
   std::string address = "127.0.0.1";
-  std::uint16_t port = 0;  // 0: any that is free
+  std::uint16_t port = 0;  // 0: any free one
   std::string token;
   std::size_t max_clients = 32;
   std::size_t max_message = 64 << 10;  // of a client [bytes]
   std::size_t max_body = 32 << 20;     // of a POST [bytes]
-  double messages_per_second = 500;    // of a client; more: it is told so and dropped
-  double patience =
-      60;  // a client that takes nothing is kept so long, a request a quarter of it [s]
+  double messages_per_second = 500;    // of a client; beyond: disconnected
+  double patience = 60;  // timeout of a client that reads nothing; of a request a quarter [s]
 };
 
-// 128 random bits, in hexadecimal digits.
+// 128 random bits in hexadecimal.
 std::string random_token();
-// Of "a=1&b=x%20y", decoded. Nothing where it is not there, or is not UTF-8 text.
+// Of "a=1&b=x%20y", decoded. Nothing if missing or not UTF-8 text.
 std::optional<std::string> query_value(std::string_view query, std::string_view name);
 
-// Called by the server's thread; may not wait. http: `answer` is called once, at once or later,
-// from any thread, also when the server is gone; what takes long is handed on. Who is not there:
-// 404. What they throw is told on stderr, and answered with 500.
+// Called by the server's thread; must not block. `answer` is to be called once, from any thread, at
+// once or later, even after the server's end. Exceptions are printed to stderr and answered with
+// 500.
 struct ServerHandlers {
   std::function<void(const HttpRequest&, std::function<void(HttpReply)> answer)> http;
   std::function<void(ClientId)> opened, closed;
@@ -69,17 +68,15 @@ struct ServerHandlers {
 
 class LabServer {
  public:
-  // Throws InputError: an address that cannot be listened on.
+  // Throws InputError: cannot listen on the address.
   LabServer(const ServerOptions& options, ServerHandlers handlers);
-  ~LabServer();  // closes all connections, joins the thread; `closed` is not called any more
+  ~LabServer();  // closes all connections without calling `closed`, joins the thread
   std::uint16_t port() const;
   // "http://127.0.0.1:PORT/?token=.."
   std::string url() const;
-  // From any thread; returns at once. `channel`: a small number; 0 goes before all others, of which
-  // the one that has waited longest is next. Binary or text.
+  // From any thread; returns at once. `channel`: small number, see mailboxes.h.
   void send(ClientId client, int channel, Bytes message, bool is_binary);
-  void send_all(int channel, Bytes message, bool is_binary);
-  // Of a client, for tests and the curious: messages sent, and those that a newer one replaced.
+  // Of a client; replaced: messages that were not sent because a newer one came.
   struct Traffic {
     std::uint64_t sent = 0, replaced = 0, bytes = 0, received = 0;
   };

@@ -1,8 +1,7 @@
-// What waits for each client: of each channel the newest message, and never more.
+// Outgoing messages of each client: the newest of each channel. Thread-safe.
 //
-// Put from any thread, taken by the server's. Channel 0 is taken before all others (it is for what
-// the others refer to); of these, the one that has waited longest: its content may be newer than
-// its place, so that no channel keeps another from being sent.
+// Channel 0 is taken first (the others refer to its content), then the channel that has waited
+// longest. A replaced message keeps its position, so no channel starves.
 #pragma once
 
 #include <map>
@@ -22,28 +21,25 @@ class OutgoingQueues {
   };
   void open(ClientId client);
   void close(ClientId client);
-  // True: the server's thread is to be woken, and has not been since awake().
+  // True: the server's thread must be woken; it was not since clear_wakeup().
   bool put(ClientId client, int channel, const Message& message);
-  bool put_all(int channel, const Message& message);
-  void awake();
-  std::optional<Message> take(ClientId client);  // counts it as sent
+  void clear_wakeup();
+  std::optional<Message> take(ClientId client);
   void count_received(ClientId client);
   LabServer::Traffic traffic(ClientId client) const;
 
  private:
-  struct Place {
+  struct Slot {
     Message message;
-    std::uint64_t since = 0;  // its turn; 0: nothing waits
+    std::uint64_t since = 0;  // order of arrival; 0: empty
   };
-  struct Box {
-    std::vector<Place> places;  // by channel
+  struct Queue {
+    std::vector<Slot> slots;  // by channel
     LabServer::Traffic traffic;
   };
-  void put_in(Box& box, int channel, const Message& message);
-  bool wake();
 
   mutable std::mutex mutex_;
-  std::map<ClientId, Box> boxes_;
+  std::map<ClientId, Queue> queues_;
   std::uint64_t turn_ = 0;
   bool woken_ = false;
 };

@@ -1,6 +1,7 @@
 #include "app/lab/session/lab_command.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "app/data/value.h"
@@ -10,160 +11,149 @@
 namespace twinarm {
 namespace {
 
-using Spoken = LabCommand::Do;
-using Kind = Value::Kind;
+using Do = LabCommand::Do;
 
 constexpr std::size_t kMaxNames = 64;
+constexpr std::size_t kMaxCommands = 4096;
+constexpr long kMaxIndex = 1'000'000;
 
-// One key of a command: how it is checked and where it goes.
-struct Field {
-  const char* key;
-  const char* wanted;  // "a number"
-  bool (*take)(const Value& value, LabCommand& command);
-  bool may_be_missing = false;
-};
-
-bool take_vector(const Value& value, Vector3& into) {
-  if (value.kind != Kind::list || value.items.size() != 3) return false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (value.items[i].kind != Kind::number) return false;
-    into[static_cast<Eigen::Index>(i)] = value.items[i].number;
-  }
-  return true;
-}
-
-bool take_count(const Value& value, long most, long& into) {
-  if (value.kind != Kind::number || !(value.number >= 0 && value.number <= double(most)))
-    return false;
-  into = static_cast<long>(value.number);
-  return static_cast<double>(into) == value.number;
-}
-
-bool take_number(const Value& value, double& into) {
+// Each read() returns whether the value has the right type.
+bool read(const Value& value, double& into) {
   into = value.number;
   return value.is_number();
 }
 
-bool take_text(const Value& value, std::string& into) {
+bool read(const Value& value, std::string& into) {
   into = value.text;
   return value.is_text();
 }
 
-bool take_texts(const Value& value, LabCommand& command) {
-  if (value.kind != Kind::list || value.items.size() > kMaxNames) return false;
-  for (const Value& item : value.items) {
-    if (!item.is_text()) return false;
-    command.names.push_back(item.text);
-  }
-  return true;
+bool read(const Value& value, bool& into) {
+  into = value.number != 0;
+  return value.kind == Value::Kind::boolean;
 }
 
-bool take_flag(const Value& value, LabCommand& command) {
-  command.on = value.number != 0;
-  return value.kind == Kind::boolean;
+bool read(const Value& value, std::optional<double>& into) {
+  if (value.kind == Value::Kind::null) return true;
+  return read(value, into.emplace());
 }
 
-bool take_instant(const Value& value, LabCommand& command) {
-  if (value.kind == Kind::null) return true;
-  command.at = value.number;
-  return value.is_number();
+bool read(const Value& value, std::vector<std::string>& into) {
+  if (!value.is_list() || value.items.size() > kMaxNames) return false;
+  return std::ranges::all_of(value.items,
+                             [&](const Value& item) { return read(item, into.emplace_back()); });
 }
 
-bool take_rates(const Value& value, LabCommand& command) {
-  if (value.kind != Kind::list || value.items.size() != command.rates.size()) return false;
-  for (std::size_t i = 0; i < command.rates.size(); ++i) {
-    if (value.items[i].kind != Kind::number) return false;
-    command.rates[i] = std::clamp(value.items[i].number, -1.0, 1.0);
-  }
-  return true;
+template <class Numbers>
+bool read_numbers(const Value& value, Numbers& into) {
+  if (!value.is_list() || value.items.size() != static_cast<std::size_t>(into.size())) return false;
+  auto number = into.begin();
+  return std::ranges::all_of(value.items, [&](const Value& item) { return read(item, *number++); });
 }
 
-template <int component>
-bool take_turn(const Value& value, LabCommand& command) {
-  return take_number(value, command.point[component]);
+bool read(const Value& value, Vector3& into) {
+  return read_numbers(value, into);
 }
 
-bool take_factor(const Value& value, LabCommand& command) {
-  return take_number(value, command.value) && command.value >= 0.001 && command.value <= 10;
+bool read(const Value& value, std::array<double, 6>& into) {
+  const bool is_read = read_numbers(value, into);
+  for (double& rate : into) rate = std::clamp(rate, -1.0, 1.0);
+  return is_read;
 }
 
-constexpr long kMaxIndex = 1'000'000;
-template <long most>
-bool take_index(const Value& value, LabCommand& command) {
-  return take_count(value, most, command.count);
+struct Field {
+  const char* key;
+  const char* expected;
+  std::function<bool(const Value& value, LabCommand& command)> read;
+  bool is_optional = false;
+};
+
+template <class T>
+Field field(const char* key, const char* expected, T LabCommand::*member,
+            bool is_optional = false) {
+  return {key, expected, [=](const Value& v, LabCommand& c) { return read(v, c.*member); },
+          is_optional};
+}
+
+Field whole_number(const char* key, const char* expected, long max, bool is_optional = false) {
+  const auto read_count = [max](const Value& v, LabCommand& c) {
+    if (!v.is_number() || !(v.number >= 0 && v.number <= static_cast<double>(max))) return false;
+    c.count = static_cast<long>(v.number);
+    return static_cast<double>(c.count) == v.number;
+  };
+  return {key, expected, read_count, is_optional};
+}
+
+Field angle(const char* key, Eigen::Index component) {
+  return {key, "a number",
+          [=](const Value& v, LabCommand& c) { return read(v, c.point[component]); }};
 }
 
 struct Form {
   const char* name;
-  Spoken what;
-  bool needs_hand;
+  Do what;
+  bool needs_control;
   std::vector<Field> fields;
 };
 
 const std::vector<Form>& forms() {
-  const auto value = [](const Value& v, LabCommand& c) { return take_number(v, c.value); };
-  const auto name = [](const Value& v, LabCommand& c) { return take_text(v, c.name); };
-  const auto spec = [](const Value& v, LabCommand& c) { return take_text(v, c.spec); };
-  const auto point = [](const Value& v, LabCommand& c) { return take_vector(v, c.point); };
-  const auto goal = [](const Value& v, LabCommand& c) { return take_vector(v, c.goal); };
-  const auto mark = [](const Value& v, LabCommand& c) { return take_number(v, c.stamp); };
-  const Field stamp{"stamp", "a number", mark, true};
-  const Field on{"on", "true or false", take_flag};
-  const Field changes{"changes", "a list of at most 64 texts", take_texts};
-  const Field index{"index", "a whole number", take_index<15>};
+  const char *number = "a number", *flag = "true or false", *text = "a text";
+  const char *texts = "a list of at most 64 texts", *three = "three numbers";
+  const Field stamp = field("stamp", number, &LabCommand::stamp, true);
+  const Field on = field("on", flag, &LabCommand::on);
+  const Field at = field("at", "seconds, or null", &LabCommand::at);
+  const Field name = field("name", text, &LabCommand::name);
+  const Field changes = field("changes", texts, &LabCommand::names);
+  const Field goal = field("goal", three, &LabCommand::goal);
+  const Field index = whole_number("index", "a whole number", 15);
+  const Field factor{"factor", "0.001 to 10", [](const Value& v, LabCommand& c) {
+                       return read(v, c.value) && c.value >= 0.001 && c.value <= 10;
+                     }};
+  const auto body = [](bool is_optional) {
+    return whole_number("body", "a body's number", kMaxIndex, is_optional);
+  };
   static const std::vector<Form> all{
-      {"layers", Spoken::layers, false, {{"names", "a list of at most 64 texts", take_texts}}},
-      {"glass",
-       Spoken::glass,
-       false,
-       {on, {"body", "a body's number", take_index<kMaxIndex>, true}}},
-      {"take", Spoken::take, false, {}},
-      {"give", Spoken::give, false, {{"to", "a client's number", take_index<kMaxIndex>}}},
-      {"look", Spoken::look, false, {{"at", "seconds, or null", take_instant}}},
-      {"play", Spoken::play, true, {on}},
-      {"step", Spoken::step, true, {{"steps", "1 to 100000", take_index<100'000>}}},
-      {"speed", Spoken::speed, true, {{"factor", "0.001 to 10", take_factor}}},
-      {"set", Spoken::set, true, {changes}},
-      {"branch", Spoken::branch, true, {{"at", "seconds, or null", take_instant}, changes}},
-      {"preset", Spoken::preset, true, {{"name", "a text", name}}},
-      {"scene", Spoken::scene, true, {{"name", "a text", name}}},
-      {"reset", Spoken::reset, true, {}},
-      {"restore", Spoken::restore, true, {}},
-      {"hand", Spoken::hand, true, {{"source", "a text", name}, {"spec", "a text", spec, true}}},
-      {"tip", Spoken::tip, true, {{"goal", "three numbers", goal}, stamp}},
-      {"joint", Spoken::joint, true, {index, {"value", "a number", value}, stamp}},
-      {"turn",
-       Spoken::turn,
+      {"layers", Do::layers, false, {field("names", texts, &LabCommand::names)}},
+      {"glass", Do::glass, false, {on, body(true)}},
+      {"take", Do::take, false, {}},
+      {"give", Do::give, false, {whole_number("to", "a client's number", kMaxIndex)}},
+      {"look", Do::look, false, {at}},
+      {"play", Do::play, true, {on}},
+      {"step", Do::step, true, {whole_number("steps", "1 to 100000", 100'000)}},
+      {"speed", Do::speed, true, {factor}},
+      {"set", Do::set, true, {changes}},
+      {"branch", Do::branch, true, {at, changes}},
+      {"preset", Do::preset, true, {name}},
+      {"scene", Do::scene, true, {name}},
+      {"reset", Do::reset, true, {}},
+      {"restore", Do::restore, true, {}},
+      {"hand",
+       Do::hand,
        true,
-       {{"yaw", "a number", take_turn<0>},
-        {"pitch", "a number", take_turn<1>},
-        {"roll", "a number", take_turn<2>},
-        stamp}},
-      {"axes", Spoken::axes, true, {{"rates", "six numbers", take_rates}, stamp}},
-      {"button", Spoken::button, true, {index, {"down", "true or false", take_flag}, stamp}},
+       {field("source", text, &LabCommand::name), field("spec", text, &LabCommand::spec, true)}},
+      {"tip", Do::tip, true, {goal, stamp}},
+      {"joint", Do::joint, true, {index, field("value", number, &LabCommand::value), stamp}},
+      {"turn", Do::turn, true, {angle("yaw", 0), angle("pitch", 1), angle("roll", 2), stamp}},
+      {"axes", Do::axes, true, {field("rates", "six numbers", &LabCommand::rates), stamp}},
+      {"button", Do::button, true, {index, field("down", flag, &LabCommand::on), stamp}},
       {"pull",
-       Spoken::pull,
+       Do::pull,
        true,
-       {{"body", "a body's number", take_index<kMaxIndex>},
-        {"point", "three numbers", point},
-        {"goal", "three numbers", goal},
-        stamp}},
-      {"drop", Spoken::drop, true, {}}};
+       {body(false), field("point", three, &LabCommand::point), goal, stamp}},
+      {"drop", Do::drop, true, {}}};
   return all;
 }
 
 const Form& form_of(const Value& root) {
   const Value* what = root.find("do");
-  std::vector<std::string> names;
-  for (const Form& form : forms()) names.emplace_back(form.name);
-  if (!what || what->kind != Kind::text)
+  if (!what || !what->is_text())
     throw InputError(
         {{"command", 0, "do", "is missing", "write {\"do\": \"play\", ..}", "lab.missing"}});
-  const auto is_it = [&](const Form& form) { return form.name == what->text; };
-  const auto found = std::find_if(forms().begin(), forms().end(), is_it);
+  const auto found = std::ranges::find(forms(), what->text, &Form::name);
   if (found == forms().end())
-    throw InputError({{"command", 0, "do", "there is no '" + what->text + "'",
-                       name_remedy(what->text, names, "commands"), "lab.unknown-command"}});
+    throw InputError(
+        {{"command", 0, "do", "there is no '" + what->text + "'",
+          name_remedy(what->text, names_of(forms()), "commands"), "lab.unknown-command"}});
   return *found;
 }
 
@@ -179,27 +169,19 @@ LabCommand parse_command(const std::string& text) {
   for (const Field& field : form.fields) {
     const Value* value = root.find(field.key);
     const std::string where = std::string(form.name) + ", " + field.key;
-    if (!value && !field.may_be_missing)
-      faults.add(
-          {"command", 0, where, "is missing", std::string("give ") + field.wanted, "lab.missing"});
-    else if (value && !field.take(*value, command))
-      faults.add({"command", 0, where, "is " + describe(*value),
-                  std::string("give ") + field.wanted, "lab.type"});
+    const std::string fix = std::string("give ") + field.expected;
+    if (!value && !field.is_optional)
+      faults.add({"command", 0, where, "is missing", fix, "lab.missing"});
+    else if (value && !field.read(*value, command))
+      faults.add({"command", 0, where, "is " + describe(*value), fix, "lab.type"});
   }
   faults.check();
   return command;
 }
 
-bool needs_hand(LabCommand::Do what) {
-  const auto is_it = [&](const Form& form) { return form.what == what; };
-  return std::find_if(forms().begin(), forms().end(), is_it)->needs_hand;
+bool needs_hand(Do what) {
+  return std::ranges::find(forms(), what, &Form::what)->needs_control;
 }
-
-namespace {
-
-constexpr std::size_t kMaxCommands = 4096;
-
-}  // namespace
 
 void Inbox::push(LabCommand command) {
   locked([&] {

@@ -1,4 +1,4 @@
-// What a page says to the lab: one JSON object each (docs/reference/lab_protocol.md).
+// Commands of clients: one JSON object each (docs/reference/lab_protocol.md).
 #pragma once
 
 #include <array>
@@ -18,13 +18,13 @@ namespace twinarm {
 
 struct LabCommand {
   enum class Do {
-    // of each client by itself, whoever has the hand
+    // permitted to every client
     layers,
     glass,
     take,
     give,
     look,
-    // of whoever has it
+    // permitted to the client in control
     play,
     step,
     speed,
@@ -50,36 +50,33 @@ struct LabCommand {
   std::optional<double> at;        // look, branch [s]; look: none is the newest
   std::vector<std::string> names;  // layers; set, branch: changes
   std::string name;                // preset, scene; hand: source
-  std::string spec;                // hand: of --device
+  std::string spec;                // hand: as of --device
   Vector3 point = Vector3::Zero();  // pull: of the body, link axes [m]; turn: yaw, pitch, roll
   Vector3 goal = Vector3::Zero();   // tip, pull: world [m]
   std::array<double, 6> rates{};    // axes
-  double stamp = 0;                 // of the sender
+  double stamp = 0;                 // set by the client
   std::chrono::steady_clock::time_point came{};
 };
 
-// Throws InputError with all faults: no JSON, no such command, a key that is missing or of another
-// kind, a number that is not finite.
+// Throws InputError with all faults: not JSON, unknown command, missing key, wrong type or range.
 LabCommand parse_command(const std::string& text);
 
-// Whether only the holder of the hand may say it.
+// Whether only the client in control may send it.
 bool needs_hand(LabCommand::Do what);
 
-// What other threads have for the run's thread, which takes it between two steps and sleeps here
-// until something comes.
+// Queue to the run's thread, which empties it between two steps and sleeps in it.
 class Inbox {
  public:
   static constexpr std::size_t kMaxNotes = 20;
 
-  // From any thread. What comes after the 4,096th command that waits is dropped; of notes, the
-  // oldest.
+  // From any thread. Drops commands beyond 4,096 waiting ones, and the oldest of too many notes.
   void push(LabCommand command);
   void push(BuildResult built);
-  void push_refused(long number);  // what was asked for, up to this number
+  void push_refused(long number);  // pending changes up to this number are refused
   void note(const std::string& level, const std::string& text);
-  bool stop();  // false: it was stopped before
+  bool stop();  // false: already stopped
 
-  // Of the run's thread.
+  // From the run's thread.
   struct Contents {
     std::deque<LabCommand> commands;
     std::deque<BuildResult> built;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/diagnose/remedies.h"
+#include "app/diagnose/post_mortem.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -20,10 +20,10 @@ constexpr auto kIdle = std::chrono::milliseconds(200);
 LabSession::LabSession(BuildResult scene, const std::vector<GalleryScene>& gallery,
                        std::size_t max_bytes)
     : state_(max_bytes),
-      commands_(state_, gallery, [this](BuildRequest order) { open(std::move(order)); }),
+      commands_(state_, gallery, [this](BuildRequest request) { open(std::move(request)); }),
       reporter_(state_, shown_) {
   commands_.adopt(std::move(scene));
-  reporter_.publish();  // from now on there is something to be seen
+  reporter_.publish();
   builder_ = std::make_unique<SceneBuilderThread>(state_.inbox);
   thread_ = std::thread([this] { work(); });
 }
@@ -35,31 +35,29 @@ LabSession::~LabSession() {
 void LabSession::end() {
   if (!state_.inbox.stop()) return;
   thread_.join();
-  // Pages may still drop files: taken away under the lock, and waited for without it.
-  std::unique_ptr<SceneBuilderThread> builder;
+  std::unique_ptr<SceneBuilderThread> builder;  // joined without the lock: open() may be called
   {
     const std::lock_guard lock(builder_mutex_);
     builder = std::move(builder_);
   }
 }
 
-void LabSession::open(BuildRequest order) {
-  std::optional<BuildRequest> left;
-  const char* why = "something else was asked for before this was begun; try again";
-  order.is_shared = state_.timeline.scene()->order.is_shared;
+void LabSession::open(BuildRequest request) {
+  std::optional<BuildRequest> rejected;
+  const char* why = "superseded by a newer request; try again";
+  request.is_shared = state_.timeline.scene()->request.is_shared;
   {
     const std::lock_guard lock(builder_mutex_);
     if (builder_) {
-      left = builder_->order(std::move(order));
+      rejected = builder_->submit(std::move(request));
     } else {
-      left = std::move(order);
+      rejected = std::move(request);
       why = "the lab is ending";
     }
   }
-  if (left && left->done) left->done(why);  // it may ask the session something
+  if (rejected && rejected->done) rejected->done(why);  // without the lock: may call the session
 }
 
-// The run's thread.
 void LabSession::work() {
   pthread_setname_np(pthread_self(), "lab run");
   next_tick_ = Clock::now();
@@ -70,7 +68,7 @@ void LabSession::work() {
       if (state_.inbox.is_stopped()) return;
       advance();
     } catch (const std::exception& error) {
-      pause_for(error.what());
+      show_failure(error.what());
     }
     sleep();
   }
@@ -87,10 +85,10 @@ void LabSession::take_inbox() {
     }
   if (contents.refused) state_.pending.finish(*contents.refused);
   for (BuildResult& one : contents.built) {
-    const auto done = one.order.done;
+    const auto done = one.request.done;
     try {
       commands_.adopt(std::move(one));
-      reporter_.publish();  // its start is seen and remembered, however soon steps follow
+      reporter_.publish();  // so that the history begins at the start, not after some steps
       if (done) done("");
     } catch (const std::exception& error) {
       note("error", error.what());
@@ -104,7 +102,7 @@ void LabSession::advance() {
   if (loop.has_single_steps() || state_.status.playing) {
     const auto after = [this] {
       state_.is_stale = true;
-      for (const std::string& words : state_.loop.take_warnings()) note("warning", words);
+      for (const std::string& text : state_.loop.take_warnings()) note("warning", text);
       if (reporter_.is_frame_due()) reporter_.publish();
     };
     if (!loop.take_steps(after)) show_end();
@@ -114,23 +112,26 @@ void LabSession::advance() {
   reporter_.publish();
 }
 
-// The run pauses. A failure that comes again at once is shown once.
-void LabSession::pause_for(const std::string& why) {
+void LabSession::pause() {
   state_.status.playing = false;
-  state_.loop.step_once(0);
+  state_.loop.request_steps(0);
   state_.has_news = true;
+}
+
+// A failure that repeats at once is shown once.
+void LabSession::show_failure(const std::string& why) {
+  pause();
   const std::string text = "the run is paused: " + why;
   const std::vector<LabNote>& notes = state_.status.notes;
   if (notes.empty() || notes.back().text != text) note("error", text);
 }
 
 void LabSession::show_end() {
-  state_.status.playing = false;
-  state_.loop.step_once(0);
-  state_.is_stale = state_.has_news = true;
+  pause();
+  state_.is_stale = true;
   const PostMortem* found = state_.loop.run().post_mortem();
-  if (!found) return note("note", "the run has come to its end");
-  LabEnd end;
+  if (!found) return note("note", "the run has ended");
+  RunFailure end;
   end.time = found->time;
   end.from = state_.changed_at;
   end.words = found->words;
@@ -140,13 +141,13 @@ void LabSession::show_end() {
   end.remedies = remedies_of(state_.loop.run().prepared(), *found);
   std::erase_if(end.remedies, [this](const SuggestedFix& fix) {
     return std::ranges::any_of(fix.changes, [this](const std::string& text) {
-      return is_of_lanes(state_.status, parse_change(text));
+      return is_varied(state_.status, parse_change(text));
     });
   });
-  state_.status.dead = std::move(end);
+  state_.status.failure = std::move(end);
 }
 
-// Until the next step is due, or a command comes.
+// Until the next step is due, or the inbox has something.
 void LabSession::sleep() {
   if (state_.loop.has_single_steps()) return;
   state_.inbox.sleep_until(state_.status.playing ? next_tick_ : Clock::now() + kIdle);

@@ -1,8 +1,7 @@
-// The run of the lab: a thread that steps it in real time, does what it is told between two steps,
-// and remembers.
+// The lab's run in its own thread, in real time. Commands are executed between two steps.
 //
-// Real time: steps that are due are taken once a millisecond. Where they cost more than that, run
-// time falls behind wall time, and `pace` says by how much; it is never made up for in a rush.
+// Once a millisecond the steps that are due are taken. If they take longer, run time falls behind
+// wall time; the delay is not made up for. `pace` is the achieved share of the requested speed.
 #pragma once
 
 #include <chrono>
@@ -21,16 +20,16 @@ namespace twinarm {
 
 class LabSession {
  public:
-  // The gallery must outlive it. At most so much is remembered of a run [bytes].
+  // The gallery must outlive it. `max_bytes`: of the history.
   LabSession(BuildResult scene, const std::vector<GalleryScene>& gallery,
              std::size_t max_bytes = LabHistory::kMaxBytes);
   ~LabSession();
-  void end();  // no thread of its own is left; now() stays as it was
+  void end();  // stops its threads; shown() keeps the last state
 
   // From any thread.
   void push(LabCommand command) { state_.inbox.push(std::move(command)); }
   void note(const std::string& level, const std::string& text) { state_.inbox.note(level, text); }
-  void open(BuildRequest order);
+  void open(BuildRequest request);
   const Publisher& shown() const { return shown_; }
   const Timeline& timeline() const { return state_.timeline; }
   void set_rate(double frames_per_second) { reporter_.set_rate(frames_per_second); }
@@ -41,7 +40,8 @@ class LabSession {
   void work();
   void take_inbox();
   void advance();
-  void pause_for(const std::string& why);
+  void pause();
+  void show_failure(const std::string& why);
   void show_end();
   void sleep();
 
@@ -51,7 +51,7 @@ class LabSession {
   StatusReporter reporter_;
   std::mutex builder_mutex_;
   std::unique_ptr<SceneBuilderThread> builder_;  // null: the session has ended
-  Clock::time_point next_tick_{};                // of the run's thread alone
+  Clock::time_point next_tick_{};                // used by the run's thread only
   std::thread thread_;
 };
 

@@ -1,11 +1,11 @@
-// What the page is told of the run besides its frames: the message `state` (docs/reference/lab_protocol.md).
+// Contents of the message `state` (docs/reference/lab_protocol.md).
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/diagnose/remedies.h"
+#include "app/diagnose/post_mortem.h"
 #include "app/lab/run/variants.h"
 #include "app/record/unpack.h"
 
@@ -16,10 +16,10 @@ struct LabNote {
   std::string level, text;  // "note", "warning", "error"
 };
 
-// A run that stopped by itself, and what would have held.
-struct LabEnd {
+// A run that diverged or was stopped by its energy, with suggested fixes.
+struct RunFailure {
   double time = 0;  // of the last good state [s]
-  double from = 0;  // the last change, or the start: to go on from with a remedy [s]
+  double from = 0;  // the last change or the start, from which to branch with a fix [s]
   std::vector<std::string> words;
   std::string quantity, body, spring;
   std::vector<SuggestedFix> remedies;
@@ -31,33 +31,31 @@ struct LabBranch {
   int number = 0;  // counts branches
 };
 
-// Who moves the robot.
-struct LabHandStatus {
-  std::string source;         // scene, drag, joints, device; empty: no hand leads this scene
-  std::string spec;           // of a device, as it was asked for
-  std::string mapping, felt;  // felt: what device it is
-  std::vector<double> q;      // where the driven joints are told to stand
-  std::string mode;           // of a device: live, held, released; empty: there is none
-  bool gripper_closed =
-      false;  // as the user holds it; where the scene or a device moves: as theirs
+struct OperatorStatus {
+  std::string source;           // scene, drag, joints, device; empty: no coupling can be driven
+  std::string spec;             // of a device, as requested
+  std::string mapping, device;  // device: description
+  std::vector<double> q;        // targets of the driven joints
+  std::string mode;             // of a device: live, held, released; empty: no device
+  bool gripper_closed = false;  // as set by the user; of sources scene and device: as theirs
 };
 
 struct LabStatus {
-  long scene = 0;               // counts scenes: of frames, meshes, channels
+  long scene = 0;               // counts opened scenes
   std::string scene_name;       // of the gallery, or the file's
   std::vector<Change> changes;  // to the scene's file
-  VariantSet lanes;
-  std::vector<std::optional<double>> lane_ends;  // from the second on: where one stopped [s]
+  VariantSet variants;
+  std::vector<std::optional<double>> variant_ends;  // from the second on: time of its stop [s]
   bool playing = true;
   double speed = 1;
-  double time = 0, first = 0, last = 0;  // now; what is remembered [s]
-  std::optional<double> at;              // the instant that is looked at
+  double time = 0, first = 0, last = 0;  // present; range of the history [s]
+  std::optional<double> at;              // the earlier instant that is shown
   std::optional<LabBranch> branch;
-  double pace = 1, step = 0, step_time = 0;  // real-time factor; [s], [s]
-  LabHandStatus hand;
-  std::optional<LabEnd> dead;
+  double pace = 1, step = 0, step_time = 0;  // real-time factor over speed; [s], [s]
+  OperatorStatus hand;
+  std::optional<RunFailure> failure;
   std::vector<LabNote> notes;  // the last twenty
-  std::string building;        // what is being prepared, in words; empty: nothing
+  std::string building;        // description of the scene being built; empty: none
 };
 
 }  // namespace twinarm

@@ -9,19 +9,19 @@
 namespace twinarm {
 namespace {
 
-constexpr auto kMaxBurst = std::chrono::microseconds(4000);  // between two looks at commands
-constexpr double kMaxCatchUp = 0.05;  // what is further behind is not made up for [s]
+constexpr auto kMaxBurst = std::chrono::microseconds(4000);  // before commands are read again
+constexpr double kMaxCatchUp = 0.05;                         // delay that is made up for [s]
 
 }  // namespace
 
-void RunLoop::begin(std::unique_ptr<LabRun> run, LabVariants lanes) {
+void RunLoop::begin(std::unique_ptr<LabRun> run, LabVariants variants) {
   run_ = std::move(run);
-  lanes_ = std::move(lanes);
+  variants_ = std::move(variants);
 }
 
 LabFrame RunLoop::frame() {
   LabFrame frame = run_->frame(names_);
-  lanes_.add_to(frame, names_);
+  variants_.add_to(frame, names_);
   return frame;
 }
 
@@ -40,23 +40,23 @@ bool RunLoop::take_steps(const std::function<void()>& after) {
     if (steps_left_ > 0 && --steps_left_ == 0) return true;
     if (Clock::now() - begin > kMaxBurst) break;
   }
-  pace_.forgive(Clock::now(), run_->time(), kMaxCatchUp);
+  pace_.limit_backlog(Clock::now(), run_->time(), kMaxCatchUp);
   return true;
 }
 
 bool RunLoop::take_step() {
   bool goes_on = false;
   if (repeats_) {
-    const Timeline::Known known = timeline_.known_input(run_->step_count() + 1);
+    const Timeline::Known known = timeline_.known_input(run_->view().step() + 1);
     repeats_ = known.goes_on;
     goes_on = run_->step(known.input);
   } else {
     goes_on = run_->step();
   }
   if (!goes_on) return false;
-  lanes_.follow(*run_);
+  variants_.follow(*run_);
   const LabInput& input = run_->input();
-  if (input.hand || input.pull) timeline_.add(input);
+  if (input.hand || input.mouse) timeline_.add(input);
   return true;
 }
 
@@ -67,11 +67,11 @@ RunLoop::Cost RunLoop::take_cost() {
   return cost;
 }
 
-void Timeline::begin(std::shared_ptr<const BuildResult> scene, std::vector<std::size_t> led) {
+void Timeline::begin(std::shared_ptr<const BuildResult> scene, std::vector<std::size_t> driven) {
   const std::lock_guard lock(mutex_);
   scene_ = std::move(scene);
-  led_ = std::move(led);
-  history_.begin_segment(scene_->order.changes);
+  driven_ = std::move(driven);
+  history_.begin_segment(scene_->request.changes);
 }
 
 void Timeline::add(LabFrame frame, const LabNames& names) {
@@ -87,7 +87,7 @@ void Timeline::add(const LabInput& input) {
   history_.add(input);
 }
 
-void Timeline::forget() {
+void Timeline::clear() {
   const std::lock_guard lock(mutex_);
   history_ = before_ = LabHistory(history_.max_bytes());
   names_ = {};
@@ -143,15 +143,15 @@ void Timeline::save(const std::filesystem::path& file) const {
   LabHistory history;
   std::shared_ptr<const BuildResult> scene;
   LabNames names;
-  std::vector<std::size_t> led;
+  std::vector<std::size_t> driven;
   {
     const std::lock_guard lock(mutex_);
     history = history_;
     scene = scene_;
     names = names_;
-    led = led_;
+    driven = driven_;
   }
-  history.save(*scene->scene, names, led, file);
+  history.save(*scene->scene, names, driven, file);
 }
 
 }  // namespace twinarm

@@ -1,5 +1,5 @@
-// The run and its variants, stepped by wall time in bursts, by the hand as it is then; in a branch,
-// as long as it is known, by what the hand did then. Of the run's thread.
+// Steps the run and its variants by wall time. In a branch it repeats the earlier inputs while they
+// are known. Used by the run's thread.
 #pragma once
 
 #include <chrono>
@@ -18,33 +18,32 @@
 
 namespace twinarm {
 
-// What is remembered of the session's run: its history, what came after the instant at which the
-// last branch began, and the scene that a recording of it needs. Any thread; no call takes longer
-// than copying pointers.
+// History of the session's run, the part of it that the last branch left, and the scene that a
+// recording needs. Thread-safe; calls take no longer than copying pointers.
 class Timeline {
  public:
   using Frame = LabHistory::Frame;
   explicit Timeline(std::size_t max_bytes) : history_(max_bytes), before_(max_bytes) {}
 
-  // From now on it is another run; led: LabRun::led().
-  void begin(std::shared_ptr<const BuildResult> scene, std::vector<std::size_t> led);
+  // Begins another run; driven: InputOverride::couplings().
+  void begin(std::shared_ptr<const BuildResult> scene, std::vector<std::size_t> driven);
   void add(LabFrame frame, const LabNames& names);
   void add(const LabInput& input);
-  void forget();
-  // Back to an instant, where a branch begins. Null: it is no longer remembered.
+  void clear();
+  // Begins a branch at t; returns its first frame, null if t is no longer in the history.
   Frame branch(double t);
 
-  // What came from outside in a step of the branch that was left, and whether more is known.
+  // Input of a step of the run that was left, and whether later ones are known.
   struct Known {
     LabInput input;
     bool goes_on = false;
   };
   Known known_input(long step) const;
 
-  // The newest instant, or that at t; `before`: the same time in the branch that was left.
+  // The newest frame, or that at t; `before`: at the same time in the run that was left.
   struct View {
     std::shared_ptr<const BuildResult> scene;
-    double first = 0, last = 0;  // that are remembered [s]
+    double first = 0, last = 0;  // range of the history [s]
     Frame frame, before;
   };
   View view(std::optional<double> t) const;
@@ -57,28 +56,28 @@ class Timeline {
   LabHistory history_, before_;
   std::shared_ptr<const BuildResult> scene_;
   LabNames names_;
-  std::vector<std::size_t> led_;
+  std::vector<std::size_t> driven_;
 };
 
-// Run time against wall time: how far the run is to be, and how well it keeps up.
+// Run time against wall time.
 class RealTimePacer {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  // From now on, at so many seconds of run time in one of wall time.
+  // From now on `speed` seconds of run time per second of wall time.
   void begin(Time wall, double run, double speed) {
     wall_ = measured_wall_ = wall;
     run_ = measured_run_ = run;
     speed_ = speed;
   }
-  // Where the run is to be [s].
+  // Run time that is due [s].
   double due(Time wall) const { return run_ + speed_ * as_seconds(wall - wall_); }
-  // What is further behind than that is not made up for [s of wall time].
-  void forgive(Time wall, double run, double most) {
+  // Gives up a delay of more than `max` [s of wall time].
+  void limit_backlog(Time wall, double run, double max) {
     const double behind = due(wall) - run;
-    if (behind > speed_ * most) run_ -= behind - speed_ * most;
+    if (behind > speed_ * max) run_ -= behind - speed_ * max;
   }
-  // Run time over what was asked for, of the last second; 1: it keeps up.
+  // Achieved share of the speed in the last full second.
   double factor(Time wall, double run) {
     const double passed = as_seconds(wall - measured_wall_);
     if (passed >= 1) {
@@ -99,24 +98,23 @@ class RunLoop {
   using Clock = std::chrono::steady_clock;
   explicit RunLoop(Timeline& timeline) : timeline_(timeline) {}
 
-  // From now on this run, which goes on from `from` (null: from the scene's start).
-  void begin(std::unique_ptr<LabRun> run, LabVariants lanes);
+  void begin(std::unique_ptr<LabRun> run, LabVariants variants);
   LabRun& run() { return *run_; }
   LabNames& names() { return names_; }
   LabFrame frame();  // of the run and its variants
-  std::vector<std::string> take_warnings() { return lanes_.take_words(); }
+  std::vector<std::string> take_warnings() { return variants_.take_warnings(); }
 
   void set_pace(double speed) { pace_.begin(Clock::now(), run_->time(), speed); }
   double pace_factor() { return pace_.factor(Clock::now(), run_->time()); }
-  void step_once(long times) { steps_left_ = times; }
+  void request_steps(long count) { steps_left_ = count; }
   bool has_single_steps() const { return steps_left_ > 0; }
-  // The inputs of the branch that was left come again, while they are known, or no longer.
+  // Whether steps repeat the inputs of the run that was left, while they are known.
   void repeat_inputs(bool on) { repeats_ = on; }
-  // The single steps, or those that are due, but no longer than a burst; `after` is called after
-  // each. False: the run goes on no more.
+  // Takes the requested single steps, or those that are due, for at most kMaxBurst; calls `after`
+  // after each. False: the run has stopped.
   bool take_steps(const std::function<void()>& after);
 
-  struct Cost {                    // processor time since this was asked last [s]
+  struct Cost {                    // processor time since the last call [s]
     double mean = 0, longest = 0;  // of a step
   };
   Cost take_cost();
@@ -126,7 +124,7 @@ class RunLoop {
 
   Timeline& timeline_;
   std::unique_ptr<LabRun> run_;
-  LabVariants lanes_;
+  LabVariants variants_;
   LabNames names_;
   RealTimePacer pace_;
   long steps_left_ = 0;

@@ -13,58 +13,48 @@
 namespace twinarm {
 namespace {
 
-std::shared_ptr<const LabScene> open_scene(const BuildRequest& order) {
+std::shared_ptr<const LabScene> open_scene(const BuildRequest& request) {
   FileRoots roots;
-  if (order.is_shared) roots = {find_assets()};
-  if (order.file.extension() == ".twinrec")
-    return std::make_shared<const LabScene>(Recording(order.file).header(), roots);
+  if (request.is_shared) roots = {find_assets()};
+  if (request.file.extension() == ".twinrec")
+    return std::make_shared<const LabScene>(Recording(request.file).header(), roots);
   SimulateOptions options;
-  options.robot.model = order.file;
-  options.robot.roots = order.roots;
+  options.robot.model = request.file;
+  options.robot.roots = request.roots;
   return std::make_shared<const LabScene>(options, roots);
-}
-
-std::string words_of(const InputError& error) {
-  std::string words;
-  for (const Diagnostic& fault : error.faults())
-    words += (words.empty() ? "" : "\n") + to_string(fault);
-  return words;
-}
-
-void put_asked(std::vector<Change>& changes, const Asked& asked) {
-  if (asked.begins_anew) changes.clear();
-  for (const Change& change : asked.changes) put(changes, change);
 }
 
 }  // namespace
 
 BuildRequest order_to_open(const GalleryScene& scene) {
-  BuildRequest order;
-  order.file = scene.file;
-  order.name = scene.name;
-  order.words.title = scene.title;
-  order.words.file = scene.file.filename().string();
-  order.words.look.assign(scene.look.begin(), scene.look.end());
-  order.lanes = scene.lanes;
-  return order;
+  BuildRequest request;
+  request.file = scene.file;
+  request.name = scene.name;
+  request.words = {
+      scene.title, scene.file.filename().string(), {scene.look.begin(), scene.look.end()}};
+  request.lanes = scene.variants;
+  return request;
 }
 
-BuildResult build(BuildRequest order) {
+BuildResult build(BuildRequest request) {
   BuildResult built;
-  for (const Asked& asked : order.asked) put_asked(order.changes, asked);
-  if (!order.lanes.empty()) put(order.changes, order.lanes.change(0));
-  built.scene = order.what == BuildRequest::What::open ? open_scene(order) : order.scene;
-  built.header = built.scene->header(order.changes, {});
-  built.run = built.scene->plan(order.changes);
-  built.view = built.scene->plan(order.changes);
-  built.knobs = built.scene->plan(order.changes);
-  for (std::size_t lane = 1; lane < order.lanes.values.size(); ++lane) {
-    std::vector<Change> changes = order.changes;
-    put(changes, order.lanes.change(lane));
-    built.lanes.push_back(built.scene->plan(changes));
-    built.lane_views.push_back(built.scene->plan(changes));
+  for (const PendingChange& pending : request.pending) {
+    if (pending.discards_earlier) request.changes.clear();
+    for (const Change& change : pending.changes) put(request.changes, change);
   }
-  built.order = std::move(order);
+  if (!request.lanes.empty()) put(request.changes, request.lanes.change(0));
+  built.scene = request.what == BuildRequest::What::open ? open_scene(request) : request.scene;
+  built.header = built.scene->header(request.changes, {});
+  built.run = built.scene->plan(request.changes);
+  built.view = built.scene->plan(request.changes);
+  built.parameters = built.scene->plan(request.changes);
+  for (std::size_t variant = 1; variant < request.lanes.values.size(); ++variant) {
+    std::vector<Change> changes = request.changes;
+    put(changes, request.lanes.change(variant));
+    built.variants.push_back(built.scene->plan(changes));
+    built.variant_views.push_back(built.scene->plan(changes));
+  }
+  built.request = std::move(request);
   return built;
 }
 
@@ -79,78 +69,75 @@ SceneBuilderThread::~SceneBuilderThread() {
   thread_.join();
 }
 
-std::optional<BuildRequest> SceneBuilderThread::order(BuildRequest order) {
-  std::optional<BuildRequest> left;
+std::optional<BuildRequest> SceneBuilderThread::submit(BuildRequest request) {
+  std::optional<BuildRequest> replaced;
   {
     const std::lock_guard lock(mutex_);
-    left = std::exchange(next_, std::move(order));
+    replaced = std::exchange(next_, std::move(request));
   }
   wake_.notify_all();
-  return left;
+  return replaced;
 }
 
-// It was tried already, with an order before this one.
-void SceneBuilderThread::leave_out_refused(BuildRequest& order) const {
-  std::erase_if(order.asked, [this](const Asked& asked) {
-    return std::ranges::find(refused_, asked.number) != refused_.end();
+// Pending changes that were refused with an earlier request.
+void SceneBuilderThread::leave_out_refused(BuildRequest& request) const {
+  std::erase_if(request.pending, [this](const PendingChange& pending) {
+    return std::ranges::find(refused_, pending.number) != refused_.end();
   });
 }
 
-// What was asked for while others waited: what is wrong must not take the others with it. Nothing
-// where no part of it holds.
-std::optional<BuildResult> SceneBuilderThread::build_one_by_one(const BuildRequest& order) {
+// One invalid change of several must not prevent the others. Nothing if all are invalid.
+std::optional<BuildResult> SceneBuilderThread::build_one_by_one(const BuildRequest& request) {
   std::optional<BuildResult> built;
-  BuildRequest good = order;
-  good.asked.clear();
-  for (const Asked& asked : order.asked) {
+  BuildRequest good = request;
+  good.pending.clear();
+  for (const PendingChange& pending : request.pending) {
     BuildRequest with = good;
-    with.asked.push_back(asked);
+    with.pending.push_back(pending);
     try {
       built = build(with);
       good = std::move(with);
     } catch (const InputError& error) {
-      refused_.push_back(asked.number);
-      if (&asked == &order.asked.back() && order.what == BuildRequest::What::branch && built)
-        built->order.what = BuildRequest::What::change;  // the branch was for what is refused
-      inbox_.note("error", words_of(error));
+      refused_.push_back(pending.number);
+      if (&pending == &request.pending.back() && request.what == BuildRequest::What::branch &&
+          built)
+        built->request.what = BuildRequest::What::change;  // the refused one requested the branch
+      inbox_.note("error", error.what());
     }
   }
-  if (built) built->order.asked = order.asked;  // all of it is done with
+  if (built) built->request.pending = request.pending;  // all of them are finished
   return built;
 }
 
-// Nothing of it holds; why was told.
-void SceneBuilderThread::fail(const BuildRequest& order) {
-  if (!order.asked.empty()) inbox_.push_refused(order.asked.back().number);
+void SceneBuilderThread::push_refused(const BuildRequest& request) {
+  if (!request.pending.empty()) inbox_.push_refused(request.pending.back().number);
 }
 
 void SceneBuilderThread::work() {
-  pthread_setname_np(pthread_self(), "lab workshop");
+  pthread_setname_np(pthread_self(), "lab builder");
   for (;;) {
-    BuildRequest order;
+    BuildRequest request;
     {
       std::unique_lock lock(mutex_);
       wake_.wait(lock, [this] { return stop_ || next_; });
       if (stop_) return;
-      order = std::move(*next_);
+      request = std::move(*next_);
       next_.reset();
     }
-    leave_out_refused(order);
+    leave_out_refused(request);
     try {
       try {
-        inbox_.push(build(order));
+        inbox_.push(build(request));
       } catch (const InputError& error) {
-        if (order.asked.size() < 2) throw;
-        auto built = build_one_by_one(order);
-        built ? inbox_.push(std::move(*built)) : fail(order);
+        if (request.pending.size() < 2) throw;
+        auto built = build_one_by_one(request);
+        built ? inbox_.push(std::move(*built)) : push_refused(request);
       }
     } catch (const std::exception& error) {
-      const auto* faults = dynamic_cast<const InputError*>(&error);
-      const std::string why = faults ? words_of(*faults) : error.what();
-      for (const Asked& asked : order.asked) refused_.push_back(asked.number);
-      if (order.done) order.done(why);
-      inbox_.note("error", why);
-      fail(order);
+      for (const PendingChange& pending : request.pending) refused_.push_back(pending.number);
+      if (request.done) request.done(error.what());
+      inbox_.note("error", error.what());
+      push_refused(request);
     }
   }
 }

@@ -1,5 +1,5 @@
-// What commands do to the run, between two steps: at once, or by an order to the thread that builds
-// scenes, whose result is taken over here.
+// Executes commands between two steps: at once, or by a request to the scene builder thread whose
+// result is adopted later.
 #pragma once
 
 #include <functional>
@@ -17,21 +17,21 @@ class SessionCommands {
   SessionCommands(SessionState& state, const std::vector<GalleryScene>& gallery,
                   std::function<void(BuildRequest)> open)
       : s_(state), gallery_(gallery), open_(std::move(open)) {}
-  // Throws InputError: nothing of it holds.
+  // Throws InputError; the command then has no effect.
   void act(const LabCommand& command);
-  // The run goes on as it was ordered. Throws what building it throws.
+  // Continues or begins the run with a built scene. Throws InputError.
   void adopt(BuildResult built);
 
  private:
-  void act_on_hand(const LabCommand& command);
-  void lead_by(LabHand::Source source);
-  void choose_hand(const std::string& source, const std::string& spec);
+  void act_on_input(const LabCommand& command);
+  void switch_source(OperatorInput::Source source);
+  void choose_source(const std::string& source, const std::string& spec);
   void change(const std::vector<std::string>& texts, std::optional<double> at);
   void open_preset(const std::string& name);
   void open_from_gallery(const std::string& name);
-  void order(BuildRequest::What what, double at = 0);
-  Timeline::Frame start_of(const BuildRequest& order);
-  void forget();
+  void request(BuildRequest::What what, double at = 0);
+  Timeline::Frame start_of(const BuildRequest& request);
+  void clear_history();
 
   SessionState& s_;
   const std::vector<GalleryScene>& gallery_;

@@ -1,5 +1,4 @@
-// What the run's thread works on, for the parts of the session that do: commands, scenes, what is
-// shown.
+// State of the run's thread, shared by the parts of the session.
 #pragma once
 
 #include <chrono>
@@ -11,42 +10,42 @@
 
 namespace twinarm {
 
-// Changes of the scene that were asked for, and are neither built nor refused yet.
+// Requested changes that are neither built nor refused yet.
 class PendingChanges {
  public:
-  void add(Asked asked) {
-    asked.number = ++count_;
-    pending_.push_back(std::move(asked));
+  void add(PendingChange change) {
+    change.number = ++count_;
+    pending_.push_back(std::move(change));
   }
   void finish(long number) {
     while (!pending_.empty() && pending_.front().number <= number) pending_.pop_front();
   }
   void clear() { pending_.clear(); }
-  std::vector<Asked> all() const { return {pending_.begin(), pending_.end()}; }
+  std::vector<PendingChange> all() const { return {pending_.begin(), pending_.end()}; }
 
  private:
-  std::deque<Asked> pending_;
+  std::deque<PendingChange> pending_;
   long count_ = 0;
 };
 
 struct SessionState {
   explicit SessionState(std::size_t max_bytes) : timeline(max_bytes), loop(timeline) {}
-  Inbox inbox;        // any thread
-  Timeline timeline;  // any thread
-  LabHand hand;
+  Inbox inbox;        // thread-safe
+  Timeline timeline;  // thread-safe
+  OperatorInput hand;
   RunLoop loop;
   LabStatus status;
   PendingChanges pending;
-  long change_number = 0;                              // counts up with each run
-  double changed_at = 0;                               // time of the run [s]
-  bool is_stale = true;                                // the newest frame is not the run's
-  bool has_news = true;                                // something that no frame shows
-  std::chrono::steady_clock::time_point input_came{};  // the newest
+  long change_number = 0;                              // counts runs
+  double changed_at = 0;                               // run time [s]
+  bool is_stale = true;                                // the run is beyond the newest frame
+  bool has_news = true;                                // not visible in frames
+  std::chrono::steady_clock::time_point input_came{};  // of the newest input
 };
 
-// Whether this is what the variants that run side by side differ by.
-inline bool is_of_lanes(const LabStatus& status, const Change& change) {
-  return !status.lanes.empty() && change.path == status.lanes.path;
+// Whether the variants differ by this parameter.
+inline bool is_varied(const LabStatus& status, const Change& change) {
+  return !status.variants.empty() && change.path == status.variants.path;
 }
 
 }  // namespace twinarm

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/lab/run/input_override.h"
+
 namespace twinarm {
 namespace {
 
@@ -10,18 +12,18 @@ constexpr auto kStatusEvery = std::chrono::milliseconds(250);
 
 }  // namespace
 
-// Frames stand at multiples of as many steps as fit between two of them: evenly, and in a branch at
-// the same steps as before. Of a run that does not keep up, more often.
+// A frame each n steps, at multiples of n: evenly spaced, and in a branch at the same steps as
+// before. n is smaller where the run does not keep up.
 bool StatusReporter::is_frame_due() const {
   const LabStatus& status = state_.status;
   const double steps = status.speed * frame_interval_ / state_.loop.run().step_length();
   long apart = std::max(1L, static_cast<long>(steps));
   while (apart > 1 && status.pace < 0.75 * static_cast<double>(apart) / steps) apart /= 2;
-  return state_.loop.run().step_count() % apart == 0;
+  return state_.loop.run().view().step() % apart == 0;
 }
 
-// The newest frame is remembered, and handed over with whatever else is new. The status goes with
-// news at once; its times and measures alone, now and then.
+// Stores the newest frame and publishes it with everything else that is new. The status is
+// published with news at once; for its times and measurements alone every kStatusEvery.
 void StatusReporter::publish() {
   const Clock::time_point now = Clock::now();
   const bool is_playing = state_.status.playing;
@@ -66,21 +68,20 @@ bool StatusReporter::take_notes() {
   return !came.empty();
 }
 
-// The hand as pages see it: one that is opened later finds it so.
-LabHandStatus StatusReporter::status_of_hand() const {
-  using Source = LabHand::Source;
+OperatorStatus StatusReporter::operator_status() const {
+  using Source = OperatorInput::Source;
   static const char* const kSources[] = {"scene", "drag", "joints", "device"};
   static const char* const kModes[] = {"live", "held", "released"};
-  const LabHand& hand = state_.hand;
-  const LabRun& run = state_.loop.run();
-  LabHandStatus shown;
+  const OperatorInput& hand = state_.hand;
+  const InputOverride& driven = state_.loop.run().input_override();
+  OperatorStatus shown;
   const Source source = hand.source();
-  if (!run.driven().empty()) shown.source = kSources[static_cast<int>(source)];
+  if (!driven.driven().empty()) shown.source = kSources[static_cast<int>(source)];
   shown.spec = hand.spec();
   shown.mapping = kMappingNames[static_cast<std::size_t>(hand.mapping().kind)];
-  shown.felt = hand.description();
-  shown.q = run.driven_q();
-  const std::optional<LabHandFrame> now = run.hand_frame();
+  shown.device = hand.description();
+  shown.q = driven.q();
+  const std::optional<OperatorFrame> now = driven.frame(state_.loop.run().time());
   if (now && hand.device()) shown.mode = kModes[now->mode];
   const bool is_users = source == Source::drag || source == Source::joints;
   shown.gripper_closed = is_users ? hand.gripper_closed() : now && now->gripper_closed;
@@ -91,15 +92,15 @@ void StatusReporter::show(bool with_status) {
   LabStatus& status = state_.status;
   status.time = state_.loop.run().time();
   status.step = state_.loop.run().step_length();
-  if (with_status) status.hand = status_of_hand();
+  if (with_status) status.hand = operator_status();
   Timeline::View view = state_.timeline.view(status.at);
   status.first = view.first;
   status.last = view.last;
-  status.lane_ends.clear();
+  status.variant_ends.clear();
   if (view.frame)
-    for (const VariantFrame& lane : view.frame->lanes)
-      status.lane_ends.push_back(lane.stopped ? std::optional(lane.frame->recorded.t)
-                                              : std::nullopt);
+    for (const VariantFrame& variant : view.frame->variants)
+      status.variant_ends.push_back(variant.stopped ? std::optional(variant.frame->recorded.t)
+                                                    : std::nullopt);
   LabNow now;
   now.scene = std::move(view.scene);
   now.scene_number = status.scene;
@@ -119,9 +120,9 @@ LabNow Publisher::now() const {
   return now;
 }
 
-void Publisher::wait(const LabNow& seen, double longest) const {
+void Publisher::wait(const LabNow& seen, double timeout) const {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, std::chrono::duration<double>(longest),
+  changed_.wait_for(lock, std::chrono::duration<double>(timeout),
                     [&] { return now_.number != seen.number || wakes_ != seen.wakes; });
 }
 

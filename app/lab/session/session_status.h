@@ -1,5 +1,4 @@
-// What the session shows to other threads: the newest instant, its status and notes. They look at
-// it or wait for it here.
+// Publishes the newest frame, the status and notes of the session to other threads.
 #pragma once
 
 #include <atomic>
@@ -18,28 +17,26 @@
 
 namespace twinarm {
 
-// What there is to be seen. Nothing in it changes any more.
+// Immutable once published.
 struct LabNow {
-  std::uint64_t number = 0;  // counts up with whatever changes here
+  std::uint64_t number = 0;  // counts publications
   std::shared_ptr<const BuildResult> scene;
   long scene_number = 0, change_number = 0;
-  std::shared_ptr<const LabFrame> frame;   // the newest, or the one that is looked back at
-  std::shared_ptr<const LabFrame> before;  // at the same time, of the branch that was left
+  std::shared_ptr<const LabFrame> frame;   // the newest, or an earlier one that is shown
+  std::shared_ptr<const LabFrame> before;  // at the same time, of the run that the branch left
   std::shared_ptr<const LabStatus> status;
-  std::shared_ptr<const std::vector<std::string>> rows;  // of the ledger, by their numbers
-  std::chrono::steady_clock::time_point input_came{};    // the newest input in the frame
-  std::uint64_t wakes = 0;                               // of wake() until it was looked at
+  std::shared_ptr<const std::vector<std::string>> rows;  // names of the energy balance
+  std::chrono::steady_clock::time_point input_came{};    // of the newest input in the frame
+  std::uint64_t wakes = 0;                               // calls of wake() so far
 };
 
-class Publisher {
+class Publisher {  // thread-safe
  public:
-  // From any thread.
   LabNow now() const;
-  // Until there is something newer than what was seen, or wake() was called since, or the time is
-  // over.
-  void wait(const LabNow& seen, double longest) const;
+  // Until something newer than `seen` is published, wake() is called, or the time is over [s].
+  void wait(const LabNow& seen, double timeout) const;
   void wake() const;
-  // Numbered by it. Without a status: the one before holds.
+  // Numbers it. Without a status the one before is kept.
   void publish(LabNow now);
 
  private:
@@ -49,13 +46,13 @@ class Publisher {
   mutable std::uint64_t wakes_ = 0;
 };
 
-// Puts it together, by the run's thread.
+// Used by the run's thread.
 class StatusReporter {
  public:
   StatusReporter(SessionState& state, Publisher& shown) : state_(state), shown_(shown) {}
-  void set_rate(double frames_per_second) {
+  void set_rate(double frames_per_second) {  // from any thread
     frame_interval_ = 1 / frames_per_second;
-  }  // any thread
+  }
   bool is_frame_due() const;
   void publish();  // what is new and due
 
@@ -64,14 +61,14 @@ class StatusReporter {
 
   void add_frame();
   bool take_notes();
-  LabHandStatus status_of_hand() const;
+  OperatorStatus operator_status() const;
   void show(bool with_status);
 
   SessionState& state_;
   Publisher& shown_;
   std::atomic<double> frame_interval_ = 1.0 / 60;  // [s]
   long notes_ = 0;
-  Clock::time_point shown_input_came_{};  // the newest input in a frame
+  Clock::time_point shown_input_came_{};  // of the newest input in a frame
   Clock::time_point last_status_{};
   std::shared_ptr<const std::vector<std::string>> rows_;
 };

@@ -14,18 +14,18 @@ namespace {
 
 constexpr std::uint32_t kFrame = 0x31465754, kHistory = 0x31485754;  // "TWF1", "TWH1"
 constexpr std::uint16_t kNoBody = 65535;
-constexpr std::size_t kPlace = 7;     // numbers of a body's place
-constexpr double kMaxDistance = 1e9;  // [m]: a run that flies apart
+constexpr std::size_t kPose = 7;      // numbers of a pose
+constexpr double kMaxDistance = 1e9;  // [m]
 
 class Block {
  public:
-  template <class T>
-  void put(T value) {
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
+  template <class... Values>
+  void put(Values... values) {
+    (bytes_.append(reinterpret_cast<const char*>(&values), sizeof values), ...);
   }
-  template <class Values>
-  void put_all(const Values& values) {
-    append_array(bytes_, values.data(), values.size() * sizeof(*values.data()));
+  template <class... Values>
+  void put_all(const Values&... values) {  // in this order
+    (append_array(bytes_, values.data(), values.size() * sizeof(*values.data())), ...);
   }
   void reserve(std::size_t size) { bytes_.reserve(size); }
   std::string take() { return std::move(bytes_); }
@@ -72,14 +72,15 @@ void FrameColumns::add(const Label& label) {
   text_end.push_back(count_of(text.size()));
 }
 
-void put_places(const std::vector<Pose>& X_WL, std::size_t first, std::size_t end,
-                std::vector<float>& places) {
+void put_poses(const std::vector<Pose>& X_WL, std::size_t first, std::size_t end,
+               std::vector<float>& poses) {
   for (std::size_t i = first; i < end; ++i) {
-    const Eigen::Quaterniond turn(X_WL[i].R);
+    const Eigen::Quaterniond rotation(X_WL[i].R);
     const Vector3& p = X_WL[i].p;
-    std::size_t at = kPlace * i;
-    for (const double value : {p.x(), p.y(), p.z(), turn.x(), turn.y(), turn.z(), turn.w()})
-      places[at++] = static_cast<float>(value);
+    std::size_t at = kPose * i;
+    for (const double value :
+         {p.x(), p.y(), p.z(), rotation.x(), rotation.y(), rotation.z(), rotation.w()})
+      poses[at++] = static_cast<float>(value);
   }
 }
 
@@ -88,37 +89,18 @@ std::string frame_bytes(const FrameColumns& frame) {
   block.reserve(256 + 8 * (frame.channels.size() + frame.works.size()) + 48 * frame.body.size() +
                 20 * frame.text_end.size() + frame.text.size() + 8 * frame.first.size() +
                 8 * frame.link.size());
-  block.put(kFrame);
-  block.put(frame.scene);
-  block.put(frame.time);
-  block.put(frame.stamp);
-  block.put(frame.age);
-  block.put(frame.step);
-  block.put(frame.number);
-  block.put(frame.flags);
+  block.put(kFrame, frame.scene, frame.time, frame.stamp, frame.age, frame.step, frame.number,
+            frame.flags);
   for (const std::size_t count :
        {frame.channels.size(), frame.works.size(), frame.first.size() - 1, frame.body.size(),
-        frame.text_end.size(), frame.text.size(), frame.link.size() / kPlace, std::size_t{0}})
+        frame.text_end.size(), frame.text.size(), frame.link.size() / kPose, std::size_t{0}})
     block.put(count_of(count));
-  block.put_all(frame.channels);
-  block.put_all(frame.works);
-  block.put_all(frame.link);
-  block.put_all(frame.twin);
-  block.put_all(frame.instances.position);
-  block.put_all(frame.instances.scale);
-  block.put_all(frame.instances.turn);
-  block.put_all(frame.labels.position);
-  block.put_all(frame.labels.offset);
-  block.put_all(frame.text_end);
-  block.put_all(frame.first);
-  block.put_all(frame.first_label);
-  block.put_all(frame.instances.mesh);
-  block.put_all(frame.body);
-  block.put_all(frame.instances.color);
-  block.put_all(frame.instances.flags);
-  block.put_all(frame.instances.shininess);
-  block.put_all(frame.instances.texture);
-  block.put_all(frame.text);
+  const InstanceColumns& instances = frame.instances;
+  block.put_all(frame.channels, frame.works, frame.link, frame.target, instances.position,
+                instances.scale, instances.turn, frame.labels.position, frame.labels.offset,
+                frame.text_end, frame.first, frame.first_label, instances.mesh, frame.body,
+                instances.color, instances.flags, instances.shininess, instances.texture,
+                frame.text);
   return block.take();
 }
 
@@ -129,23 +111,21 @@ std::string history_bytes(const HistoryColumns& history) {
   for (const std::uint32_t number : {history.scene, count_of(history.time.size()),
                                      history.channel_count, history.row_count, std::uint32_t{0}})
     block.put(number);
-  block.put_all(history.time);
-  block.put_all(history.channels);
-  block.put_all(history.works);
+  block.put_all(history.time, history.channels, history.works);
   return block.take();
 }
 
 namespace {
 
-constexpr double kRoom = 1.25;  // from one lane to the next, over the width of the scene
+constexpr double kSpacing = 1.25;  // offset of variants over the width of the scene
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-double energy_of(const Snapshot& moment) {
-  return moment.kinetic + moment.potential + moment.elastic;
+double energy_of(const Snapshot& snapshot) {
+  return snapshot.kinetic + snapshot.potential + snapshot.elastic;
 }
 
-// What the method has made or lost since the ledger began; without a ledger unknown.
-double numerical_work(const LabFrame& frame, const std::vector<std::string>& rows) {
+// Residual of the energy balance; NaN without a balance.
+double residual_of(const LabFrame& frame, const std::vector<std::string>& rows) {
   const RecordedFrame& recorded = frame.recorded;
   for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
     if (recorded.rows[i] < rows.size() && rows[recorded.rows[i]] == kNumericalRow)
@@ -155,9 +135,9 @@ double numerical_work(const LabFrame& frame, const std::vector<std::string>& row
 
 }  // namespace
 
-VariantViews::VariantViews(ViewVariants lanes, const SimulateInput& input, LabChannels& channels)
-    : set_(std::move(lanes.set)) {
-  change(std::move(lanes.plans));
+VariantViews::VariantViews(ViewVariants variants, const SimulateInput& input, LabChannels& channels)
+    : set_(std::move(variants.set)) {
+  change(std::move(variants.plans));
   if (set_.empty()) return;
   const Coordinates& coordinates = input.robot.coordinates;
   for (const NamedJoint& joint : coordinates.all())
@@ -177,65 +157,68 @@ VariantViews::VariantViews(ViewVariants lanes, const SimulateInput& input, LabCh
 }
 
 void VariantViews::change(std::vector<std::shared_ptr<const SimulatePlan>> plans) {
-  moments_.resize(plans.size());
+  snapshots_.resize(plans.size());
   for (std::size_t i = 0; i < plans.size(); ++i) {
-    if (moments_[i])
-      moments_[i]->change(*plans[i]);
+    if (snapshots_[i])
+      snapshots_[i]->change(*plans[i]);
     else
-      moments_[i] = std::make_unique<LabMoments>(*plans[i]);
+      snapshots_[i] = std::make_unique<LabSnapshots>(*plans[i]);
   }
-  plans_ = std::move(plans);  // the old ones go when nothing looks at them any more
+  plans_ = std::move(plans);  // last: until here the old ones are referred to
 }
 
-// Along the narrower side, where nobody says otherwise.
+// By default along the narrower side.
 void VariantViews::place(const Extent& start, Extent& extent) {
   if (set_.empty() || start.empty()) return;
   const Vector3 size = extent.high() - extent.low();
   const int axis = size.x() < size.y() ? 0 : 1;
-  apart_ = set_.apart.value_or(kRoom * size[axis] * Vector3::Unit(axis));
+  apart_ = set_.apart.value_or(kSpacing * size[axis] * Vector3::Unit(axis));
   above_ = Vector3(extent.center().x(), extent.center().y(), start.high().z());
   const std::vector<Vector3> points = extent.points();
-  for (std::size_t lane = 1; lane < set_.values.size(); ++lane)
-    for (const Vector3& p : points) extent.add(p + static_cast<double>(lane) * apart_);
+  for (std::size_t variant = 1; variant < set_.values.size(); ++variant)
+    for (const Vector3& p : points) extent.add(p + static_cast<double>(variant) * apart_);
 }
 
 void VariantViews::look(const LabFrame& frame) {
   seen_.clear();
-  for (std::size_t i = 0; i < std::min(moments_.size(), frame.lanes.size()); ++i)
-    seen_.push_back({moments_[i]->of(*frame.lanes[i].frame), frame.lanes[i]});
+  for (std::size_t i = 0; i < std::min(snapshots_.size(), frame.variants.size()); ++i)
+    seen_.push_back({snapshots_[i]->of(*frame.variants[i].frame), frame.variants[i]});
 }
 
-void VariantViews::show(const LabFrame* before, Snapshot& moment) const {
-  for (std::size_t lane = 0; lane < (set_.empty() ? 0 : seen_.size() + 1); ++lane) {
+void VariantViews::show(const LabFrame* before, Snapshot& snapshot) const {
+  for (std::size_t variant = 0; variant < (set_.empty() ? 0 : seen_.size() + 1); ++variant) {
     ShownVariant shown;
-    shown.name = set_.values[lane];
-    shown.offset_W = static_cast<double>(lane) * apart_;
+    shown.name = set_.values[variant];
+    shown.offset_W = static_cast<double>(variant) * apart_;
     shown.above_W = above_ + shown.offset_W;
-    if (lane > 0) {
-      const Seen& seen = seen_[lane - 1];
-      shown.X_WL = seen.moment.k.X_WL;
-      if (before && lane - 1 < before->lanes.size())
-        shown.before = moments_[lane - 1]->places(*before->lanes[lane - 1].frame);
+    if (variant > 0) {
+      const Seen& seen = seen_[variant - 1];
+      shown.X_WL = seen.snapshot.k.X_WL;
+      if (before && variant - 1 < before->variants.size())
+        shown.before = snapshots_[variant - 1]->poses(*before->variants[variant - 1].frame);
       if (seen.frame.stopped)
         shown.name += fmt::format(": stopped at {:.4g} s", seen.frame.frame->recorded.t);
     }
-    moment.lanes.push_back(std::move(shown));
+    snapshot.lanes.push_back(std::move(shown));
   }
 }
 
 void VariantViews::values(const LabFrame& frame, const Snapshot& run,
                           const std::vector<std::string>& rows, std::vector<double>& values) const {
   std::size_t at = first_channel_;
-  for (std::size_t lane = 0; lane < set_.values.size(); ++lane) {
-    const bool is_known = lane == 0 || (lane <= seen_.size() && !seen_[lane - 1].frame.stopped);
-    const Snapshot* moment = lane == 0 ? &run : is_known ? &seen_[lane - 1].moment : nullptr;
+  for (std::size_t variant = 0; variant < set_.values.size(); ++variant) {
+    const bool is_known =
+        variant == 0 || (variant <= seen_.size() && !seen_[variant - 1].frame.stopped);
+    const Snapshot* snapshot = variant == 0 ? &run
+                               : is_known   ? &seen_[variant - 1].snapshot
+                                            : nullptr;
     for (const NamedJoint& joint : joints_)
-      values[at++] = moment ? coordinates_of(joint, moment->x).front() : kNone;
-    values[at++] = moment ? energy_of(*moment) : kNone;
-    const LabFrame* own = lane == 0  ? &frame
-                          : is_known ? seen_[lane - 1].frame.frame.get()
-                                     : nullptr;
-    values[at++] = own ? numerical_work(*own, rows) : kNone;
+      values[at++] = snapshot ? coordinates_of(joint, snapshot->x).front() : kNone;
+    values[at++] = snapshot ? energy_of(*snapshot) : kNone;
+    const LabFrame* own = variant == 0 ? &frame
+                          : is_known   ? seen_[variant - 1].frame.frame.get()
+                                       : nullptr;
+    values[at++] = own ? residual_of(*own, rows) : kNone;
   }
 }
 

@@ -1,4 +1,4 @@
-// One frame of the run in bytes, and what plots need of many (docs/reference/lab_protocol.md).
+// Binary frames and history of the run (docs/reference/lab_protocol.md).
 #pragma once
 
 #include <cstdint>
@@ -13,14 +13,14 @@
 
 namespace twinarm {
 
-// Kept from frame to frame: nothing is allocated once it is as large as it gets.
+// Reused for all frames, so that nothing is allocated at its full size.
 struct FrameColumns {
   std::uint32_t scene = 0, number = 0, flags = 0;
   double time = 0, stamp = 0, age = 0;  // [s]
   std::uint64_t step = 0;
   std::vector<double> channels, works;
-  // By body: x y z, and the turn as a quaternion x y z w. Not finite: it has none.
-  std::vector<float> link, twin;
+  // Poses by body: x y z and the quaternion x y z w; NaN: none.
+  std::vector<float> link, target;
   InstanceColumns instances;
   std::vector<std::uint16_t> body;
   LabelColumns labels;
@@ -28,16 +28,15 @@ struct FrameColumns {
   std::string text;
   std::vector<std::uint32_t> first{0}, first_label{0};  // by layer
   void clear_entries();
-  // Closes a layer: what was added since the one before is in it.
-  void end_layer();
-  // Left out where a browser could do nothing with it.
+  void end_layer();  // what was added since the last call is in it
+  // Instances and labels that are not finite or too far away are left out.
   void add(const Instance& instance);
   void add(const Label& label);
 };
 
-// Where bodies stand; those without a place (a kinematic robot has but its own) are NaN.
-void put_places(const std::vector<Pose>& X_WL, std::size_t first, std::size_t end,
-                std::vector<float>& places);
+// Poses [first, end) as in FrameColumns::link.
+void put_poses(const std::vector<Pose>& X_WL, std::size_t first, std::size_t end,
+               std::vector<float>& poses);
 
 std::string frame_bytes(const FrameColumns& frame);
 
@@ -47,39 +46,38 @@ struct HistoryColumns {
 };
 std::string history_bytes(const HistoryColumns& history);
 
-// The lanes of a run (app/lab/run/variants.h) as they are seen: their bodies beside those of the
-// run, and of each its joints and energies as channels.
+// Variants of the run (app/lab/run/variants.h) as shown: bodies beside those of the run; joint
+// positions and energies as channels.
 struct ViewVariants {
   VariantSet set;
-  std::vector<std::shared_ptr<const SimulatePlan>> plans;  // from the second lane on
+  std::vector<std::shared_ptr<const SimulatePlan>> plans;  // from the second variant on
 };
 
 class VariantViews {
  public:
-  // Adds its channels; all that it says of the run itself is the lane's too.
-  VariantViews(ViewVariants lanes, const SimulateInput& input, LabChannels& channels);
+  // Adds its channels; `input`: of the run.
+  VariantViews(ViewVariants variants, const SimulateInput& input, LabChannels& channels);
   void change(std::vector<std::shared_ptr<const SimulatePlan>> plans);
-  // Where they stand, by what is of interest of the run, to which it adds them; their names, above
-  // what is there at the start.
+  // Chooses their offsets, and label positions above `start`; adds them to the run's extent.
   void place(const Extent& start, Extent& extent);
 
-  // As they were in that frame of the run.
+  // Takes their states of a frame of the run.
   void look(const LabFrame& frame);
-  // What was looked at; `before`: of the branch that was left, or null.
-  void show(const LabFrame* before, Snapshot& moment) const;
-  // `run`: the first lane's; `rows`: names of the ledger's.
+  // Adds them to the snapshot; `before`: frame of the run that the branch left, or null.
+  void show(const LabFrame* before, Snapshot& snapshot) const;
+  // Channel values; `run`: snapshot of the first variant; `rows`: names of the energy balance.
   void values(const LabFrame& frame, const Snapshot& run, const std::vector<std::string>& rows,
               std::vector<double>& values) const;
 
  private:
   struct Seen {
-    Snapshot moment;
+    Snapshot snapshot;
     VariantFrame frame;
   };
 
   VariantSet set_;
   std::vector<std::shared_ptr<const SimulatePlan>> plans_;
-  std::vector<std::unique_ptr<LabMoments>> moments_;
+  std::vector<std::unique_ptr<LabSnapshots>> snapshots_;
   std::vector<NamedJoint> joints_;
   std::size_t first_channel_ = 0;
   Vector3 apart_ = Vector3::Zero(), above_ = Vector3::Zero();

@@ -5,207 +5,155 @@
 #include <limits>
 
 #include "app/draw/overlays/overlays.h"
-#include "app/lab/stream/frame_bytes.h"
-#include "app/lab/stream/lab_snapshot.h"
 #include "app/lab/stream/live_view.h"
-#include "app/lab/stream/scene_message.h"
 
 namespace twinarm {
 namespace {
 
 bool is_finite(const State<double>& x) {
   const auto finite = [](double value) { return std::abs(value) < 1e12; };
-  return std::all_of(x.q.begin(), x.q.end(), finite) &&
-         std::all_of(x.qd.begin(), x.qd.end(), finite);
+  return std::ranges::all_of(x.q, finite) && std::ranges::all_of(x.qd, finite);
 }
 
 }  // namespace
 
-struct LabView::Impl {
-  Impl(std::uint32_t number, std::shared_ptr<const SimulatePlan> of, const RecordingHeader& header,
-       SceneWords said, ViewVariants beside)
-      : plan(std::move(of)),
-        words(std::move(said)),
-        moments(*plan),
-        stage(plan->input.scene ? make_stage(*plan->input.scene)
-                                : make_stage(plan->input.robot.robot, plan->input.robot.model)),
-        channels(plan->input, header, moments.pulls()),
-        lanes(std::move(beside), plan->input, channels) {
-    columns.scene = number;
-    legends.resize(layer_names().size());
-    const Snapshot start = moments.at_start();
-    look_around(stage, plan->input.robot, start);
-    lanes.place(stage.instants.front(), stage.extent);
-    set_live_view(stage, start, moments.follows_device());
-    store.take(stage.list);
-  }
+LabView::LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
+                 const RecordingHeader& header, SceneWords words, ViewVariants variants)
+    : plan_(std::move(plan)),
+      words_(std::move(words)),
+      snapshots_(*plan_),
+      stage_(plan_->input.scene ? make_stage(*plan_->input.scene)
+                                : make_stage(plan_->input.robot.robot, plan_->input.robot.model)),
+      channels_(plan_->input, header, snapshots_.components()),
+      variants_(std::move(variants), plan_->input, channels_) {
+  columns_.scene = number;
+  legends_.resize(layer_names().size());
+  const Snapshot start = snapshots_.at_start();
+  extend_by_reach(stage_, plan_->input.robot, start);
+  variants_.place(stage_.instants.front(), stage_.extent);
+  const bool follows_device = std::ranges::any_of(
+      snapshots_.components(),
+      [](const SceneCoupling& c) { return c.target == CouplingTarget::Kind::device; });
+  set_live_view(stage_, start, follows_device);
+  store_.take(stage_.list);
+}
 
-  void draw_layers(const Snapshot& moment, const std::vector<std::string>& wanted);
-  void take_legend(std::size_t layer, const Drawn& from, std::size_t end);
-  void take_values(const LabFrame& frame, const Snapshot& moment);
-  void take_places(const Snapshot& moment);
-
-  std::shared_ptr<const SimulatePlan> plan;
-  SceneWords words;
-  LabMoments moments;
-  SceneView stage;
-  LabChannels channels;
-  VariantViews lanes;
-  MeshStore store;
-  std::vector<std::string> rows;
-  std::vector<std::vector<LegendLine>> legends;  // by layer
-  FrameColumns columns;
-  std::uint64_t revision = 1;
-};
-
-void LabView::Impl::take_legend(std::size_t layer, const Drawn& from, std::size_t end) {
+void LabView::take_legend(std::size_t layer, const Drawn& from, std::size_t end) {
   for (std::size_t i = from.legend; i < end; ++i) {
-    const LegendLine& line = stage.list.legend[i];
-    std::vector<LegendLine>& known = legends[layer];
-    const auto same = std::find_if(known.begin(), known.end(), [&](const LegendLine& other) {
-      return other.text == line.text;
-    });
+    const LegendLine& line = stage_.list.legend[i];
+    std::vector<LegendLine>& known = legends_[layer];
+    const auto same = std::ranges::find(known, line.text, &LegendLine::text);
     if (same != known.end() && same->value == line.value) continue;
     if (same == known.end())
       known.push_back(line);
     else
       *same = line;
-    ++revision;
+    ++revision_;
   }
 }
 
-// Layers in their own order, each of which closes in the columns, drawn or not.
-void LabView::Impl::draw_layers(const Snapshot& moment, const std::vector<std::string>& wanted) {
-  const DrawList& list = stage.list;
-  std::vector<Drawn> drawn = draw(stage, moment, wanted);
+// Each layer ends in the columns, drawn or not.
+void LabView::draw_layers(const Snapshot& snapshot, const std::vector<std::string>& wanted) {
+  const DrawList& list = stage_.list;
+  std::vector<Drawn> drawn = draw(stage_, snapshot, wanted);
   drawn.push_back({nullptr, list.instances.size(), list.labels.size(), list.legend.size()});
-  columns.clear_entries();
+  columns_.clear_entries();
   std::size_t next = 0;
-  for (std::size_t layer = 0; layer < legends.size(); ++layer) {
+  for (std::size_t layer = 0; layer < legends_.size(); ++layer) {
     const bool is_drawn =
         next + 1 < drawn.size() &&
         (layer == 0 ? !drawn[next].overlay
                     : drawn[next].overlay && layer_names()[layer] == drawn[next].overlay->name);
     if (is_drawn) {
       const Drawn &from = drawn[next], &to = drawn[next + 1];
-      for (std::size_t i = from.instance; i < to.instance; ++i) columns.add(list.instances[i]);
-      for (std::size_t i = from.label; i < to.label; ++i) columns.add(list.labels[i]);
+      for (std::size_t i = from.instance; i < to.instance; ++i) columns_.add(list.instances[i]);
+      for (std::size_t i = from.label; i < to.label; ++i) columns_.add(list.labels[i]);
       take_legend(layer, from, to.legend);
       ++next;
     }
-    columns.end_layer();
+    columns_.end_layer();
   }
 }
 
-void LabView::Impl::take_values(const LabFrame& frame, const Snapshot& moment) {
-  if (channels.add_pairs(frame)) ++revision;
-  channels.values(frame, moment, moments.couplings(), columns.channels);
-  lanes.values(frame, moment, rows, columns.channels);
-  columns.works = works_by_row(frame.recorded, rows.size());
+void LabView::take_values(const LabFrame& frame, const Snapshot& snapshot) {
+  if (channels_.add_pairs(frame)) ++revision_;
+  channels_.values(frame, snapshot, snapshots_.couplings(), columns_.channels);
+  variants_.values(frame, snapshot, rows_, columns_.channels);
+  columns_.works = works_by_row(frame.recorded, rows_.size());
 }
 
-// Of all bodies, and of their kinematic twins.
-void LabView::Impl::take_places(const Snapshot& moment) {
-  const std::vector<Pose>& links = moment.k.X_WL;
-  columns.link.assign(7 * links.size(), std::numeric_limits<float>::quiet_NaN());
-  columns.twin = columns.link;
-  put_places(links, 0, links.size(), columns.link);
-  for (const ShownTargetRobot& twin : moment.twins) {
-    const auto [first, last] = plan->input.scene->bodies_of_robot(twin.robot);
-    put_places(twin.X_WL, static_cast<std::size_t>(first), static_cast<std::size_t>(last) + 1,
-               columns.twin);
+// Of all bodies, and of their target robots.
+void LabView::take_poses(const Snapshot& snapshot) {
+  const std::vector<Pose>& links = snapshot.k.X_WL;
+  columns_.link.assign(7 * links.size(), std::numeric_limits<float>::quiet_NaN());
+  columns_.target = columns_.link;
+  put_poses(links, 0, links.size(), columns_.link);
+  for (const ShownTargetRobot& target : snapshot.twins) {
+    const auto [first, last] = plan_->input.scene->bodies_of_robot(target.robot);
+    put_poses(target.X_WL, static_cast<std::size_t>(first), static_cast<std::size_t>(last) + 1,
+              columns_.target);
   }
 }
-
-LabView::LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
-                 const RecordingHeader& header, SceneWords words, ViewVariants lanes)
-    : impl_(std::make_unique<Impl>(number, std::move(plan), header, std::move(words),
-                                   std::move(lanes))) {}
-
-LabView::~LabView() = default;
 
 void LabView::change(std::shared_ptr<const SimulatePlan> plan,
-                     std::vector<std::shared_ptr<const SimulatePlan>> lanes) {
-  impl_->moments.change(*plan);
-  impl_->lanes.change(std::move(lanes));
+                     std::vector<std::shared_ptr<const SimulatePlan>> variants) {
+  snapshots_.change(*plan);
+  variants_.change(std::move(variants));
   const SceneModel* scene = plan->input.scene.get();
-  impl_->stage.scene = scene;
-  impl_->stage.model = scene ? &scene->model : &plan->input.robot.model;
-  impl_->plan = std::move(plan);  // the old one goes when nothing looks at it any more
+  stage_.scene = scene;
+  stage_.model = scene ? &scene->model : &plan->input.robot.model;
+  plan_ = std::move(plan);  // last: until here the old one is referred to
 }
 
 void LabView::name_rows(const std::vector<std::string>& rows) {
-  if (impl_->rows == rows) return;
-  impl_->rows = rows;
-  ++impl_->revision;
-}
-
-std::uint64_t LabView::revision() const {
-  return impl_->revision;
+  if (rows_ == rows) return;
+  rows_ = rows;
+  ++revision_;
 }
 
 std::string LabView::scene_message() const {
-  return twinarm::scene_message({impl_->columns.scene, *impl_->plan, impl_->words, impl_->moments,
-                                 impl_->stage, impl_->store, impl_->legends, impl_->channels.all(),
-                                 impl_->rows});
-}
-
-std::shared_ptr<const std::string> LabView::mesh(const std::string& hash) const {
-  return impl_->store.mesh(hash);
-}
-
-std::shared_ptr<const std::string> LabView::texture(const std::string& hash) const {
-  return impl_->store.texture(hash);
+  return twinarm::scene_message({columns_.scene, *plan_, words_, snapshots_, stage_, store_,
+                                 legends_, channels_.all(), rows_});
 }
 
 std::string LabView::frame(const LabFrame& now, const LabFrame* before,
                            const std::vector<std::string>& layers, const FrameFacts& facts) {
-  Snapshot moment = impl_->moments.of(now);
-  if (before) moment.before = impl_->moments.places(*before);
-  impl_->lanes.look(now);
-  impl_->lanes.show(before, moment);
-  FrameColumns& columns = impl_->columns;
-  const bool is_whole = is_finite(moment.x);
-  if (is_whole && !facts.stopped) grow_scales(impl_->stage, moment);
-  if (is_whole && !facts.looked_back) leave_trail(impl_->stage, moment);
-  impl_->draw_layers(moment, is_whole ? layers : std::vector<std::string>{});
-  if (impl_->store.take(impl_->stage.list)) ++impl_->revision;
-  impl_->take_values(now, moment);
-  impl_->take_places(moment);
-  columns.number = facts.number;
-  columns.flags =
-      (facts.stands ? 1u : 0u) | (facts.looked_back ? 2u : 0u) | (facts.stopped ? 4u : 0u);
-  columns.time = now.recorded.t;
-  columns.stamp = now.input_stamp;
-  columns.age = facts.input_age;
-  columns.step = static_cast<std::uint64_t>(now.recorded.step);
-  return frame_bytes(columns);
-}
-
-const DrawList& LabView::drawn() const {
-  return impl_->stage.list;
+  Snapshot snapshot = snapshots_.of(now);
+  if (before) snapshot.before = snapshots_.poses(*before);
+  variants_.look(now);
+  variants_.show(before, snapshot);
+  const bool is_whole = is_finite(snapshot.x);
+  if (is_whole && !facts.stopped) grow_scales(stage_, snapshot);
+  if (is_whole && !facts.looked_back) extend_trails(stage_, snapshot);
+  draw_layers(snapshot, is_whole ? layers : std::vector<std::string>{});
+  if (store_.take(stage_.list)) ++revision_;
+  take_values(now, snapshot);
+  take_poses(snapshot);
+  columns_.number = facts.number;
+  columns_.flags =
+      (facts.paused ? 1u : 0u) | (facts.looked_back ? 2u : 0u) | (facts.stopped ? 4u : 0u);
+  columns_.time = now.recorded.t;
+  columns_.stamp = now.input_stamp;
+  columns_.age = facts.input_age;
+  columns_.step = static_cast<std::uint64_t>(now.recorded.step);
+  return frame_bytes(columns_);
 }
 
 std::string LabView::history(const std::vector<const LabFrame*>& frames) {
   for (const LabFrame* frame : frames)
-    if (impl_->channels.add_pairs(*frame)) ++impl_->revision;
-  FrameColumns& columns = impl_->columns;
+    if (channels_.add_pairs(*frame)) ++revision_;
   HistoryColumns all;
-  all.scene = columns.scene;
-  all.channel_count = static_cast<std::uint32_t>(impl_->channels.all().size());
-  all.row_count = static_cast<std::uint32_t>(impl_->rows.size());
+  all.scene = columns_.scene;
+  all.channel_count = static_cast<std::uint32_t>(channels_.all().size());
+  all.row_count = static_cast<std::uint32_t>(rows_.size());
   for (const LabFrame* frame : frames) {
-    impl_->lanes.look(*frame);
-    impl_->take_values(*frame, impl_->moments.of(*frame));
+    variants_.look(*frame);
+    take_values(*frame, snapshots_.of(*frame));
     all.time.push_back(frame->recorded.t);
-    all.channels.insert(all.channels.end(), columns.channels.begin(), columns.channels.end());
-    all.works.insert(all.works.end(), columns.works.begin(), columns.works.end());
+    all.channels.insert(all.channels.end(), columns_.channels.begin(), columns_.channels.end());
+    all.works.insert(all.works.end(), columns_.works.begin(), columns_.works.end());
   }
   return history_bytes(all);
-}
-
-const std::vector<std::string>& LabView::notes() const {
-  return impl_->stage.cast.notes;
 }
 
 }  // namespace twinarm

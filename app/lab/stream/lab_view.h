@@ -1,19 +1,17 @@
-// What pages see of a lab's run: frames to the bytes of docs/reference/lab_protocol.md.
+// Encodes frames of the run as in docs/reference/lab_protocol.md. Made once for a scene, used by
+// one thread. It needs its own plan (LabScene::plan(): a run changes the state in its plan) and has
+// its own couplings.
 //
-// Made once for a scene. Used by one thread, the painter; with the run it shares nothing that
-// changes: it has couplings of its own, and leads their kinematic side by what a frame says.
-// The plan is to be one of its own, of LabScene::plan(): a run changes the state in its plan.
+// Meshes, channels, rows of the energy balance and legends may be added during a run, always at the
+// end: a frame can be read with an older `scene` message, and revision() tells when a newer one is
+// needed.
 //
-// Meshes, channels, rows of the ledger and legends may come up during a run. They are only ever
-// added at the end, so a frame can be read with an older `scene` message; revision() says when a
-// newer one is to be sent.
+// The view shows the start and the reach of the robots. Scales of arrows begin at weights and grow
+// in round steps (1, 2, 5), at most one step per frame, so that a few frames of a diverging run do
+// not make all later arrows small.
 //
-// There is no whole run to look ahead at. The view is of the start and of what robots can reach.
-// Scales of arrows begin at weights and only grow, in round steps (1, 2, 5), by one step a frame at
-// most: a run that explodes for two frames does not make all that comes after it small.
-//
-// Cost of a frame: kinematics, the overlays that are asked for, and one copy of it all (measured:
-// app/lab/README.md). Not finite states make no instances and no labels; nothing throws for them.
+// Cost of a frame: kinematics, the requested overlays, and one copy (measured: app/lab/README.md).
+// States that are not finite give no instances and no labels, and no exception.
 #pragma once
 
 #include <cstdint>
@@ -24,55 +22,61 @@
 #include "app/lab/run/history.h"
 #include "app/lab/session/scene_builder_thread.h"
 #include "app/lab/stream/frame_bytes.h"
+#include "app/lab/stream/scene_message.h"
 #include "app/run/simulate_input.h"
 
 namespace twinarm {
 
-class DrawList;
-
-// What the session knows of a frame that the frame does not say.
+// Of a frame, known by the session.
 struct FrameFacts {
   std::uint32_t number = 0;  // counts up
-  bool stands = false, looked_back = false, stopped = false;
-  double input_age = 0;  // from when its newest input came until now [s]
+  // looked_back: an earlier instant is shown; stopped: the run has diverged
+  bool paused = false, looked_back = false, stopped = false;
+  double input_age = 0;  // since the arrival of the newest input [s]
 };
 
 class LabView {
  public:
-  // `number`: of the scene, in its message and in all frames. `header`: of a recording of the run
-  // (header_of()). Of the plan only what no run changes is read. Throws InputError: a mesh of a
-  // body that cannot be read.
+  // `number`: of the scene, in its message and in all frames. `header`: of a recording of the run.
+  // Throws InputError: a mesh that cannot be read.
   LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
-          const RecordingHeader& header, SceneWords words, ViewVariants lanes = {});
-  ~LabView();
+          const RecordingHeader& header, SceneWords words, ViewVariants variants = {});
 
-  // The same bodies, couplings and lanes with other numbers. Throws InputError.
+  // The same bodies, couplings and variants with other values. Throws InputError.
   void change(std::shared_ptr<const SimulatePlan> plan,
-              std::vector<std::shared_ptr<const SimulatePlan>> lanes = {});
-  // Names of the ledger's rows, by the numbers that frames have for them; as many as there are yet.
+              std::vector<std::shared_ptr<const SimulatePlan>> variants = {});
+  // Names of the rows of the energy balance, by the numbers in frames.
   void name_rows(const std::vector<std::string>& rows);
 
-  // Counts up when scene_message() has more to say than it had.
-  std::uint64_t revision() const;
+  // Increases when scene_message() has new content.
+  std::uint64_t revision() const { return revision_; }
   std::string scene_message() const;
-  // By the names in the message, as GET /mesh/HASH and /texture/HASH answer; null: there is none.
-  std::shared_ptr<const std::string> mesh(const std::string& hash) const;
-  std::shared_ptr<const std::string> texture(const std::string& hash) const;
+  const MeshStore& store() const { return store_; }
 
-  // `layers`: names of those that anybody wants; all others are empty, those of other names
-  // ignored. `before`: of the branch that was left, at the same time; may be null.
+  // `layers`: names of the requested ones; all others are empty, unknown names are ignored.
+  // `before`: frame of the run that the branch left, at the same time; may be null.
   std::string frame(const LabFrame& now, const LabFrame* before,
                     const std::vector<std::string>& layers, const FrameFacts& facts);
-  // What was drawn for the last frame: for the program's own painter.
-  const DrawList& drawn() const;
-  // In the order of time.
-  std::string history(const std::vector<const LabFrame*>& frames);
-
-  const std::vector<std::string>& notes() const;  // what stands in for something else
+  const DrawList& drawn() const { return stage_.list; }             // of the last frame
+  std::string history(const std::vector<const LabFrame*>& frames);  // in the order of time
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void draw_layers(const Snapshot& snapshot, const std::vector<std::string>& wanted);
+  void take_legend(std::size_t layer, const Drawn& from, std::size_t end);
+  void take_values(const LabFrame& frame, const Snapshot& snapshot);
+  void take_poses(const Snapshot& snapshot);
+
+  std::shared_ptr<const SimulatePlan> plan_;
+  SceneWords words_;
+  LabSnapshots snapshots_;
+  SceneView stage_;
+  LabChannels channels_;
+  VariantViews variants_;
+  MeshStore store_;
+  std::vector<std::string> rows_;
+  std::vector<std::vector<LegendLine>> legends_;  // by layer
+  FrameColumns columns_;
+  std::uint64_t revision_ = 1;
 };
 
 }  // namespace twinarm

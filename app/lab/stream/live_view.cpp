@@ -13,7 +13,7 @@ namespace twinarm {
 namespace {
 
 constexpr double kAspect = 1.35;  // as in a replay page
-constexpr int kPostures = 64;
+constexpr int kPoses = 64;
 constexpr double kTrail = 10, kTrailStep = kTrail / 160;  // [s]; 160 pieces
 constexpr std::size_t kTrailPoints = 9600;                // ten minutes
 
@@ -27,8 +27,7 @@ std::vector<JointRange> ranges_of(const RobotInput& robots) {
   for (const NamedJoint& joint : robots.coordinates.all()) {
     if (joint.components().size() != 1) continue;
     const auto& joints = robots.robot.joints;
-    const auto found = std::find_if(joints.begin(), joints.end(),
-                                    [&](const auto& j) { return j.name == joint.name; });
+    const auto found = std::ranges::find(joints, joint.name, &JointDescription::name);
     const bool has_limits = found != joints.end() && found->is_limited() &&
                             std::isfinite(found->lower) && std::isfinite(found->upper);
     if (has_limits)
@@ -39,9 +38,9 @@ std::vector<JointRange> ranges_of(const RobotInput& robots) {
   return ranges;
 }
 
-// The n-th number of van der Corput's sequence: the digits of n in that base, mirrored at the
+// n-th number of the van der Corput sequence: digits of n in that base, mirrored at the radix
 // point.
-double mirrored(int n, int base) {
+double van_der_corput(int n, int base) {
   double value = 0, digit = 1;
   for (; n > 0; n /= base) {
     digit /= base;
@@ -59,20 +58,20 @@ void add_reach(SceneView& stage, const RobotInput& robots, const Snapshot& start
   std::erase_if(moved.parts, [](const ScenePart& part) { return part.robot < 0; });
   Extent now;
   now.add(moved, start);
-  const bool stands =
+  const bool is_on_ground =
       !now.empty() && now.low().z() > -0.02 * now.radius() && now.low().z() < 0.05 * now.radius();
-  const double lowest = stands ? std::min(0.0, now.low().z()) : -1e300;
-  Snapshot posture(*stage.model);
-  posture.x = start.x;
-  for (int n = 1; n <= kPostures; ++n) {
+  const double lowest = is_on_ground ? std::min(0.0, now.low().z()) : -1e300;
+  Snapshot pose(*stage.model);
+  pose.x = start.x;
+  for (int n = 1; n <= kPoses; ++n) {
     for (std::size_t j = 0; j < ranges.size(); ++j) {
-      const double share = mirrored(n, kPrimes[j % kPrimes.size()]);
-      posture.x.q[ranges[j].iq] = ranges[j].low + share * (ranges[j].high - ranges[j].low);
+      const double share = van_der_corput(n, kPrimes[j % kPrimes.size()]);
+      pose.x.q[ranges[j].iq] = ranges[j].low + share * (ranges[j].high - ranges[j].low);
     }
-    apply_mimics(*stage.model, posture.x);
-    forward_kinematics(*stage.model, posture.x, posture.k);
+    apply_mimics(*stage.model, pose.x);
+    forward_kinematics(*stage.model, pose.x, pose.k);
     Extent reached;
-    reached.add(moved, posture);
+    reached.add(moved, pose);
     for (Vector3 p : reached.points()) {
       p.z() = std::max(p.z(), lowest);
       stage.extent.add(p);
@@ -80,7 +79,7 @@ void add_reach(SceneView& stage, const RobotInput& robots, const Snapshot& start
   }
 }
 
-// The smallest of 1, 2, 5 times a power of ten that is not below; the value itself where it is one.
+// Smallest 1, 2 or 5 times a power of ten that is not below the value.
 double round_up(double value) {
   if (!(value > 0) || !std::isfinite(value)) return 0;
   double round = round_down(value);
@@ -88,7 +87,7 @@ double round_up(double value) {
   return round;
 }
 
-// Of a whole that starts with weights alone.
+// From the weights at the start.
 void set_first_scales(SceneView& stage, const Snapshot& start) {
   Scales& scales = stage.scales;
   const double g = to_eigen(stage.model->gravity).norm(), length = scales.length;
@@ -96,7 +95,7 @@ void set_first_scales(SceneView& stage, const Snapshot& start) {
   for (std::size_t i = 1; i < stage.model->parent.size(); ++i)
     heaviest = std::max(heaviest, stage.model->I[i].m);
   const double mass = total_motion(*stage.model, start.k).mass;
-  const double speed = 0.2 * length;  // slow: a fifth of the scene in a second
+  const double speed = 0.2 * length;  // a fifth of the scene per second
   scales.contact_force = round_up(heaviest * g);
   scales.force = round_up(heaviest * g);
   scales.couple = round_up(0.1 * heaviest * g * length);
@@ -107,56 +106,56 @@ void set_first_scales(SceneView& stage, const Snapshot& start) {
 
 }  // namespace
 
-void look_around(SceneView& stage, const RobotInput& robots, const Snapshot& start) {
+void extend_by_reach(SceneView& stage, const RobotInput& robots, const Snapshot& start) {
   look_at(stage, start);
   settle(stage);
   stage.farthest = 1e300;
   add_reach(stage, robots, start);
 }
 
-void set_live_view(SceneView& stage, const Snapshot& start, bool has_hand) {
-  stage.has_hand = true;  // one may come
-  stage.frames_device = has_hand;
+void set_live_view(SceneView& stage, const Snapshot& start, bool has_device) {
+  stage.has_hand = true;  // a device may be chosen later
+  stage.frames_device = has_device;
   set_view(stage, {}, kAspect);
   stage.trace.span = kTrail;
   set_first_scales(stage, start);
 }
 
-bool grow_scales(SceneView& stage, const Snapshot& moment) {
+bool grow_scales(SceneView& stage, const Snapshot& snapshot) {
   Scales seen;
-  seen.widen_run(*stage.model, moment);
-  seen.widen_contacts(moment);
-  if (moment.grip) seen.force = std::max(seen.force, moment.grip->force_W.norm());
+  seen.widen_run(*stage.model, snapshot);
+  seen.widen_contacts(snapshot);
+  if (snapshot.grip) seen.force = std::max(seen.force, snapshot.grip->force_W.norm());
   bool any = false;
-  for (double Scales::*most :
+  for (double Scales::*scale_of :
        {&Scales::contact_force, &Scales::force, &Scales::couple, &Scales::momentum,
         &Scales::angular, &Scales::kinetic, &Scales::elastic}) {
-    double& scale = stage.scales.*most;
-    if (!(seen.*most > scale) || !std::isfinite(seen.*most)) continue;
-    scale = scale > 0 ? round_up(1.5 * scale) : round_up(seen.*most);
+    double& scale = stage.scales.*scale_of;
+    if (!(seen.*scale_of > scale) || !std::isfinite(seen.*scale_of)) continue;
+    scale = scale > 0 ? round_up(1.5 * scale) : round_up(seen.*scale_of);
     any = true;
   }
   seen.kinetic = seen.elastic = seen.contact_force = seen.force = seen.couple = 0;
   seen.momentum = seen.angular = 0;
-  stage.scales.widen(seen);  // potential energies: for bars
+  stage.scales.widen(seen);  // potential energies, for the bars
   return any;
 }
 
-void leave_trail(SceneView& stage, const Snapshot& moment) {
+void extend_trails(SceneView& stage, const Snapshot& snapshot) {
   Trace& trace = stage.trace;
-  const double t = moment.x.t;
+  const double t = snapshot.x.t;
   if (!std::isfinite(t)) return;
   while (!trace.t.empty() && trace.t.back() > t + 1e-9) {
     trace.t.pop_back();
     trace.p_Wc.pop_back();
   }
   if (!trace.t.empty() && t < trace.t.back() + kTrailStep) return;
-  std::vector<Vector3> places(stage.model->parent.size(), Vector3::Zero());
-  for (std::size_t i = 1; i < places.size(); ++i) places[i] = com_of(*stage.model, moment.k, i);
+  std::vector<Vector3> p_Wc(stage.model->parent.size(), Vector3::Zero());
+  for (std::size_t i = 1; i < p_Wc.size(); ++i) p_Wc[i] = com_of(*stage.model, snapshot.k, i);
   trace.t.push_back(t);
-  trace.p_Wc.push_back(std::move(places));
+  trace.p_Wc.push_back(std::move(p_Wc));
   if (trace.t.size() <= kTrailPoints) return;
-  const auto old = static_cast<std::ptrdiff_t>(kTrailPoints / 10);  // seldom, for vectors move
+  const auto old = static_cast<std::ptrdiff_t>(kTrailPoints / 10);  // in blocks: erasing moves all
   trace.t.erase(trace.t.begin(), trace.t.begin() + old);
   trace.p_Wc.erase(trace.p_Wc.begin(), trace.p_Wc.begin() + old);
 }

@@ -1,4 +1,4 @@
-// The stage of a run whose end nobody knows: what is in view, and scales that grow with the run.
+// View of a run whose end is unknown: extent by the robots' reach, and scales that grow.
 #pragma once
 
 #include "app/draw/scene_view.h"
@@ -6,19 +6,18 @@
 
 namespace twinarm {
 
-// Of interest: what is at the start, and where the joints of robots can bring them: at 64 points of
-// the space of their joints (Halton's sequence; within limits, a turn where there are none). Of a
-// robot that stands on the ground what would be below counts as on it.
-void look_around(SceneView& stage, const RobotInput& robots, const Snapshot& start);
-// Of what is of interest: camera, ground, first scales and the place of the hand device, which is
-// in view too where `has_hand`.
-void set_live_view(SceneView& stage, const Snapshot& start, bool has_hand);
+// Extends the view by what is at the start and by the robots at 64 joint positions (Halton sequence
+// within the limits, one revolution where there are none). For a robot on the ground points below
+// count as on the ground.
+void extend_by_reach(SceneView& stage, const RobotInput& robots, const Snapshot& start);
+// Camera, ground, first scales, and the input device's place, which is in view if `has_device`.
+void set_live_view(SceneView& stage, const Snapshot& start, bool has_device);
 
-// What shows in a moment; each scale grows by one round step (1, 2, 5) at most. True: one did.
-bool grow_scales(SceneView& stage, const Snapshot& moment);
+// Scales for the snapshot; each grows at most one round step (1, 2, 5). True: one did.
+bool grow_scales(SceneView& stage, const Snapshot& snapshot);
 
-// Where bodies are, for trails: the last 10 s are drawn, ten minutes are kept. What lies later than
-// the moment is forgotten: a run that was taken up at an earlier time.
-void leave_trail(SceneView& stage, const Snapshot& moment);
+// Adds the bodies' centres of mass to the trails: the last 10 s are drawn, ten minutes are stored.
+// Removes points later than the snapshot.
+void extend_trails(SceneView& stage, const Snapshot& snapshot);
 
 }  // namespace twinarm

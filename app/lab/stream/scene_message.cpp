@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <utility>
 
 #include "app/draw/overlays/overlays.h"
@@ -37,7 +36,6 @@ void write_channels(JsonWriter& json, const std::vector<RunColumn>& channels) {
   });
 }
 
-// Whether forces move it, and whether it is a robot's link.
 void write_bodies(JsonWriter& json, const SimulatePlan& plan) {
   const Model<double>& model = plan.input.robot.model;
   const int links = plan.input.scene ? plan.input.scene->robot_bodies : model.body_count() - 1;
@@ -61,8 +59,7 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
     json.begin_object();
     json.members({{"name", joint.name}, {"body", joint.body}});
     const auto& all = robots.robot.joints;
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const auto& j) { return j.name == joint.name; });
+    const auto found = std::ranges::find(all, joint.name, &JointDescription::name);
     if (found != all.end() && found->is_limited()) {
       if (std::isfinite(found->lower)) json.key("low").number(found->lower);
       if (std::isfinite(found->upper)) json.key("high").number(found->upper);
@@ -75,6 +72,45 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
     json.end_object();
   }
   json.end_array();
+}
+
+template <class T>
+void append_values(std::string& bytes, const std::vector<T>& values) {
+  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+// u32 vertices, indices, flags (1: two-sided, 2: has uv), 0; then positions, normals, uv, indices.
+std::string mesh_bytes(const DrawMesh& mesh) {
+  const std::vector<std::uint32_t> head{static_cast<std::uint32_t>(mesh.positions.size()),
+                                        static_cast<std::uint32_t>(3 * mesh.triangles.size()),
+                                        (mesh.two_sided ? 1u : 0u) | (mesh.uv.empty() ? 0u : 2u),
+                                        0u};
+  std::string bytes;
+  append_values(bytes, head);
+  append_values(bytes, mesh.positions);
+  append_values(bytes, mesh.normals);
+  append_values(bytes, mesh.uv);
+  append_values(bytes, mesh.triangles);
+  return bytes;
+}
+
+// FNV-1a, 64 bits.
+std::uint64_t fnv(const std::string& bytes, std::uint64_t hash) {
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+// 128 bits in hexadecimal.
+std::string content_name(const std::string& bytes) {
+  return fmt::format("{:016x}{:016x}", fnv(bytes, 0xcbf29ce484222325u),
+                     fnv(bytes, 0x9ae16a3b2f90404fu));
+}
+
+std::string keep(std::map<std::string, std::shared_ptr<const std::string>>& files,
+                 std::string bytes) {
+  std::string name = content_name(bytes);
+  files.try_emplace(name, std::make_shared<const std::string>(std::move(bytes)));
+  return name;
 }
 
 }  // namespace
@@ -102,18 +138,13 @@ std::string scene_message(const SceneFacts& facts) {
   write_channels(json, facts.channels);
   json.key("ledger").texts(facts.rows);
   write_bodies(json, facts.plan);
-  write_joints(json, facts.plan.input.robot, facts.moments.driven());
-  if (const auto tip = facts.moments.tip())
+  const InputOverride* input = facts.snapshots.input_override();
+  write_joints(json, facts.plan.input.robot, input ? input->driven() : std::vector<int>{});
+  if (const auto tip = input ? input->tip() : std::nullopt)
     json.key("tip").object({{"body", tip->first}, {"p", tip->second}});
   write_view(json, facts.stage);
   json.end_object();
   return json.str();
-}
-
-std::string MeshStore::keep(Files& files, std::string bytes) {
-  std::string name = content_name(bytes);
-  files.try_emplace(name, std::make_shared<const std::string>(std::move(bytes)));
-  return name;
 }
 
 bool MeshStore::take(const DrawList& list) {
@@ -133,40 +164,6 @@ std::shared_ptr<const std::string> MeshStore::mesh(const std::string& name) cons
 std::shared_ptr<const std::string> MeshStore::texture(const std::string& name) const {
   const auto found = textures_.find(name);
   return found == textures_.end() ? nullptr : found->second;
-}
-
-namespace {
-
-template <class T>
-void append_values(std::string& bytes, const std::vector<T>& values) {
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
-
-// FNV-1a, 64 bits, from a start of its own.
-std::uint64_t fnv(const std::string& bytes, std::uint64_t hash) {
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
-
-}  // namespace
-
-std::string mesh_bytes(const DrawMesh& mesh) {
-  const std::vector<std::uint32_t> head{static_cast<std::uint32_t>(mesh.positions.size()),
-                                        static_cast<std::uint32_t>(3 * mesh.triangles.size()),
-                                        (mesh.two_sided ? 1u : 0u) | (mesh.uv.empty() ? 0u : 2u),
-                                        0u};
-  std::string bytes;
-  append_values(bytes, head);
-  append_values(bytes, mesh.positions);
-  append_values(bytes, mesh.normals);
-  append_values(bytes, mesh.uv);
-  append_values(bytes, mesh.triangles);
-  return bytes;
-}
-
-std::string content_name(const std::string& bytes) {
-  return fmt::format("{:016x}{:016x}", fnv(bytes, 0xcbf29ce484222325u),
-                     fnv(bytes, 0x9ae16a3b2f90404fu));
 }
 
 }  // namespace twinarm

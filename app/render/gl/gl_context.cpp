@@ -1,5 +1,4 @@
-// The two back ends. The painter draws into framebuffer objects of its own, so neither needs a
-// surface worth the name.
+// The painter draws into framebuffer objects: neither back end needs a surface.
 #include "app/render/gl/gl_context.h"
 
 #define EGL_NO_X11
@@ -22,17 +21,15 @@ namespace {
   throw InputError({Diagnostic{"", 0, "renderer " + library, problem, fix, "render.library"}});
 }
 
-// A library opened for good: unloading Mesa and LLVM, which have threads and exit handlers, is not
-// safe. Its symbols stay out of the global name space.
+// Never closed: unloading Mesa and LLVM, with threads and exit handlers, is not safe.
 class Library {
  public:
   Library(const std::string& file, const std::string& package)
       : file_(file), handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (handle_ == nullptr) {
       const char* reason = dlerror();
-      std::string problem = "cannot be loaded: ";
-      problem += reason != nullptr ? reason : "unknown reason";
-      fail(file, problem, "install " + package + ", or choose the other renderer");
+      fail(file, std::string("cannot be loaded: ") + (reason ? reason : "unknown reason"),
+           "install " + package + ", or choose the other renderer");
     }
   }
   template <class Function>
@@ -56,23 +53,15 @@ class OsMesaContext final : public OffscreenContext {
     library_.load(make_current_, "OSMesaMakeCurrent");
     library_.load(destroy_, "OSMesaDestroyContext");
     library_.load(proc_, "OSMesaGetProcAddress");
-    const std::array<int, 13> attributes = {OSMESA_FORMAT,
-                                            OSMESA_RGBA,
-                                            OSMESA_DEPTH_BITS,
-                                            0,
-                                            OSMESA_STENCIL_BITS,
-                                            0,
-                                            OSMESA_PROFILE,
-                                            OSMESA_CORE_PROFILE,
-                                            OSMESA_CONTEXT_MAJOR_VERSION,
-                                            3,
-                                            OSMESA_CONTEXT_MINOR_VERSION,
-                                            3,
-                                            0};
+    // clang-format off
+    const std::array<int, 13> attributes = {
+        OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 0, OSMESA_STENCIL_BITS, 0,
+        OSMESA_PROFILE, OSMESA_CORE_PROFILE,
+        OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+    // clang-format on
     context_ = create(attributes.data(), nullptr);
-    if (context_ == nullptr) {
-      fail("OSMesa", "gives no OpenGL 3.3 core context", "install Mesa 17 or newer, or use egl");
-    }
+    if (context_ == nullptr)
+      fail("OSMesa", "has no OpenGL 3.3 core context", "install Mesa 17 or newer, or use egl");
   }
   ~OsMesaContext() override {
     make_current_(nullptr, nullptr, 0, 0, 0);
@@ -87,7 +76,7 @@ class OsMesaContext final : public OffscreenContext {
   void* proc(const char* name) override { return reinterpret_cast<void*>(proc_(name)); }
 
  private:
-  static constexpr int kSide = 4;  // OSMesa wants memory for a picture, though none is drawn there
+  static constexpr int kSide = 4;  // OSMesa requires a colour buffer, which stays unused
 
   Library library_;
   decltype(&OSMesaMakeCurrent) make_current_ = nullptr;
@@ -112,7 +101,7 @@ class EglContext final : public OffscreenContext {
     destroy_(display_, context_);
   }
   void make_current() override {
-    // The API binding belongs to the thread, and the painter may have moved to another one.
+    // The API is bound by thread.
     bind_api_(EGL_OPENGL_API);
     if (!make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
       throw std::runtime_error("eglMakeCurrent failed");
@@ -133,7 +122,7 @@ class EglContext final : public OffscreenContext {
       display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     }
     if (display_ == EGL_NO_DISPLAY || !initialize(display_, nullptr, nullptr)) {
-      fail("EGL", "gives no display without surface", "install libegl-mesa0, or use osmesa");
+      fail("EGL", "has no surfaceless display", "install libegl-mesa0, or use osmesa");
     }
   }
 
@@ -141,20 +130,15 @@ class EglContext final : public OffscreenContext {
     decltype(&eglCreateContext) create = nullptr;
     library_.load(bind_api_, "eglBindAPI");
     library_.load(create, "eglCreateContext");
-    const std::array<EGLint, 7> attributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                              3,
-                                              EGL_CONTEXT_MINOR_VERSION,
-                                              3,
-                                              EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                              EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                              EGL_NONE};
-    // Without a surface there is nothing for a configuration to describe.
-    if (bind_api_(EGL_OPENGL_API)) {
+    // clang-format off
+    const std::array<EGLint, 7> attributes = {
+        EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3,
+        EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+    // clang-format on
+    if (bind_api_(EGL_OPENGL_API))
       context_ = create(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
-    }
-    if (context_ == EGL_NO_CONTEXT) {
-      fail("EGL", "gives no OpenGL 3.3 core context", "install libgl1-mesa-dri, or use osmesa");
-    }
+    if (context_ == EGL_NO_CONTEXT)
+      fail("EGL", "has no OpenGL 3.3 core context", "install libgl1-mesa-dri, or use osmesa");
   }
 
   Library library_;

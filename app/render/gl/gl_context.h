@@ -1,8 +1,7 @@
 // OffscreenContext: an OpenGL 3.3 core context without display, window or GPU.
 //
-// Two back ends give the same bits on one Mesa version. OSMesa is the default; Mesa 25.1 (2025)
-// removed it, and EGL without surfaces is what stays. Both libraries are opened by dlopen: linking
-// OSMesa beside a libGL (SDL, GLFW) makes each swallow the other's calls.
+// Both back ends give the same bits on one Mesa version. OSMesa is the default; Mesa 25.1 (2025)
+// removed it. Opened by dlopen: OSMesa and a linked libGL (SDL, GLFW) would share symbols.
 #pragma once
 
 #include <memory>
@@ -15,8 +14,8 @@ class OffscreenContext {
  public:
   virtual ~OffscreenContext() = default;
   virtual void make_current() = 0;  // in the calling thread
-  virtual void release() = 0;       // from the calling thread; another may take it then
-  // Address of a gl* function. Not a feature test: OSMesa gives one for names that do not exist.
+  virtual void release() = 0;       // in the calling thread
+  // Address of a gl* function. OSMesa returns one for unknown names too.
   virtual void* proc(const char* name) = 0;
 
  protected:
@@ -25,7 +24,7 @@ class OffscreenContext {
   OffscreenContext& operator=(const OffscreenContext&) = delete;
 };
 
-// Throws InputError where the library is missing or cannot give such a context.
+// Throws InputError if the library is missing or has no such context.
 std::unique_ptr<OffscreenContext> make_offscreen_context(Backend backend);
 
 }  // namespace twinarm

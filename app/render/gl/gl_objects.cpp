@@ -1,4 +1,3 @@
-// Compiling, uploading, allocating.
 #include "app/render/gl/gl_objects.h"
 
 #include <algorithm>
@@ -16,7 +15,6 @@ constexpr const char* kUniformNames[] = {
 #undef TWINARM_UNIFORM_NAME
 };
 
-// A shader that does not compile is a mistake of ours, not of the user.
 GLuint compile(const GlTable& gl, GLenum stage, const std::string& source) {
   const GLuint shader = gl.CreateShader(stage);
   const char* text = source.c_str();
@@ -39,7 +37,7 @@ void upload(const GlTable& gl, GLenum target, GLuint buffer, const std::vector<E
                 GL_STATIC_DRAW);
 }
 
-// Of the buffer that is bound, whose elements have so many numbers.
+// Of the bound buffer.
 void set_attribute(const GlTable& gl, GLuint index, GLint numbers) {
   gl.EnableVertexAttribArray(index);
   gl.VertexAttribPointer(index, numbers, GL_FLOAT, GL_FALSE, 0, nullptr);
@@ -59,7 +57,7 @@ Program::Program(const GlTable& gl, const ShaderSource& source) : gl_(gl), id_(g
                             compile(gl, GL_FRAGMENT_SHADER, source.fragment)};
   for (const GLuint shader : shaders) gl.AttachShader(id_, shader);
   gl.LinkProgram(id_);
-  for (const GLuint shader : shaders) gl.DeleteShader(shader);  // once the program goes
+  for (const GLuint shader : shaders) gl.DeleteShader(shader);  // when the program is deleted
   GLint ok = 0;
   gl.GetProgramiv(id_, GL_LINK_STATUS, &ok);
   if (!ok) {

@@ -1,8 +1,6 @@
-// What the painter keeps inside OpenGL, and how it calls it: programs, meshes, and the surfaces
-// that it draws on.
+// OpenGL objects of the painter: functions, programs, meshes, textures, framebuffers.
 //
-// All of them need their context current, and vanish with it; only meshes are freed one by one,
-// because scenes come and go while a painter stays.
+// They require a current context and are destroyed with it; meshes and textures are freed earlier.
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES
@@ -20,11 +18,8 @@
 
 namespace twinarm {
 
-// GlTable: the OpenGL 3.3 functions that the painter calls, by name from an OffscreenContext.
-//
-// One list makes the members and loads them. The types are taken from the system's headers by
-// decltype, which is not evaluated: no gl* symbol is linked. To use a further function, add its
-// name (without "gl") to the list.
+// OpenGL 3.3 functions, loaded by name from an OffscreenContext. To use another function, add its
+// name without "gl". Types come from decltype, which links no gl* symbol.
 // clang-format off
 #define TWINARM_GL_FUNCTIONS(X)                                                                   \
   X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindFramebuffer) X(BindRenderbuffer)           \
@@ -47,7 +42,7 @@ struct GlTable {
   TWINARM_GL_FUNCTIONS(TWINARM_GL_MEMBER)
 #undef TWINARM_GL_MEMBER
 
-  // `proc` gives the address of a function by its full name; the context must be current.
+  // `proc` returns the address of a function; the context must be current.
   template <class Proc>
   void load(Proc&& proc) {
 #define TWINARM_GL_LOAD(name)                                     \
@@ -58,7 +53,7 @@ struct GlTable {
   }
 };
 
-// Every uniform of every shader, by its name there.
+// Uniforms of all shaders.
 // clang-format off
 #define TWINARM_UNIFORMS(X)                                                                       \
   X(world_from_mesh) X(normal_from_mesh) X(clip_from_world) X(world_from_clip) X(key_from_world)  \
@@ -73,8 +68,8 @@ enum class Uniform : std::size_t {
       count
 };
 
-// A linked program with its uniform locations looked up once. Setting a uniform that a shader
-// variant does not have does nothing, as OpenGL defines for location -1.
+// A linked program with its uniform locations. Setting a uniform that a variant lacks (location -1)
+// has no effect.
 class Program {
  public:
   Program(const GlTable& gl, const ShaderSource& source);
@@ -101,7 +96,7 @@ class Program {
   std::array<GLint, static_cast<std::size_t>(Uniform::count)> location_{};
 };
 
-// A DrawMesh in vertex buffers: attribute 0 position, 1 normal, 2 place in a texture.
+// A DrawMesh in vertex buffers: attribute 0 position, 1 normal, 2 texture coordinates.
 class GpuMesh {
  public:
   GpuMesh(const GlTable& gl, const DrawMesh& mesh);
@@ -131,19 +126,16 @@ class GpuTexture {
   GLuint id_ = 0;
 };
 
-// A square depth texture seen from a light. `compares`: the sampler does, over 2 x 2 texels; else
-// it gives the nearest depth. What is drawn may take a smaller square of it, from the corner of its
-// coordinates. 16 bits: a step is a hundredth of the offset that keeps surfaces out of their own
-// shadow.
+// Square depth texture of a light. `compares`: hardware comparison over 2 x 2 texels, else nearest
+// depth. A smaller square at its origin may be used. 16 bits are a hundredth of the shadow offset.
 struct ShadowMap {
   ShadowMap(const GlTable& gl, int side_px, bool compares);
   int side_px;
   GLuint texture = 0, framebuffer = 0;
 };
 
-// The colour and depth surface of the picture: sRGB bytes, 4 samples per pixel or one. Their colour
-// is whatever was there, until it is drawn over. Depth is float: integers cost a conversion for
-// each sample.
+// Colour and depth of the picture: sRGB bytes, 4 samples per pixel or one; colour is not cleared.
+// Depth is float, which needs no conversion per sample.
 class Canvas {
  public:
   Canvas(const GlTable& gl, int width, int height, bool multisampled);
@@ -155,7 +147,7 @@ class Canvas {
 
   const GlTable& gl_;
   int width_, height_;
-  GLuint draw_ = 0, resolved_ = 0;  // the same where there is one sample
+  GLuint draw_ = 0, resolved_ = 0;  // equal with one sample
 };
 
 }  // namespace twinarm

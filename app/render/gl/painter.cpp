@@ -1,4 +1,4 @@
-// From list to picture: choose the samples of the light, draw each, take their mean, letter it.
+// Draws each light sample, takes the mean, adds the lettering.
 #include "app/render/gl/painter.h"
 
 #include <algorithm>
@@ -33,12 +33,12 @@ void check_camera(const Camera& camera) {
   if (!camera.eye.allFinite() || !camera.target.allFinite() || !camera.up.allFinite())
     refuse("a coordinate is not a finite number", "give metres");
   if (!((camera.eye - camera.target).norm() > 0))
-    refuse("it looks at the point where it stands", "move its eye or its target");
+    refuse("eye and target coincide", "move its eye or its target");
   if (!(camera.field_of_view > 0 && camera.field_of_view < 3.1))
     refuse("its field of view is not between 0 and 3.1 rad", "0.55 is usual");
 }
 
-// Sub-random numbers in [0, 1): Roberts' generalised golden ratio sequences, even in every prefix.
+// Low-discrepancy numbers in [0, 1): Roberts' generalised golden ratio sequences.
 double golden(int i, double ratio) {
   const double x = 0.5 + ratio * i;
   return x - std::floor(x);
@@ -49,18 +49,17 @@ Vector3 towards_key(const DrawList& list) {
   return direction.allFinite() && direction.norm() > 0.5 ? direction : Vector3(0, 0, 1);
 }
 
-// Sample i of the studio's: the key light is a disc, the sky a hemisphere, both covered by
-// Fibonacci spirals of equal parts (in height, so the sky's mean irradiance on the floor is exactly
-// that of the other qualities); the pixel is a square.
+// Sample i: the key light is a disc, the sky a hemisphere, both sampled by Fibonacci spirals
+// (uniform in height: the sky's mean irradiance on the floor equals that of the other qualities).
 LightSample studio_sample(const Vector3& key_W, int i) {
   constexpr double kGoldenAngle = 2.39996322972865332;  // [rad]
   const Vector3 u = key_W.unitOrthogonal(), v = key_W.cross(u);
   const auto share = [](int k) { return (k + 0.5) / kStudioSamples; };
 
   LightSample sample;
-  const double disc = kKeyDiscRadius * std::sqrt(share(i)), turn = kGoldenAngle * i;
-  sample.key_W = (key_W + disc * (std::cos(turn) * u + std::sin(turn) * v)).normalized();
-  // The sky in an order that has nothing to do with the disc's radius.
+  const double disc = kKeyDiscRadius * std::sqrt(share(i)), angle = kGoldenAngle * i;
+  sample.key_W = (key_W + disc * (std::cos(angle) * u + std::sin(angle) * v)).normalized();
+  // The sky in another order than the disc.
   const int k = (i * 37) % kStudioSamples;
   const double height = share(k), radius = std::sqrt(1 - height * height);
   const double azimuth = kGoldenAngle * k;
@@ -83,8 +82,7 @@ float encode(float linear) {
   return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
 }
 
-// The mean of pictures, in linear light. Each picture was dithered where the others were not, so
-// the mean is finer than eight bits; it is dithered once more on the way back.
+// Mean of pictures in linear light, dithered.
 class Mean {
  public:
   explicit Mean(std::size_t bytes) : sum_(bytes, 0.0f), linear_(linear_table()) {}
@@ -107,7 +105,7 @@ class Mean {
 };
 
 // OpenGL's first row is the bottom one.
-void turn_upright(Image& image) {
+void flip_vertically(Image& image) {
   const std::size_t bytes = std::size_t{4} * static_cast<std::size_t>(image.width);
   std::vector<std::uint8_t> row(bytes);
   for (int y = 0; y < image.height / 2; ++y) {
@@ -118,7 +116,7 @@ void turn_upright(Image& image) {
   }
 }
 
-// The context is bound while a picture is painted, so that the painter may change threads between.
+// Bound only while a picture is painted, so that the painter may change threads.
 class CurrentContext {
  public:
   explicit CurrentContext(OffscreenContext& context) : context_(context) {
@@ -164,7 +162,7 @@ class Painter::Impl {
         throw std::logic_error("OpenGL error " + std::to_string(error) + " in Painter::paint");
       }
     }
-    turn_upright(image);
+    flip_vertically(image);
     draw_overlay(image, list, pass_->clip_from_world(), lettering_, is_next ? &labels_ : nullptr);
     return image;
   }

@@ -1,11 +1,11 @@
 // Painter: a DrawList to an Image, on the CPU by Mesa, without display or GPU.
 //
-// Bodies are lit and cast shadows; ghosts (alpha < 1) come after them, each showing only its
-// nearest surface; labels, legend and title are set on the finished picture. The same list gives
-// the same bits with both back ends and any number of threads, on one version of Mesa.
+// Bodies are lit and cast shadows; translucent ones (alpha < 1) follow, each with its nearest
+// surface only; then labels, legend and title. The same list gives the same bits with both back
+// ends and any number of threads, on one version of Mesa.
 //
-// A painter belongs to one thread at a time, any thread. Drawing errors are mistakes of ours and
-// throw std::logic_error; what the user can mend (library, font, size) throws InputError.
+// For one thread at a time. Throws std::logic_error on drawing errors, InputError for library,
+// font and size.
 #pragma once
 
 #include <memory>
@@ -18,10 +18,9 @@ namespace twinarm {
 
 // Times: see README.md.
 enum class Quality {
-  draft,   // no antialiasing, hard shadow: while the view moves
-  normal,  // 4 samples a pixel, shadow with a soft edge
-  studio,  // the mean of many pictures, each with the light, the sky and the pixel grid a little
-           // elsewhere: true penumbras, ambient occlusion, fine edges. For stills
+  draft,   // no antialiasing, hard shadow
+  normal,  // 4 samples per pixel, soft shadow edge
+  studio,  // mean of 64 samples of light, sky and pixel: penumbras, ambient occlusion; for stills
 };
 
 class Painter {
@@ -30,7 +29,7 @@ class Painter {
   ~Painter();
 
   Image paint(const DrawList& list);
-  // The same, as the next picture of a film: labels move on from where they stood.
+  // As the next picture of a film: labels move smoothly.
   Image paint_next(const DrawList& list);
 
  private:

@@ -1,8 +1,5 @@
-// What is behind the bodies: the floor, and the background where there is none. See scene_pass.h.
-//
-// The floor is drawn once, in pieces: without looking up shadows where none can be
-// (scene_pass.h). The pieces are cut by the scissor and not by geometry, so that each pixel is
-// what it would be in the whole.
+// Floor and background. The floor is drawn in tiles, without shadow lookup where no shadow can be
+// (scene_pass.h); tiles are cut by the scissor, which leaves pixel values unchanged.
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -16,7 +13,7 @@
 namespace twinarm {
 namespace {
 
-constexpr int kTile = 64;  // [px]; those of llvmpipe: cut smaller, each costs more than it saves
+constexpr int kTile = 64;  // [px], as in llvmpipe
 
 using ShadowCorners = std::array<Eigen::Vector2d, 8>;
 
@@ -24,8 +21,8 @@ struct Interval {
   double low, high;
 };
 
-// The shadow of a box on the floor, in pixels. Nothing where it may reach behind the eye, or where
-// the light comes from so low that shadows have no end.
+// Shadow of a box on the floor, in pixels. Empty if it may extend behind the eye, or for light from
+// near or below the horizon.
 std::optional<ShadowCorners> shadow_corners(const CasterBox& box, const FloorLight& light,
                                             const Eigen::Matrix4d& pixel_from_world) {
   if (!(light.towards_light_W.z() > 0.01)) return std::nullopt;
@@ -43,8 +40,8 @@ std::optional<ShadowCorners> shadow_corners(const CasterBox& box, const FloorLig
   return corners;
 }
 
-// What the hull covers of the strip low <= y <= high: it ends at a corner, or where an edge leaves
-// the strip, and every edge joins two corners. Empty: low > high.
+// x range of the convex hull in the strip low <= y <= high: its ends are corners, or intersections
+// of the strip with lines between two corners. Empty: low > high.
 Interval reach(const ShadowCorners& corners, double low, double high) {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   Interval x{kFar, -kFar};
@@ -65,7 +62,7 @@ Interval reach(const ShadowCorners& corners, double low, double high) {
   return x;
 }
 
-// Marks the tiles of a row that the interval meets, with a pixel to spare.
+// Marks the tiles of a row that intersect the interval, with a margin of one pixel.
 void mark(std::vector<char>& row, const Interval& x) {
   const double count = static_cast<double>(row.size());
   const double first = std::floor((x.low - 1) / kTile), last = std::floor((x.high + 1) / kTile);
@@ -121,8 +118,7 @@ void ScenePass::set_floor(const Program& program, const LightSample& sample) con
   set(Uniform::per_grid, {1 / ground.cell, 1 / strong, 1 / floor_radius_, 1 / fade});
 }
 
-// Where a shadow can be: two texels and a half about the place that is looked up, which the normal
-// offset has moved.
+// The margin is the filter radius of 2.5 texels and the normal offset.
 std::vector<FloorTiles> ScenePass::shadow_tiles(const LightSample& sample) const {
   const double texel = 2.02 * bounds_.solid.radius / used_side(key_map_);
   return floor_tiles(casters_, {sample.key_W, list_->ground.height, 2.5 * texel + normal_offset()},
@@ -144,7 +140,7 @@ void ScenePass::draw_floor(const LightSample& sample) const {
   gl_.Disable(GL_SCISSOR_TEST);
 }
 
-// Where the floor fills whole rows of the picture, from below, nothing would come of it but work.
+// Only above the rows that the floor fills.
 void ScenePass::draw_background(const LightSample& sample) const {
   const int rows =
       list_->ground.visible

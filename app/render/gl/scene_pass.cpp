@@ -1,4 +1,3 @@
-// Drawing one pass. See scene_pass.h for the order, shaders.cpp for the light.
 #include "app/render/gl/scene_pass.h"
 
 #include <algorithm>
@@ -24,7 +23,7 @@ ShaderVariant with(bool ShaderVariant::*part, bool value, ShaderVariant variant)
   return variant;
 }
 
-// Moves the picture by a part of a pixel: an offset times w, which the division takes out again.
+// Subpixel offset in clip space.
 Eigen::Matrix4d shift(const Eigen::Vector2d& shift_px, int width, int height) {
   Eigen::Matrix4d X = Eigen::Matrix4d::Identity();
   X(0, 3) = 2 * shift_px.x() / width;
@@ -44,7 +43,7 @@ ScenePass::ScenePass(const GlTable& gl, int width, int height, const ShaderVaria
       variant_(variant),
       solid_(gl, solid_shader(variant)),
       textured_(gl, solid_shader(with(&ShaderVariant::textured, true, variant))),
-      ghost_(gl, ghost_shader(variant)),
+      translucent_(gl, translucent_shader(variant)),
       depth_(gl, depth_shader()) {
   if (variant.sky_sample) sky_map_.emplace(gl, kSkyMapSide, true);
   gl.GenVertexArrays(1, &no_vertices_);
@@ -76,16 +75,16 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   const CachedMesh& cached = cache_.try_emplace(mesh.get(), gl_, mesh).first->second;
   item.mesh = &cached.gpu;
   item.two_sided = mesh->two_sided;
-  item.ghost = instance.color.a < 1;
+  item.translucent = instance.color.a < 1;
   item.texture = nullptr;
-  if (instance.texture && !mesh->uv.empty() && !item.ghost) {
+  if (instance.texture && !mesh->uv.empty() && !item.translucent) {
     const std::shared_ptr<const Image>& image = list.textures[*instance.texture];
     item.texture = &textures_.try_emplace(image.get(), gl_, image).first->second.gpu;
   }
   item.world_from_mesh.setIdentity();
   item.world_from_mesh.topLeftCorner<3, 3>() = (instance.X_WM.R * scale.asDiagonal()).cast<float>();
   item.world_from_mesh.topRightCorner<3, 1>() = instance.X_WM.p.cast<float>();
-  // Inverse transpose of R * scale; its length does not matter, so it is kept near 1.
+  // Inverse transpose of R * scale, times the smallest scale.
   const Vector3 inverse = scale.minCoeff() * scale.cwiseInverse();
   item.normal_from_mesh = (instance.X_WM.R * inverse.asDiagonal()).cast<float>();
   item.color << linear(instance.color), instance.color.a;
@@ -93,7 +92,7 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   item.seen_through = instance.seen_through;
   if (item.world_from_mesh.allFinite() && item.normal_from_mesh.allFinite()) {
     items_.push_back(item);
-    if (!item.ghost && !cached.box.isEmpty()) {
+    if (!item.translucent && !cached.box.isEmpty()) {
       casters_.push_back(
           {{instance.X_WM.R, instance.X_WM * scale.cwiseProduct(cached.box.center())},
            0.5 * scale.cwiseProduct(cached.box.sizes())});
@@ -120,12 +119,12 @@ void ScenePass::draw(const LightSample& sample) {
 }
 
 void ScenePass::draw_blended(const LightSample& sample) const {
-  const auto is_blended = [](const Item& item) { return item.ghost || item.seen_through; };
+  const auto is_blended = [](const Item& item) { return item.translucent || item.seen_through; };
   if (std::ranges::none_of(items_, is_blended)) return;
   gl_.Enable(GL_FRAMEBUFFER_SRGB);
   gl_.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);  // stays opaque
   draw_hidden(sample);
-  draw_ghosts(sample);
+  draw_translucent(sample);
   gl_.Disable(GL_FRAMEBUFFER_SRGB);
 }
 
@@ -133,20 +132,20 @@ Eigen::Matrix4f ScenePass::light_clip_from_world(const Vector3& towards_light_W)
   return make_light_clip_from_world(towards_light_W, bounds_.solid).cast<float>();
 }
 
-// Texels about as large as pixels show all that there is to be seen; finer ones only cost.
+// Texels as large as pixels suffice.
 int ScenePass::used_side(const ShadowMap& map) const {
   const double texels = shadow_texels(list_->camera, bounds_, height_);
   return static_cast<int>(std::clamp(texels, 256.0, static_cast<double>(map.side_px)));
 }
 
-// How far off their surfaces points are looked up: a texel and a half of the coarser map [m].
+// Distance from the surface at which shadows are looked up: 1.5 texels of the coarser map [m].
 double ScenePass::normal_offset() const {
   const int key_side = used_side(key_map_);
   const int side = sky_map_ ? std::min(key_side, used_side(*sky_map_)) : key_side;
   return 3.0 * bounds_.solid.radius / side;
 }
 
-// From the world into the square of the map that is used, and depth from 0 to 1.
+// From the world to texture coordinates of the used square and depth in 0..1.
 Eigen::Matrix4f ScenePass::shadow_from_world(const ShadowMap& map,
                                              const Vector3& towards_light_W) const {
   const float share = 0.5f * static_cast<float>(used_side(map)) / static_cast<float>(map.side_px);
@@ -163,13 +162,13 @@ void ScenePass::draw_shadow(const ShadowMap& map, const Vector3& towards_light_W
   gl_.Enable(GL_SCISSOR_TEST);
   gl_.Scissor(0, 0, side, side);
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
-  gl_.Scissor(4, 4, side - 8, side - 8);  // what lies too far away leaves the border empty
+  gl_.Scissor(4, 4, side - 8, side - 8);  // the border stays empty
   gl_.Enable(GL_POLYGON_OFFSET_FILL);
-  gl_.PolygonOffset(1.5f, 2.0f);  // beside the normal offset, for facets that the light grazes
+  gl_.PolygonOffset(1.5f, 2.0f);  // for facets at grazing angles
   depth_.use();
   depth_.set(Uniform::clip_from_world, light_clip_from_world(towards_light_W));
   for (const Item& item : items_) {
-    if (item.ghost) continue;
+    if (item.translucent) continue;
     depth_.set(Uniform::world_from_mesh, item.world_from_mesh);
     cull(item.two_sided);
     item.mesh->draw();
@@ -205,14 +204,14 @@ void ScenePass::set_frame(const Program& program, const LightSample& sample) con
   gl_.BindTexture(GL_TEXTURE_2D, key_map_.texture);
 }
 
-// Closed bodies show no inside; of open surfaces both sides are seen.
+// Back faces of closed bodies are culled.
 void ScenePass::cull(bool two_sided) const {
   two_sided ? gl_.Disable(GL_CULL_FACE) : gl_.Enable(GL_CULL_FACE);
 }
 
-void ScenePass::draw_items(const Program& program, bool ghosts, bool textured) const {
+void ScenePass::draw_items(const Program& program, bool translucent, bool textured) const {
   for (const Item& item : items_) {
-    if (item.ghost != ghosts || (item.texture != nullptr) != textured) continue;
+    if (item.translucent != translucent || (item.texture != nullptr) != textured) continue;
     program.set(Uniform::world_from_mesh, item.world_from_mesh);
     program.set(Uniform::normal_from_mesh, item.normal_from_mesh);
     program.set(Uniform::color, item.color);
@@ -240,10 +239,10 @@ void ScenePass::set_backdrop(const Program& program) const {
   program.set(Uniform::per_height, 1.0f / static_cast<float>(height_));
 }
 
-// The parts of overlays that lie behind what has been drawn, laid over it. Depth is left as it is.
+// Blends the hidden parts of overlays over the picture, without writing depth.
 void ScenePass::draw_hidden(const LightSample& sample) const {
   constexpr float kCover = 0.6f;
-  set_frame(ghost_, sample);
+  set_frame(translucent_, sample);
   gl_.DepthFunc(GL_GREATER);
   gl_.DepthMask(GL_FALSE);
   gl_.Enable(GL_BLEND);
@@ -251,9 +250,9 @@ void ScenePass::draw_hidden(const LightSample& sample) const {
     if (!item.seen_through) continue;
     Eigen::Vector4f color = item.color;
     color.w() *= kCover;
-    ghost_.set(Uniform::world_from_mesh, item.world_from_mesh);
-    ghost_.set(Uniform::normal_from_mesh, item.normal_from_mesh);
-    ghost_.set(Uniform::color, color);
+    translucent_.set(Uniform::world_from_mesh, item.world_from_mesh);
+    translucent_.set(Uniform::normal_from_mesh, item.normal_from_mesh);
+    translucent_.set(Uniform::color, color);
     item.mesh->draw();
   }
   gl_.Disable(GL_BLEND);
@@ -261,18 +260,17 @@ void ScenePass::draw_hidden(const LightSample& sample) const {
   gl_.DepthFunc(GL_LEQUAL);
 }
 
-// Ghosts write their depth first, all of them, and are then coloured where they are nearest: a
-// shell shows one surface, not its inside. Both passes are pushed back a little, so that a ghost in
-// the same place as a body (a robot that follows perfectly) vanishes instead of flickering.
-void ScenePass::draw_ghosts(const LightSample& sample) const {
-  set_frame(ghost_, sample);
+// First the depth of all translucent bodies, then their colour where they are nearest: one surface
+// per pixel. The depth offset hides a target robot that coincides with its robot.
+void ScenePass::draw_translucent(const LightSample& sample) const {
+  set_frame(translucent_, sample);
   gl_.Enable(GL_POLYGON_OFFSET_FILL);
   gl_.PolygonOffset(1.0f, 4.0f);
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-  draw_items(ghost_, true);
+  draw_items(translucent_, true);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.Enable(GL_BLEND);
-  draw_items(ghost_, true);
+  draw_items(translucent_, true);
   gl_.Disable(GL_BLEND);
   gl_.Disable(GL_POLYGON_OFFSET_FILL);
 }

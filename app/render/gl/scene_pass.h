@@ -1,9 +1,8 @@
-// ScenePass: one picture of the bodies, floor and background under one sample of the light.
+// ScenePass: bodies, floor and background under one light sample.
 //
-// The order of a pass: shadow map(s) of the solids; solids; floor; background where nothing else
-// is; what is seen through bodies, faintly; ghosts, depth first. Up to the background shaders write
-// sRGB themselves; the last two are blended, in linear light, and the canvas encodes. Needs the
-// context current in every call.
+// Order: shadow maps of opaque bodies; opaque bodies; floor; background; parts visible through
+// bodies; translucent bodies, depth first. Opaque shaders write sRGB; the last two are blended in
+// linear light and encoded by the canvas. Requires a current context.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,14 +21,14 @@
 
 namespace twinarm {
 
-// Where in the picture shadows can fall on the floor. Looking up a shadow is the dearest part of a
-// pixel, and a shader runs both sides of its branches, so it is left out of whole rectangles.
+// Tiles of the picture where shadows can fall on the floor; the others need no shadow lookup, the
+// most expensive part of a pixel.
 //
-// Each box that casts is enlarged by `margin`, its corners are moved along the light to the plane
-// z = floor_height and on into the picture; what can be in its shadow lies in their convex hull,
-// since all of these maps keep lines straight. Cost: corners^2 / 2 for each box and row of tiles.
+// The corners of each casting box, enlarged by `margin`, are projected along the light to the plane
+// z = floor_height and into the picture; its shadow lies in their convex hull. Cost: corners^2 / 2
+// for each box and row of tiles.
 struct CasterBox {
-  Pose X_WB;                       // its middle and its axes
+  Pose X_WB;                       // centre and axes
   Vector3 half = Vector3::Zero();  // of its edges [m]
 };
 
@@ -39,20 +38,20 @@ struct FloorLight {
   double margin = 0;                           // [m]
 };
 
-// A part of one row of tiles, in pixels from the lower left corner of the picture.
+// In pixels from the lower left corner of the picture.
 struct FloorTiles {
   int x = 0, y = 0, width = 0, height = 0;
   bool maybe_shadowed = false;
 };
 
-// Together they fill the picture, each pixel once.
+// They cover each pixel once.
 std::vector<FloorTiles> floor_tiles(const std::vector<CasterBox>& casters, const FloorLight& light,
                                     const Eigen::Matrix4d& clip_from_world, int width, int height);
 
 struct LightSample {
   Vector3 key_W;                                       // towards the key light, unit length
-  Vector3 sky_W = Vector3::UnitZ();                    // towards the piece of sky, unit length
-  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // of the picture under the pixel grid
+  Vector3 sky_W = Vector3::UnitZ();                    // towards the sky sample, unit length
+  Eigen::Vector2d shift_px = Eigen::Vector2d::Zero();  // subpixel offset of the picture
 };
 
 class ScenePass {
@@ -61,7 +60,7 @@ class ScenePass {
   ScenePass(const GlTable& gl, int width, int height, const ShaderVariant& variant,
             bool multisampled);
 
-  // Takes in the meshes and matrices of a list that must stay as it is until the last draw().
+  // The list must not change until the last draw().
   void prepare(const DrawList& list);
   void draw(const LightSample& sample);
   void read(std::uint8_t* rgba) { canvas_.read(rgba); }  // bottom row first
@@ -72,14 +71,14 @@ class ScenePass {
   struct CachedMesh {
     CachedMesh(const GlTable& gl, std::shared_ptr<const DrawMesh> mesh)
         : source(std::move(mesh)), gpu(gl, *source), box(bounding_box(*source)) {}
-    std::shared_ptr<const DrawMesh> source;  // keeps the address, which is the key, from reuse
+    std::shared_ptr<const DrawMesh> source;  // keeps its address, the key, unique
     GpuMesh gpu;
     Eigen::AlignedBox3d box;  // in the mesh's frame
   };
   struct CachedTexture {
     CachedTexture(const GlTable& gl, std::shared_ptr<const Image> image)
         : source(std::move(image)), gpu(gl, *source) {}
-    std::shared_ptr<const Image> source;  // likewise
+    std::shared_ptr<const Image> source;
     GpuTexture gpu;
   };
   struct Item {
@@ -90,7 +89,7 @@ class ScenePass {
     Eigen::Matrix3f normal_from_mesh;
     Eigen::Vector4f color;  // linear
     float shininess;
-    bool ghost, seen_through;
+    bool translucent, seen_through;
   };
 
   struct Backdrop {
@@ -104,7 +103,7 @@ class ScenePass {
   double normal_offset() const;
   void draw_shadow(const ShadowMap& map, const Vector3& towards_light_W);
   void set_frame(const Program& program, const LightSample& sample) const;
-  void draw_items(const Program& program, bool ghosts, bool textured = false) const;
+  void draw_items(const Program& program, bool translucent, bool textured = false) const;
   void cull(bool two_sided) const;
   void draw_solids(const LightSample& sample) const;
   void draw_floor(const LightSample& sample) const;
@@ -113,7 +112,7 @@ class ScenePass {
   void draw_background(const LightSample& sample) const;
   void draw_blended(const LightSample& sample) const;
   void draw_hidden(const LightSample& sample) const;
-  void draw_ghosts(const LightSample& sample) const;
+  void draw_translucent(const LightSample& sample) const;
   void set_backdrop(const Program& program) const;
   const Backdrop& backdrop() const { return *backdrops_[has_horizon() ? 1 : 0]; }
   bool has_horizon() const { return list_->background.kind == Background::Kind::landscape; }
@@ -126,13 +125,13 @@ class ScenePass {
   ShadowMap key_map_;
   std::optional<ShadowMap> sky_map_;
   ShaderVariant variant_;
-  Program solid_, textured_, ghost_, depth_;
-  std::array<std::optional<Backdrop>, 2> backdrops_;  // room, landscape: made where first needed
+  Program solid_, textured_, translucent_, depth_;
+  std::array<std::optional<Backdrop>, 2> backdrops_;  // room, landscape; made on demand
   GLuint no_vertices_ = 0;  // vertex array for shaders that make their own vertices
   std::unordered_map<const DrawMesh*, CachedMesh> cache_;
   std::unordered_map<const Image*, CachedTexture> textures_;
 
-  // The frame at hand.
+  // Of the current frame.
   const DrawList* list_ = nullptr;
   std::vector<Item> items_;
   std::vector<CasterBox> casters_;

@@ -18,7 +18,7 @@ std::string header(const ShaderVariant& variant) {
          (variant.horizon ? "#define HORIZON\n" : "");
 }
 
-// The files of these names, one after the other, under the header of the variant.
+// Concatenates the named files after the header of the variant.
 std::string shader(const ShaderVariant& variant, std::initializer_list<const char*> names) {
   std::string text = header(variant);
   for (const char* name : names)
@@ -32,8 +32,9 @@ ShaderSource solid_shader(const ShaderVariant& variant) {
   return {shader(variant, {"place.vert", "solid.vert"}),
           shader(variant, {"finish.frag", "light.frag", "solid.frag"})};
 }
-ShaderSource ghost_shader(const ShaderVariant& variant) {
-  return {shader(variant, {"place.vert", "solid.vert"}), shader({}, {"finish.frag", "ghost.frag"})};
+ShaderSource translucent_shader(const ShaderVariant& variant) {
+  return {shader(variant, {"place.vert", "solid.vert"}),
+          shader({}, {"finish.frag", "translucent.frag"})};
 }
 ShaderSource depth_shader() {
   return {shader({}, {"depth.vert"}), "#version 330 core\nvoid main() {}\n"};

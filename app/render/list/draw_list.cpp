@@ -1,4 +1,3 @@
-// Registering meshes and placing overlays.
 #include "app/render/list/draw_list.h"
 
 #include <algorithm>
@@ -17,7 +16,7 @@ Pose pose_along(const Vector3& from_W, const Vector3& to_W) {
   return {rotation_taking_z_to(along), from_W};
 }
 
-// False for no extent, NaN and infinity alike.
+// False for zero, NaN and infinity.
 bool has_length(const Vector3& from_W, const Vector3& to_W) {
   const double length = (to_W - from_W).norm();
   return length > 0 && std::isfinite(length);
@@ -59,8 +58,7 @@ MeshId DrawList::unit_mesh(UnitShape shape) {
 }
 
 MeshId DrawList::unit_spring(double aspect) {
-  // Steps of sqrt(2): the wire is then never more than a fifth too flat or too tall, and a film of
-  // a spring that goes from rest to ten times its length needs seven meshes.
+  // Steps of sqrt(2): the wire's section is round within 20 %.
   const int step = static_cast<int>(std::lround(2 * std::log2(std::clamp(aspect, 0.5, 512.0))));
   const auto found = springs_.find(step);
   if (found != springs_.end()) return found->second;

@@ -1,11 +1,10 @@
-// DrawList: what is to be seen, once, for every painter (OSMesa here, three.js in the browser).
+// DrawList: contents of a picture for all painters (OSMesa here, three.js in the browser).
 //
-// World frame W: z up, right-handed, metres, radians. Colours: sRGB in 0..1; alpha below 1: ghost.
-// Pixels: from the top left, y down, of a picture of 1280 x 720; painters scale them with theirs.
+// World frame W: z up, right-handed, metres, radians. Colours: sRGB in 0..1; alpha < 1:
+// translucent. Pixels: from the top left, y down, of a picture of 1280 x 720; painters scale them.
 //
-// A list is made once and kept: meshes stay registered, while clear_frame() drops what is placed
-// with them. Meshes are shared and never change, so a copy of a list is cheap and a painter may
-// recognise a mesh by its address.
+// Meshes stay registered; clear_frame() removes their instances. Meshes are shared and immutable:
+// copies of a list are cheap, and a painter may identify a mesh by its address.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,16 +29,16 @@ struct Color {
 using MeshId = std::size_t;     // index into DrawList::meshes
 using TextureId = std::size_t;  // index into DrawList::textures
 
-// A mesh at a place: p_W = X_WM * (scale * p_M), componentwise.
+// A placed mesh: p_W = X_WM * (scale * p_M), componentwise.
 struct Instance {
   MeshId mesh = 0;
   Pose X_WM;
   Vector3 scale = Vector3::Ones();  // positive
   Color color{0.7f, 0.7f, 0.7f, 1.0f};
   float shininess = 0.35f;           // 0 = chalk, 1 = polished
-  bool seen_through = false;         // faintly to be seen where it is behind or inside of bodies
-  std::optional<TextureId> texture;  // times the colour, where the mesh has uv; not on ghosts
-  int body = -1;  // that it is, or speaks of, for who points at it; -1: of none. Not painted
+  bool seen_through = false;         // faintly visible behind or inside bodies
+  std::optional<TextureId> texture;  // times the colour, if the mesh has uv and is opaque
+  int body = -1;                     // it belongs to, for picking; -1: none
 };
 
 // A line of text (UTF-8), never hidden by bodies.
@@ -47,26 +46,25 @@ struct Label {
   enum class Anchor { world, screen };
   std::string text;
   Anchor anchor = Anchor::world;
-  Vector3 p_W = Vector3::Zero();  // the point that it names, where anchored in the world
-  // World: from that point's pixel to the text; a thin line joins them where it is long enough.
-  // Screen: from the top left corner of the picture, or from the bottom or right where negative.
+  Vector3 p_W = Vector3::Zero();  // labelled point of a world label
+  // World: from the point's pixel to the text, with a thin line. Screen: from the top left corner,
+  // or from bottom or right if negative.
   Eigen::Vector2d offset_px = Eigen::Vector2d::Zero();
   double size_px = 15;
   Color color{0.10f, 0.12f, 0.15f, 1.0f};
 };
 
-// One entry of the legend, at the bottom left of the picture.
+// An entry of the legend, at the bottom left.
 struct LegendLine {
   Color color;  // of the swatch
   std::string text;
-  std::string value = {};  // follows the text at once, and may change from frame to frame
+  std::string value = {};  // appended; may change between frames
   std::string words() const { return text + value; }
 };
 
-// A filled box on the picture, under all letters: bars and panels.
+// A filled box below all text: bars and panels.
 struct ScreenBox {
-  // The left upper corner, as the offset of a label on the screen; then the size to the right and
-  // down.
+  // Top left corner, as the offset of a screen label; size.
   Eigen::Vector2d corner_px = Eigen::Vector2d::Zero(), size_px = Eigen::Vector2d::Zero();
   Color color;
 };
@@ -78,55 +76,54 @@ struct Camera {
   double field_of_view = 0.55;  // vertical [rad]
 };
 
-// The floor z = height with a metric grid that fades with the distance; the picture says what its
-// lines measure.
+// The floor z = height with a metric grid that fades with distance.
 struct Ground {
   bool visible = true;
   double height = 0;        // [m]
   double cell = 0.1;        // between thin lines [m]
-  int cells_per_major = 5;  // a stronger line every so many
+  int cells_per_major = 5;  // between strong lines
 };
 
-// A room without corners, whose colour runs from the bottom to the top of the picture and whose
-// floor melts into it; or a landscape, whose ground a haze takes into the colour of the horizon.
+// A room: a gradient from the bottom to the top of the picture, also on the floor. A landscape: sky
+// and ground with haze at the horizon.
 struct Background {
   enum class Kind { room, landscape };
   Kind kind = Kind::room;
-  Color bottom{0.87f, 0.875f, 0.88f, 1.0f};  // of a landscape the horizon
-  Color top{0.56f, 0.595f, 0.635f, 1.0f};    // the zenith
-  Color ground{0.62f, 0.63f, 0.63f, 1.0f};   // where fully lit; of a landscape only
+  Color bottom{0.87f, 0.875f, 0.88f, 1.0f};  // horizon of a landscape
+  Color top{0.56f, 0.595f, 0.635f, 1.0f};    // zenith
+  Color ground{0.62f, 0.63f, 0.63f, 1.0f};   // fully lit; of a landscape only
 };
 Background studio_background();
 Background sky_background();
-Background white_background();  // paper
+Background white_background();
 
 class DrawList {
  public:
   std::vector<std::shared_ptr<const DrawMesh>> meshes;  // append only, by the functions below
-  std::vector<std::shared_ptr<const Image>> textures;   // likewise; their alpha is not looked at
+  std::vector<std::shared_ptr<const Image>> textures;   // append only; alpha is ignored
   std::vector<Instance> instances;
   std::vector<Label> labels;
   std::string title;
   std::vector<LegendLine> legend;
   std::vector<ScreenBox> bars;
   Camera camera;
-  Vector3 light_W = Vector3(-0.45, -0.62, 1.0);  // from the scene towards the light, any length
+  Vector3 light_W = Vector3(-0.45, -0.62, 1.0);  // towards the light, any length
   Ground ground;
   Background background;
 
   MeshId register_mesh(const TriangleMesh& mesh) { return register_mesh(make_draw_mesh(mesh)); }
   MeshId register_mesh(DrawMesh mesh);
   TextureId register_texture(std::shared_ptr<const Image> texture);
-  MeshId unit_mesh(UnitShape shape);  // registers it at its first use
-  MeshId unit_spring(double aspect);  // likewise, for the nearest of a few aspects
+  MeshId unit_mesh(UnitShape shape);  // registered at its first use
+  MeshId unit_spring(double aspect);  // the nearest of a few aspects
   void clear_frame();                 // instances, labels, bars, title, legend
 
  private:
   std::map<UnitShape, MeshId> units_;
-  std::map<int, MeshId> springs_;  // by the step of their aspect
+  std::map<int, MeshId> springs_;  // by log2 of the aspect, in halves
 };
 
-// All instances that are placed while it lives are of that body.
+// Instances added during its lifetime belong to that body.
 class OfBody {
  public:
   OfBody(DrawList& list, std::size_t body)
@@ -143,7 +140,7 @@ class OfBody {
   int body_;
 };
 
-// Places overlays. What has no extent (a force of zero) or is not finite is left out.
+// Add instances, except those that are not finite or have no extent (zero force).
 void add_mesh_instance(DrawList& list, MeshId mesh, const Pose& X_WM, const Color& color,
                        const Vector3& scale = Vector3::Ones(), float shininess = 0.35f);
 void add_box(DrawList& list, const Pose& X_WM, const Vector3& size, const Color& color);

@@ -1,4 +1,3 @@
-// Vertex normals by crease angle.
 #include "app/render/list/draw_mesh.h"
 
 #include <algorithm>
@@ -14,7 +13,7 @@ namespace {
 
 using Triangle = std::array<int, 3>;
 
-// For each vertex the smallest index of a vertex at exactly the same place.
+// For each vertex the smallest index of an equal vertex.
 std::vector<int> weld(const std::vector<Vector3>& vertices) {
   std::vector<int> order(vertices.size()), first(vertices.size());
   std::iota(order.begin(), order.end(), 0);
@@ -86,11 +85,10 @@ std::vector<std::vector<Corner>> corners_by_vertex(const std::vector<Facet>& fac
   return around;
 }
 
-// Where more facets than this meet in one vertex (the middle of a finely cut disc, or a file that
-// means harm) each keeps its own normal: the mean would cost the square of their number.
+// With more facets at one vertex each keeps its normal: the mean costs the square of their number.
 constexpr std::size_t kMaxAround = 512;
 
-// The mean of the facets around a vertex that lie within the crease angle of the corner's own.
+// Mean of the normals around a vertex within the crease angle of the corner's facet.
 Vector3 normal_at(const Corner& corner, const std::vector<Corner>& around,
                   const std::vector<Facet>& facets) {
   static const double crease_cosine = std::cos(kCreaseAngle);
@@ -102,7 +100,7 @@ Vector3 normal_at(const Corner& corner, const std::vector<Corner>& around,
     if (neighbour.normal.dot(facet.normal) >= crease_cosine)
       sum += neighbour.weight[other.corner] * neighbour.normal;
   }
-  const double length = sum.norm();  // 0 where all angles are too small for a double
+  const double length = sum.norm();  // 0 if all angles underflow
   return length > 0 ? Vector3(sum / length) : facet.normal;
 }
 
@@ -137,7 +135,7 @@ std::array<float, 2> place(double u, double v) {
   return {static_cast<float>(u), static_cast<float>(v)};
 }
 
-// A flat facet that is seen from outside with `up` upwards; coordinates from -half to half.
+// Of a flat facet with `up` upwards; coordinates from -half to half.
 CornerUv on_plane(const Corners& p, const Vector3& normal, const Vector3& up, double half) {
   const Vector3 right = up.cross(normal);
   CornerUv uv;
@@ -167,7 +165,7 @@ DrawMesh make_draw_mesh(const TriangleMesh& mesh, const std::vector<CornerUv>& u
       const std::array<float, 3> normal = to_float(normal_at(corner, around[v], facets));
       const std::array<float, 2> place =
           uv.empty() ? std::array<float, 2>{} : uv[facets[corner.facet].triangle][corner.corner];
-      // Corners that came to the same normal, and place in the texture, share one vertex.
+      // Corners with equal normal and texture coordinates share a vertex.
       const std::size_t known = result.positions.size();
       std::size_t index = known - begin > kMaxAround ? known - kMaxAround : begin;
       while (index < result.normals.size() &&
@@ -199,7 +197,7 @@ std::vector<CornerUv> places_on_box(const TriangleMesh& box) {
 std::vector<CornerUv> places_around_z(const TriangleMesh& mesh,
                                       const std::function<double(const Vector3&)>& down,
                                       double cap) {
-  const auto turn_of = [](const Vector3& p) {
+  const auto u_of = [](const Vector3& p) {
     return 0.5 + std::atan2(p.y(), p.x()) / (2 * std::numbers::pi);
   };
   std::vector<CornerUv> places;
@@ -210,14 +208,13 @@ std::vector<CornerUv> places_around_z(const TriangleMesh& mesh,
       places.push_back(on_plane(p, n, Vector3::UnitY(), cap));
       continue;
     }
-    // The corners stand beside the facet's middle, also where they are beyond the border; one on
-    // the axis, which has no direction of its own, stands at it.
-    const double middle = turn_of((p[0] + p[1] + p[2]) / 3);
+    // Corners on the same side of the border as the facet's centre; those on the axis at its u.
+    const double middle = u_of((p[0] + p[1] + p[2]) / 3);
     CornerUv uv;
     for (std::size_t k = 0; k < 3; ++k) {
       const bool on_axis = p[k].head<2>().norm() < 1e-9 * p[k].norm() + 1e-12;
-      const double turn = on_axis ? middle : turn_of(p[k]);
-      uv[k] = place(turn + std::round(middle - turn), down(p[k]));
+      const double u = on_axis ? middle : u_of(p[k]);
+      uv[k] = place(u + std::round(middle - u), down(p[k]));
     }
     places.push_back(uv);
   }

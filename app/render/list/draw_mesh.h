@@ -1,8 +1,5 @@
-// DrawMesh: triangles with a normal at each vertex, as every painter needs them; how to make one
-// from a TriangleMesh; and the unit shapes of which overlays are built.
-//
-// Each mesh lives in a frame M of its own; an instance places, turns and scales it (draw_list.h).
-// Single precision: painters draw with it, and a web page receives half the bytes.
+// DrawMesh: triangles with vertex normals in a mesh frame M, made from a TriangleMesh; unit shapes
+// of overlays. Single precision, as drawn and as sent to web pages.
 #pragma once
 
 #include <array>
@@ -16,13 +13,13 @@
 namespace twinarm {
 
 struct DrawMesh {
-  std::vector<std::array<float, 3>> positions;  // in M [m]
-  std::vector<std::array<float, 3>> normals;    // in M, unit length, one per position
-  std::vector<std::array<float, 2>> uv;         // in a texture, one per position; empty: none
+  std::vector<std::array<float, 3>> positions;          // in M [m]
+  std::vector<std::array<float, 3>> normals;            // in M, unit length, one per position
+  std::vector<std::array<float, 2>> uv;                 // one per position; empty: none
   std::vector<std::array<std::uint32_t, 3>> triangles;  // counter-clockwise seen from outside
-  bool two_sided = false;                               // an open surface, to be seen from within
+  bool two_sided = false;                               // an open surface
 
-  // A sphere that holds the mesh, in M [m]: painters fit shadows and depth range with it.
+  // Bounding sphere in M [m], for shadows and depth range.
   Vector3 bound_center = Vector3::Zero();
   double bound_radius = 0;
 };
@@ -30,17 +27,15 @@ struct DrawMesh {
 // In M; empty for a mesh without vertices.
 Eigen::AlignedBox3d bounding_box(const DrawMesh& mesh);
 
-// Edges whose two facets turn by less than this are drawn round, others sharp.
+// Edges below this angle are drawn smooth, others sharp.
 inline constexpr double kCreaseAngle = 35.0 * 3.14159265358979323846 / 180.0;
 
-// Vertices at the same place are welded first (STL gives each facet its own). The normal of a
-// triangle's corner is the mean of the facets around that vertex that lie within the crease angle
-// of the triangle, weighted by their area and their angle there: the large flat faces of a casting
-// then stay flat to the eye, and its small fillets take up the whole turn. Facets without area are
-// dropped. Cost: the sum of squared valences, of which those beyond 512 count once.
+// Welds equal vertices first (STL repeats them). The normal of a triangle's corner is the mean
+// normal of the facets at that vertex within the crease angle of the triangle, weighted by area and
+// corner angle. Facets without area are dropped. Cost: sum of squared valences up to 512.
 //
-// `uv`: where each corner of each triangle lies in a texture, (0, 0) at its top left and (1, 1) at
-// its bottom right; empty for none.
+// `uv`: texture coordinates by corner of each triangle, (0, 0) top left, (1, 1) bottom right; empty
+// for none.
 using CornerUv = std::array<std::array<float, 2>, 3>;
 DrawMesh make_draw_mesh(const TriangleMesh& mesh, const std::vector<CornerUv>& uv = {});
 
@@ -50,24 +45,20 @@ enum class UnitShape {
   cylinder,  // radius 1, axis z from 0 to 1
   cone,      // base radius 1 at z = 0, tip at z = 1
 };
-// With places in a texture (below), but for the cone.
+// With texture coordinates (below), except the cone.
 DrawMesh make_unit_mesh(UnitShape shape);
 
-// A helical spring along z from 0 to 1, coil radius 1, with straight leads on the axis. Stretching
-// it to its place would also stretch its wire; so the wire is drawn flat in such a way that it is
-// round again when the spring is scaled to `aspect` = length / coil radius.
+// A helical spring along z from 0 to 1, coil radius 1, with straight ends on the axis. Its wire is
+// flattened so that it is round when the spring is scaled to `aspect` = length / coil radius.
 DrawMesh make_unit_spring(double aspect);
 
-// Where the corners of plain shapes lie in a texture, (0, 0) at its top left, (1, 1) at its bottom
-// right. World or body axes: z up.
+// Texture coordinates of plain shapes, z up.
 //
-// Of a box of edge 1, centred: each face shows the whole picture. Of the four at the sides up is z,
-// of top and bottom y.
+// Of a centred box of edge 1: each face shows the whole texture, upwards z, on top and bottom y.
 std::vector<CornerUv> places_on_box(const TriangleMesh& box);
 
-// The picture once around z, its left and right border where y = 0 and x < 0; `down` gives how far
-// below its upper border a point lies. Facets that look along z show the circle of radius `cap`
-// within the picture; 0: there are none.
+// The texture once around z, its left and right border at y = 0, x < 0; `down`: v of a point.
+// Facets normal to z show the circle of radius `cap` within the texture; 0: there are none.
 std::vector<CornerUv> places_around_z(const TriangleMesh& mesh,
                                       const std::function<double(const Vector3&)>& down,
                                       double cap = 0);

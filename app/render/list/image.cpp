@@ -1,6 +1,4 @@
-// PNG is written by libpng's full interface and read by its simplified one, JPEG read by
-// libjpeg-turbo: whole files in memory. Compression level 3, quick: at 1280x720 level 6 takes four
-// times as long as level 1.
+// PNG by libpng, JPEG by libjpeg-turbo, whole files in memory.
 #include "app/render/list/image.h"
 
 #include <png.h>
@@ -21,7 +19,7 @@
 namespace twinarm {
 namespace {
 
-constexpr int kCompressionLevel = 3;
+constexpr int kCompressionLevel = 3;  // level 6 takes several times as long
 
 [[noreturn]] void fail(const std::string& problem, const std::string& fix) {
   throw InputError({Diagnostic{"", 0, "picture", problem, fix, "picture.write"}});
@@ -40,14 +38,12 @@ void check(const Image& image) {
 }
 
 bool is_opaque(const Image& image) {
-  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
     if (image.rgba[i] != 255) return false;
-  }
   return true;
 }
 
-// libpng reports by longjmp unless it is given functions that do not return; an exception through
-// its C frames is not allowed, so the message is kept here and the jump is taken.
+// libpng reports errors by longjmp.
 struct PngWriter {
   png_structp png = nullptr;
   png_infop info = nullptr;
@@ -68,7 +64,7 @@ void append(png_structp png, png_bytep data, png_size_t size) {
 
 void flush(png_structp) {}
 
-// Nothing with a destructor may be made between setjmp and the last call into libpng.
+// No objects with destructors between setjmp and the last call of libpng.
 bool encode(PngWriter& writer, const Image& image, bool opaque) {
   if (writer.png == nullptr || writer.info == nullptr) return false;
   if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
@@ -86,8 +82,8 @@ bool encode(PngWriter& writer, const Image& image, bool opaque) {
   return true;
 }
 
-constexpr int kMaxPixels = 1 << 26;    // 8192 x 8192
-constexpr int kLongestSide = 1 << 14;  // of a texture, in Mesa
+constexpr int kMaxPixels = 1 << 26;  // 8192 x 8192
+constexpr int kMaxSide = 1 << 14;    // of a texture, in Mesa
 
 [[noreturn]] void refuse(const std::string& name, const std::string& problem) {
   throw InputError(
@@ -95,7 +91,7 @@ constexpr int kLongestSide = 1 << 14;  // of a texture, in Mesa
 }
 
 Image sized(const std::string& name, std::int64_t width, std::int64_t height) {
-  if (width < 1 || height < 1 || width > kLongestSide || height > kLongestSide ||
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide ||
       width * height > kMaxPixels)
     refuse(name, "has " + std::to_string(width) + " x " + std::to_string(height) +
                      " pixels, must have 1 to 67 million, at most 16384 along a side");
@@ -107,7 +103,7 @@ Image decode_png(const std::string& name, std::string_view bytes) {
   png.version = PNG_IMAGE_VERSION;
   const std::unique_ptr<png_image, void (*)(png_image*)> freed(&png, png_image_free);
   if (!png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()))
-    refuse(name, std::string("is no PNG: ") + png.message);
+    refuse(name, std::string("is not a PNG: ") + png.message);
   png.format = PNG_FORMAT_RGBA;
   Image image = sized(name, png.width, png.height);
   if (!png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr))
@@ -121,7 +117,7 @@ Image decode_jpeg(const std::string& name, std::string_view bytes) {
   int width = 0, height = 0, subsampling = 0, colors = 0;
   if (!jpeg || tjDecompressHeader3(jpeg.get(), data, bytes.size(), &width, &height, &subsampling,
                                    &colors) != 0)
-    refuse(name, "is no JPEG");
+    refuse(name, "is not a JPEG");
   Image image = sized(name, width, height);
   if (tjDecompress2(jpeg.get(), data, bytes.size(), image.rgba.data(), width, 0, height, TJPF_RGBA,
                     TJFLAG_STOPONWARNING) != 0)

@@ -1,7 +1,6 @@
-// Image: a picture in memory, PNG out of it, PNG and JPEG into it.
+// Image: pixels in memory, written as PNG, read from PNG and JPEG.
 //
-// Rows run from the top to the bottom, pixels from left to right, four sRGB bytes each: red, green,
-// blue, alpha (255 = opaque).
+// Rows from top to bottom, pixels from left to right, sRGB bytes: red, green, blue, alpha.
 #pragma once
 
 #include <cstddef>
@@ -27,21 +26,20 @@ struct Image {
   }
 };
 
-// All bytes alike: 0 is clear black, 255 opaque white.
+// 0: transparent black, 255: opaque white.
 Image make_image(int width, int height, std::uint8_t byte = 0);
 
-// The bytes of a PNG file, without alpha where the whole picture is opaque. Throws InputError on an
-// empty or inconsistent image.
+// Bytes of a PNG file, without alpha if the image is opaque. Throws InputError on an empty or
+// inconsistent image.
 std::string encode_png(const Image& image);
 
-// Writes the file under a temporary name beside `path` and renames it: who watches the folder never
-// sees half a picture. Throws InputError where the folder cannot be written.
+// Writes atomically. Throws InputError if the folder cannot be written.
 void write_png(const std::string& path, const Image& image);
 
-// The picture in the bytes of a PNG or JPEG file; `name` is what errors call it. Throws InputError
-// where it is neither, broken, or larger than 67 million pixels.
+// From the bytes of a PNG or JPEG file; `name` is for messages. Throws InputError if it is neither,
+// broken, or larger than 67 million pixels.
 Image decode_image(const std::string& name, std::string_view bytes);
-// The same of a file, which may be missing.
+// Throws also if the file is missing.
 Image read_image(const std::filesystem::path& file);
 
 }  // namespace twinarm

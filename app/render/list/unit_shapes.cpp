@@ -1,6 +1,5 @@
-// The unit shapes: box, sphere, cylinder, cone and helical spring. All are built as plain triangles
-// and get their normals from make_draw_mesh, so facets must turn by less than its crease angle
-// where a shape is round.
+// Unit shapes: box, sphere, cylinder, cone and helical spring. Round parts have facets below the
+// crease angle of make_draw_mesh().
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -37,7 +36,7 @@ TriangleMesh box() {
   return mesh;
 }
 
-// Joins two rings of `count` vertices, the first of which have indices `lower` and `upper`.
+// Joins two rings of `count` vertices with first indices `lower` and `upper`.
 void add_band(TriangleMesh& mesh, int lower, int upper, int count) {
   for (int i = 0; i < count; ++i) {
     const int next = (i + 1) % count;
@@ -45,7 +44,7 @@ void add_band(TriangleMesh& mesh, int lower, int upper, int count) {
   }
 }
 
-// Closes a ring with a fan; `up` where its outside looks along +z.
+// Closes a ring with a fan; `up`: its outside faces +z.
 void add_fan(TriangleMesh& mesh, int ring, int count, const Vector3& tip, bool up) {
   const int center = add(mesh, tip);
   for (int i = 0; i < count; ++i) {
@@ -101,8 +100,8 @@ constexpr int kTurns = 9;
 constexpr int kStepsPerTurn = 24;
 constexpr int kWireSegments = 12;
 constexpr double kWireRadius = 0.17;
-constexpr double kLead = 0.10;  // share of the length that each straight lead takes
-constexpr double kRamp = 0.05;  // share in which the wire goes from the axis out to the coil
+constexpr double kLead = 0.10;  // length share of each straight end
+constexpr double kRamp = 0.05;  // length share from the axis to the coil
 
 double smooth_step(double low, double high, double t) {
   const double s = std::min(1.0, std::max(0.0, (t - low) / (high - low)));
@@ -128,16 +127,14 @@ TriangleMesh spring(double length) {
     const double t = static_cast<double>(i) / kSteps, step = 0.25 / kSteps;
     const Vector3 along =
         (center_line(t + step, length) - center_line(t - step, length)).normalized();
-    // The direction away from the axis is at right angles to the wire on the coil, and nearly so on
-    // the ramps; there it is straightened.
+    // The outward direction, made normal to the wire.
     const double angle = winding_angle(t);
     const Vector3 outward(std::cos(angle), std::sin(angle), 0);
     const Vector3 side = along.cross(outward).normalized(), up = side.cross(along);
     const int ring = static_cast<int>(mesh.vertices.size());
     for (int k = 0; k < kWireSegments; ++k) {
-      const double turn = 2 * kPi * k / kWireSegments;
-      add(mesh,
-          center_line(t, length) + kWireRadius * (std::cos(turn) * up - std::sin(turn) * side));
+      const double phi = 2 * kPi * k / kWireSegments;
+      add(mesh, center_line(t, length) + kWireRadius * (std::cos(phi) * up - std::sin(phi) * side));
     }
     if (i > 0) add_band(mesh, ring - kWireSegments, ring, kWireSegments);
   }
@@ -175,8 +172,7 @@ DrawMesh make_unit_mesh(UnitShape shape) {
 DrawMesh make_unit_spring(double aspect) {
   assert(aspect > 0);
   DrawMesh mesh = make_draw_mesh(spring(aspect));  // true proportions: normals by true angles
-  // Squash to unit length. The painter takes normals through the inverse transpose of the scale
-  // that undoes this, so they go through the transpose of that scale here.
+  // Scale to unit length; normals by the transpose of the inverse scale, which the painter undoes.
   const auto squash = static_cast<float>(1 / aspect), stretch = static_cast<float>(aspect);
   for (auto& p : mesh.positions) p[2] *= squash;
   for (auto& n : mesh.normals) {

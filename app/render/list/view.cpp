@@ -1,4 +1,3 @@
-// Bounds and projections.
 #include "app/render/list/view.h"
 
 #include <Eigen/Geometry>
@@ -23,7 +22,6 @@ void extend(Eigen::AlignedBox3d& box, const Ball& ball) {
   box.extend(ball.center + Vector3::Constant(ball.radius));
 }
 
-// Good enough for shadows.
 Ball circumscribed(const Eigen::AlignedBox3d& box) {
   return {box.center(), std::max(1e-6, 0.5 * box.diagonal().norm())};
 }
@@ -38,7 +36,7 @@ Ball bound(const DrawList& list, const Instance& instance) {
 Matrix4d look_from(const Vector3& eye, const Vector3& forward, const Vector3& up) {
   const Vector3 f = forward.normalized();
   Vector3 side = f.cross(up);
-  // Looking straight along `up`: any other direction serves.
+  // Forward parallel to `up`: any other direction.
   if (side.norm() < 1e-9 * up.norm()) side = f.cross(Vector3::UnitY());
   if (side.norm() < 1e-9) side = f.cross(Vector3::UnitX());
   side.normalize();
@@ -89,7 +87,7 @@ Matrix4d make_clip_from_world(const Camera& camera, double aspect, const SceneBo
   const double to_scene = (camera.eye - bounds.all.center).norm();
   const double near = std::max(0.02 * distance, 0.95 * (to_scene - bounds.all.radius));
   const double far = std::max(to_scene + bounds.all.radius, distance + 1.5 * floor_radius);
-  // The floor may come closer to the eye than the scene does.
+  // The floor may be nearer to the eye than the scene.
   const double safe_near = std::min(near, 0.1 * distance);
   return perspective(camera.field_of_view, aspect, safe_near, far) *
          look_from(camera.eye, camera.target - camera.eye, camera.up);
@@ -97,28 +95,28 @@ Matrix4d make_clip_from_world(const Camera& camera, double aspect, const SceneBo
 
 int rows_all_floor(const Matrix4d& clip_from_world, const FloorSquare& floor, int picture_height) {
   const Matrix4d world_from_clip = clip_from_world.inverse();
-  const auto is_floor = [&](double x, double y) {  // what the line of sight through it meets
+  const auto is_floor = [&](double x, double y) {  // whether the line of sight meets it
     const Vector3 near = (world_from_clip * Eigen::Vector4d(x, y, -1, 1)).hnormalized();
     const Vector3 far = (world_from_clip * Eigen::Vector4d(x, y, 1, 1)).hnormalized();
     const double share = (floor.height - near.z()) / (far.z() - near.z());
     const Vector3 off = near + share * (far - near) - floor.center;
     return share > 0 && share < 1 && off.head<2>().cwiseAbs().maxCoeff() < 0.99 * floor.half_side;
   };
-  // Between two points of one row, and between two rows, the square has no gap: it is convex.
+  // The square is convex: the ends of a row suffice.
   const auto row_is_floor = [&](int row) {
     const double y = 2.0 * row / picture_height - 1;
     return is_floor(-1, y) && is_floor(1, y);
   };
   int row = 0;
   while (row <= picture_height + 1 && row_is_floor(row)) ++row;
-  return std::max(0, row - 2);  // one is given away: pictures are shifted by a part of a pixel
+  return std::max(0, row - 2);  // a margin of one row for subpixel offsets
 }
 
 Matrix4d make_light_clip_from_world(const Vector3& towards_light_W, const Ball& ball) {
-  const double reach = 1.01 * ball.radius;
+  const double radius = 1.01 * ball.radius;
   Matrix4d scale = Matrix4d::Identity();
-  scale(0, 0) = scale(1, 1) = 1 / reach;
-  scale(2, 2) = -1 / reach;  // near is towards the light
+  scale(0, 0) = scale(1, 1) = 1 / radius;
+  scale(2, 2) = -1 / radius;  // near: towards the light
   return scale * look_from(ball.center, -towards_light_W, Vector3::UnitZ());
 }
 

@@ -1,6 +1,4 @@
-// Each connected surface is walked from triangle to triangle across its edges, so that its sides
-// come to agree. Each part is welded for its windings and normals; its places in the texture stay
-// by corner.
+// Breadth-first over each connected surface, across its edges. Texture coordinates stay by corner.
 #include "app/render/list/visual_model.h"
 
 #include <algorithm>
@@ -18,7 +16,7 @@ using Edge = std::pair<int, int>;  // of vertices, ascending
 
 struct Beside {
   std::size_t triangle;
-  bool ascending;  // whether it runs along the edge from the lower vertex to the higher
+  bool ascending;  // direction of the triangle along the edge: from the lower vertex
 };
 using Neighbours = std::map<Edge, std::vector<Beside>>;
 
@@ -39,29 +37,26 @@ Neighbours neighbours_of(const TriangleMesh& mesh) {
   return beside;
 }
 
-class Mender {
+class WindingRepair {
  public:
-  explicit Mender(TriangleMesh& mesh)
+  explicit WindingRepair(TriangleMesh& mesh)
       : mesh_(mesh), beside_(neighbours_of(mesh)), seen_(mesh.triangles.size()) {
-    result.turned.resize(mesh.triangles.size());
-  }
-
-  MendedWinding result;
-
-  void mend() {
+    result.flipped.resize(mesh.triangles.size());
     result.is_closed = !mesh_.triangles.empty();
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
-      if (!seen_[i]) mend_surface(i);
+      if (!seen_[i]) repair_surface(i);
     for (std::size_t i = 0; i < mesh_.triangles.size(); ++i)
-      if (result.turned[i]) std::swap(mesh_.triangles[i][1], mesh_.triangles[i][2]);
+      if (result.flipped[i]) std::swap(mesh_.triangles[i][1], mesh_.triangles[i][2]);
   }
+
+  ConsistentWinding result;
 
  private:
   const Vector3& corner(std::size_t i, std::size_t k) const {
     return mesh_.vertices[static_cast<std::size_t>(mesh_.triangles[i][k])];
   }
 
-  void mend_surface(std::size_t first) {
+  void repair_surface(std::size_t first) {
     std::vector<std::size_t> surface{first};
     seen_[first] = true;
     bool closed = true;
@@ -74,39 +69,39 @@ class Mender {
           return;
         }
         const Beside& other = both[both[0].triangle == i ? 1 : 0];
-        // They agree where they run along the edge in opposite directions.
-        const bool turned = result.turned[i] != (other.ascending == ascending);
+        // Consistent: opposite directions along the edge.
+        const bool flipped = result.flipped[i] != (other.ascending == ascending);
         if (seen_[other.triangle]) {
-          if (result.turned[other.triangle] != turned) closed = false;  // a Moebius strip
+          if (result.flipped[other.triangle] != flipped) closed = false;  // a Moebius strip
           return;
         }
         seen_[other.triangle] = true;
-        result.turned[other.triangle] = turned;
+        result.flipped[other.triangle] = flipped;
         surface.push_back(other.triangle);
       });
     }
     if (!closed) result.is_closed = false;
-    if (closed ? volume(surface) < 0 : area_turned(surface) > 0)
-      for (const std::size_t i : surface) result.turned[i] = !result.turned[i];
+    if (closed ? volume(surface) < 0 : flipped_area(surface) > 0)
+      for (const std::size_t i : surface) result.flipped[i] = !result.flipped[i];
   }
 
-  // Six times, about the first corner.
+  // Six times the volume.
   double volume(const std::vector<std::size_t>& surface) const {
     const Vector3 about = corner(surface[0], 0);
     double sum = 0;
     for (const std::size_t i : surface) {
       const Vector3 a = corner(i, 0) - about, b = corner(i, 1) - about, c = corner(i, 2) - about;
-      sum += (result.turned[i] ? -1 : 1) * a.dot(b.cross(c));
+      sum += (result.flipped[i] ? -1 : 1) * a.dot(b.cross(c));
     }
     return sum;
   }
 
-  // Less that of the others, twice.
-  double area_turned(const std::vector<std::size_t>& surface) const {
+  // Twice the area of flipped triangles minus that of the others.
+  double flipped_area(const std::vector<std::size_t>& surface) const {
     double sum = 0;
     for (const std::size_t i : surface) {
       const Vector3 b = corner(i, 1) - corner(i, 0), c = corner(i, 2) - corner(i, 0);
-      sum += (result.turned[i] ? 1 : -1) * b.cross(c).norm();
+      sum += (result.flipped[i] ? 1 : -1) * b.cross(c).norm();
     }
     return sum;
   }
@@ -121,7 +116,7 @@ struct Surface {
   std::vector<CornerUv> uv;
 };
 
-// Vertices with equal coordinates are one; triangles that lose a corner by it go.
+// Merges equal vertices; drops triangles that degenerate.
 Surface weld(const ModelPart& part, const Vector3& scale, KeepPlaces keep) {
   Surface surface;
   const bool has_uv = !part.uv.empty() && (part.texture >= 0 || keep == KeepPlaces::always);
@@ -148,24 +143,20 @@ Surface weld(const ModelPart& part, const Vector3& scale, KeepPlaces keep) {
   return surface;
 }
 
-void turn(CornerUv& uv) {
-  std::swap(uv[1], uv[2]);
-}
-
 VisualMesh visual_of(const ModelPart& part, const Vector3& scale, KeepPlaces keep,
-                     std::size_t& turned) {
+                     std::size_t& flipped) {
   Surface surface = weld(part, scale, keep);
-  if (scale.prod() < 0) {  // a mirror shows every triangle from behind
+  if (scale.prod() < 0) {  // mirrored
     for (auto& t : surface.mesh.triangles) std::swap(t[1], t[2]);
-    for (CornerUv& uv : surface.uv) turn(uv);
+    for (CornerUv& uv : surface.uv) std::swap(uv[1], uv[2]);
   }
-  const MendedWinding mended = mend_winding(surface.mesh);
+  const ConsistentWinding winding = make_winding_consistent(surface.mesh);
   for (std::size_t i = 0; i < surface.uv.size(); ++i)
-    if (mended.turned[i]) turn(surface.uv[i]);
-  turned += static_cast<std::size_t>(std::ranges::count(mended.turned, true));
+    if (winding.flipped[i]) std::swap(surface.uv[i][1], surface.uv[i][2]);
+  flipped += static_cast<std::size_t>(std::ranges::count(winding.flipped, true));
   VisualMesh visual;
   visual.mesh = make_draw_mesh(surface.mesh, surface.uv);
-  visual.mesh.two_sided = !mended.is_closed;
+  visual.mesh.two_sided = !winding.is_closed;
   if (part.has_color != 0)
     visual.color = Color{part.color[0], part.color[1], part.color[2], part.color[3]};
   return visual;
@@ -187,10 +178,8 @@ std::vector<std::shared_ptr<const Image>> pictures_of(const ModelFile& model,
 
 }  // namespace
 
-MendedWinding mend_winding(TriangleMesh& mesh) {
-  Mender mender(mesh);
-  mender.mend();
-  return std::move(mender.result);
+ConsistentWinding make_winding_consistent(TriangleMesh& mesh) {
+  return WindingRepair(mesh).result;
 }
 
 VisualModel load_visual(const std::filesystem::path& file, const Vector3& scale, KeepPlaces keep) {
@@ -198,19 +187,18 @@ VisualModel load_visual(const std::filesystem::path& file, const Vector3& scale,
   VisualModel visual;
   visual.notes = model.notes;
   const auto pictures = pictures_of(model, visual.notes);
-  std::size_t turned = 0;
+  std::size_t flipped = 0;
   for (const ModelPart& part : model.parts) {
-    visual.parts.push_back(visual_of(part, scale, keep, turned));
+    visual.parts.push_back(visual_of(part, scale, keep, flipped));
     if (part.texture >= 0)
       visual.parts.back().texture = pictures[static_cast<std::size_t>(part.texture)];
     if (visual.parts.back().mesh.triangles.empty()) visual.parts.pop_back();
   }
   if (visual.parts.empty())
-    throw InputError({{file.string(), 0, "mesh", "there is no triangle with an area in it",
+    throw InputError({{file.string(), 0, "mesh", "it has no triangle with an area",
                        "export the mesh again", "mesh.no-triangle"}});
-  if (turned > 0)
-    visual.notes.push_back(std::to_string(turned) +
-                           " triangles looked inwards and were turned about");
+  if (flipped > 0)
+    visual.notes.push_back(std::to_string(flipped) + " triangles faced inwards and were flipped");
   return visual;
 }
 

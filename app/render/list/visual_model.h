@@ -1,4 +1,4 @@
-// A file of meshes as it is to be drawn: parts with colours and textures, normals mended.
+// A mesh file prepared for drawing: parts with colours and textures, consistent winding.
 #pragma once
 
 #include <filesystem>
@@ -13,32 +13,30 @@ namespace twinarm {
 
 struct VisualMesh {
   DrawMesh mesh;                         // [m]
-  std::optional<Color> color;            // where the file states one
-  std::shared_ptr<const Image> texture;  // or none
+  std::optional<Color> color;            // from the file
+  std::shared_ptr<const Image> texture;  // or null
 };
 struct VisualModel {
   std::vector<VisualMesh> parts;
-  std::vector<std::string> notes;  // what was mended or left out, for the user to know
+  std::vector<std::string> notes;  // repairs and omissions, for the user
 };
 
-// Of parts without a texture of their own, whether they are to know where one would lie.
+// Whether parts without texture keep their texture coordinates.
 enum class KeepPlaces { where_textured, always };
 
-// Throws InputError as read_model() (collision/mesh_files/model_file.h) does. `scale` takes the
-// file's numbers to metres; an odd number of negative ones mirrors it. Triangles that disagree on
-// their outside are turned; a part that is not closed is drawn from both sides. A texture that is
-// no picture is left out and noted.
+// Throws InputError like read_model() (collision/mesh_files/model_file.h). `scale`: file units to
+// metres; an odd number of negative factors mirrors the mesh. Inconsistent triangles are flipped;
+// open parts are two-sided. Textures that cannot be decoded are omitted with a note.
 VisualModel load_visual(const std::filesystem::path& file, const Vector3& scale = Vector3::Ones(),
                         KeepPlaces keep = KeepPlaces::where_textured);
 
-struct MendedWinding {
-  std::vector<bool> turned;  // by triangle: its second and third corner were swapped
-  bool is_closed = false;    // every edge belongs to two triangles, whose sides now agree
+struct ConsistentWinding {
+  std::vector<bool> flipped;  // by triangle: its second and third corner were swapped
+  bool is_closed = false;     // every edge belongs to two triangles of consistent winding
 };
 
-// Of a welded mesh, where triangles may disagree on which side is outside. Neighbours are made to
-// agree across every edge that two triangles share, each connected surface as most of its area
-// stood before; one that is closed has its outside outside (its volume is positive). O(n log n).
-MendedWinding mend_winding(TriangleMesh& mesh);
+// Makes the winding of a welded mesh consistent across edges of two triangles: outward (positive
+// volume) for closed surfaces, else as for most of the area. O(n log n).
+ConsistentWinding make_winding_consistent(TriangleMesh& mesh);
 
 }  // namespace twinarm

@@ -1,4 +1,3 @@
-// Glyphs by FreeType: outlines are filled by it, halos are its strokes of the same outlines.
 #include "app/render/text/lettering.h"
 
 #include <ft2build.h>
@@ -22,12 +21,11 @@ using Eigen::Vector2d;
 constexpr std::array<const char*, 2> kFontFiles = {
     "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
     "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"};
-constexpr double kHaloShare = 0.05;  // width of the halo beyond 1 px, of the size of the letters
+constexpr double kHaloShare = 0.05;  // of the size of the letters: width of the halo beyond 1 px
 constexpr float kHaloCover = 0.72f;
 constexpr char32_t kReplacement = 0xFFFD;
 
-// UTF-8 to code points (RFC 3629, except that overlong forms are let through: nothing is decided by
-// the text, it is only drawn).
+// UTF-8 to code points (RFC 3629; overlong forms are accepted).
 std::vector<char32_t> code_points(const std::string& text) {
   std::vector<char32_t> points;
   std::size_t i = 0;
@@ -60,7 +58,7 @@ Color halo_of(const Color& c) {
   return luminance < 0.55f ? Color{0.97f, 0.98f, 0.99f, c.a} : Color{0.06f, 0.07f, 0.09f, c.a};
 }
 
-// Lays a colour over a pixel; nothing outside the picture.
+// Ignores pixels outside the picture.
 void blend(Image& image, int x, int y, const Color& color, float cover) {
   if (x < 0 || y < 0 || x >= image.width || y >= image.height) return;
   std::uint8_t* pixel = image.pixel(x, y);
@@ -86,14 +84,7 @@ void blend_bitmap(Image& image, FT_BitmapGlyph glyph, int x, int y, const Color&
   }
 }
 
-// A shape is its signed distance: the share of a pixel that it covers follows from the distance of
-// the pixel's middle to the edge.
-// Share of the pixel under a shape of which the edge is `inside` pixels away.
-float cover_at(double inside) {
-  return static_cast<float>(std::clamp(inside + 0.5, 0.0, 1.0));
-}
-
-// Blends a shape given by its signed distance (inside positive) over the pixels of a box.
+// Blends a shape, given by its signed distance (positive inside), over the pixels of a box.
 template <class Inside>
 void fill(Image& image, const Vector2d& low, const Vector2d& high, const Color& color,
           Inside&& inside) {
@@ -103,7 +94,8 @@ void fill(Image& image, const Vector2d& low, const Vector2d& high, const Color& 
   const int y1 = static_cast<int>(std::ceil(std::min<double>(image.height, high.y() + 1)));
   for (int y = y0; y < y1; ++y) {
     for (int x = x0; x < x1; ++x) {
-      const float cover = cover_at(inside(Vector2d(x + 0.5, y + 0.5)));
+      const double distance = inside(Vector2d(x + 0.5, y + 0.5));
+      const auto cover = static_cast<float>(std::clamp(distance + 0.5, 0.0, 1.0));
       if (cover > 0) blend(image, x, y, color, cover);
     }
   }
@@ -114,7 +106,7 @@ void fill(Image& image, const Vector2d& low, const Vector2d& high, const Color& 
 class Lettering::Impl {
  public:
   Impl() {
-    if (FT_Init_FreeType(&library_) != 0) fail("FreeType", "does not start", "free memory");
+    if (FT_Init_FreeType(&library_) != 0) fail("FreeType", "cannot be initialised", "free memory");
     for (std::size_t i = 0; i < faces_.size(); ++i) {
       if (FT_New_Face(library_, kFontFiles[i], 0, &faces_[i]) != 0) {
         FT_Done_FreeType(library_);
@@ -123,7 +115,7 @@ class Lettering::Impl {
     }
     if (FT_Stroker_New(library_, &stroker_) != 0) {
       FT_Done_FreeType(library_);
-      fail("FreeType", "makes no stroker", "free memory");
+      fail("FreeType", "cannot create a stroker", "free memory");
     }
   }
   ~Impl() {
@@ -147,7 +139,7 @@ class Lettering::Impl {
     FT_Face face = sized_face(size_px, weight);
     FT_Stroker_Set(stroker_, to_26_6(1 + kHaloShare * size_px), FT_STROKER_LINECAP_ROUND,
                    FT_STROKER_LINEJOIN_ROUND, 0);
-    // All halos before all letters: the halo of one letter must not eat its neighbour.
+    // All halos before all letters.
     for (const bool halo : {true, false}) {
       double x = start_px.x();
       for (const char32_t point : code_points(text)) {
@@ -170,7 +162,7 @@ class Lettering::Impl {
     return face;
   }
 
-  // Letters are aligned to the rows of pixels only, so their spacing stays as designed.
+  // Light hinting: vertical only, so that the spacing is exact.
   static bool load(FT_Face face, char32_t point) {
     return FT_Load_Char(face, static_cast<FT_ULong>(point),
                         FT_LOAD_NO_BITMAP | FT_LOAD_TARGET_LIGHT) == 0;
@@ -184,7 +176,7 @@ class Lettering::Impl {
     FT_Glyph glyph = nullptr;
     if (FT_Get_Glyph(face->glyph, &glyph) != 0) return;
     if (halo) FT_Glyph_Stroke(&glyph, stroker_, 1);
-    // Whole pixels by moving the bitmap, the remainder of x by moving the outline.
+    // Whole pixels by the bitmap's position, the fraction of x by the outline's.
     const double column = std::floor(at_px.x()), row = std::round(at_px.y());
     FT_Vector remainder{to_26_6(at_px.x() - column), 0};
     if (FT_Glyph_To_Bitmap(&glyph, FT_RENDER_MODE_NORMAL, &remainder, 1) == 0) {

@@ -1,7 +1,5 @@
-// Text and flat shapes onto an Image (FreeType and the DejaVu fonts of Debian end here).
-//
-// Positions and sizes in pixels from the top left, y down. A thin halo in the opposite tone keeps
-// the letters legible on any ground.
+// Text and flat shapes on an Image, by FreeType with the DejaVu fonts. Pixels from the top left, y
+// down. A thin halo of opposite lightness keeps letters legible.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,10 +15,10 @@ enum class Weight { regular, bold };
 
 class Lettering {
  public:
-  Lettering();  // throws InputError where the fonts are missing
+  Lettering();  // throws InputError if the fonts are missing
   ~Lettering();
 
-  // `text` is UTF-8, one line; a malformed byte becomes the replacement character.
+  // `text`: UTF-8, one line; malformed bytes become the replacement character.
   double width(const std::string& text, double size_px, Weight weight = Weight::regular);
   // `start_px` is the left end of the base line.
   void draw(Image& image, const std::string& text, const Eigen::Vector2d& start_px, double size_px,
@@ -31,7 +29,7 @@ class Lettering {
   std::unique_ptr<Impl> impl_;
 };
 
-// Flat shapes; edges are smooth by their cover. A box with corners of the given radius:
+// Antialiased shapes. A box with rounded corners:
 void draw_box(Image& image, const Eigen::Vector2d& low, const Eigen::Vector2d& high, double radius,
               const Color& color);
 // With round ends:

@@ -1,4 +1,3 @@
-// Layout in pixels from the top left, y down.
 #include "app/render/text/overlay.h"
 
 #include <algorithm>
@@ -31,13 +30,13 @@ ScreenBox scaled(ScreenBox bar, double scale) {
   return bar;
 }
 
-// Where a label's text stands: the left end of its base line, and its width.
+// Left end of a text's base line, and its width.
 struct Placed {
   Vector2d start_px;
   double width;
 };
 
-// Text that would leave the picture, or run into the title above `top_px`, is moved back.
+// Moved into the picture, below the title that ends at `top_px`.
 Placed place(const Image& image, Lettering& lettering, const Label& label, double top_px,
              const Vector2d& at_px) {
   constexpr double kMargin = 6;  // [px]
@@ -47,31 +46,23 @@ Placed place(const Image& image, Lettering& lettering, const Label& label, doubl
   return {at_px.cwiseMin(high).cwiseMax(low), width};
 }
 
-struct Room {
+struct Rectangle {
   Vector2d low, high;
 };
+using Occupied = std::vector<Rectangle>;  // by text and panels
 
-Room room_of(const Placed& text, double size_px) {
+Rectangle rectangle_of(const Placed& text, double size_px) {
   return {text.start_px - Vector2d(4, 0.9 * size_px),
           text.start_px + Vector2d(text.width + 4, 0.25 * size_px)};
 }
 
-// What letters and panels have taken of the picture.
-class TakenRoom {
- public:
-  void take(const Room& room) { taken_.push_back(room); }
-  bool is_free(const Room& room) const {
-    return std::ranges::none_of(taken_, [&](const Room& other) {
-      return (room.low.array() < other.high.array()).all() &&
-             (room.high.array() > other.low.array()).all();
-    });
-  }
+bool is_free(const Occupied& occupied, const Rectangle& r) {
+  return std::ranges::none_of(occupied, [&](const Rectangle& other) {
+    return (r.low.array() < other.high.array()).all() && (r.high.array() > other.low.array()).all();
+  });
+}
 
- private:
-  std::vector<Room> taken_;
-};
-
-// The lines that are tried: the one where it stood, its own, the nearest above and below.
+// Lines to try: the previous one, the preferred one, the nearest above and below.
 std::vector<double> lines_to_try(double before) {
   std::vector<double> lines{before, 0};
   for (int n = 1; n <= 4; ++n) {
@@ -81,12 +72,11 @@ std::vector<double> lines_to_try(double before) {
   return lines;
 }
 
-// At its place, or on the nearest line where nothing stands yet. Nothing where there is no room:
-// letters over letters cannot be read.
+// At its preferred position or on the nearest free line; empty if there is none.
 std::optional<Placed> place_free(const Image& image, Lettering& lettering, const Label& label,
-                                 double top_px, const Vector2d& anchor_px, TakenRoom& taken,
+                                 double top_px, const Vector2d& anchor_px, Occupied& occupied,
                                  LabelMemory* memory) {
-  constexpr double kGlide = 0.3;  // of the way, in each picture
+  constexpr double kGlide = 0.3;  // share of the distance in each picture
   const double line_px = 1.25 * label.size_px;
   const auto placed_at = [&](double down_px) {
     return place(image, lettering, label, top_px,
@@ -96,9 +86,9 @@ std::optional<Placed> place_free(const Image& image, Lettering& lettering, const
   const bool is_new = !before || memory->is_new(*before);
   for (const double line : lines_to_try(is_new ? 0 : before->line)) {
     const Placed found = placed_at(line * line_px);
-    const Room room = room_of(found, label.size_px);
-    if (!taken.is_free(room)) continue;
-    taken.take(room);
+    const Rectangle rectangle = rectangle_of(found, label.size_px);
+    if (!is_free(occupied, rectangle)) continue;
+    occupied.push_back(rectangle);
     if (!before) return found;
     before->line = line;
     before->picture = memory->picture();
@@ -112,30 +102,30 @@ bool is_inside(const Image& image, const Vector2d& p) {
   return p.x() >= 0 && p.y() >= 0 && p.x() <= image.width && p.y() <= image.height;
 }
 
-// From the bottom or right where negative.
+// From the bottom or right if negative.
 Vector2d on_screen(const Image& image, Vector2d offset_px) {
   if (offset_px.x() < 0) offset_px.x() += image.width;
   if (offset_px.y() < 0) offset_px.y() += image.height;
   return offset_px;
 }
 
-void draw_bar(Image& image, const ScreenBox& bar, TakenRoom& taken) {
+void draw_bar(Image& image, const ScreenBox& bar, Occupied& occupied) {
   if (!bar.corner_px.allFinite() || !bar.size_px.allFinite()) return;
   if (!(bar.size_px.minCoeff() > 0)) return;
   const Vector2d low = on_screen(image, bar.corner_px);
   draw_box(image, low, low + bar.size_px, std::min(3.0, 0.5 * bar.size_px.minCoeff()), bar.color);
-  taken.take({low, low + bar.size_px});
+  occupied.push_back({low, low + bar.size_px});
 }
 
 void draw_screen_label(Image& image, Lettering& lettering, const Label& label, double top_px,
-                       TakenRoom& taken) {
+                       Occupied& occupied) {
   const Vector2d at_px = on_screen(image, label.offset_px);
   const Placed text = place(image, lettering, label, top_px, at_px);
-  taken.take(room_of(text, label.size_px));
+  occupied.push_back(rectangle_of(text, label.size_px));
   lettering.draw(image, label.text, text.start_px, label.size_px, label.color);
 }
 
-// A thin line from the point to the nearest place beside the text, and a dot on the point.
+// A thin line from the point to the text, and a dot on the point.
 void draw_leader(Image& image, const Label& label, const Placed& text, const Vector2d& anchor_px) {
   constexpr double kMinLength = 12, kGap = 5;                      // [px]
   const double middle = text.start_px.y() - 0.35 * label.size_px;  // of the letters' height
@@ -152,16 +142,16 @@ void draw_leader(Image& image, const Label& label, const Placed& text, const Vec
 }
 
 void draw_world_label(Image& image, Lettering& lettering, const Label& label, double top_px,
-                      const Vector2d& anchor_px, TakenRoom& taken, LabelMemory* memory) {
-  const auto text = place_free(image, lettering, label, top_px, anchor_px, taken, memory);
+                      const Vector2d& anchor_px, Occupied& occupied, LabelMemory* memory) {
+  const auto text = place_free(image, lettering, label, top_px, anchor_px, occupied, memory);
   if (!text) return;
   draw_leader(image, label, *text, anchor_px);
   lettering.draw(image, label.text, text->start_px, label.size_px, label.color);
 }
 
-// At the bottom left, on a pale panel; sized with the picture.
+// At the bottom left, on a panel.
 void draw_legend(Image& image, const DrawList& list, Lettering& lettering, double size_px,
-                 TakenRoom& taken) {
+                 Occupied& occupied) {
   if (list.legend.empty()) return;
   const double row = 1.6 * size_px, margin = 1.4 * size_px, padding = 0.75 * size_px;
   const double swatch = 0.85 * size_px, text_x = swatch + 0.7 * size_px;
@@ -173,7 +163,7 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
   const Vector2d low(margin, image.height - margin - height - 2 * padding);
   const Vector2d high = low + Vector2d(width + 2 * padding, height + 2 * padding);
   draw_box(image, low, high, 0.5 * size_px, kPaper);
-  taken.take({low, high});
+  occupied.push_back({low, high});
   Vector2d at = low + Vector2d(padding, padding + 0.5 * row);  // left end, middle of the row
   for (const LegendLine& line : list.legend) {
     const Vector2d top = at - Vector2d(0, 0.5 * swatch);
@@ -183,7 +173,7 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
   }
 }
 
-// At the bottom right: what the lines on the floor measure.
+// At the bottom right.
 void draw_grid_scale(Image& image, const Ground& ground, Lettering& lettering, double size_px) {
   std::array<char, 64> text{};
   std::snprintf(text.data(), text.size(), "grid %g m, bold %g m", ground.cell,
@@ -194,7 +184,7 @@ void draw_grid_scale(Image& image, const Ground& ground, Lettering& lettering, d
                  kInk);
 }
 
-// At the top left, smaller where it would be too wide. Returns where it ends below.
+// At the top left, reduced to the picture's width. Returns its lower end.
 double draw_title(Image& image, const std::string& title, Lettering& lettering, double size_px) {
   if (title.empty()) return 0;
   const double margin = 1.4 * size_px, room = image.width - 2 * margin;
@@ -220,23 +210,21 @@ void draw_overlay(Image& image, const DrawList& list, const Eigen::Matrix4d& cli
   const double size_px = std::clamp(std::max(image.height / 50.0, image.width / 92.0), 10.0, 40.0);
   const double scale = size_px / kUsualLetters;
   const double top_px = draw_title(image, list.title, lettering, size_px);
-  TakenRoom taken;
-  draw_legend(image, list, lettering, size_px, taken);
-  for (const ScreenBox& bar : list.bars) draw_bar(image, scaled(bar, scale), taken);
+  Occupied occupied;
+  draw_legend(image, list, lettering, size_px, occupied);
+  for (const ScreenBox& bar : list.bars) draw_bar(image, scaled(bar, scale), occupied);
   for (const Label& label : list.labels)
     if (label.anchor == Label::Anchor::screen)
-      draw_screen_label(image, lettering, scaled(label, scale), top_px, taken);
-  for (const Label& usual : list.labels) {
-    const Label label = scaled(usual, scale);
+      draw_screen_label(image, lettering, scaled(label, scale), top_px, occupied);
+  for (const Label& unscaled : list.labels) {
+    const Label label = scaled(unscaled, scale);
     if (label.anchor == Label::Anchor::screen) continue;
     const auto anchor_px = project(clip_from_world, label.p_W, image.width, image.height);
     if (anchor_px && is_inside(image, *anchor_px)) {
-      draw_world_label(image, lettering, label, top_px, *anchor_px, taken, memory);
+      draw_world_label(image, lettering, label, top_px, *anchor_px, occupied, memory);
     }
   }
-  if (list.ground.visible) {
-    draw_grid_scale(image, list.ground, lettering, 0.9 * size_px);
-  }
+  if (list.ground.visible) draw_grid_scale(image, list.ground, lettering, 0.9 * size_px);
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Overlay: title, legend and labels onto a finished picture.
+// Title, legend and labels on a finished picture.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,15 +11,15 @@
 
 namespace twinarm {
 
-// Where labels stood in the picture before, for films: there they keep their line while it is free,
-// and glide to another instead of jumping. A label is known by its words without numbers and
-// prefixes of units, and by how many of the same stand before it in the list.
+// Label positions in the previous picture of a film: a label keeps its line while it is free, and
+// moves gradually to another. A label is identified by its text without numbers and unit prefixes,
+// and by the number of equal ones before it.
 class LabelMemory {
  public:
   struct Place {
-    double line = 0;      // lines below the wanted place
-    double shift_px = 0;  // down, as drawn
-    int picture = -1;     // in which it was drawn last
+    double line = 0;      // lines below the preferred position
+    double shift_px = 0;  // downwards, as drawn
+    int picture = -1;     // last picture with it
   };
   void begin() {  // a picture
     ++picture_;
@@ -35,7 +35,7 @@ class LabelMemory {
   std::map<std::string, Place> places_;
 };
 
-// `clip_from_world` is the projection with which the picture was made; no memory: a still.
+// `clip_from_world`: projection of the picture; no memory: a still.
 void draw_overlay(Image& image, const DrawList& list, const Eigen::Matrix4d& clip_from_world,
                   Lettering& lettering, LabelMemory* memory = nullptr);
 

@@ -23,7 +23,7 @@ std::string tick_text(double value) {
   return text.data();
 }
 
-// Linear between the neighbours; nothing outside, or beside a gap.
+// Linear interpolation; empty outside, or beside a gap.
 std::optional<double> value_at(const Plot& plot, const PlotCurve& curve, double t) {
   const auto next = std::upper_bound(plot.t.begin(), plot.t.end(), t);
   if (next == plot.t.begin()) return std::nullopt;
@@ -54,7 +54,7 @@ Image blank(int width, int height) {
   return image;
 }
 
-// What is plotted at the left, what the colours mean at the right of it, smaller where it is long.
+// Title and names of the curves, reduced to the width.
 void draw_heading(Image& image, Lettering& letters, const Plot& plot, const Vector2d& low,
                   const Vector2d& high, double size) {
   const double gap = 1.2 * size, dash = 1.4 * size;
@@ -104,14 +104,14 @@ PlotRange range_of(const std::vector<const Plot*>& plots) {
   return range;
 }
 
-std::vector<double> round_ticks(double low, double high, int most) {
+std::vector<double> round_ticks(double low, double high, int max_count) {
   std::vector<double> ticks;
-  if (!(high > low) || !std::isfinite(high - low) || most < 1) return ticks;
-  const double ten = std::pow(10.0, std::floor(std::log10((high - low) / most)));
+  if (!(high > low) || !std::isfinite(high - low) || max_count < 1) return ticks;
+  const double ten = std::pow(10.0, std::floor(std::log10((high - low) / max_count)));
   double step = ten;
   for (const double factor : {1.0, 2.0, 5.0, 10.0, 20.0}) {
     step = factor * ten;
-    if (std::floor(high / step + 1e-9) - std::ceil(low / step - 1e-9) + 1 <= most) break;
+    if (std::floor(high / step + 1e-9) - std::ceil(low / step - 1e-9) + 1 <= max_count) break;
   }
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i)
     ticks.push_back(i == 0 ? 0.0 : i * step);

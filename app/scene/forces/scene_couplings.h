@@ -66,7 +66,8 @@ class SceneCouplings {
                   Forces<double>& forces);
   // The pull of the last evaluation, in the same components.
   Vector3 pull(std::size_t c) const;
-  // The weightless inertia that the treatment added in the last step (docs/understand/couplings.md).
+  // The weightless inertia that the treatment added in the last step
+  // (docs/understand/coupling_laws.md).
   double m_star(std::size_t c) const;
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
   // What moves the kinematic side; of a target that stands still a hand at rest.

@@ -23,29 +23,26 @@ std::string microseconds(double seconds) {
 void add_times(TextTable& table, const std::string& name, const TickTimes& times) {
   if (times.count() == 0) return;
   table.add({name, microseconds(times.quantile(0.5)), microseconds(times.quantile(0.99)),
-             microseconds(times.quantile(0.999)), microseconds(times.largest())});
+             microseconds(times.quantile(0.999)), microseconds(times.max())});
 }
 
 std::string timing_table(const ServoResult& servo) {
-  TextTable table({"[us]", "median", "99 %", "99.9 %", "largest"});
+  TextTable table({"[us]", "median", "99 %", "99.9 %", "maximum"});
   add_times(table, "processor time of a tick", servo.run.cpu);
   add_times(table, "wall time of a tick", servo.run.wall);
-  add_times(table, "woken late", servo.run.late);
-  add_times(table, "from tick to tick", servo.run.interval);
+  add_times(table, "wake-up latency", servo.run.late);
+  add_times(table, "interval between ticks", servo.run.interval);
   add_times(table, "empty loop: processor time", servo.empty.cpu);
-  add_times(table, "empty loop: woken late", servo.empty.late);
-  add_times(table, "empty loop: from tick to tick", servo.empty.interval);
+  add_times(table, "empty loop: wake-up latency", servo.empty.late);
+  add_times(table, "empty loop: interval between ticks", servo.empty.interval);
   std::string text = table.str();
-  text += fmt::format("overruns (ticks not done by the next deadline): {} of {}",
-                      servo.run.overruns, servo.run.cpu.count());
+  text += fmt::format("deadline misses: {} of {}", servo.run.overruns, servo.run.cpu.count());
   if (servo.empty.cpu.count() > 0)
     text +=
         fmt::format("; of the empty loop: {} of {}", servo.empty.overruns, servo.empty.cpu.count());
   if (servo.run.slipped > 0)
-    text += fmt::format(
-        "\ntime has slipped by {} ticks: the machine was away for longer than could "
-        "be made up for",
-        servo.run.slipped);
+    text += fmt::format("\nlost ticks: {} (delay beyond {} ticks)", servo.run.slipped,
+                        ServoClock::kMaxBehind);
   return text + "\n";
 }
 
@@ -55,7 +52,7 @@ void write_figures(JsonWriter& json, const char* name, const TickFigures& figure
       json.object({{"median", times.quantile(0.5)},
                    {"p99", times.quantile(0.99)},
                    {"p999", times.quantile(0.999)},
-                   {"largest", times.largest()},
+                   {"largest", times.max()},
                    {"mean", times.mean()}});
     };
   };
@@ -78,30 +75,30 @@ void write_files(JsonWriter& json, const LiveSummary& summary) {
 
 std::string live_table(const LiveSummary& summary) {
   std::string text =
-      fmt::format("{}\nhand: {}\n{}\n\n{:.3f} s, {} ticks of {} s", summary.scene, summary.device,
+      fmt::format("{}\ndevice: {}\n{}\n\n{:.3f} s, {} ticks of {} s", summary.scene, summary.device,
                   summary.felt, summary.duration, summary.ticks, summary.step);
   if (summary.silences > 0)
-    text += fmt::format("; the device fell silent {} times: {} ticks held, {} released",
-                        summary.silences, summary.held, summary.released);
+    text += fmt::format("; device timeouts: {}, ticks held: {}, released: {}", summary.silences,
+                        summary.held, summary.released);
   text += "\n\n";
-  TextTable tracking({"|q_K - q_D| [deg]", "largest", "mean"});
+  TextTable tracking({"|q_K - q_D| [deg]", "maximum", "mean"});
   for (std::size_t j = 0; j < summary.joints.size(); ++j)
     tracking.add(
         {summary.joints[j], fmt::format("{:.3f}", summary.max_error[j] / kDegree),
          fmt::format("{:.3f}", summary.sum_error[j] /
                                    static_cast<double>(std::max(1L, summary.ticks)) / kDegree)});
   text += tracking.str();
-  text += fmt::format("\nlargest torque of the motors 1, 2, 3: {:.1f}, {:.1f}, {:.1f} mN m\n",
+  text += fmt::format("\nmaximum torque of motors 1, 2, 3: {:.1f}, {:.1f}, {:.1f} mN m\n",
                       1e3 * summary.max_torque[0], 1e3 * summary.max_torque[1],
                       1e3 * summary.max_torque[2]);
   if (summary.real_time) text += "\n" + timing_table(summary.servo);
-  if (!summary.servo.refused.empty()) text += "not granted: " + summary.servo.refused + "\n";
-  if (!summary.servo.finite) text += "the robot left all bounds: the run ended there\n";
+  if (!summary.servo.refused.empty()) text += "denied: " + summary.servo.refused + "\n";
+  if (!summary.servo.finite) text += "state diverged: the run ended there\n";
   if (!summary.log.empty()) text += "log: " + summary.log + "\n";
   if (!summary.recording.empty())
     text += fmt::format("recording: {} ({})\n", summary.recording,
-                        summary.same_bits ? "made again from the log, with the same bits"
-                                          : "it does not end as the live run did");
+                        summary.same_bits ? "re-simulated from the log, bit-exact"
+                                          : "ends in another state than the live run");
   if (!summary.picture.empty()) text += "picture: " + summary.picture + "\n";
   return text;
 }
@@ -147,7 +144,7 @@ void write_scene_of_log(const std::filesystem::path& scene, const std::filesyste
   tree.put("step", Value::of(step));
   tree.put("duration", Value::of(duration));
   name_files_from_root(scene.parent_path(), tree);
-  write_whole_file(file, "# " + scene.filename().string() + " under the hand of " +
+  write_whole_file(file, "# " + scene.filename().string() + " driven by the log " +
                              log.filename().string() + "\n" + to_toml(tree));
 }
 
@@ -193,7 +190,7 @@ struct Columns {
   std::vector<double> at, share;  // [us], [%] of all ticks
 };
 
-// By quarters of an octave; empty bins are gaps of a logarithmic axis.
+// In bins of a quarter octave.
 Columns columns_of(const TickTimes& times) {
   constexpr int kTogether = 4;
   Columns columns;
@@ -207,10 +204,10 @@ Columns columns_of(const TickTimes& times) {
   return columns;
 }
 
-// One panel: a stepped curve for the run, and one for the empty loop.
+// One panel: bars for the run and for the empty loop.
 std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& run,
                   const TickTimes& empty, double limit, const std::string& limit_name) {
-  const Columns ours = columns_of(run), control = columns_of(empty);
+  const Columns measured = columns_of(run), control = columns_of(empty);
   std::string script = fmt::format(
       "set xlabel {}\nset ylabel 'share of all ticks [%]'\nset logscale xy\n"
       "set xrange [0.1:20000]\nset yrange [{}:150]\nset format y '%g'\nset format x '%g'\n",
@@ -222,7 +219,7 @@ std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& r
   script += fmt::format(
       "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title "
       "'with the robot'",
-      gnuplot.data({ours.at, ours.share}), palette::dvr);
+      gnuplot.data({measured.at, measured.share}), palette::dvr);
   if (empty.count() > 0)
     script += fmt::format(
         ", {} using ($1*1.06):($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' "
@@ -241,10 +238,10 @@ void draw_timing(const LiveSummary& summary, const std::filesystem::path& file) 
       "set multiplot layout 1,2 margins 0.085,0.98,0.17,0.86 spacing 0.1,0.1\n"
       "set key at graph 1,1.14 right top horizontal\n" +
       panel(gnuplot, "processor time of a tick [us]", run.cpu, empty.cpu, 50, "50 us") +
-      panel(gnuplot, "woken late [us]", run.late, empty.late, 1e6 * summary.step, "one tick") +
+      panel(gnuplot, "wake-up latency [us]", run.late, empty.late, 1e6 * summary.step, "one tick") +
       "unset multiplot\n";
   const std::string title =
-      fmt::format("Punctuality of {} ticks of {} s", run.cpu.count(), summary.step);
+      fmt::format("Timing of {} ticks of {} s", run.cpu.count(), summary.step);
   write_whole_file(file, file.extension() == ".png"
                              ? gnuplot.png("timing", 1100, 420, script)
                              : gnuplot.svg("timing", title, 1000, 380, script));

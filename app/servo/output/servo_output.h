@@ -1,4 +1,4 @@
-// What is told of a live run: punctuality, tracking, forces. As a table, as JSON, as a picture.
+// Output of a live run: timing, tracking errors, forces; as table, JSON and picture; its log.
 #pragma once
 
 #include <filesystem>
@@ -13,48 +13,47 @@
 
 namespace twinarm {
 
-// Gathered from the ticks by the thread that drains the ring.
+// Collected from the ticks by the thread that drains the ring.
 struct LiveSummary {
-  std::string scene, device, mapping, felt;  // in words
+  std::string scene, device, mapping, felt;  // descriptions; felt: of the force
   std::vector<std::string> joints;
-  double step = 0, duration = 0;           // [s]; the time that the run has reached
-  long ticks = 0, held = 0, released = 0;  // ticks of each mode of silence
+  double step = 0, duration = 0;           // [s]; run time
+  long ticks = 0, held = 0, released = 0;  // ticks in each mode of the watchdog
   long silences = 0;
-  std::array<double, 3> max_torque{};        // felt [N m]
+  std::array<double, 3> max_torque{};        // [N m]
   std::vector<double> max_error, sum_error;  // |q_K - q_D| by joint [rad]
-  std::string log, recording, picture;       // files; empty where there is none
-  bool same_bits = false;                    // the run made again ended in the same state
+  std::string log, recording, picture;       // files; empty: none
+  bool same_bits = false;                    // the re-simulated run ended in the same state
   ServoResult servo;
   bool real_time = true;
 };
 
 std::string live_table(const LiveSummary& summary);
 std::string live_json(const LiveSummary& summary);
-// Two histograms, lateness and processor time of a tick; beside an empty loop's where there is one.
-// SVG or PNG by the name. Throws InputError without gnuplot.
+// Histograms of wake-up latency and processor time per tick, with those of the empty loop if any.
+// SVG or PNG by the name. Throws InputError: no gnuplot.
 void draw_timing(const LiveSummary& summary, const std::filesystem::path& file);
 
-// The log of a live run as a file that grows while the run goes on: what was written stays,
-// whatever happens to the program (coupling/device/device_motion.h).
+// Log of a live run (coupling/device/device_motion.h), written while it runs.
 class LiveLog {
  public:
-  // Throws InputError where it cannot be written.
+  // Throws InputError: not writable.
   explicit LiveLog(const std::filesystem::path& file)
       : file_(file.string()), stream_(file, std::ios::binary) {
     if (!stream_)
-      throw InputError({{file_, 0, "--out", "the log cannot be written", "give a folder that can",
-                         "file.open"}});
+      throw InputError(
+          {{file_, 0, "--out", "cannot write the log", "give a writable folder", "file.open"}});
     stream_ << hand_log_header();
   }
   void write(const HandStep& step) { stream_ << hand_log_line(step); }
   void flush() { stream_.flush(); }
-  bool is_whole() const { return stream_.good(); }  // all that was to be written is
-  // Throws InputError where not all of it could be written.
+  bool is_whole() const { return stream_.good(); }  // everything was written
+  // Throws InputError: not everything was written.
   void finish() {
     stream_.flush();
     if (!stream_)
-      throw InputError({{file_, 0, "--out", "the log could not be written to its end",
-                         "make room on the disk", "file.write"}});
+      throw InputError({{file_, 0, "--out", "cannot write the end of the log",
+                         "free space on the disk", "file.write"}});
   }
 
  private:
@@ -62,14 +61,12 @@ class LiveLog {
   std::ofstream stream_;
 };
 
-// A live run made again from its log, by the ordinary run of `simulate`: recorded, with ledger and
-// all that a servo loop has no time for. It takes the same steps with the same bits.
-
-// The scene with the log in place of the device, as a file of its own.
+// Re-simulation of a live run from its log, as by `simulate`, bit for bit, with energy balance and
+// recording. This writes the scene with the log in place of the device.
 void write_scene_of_log(const std::filesystem::path& scene, const std::filesystem::path& log,
                         double step, double duration, const std::filesystem::path& file);
 
-// Runs that scene and records it; the state at its end. Throws InputError, Interrupted.
+// Runs that scene and records it; returns the last state. Throws InputError, Interrupted.
 State<double> record_again(const std::filesystem::path& scene,
                            const std::filesystem::path& recording);
 

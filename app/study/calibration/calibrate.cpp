@@ -13,10 +13,9 @@ namespace {
 
 constexpr unsigned kSeed = 1;
 constexpr int kFitEvaluations = 4000, kTrialEvaluations = 700;
-// The folded law is sensitive to its gains: what half a percent does to a fit is recorded.
-constexpr double kShift = 1.005;
-// A spring must pull back: below this a pure damper would be the "most stable" movement [Hz].
-constexpr double kMinFrequency = 1;
+// Change of a gain for the sensitivity of a fit; the folded law is sensitive to its gains.
+constexpr double kGainChange = 1.005;
+constexpr double kMinFrequency = 1;  // [Hz]; without it a pure damper would be optimal
 
 using Objective = std::function<double(const CalibrationEntry&)>;
 struct Job {
@@ -24,11 +23,11 @@ struct Job {
   Method method = Method::multistart;
   int evaluations = 0;
   Objective objective;
-  std::function<void(CalibrationEntry&)> finish;  // writes the entry's numbers
+  std::function<void(CalibrationEntry&)> finish;  // writes the numbers of the entry
 };
 
-// Bounds of one k and one b: from a natural frequency of kMinFrequency up to what a semi-implicit
-// step can carry at all, at the start pose.
+// Bounds of one k and one b: from a natural frequency of kMinFrequency to the stability limit of
+// the semi-implicit step, at the start pose.
 std::vector<Parameter> bounds(const StudyRobot& robot, const RunSpec& spec, double ratio) {
   RunResult unit;
   unit.spec = spec;
@@ -40,12 +39,12 @@ std::vector<Parameter> bounds(const StudyRobot& robot, const RunSpec& spec, doub
   return {{"k", std::min(k_low, 0.1 * k_high), k_high, 0}, {"b", 1e-4 * b_high, b_high, 0}};
 }
 
-// Worst error when one gain of all springs moves up or down by kShift.
-double error_when_shifted(const StudyRobot& robot, RunSpec spec, const PaperRow& row) {
+// Worst error when one gain of all springs changes by kGainChange.
+double sensitive_error(const StudyRobot& robot, RunSpec spec, const PaperRow& row) {
   const AutomaticMotion hand{HandMapping{}};
   const Gains g = spec.gains;
   double worst = 0;
-  for (double factor : {kShift, 1 / kShift}) {
+  for (double factor : {kGainChange, 1 / kGainChange}) {
     spec.gains = {g.k1 * factor, g.b1, g.k2 * factor, g.b2};
     worst = std::max(worst, worst_relative_error(run(robot, hand, spec), row));
     spec.gains = {g.k1, g.b1 * factor, g.k2, g.b2 * factor};
@@ -60,7 +59,7 @@ void finish_fit(CalibrationEntry& entry, const StudyRobot& robot, const RunSpec&
   const RunResult result = run(robot, hand, spec);
   entry.keep(result.max_deg, result.mean_deg);
   entry.numbers["worst_error"] = worst_relative_error(result, row);
-  entry.numbers["worst_error_shifted"] = error_when_shifted(robot, spec, row);
+  entry.numbers["worst_error_shifted"] = sensitive_error(robot, spec, row);
 }
 
 Job e3_job(const StudyInputs& inputs, const std::string& law, double rate) {
@@ -112,15 +111,15 @@ Job e4_job(const StudyInputs& inputs, double rate, double arm2_mass_scale) {
   return job;
 }
 
-// The most stable movement: least objective of the protocol, one k and b.
+// One k and b with the minimum objective of the protocol.
 Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& robot,
               const std::vector<double>& sweep_times) {
   Job job;
   job.entry.name = name;
   job.entry.rate = spec.rate;
-  const bool uneven = name.find("ratio") != std::string::npos;
-  if (uneven) job.entry.numbers["ratio"] = 0.2;  // k2/k1 and b2/b1
-  job.entry.parameters = bounds(robot, spec, uneven ? 0.2 : 1.0);
+  const double ratio = name.find("ratio") != std::string::npos ? 0.2 : 1;  // k2/k1 and b2/b1
+  if (ratio != 1) job.entry.numbers["ratio"] = ratio;
+  job.entry.parameters = bounds(robot, spec, ratio);
   const bool folds = spec.coupling.printed && spec.coupling.type == CouplingSpec::Type::torsional &&
                      spec.coupling.options.damper != Damper::vector_;
   if (folds) job.method = Method::rugged;
@@ -141,7 +140,7 @@ Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& ro
 
 constexpr unsigned kWorkers = 2;
 
-// Every job seeds its own search, so the order does not matter.
+// Every job has its own seed, so that the order does not matter.
 void run_jobs(std::vector<Job>& jobs, Calibration& calibration, Progress& progress) {
   const auto work = [&](std::size_t i) {
     minimise(jobs[i].entry, jobs[i].method, kSeed, jobs[i].evaluations, jobs[i].objective);
@@ -155,7 +154,7 @@ void run_jobs(std::vector<Job>& jobs, Calibration& calibration, Progress& progre
   jobs.clear();
 }
 
-// The law as printed and the one rate for E3 and E4 with the least of the larger of both errors.
+// Of the published law: the rate that minimises the larger of the errors of E3 and E4.
 CalibrationEntry choose(const Calibration& calibration, const std::vector<double>& rates) {
   CalibrationEntry chosen;
   chosen.name = "chosen";
@@ -181,12 +180,12 @@ Calibration calibrate(const StudyInputs& inputs, Progress& progress) {
   calibration.seed = kSeed;
   std::vector<Job> jobs;
 
-  progress.stage("calibration: the printed torsional law on E3", 0.45);
+  progress.stage("calibration: published torsional law on E3", 0.45);
   for (auto rate = s.search_rates_hz.rbegin(); rate != s.search_rates_hz.rend(); ++rate)
     for (const std::string& law : e3_laws()) jobs.push_back(e3_job(inputs, law, *rate));
   run_jobs(jobs, calibration, progress);
 
-  progress.stage("calibration: the printed linear law on E4", 0.25);
+  progress.stage("calibration: published linear law on E4", 0.25);
   for (auto rate = s.search_rates_hz.rbegin(); rate != s.search_rates_hz.rend(); ++rate)
     jobs.push_back(
         e4_job(inputs, *rate,
@@ -203,7 +202,7 @@ Calibration calibrate(const StudyInputs& inputs, Progress& progress) {
                                s103, s.sweep_times));
   run_jobs(jobs, calibration, progress);
 
-  progress.stage("calibration: two-link robots of the findings", 0.15);
+  progress.stage("calibration: two-link robots", 0.15);
   for (const char* robot : {"findings_set0", "findings_10_14"}) {
     for (auto rate = s.rates_hz.rbegin(); rate != s.rates_hz.rend(); ++rate)
       for (const char* law : {"world", "linear", "world-ratio"})

@@ -18,18 +18,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Throws the library's own exception where the value is no whole number that fits.
+// Throws nlohmann's exception if the value is not an integer of this type.
 template <class Number>
 Number whole(const nlohmann::json& value) {
   const double number = value.get<double>();
   if (!value.is_number_integer() ||
       number < static_cast<double>(std::numeric_limits<Number>::min()) ||
       number >= static_cast<double>(std::numeric_limits<Number>::max()))
-    throw nlohmann::json::other_error::create(501, "a whole number is wanted", &value);
+    throw nlohmann::json::other_error::create(501, "expected an integer", &value);
   return value.get<Number>();
 }
 
-// What both files have of a fit; the keys of what was reached differ.
+// Fit of an entry of either file; the name of its objective differs.
 void read_fit(const nlohmann::json& item, const char* objective, CalibrationEntry& fit) {
   fit.rate = item.at("rate_hz");
   for (const nlohmann::json& p : item.at("parameters"))
@@ -39,7 +39,7 @@ void read_fit(const nlohmann::json& item, const char* objective, CalibrationEntr
   fit.numbers = item.at("numbers").get<std::map<std::string, double>>();
 }
 
-// `read` takes the whole document. `thing`: "calibration"; `option` makes the file again.
+// Passes the document to `read`. `option` of `twinarm study` writes the file again.
 template <class Read>
 auto read_file(const std::filesystem::path& file, const char* article, const std::string& thing,
                const char* option, Read&& read) {
@@ -48,11 +48,11 @@ auto read_file(const std::filesystem::path& file, const char* article, const std
                         fmt::format("run `twinarm study {}`", option), "study.calibration"}});
   };
   std::ifstream stream(file);
-  if (!stream) throw fail("the " + thing + " cannot be opened");
+  if (!stream) throw fail("cannot open the " + thing);
   try {
     return read(nlohmann::json::parse(stream));
   } catch (const nlohmann::json::exception& error) {
-    throw fail(fmt::format("it is not {} {}: {}", article, thing, error.what()));
+    throw fail(fmt::format("not {} {}: {}", article, thing, error.what()));
   }
 }
 
@@ -65,12 +65,9 @@ double CalibrationEntry::value(const std::string& parameter) const {
 }
 
 Gains CalibrationEntry::gains() const {
-  const auto has = [&](const char* parameter) {
-    for (const Parameter& p : parameters)
-      if (p.name == parameter) return true;
-    return false;
-  };
-  if (has("k1")) return {value("k1"), value("b1"), value("k2"), value("b2")};
+  const bool per_link =
+      std::ranges::any_of(parameters, [](const Parameter& p) { return p.name == "k1"; });
+  if (per_link) return {value("k1"), value("b1"), value("k2"), value("b2")};
   const double k = value("k"), b = value("b");
   const auto ratio = numbers.find("ratio");
   const double r = ratio == numbers.end() ? 1.0 : ratio->second;
@@ -88,7 +85,7 @@ void CalibrationEntry::keep(const std::array<double, 2>& max_deg,
 const CalibrationEntry& Calibration::entry(const std::string& name) const {
   const auto found = entries.find(name);
   if (found == entries.end())
-    throw InputError({{"", 0, "calibration", "there is no entry '" + name + "'",
+    throw InputError({{"", 0, "calibration", "missing entry '" + name + "'",
                        "run `twinarm study --recalibrate`", "study.calibration"}});
   return found->second;
 }
@@ -158,8 +155,8 @@ void write_identifications(const std::vector<Identification>& all,
                            const std::filesystem::path& file) {
   ordered_json root;
   root["about"] =
-      "What Table 2 leaves open of a coupling's gains. Made by `twinarm study --identify`; what "
-      "stands here: docs/use/run_the_study.md.";
+      "Identifiability of a coupling's gains from Table 2. Written by `twinarm study --identify`; "
+      "format: docs/use/run_the_study.md.";
   root["optimiser"] = optimiser_name();
   root["entries"] = ordered_json::array();
   for (const Identification& found : all) {
@@ -187,7 +184,7 @@ void write_identifications(const std::vector<Identification>& all,
   write_whole_file(file, root.dump(1) + "\n");
 }
 
-// The laws that are searched and run, and the paper's table.
+// The paper's table, and the laws that are searched and run.
 const std::map<std::string, PaperRow>& paper_table() {
   static const std::map<std::string, PaperRow> table{{"E1", {{10.2, 26.3}, {1.6, 4.1}}},
                                                      {"E2", {{1.7, 4.0}, {0.5, 0.5}}},
@@ -239,7 +236,7 @@ const std::vector<std::string>& trial_laws() {
   return laws;
 }
 
-// All by the printed way of computing velocities; "signed" mends the damping term only.
+// All with the published velocity differences; "signed" corrects the damping term only.
 RunSpec trial_spec(const std::string& law, double rate) {
   RunSpec spec = law == "printed-linear" ? e4_spec(rate) : e3_spec("world-", rate);
   if (law.starts_with("signed")) spec.coupling.options.damper = Damper::vector_;
@@ -248,8 +245,8 @@ RunSpec trial_spec(const std::string& law, double rate) {
   return spec;
 }
 
-// Consistent couplings on a KVR whose velocity is the backward difference of its angles; and the
-// variants of the findings' sections (d) and (f).
+// Consistent couplings to a KVR whose velocity is the backward difference of its angles, and
+// variants of the damping term.
 RunSpec row_spec(const std::string& law, double rate) {
   RunSpec spec;
   spec.name = law;

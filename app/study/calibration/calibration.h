@@ -1,8 +1,8 @@
 // The paper's unpublished gains, found by search: assets/study/calibration.json.
 //
-// Each entry keeps how it was found (optimiser, seed, bounds, evaluations) beside what was found,
-// so that `twinarm study --recalibrate` can make the file again and a reader can judge it. Gains
-// are never literals in the code.
+// An entry has its optimiser, seed, bounds and evaluations besides the result, so that `twinarm
+// study
+// --recalibrate` can reproduce the file. Gains are not literals in the code.
 #pragma once
 
 #include <array>
@@ -29,10 +29,10 @@ struct CalibrationEntry {
   std::vector<Parameter> parameters;
   double objective = 0;
   long evaluations = 0;
-  std::map<std::string, double> numbers;  // what the parameters give: max1, mean1, robust, ...
+  std::map<std::string, double> numbers;  // results with these parameters: max1_deg, mean1_deg, ...
 
   double value(const std::string& parameter) const;  // throws std::out_of_range
-  // As max1_deg, max2_deg, mean1_deg, mean2_deg of the numbers.
+  // Sets max1_deg, max2_deg, mean1_deg, mean2_deg of the numbers.
   void keep(const std::array<double, 2>& max_deg, const std::array<double, 2>& mean_deg);
   Gains gains() const;  // from k, b, or k1, b1, k2, b2, or k, b and ratio
 };
@@ -42,22 +42,22 @@ struct Calibration {
   unsigned seed = 0;
   std::map<std::string, CalibrationEntry> entries;
 
-  // Throws InputError that says to recalibrate where there is no such entry.
+  // Throws InputError if there is no such entry.
   const CalibrationEntry& entry(const std::string& name) const;
 };
 
 Calibration read_calibration(const std::filesystem::path& file);
 void write_calibration(const Calibration& calibration, const std::filesystem::path& file);
 
-// How the box of the parameters is searched, in the logarithm of each. NLopt's implementations.
+// Search in the logarithms of the parameters, within their bounds; implemented by NLopt.
 enum class Method {
   rugged,      // controlled random search (Price 1983, Kaelo and Ali 2006), then subplex: for the
-               // folded law, whose error jumps from one gain to the next
+               // folded law, whose error is discontinuous in the gains
   multistart,  // multi-level single linkage over a Sobol sequence (Kucherenko and Sytsko 2005)
                // with subplex (Rowan 1990) as local search: for the others
-  local        // subplex alone, from the values that the parameters have
+  local        // subplex from the current values of the parameters
 };
-// The same seed gives the same result. Writes the values, the objective and the evaluations.
+// Deterministic for a given seed. Writes values, objective and number of evaluations.
 void minimise(CalibrationEntry& entry, Method method, unsigned seed, int evaluations,
               const std::function<double(const CalibrationEntry&)>& objective);
 std::string optimiser_name();
@@ -71,7 +71,7 @@ const std::map<std::string, PaperRow>& paper_table();  // "E1" .. "E4"
 // Largest relative error of the four numbers against the paper's row.
 double worst_relative_error(const RunResult& result, const PaperRow& row);
 
-// The laws of the searches, by their names in the calibration.
+// Coupling laws of the searches, by their names in the calibration.
 RunSpec e3_spec(const std::string& law, double rate);  // "world-", "world+", "joint-", "joint+"
 RunSpec e4_spec(double rate);
 RunSpec trial_spec(const std::string& law, double rate);
@@ -88,12 +88,13 @@ StudyInputs load_inputs(const std::filesystem::path& assets);
 
 // The searches behind assets/study/calibration.json (docs/use/run_the_study.md):
 //
-//   E3/RATE/LAW        the printed torsional law with one k and b for both links, and the mass of
-//                      arm 2 that the paper does not publish, on its E3 row
-//   E4/RATE            the printed linear law, gains per link, at the masses of E3, on its E4 row
-//   trial/LAW/RATE     gains as the paper found them, by trial: the most stable movement
-//   row/ROBOT/LAW/RATE the same search on a two-link robot of the findings
-//   chosen             the one rate, law and mass that the study's E1 to E4 use
+//   E3/RATE/LAW        published torsional law, one k and b for both links, and the unpublished
+//   mass of
+//                      arm 2: fit to row E3
+//   E4/RATE            published linear law, gains per link, masses of E3: fit to row E4
+//   trial/LAW/RATE     minimum tracking error (the paper found its gains by trial)
+//   row/ROBOT/LAW/RATE the same for a two-link robot
+//   chosen             rate, law and mass of E1 to E4 of the study
 Calibration calibrate(const StudyInputs& inputs, Progress& progress);
 
 }  // namespace twinarm

@@ -1,5 +1,4 @@
-// The laws that are asked for, and how an answer is read.
-
+// Coupling laws of the identification, intervals of its profiles, and the searches.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -29,8 +28,8 @@ const std::vector<FamilyLaw>& family_laws() {
   using Type = CouplingSpec::Type;
   static const std::vector<FamilyLaw> laws = [] {
     std::vector<FamilyLaw> all{
-        {"printed-torsional", "torsional, as printed", e3_spec("world-", 0).coupling},
-        {"printed-linear", "linear, as printed", e4_spec(0).coupling},
+        {"printed-torsional", "torsional, as published", e3_spec("world-", 0).coupling},
+        {"printed-linear", "linear, as published", e4_spec(0).coupling},
         consistent("torsional-world", "torsional, world orientation", Type::torsional,
                    SpringSpace::world, Discretization::explicit_),
         consistent("torsional-joint", "torsional, joint angle", Type::torsional, SpringSpace::joint,
@@ -42,11 +41,11 @@ const std::vector<FamilyLaw>& family_laws() {
                    SpringSpace::joint, Discretization::implicit),
         consistent("linear-implicit", "linear, implicit", Type::linear, SpringSpace::world,
                    Discretization::implicit),
-        consistent("matched", "torsional, full K_q of a linear one", Type::matched,
+        consistent("matched", "torsional, full K_q of a linear coupling", Type::matched,
                    SpringSpace::world, Discretization::explicit_),
         consistent("stable-pd", "stable PD at the joints", Type::stable_pd, SpringSpace::joint,
                    Discretization::explicit_),
-        consistent("weld", "weld of the points, as MuJoCo's", Type::weld_like, SpringSpace::world,
+        consistent("weld", "weld of the points, as in MuJoCo", Type::weld_like, SpringSpace::world,
                    Discretization::explicit_)};
     return all;
   }();
@@ -56,7 +55,7 @@ const std::vector<FamilyLaw>& family_laws() {
 const FamilyLaw& family_law(const std::string& name) {
   for (const FamilyLaw& law : family_laws())
     if (law.name == name) return law;
-  throw std::out_of_range("no law " + name);
+  throw std::out_of_range("unknown law " + name);
 }
 
 double table_misfit(const RunResult& result, const PaperRow& row) {
@@ -68,7 +67,7 @@ double table_misfit(const RunResult& result, const PaperRow& row) {
   return worst;
 }
 
-double Identification::allowance() const {
+double Identification::threshold() const {
   return std::max(1.0, 2 * fit.objective);
 }
 
@@ -85,9 +84,9 @@ Identification::Interval Identification::interval(const Profile& profile) const 
       value = points[i].value;
       if (open) return;
       const ProfilePoint& next = points[static_cast<std::size_t>(static_cast<int>(i) + step)];
-      if (next.misfit <= allowance()) continue;
+      if (next.misfit <= threshold()) continue;
       const double inside = std::log(std::max(points[i].misfit, 1e-12));
-      const double share = (std::log(allowance()) - inside) / (std::log(next.misfit) - inside);
+      const double share = (std::log(threshold()) - inside) / (std::log(next.misfit) - inside);
       value *= std::pow(next.value / value, std::clamp(share, 0.0, 1.0));
       return;
     }
@@ -121,7 +120,7 @@ double evaluate(const std::vector<double>& x, std::vector<double>&, void* data) 
   return value;
 }
 
-// One optimisation from x; the best point of all so far is left in search.best.
+// One optimisation from x; updates search.best.
 void optimise(nlopt::opt& optimiser, const std::vector<double>& low,
               const std::vector<double>& high, int evaluations, Search& search,
               std::vector<double> x) {
@@ -134,9 +133,9 @@ void optimise(nlopt::opt& optimiser, const std::vector<double>& low,
   try {
     optimiser.optimize(x, value);
   } catch (const nlopt::roundoff_limited&) {
-    // The simplex has shrunk to nothing: as good as it gets.
+    // The simplex has shrunk to rounding: converged.
   } catch (const std::exception&) {
-    check_interrupt();  // NLopt turns what evaluate() throws into errors of its own
+    check_interrupt();  // NLopt replaces exceptions of evaluate() by its own
     throw;
   }
 }
@@ -148,7 +147,7 @@ std::string optimiser_name() {
   nlopt::version(major, minor, fix);
   return fmt::format(
       "NLopt {}.{}.{}: GN_CRS2_LM for the folded and the unsigned damper, G_MLSL_LDS with LN_SBPLX "
-      "for the others; all ended by LN_SBPLX",
+      "for the others; LN_SBPLX at the end of each",
       major, minor, fix);
 }
 

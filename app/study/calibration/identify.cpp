@@ -17,10 +17,10 @@ namespace {
 
 constexpr unsigned kIdentifySeed = 1;
 constexpr int kFirstEvaluations = 3000, kRefitEvaluations = 100, kRounds = 3;
-// Held values of a profile, as factors of the best one: walked outwards, each from its neighbour.
+// Fixed values of a profile, as factors of the best one; each refit starts from its neighbour.
 constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
 
-// Of welds of the points that linear springs hold, at the start pose.
+// Gains of welds at the points of the linear springs, at the start pose.
 Gains weld_gains(const StudyRobot& robot, const CouplingSpec& weld) {
   std::vector<Spring> springs = robot.springs(0, 0, 0, 0);
   for (Spring& spring : springs)
@@ -29,13 +29,14 @@ Gains weld_gains(const StudyRobot& robot, const CouplingSpec& weld) {
   return {springs[0].k, springs[0].b, springs[1].k, springs[1].b};
 }
 
-// One row, one law, one rate: parameters to the four numbers and back.
-class Question {
+// Identification of the parameters of one law at one rate from one row.
+class IdentificationProblem {
  public:
-  Question(const StudyInputs& inputs, const FamilyLaw& law, std::string row, double rate)
+  IdentificationProblem(const StudyInputs& inputs, const FamilyLaw& law, std::string row,
+                        double rate)
       : inputs_(inputs), law_(law), row_(std::move(row)), rate_(rate) {}
 
-  Identification answer() const;
+  Identification solve() const;
 
  private:
   std::vector<Parameter> parameters() const;
@@ -45,7 +46,7 @@ class Question {
   }
   Eigen::MatrixXd sensitivity(const CalibrationEntry& entry) const;
   ProfilePoint refit(CalibrationEntry& entry, std::size_t held) const;
-  // `better`: the best fit that was met on the way.
+  // `better`: best fit among the points of the profile.
   Profile profile(const CalibrationEntry& best, std::size_t held, CalibrationEntry& better) const;
 
   const StudyInputs& inputs_;
@@ -54,7 +55,7 @@ class Question {
   double rate_;
 };
 
-std::vector<Parameter> Question::parameters() const {
+std::vector<Parameter> IdentificationProblem::parameters() const {
   if (law_.coupling.type == CouplingSpec::Type::weld_like)
     return {{"time_constant", 1e-3, 1, 0},
             {"damping_ratio", 0.01, 10, 0},
@@ -69,7 +70,7 @@ std::vector<Parameter> Question::parameters() const {
           {"arm2_mass_scale", 0.2, 4, 0}};
 }
 
-RunResult Question::run_with(const CalibrationEntry& entry, double sweep) const {
+RunResult IdentificationProblem::run_with(const CalibrationEntry& entry, double sweep) const {
   const StudyRobot robot =
       StudyRobot::s103(inputs_.settings, inputs_.s103, entry.value("arm2_mass_scale"));
   RunSpec spec;
@@ -87,9 +88,9 @@ RunResult Question::run_with(const CalibrationEntry& entry, double sweep) const 
   return run(robot, AutomaticMotion(HandMapping{}, sweep), spec);
 }
 
-// d x_i / d log theta_j by central differences, in half digits; columns of parameters that stand at
-// a bound are as true as the others: a bound is only where the search ends.
-Eigen::MatrixXd Question::sensitivity(const CalibrationEntry& entry) const {
+// d x_i / d log theta_j by central differences, in half digits; also beyond the bounds of the
+// search.
+Eigen::MatrixXd IdentificationProblem::sensitivity(const CalibrationEntry& entry) const {
   constexpr double step = 1e-3;
   Eigen::MatrixXd S(4, static_cast<Eigen::Index>(entry.parameters.size()));
   const auto numbers = [&](std::size_t j, double factor) {
@@ -104,8 +105,8 @@ Eigen::MatrixXd Question::sensitivity(const CalibrationEntry& entry) const {
   return S;
 }
 
-// Fits all parameters but one again, from where they stand.
-ProfilePoint Question::refit(CalibrationEntry& entry, std::size_t held) const {
+// Fits all other parameters again, from their current values.
+ProfilePoint IdentificationProblem::refit(CalibrationEntry& entry, std::size_t held) const {
   const Parameter fixed = entry.parameters[held];
   CalibrationEntry free = entry;
   free.parameters.erase(free.parameters.begin() + static_cast<std::ptrdiff_t>(held));
@@ -122,8 +123,8 @@ ProfilePoint Question::refit(CalibrationEntry& entry, std::size_t held) const {
   return {fixed.value, free.objective, run_with(entry, kOtherSweep).max_deg};
 }
 
-Profile Question::profile(const CalibrationEntry& best, std::size_t held,
-                          CalibrationEntry& better) const {
+Profile IdentificationProblem::profile(const CalibrationEntry& best, std::size_t held,
+                                       CalibrationEntry& better) const {
   Profile profile;
   const Parameter& p = best.parameters[held];
   profile.parameter = p.name;
@@ -144,7 +145,7 @@ Profile Question::profile(const CalibrationEntry& best, std::size_t held,
   return profile;
 }
 
-Identification Question::answer() const {
+Identification IdentificationProblem::solve() const {
   Identification found;
   found.row = row_;
   found.law = law_.name;
@@ -154,7 +155,7 @@ Identification Question::answer() const {
   const bool folds = law_.coupling.printed && law_.coupling.type == CouplingSpec::Type::torsional;
   minimise(found.fit, folds ? Method::rugged : Method::multistart, kIdentifySeed, kFirstEvaluations,
            [this](const CalibrationEntry& entry) { return misfit(entry); });
-  // A profile that meets a better fit than the best begins the search anew from there.
+  // If a profile finds a better fit, the search is repeated from there.
   for (int round = 0; round < kRounds; ++round) {
     CalibrationEntry better = found.fit;
     found.profiles.clear();
@@ -168,8 +169,8 @@ Identification Question::answer() const {
   }
   const RunResult best = run_with(found.fit, 1);
   found.fit.keep(best.max_deg, best.mean_deg);
-  // Rows and columns of zeros make it square: the directions that they add move nothing, and of
-  // five parameters four numbers leave one such direction for certain.
+  // Zeros make the matrix square; the directions that they add have no effect. Four numbers cannot
+  // determine five parameters: at least one singular value is zero.
   const auto count = static_cast<Eigen::Index>(found.fit.parameters.size());
   const Eigen::MatrixXd S = sensitivity(found.fit);
   const Eigen::Index size = std::max<Eigen::Index>(S.rows(), count);
@@ -186,56 +187,46 @@ Identification Question::answer() const {
 
 }  // namespace
 
-Identification ask(const StudyInputs& inputs, const std::string& question) {
+Identification ask(const StudyInputs& inputs, const std::string& problem) {
   DiagnosticList faults;
-  const auto fault = [&](std::string problem, std::string fix) {
-    faults.add({"", 0, "--ask", std::move(problem), std::move(fix), "study.question"});
+  const auto fault = [&](std::string what, std::string fix) {
+    faults.add({"", 0, "--ask", std::move(what), std::move(fix), "study.question"});
   };
-  const std::vector<std::string> parts = split(question, '/');
+  const std::vector<std::string> parts = split(problem, '/');
   if (parts.size() != 3) {
-    fault("'" + question + "' is not ROW/LAW/RATE", "give one as E4/linear/60");
+    fault("'" + problem + "' is not ROW/LAW/RATE", "for example E4/linear/60");
     faults.check();
   }
   const std::string &row = parts[0], &law = parts[1], &number = parts[2];
   char* end = nullptr;
   const double rate = std::strtod(number.c_str(), &end);
-  std::string laws;
-  bool is_known = false;
-  for (const FamilyLaw& known : family_laws()) {
-    laws += (laws.empty() ? "" : ", ") + known.name;
-    is_known = is_known || known.name == law;
-  }
-  if (row != "E3" && row != "E4") fault("there is no row '" + row + "'", "give E3 or E4");
-  if (!is_known) fault("there is no law '" + law + "'", "give one of " + laws);
+  const std::vector<std::string> laws = names_of(family_laws());
+  if (row != "E3" && row != "E4") fault("unknown row '" + row + "'", "E3 or E4");
+  if (std::ranges::find(laws, law) == laws.end())
+    fault("unknown law '" + law + "'", name_remedy(law, laws, "laws"));
   if (!(rate >= 10 && rate <= 1e5) || *end != 0)
-    fault("'" + number + "' is no rate", "give one of 10 to 100000 Hz");
+    fault("'" + number + "' is not a rate", "10 to 100000 Hz");
   faults.check();
-  return Question(inputs, family_law(law), row, rate).answer();
+  return IdentificationProblem(inputs, family_law(law), row, rate).solve();
 }
 
 std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress) {
-  struct Asked {
-    std::string row;
-    const FamilyLaw* law;
-    double rate;
-  };
-  std::vector<Asked> asked;  // the long ones first
+  std::vector<IdentificationProblem> problems;  // the slow ones first
+  std::vector<double> steps{0};                 // simulated steps per second up to each
   std::vector<double> rates = inputs.settings.identification_rates_hz;
   std::sort(rates.rbegin(), rates.rend());
   for (const double rate : rates)
     for (const char* row : {"E3", "E4"})
-      for (const FamilyLaw& law : family_laws()) asked.push_back({row, &law, rate});
-  std::vector<Identification> found(asked.size());
-  progress.stage("what Table 2 leaves open", 1);
+      for (const FamilyLaw& law : family_laws()) {
+        problems.emplace_back(inputs, law, row, rate);
+        steps.push_back(steps.back() + rate);
+      }
+  std::vector<Identification> found(problems.size());
+  progress.stage("identification from Table 2", 1);
   constexpr unsigned kIdentifyWorkers = 2;
-  std::vector<double> all{0};  // steps of the simulation up to each
-  for (const Asked& a : asked) all.push_back(all.back() + a.rate);
   parallel_for(
-      asked.size(),
-      [&](std::size_t i) {
-        found[i] = Question(inputs, *asked[i].law, asked[i].row, asked[i].rate).answer();
-      },
-      [&](std::size_t done) { progress.advance(all[done] / all.back()); }, kIdentifyWorkers);
+      problems.size(), [&](std::size_t i) { found[i] = problems[i].solve(); },
+      [&](std::size_t done) { progress.advance(steps[done] / steps.back()); }, kIdentifyWorkers);
   return found;
 }
 

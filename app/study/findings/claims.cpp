@@ -1,6 +1,6 @@
-// Modes of equal gains against their prediction, gains of one coupling in the other, and gains that
-// make torsional equal to linear; the damping term as printed, folded, signed and per frame, and
-// the steps at which it is stable.
+// Claims on modes of equal gains and their prediction, gains of one coupling used in the other,
+// gains that make torsional and linear equivalent; the damping term as published, folded, signed
+// and per frame, and stability limits.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -38,14 +38,15 @@ void add_modes(const StudyInputs& inputs, const Predictions& predictions,
       const double measured = mode_ratio(inputs.findings.at(modes.robot), law);
       findings.push_back(
           {"equal gains",
-           fmt::format("{}, {}: equal gains on both links spread the squared natural "
-                       "frequencies by {:g} (predicted)",
+           fmt::format("{}, {}: with equal gains on both links the ratio of the squared natural "
+                       "frequencies is {:g} (predicted)",
                        modes.robot, law, ratio),
            fmt::format("{:.2f}", measured), is_near(measured, ratio, 0.02)});
     }
 }
 
-// Springs at point masses, each as stiff as its mass: K = (k/m) M, one frequency for all modes.
+// Springs at point masses with stiffness proportional to mass: K = (k/m) M, one frequency for all
+// modes.
 void add_proportional_springs(std::vector<Finding>& findings) {
   const double l1 = 0.25, l2 = 0.35, m1 = 5, m2 = 3;
   ModelBuilder builder;
@@ -70,22 +71,22 @@ void add_proportional_springs(std::vector<Finding>& findings) {
   }
   findings.push_back(
       {"equal gains",
-       "linear springs at point masses, stiff in proportion to them, give K = (k/m) M "
-       "at every pose: one frequency for all modes",
+       "linear springs at point masses, with stiffness proportional to mass, give K = (k/m) M "
+       "in every pose: one frequency for all modes",
        fmt::format("largest deviation {:.1e}", worst), worst < 1e-12});
 }
 
 void add_exchanged_gains(const StudyInputs& inputs, std::vector<Finding>& findings) {
-  for (const char* name : {"findings_set0", "findings_10_14"}) {
+  for (const char* name : kTwoLinkRobots) {
     const StudyRobot& robot = inputs.findings.at(name);
     const RunResult torsional = run_automatic(robot, row_spec("world", 1000), 22000, 400, 1000);
     const RunResult linear = run_automatic(robot, row_spec("linear", 1000), 1200, 40, 1000);
     findings.push_back(
         {"equal gains",
          fmt::format(
-             "{}: the numbers of a good linear coupling (22000, 400) as torsional gains "
-             "diverge at 1 kHz; those of a good torsional one (1200, 40) as linear gains are "
-             "far too soft",
+             "{}: the gains of a good linear coupling (22000, 400), used as torsional gains, "
+             "diverge at 1 kHz; those of a good torsional coupling (1200, 40), used as linear "
+             "gains, are far too soft",
              robot_words(name)),
          fmt::format("torsional {}; linear {} deg", torsional.stable ? "stable" : "diverges",
                      words(linear.max_deg)),
@@ -108,26 +109,25 @@ void add_matched_gains(const StudyResults& results, std::vector<Finding>& findin
     const RunResult* linear = get(fmt::format("matched/linear/{:g}", rate));
     const RunResult* full = get(fmt::format("matched/torsional/{:g}", rate));
     if (!linear || !full) continue;
-    findings.push_back(
-        {"matched gains",
-         fmt::format(
-             "S-103, {:g} Hz: a torsional coupling with the full K_q, B_q of the linear one "
-             "follows as well as it (within a tenth of a degree or 10 %)",
-             rate),
-         fmt::format("linear {} deg, torsional {} deg", words(linear->max_deg),
-                     words(full->max_deg)),
-         std::abs(linear->max_deg[0] - full->max_deg[0]) <
-                 std::max(0.1, 0.1 * linear->max_deg[0]) &&
-             std::abs(linear->max_deg[1] - full->max_deg[1]) <
-                 std::max(0.1, 0.1 * linear->max_deg[1])});
+    findings.push_back({"matched gains",
+                        fmt::format("S-103, {:g} Hz: a torsional coupling with the full K_q, B_q "
+                                    "of the linear one has the "
+                                    "same largest errors (within 0.1 degree or 10 %)",
+                                    rate),
+                        fmt::format("linear {} deg, torsional {} deg", words(linear->max_deg),
+                                    words(full->max_deg)),
+                        std::abs(linear->max_deg[0] - full->max_deg[0]) <
+                                std::max(0.1, 0.1 * linear->max_deg[0]) &&
+                            std::abs(linear->max_deg[1] - full->max_deg[1]) <
+                                std::max(0.1, 0.1 * linear->max_deg[1])});
   }
   const RunResult* equal = get("trial/signed-torsional/60");
   const RunResult* ratio = get("trial/signed-torsional-ratio/60");
   if (equal && ratio)
     findings.push_back(
         {"matched gains",
-         "S-103, 60 Hz: k2 = 0.2 k1 instead of equal gains changes the torsional "
-         "coupling's largest error",
+         "S-103, 60 Hz: k2 = 0.2 k1 instead of equal gains reduces the torsional coupling's "
+         "largest error",
          fmt::format("equal {} deg, ratio {} deg", words(equal->max_deg), words(ratio->max_deg)),
          std::max(ratio->max_deg[0], ratio->max_deg[1]) <
              std::max(equal->max_deg[0], equal->max_deg[1])});
@@ -138,9 +138,8 @@ void add_matched_gains(const StudyResults& results, std::vector<Finding>& findin
     if (!implicit || !slow || !explicit_60) continue;
     findings.push_back(
         {"implicit",
-         fmt::format("S-103, {}, implicit at 1 kHz: both joints stay below 1.5 deg; at "
-                     "60 Hz the same gains stay stable implicitly and diverge "
-                     "explicitly",
+         fmt::format("S-103, {}, implicit at 1 kHz: errors of both joints below 1.5 deg; at 60 Hz "
+                     "the same gains are stable implicitly and diverge explicitly",
                      law),
          fmt::format("1 kHz {} deg; 60 Hz implicit {} deg, explicit {}", words(implicit->max_deg),
                      words(slow->max_deg), explicit_60->stable ? "stable" : "diverges"),
@@ -150,7 +149,7 @@ void add_matched_gains(const StudyResults& results, std::vector<Finding>& findin
 }
 
 void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
-  for (const char* name : {"findings_set0", "findings_10_14"}) {
+  for (const char* name : kTwoLinkRobots) {
     const StudyRobot& robot = inputs.findings.at(name);
     RunSpec spec = trial_spec("signed-torsional", 1000);
     const RunResult signed_run = run_automatic(robot, spec, 1200, 40, 1000);
@@ -166,9 +165,9 @@ void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
     findings.push_back(
         {"damping term",
          fmt::format(
-             "{}, k = 1200, b = 40, 1 kHz: an unsigned damper pumps energy at the reversals "
-             "and diverges, whatever its sign; the fold keeps it bounded, several times "
-             "worse than the signed damper",
+             "{}, k = 1200, b = 40, 1 kHz: an unsigned damper adds energy at the reversals and "
+             "diverges with either sign; folded it is bounded, with errors several times those of "
+             "the signed damper",
              robot_words(name)),
          fmt::format("signed {}, folded {}, unfolded {} and {}", words(signed_run.max_deg),
                      words(folded.max_deg), along.stable ? "stable" : "diverges",
@@ -178,8 +177,8 @@ void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
     findings.push_back(
         {"damping term",
          fmt::format(
-             "{}: an angle per frame that is not divided by h leaves b h of the damping; the "
-             "mean error grows towards half the maximum, the mark of ringing",
+             "{}: an angle per frame, not divided by h, reduces the damping to b h; the mean error "
+             "approaches half the maximum, which indicates undamped oscillation",
              robot_words(name)),
          fmt::format("{} deg, mean {}; mean/max {:.2f} instead of {:.2f}", words(per_frame.max_deg),
                      words(per_frame.mean_deg), per_frame.mean_deg[0] / per_frame.max_deg[0],
@@ -190,7 +189,7 @@ void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
 
 void add_differences(const StudyInputs& inputs, const StudyResults& results,
                      std::vector<Finding>& findings) {
-  for (const char* name : {"findings_set0", "findings_10_14"}) {
+  for (const char* name : kTwoLinkRobots) {
     const StudyRobot& robot = inputs.findings.at(name);
     RunSpec spec = row_spec("world", 60);
     spec.gains = results.calibration.entry(fmt::format("row/{}/world/60", name)).gains();
@@ -199,40 +198,41 @@ void add_differences(const StudyInputs& inputs, const StudyResults& results,
     const ProtocolErrors current = run_protocol(robot, spec, inputs.settings.sweep_times);
     findings.push_back(
         {"differences",
-         fmt::format("{}: with semi-implicit steps backward differences cost little, for the DVR's "
-                     "difference is its velocity",
-                     robot_words(name)),
+         fmt::format(
+             "{}: with semi-implicit steps backward differences change the largest error of "
+             "joint 1 by at most 10 %, because the DVR's difference is its velocity",
+             robot_words(name)),
          fmt::format("60 Hz: {} with differences, {} with current velocities",
                      words(difference.max_deg), words(current.max_deg)),
          is_near(difference.max_deg[0], current.max_deg[0], 0.1)});
   }
 }
 
-// The largest stable steps that theory gives for the poses of the motion, against runs below all of
-// them and above all of them. Between the two the arm passes through unstable poses unharmed.
+// Runs below the minimum and above the maximum of the stability limits of the poses of the motion.
+// In between the arm passes through unstable poses without diverging.
 void add_stability(const StudyInputs& inputs, std::vector<Finding>& findings) {
-  for (const char* name : {"findings_set0", "findings_10_14"}) {
+  for (const char* name : kTwoLinkRobots) {
     const StudyRobot& robot = inputs.findings.at(name);
     RunResult predicted;
     predicted.spec = row_spec("world", 1000);
     predicted.spec.gains = Gains::both(1200, 40);
-    double least = HUGE_VAL, most = 0;
+    double min_limit = HUGE_VAL, max_limit = 0;
     for (double q2 = -45; q2 <= 45; q2 += 5) {
       State<double> pose = robot.start_state();
       pose.q[1] = q2 * std::numbers::pi / 180;
       predict(robot, predicted, pose);
-      least = std::min(least, predicted.step_limit);
-      most = std::max(most, predicted.step_limit);
+      min_limit = std::min(min_limit, predicted.step_limit);
+      max_limit = std::max(max_limit, predicted.step_limit);
     }
-    const RunResult below =
-        run_automatic(robot, row_spec("world", 1000), 1200, 40, 1 / (0.97 * least));
-    const RunResult above =
-        run_automatic(robot, row_spec("world", 1000), 1200, 40, 1 / (1.03 * most));
+    const auto run_at = [&](double step) {
+      return run_automatic(robot, row_spec("world", 1000), 1200, 40, 1 / step);
+    };
+    const RunResult below = run_at(0.97 * min_limit), above = run_at(1.03 * max_limit);
     findings.push_back(
         {"stability",
-         fmt::format("{}, world orientation, k = 1200, b = 40: theory allows steps of {:.2f} ms at "
-                     "every pose of the motion, and beyond {:.2f} ms at none",
-                     robot_words(name), 1e3 * least, 1e3 * most),
+         fmt::format("{}, world orientation, k = 1200, b = 40: by theory steps up to {:.2f} ms are "
+                     "stable in every pose of the motion, and above {:.2f} ms in none",
+                     robot_words(name), 1e3 * min_limit, 1e3 * max_limit),
          fmt::format("3 % below the first: {} deg; 3 % above the second: {}", words(below.max_deg),
                      above.stable ? words(above.max_deg) + " deg" : "diverges"),
          below.stable && (!above.stable || above.max_deg[0] > 5 * below.max_deg[0])});

@@ -62,7 +62,7 @@ Predictions read_predictions(const std::filesystem::path& assets) {
   return predictions;
 }
 
-// Every searched row of the two-link robots, run again; beside its prediction where there is one.
+// Every searched row of the two-link robots, run again and compared with its prediction, if any.
 void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyResults& results,
               Progress& progress) {
   std::size_t done = 0;
@@ -89,7 +89,7 @@ void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyRe
         std::find_if(predictions.rows.begin(), predictions.rows.end(), [&](const PredictedRow& p) {
           return p.robot == robot && p.law == law && p.rate == entry.rate;
         });
-    if (row == predictions.rows.end()) continue;  // measured, nothing was claimed
+    if (row == predictions.rows.end()) continue;  // no claim
     for (std::size_t j = 0; j < 2; ++j) {
       finding.holds = finding.holds && is_near(errors.max_deg[j], row->max_deg[j], 0.1);
       if (row->mean_deg)
@@ -100,17 +100,17 @@ void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyRe
     const double sum = errors.max_deg[0] + errors.max_deg[1];
     const double predicted_sum = row->max_deg[0] + row->max_deg[1];
     if (!finding.holds && sum < 0.98 * predicted_sum)
-      finding.measured += "; a better optimum than the predicted one";
+      finding.measured += "; better than the predicted optimum";
     else if (!finding.holds && sum < 1.03 * predicted_sum)
-      finding.measured += "; another optimum, as good in the sum of the maxima";
+      finding.measured += "; another optimum with the same sum of the maxima (within 3 %)";
     results.findings.push_back(finding);
   }
 }
 
-// Whether linear springs at the centres of mass hold better than torsional ones, rate by rate.
+// For each rate: linear springs at the centres of mass against torsional ones.
 void add_ratios(const StudyInputs& inputs, const StudyResults& results,
                 std::vector<Finding>& findings) {
-  for (const char* robot : {"findings_set0", "findings_10_14"})
+  for (const char* robot : kTwoLinkRobots)
     for (double rate : inputs.settings.rates_hz) {
       const std::array<double, 2> torsional =
           results.rows.at(fmt::format("row/{}/world/{:g}", robot, rate)).max_deg;
@@ -119,8 +119,8 @@ void add_ratios(const StudyInputs& inputs, const StudyResults& results,
       findings.push_back(
           {"update rate",
            fmt::format(
-               "{}, {:g} Hz: with equal gains the best linear coupling at the centres of mass "
-               "errs less than the best torsional one, in both joints",
+               "{}, {:g} Hz: with equal gains the best linear coupling at the centres of mass has "
+               "smaller errors than the best torsional one in both joints",
                robot_words(robot), rate),
            fmt::format("linear {}, torsional {} deg: factors {:.1f} and {:.1f}", words(linear),
                        words(torsional), torsional[0] / linear[0], torsional[1] / linear[1]),
@@ -133,7 +133,8 @@ void add_reproduction(const StudyResults& results, std::vector<Finding>& finding
     const RunResult* result = find_run(results.reproduction, name);
     const double worst = worst_relative_error(*result, paper_table().at(name));
     findings.push_back(
-        {"Table 2", fmt::format("{}: each of the four published numbers is met within 15 %", name),
+        {"Table 2",
+         fmt::format("{}: each of the four published numbers is reproduced within 15 %", name),
          fmt::format("{} deg, mean {}; worst deviation {:.1f} %", words(result->max_deg),
                      words(result->mean_deg), 100 * worst),
          worst <= 0.15});

@@ -1,5 +1,5 @@
-// Every claim about the paper's numbers, derived again in this run (docs/understand/paper_analysis.md), and the
-// answer to its question in five lines.
+// Claims about the paper's numbers, checked again in this run (docs/understand/paper_analysis.md),
+// and the answer to its question in five sentences.
 #pragma once
 
 #include <array>
@@ -12,16 +12,16 @@
 
 namespace twinarm {
 
-// Fills results.findings and results.rows; needs the runs.
+// Fills results.findings and results.rows; requires the runs.
 void derive_findings(const StudyInputs& inputs, StudyResults& results, Progress& progress);
-// Of both joints, to three digits: "1.23/4.56".
+// Numbers of both joints, three digits: "1.23/4.56".
 std::string words(const std::array<double, 2>& p);
-// Needs the runs and the findings.
+// Requires the runs and the findings.
 std::vector<std::string> answer_in_words(const StudyResults& results);
 
-// Parts of findings.cpp: claims about one question each, and what they share.
+// ---- parts of findings.cpp ----
 
-// What was predicted before: assets/study/predictions.toml. Data, so that no number is in the code.
+// Predictions made before the run: assets/study/predictions.toml.
 struct PredictedRow {
   std::string robot, law;
   double rate = 0;
@@ -37,7 +37,7 @@ struct Predictions {
   std::vector<PredictedModes> modes;
 };
 
-// claims.cpp: what equal gains do, and which gains make the two couplings equal.
+// claims.cpp: equal gains, and gains for which the two couplings are equivalent.
 void add_equal_gains(const StudyInputs& inputs, const Predictions& predictions,
                      std::vector<Finding>& findings);
 void add_matched_gains(const StudyResults& results, std::vector<Finding>& findings);
@@ -50,8 +50,9 @@ void add_stability(const StudyInputs& inputs, std::vector<Finding>& findings);
 
 // findings.cpp
 bool is_near(double measured, double predicted, double relative);
-// A run on the automatic motion of a two-link robot, consistent unless the spec says otherwise.
+// Automatic motion of a two-link robot with one k and b.
 RunResult run_automatic(const StudyRobot& robot, RunSpec spec, double k, double b, double rate);
+inline constexpr const char* kTwoLinkRobots[] = {"findings_set0", "findings_10_14"};
 const char* robot_words(const std::string& name);
 
 }  // namespace twinarm

@@ -10,7 +10,7 @@
 namespace twinarm {
 namespace {
 
-// Every collision hull of the links outward of the base, and the box.
+// Collision hulls of all links but the base, and the box.
 void add_geometry(const StudyInputs& inputs, const Model<double>& model, ContactForce& contact) {
   for (const LinkDescription& link : inputs.s103.links) {
     const int body = model.find_body(link.name);
@@ -26,14 +26,14 @@ void add_geometry(const StudyInputs& inputs, const Model<double>& model, Contact
   contact.add(0, {Matrix3::Identity(), box.position}, "obstacle", Box{box.size});
 }
 
-// How far the KVR's copy of a touching point lies beyond the face that stops the DVR's.
+// Depth of the KVR's copy of a contact point behind the face that stops the DVR.
 double beyond_face(const ContactReading& reading, const Kinematics& k_D, const Kinematics& k_K) {
   const auto i = static_cast<std::size_t>(reading.body);
   const Vector3 p_L = k_D.X_WL[i].inverse() * reading.p_W;
   return -(k_K.X_WL[i] * p_L - reading.p_W).dot(reading.normal_W);
 }
 
-// The spring and joint whose target radius comes nearest to its limit.
+// Updates the spring and joint whose target radius is closest to its limit.
 void watch_target_radius(const Coupling& coupling, const Model<double>& model,
                          const State<double>& x, const Kinematics& k, double h, ObstacleRun& result,
                          double& nearest) {
@@ -56,7 +56,7 @@ void watch_target_radius(const Coupling& coupling, const Model<double>& model,
   }
 }
 
-// The longest stretch of time with a contact force.
+// Longest interval with a contact force.
 void find_contact_interval(ObstacleRun& run) {
   double begin = -1, longest = 0;
   for (std::size_t n = 0; n < run.t.size(); ++n) {
@@ -81,7 +81,7 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   ObstacleRun result;
   result.name = linear ? "linear" : "torsional";
   result.treatment = "implicit";
-  result.pull_unit = linear ? "N" : "N m";
+  result.unit = linear ? "N" : "N m";
 
   CouplingSpec spec;
   spec.name = result.name;
@@ -110,15 +110,15 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   double nearest = 0;
   const TrackingSeries series = system.run([&](double t) {
     const Kinematics& k = system.simulation().kinematics();
-    double force = 0, beyond = 0, pull = 0;
+    double force = 0, beyond = 0, coupling = 0;
     for (const ContactReading& reading : contact.readings()) {
       if (reading.normal_force <= 0) continue;
       force += reading.normal_force;
       beyond = std::max(beyond, beyond_face(reading, k, system.kvr().at(t).k));
     }
     for (const SpringState& reading : system.coupling(0).readings())
-      pull = std::max(pull, reading.size);
-    result.pull.push_back(pull);
+      coupling = std::max(coupling, reading.size);
+    result.coupling.push_back(coupling);
     result.contact_force.push_back(force);
     result.beyond.push_back(beyond);
     result.penetration.push_back(contact.deepest(k));
@@ -136,7 +136,7 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   };
   result.max_penetration = largest(result.penetration);
   result.max_beyond = largest(result.beyond);
-  result.max_pull = largest(result.pull);
+  result.max_coupling = largest(result.coupling);
   result.max_force = largest(result.contact_force);
   find_contact_interval(result);
   return result;

@@ -11,7 +11,7 @@
 namespace twinarm {
 namespace {
 
-// A list of runs on the automatic motion, made and predicted one by one.
+// Runs and predictions with the automatic motion.
 class Runner {
  public:
   Runner(const StudyRobot& robot, Progress& progress, std::size_t expected)
@@ -53,12 +53,12 @@ void add_trials(const StudySettings& s, const Calibration& calibration, Runner& 
   for (const std::string& law : trial_laws())
     for (double rate : s.rates_hz) {
       const Gains gains = calibration.entry(fmt::format("trial/{}/{:g}", law, rate)).gains();
-      add(fmt::format("trial/{}/{:g}", law, rate), law + ", best by trial",
+      add(fmt::format("trial/{}/{:g}", law, rate), law + ", optimal gains",
           with_gains(trial_spec(law, rate), gains));
     }
 }
 
-// The linear coupling of the trial, in consistent form, and the torsional one with its full K_q.
+// Linear coupling with the optimal gains, consistent, and torsional coupling with its full K_q.
 void add_matched(const StudySettings& s, const Calibration& calibration, Runner& add) {
   for (double rate : s.rates_hz) {
     const Gains gains = calibration.entry(fmt::format("trial/printed-linear/{:g}", rate)).gains();
@@ -93,7 +93,7 @@ void add_implicit(const StudySettings& s, const StudyRobot& robot, Runner& add) 
       }
 }
 
-// The force of the rate held between, physics at about 1 kHz.
+// Coupling force computed at the rate and held in between, physics at about 1 kHz.
 void add_held(const StudySettings& s, const Calibration& calibration, Runner& add) {
   for (const std::string& law : trial_laws())
     for (double rate : s.rates_hz) {
@@ -105,7 +105,7 @@ void add_held(const StudySettings& s, const Calibration& calibration, Runner& ad
     }
 }
 
-// One change at a time to the signed coupling at 60 Hz, with its own best gains.
+// One change at a time to the signed coupling at 60 Hz, with its optimal gains.
 void add_ablations(const Calibration& calibration, Runner& add) {
   constexpr double rate = 60;
   const Gains gains = calibration.entry("trial/signed-torsional/60").gains();
@@ -113,9 +113,9 @@ void add_ablations(const Calibration& calibration, Runner& add) {
   add("ablation/signed", "signed damper, backward differences", base);
   RunSpec spec = base;
   spec.coupling.options.damper = Damper::folded;
-  add("ablation/folded", "unsigned angle, folded, as printed", spec);
+  add("ablation/folded", "unsigned angle, folded, as published", spec);
   spec.coupling.options.damping_sign = 1;
-  add("ablation/folded-along", "the same, damping couple along the KVR's motion", spec);
+  add("ablation/folded-along", "the same, damping torque along the KVR's motion", spec);
   spec = base;
   spec.coupling.options.damper = Damper::unsigned_;
   add("ablation/unsigned", "unsigned speed, not folded", spec);
@@ -128,7 +128,7 @@ void add_ablations(const Calibration& calibration, Runner& add) {
   spec = consistent(CouplingSpec::Type::torsional, SpringSpace::world, Discretization::explicit_,
                     rate);
   add("ablation/true-velocities", "current velocities of both robots", with_gains(spec, gains));
-  add("ablation/ratio-0.2", "k2 = 0.2 k1, with its own best gains",
+  add("ablation/ratio-0.2", "k2 = 0.2 k1, with its own optimal gains",
       with_gains(trial_spec("signed-torsional-ratio", rate),
                  calibration.entry("trial/signed-torsional-ratio/60").gains()));
 }
@@ -158,7 +158,8 @@ std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibrati
   std::vector<RunResult> results;
   for (RunSpec& spec : reproduction_specs(calibration)) {
     const bool by_user = spec.name < "E3";
-    if (by_user && dynamic_cast<const SyntheticOperator*>(&hand)) spec.title += " (synthetic hand)";
+    if (by_user && dynamic_cast<const SyntheticOperator*>(&hand))
+      spec.title += " (synthetic operator)";
     results.push_back(run(robot, by_user ? hand : automatic, spec));
     predict(robot, results.back());
   }

@@ -1,5 +1,5 @@
-// What is run beside the reproduction: gains by trial, matched gains, implicit couplings, held
-// forces, and one ablation for each choice of the printed law. Names: docs/use/run_the_study.md.
+// Reproduction of E1 to E4, and variants: optimal gains, matched gains, implicit couplings, held
+// forces, and one ablation for each choice of the published law. Names: docs/use/run_the_study.md.
 #pragma once
 
 #include "app/study/findings/results.h"
@@ -7,22 +7,22 @@
 
 namespace twinarm {
 
-// E1 to E4 with the chosen calibration, in this order; not run.
+// E1 to E4 with the chosen calibration, in this order.
 std::vector<RunSpec> reproduction_specs(const Calibration& calibration);
-// The same, run; `hand` moves E1 and E2.
+// Runs them; `hand` is the motion of E1 and E2.
 std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibration& calibration,
                                         const OperatorMotion& hand);
 
 std::vector<RunResult> run_variants(const StudyInputs& inputs, const StudyRobot& robot,
                                     const Calibration& calibration, Progress& progress);
 
-// Gains that give joints 1 and 2 this natural frequency [Hz] and damping ratio, each on its own
-// inertia at the start pose: k_i = w^2 I_i, divided by r_i^2 for a spring at radius r_i.
+// Gains with which joints 1 and 2 have this natural frequency [Hz] and damping ratio, each with its
+// own inertia at the start pose: k_i = w^2 I_i, divided by r_i^2 for a spring at radius r_i.
 Gains gains_from_frequency(const StudyRobot& robot, const CouplingSpec& coupling,
                            double frequency_hz, double damping_ratio);
 
-// obstacle.cpp: the automatic motion with a box in the way; the DVR stops at it, the KVR goes on
-// through it. One coupling, linear or torsional (world), implicit at the obstacle's rate.
+// obstacle.cpp: automatic motion into a box that stops the DVR, while the KVR passes through it.
+// One coupling, linear or torsional (world), implicit at the obstacle's rate.
 ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
                          CouplingSpec::Type type);
 

@@ -19,10 +19,10 @@ struct LawStyle {
   const char* dash;
 };
 constexpr LawStyle kTrialLaws[] = {
-    {"printed-torsional", "torsional, as printed", palette::torsional, 7, "solid"},
-    {"signed-torsional", "torsional, damper mended", "#C58AD0", 5, "solid"},
+    {"printed-torsional", "torsional, as published", palette::torsional, 7, "solid"},
+    {"signed-torsional", "torsional, signed damper", "#C58AD0", 5, "solid"},
     {"signed-torsional-ratio", "the same, k2 = 0.2 k1", "#3F6FB5", 9, "(6,4)"},
-    {"printed-linear", "linear, as printed", palette::linear, 13, "solid"}};
+    {"printed-linear", "linear, as published", palette::linear, 13, "solid"}};
 constexpr LawStyle kFitLaws[] = {{"world-", "E3 world (−)", palette::torsional, 7, "solid"},
                                  {"world+", "E3 world (+)", "#C58AD0", 5, "solid"},
                                  {"joint-", "E3 joint (−)", "#3F6FB5", 9, "(6,4)"},
@@ -33,7 +33,7 @@ std::string line_style(const LawStyle& law) {
                      law.point, law.colour, in_quotes(law.words));
 }
 
-// "60, 120, ..." as tics of a logarithmic rate axis; crowded neighbours are left without a number.
+// Tics of a logarithmic rate axis; without a number where they would overlap.
 std::string rate_axis(std::vector<double> rates) {
   std::sort(rates.begin(), rates.end());
   rates.erase(std::unique(rates.begin(), rates.end()), rates.end());
@@ -106,7 +106,7 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
     }
     script += plots + "\n";
   }
-  gnuplot.draw("rates", "Largest error against the update rate, gains found by trial", 900, 430,
+  gnuplot.draw("rates", "Largest error against the update rate, optimal gains", 900, 430,
                script + "unset multiplot\n");
 }
 
@@ -117,16 +117,16 @@ void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
     rates.push_back(row.rate);
     e4.push_back(row.e4 ? std::max(0.5, 100 * row.e4->objective) : NAN);
   }
-  constexpr double kFloor = 0.5;  // a better fit is drawn here
-  double low = 10, high = 30;     // [%], so that the 15 % line is always in view
-  const auto look = [&](const CalibrationEntry* entry) {
+  constexpr double kFloor = 0.5;  // of the drawn values [%]
+  double low = 10, high = 30;     // [%]; the range includes 15 %
+  const auto include = [&](const CalibrationEntry* entry) {
     if (!entry || !(entry->objective > 0)) return;
     low = std::max(kFloor, std::min(low, 100 * entry->objective));
     high = std::max(high, 100 * entry->objective);
   };
   for (const SearchRow& row : results.search) {
-    look(row.e4);
-    for (const auto& [law, entry] : row.e3) look(entry);
+    include(row.e4);
+    for (const auto& [law, entry] : row.e3) include(entry);
   }
   std::string script =
       rate_axis(rates) +
@@ -217,7 +217,7 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
 
 void draw_prediction(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   constexpr LawStyle kGroups[] = {
-      {"trial/", "gains by trial", palette::torsional, 7, ""},
+      {"trial/", "optimal gains", palette::torsional, 7, ""},
       {"matched/", "matched gains", palette::linear, 13, ""},
       {"explicit/", "50 Hz springs, explicit", "#D2600A", 5, ""},
       {"semi-implicit/", "50 Hz springs, semi-implicit", "#E6A15C", 9, ""},
@@ -246,7 +246,7 @@ void draw_prediction(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   if (plots.empty()) return;
   low /= 1.3;
   high *= 1.3;
-  gnuplot.draw("prediction", "Predicted peak after a reversal beside the measured maximum", 900,
+  gnuplot.draw("prediction", "Predicted peak after a reversal against the measured maximum", 900,
                560,
                fmt::format("set logscale xy\nset xrange [{0}:{1}]\nset yrange [{0}:{1}]\n"
                            "set xtics (0.01, 0.1, 1, 10, 100)\nset ytics (0.01, 0.1, 1, 10, 100)\n"

@@ -1,4 +1,4 @@
-// Parts of figures.cpp, one function a figure.
+// Parts of figures.cpp, one function for each figure.
 #pragma once
 
 #include "app/plot/gnuplot.h"

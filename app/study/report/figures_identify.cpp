@@ -1,4 +1,4 @@
-// The figure of what Table 2 leaves open: intervals of all parameters, by law.
+// Figure of the identification from Table 2: intervals of all parameters, by law.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kWidest = 12;  // of the axis: a factor
+constexpr double kMaxFactor = 12;  // of the axis
 
 struct Bars {
   std::vector<double> y, low, high;
@@ -17,9 +17,9 @@ struct Bars {
 const std::vector<std::string> kNames{"k1", "b1", "k2", "b2", "mass of arm 2"};
 const std::vector<std::string> kKeys{"k1", "b1", "k2", "b2", "arm2_mass_scale"};
 
-// Of the fits of a row that agree with the paper, and of those that fall short.
+// Fits that agree with a row of the paper, and the others.
 struct Panel {
-  Bars agree, fall_short;
+  Bars agree, disagree;
 };
 Panel panel_of(const std::vector<Identification>& all, const std::vector<double>& rates,
                const std::string& row, const std::string& key) {
@@ -39,10 +39,10 @@ Panel panel_of(const std::vector<Identification>& all, const std::vector<double>
     if (profile == found.profiles.end()) continue;
     const Identification::Interval in = found.interval(*profile);
     const double best = found.fit.value(key);
-    Bars& bars = found.fit.objective <= 1 ? panel.agree : panel.fall_short;
+    Bars& bars = found.fit.objective <= 1 ? panel.agree : panel.disagree;
     bars.y.push_back(rows - 1 - law + 1 / (count + 1) * ((count - 1) / 2 - rate));
-    bars.low.push_back(in.open_low ? 1 / kWidest : in.low / best);
-    bars.high.push_back(in.open_high ? kWidest : in.high / best);
+    bars.low.push_back(in.open_low ? 1 / kMaxFactor : in.low / best);
+    bars.high.push_back(in.open_high ? kMaxFactor : in.high / best);
   }
   return panel;
 }
@@ -57,7 +57,7 @@ std::string plot_of(Gnuplot& gnuplot, const Panel& panel, const char* colour) {
                          plots.empty() ? "plot " : ", ", gnuplot.data({bars.y, bars.low, length}),
                          width, of_bars);
   };
-  add(panel.fall_short, palette::faint, 2);
+  add(panel.disagree, palette::faint, 2);
   add(panel.agree, colour, 5);
   return plots.empty() ? "" : plots + "\n";
 }
@@ -82,7 +82,7 @@ void draw_identification(Gnuplot& gnuplot, const StudyResults& results) {
       "set multiplot\nset tics scale 0.5\nset logscale x\nset xrange [{}:{}]\nset yrange "
       "[-0.6:{}]\n"
       "set xtics ('1/5' 0.2, '1' 1, '5' 5)\nunset key\nset grid x\n",
-      1 / kWidest, kWidest, rows - 0.4);
+      1 / kMaxFactor, kMaxFactor, rows - 0.4);
   for (std::size_t r = 0; r < 2; ++r) {
     const char* row = r == 0 ? "E3" : "E4";
     for (std::size_t p = 0; p < kNames.size(); ++p) {
@@ -92,13 +92,13 @@ void draw_identification(Gnuplot& gnuplot, const StudyResults& results) {
           0.26 + 0.148 * static_cast<double>(p), 0.395 + 0.148 * static_cast<double>(p),
           r == 0 ? 0.94 : 0.46, r == 0 ? 0.56 : 0.08,
           p == 0 ? "set ytics nomirror (" + tics + ")" : "unset ytics",
-          r == 1 ? "set xlabel 'over the best'" : "unset xlabel",
+          r == 1 ? "set xlabel 'relative to the best'" : "unset xlabel",
           fmt::format("{}, {}", row, kNames[p]));
       script += plot_of(gnuplot, panel_of(all, rates, row, kKeys[p]), kColours[r]);
     }
   }
-  gnuplot.draw("identify", "How far the row holds each parameter of each law", 1100, 760,
-               script + "unset multiplot\n");
+  gnuplot.draw("identify", "Intervals of the parameters of each law that agree with the row", 1100,
+               760, script + "unset multiplot\n");
 }
 
 }  // namespace twinarm

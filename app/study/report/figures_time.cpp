@@ -1,4 +1,4 @@
-// Figures over time: the paper's 6a, 6b, 7c and 7d, the errors, and the run into the box.
+// Figures over time: 6a, 6b, 7c and 7d of the paper, the errors, and the run into the box.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -69,7 +69,7 @@ std::string value_axis(const std::vector<double>& a, const std::vector<double>& 
 
 }  // namespace
 
-// The largest error is drawn where it is, with its size: the number of Table 2 in its place.
+// Marks the largest error, which is the number of Table 2.
 void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run) {
   const TrackingSeries& series = run.series;
   if (!has_two_joints(series)) return;
@@ -81,7 +81,7 @@ void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run
         std::distance(error.begin(), std::max_element(error.begin(), error.end())));
     script += panel(static_cast<int>(j), fmt::format("joint {} [°]", j + 1), series.t.back());
     script += angle_axis(q_K, q_D);
-    const std::string theory =  // a hand follows no law
+    const std::string theory =  // none for E1 and E2
         run.spec.name < std::string("E3")
             ? ""
             : fmt::format("; by linear theory {:.1f}°", run.motion_max_deg[j]);
@@ -91,7 +91,7 @@ void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run
         "0,0.6 font ',11.5' textcolor '#111111'\n",
         series.t[at], q_K[at], q_D[at], error[at], theory);
     script += fmt::format(
-        "plot {} with lines lw 4.5 lc '{}' title 'KVR (moved by the hand)', "
+        "plot {} with lines lw 4.5 lc '{}' title 'KVR (target)', "
         "{} with lines lw {} lc '{}' title 'DVR (simulated)'\n",
         gnuplot.curve(series.t, q_K), palette::kvr, gnuplot.curve(series.t, q_D),
         series.t.back() > 5 ? 1.2 : 1.8, palette::dvr);
@@ -138,18 +138,18 @@ struct ObstaclePanel {
   std::string before;  // its axis
 };
 
-// The stretches of time with a contact; short gaps between them are bridged.
+// Intervals with a contact; short gaps are bridged.
 std::vector<std::pair<double, double>> contacts(const ObstacleRun& run) {
-  constexpr double bridged = 0.02;
-  std::vector<std::pair<double, double>> stretches;
+  constexpr double kGap = 0.02;  // [s]
+  std::vector<std::pair<double, double>> intervals;
   for (std::size_t n = 0; n < run.t.size() && n < run.contact_force.size(); ++n) {
     if (run.contact_force[n] <= 0) continue;
-    if (!stretches.empty() && run.t[n] - stretches.back().second < bridged)
-      stretches.back().second = run.t[n];
+    if (!intervals.empty() && run.t[n] - intervals.back().second < kGap)
+      intervals.back().second = run.t[n];
     else
-      stretches.emplace_back(run.t[n], run.t[n]);
+      intervals.emplace_back(run.t[n], run.t[n]);
   }
-  return stretches;
+  return intervals;
 }
 
 std::vector<double> column(const std::vector<std::array<double, 2>>& rows, std::size_t j) {
@@ -158,7 +158,7 @@ std::vector<double> column(const std::vector<std::array<double, 2>>& rows, std::
   return values;
 }
 
-// In millimetres, for a logarithmic axis: what is not positive is a gap.
+// In millimetres for a logarithmic axis; gaps for values that are not positive.
 std::vector<double> positive_mm(const std::vector<double>& metres) {
   std::vector<double> values;
   for (double x : metres) values.push_back(x > 0 ? std::max(x * 1e3, 1e-4) : NAN);
@@ -174,17 +174,18 @@ std::vector<ObstaclePanel> obstacle_panels(Gnuplot& gnuplot, const ObstacleRun& 
                                   gnuplot.curve(run.t, column(run.q_K_deg, j)), palette::kvr,
                                   gnuplot.curve(run.t, column(run.q_D_deg, j)), palette::dvr),
                       angle_axis(column(run.q_K_deg, j), column(run.q_D_deg, j))});
-  panels.push_back({fmt::format("{} through the coupling [{}]",
-                                run.pull_unit == "N" ? "force" : "couple", run.pull_unit),
-                    fmt::format("{} with lines lw 1.8 lc '{}' notitle",
-                                gnuplot.curve(run.t, run.pull), palette::ink),
-                    value_axis(run.pull)});
-  panels.push_back({"contact force [N]",
-                    fmt::format("{} with lines lw 1.4 lc '{}' notitle",
-                                gnuplot.curve(run.t, run.contact_force), palette::ink),
-                    value_axis(run.contact_force)});
+  const auto add_size = [&](const std::string& label, const std::vector<double>& size,
+                            double width) {
+    panels.push_back({label,
+                      fmt::format("{} with lines lw {} lc '{}' notitle", gnuplot.curve(run.t, size),
+                                  width, palette::ink),
+                      value_axis(size)});
+  };
+  add_size(fmt::format("coupling {} [{}]", run.unit == "N" ? "force" : "torque", run.unit),
+           run.coupling, 1.8);
+  add_size("contact force [N]", run.contact_force, 1.4);
   panels.push_back(
-      {"depth past the touched face [mm]; the line is 0.5 mm",
+      {"depth behind the touched face [mm]; the line is 0.5 mm",
        fmt::format("0.5 with lines dt (4,4) lw 1.2 lc '{}' notitle, {} with lines lw 4 lc '{}' "
                    "notitle, {} with lines lw 1.8 lc '{}' notitle",
                    palette::faint, gnuplot.data({run.t, positive_mm(run.beyond)}), palette::kvr,
@@ -194,7 +195,7 @@ std::vector<ObstaclePanel> obstacle_panels(Gnuplot& gnuplot, const ObstacleRun& 
   return panels;
 }
 
-// One column of panels: one coupling.
+// Column of panels of one coupling.
 std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double left, double right) {
   std::string script = fmt::format(
       "reset\n{}set lmargin at screen {}\nset rmargin at screen {}\nset xrange [0:{}]\n",

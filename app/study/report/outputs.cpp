@@ -1,4 +1,4 @@
-// The study as CSV and as JSON.
+// CSV and JSON output of the study.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -24,7 +24,7 @@ std::string csv(const std::vector<Column>& columns) {
   for (std::size_t n = 0; n < rows; ++n)
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const std::vector<double>& values = *columns[c].values;
-      if (n < values.size()) fmt::format_to(out, "{}", values[n]);  // else an empty field
+      if (n < values.size()) fmt::format_to(out, "{}", values[n]);  // else empty
       text.push_back(c + 1 == columns.size() ? '\n' : ',');
     }
   return fmt::to_string(text);
@@ -64,7 +64,7 @@ std::string obstacle_csv(const ObstacleRun& run) {
               {"q_K/joint2[rad]", &angles[1]},
               {"q_D/joint1[rad]", &angles[2]},
               {"q_D/joint2[rad]", &angles[3]},
-              {fmt::format("pull[{}]", run.pull_unit), &run.pull},
+              {fmt::format("pull[{}]", run.unit), &run.coupling},
               {"contact_force[N]", &run.contact_force},
               {"penetration[m]", &run.penetration},
               {"beyond[m]", &run.beyond}});
@@ -84,8 +84,14 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// nlohmann writes doubles with the fewest digits that read back the same, and null for what is not
-// finite.
+// nlohmann writes the shortest text that reads back the same double, and null if it is not finite.
+template <class Range, class F>
+ordered_json list_of(const Range& range, F&& json_of) {
+  ordered_json list = ordered_json::array();
+  for (const auto& item : range) list.push_back(json_of(item));
+  return list;
+}
+
 ordered_json by_joint(const std::array<double, 2>& values) {
   return {{"joint1", values[0]}, {"joint2", values[1]}};
 }
@@ -137,8 +143,8 @@ ordered_json obstacle_json(const ObstacleRun& run) {
           {"gains", gains_json(run.gains)},
           {"largest_penetration", run.max_penetration},
           {"largest_beyond", run.max_beyond},
-          {"largest_pull", run.max_pull},
-          {"pull_unit", run.pull_unit},
+          {"largest_pull", run.max_coupling},
+          {"pull_unit", run.unit},
           {"largest_contact_force", run.max_force},
           {"target_radius_ratio", run.target_radius_ratio},
           {"target_radius_limit", run.target_radius_limit},
@@ -146,19 +152,30 @@ ordered_json obstacle_json(const ObstacleRun& run) {
           {"contact_end", run.contact_end}};
 }
 
-ordered_json search_json(const StudyResults& results) {
-  ordered_json rows = ordered_json::array();
-  for (const SearchRow& row : results.search) {
-    ordered_json json = {{"rate", row.rate}, {"e3", ordered_json::object()}, {"e4", nullptr}};
-    for (const auto& [law, entry] : row.e3)
-      if (entry) json["e3"][law] = entry->objective;
-    if (row.e4) json["e4"] = row.e4->objective;
-    rows.push_back(json);
-  }
-  return rows;
+ordered_json search_json(const SearchRow& row) {
+  ordered_json json = {{"rate", row.rate}, {"e3", ordered_json::object()}, {"e4", nullptr}};
+  for (const auto& [law, entry] : row.e3)
+    if (entry) json["e3"][law] = entry->objective;
+  if (row.e4) json["e4"] = row.e4->objective;
+  return json;
 }
 
-// What a row leaves open of a law's parameters (docs/use/run_the_study.md).
+ordered_json finding_json(const Finding& finding) {
+  return {{"section", finding.section},
+          {"claim", finding.claim},
+          {"measured", finding.measured},
+          {"holds", finding.holds}};
+}
+
+ordered_json recording_json(const StudyRecording& run) {
+  return {{"name", run.name},
+          {"scene", run.scene.string()},
+          {"recording", run.recording.string()},
+          {"page", run.page.string()},
+          {"apart_deg", run.apart_deg}};
+}
+
+// Format: docs/use/run_the_study.md.
 ordered_json identification_json(const Identification& found) {
   ordered_json json = {{"row", found.row},
                        {"law", found.law},
@@ -185,27 +202,12 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
   root["runs"] = ordered_json::object();
   for (const RunResult& run : results.reproduction)
     root["runs"][run.spec.name] = reproduction_json(run);
-  root["variants"] = ordered_json::array();
-  for (const RunResult& run : results.variants) root["variants"].push_back(variant_json(run));
-  root["findings"] = ordered_json::array();
-  for (const Finding& finding : results.findings)
-    root["findings"].push_back({{"section", finding.section},
-                                {"claim", finding.claim},
-                                {"measured", finding.measured},
-                                {"holds", finding.holds}});
-  root["obstacle"] = ordered_json::array();
-  for (const ObstacleRun& run : results.obstacle) root["obstacle"].push_back(obstacle_json(run));
-  root["recordings"] = ordered_json::array();
-  for (const StudyRecording& run : results.recordings)
-    root["recordings"].push_back({{"name", run.name},
-                                  {"scene", run.scene.string()},
-                                  {"recording", run.recording.string()},
-                                  {"page", run.page.string()},
-                                  {"apart_deg", run.apart_deg}});
-  root["search"] = search_json(results);
-  root["left_open"] = ordered_json::array();
-  for (const Identification& found : results.identifications)
-    root["left_open"].push_back(identification_json(found));
+  root["variants"] = list_of(results.variants, variant_json);
+  root["findings"] = list_of(results.findings, finding_json);
+  root["obstacle"] = list_of(results.obstacle, obstacle_json);
+  root["recordings"] = list_of(results.recordings, recording_json);
+  root["search"] = list_of(results.search, search_json);
+  root["left_open"] = list_of(results.identifications, identification_json);
   root["answer"] = results.answer;
   root["optimiser"] = results.calibration.optimiser;
   root["calibration_seed"] = results.calibration.seed;
@@ -220,7 +222,7 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
 std::string answer_json(const Identification& found) {
   ordered_json json = identification_json(found);
   json["evaluations"] = found.fit.evaluations;
-  json["allowance"] = found.allowance();
+  json["allowance"] = found.threshold();
   json["directions"] = found.directions;
   for (std::size_t j = 0; j < found.profiles.size(); ++j) {
     ordered_json& points = json["parameters"][j]["profile"];

@@ -16,15 +16,15 @@
 namespace twinarm {
 namespace {
 
-constexpr double kObstacleEvery = 0.004;  // [s] between two recorded steps: four of them
+constexpr double kObstacleEvery = 0.004;  // recording interval [s]: four steps
 
-// Angles of the study, by joint and step [deg].
+// Angles of the DVR in the study, by joint and step [deg].
 struct StudyAngles {
   std::vector<std::string> joints;
   std::vector<std::vector<double>> deg;
 };
 
-// What is recorded, and the largest difference of an angle from the study's [deg].
+// Records the scene; returns the largest difference of an angle from the study's [deg].
 double record(const std::filesystem::path& scene, const std::filesystem::path& file, double every,
               const StudyAngles& angles) {
   SimulateOptions options;
@@ -55,7 +55,7 @@ double record(const std::filesystem::path& scene, const std::filesystem::path& f
   try {
     const SimulateResult result = run_plan(prepared.input, prepared.run, watch);
     recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
-  } catch (const Interrupted&) {  // a study that has not come to its end has no use for half a run
+  } catch (const Interrupted&) {  // removes the partial recording
     std::error_code ignored;
     std::filesystem::remove(part_of(file), ignored);
     throw;
@@ -84,7 +84,7 @@ RunSpec spec_of(const ObstacleRun& run, double rate) {
   const bool linear = run.name == "linear";
   RunSpec spec;
   spec.name = "obstacle_" + run.name;
-  spec.title = run.name + ", automatic, a box in the way";
+  spec.title = run.name + ", automatic, with a box";
   spec.coupling.type = linear ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
   spec.coupling.treatment = Discretization::implicit;
   spec.gains = run.gains;
@@ -92,7 +92,7 @@ RunSpec spec_of(const ObstacleRun& run, double rate) {
   return spec;
 }
 
-// When joint 1 errs most, or joint 2 if that is more.
+// Time of the largest error of joints 1 and 2.
 double time_of_largest_error(const TrackingSeries& series) {
   double largest = 0, at = 0;
   for (std::size_t n = 0; n < series.t.size(); ++n)
@@ -144,7 +144,7 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
 
 void paint_pictures(const StudyResults& results, const std::filesystem::path& folder,
                     bool paper_view, Progress& progress) {
-  // At the end of the first sweep the KVR is farthest beyond the box.
+  // At the end of the first sweep the KVR is deepest in the box.
   constexpr double kStopped = 0.952, kAnyPose = 0.3;
   const char* const kFromLeft = "-60,30,2.3";
   const char* const kFaceOfBox = "30,26,2.75";

@@ -1,6 +1,7 @@
-// E1 to E4 and the runs with the obstacle, recorded: each is written as a scene, and that scene is
-// run and recorded as `twinarm simulate --record` does. So whoever opens a recording, or forks it,
-// runs the very same laws; and how far the scene's angles part from the study's is measured.
+// Recordings of E1 to E4 and of the runs with the obstacle. Each run is written as a scene, which
+// is simulated and recorded as by `twinarm simulate --record`, so that a recording can be replayed
+// and branched with the laws of the study. The difference between the angles of scene and study is
+// measured.
 #pragma once
 
 #include <filesystem>
@@ -11,15 +12,15 @@
 
 namespace twinarm {
 
-// Into `folder`: NAME.toml, NAME.twinrec and, where the program has its pages, NAME.html.
+// Into `folder`: NAME.toml, NAME.twinrec and, if the program contains its pages, NAME.html.
 std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const StudyRobot& robot,
                                              const SceneHand& hand, const StudyResults& results,
                                              const std::filesystem::path& folder,
                                              Progress& progress);
 
-// Of results.recordings: robot.png, E3.png and E4.png (at the largest error of each),
-// obstacle-linear.png and obstacle-torsional.png (while the DVR is stopped), painted without
-// display or GPU. paper_view leaves the KVR and the springs out.
+// Pictures of results.recordings: robot.png, E3.png and E4.png (at their largest errors),
+// obstacle-linear.png and obstacle-torsional.png (while the DVR is stopped), rendered without
+// display or GPU. paper_view omits the KVR and the springs.
 void paint_pictures(const StudyResults& results, const std::filesystem::path& folder,
                     bool paper_view, Progress& progress);
 

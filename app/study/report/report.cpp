@@ -32,7 +32,7 @@ void add_findings(const StudyResults& results, Slots& slots) {
     section->second +=
         fmt::format("<tr><td style=\"width:58%\">{}</td><td class=text>{}</td><td>{}</td></tr>\n",
                     escaped(finding.claim), escaped(finding.measured),
-                    yes_no(finding.holds, "holds", "does not"));
+                    yes_no(finding.holds, "holds", "does not hold"));
   }
   for (auto& [section, claims] : rows) {
     section[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(section[0])));
@@ -43,7 +43,7 @@ void add_findings(const StudyResults& results, Slots& slots) {
   }
 }
 
-// By their names, with underscores for hyphens.
+// By file name, with underscores instead of hyphens.
 void add_images(const std::filesystem::path& folder, Slots& slots) {
   for (const char* part : {"figures", "pictures"})
     for (const auto& entry : std::filesystem::directory_iterator(folder / part)) {
@@ -63,8 +63,7 @@ std::string filled(const std::filesystem::path& file, const Slots& slots) {
   try {
     return fmt::vformat(read_whole_file(file), places);
   } catch (const fmt::format_error& error) {
-    throw InputError(
-        {{file.string(), 0, "", error.what(), "see the file as it was shipped", "study.file"}});
+    throw InputError({{file.string(), 0, "", error.what(), "see the shipped file", "study.file"}});
   }
 }
 
@@ -105,29 +104,22 @@ void write_report(const StudyResults& results, const std::filesystem::path& asse
   const std::string text = filled(assets / "study" / "report.html", slots);
   const std::size_t main = text.find("<!-- main -->");
   HtmlPage page;
-  page.title = "Linear or torsional? The study of the coupled S-103";
+  page.title = "Linear or torsional? Study of the coupled S-103";
   page.header = text.substr(0, main);
   page.main = main == std::string::npos ? "" : text.substr(main);
-  page.contents = {{"answer", "Answer"},
-                   {"table2", "Table 2"},
-                   {"angles", "Figures 6 and 7"},
-                   {"scene", "Pictures"},
-                   {"why", "Why"},
-                   {"rates", "Update rates"},
-                   {"variants", "Variants"},
-                   {"obstacle", "Obstacle"},
-                   {"recordings", "Recordings"},
-                   {"search", "Search"},
-                   {"open", "What stays open"},
-                   {"parameters", "Parameters"}};
+  page.contents = {
+      {"answer", "Answer"},     {"table2", "Table 2"},       {"angles", "Figures 6 and 7"},
+      {"scene", "Pictures"},    {"why", "Explanation"},      {"rates", "Update rates"},
+      {"variants", "Variants"}, {"obstacle", "Obstacle"},    {"recordings", "Recordings"},
+      {"search", "Search"},     {"open", "Identifiability"}, {"parameters", "Parameters"}};
   page.footer = made_by(results.command, results.seconds) +
                 " Every number on this page was computed in that run, except where it says "
                 "published or calibrated.";
   write_whole_file(folder / "report.html", page.html());
 }
 
-// The answer to the paper's question, each sentence with its numbers. What is said follows from the
-// numbers, so that it stays true when the settings change.
+// Answer to the paper's question. The sentences are derived from the numbers, so that they are
+// correct for other settings too.
 namespace {
 
 using Pair = std::array<double, 2>;
@@ -136,10 +128,10 @@ double worst(const Pair& p) {
   return std::max(p[0], p[1]);
 }
 
-// "better", "no better" or "about as well", by the larger of the two maxima.
+// Comparison of the larger of the two maxima.
 const char* verdict(const Pair& linear, const Pair& torsional) {
   const double ratio = worst(torsional) / worst(linear);
-  return ratio > 1.1 ? "better" : ratio < 0.9 ? "worse" : "about as well";
+  return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
 }
 
 // Ratio of the squared natural frequencies.
@@ -153,7 +145,8 @@ std::string table_line(const StudyResults& results) {
   const double error = std::max(worst_relative_error(e3, paper_table().at("E3")),
                                 worst_relative_error(e4, paper_table().at("E4")));
   return fmt::format(
-      "At one rate of {:g} Hz the printed laws give all eight published numbers of E3 and E4 to "
+      "At one rate of {:g} Hz the published laws reproduce all eight published numbers of E3 and "
+      "E4 "
       "within {:.0f} %: E3 {} deg (published 16.6/23.5), E4 {} deg (3.4/6.0).",
       e3.spec.rate, std::ceil(100 * error), words(e3.max_deg), words(e4.max_deg));
 }
@@ -164,9 +157,11 @@ std::string question_line(const StudyResults& results) {
   const RunResult& s103_torsional = *find_run(results.variants, "trial/signed-torsional/60");
   const RunResult& s103_linear = *find_run(results.variants, "trial/printed-linear/60");
   return fmt::format(
-      "Does linear hold better? With one k and b for both links at 60 Hz it depends on where the "
-      "springs sit: uniform arms, springs at the centres of mass: linear {} against torsional {} "
-      "deg, {}; the S-103, springs at the arms' ends: {} against {} deg, {}.",
+      "Are the errors of a linear coupling smaller? With one k and b for both links at 60 Hz it "
+      "depends on the position of the springs: uniform arms, springs at the centres of mass: "
+      "linear "
+      "{} against torsional {} deg, {}; S-103, springs at the ends of the arms: {} against {} deg, "
+      "{}.",
       words(linear.max_deg), words(torsional.max_deg), verdict(linear.max_deg, torsional.max_deg),
       words(s103_linear.max_deg), words(s103_torsional.max_deg),
       verdict(s103_linear.max_deg, s103_torsional.max_deg));
@@ -176,21 +171,22 @@ std::string reason_line(const StudyResults& results) {
   const RunResult& torsional = *find_run(results.variants, "trial/signed-torsional/60");
   const RunResult& linear = *find_run(results.variants, "trial/printed-linear/60");
   return fmt::format(
-      "Why: the fastest mode sets the largest stable step, the slowest one the error, so equal "
-      "gains are judged by the spread of the squared frequencies: {:.1f} torsional against {:.1f} "
-      "linear "
-      "on the S-103; springs at the centres of mass, stiff as the masses, spread them least.",
+      "Reason: the fastest mode limits the step, the slowest one determines the error, so with "
+      "equal "
+      "gains the ratio of the squared frequencies matters: {:.1f} torsional, {:.1f} linear on the "
+      "S-103; it is smallest for springs at the centres of mass with stiffness proportional to "
+      "mass.",
       spread(torsional), spread(linear));
 }
 
 std::string damper_line(const StudyResults& results) {
   const RunResult& printed = *find_run(results.variants, "trial/printed-torsional/60");
-  const RunResult& mended = *find_run(results.variants, "trial/signed-torsional/60");
+  const RunResult& corrected = *find_run(results.variants, "trial/signed-torsional/60");
   return fmt::format(
-      "The printed torsional damper takes an unsigned angle and cannot dissipate: at 60 Hz its "
-      "best is {} deg, mean {}; with a signed damper {} deg, mean {}.",
-      words(printed.max_deg), words(printed.mean_deg), words(mended.max_deg),
-      words(mended.mean_deg));
+      "The published torsional damper uses an unsigned angle and cannot dissipate energy: with "
+      "optimal gains at 60 Hz {} deg, mean {}; with a signed damper {} deg, mean {}.",
+      words(printed.max_deg), words(printed.mean_deg), words(corrected.max_deg),
+      words(corrected.mean_deg));
 }
 
 std::string law_line(const StudyResults& results) {
@@ -199,8 +195,10 @@ std::string law_line(const StudyResults& results) {
   const RunResult& implicit_t = *find_run(results.variants, "implicit/torsional-world/1000");
   const RunResult& implicit_l = *find_run(results.variants, "implicit/linear/1000");
   return fmt::format(
-      "It is not the law: with the full stiffness of the linear coupling a torsional one errs by "
-      "{} deg, the linear one by {}; implicit at 1 kHz torsional {} deg, linear {} deg.",
+      "The law is not the reason: with the full stiffness of the linear coupling the errors of a "
+      "torsional one are {} deg, of the linear one {}; implicit at 1 kHz torsional {} deg, linear "
+      "{} "
+      "deg.",
       words(matched.max_deg), words(linear.max_deg), words(implicit_t.max_deg),
       words(implicit_l.max_deg));
 }

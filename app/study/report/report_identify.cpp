@@ -1,5 +1,4 @@
-// Slots of the report on what the paper's Table 2 leaves open.
-
+// Slots of the report on the identification from Table 2, the search, and all parameters.
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -12,8 +11,8 @@
 namespace twinarm {
 namespace {
 
-// A row does not show a combination of parameters that has to change by more than this factor
-// before one of the four numbers moves by half of its last digit.
+// A combination of parameters is not identifiable if it can change by this factor without changing
+// one of the four numbers by half of its last digit.
 constexpr double kOpenFactor = 1.25;
 
 std::string short_name(const std::string& parameter) {
@@ -44,7 +43,7 @@ bool leaves_open(const Identification& found) {
   return std::any_of(found.singular_values.begin(), found.singular_values.end(), is_open);
 }
 
-// The combinations that the row does not hold: "k1 b1^-0.9", those parts that weigh.
+// Combinations that are not identifiable: "k1 b1^-0.9", without small exponents.
 std::string open_combinations(const Identification& found) {
   if (!leaves_open(found)) return "none";
   std::string words;
@@ -68,12 +67,12 @@ std::string open_combinations(const Identification& found) {
   return words;
 }
 
-// Over all parameters that the profiles found within the allowance.
+// Range over all points of the profiles below the threshold.
 std::string other_motion(const Identification& found) {
   std::array<double, 2> low{HUGE_VAL, HUGE_VAL}, high{0, 0};
   for (const Profile& profile : found.profiles)
     for (const ProfilePoint& point : profile.points)
-      for (std::size_t j = 0; j < 2 && point.misfit <= found.allowance(); ++j) {
+      for (std::size_t j = 0; j < 2 && point.misfit <= found.threshold(); ++j) {
         low[j] = std::min(low[j], point.other_max_deg[j]);
         high[j] = std::max(high[j], point.other_max_deg[j]);
       }
@@ -116,28 +115,29 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
   return "<h3>" + row +
          "</h3>\n<div class=scroll><table class=dense><thead><tr><th class=text>law</th>"
          "<th>rate<br>Hz</th><th>misfit</th><th>max, degrees,<br>joints 1 / 2</th>"
-         "<th>mean, degrees,<br>joints 1 / 2</th><th class=text>parameters, and how far they can "
-         "go</th><th class=text>not held</th>"
+         "<th>mean, degrees,<br>joints 1 / 2</th><th class=text>parameters and their "
+         "intervals</th><th class=text>not identifiable</th>"
          "<th>max at half speed,<br>degrees, joints 1 / 2</th></tr></thead><tbody>\n" +
          published + rows + "</tbody></table></div>\n";
 }
 
-// What the rows say of all laws together.
+// Numbers of laws that agree with each row.
 std::string open_sums(const std::vector<Identification>& all) {
   std::string html;
   for (const char* row : {"E3", "E4"}) {
-    int asked = 0, agree = 0, open = 0;
+    int all_pairs = 0, agree = 0, open = 0;
     for (const Identification& found : all) {
       if (found.row != row) continue;
-      ++asked;
+      ++all_pairs;
       if (found.fit.objective > 1) continue;
       ++agree;
       if (leaves_open(found)) ++open;
     }
     html += fmt::format(
-        "<li>{}: {} of {} pairs of law and rate agree with all four numbers to the digit; {} of "
-        "those leave a combination of their parameters open.</li>\n",
-        row, agree, asked, open);
+        "<li>{}: {} of {} pairs of law and rate agree with all four printed numbers; in {} of "
+        "these "
+        "a combination of the parameters is not identifiable.</li>\n",
+        row, agree, all_pairs, open);
   }
   return html;
 }
@@ -150,7 +150,6 @@ void add_identification(const StudyResults& results, Slots& slots) {
   for (const char* row : {"E3", "E4"}) slots[std::string("open_") + row] = row_table(all, row);
 }
 
-// Slots of the report on where its numbers come from: the search, and all parameters.
 namespace {
 
 double number_or(const CalibrationEntry& entry, const char* name, double otherwise) {
@@ -158,7 +157,7 @@ double number_or(const CalibrationEntry& entry, const char* name, double otherwi
   return found == entry.numbers.end() ? otherwise : found->second;
 }
 
-// Worst relative error, and behind it the worst when a gain moves by half a percent.
+// Worst relative error, and in brackets the worst if a gain changes by 0.5 %.
 std::string error_cell(const CalibrationEntry* entry) {
   if (!entry) return "<td>–</td>";
   const double nominal = number_or(*entry, "worst_error", entry->objective);
@@ -182,7 +181,8 @@ std::string parameter_row(const CalibrationEntry& entry, double scale) {
   return html + "</td></tr>\n";
 }
 
-// The objective of a fit is a relative error, shown in percent; that of a trial is in degrees.
+// The objective of a fit is a relative error, shown in percent; that of optimal gains is in
+// degrees.
 std::string parameter_table(const std::vector<const CalibrationEntry*>& entries, bool fit) {
   std::string rows;
   for (const CalibrationEntry* entry : entries) rows += parameter_row(*entry, fit ? 100 : 1);
@@ -194,7 +194,7 @@ std::string parameter_table(const std::vector<const CalibrationEntry*>& entries,
          rows + "</tbody></table></div>\n";
 }
 
-// The entries whose names begin so, by rate.
+// Entries with this prefix, by rate.
 std::vector<const CalibrationEntry*> entries_of(const Calibration& calibration,
                                                 const std::string& prefix) {
   std::vector<const CalibrationEntry*> entries;

@@ -1,4 +1,4 @@
-// Slots of the report on the runs: Table 2, Figures 6 and 7, and all that was run beside E1 to E4.
+// Slots of the report on the runs: Table 2, Figures 6 and 7, variants, obstacle, recordings.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -13,19 +13,19 @@ namespace {
 
 constexpr double kNear = 0.15;  // of a published number
 
-// Linear theory tells the errors behind the automatic motion; a hand follows no law.
-bool has_law(const RunResult& run) {
+// Linear theory predicts the errors of the automatic motion only.
+bool has_theory(const RunResult& run) {
   return run.spec.name >= std::string("E3");
 }
 
-// Two runs of Table 2 side by side: measured, by theory, published, deviation.
+// Two runs of Table 2: measured, by theory, published, deviation.
 std::string comparison_table(const std::vector<const RunResult*>& runs) {
   std::string top = "<tr><th rowspan=2>degrees</th>", second = "<tr>", body;
   for (const RunResult* run : runs) {
-    top += fmt::format("<th colspan={} class=\"first text\">{}: {}</th>", has_law(*run) ? 5 : 4,
+    top += fmt::format("<th colspan={} class=\"first text\">{}: {}</th>", has_theory(*run) ? 5 : 4,
                        run->spec.name, escaped(run->spec.title));
     second += "<th class=first>measured</th>";
-    if (has_law(*run)) second += "<th>by theory</th>";
+    if (has_theory(*run)) second += "<th>by theory</th>";
     second += "<th>published</th><th>deviation</th><th>15 %</th>";
   }
   for (std::size_t row = 0; row < 4; ++row) {
@@ -38,7 +38,7 @@ std::string comparison_table(const std::vector<const RunResult*>& runs) {
       const double published = maximum ? paper.max_deg[j] : paper.mean_deg[j];
       const double deviation = measured / published - 1;
       body += fmt::format("<td class=\"first big\">{:.2f}</td>", measured);
-      if (has_law(*run))
+      if (has_theory(*run))
         body += fmt::format("<td>{:.2f}</td>",
                             maximum ? run->motion_max_deg[j] : run->motion_mean_deg[j]);
       body += fmt::format("<td>{:.1f}{}</td>", published,
@@ -57,10 +57,10 @@ std::string comparison_table(const std::vector<const RunResult*>& runs) {
 
 struct Reading {               // of one joint of a run
   double largest = 0, at = 0;  // [deg], [s]
-  double since_jump = 0;       // [s]; the automatic motion's speed jumps at every full second
+  double since_jump = 0;       // since the last velocity step, at a full second [s]
   double at_end = 0;           // largest error in the last fifths of the sweeps [deg]
-  double below_one = 0;        // share of the samples with less than 1 degree
-  double lag = 0;              // mean error against the sense of motion [deg]
+  double below_one = 0;        // fraction of the samples below 1 degree
+  double lag = 0;              // mean error in the direction of motion [deg]
 };
 
 Reading read_joint(const RunResult& run, std::size_t j) {
@@ -91,25 +91,26 @@ Reading read_joint(const RunResult& run, std::size_t j) {
 std::string angle_caption(const RunResult& run) {
   const Reading one = read_joint(run, 0), two = read_joint(run, 1);
   const std::string head = fmt::format("{}, {}.</b> ", run.spec.name, escaped(run.spec.title));
-  if (!run.stable) return head + "The run left all bounds: these gains do not hold the DVR.";
-  if (!has_law(run))
-    return head + fmt::format(
-                      "The DVR is off by {:.1f}° and {:.1f}° at most, {:.1f}° and {:.1f}° on "
-                      "average, and within 1° for {:.0f} % and {:.0f} % of the time. The hand is "
-                      "synthetic: look at the kind of error, not at its moments.",
-                      run.max_deg[0], run.max_deg[1], run.mean_deg[0], run.mean_deg[1],
-                      100 * one.below_one, 100 * two.below_one);
-  return head + fmt::format(
-                    "Largest errors: {:.1f}° of joint 1, {:.0f} ms after the last jump of the "
-                    "hand's speed, and {:.1f}° of joint 2, {:.0f} ms after it. In the last 0.2 s "
-                    "of the sweeps, when a "
-                    "damped error has died out, it still reaches {:.2f}° and {:.2f}°. Along the "
-                    "motion the DVR trails by {:.2f}° and {:.2f}° on average.",
-                    one.largest, 1e3 * one.since_jump, two.largest, 1e3 * two.since_jump,
-                    one.at_end, two.at_end, one.lag, two.lag);
+  if (!run.stable) return head + "The run diverged: it is unstable with these gains.";
+  if (!has_theory(run))
+    return head +
+           fmt::format(
+               "Tracking error of the DVR: at most {:.1f}° and {:.1f}°, on average {:.1f}° and "
+               "{:.1f}°, below 1° for {:.0f} % and {:.0f} % of the time. The operator motion is "
+               "not the paper's: compare the kind of error, not its times.",
+               run.max_deg[0], run.max_deg[1], run.mean_deg[0], run.mean_deg[1],
+               100 * one.below_one, 100 * two.below_one);
+  return head +
+         fmt::format(
+             "Largest errors: {:.1f}° of joint 1, {:.0f} ms after the last velocity step of the "
+             "target, and {:.1f}° of joint 2, {:.0f} ms after it. In the last 0.2 s of the "
+             "sweeps, when a damped error has decayed, it is at most {:.2f}° and {:.2f}°. The "
+             "mean error in the direction of motion is {:.2f}° and {:.2f}°.",
+             one.largest, 1e3 * one.since_jump, two.largest, 1e3 * two.since_jump, one.at_end,
+             two.at_end, one.lag, two.lag);
 }
 
-// "semi-implicit/linear/60" as words: the group where it tells the treatment, not the rate.
+// "semi-implicit/linear/60" as words: the law, and the group if it is the discretization.
 std::string run_words(const std::string& name, bool with_group) {
   const std::size_t first = name.find('/'), last = name.rfind('/');
   if (first == std::string::npos) return name;
@@ -178,7 +179,7 @@ std::string rates_rows(const std::vector<RunResult>& variants) {
   return html;
 }
 
-// A column for each run.
+// One column for each run.
 std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
   using R = const ObstacleRun&;
   const auto ratio = [](double value) { return value > 0 ? rounded(value) : std::string("–"); };
@@ -186,12 +187,11 @@ std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
       {"treatment", [](R r) { return escaped(r.treatment); }},
       {"stiffness on link 1; link 2",
        [](R r) {
-         return gains_words(r.gains.k1, r.gains.k2) + (r.pull_unit == "N" ? " N/m" : " N m/rad");
+         return gains_words(r.gains.k1, r.gains.k2) + (r.unit == "N" ? " N/m" : " N m/rad");
        }},
       {"damping on link 1; link 2",
        [](R r) {
-         return gains_words(r.gains.b1, r.gains.b2) +
-                (r.pull_unit == "N" ? " N s/m" : " N m s/rad");
+         return gains_words(r.gains.b1, r.gains.b2) + (r.unit == "N" ? " N s/m" : " N m s/rad");
        }},
       {"longest contact",
        [](R r) {
@@ -201,10 +201,10 @@ std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
        }},
       {"largest penetration of the DVR",
        [](R r) { return fmt::format("{:.3f} mm", 1e3 * r.max_penetration); }},
-      {"KVR beyond the touched face, at most",
+      {"largest depth of the KVR behind the touched face",
        [](R r) { return fmt::format("{:.0f} mm", 1e3 * r.max_beyond); }},
-      {"largest pull through the coupling",
-       [](R r) { return fmt::format("{:.0f} {}", r.max_pull, escaped(r.pull_unit)); }},
+      {"largest coupling force or torque",
+       [](R r) { return fmt::format("{:.0f} {}", r.max_coupling, escaped(r.unit)); }},
       {"largest contact force", [](R r) { return fmt::format("{:.0f} N", r.max_force); }},
       {"largest R<sub>K</sub>/r that occurred", [&](R r) { return ratio(r.target_radius_ratio); }},
       {"largest stable R<sub>K</sub>/r", [&](R r) { return ratio(r.target_radius_limit); }}};

@@ -1,4 +1,4 @@
-// Parts of report.cpp: what stands in the places {NAME} of assets/study/report.html.
+// Parts of report.cpp: values of the placeholders {NAME} of assets/study/report.html.
 #pragma once
 
 #include <map>
@@ -11,13 +11,13 @@ namespace twinarm {
 
 using Slots = std::map<std::string, std::string>;  // HTML by name
 
-// A few significant digits for people, "infinite" and "none" in words.
+// Significant digits; "none" if infinite, a dash if not a number.
 std::string rounded(double value, int digits = 3);
-std::string degrees(double value);                     // two decimals; more for a tiny one
+std::string degrees(double value);                     // two decimals, more below 0.1
 std::string gains_words(double first, double second);  // "12.3", or "12.3; 4.56"
 
 void add_reproduction(const StudyResults& results, Slots& slots);  // Table 2, Figures 6 and 7
-// What was run beside E1 to E4: update rates, variants, the box in the way, recordings.
+// Update rates, variants, obstacle, recordings.
 void add_other_runs(const StudyResults& results, Slots& slots);
 void add_search(const StudyResults& results, Slots& slots);  // and all parameters
 void add_identification(const StudyResults& results, Slots& slots);

@@ -1,13 +1,12 @@
-// A semicircular arch of loose stones (E13): no tension, no sliding, and stone does not crush.
+// E13: semicircular arch of loose stones: no tension, no sliding, no crushing.
 //
-// The stones are true convex wedges: a slice between two radial joints, its inner and outer face
-// flat. It stands as long as some line of thrust stays within all joints. With H the thrust at the
-// crown, m = H times its height, W and X the weight and the middle of the stones from the crown to
-// the joint at an angle phi from it, the thrust passes that joint at the radius
+// A stone is a convex wedge between two radial joints with flat inner and outer faces. The arch is
+// stable as long as some line of thrust lies within all joints. With H the thrust at the crown, m =
+// H times its height, W and X the weight and the centroid of the stones from the crown to the joint
+// at an angle phi from it, the thrust passes that joint at the radius
 //   r = (m + W X) / (W sin phi + H cos phi).
-// The least thickness for which some H, m keep r within every joint is what this very arch can
-// have: 0.1073477445 of the mean radius for 20 stones. For infinitely many, with round faces, it is
-// 0.1074780381.
+// The minimum thickness for which some H, m keep r within every joint is 0.1073477445 of the mean
+// radius for 20 stones, and 0.1074780381 for infinitely many with round faces.
 // J. Heyman, "The safety of masonry arches", Int. J. Mech. Sci. 11, 1969; J. Ochsendorf, "The
 // masonry arch on spreading supports", The Structural Engineer 84(2), 2006.
 #include <algorithm>
@@ -20,7 +19,7 @@
 namespace twinarm {
 namespace {
 
-using namespace contact_looks;
+using namespace contact_plots;
 
 constexpr double kMeanRadius = 1, kDepth = 0.3, kDensity = 1000;
 constexpr int kStones = 20;                                      // even: a joint at the crown
@@ -32,7 +31,7 @@ struct Rim {
 Rim rim(double thickness) {
   return {kMeanRadius - thickness / 2, kMeanRadius + thickness / 2};
 }
-// Distance of a stone's centre of mass from the centre of the arch: that of a trapezium.
+// Distance of a stone's centre of mass from the centre of the arch (trapezium).
 double middle(const Rim& r) {
   const double height = r.outer - r.inner;
   return std::cos(kHalfAngle) *
@@ -50,9 +49,9 @@ Shape stone(const Rim& r) {
   return convex_hull(corners);
 }
 
-// How far a stone has gone from its place at most within a time, on ground at z = 0; no longer
-// watched once that is `enough` [m].
-double gone(double thickness, double duration, double enough) {
+// Largest displacement of a stone within a time, ground at z = 0; stops when it reaches `limit`
+// [m].
+double displacement(double thickness, double duration, double limit) {
   const Rim r = rim(thickness);
   const Shape shape = stone(r);
   ContactScene scene;
@@ -63,14 +62,14 @@ double gone(double thickness, double duration, double enough) {
     ContactScene::Body body{shape, surface(1), 1};
     body.mass = kDensity * kDepth * (r.outer - r.inner) * (r.outer + r.inner) *
                 std::sin(kHalfAngle) * std::cos(kHalfAngle);
-    body.R = turn_about(Vector3::UnitY(), -angle);
+    body.R = rotation_about(Vector3::UnitY(), -angle);
     body.p = middle(r) * Vector3(std::cos(angle), 0, std::sin(angle));
     places.push_back(body.p);
     scene.add(body);
   }
   scene.start();
   double furthest = 0;
-  while (scene.t() < duration && furthest < enough) {
+  while (scene.t() < duration && furthest < limit) {
     scene.step(kStep);
     for (int i = 0; i < kStones; ++i)
       furthest = std::max(furthest, (scene.p(i + 1) - places[static_cast<std::size_t>(i)]).norm());
@@ -78,9 +77,9 @@ double gone(double thickness, double duration, double enough) {
   return scene.ok() ? furthest : NAN;
 }
 
-// Room that the best m leaves for the line of thrust of a given H; negative: none [N m]. Concave in
-// H. In units of one stone's weight.
-double room(const Rim& r, double H) {
+// Range of m for which the line of thrust of a given H lies within all joints; negative: empty.
+// Concave in H. In units of one stone's weight times 1 m.
+double thrust_margin(const Rim& r, double H) {
   double low = r.inner * H, high = r.outer * H, W = 0, WX = 0;  // the joint at the crown
   for (int k = 1; k <= kStones / 2; ++k) {
     W += 1;
@@ -91,41 +90,42 @@ double room(const Rim& r, double H) {
   }
   return high - low;
 }
-bool holds(double thickness) {
+bool is_stable(double thickness) {
   const Rim r = rim(thickness);
   double low = 0, high = kStones;
   for (int n = 0; n < 200; ++n) {
     const double third = (high - low) / 3;
-    (room(r, low + third) < room(r, high - third) ? low : high) =
-        room(r, low + third) < room(r, high - third) ? low + third : high - third;
+    if (thrust_margin(r, low + third) < thrust_margin(r, high - third))
+      low += third;
+    else
+      high -= third;
   }
-  return room(r, 0.5 * (low + high)) >= 0;
+  return thrust_margin(r, 0.5 * (low + high)) >= 0;
 }
 
-CaseResult stands(double off) {  // thickness
-  return {gone(off * 0.12, 2, 1)};
+CaseResult stands(double scale) {  // thickness
+  return {displacement(scale * 0.12, 2, 1)};
 }
-CaseResult falls(double off) {  // thickness
-  return {gone(off * 0.095, 2, 0.5) >= 0.5 ? 0.0 : 1.0};
+CaseResult falls(double scale) {  // thickness
+  return {displacement(scale * 0.095, 2, 0.5) >= 0.5 ? 0.0 : 1.0};
 }
-CaseResult limit(double off) {  // thickness
-  const double reference = threshold(0.05, 0.2, 1e-12, holds);
-  const double found = threshold(
-      0.095, 0.12, 2e-5, [off](double thickness) { return gone(off * thickness, 1, 1e-3) < 1e-3; });
+CaseResult limit(double scale) {  // thickness
+  const double reference = threshold(0.05, 0.2, 1e-12, is_stable);
+  const double found = threshold(0.095, 0.12, 2e-5, [scale](double thickness) {
+    return displacement(scale * thickness, 1, 1e-3) < 1e-3;
+  });
   return {relative(found, reference)};
 }
 
 }  // namespace
 
 CaseFamily arch_cases() {
-  const ContactCasePlot crown{
-      .readings = {"z of the crown [m]"}, .read = place<10, 2>, .from_start = true};
-  ContactCasePlot still = crown;
-  still.exact = zero;
+  const Plot crown = Plot{{"z of the crown [m]"}, place<10, 2>}.with(&Plot::from_start, true);
   return {290,
-          {contact_case<stands, -120>("E13-stands", 1e-6, without_steps(still, kResting)),
-           contact_case<falls, 150>("E13-falls", 0, without_steps(crown, kCounted)),
-           contact_case<limit, 1>("E13-limit", 3e-4, searched(crown, "t/R"))}};
+          {contact_case<stands, -120>("E13-stands", 1e-6,
+                                      crown.with(&Plot::exact, zero).without_convergence(kResting)),
+           contact_case<falls, 150>("E13-falls", 0, crown.without_convergence(kCounted)),
+           contact_case<limit, 1>("E13-limit", 3e-4, crown.searching("t/R"))}};
 }
 
 }  // namespace twinarm

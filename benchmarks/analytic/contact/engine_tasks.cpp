@@ -23,7 +23,7 @@ double energy_of(const Task& task, const std::vector<Moving>& bodies) {
   return energy;
 }
 
-// Of balls with each other and with the floor.
+// Sum of the squared overlaps of balls with each other and with the floor.
 double overlap_of(const Task& task, const std::vector<Moving>& bodies) {
   const double r = task.bodies[0].half[0];
   double sum = 0;
@@ -49,10 +49,10 @@ TaskBody ball(double mass, double radius, const Numbers& p) {
   return {false, {radius, radius, radius}, mass, p, {}};
 }
 
-// The pushes of a task on bodies whose origin is their centre.
-class Pushes final : public ForceSource {
+// Constant forces of a task; body frames have their origin at the centre.
+class TaskForces final : public ForceSource {
  public:
-  explicit Pushes(const Task& task) : task_(task) {}
+  explicit TaskForces(const Task& task) : task_(task) {}
   void add_forces(const State<double>&, const Kinematics& k, Forces<double>& f) noexcept override {
     for (std::size_t i = 0; i < task_.bodies.size(); ++i) {
       const Vector3 F_B = k.R_WB[i + 1].transpose() * eigen(task_.bodies[i].push);
@@ -64,18 +64,17 @@ class Pushes final : public ForceSource {
   const Task& task_;
 };
 
-// In our own solver, in steps of 1 ms; judged as `truth` says.
+// Mean error of a task in twinarm, steps of 1 ms, measured against the values of `truth`.
 double error_of(const Task& task, const Task& truth) {
   ContactScene scene;
   const double e = std::sqrt(task.restitution), mu = task.friction;
   // a pair takes the geometric mean of the frictions
   scene.add_floor(surface(mu > 0 ? task.floor_friction * task.floor_friction / mu : 0, e));
-  for (const TaskBody& b : task.bodies) {
+  for (const TaskBody& b : task.bodies)
     scene.add({shape_of(b), surface(mu, e), b.mass, eigen(b.p)});
-  }
   scene.start();
-  Pushes pushes(task);
-  scene.simulation().add(pushes);
+  TaskForces forces(task);
+  scene.simulation().add(forces);
   MeanError error(truth);
   std::vector<Moving> bodies(task.bodies.size());
   double mean = NAN;
@@ -92,13 +91,13 @@ double error_of(const Task& task, const Task& truth) {
   return mean;
 }
 
-// As much of a task as a run of all cases has time for; scripts/measure/peers runs the whole.
+// The beginning of a task, for `twinarm compare`; scripts/measure/peers runs all of it.
 Task first(double seconds, Task task) {
   task.duration = seconds;
   return task;
 }
 
-// Mistakes: of 0.1 %, and balls that come nearer than they should.
+// Mutants: 0.1 % of mass or restitution, 5 % of the radius.
 Task smaller(Task task) {
   for (TaskBody& b : task.bodies)
     for (double& r : b.half) r *= 0.95;
@@ -115,14 +114,14 @@ Task less_elastic(Task task) {
 
 }  // namespace
 
-Task rolling(bool askew) {
+Task rolling(bool diagonal) {
   constexpr double m = 1, M = 10, n = 25, F = 150, mu = 0.4, r = 0.5;
-  Task task{askew ? "H1-rolling-xy" : "H1-rolling-y",
+  Task task{diagonal ? "H1-rolling-xy" : "H1-rolling-y",
             "a box with 25 balls on it is pulled over the floor for 4 s",
             "(m/s)^2, box and a ball, mean"};
   task.floor_friction = mu, task.friction = 0.8, task.duration = 4;
   task.measure = Measure::velocity;
-  const Numbers along = askew ? Numbers{0.5, std::sqrt(0.75), 0} : Numbers{0, 1, 0};
+  const Numbers along = diagonal ? Numbers{0.5, std::sqrt(0.75), 0} : Numbers{0, 1, 0};
   const double f1 = mu * (M + n * m) * kGravity, f2 = (F - f1) / M / (3.5 / m + n / M);
   TaskBody box{true, {10, 10, 0.5}, M, {0, 0, 0.5}, {}};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -153,12 +152,12 @@ Task pile(bool elastic) {
   task.restitution = elastic ? 1 : 0, task.duration = elastic ? 10 : 15;
   task.measure = elastic ? Measure::energy : Measure::overlap;
   std::mt19937 random(42);
-  const auto askew = [&random] { return 1e-3 * static_cast<double>(random()) / 4294967296.0; };
+  const auto shift = [&random] { return 1e-3 * static_cast<double>(random()) / 4294967296.0; };
   for (int i = 0; i < 6; ++i)
     for (int j = 0; j < 6; ++j)
       for (int k = 0; k < 6; ++k) {
-        const double x = 0.21 * i + askew(), y = 0.21 * j + askew();
-        task.bodies.push_back(ball(10, 0.1, {x, y, 1.101 + 0.21 * k + askew()}));
+        const double x = 0.21 * i + shift(), y = 0.21 * j + shift();
+        task.bodies.push_back(ball(10, 0.1, {x, y, 1.101 + 0.21 * k + shift()}));
       }
   for (const TaskBody& b : task.bodies) task.energy += b.mass * kGravity * b.p[2];
   return task;
@@ -184,36 +183,37 @@ double MeanError::now(double t, const std::vector<Moving>& bodies) const {
 
 namespace {
 
-using contact_looks::place;
+using contact_plots::place;
+using Plot = ContactCasePlot;
 
-// ---- what a page draws of them ----
+// ---- plots ----
 
 constexpr const char* kPublished =
-    "Run in the step of the published figures alone, 1 ms; other engines beside: docs/understand/accuracy_vs_other_engines.md.";
-// The box, pulled with 150 N, and the ball in a corner.
-std::vector<double> seen_speeds(const ContactScene& s) {
+    "Only the step of the published figures, 1 ms, is run; other engines: "
+    "docs/understand/accuracy_vs_other_engines.md.";
+// The box, pulled by 150 N, and the ball in a corner.
+std::vector<double> read_speeds(const ContactScene& s) {
   return {s.v(1).norm(), s.v(2).norm()};
 }
-double known_box_and_ball(std::size_t k, double t) {
-  const double pull = 150 - 0.4 * (10 + 25) * kGravity, ball = pull / 10 / (3.5 + 25 / 10.);
-  return t * (k == 0 ? (pull - 25 * ball) / 10 : ball);
+double exact_box_and_ball(std::size_t k, double t) {
+  const double net = 150 - 0.4 * (10 + 25) * kGravity, ball = net / 10 / (3.5 + 25 / 10.);
+  return t * (k == 0 ? (net - 25 * ball) / 10 : ball);
 }
-// Falls by 4.9 m, e = 1.
-double known_bouncing(std::size_t, double t) {
+// Fall of 4.9 m, e = 1.
+double exact_bouncing(std::size_t, double t) {
   const double fall = std::sqrt(2 * 4.9 / kGravity), since = std::remainder(t, 2 * fall);
   return 5 - kGravity * since * since / 2;
 }
-std::vector<double> seen_heights(const ContactScene& s) {
+std::vector<double> read_heights(const ContactScene& s) {
   return {s.p(1).z(), s.p(216).z()};
 }
 
-AnalyticCase task_case(const char* name, double tolerance, const Task& task,
-                       const Task& with_mistake, ContactCasePlot look) {
-  AnalyticCase c(name, tolerance, [=](bool mistaken) {
-    return CaseResult{error_of(mistaken ? with_mistake : task, task)};
+AnalyticCase task_case(const char* name, double tolerance, const Task& task, const Task& mutant,
+                       const Plot& plot) {
+  AnalyticCase c(name, tolerance, [=](bool is_mutant) {
+    return CaseResult{error_of(is_mutant ? mutant : task, task)};
   });
-  look.no_steps = kPublished;
-  c.look = std::make_shared<const ContactCasePlot>(std::move(look));
+  c.plot = std::make_shared<const Plot>(plot.without_convergence(kPublished));
   return c;
 }
 
@@ -224,20 +224,16 @@ namespace twinarm {
 
 CaseFamily engine_tasks_cases() {
   using namespace engine_tasks;
-  const ContactCasePlot speeds{
-      .readings = {"box [m/s]", "ball [m/s]"}, .read = seen_speeds, .exact = known_box_and_ball};
-  const ContactCasePlot heights{.readings = {"first ball [m]", "last ball [m]"},
-                                .read = seen_heights};
+  const Plot speeds{{"box [m/s]", "ball [m/s]"}, read_speeds, exact_box_and_ball};
+  const Plot heights{{"first ball [m]", "last ball [m]"}, read_heights};
   const Task part = first(0.55, pile(false)), elastic = first(2, pile(true));
-  return {
-      380,
-      {task_case("H1-rolling-y", 1e-6, rolling(false), heavier(rolling(false)), speeds),
-       task_case("H1-rolling-xy", 1e-6, rolling(true), heavier(rolling(true)), speeds),
-       task_case(
-           "H1-bouncing", 0.1, bouncing(), less_elastic(bouncing()),
-           {.readings = {"height [m]"}, .read = place<1, 2>, .exact = known_bouncing, .until = 8}),
-       task_case("H1-666", 1e-3, part, smaller(part), heights),
-       task_case("H1-666-elastic", 50, elastic, less_elastic(elastic), heights)}};
+  return {380,
+          {task_case("H1-rolling-y", 1e-6, rolling(false), heavier(rolling(false)), speeds),
+           task_case("H1-rolling-xy", 1e-6, rolling(true), heavier(rolling(true)), speeds),
+           task_case("H1-bouncing", 0.1, bouncing(), less_elastic(bouncing()),
+                     Plot{{"height [m]"}, place<1, 2>, exact_bouncing}.with(&Plot::until, 8)),
+           task_case("H1-666", 1e-3, part, smaller(part), heights),
+           task_case("H1-666-elastic", 50, elastic, less_elastic(elastic), heights)}};
 }
 
 }  // namespace twinarm

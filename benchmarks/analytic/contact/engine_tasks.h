@@ -1,18 +1,17 @@
-// Tasks with published results of other engines (H1): RaiSim's SimBenchmark, of which ETH's Robotic
-// Systems Lab published definitions and results (github.com/leggedrobotics/SimBenchmark). Balls and
-// a box on a floor, in plain numbers, so that every engine can be given the same ones
-// (benchmarks/scenes/). SI; the error is a mean over all steps of 1 ms, as there.
+// H1: tasks with published results of other engines: SimBenchmark of ETH's Robotic Systems Lab
+// (github.com/leggedrobotics/SimBenchmark). Balls and a box on a floor, in plain numbers, so that
+// every engine can load them (benchmarks/scenes/). SI units; the error is a mean over all steps of
+// 1 ms, as published.
 //
 //   rolling   box of 10 kg, 20 x 20 x 1 m, with 25 balls of 1 kg and 0.5 m on it, pulled by 150 N:
 //             f1 = mu (M + n m) g is the friction of the floor, f2 = (F - f1)/M / (3.5/m + n/M)
 //             that of a ball; the box has (F - f1 - n f2)/M, a ball f2/m. Squared errors of the
-//             velocities of box and one ball, summed. Nothing moves: 3.145
+//             velocities of box and one ball, summed. 3.145 if nothing moves
 //   bouncing  49 balls of 10 kg and 0.1 m from 5 m, e = 1, 20 s: (E - m n^2 g H)^2
-//   666       6 x 6 x 6 such balls 0.21 m apart and up to 1 mm askew fall from 1.101 m, no
-//   friction,
-//             e = 0, 15 s: squared overlaps, summed over all pairs
+//   666       6 x 6 x 6 such balls 0.21 m apart, displaced by up to 1 mm, fall from 1.101 m, no
+//             friction, e = 0, 15 s: squared overlaps, summed over all pairs
 //   elastic   the same with e = 1, 10 s: (E - E0)^2
-// The seed of the askew places is ours: theirs is of their own generator.
+// The random displacements differ from the published ones, whose generator is another.
 #pragma once
 
 #include <array>
@@ -30,7 +29,7 @@ struct TaskBody {
   Numbers p{};     // at the start, at rest
   Numbers push{};  // constant force at its centre [N]
 };
-struct Moving {  // such a body as it moves: place, velocity, angular velocity
+struct Moving {  // state of such a body: position, velocity, angular velocity
   Numbers p{}, v{}, w{};
 };
 
@@ -41,15 +40,15 @@ struct Task {
   double floor_friction = 0, friction = 0, restitution = 0;
   double duration = 0;
   Measure measure = Measure::energy;
-  double energy = 0;                // of a run without error [J]
+  double energy = 0;                // exact, constant [J]
   Numbers box_rate{}, ball_rate{};  // accelerations where velocities are measured
 };
 
-Task rolling(bool askew);  // pulled along y, or along (1/2, sqrt(3)/2)
+Task rolling(bool diagonal);  // pulled along y, or along (1/2, sqrt(3)/2)
 Task bouncing();
 Task pile(bool elastic);
 
-// The mean over the steps so far.
+// Mean over the steps so far.
 class MeanError {
  public:
   explicit MeanError(const Task& task) : task_(task) {}

@@ -1,4 +1,4 @@
-// Rolling in a bowl, in a trough, on a turntable and in an upright tube (E12).
+// E12: rolling in a bowl, in a trough, on a turntable and in an upright tube.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,9 +8,9 @@
 namespace twinarm {
 namespace {
 
-using namespace contact_looks;
+using namespace contact_plots;
 
-// Angular frequency of small swings, from the times at which `reading` passes zero; 0.02 rad wide.
+// Angular frequency of small swings, from the times at which `reading` passes zero.
 template <class Reading>
 double frequency(ContactScene& scene, double duration, Reading&& reading) {
   double before = reading(), first = 0, last = 0;
@@ -28,6 +28,10 @@ double frequency(ContactScene& scene, double duration, Reading&& reading) {
   return (passes - 1) * std::numbers::pi / (last - first);
 }
 
+double angle_between(const Vector3& a, const Vector3& b) {  // about z
+  return std::atan2(a.x() * b.y() - a.y() * b.x(), a.x() * b.x() + a.y() * b.y());
+}
+
 CaseResult bowl(const Shape& hollow, const Shape& shape, double reference, double gravity) {
   constexpr double kAngle = 0.02, kArm = 1 - kBallRadius;
   const Matrix3 R = std::holds_alternative<CylindricalCavity>(hollow)
@@ -35,87 +39,81 @@ CaseResult bowl(const Shape& hollow, const Shape& shape, double reference, doubl
                         : Matrix3(Matrix3::Identity());
   ContactScene scene(gravity);
   scene.add_fixed(hollow, surface(1), {R, Vector3::Zero()});
-  const int body = scene.add(
+  const int body = scene.start(
       {shape, surface(1), 1, {kArm * std::sin(kAngle), 0, -kArm * std::cos(kAngle)}, {}, {}, R});
-  scene.start();
   const double found = frequency(scene, 12, [&] { return scene.p(body).x(); });
   return {relative(found, reference), scene.drift()};
 }
-CaseResult sphere_in_bowl(double off) {  // gravity
-  return bowl(SphericalCavity{1}, Sphere{kBallRadius}, 2.79028928352, off);
+CaseResult sphere_in_bowl(double scale) {  // gravity
+  return bowl(SphericalCavity{1}, Sphere{kBallRadius}, 2.79028928352, scale);
 }
-CaseResult sphere_in_trough(double off) {  // gravity
-  return bowl(CylindricalCavity{1, 1}, Sphere{kBallRadius}, 2.79028928352, off);
+CaseResult sphere_in_trough(double scale) {  // gravity
+  return bowl(CylindricalCavity{1, 1}, Sphere{kBallRadius}, 2.79028928352, scale);
 }
-CaseResult cylinder_in_trough(double off) {  // gravity
-  return bowl(CylindricalCavity{1, 1}, Cylinder{kBallRadius, 0.3}, 2.69567554922, off);
+CaseResult cylinder_in_trough(double scale) {  // gravity
+  return bowl(CylindricalCavity{1, 1}, Cylinder{kBallRadius, 0.3}, 2.69567554922, scale);
 }
 
-// Starts with the table's own velocity there, W x r_0, and without spin. From v' = (2/7) W x v the
-// centre circles at 2/7 of the table's rate, about r_0 - (7/2) r_0.
+// Starts at r_0 with the table's velocity there, W x r_0, and without spin. From v' = (2/7) W x v
+// the centre moves on a circle at 2/7 of the table's rate, about r_0 - (7/2) r_0.
 struct Circle {
-  double period, astray;  // [s], [of the radius]
+  double period, error;  // [s], [of the radius]
 };
-// The table may turn at a rate that is off.
-Circle turntable(double h, double off, Steps steps = Steps::fixed) {
+Circle turntable(double h, double scale, Steps steps = Steps::fixed) {
   constexpr double W = 2, kStart = 0.2;
   ContactScene scene;
-  scene.add_turning(Cylinder{3, 0.2}, surface(1), {Matrix3::Identity(), {0, 0, -0.1}}, off * W);
+  scene.add_rotating(Cylinder{3, 0.2}, surface(1), {Matrix3::Identity(), {0, 0, -0.1}}, scale * W);
   ContactScene::Body ball{Sphere{kBallRadius}, surface(1), 1, {kStart, 0, kBallRadius}};
   ball.v = {0, W * kStart, 0};
-  const int body = scene.add(ball);
-  scene.start();
+  const int body = scene.start(ball);
   if (steps == Steps::located) scene.locate_events();
-  double turned = 0, error = 0;
+  double angle_of_v = 0, error = 0;
   Vector3 last = ball.v;
-  while (turned < 2 * std::numbers::pi && scene.t() < 15) {
+  while (angle_of_v < 2 * std::numbers::pi && scene.t() < 15) {
     scene.step(h);
     const Vector3 v = scene.v(body);
-    turned += std::atan2(last.x() * v.y() - last.y() * v.x(), last.x() * v.x() + last.y() * v.y());
+    angle_of_v += angle_between(last, v);
     last = v;
     const double angle = 2 / 7.0 * W * scene.t();
     const Vector3 wanted(kStart * (3.5 * std::cos(angle) - 2.5), kStart * 3.5 * std::sin(angle),
                          kBallRadius);
     error = std::max(error, (scene.p(body) - wanted).norm() / (3.5 * kStart));
   }
-  return {scene.t() * 2 * std::numbers::pi / turned, error};
+  return {scene.t() * 2 * std::numbers::pi / angle_of_v, error};
 }
-CaseResult turntable_period(double off) {  // the table's rate
+CaseResult turntable_period(double scale) {  // rate of the table
   return with_order(
-      [off](double h) { return relative(turntable(h, off).period, 3.5 * std::numbers::pi); },
+      [scale](double h) { return relative(turntable(h, scale).period, 3.5 * std::numbers::pi); },
       kStep);
 }
-CaseResult turntable_circle(double off) {  // the table's rate
-  return {turntable(0.01, off, Steps::located).astray};
+CaseResult turntable_circle(double scale) {  // rate of the table
+  return {turntable(0.01, scale, Steps::located).error};
 }
 
-// Rolls round in an upright tube, fast enough not to slip: it does not sink but goes up and down at
-// sqrt(2/7) of the rate at which it goes round. Steps of fixed size lose a fifth of that rate in
-// 6 s; so events are located.
-CaseResult upright_tube(double off) {  // inertia
+// Rolls round in an upright tube, fast enough not to slip: its height oscillates at sqrt(2/7) of
+// the rate at which it circles. Fixed steps lose a fifth of that rate in 6 s; so events are
+// located.
+CaseResult upright_tube(double scale) {  // inertia
   constexpr double kArm = 0.5 - kBallRadius, kRate = 12;
   ContactScene scene;
   scene.add_fixed(CylindricalCavity{0.5, 4}, surface(2));
   ContactScene::Body ball{Sphere{kBallRadius}, surface(2), 1, {kArm, 0, 0}};
-  ball.inertia = off * 0.4 * kBallRadius * kBallRadius * Matrix3::Identity();
+  ball.inertia = scale * 0.4 * kBallRadius * kBallRadius * Matrix3::Identity();
   ball.v = {0, kArm * kRate, 0};
   ball.w = {0, 0, -kArm * kRate / kBallRadius};
-  const int body = scene.add(ball);
-  scene.start();
+  const int body = scene.start(ball);
   scene.locate_events();
-  // How far it goes round from one level place to the next.
-  double turned = 0, before = scene.v(body).z(), first = 0, last = 0;
+  // Angle that it circles between two zeros of its vertical velocity.
+  double azimuth = 0, before = scene.v(body).z(), first = 0, last = 0;
   Vector3 p = scene.p(body);
   int passes = 0;
   while (scene.t() < 3) {
     scene.step(kStep);
     const Vector3 now = scene.p(body);
-    const double turn =
-        std::atan2(p.x() * now.y() - p.y() * now.x(), p.x() * now.x() + p.y() * now.y());
-    const double rise = scene.v(body).z();
-    turned += turn;
+    const double change = angle_between(p, now), rise = scene.v(body).z();
+    azimuth += change;
     if (before * rise < 0) {
-      last = turned - turn * rise / (rise - before);
+      last = azimuth - change * rise / (rise - before);
       if (passes++ == 0) first = last;
     }
     before = rise, p = now;
@@ -124,58 +122,51 @@ CaseResult upright_tube(double off) {  // inertia
   return {relative(found, std::sqrt(2 / 7.0)), scene.drift()};
 }
 
-// ---- what a page draws of them ----
+// ---- plots ----
 
 constexpr const char* kSmallSwings =
-    "It does not fall: the formula is that of small swings, and those of 0.02 rad are slower by "
+    "The error does not fall: the formula holds for small swings; swings of 0.02 rad are slower by "
     "0.02²/16 = 2.5e-5.";
-Values seen_ball(Scene s) {
+Values read_ball(Scene s) {
   return {s.p(2).x(), s.p(2).y()};
 }
-double known_circle(std::size_t k, double t) {
+double exact_circle(std::size_t k, double t) {
   const double angle = 4 / 7.0 * t;
   return 0.2 * (k == 0 ? 3.5 * std::cos(angle) - 2.5 : 3.5 * std::sin(angle));
 }
-double known_swing(double rate, double t) {
+double exact_swing(double rate, double t) {
   return 0.9 * std::sin(0.02 * std::cos(rate * t));
 }
-double known_sphere_swing(std::size_t, double t) {
-  return known_swing(std::sqrt(5 * kGravity / (7 * 0.9)), t);
+double exact_sphere_swing(std::size_t, double t) {
+  return exact_swing(std::sqrt(5 * kGravity / (7 * 0.9)), t);
 }
-// From v_z'' = -(2/7) W^2 v_z, and v_z' = -(5/7) g at the start.
-double known_tube(std::size_t, double t) {
+// From v_z'' = -(2/7) W^2 v_z with v_z'(0) = -(5/7) g.
+double exact_tube(std::size_t, double t) {
   const double rate = std::sqrt(2 / 7.) * 12;
   return -5 / 7. * kGravity / (rate * rate) * (1 - std::cos(rate * t));
 }
-double known_cylinder_swing(std::size_t, double t) {
-  return known_swing(std::sqrt(2 * kGravity / (3 * 0.9)), t);
+double exact_cylinder_swing(std::size_t, double t) {
+  return exact_swing(std::sqrt(2 * kGravity / (3 * 0.9)), t);
 }
 
 }  // namespace
 
 CaseFamily hollows_cases() {
-  const ContactCasePlot sphere{.readings = {"x [m]"},
-                               .read = place<1, 0>,
-                               .exact = known_sphere_swing,
-                               .until = 6,
-                               .about_steps = kSmallSwings};
-  ContactCasePlot cylinder = sphere;
-  cylinder.exact = known_cylinder_swing;
-  const ContactCasePlot circle{
-      .readings = {"x [m]", "y [m]"}, .read = seen_ball, .exact = known_circle};
-  ContactCasePlot located = without_steps(circle, kLocated);
-  located.until = 5.5;
+  const Plot sphere = Plot{{"x [m]"}, place<1, 0>, exact_sphere_swing}
+                          .with(&Plot::until, 6)
+                          .with(&Plot::convergence_note, kSmallSwings);
+  const Plot cylinder = sphere.with(&Plot::exact, exact_cylinder_swing);
+  const Plot circle{{"x [m]", "y [m]"}, read_ball, exact_circle};
+  const Plot located = circle.with(&Plot::until, 5.5).without_convergence(kLocated);
   return {280,
           {contact_case<sphere_in_bowl, 5>("E12-bowl", 1e-3, sphere),
            contact_case<sphere_in_trough, 5>("E12-trough", 1e-3, sphere),
            contact_case<cylinder_in_trough, 5>("E12-cylinder", 1e-3, cylinder),
            contact_case<turntable_period, 2>("E12-turntable", 1e-3, circle),
            contact_case<turntable_circle, 1>("E12-circle", 1e-9, located),
-           contact_case<upright_tube, 10>("E12-tube", 1e-9,
-                                          {.readings = {"height [m]"},
-                                           .read = place<1, 2>,
-                                           .exact = known_tube,
-                                           .no_steps = kLocated})}};
+           contact_case<upright_tube, 10>(
+               "E12-tube", 1e-9,
+               Plot{{"height [m]"}, place<1, 2>, exact_tube}.without_convergence(kLocated))}};
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Sliding and sticking: a block on an incline and on the flat (E2).
+// E2: sliding and sticking of a block on an incline and on the flat.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,32 +9,31 @@
 namespace twinarm {
 namespace {
 
-using namespace contact_looks;
+using namespace contact_plots;
 
 constexpr double kIncline = std::numbers::pi / 6;
 constexpr double kSlide = 0.6571453944373284;  // g (sin 30 - 0.5 cos 30) [m/s^2]
 
-// A cube of 2 kg, 0.2 m wide, on an incline whose x points downhill.
+// Cube of 2 kg, 0.2 m wide; on an incline x points downhill.
 int add_block(ContactScene& scene, double mu, const Vector3& v = Vector3::Zero()) {
   scene.add_floor(surface(mu));
-  const int block = scene.add({Box{Vector3::Constant(0.2)}, surface(mu), 2, {0, 0, 0.1}, v});
-  scene.start();
+  const int block = scene.start({Box{Vector3::Constant(0.2)}, surface(mu), 2, {0, 0, 0.1}, v});
   return block;
 }
 
-CaseResult creep(double off) {  // mu
+CaseResult creep(double scale) {  // mu
   ContactScene scene(tilted_gravity(kIncline));
-  const int block = add_block(scene, off * 0.6);
-  double most = 0;
+  const int block = add_block(scene, scale * 0.6);
+  double creep = 0;
   while (scene.t() < 10) {
     scene.step(kStep);
-    most = std::max(most, (scene.p(block) - Vector3(0, 0, 0.1)).norm());
+    creep = std::max(creep, (scene.p(block) - Vector3(0, 0, 0.1)).norm());
   }
-  return {most};
+  return {creep};
 }
 
-CaseResult holding_forces(double off) {  // gravity
-  ContactScene scene(off * tilted_gravity(kIncline));
+CaseResult holding_forces(double scale) {  // gravity
+  ContactScene scene(scale * tilted_gravity(kIncline));
   const int block = add_block(scene, 0.6);
   double error = 0;
   for (int n = 0; n < 1000; ++n) {
@@ -45,24 +44,24 @@ CaseResult holding_forces(double off) {  // gravity
   return {error};
 }
 
-CaseResult slide_speed(double off) {  // mu
+CaseResult slide_speed(double scale) {  // mu
   ContactScene scene(tilted_gravity(kIncline));
-  const int block = add_block(scene, off * 0.5);
+  const int block = add_block(scene, scale * 0.5);
   scene.run(1, kStep);
   return {relative(scene.v(block).x(), kSlide)};
 }
-CaseResult slide_place(double off) {  // mu
+CaseResult slide_place(double scale) {  // mu
   return with_order(
-      [off](double h) {
+      [scale](double h) {
         ContactScene scene(tilted_gravity(kIncline));
-        const int block = add_block(scene, off * 0.5);
+        const int block = add_block(scene, scale * 0.5);
         scene.run(1, h);
         return std::abs(scene.p(block).x() - 0.3285726972186642) / scene.v(block).x();
       },
       kStep);
 }
 
-// Pushed uphill at 3 m/s: where and when it turns, and how fast it comes back.
+// Starts uphill at 3 m/s: time and distance of its reversal, and speed of its return.
 struct Return {
   double time = 0, distance = 0, speed = 0;
 };
@@ -75,32 +74,31 @@ Return push_up(Steps steps, double gravity, double mu) {
     scene.step(kStep);
     const double v = scene.v(block).x(), x = scene.p(block).x();
     if (result.time == 0 && v >= 0) result.time = scene.t(), result.distance = -x;
-    if (v > 0 && x >= 0) {  // back to x = 0, from the place just beyond
+    if (v > 0 && x >= 0) {  // back at x = 0: extrapolated from just beyond
       result.speed = std::sqrt(v * v - 2 * kSlide * x);
       break;
     }
   }
   return result;
 }
-CaseResult turn_time(double off) {  // gravity
-  const Return r = push_up(Steps::fixed, off, 0.5);
+CaseResult reversal_time(double scale) {  // gravity
+  const Return r = push_up(Steps::fixed, scale, 0.5);
   return {std::max(std::abs(r.time - 0.3277665962460217),
                    std::abs(r.distance - 0.4916498943690325) / 3)};
 }
-CaseResult return_speed(double off) {  // mu
-  return {relative(push_up(Steps::located, 1, off * 0.5).speed, 0.8038475772933681)};
+CaseResult return_speed(double scale) {  // mu
+  return {relative(push_up(Steps::located, 1, scale * 0.5).speed, 0.8038475772933681)};
 }
 
-// On the flat at 3 m/s, mu = 0.4, in some direction: when and where it stops.
+// On the flat at 3 m/s, mu = 0.4, in some direction: time and place of its stop.
 struct Stop {
   double time = 0, distance = 0, sideways = 0;
 };
-// One of its velocity's components may be off.
-Stop launch(double heading_deg, double mu, double off = 1) {
+Stop launch(double heading_deg, double mu, double y_scale = 1) {
   const double heading = heading_deg * kDegree;
   const Vector3 along(std::cos(heading), std::sin(heading), 0);
   ContactScene scene;
-  const int block = add_block(scene, mu, 3 * along.cwiseProduct(Vector3(1, off, 1)));
+  const int block = add_block(scene, mu, 3 * along.cwiseProduct(Vector3(1, y_scale, 1)));
   Stop stop;
   while (scene.t() < 1) {
     scene.step(kStep);
@@ -112,103 +110,92 @@ Stop launch(double heading_deg, double mu, double off = 1) {
   return stop;
 }
 constexpr std::array kHeadings = {0.0, 15.0, 30.0, 45.0};
-CaseResult stopping(double off) {  // mu
+CaseResult stopping(double scale) {  // mu
   double error = 0;
   for (const double heading : kHeadings) {
-    const Stop stop = launch(heading, off * 0.4);
+    const Stop stop = launch(heading, scale * 0.4);
     error = std::max({error, std::abs(stop.time - 0.764525993883792),
                       std::abs(stop.distance - 1.146788990825688) / 3});
   }
   return {error};
 }
-CaseResult headings(double off) {  // the velocity along y
+CaseResult headings(double scale) {  // velocity along y
   const double first = launch(kHeadings[0], 0.4).distance;
   double spread = 0;
   for (const double heading : kHeadings) {
-    const Stop stop = launch(heading, 0.4, off);
+    const Stop stop = launch(heading, 0.4, scale);
     spread = std::max({spread, relative(stop.distance, first), stop.sideways / first});
   }
   return {spread};
 }
 
-CaseResult min_friction_to_hold(double off) {  // mu
-  const double limit = threshold(0.4, 0.8, 1e-5, [off](double mu) {
+CaseResult min_friction_to_hold(double scale) {  // mu
+  const double limit = threshold(0.4, 0.8, 1e-5, [scale](double mu) {
     ContactScene scene(tilted_gravity(kIncline));
-    const int block = add_block(scene, off * mu);
+    const int block = add_block(scene, scale * mu);
     scene.run(0.5, kStep);
     return scene.v(block).norm() < 1e-6;
   });
   return {std::abs(limit - 0.5773502691896258)};
 }
 
-// ---- what a page draws of them ----
+// ---- plots ----
 
 constexpr double kSlope = 30 * kDegree;
-// None before the first step.
-Values seen_forces(Scene s) {
+Values read_forces(Scene s) {
   if (s.t() == 0) return {NAN, NAN};
   return {-s.force(1).x(), s.force(1).z()};
 }
-Values seen_way(Scene s) {
-  return {std::hypot(s.p(1).x(), s.p(1).y())};
-}
-// Constant deceleration until it stops, and what comes then.
-double known_uphill(std::size_t, double t) {
+// Constant deceleration until it stops, then constant acceleration downhill.
+double exact_uphill(std::size_t, double t) {
   const double up = kGravity * (std::sin(kSlope) + 0.5 * std::cos(kSlope));
   const double down = kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope));
-  const double turn = 3 / up;
-  return t < turn ? 3 * t - up * t * t / 2 : 1.5 * turn - down * (t - turn) * (t - turn) / 2;
+  const double top = 3 / up;
+  return t < top ? 3 * t - up * t * t / 2 : 1.5 * top - down * (t - top) * (t - top) / 2;
 }
-double known_stop(std::size_t, double t) {
+double exact_stop(std::size_t, double t) {
   const double a = 0.4 * kGravity, end = std::min(t, 3 / a);
   return 3 * end - a * end * end / 2;
 }
-double known_slide(std::size_t, double t) {
+double exact_slide(std::size_t, double t) {
   return kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope)) * t * t / 2;
 }
-double known_slide_speed(std::size_t, double t) {
+double exact_slide_speed(std::size_t, double t) {
   return kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope)) * t;
 }
-Values seen_up(Scene s) {
+Values read_up(Scene s) {
   return {-s.p(1).x()};
 }
 
 }  // namespace
 
 CaseFamily sliding_cases() {
-  const ContactCasePlot speed{.readings = {"speed [m/s]"}, .read = velocity<1, 0>};
-  const ContactCasePlot back{
-      .readings = {"way uphill [m]"}, .read = seen_up, .exact = known_uphill};
-  const ContactCasePlot way{.readings = {"way [m]"}, .read = seen_way, .exact = known_stop};
-  ContactCasePlot up = back, stops = of_runs(way, {"0°", "15°", "30°", "45°"});
-  up.about_steps = stops.about_steps = kPartOfStep;
-  return {210,
-          {contact_case<creep, -50>("E2-creep", 1e-6,
-                                    {.readings = {"x downhill [m]"},
-                                     .read = place<1, 0>,
-                                     .exact = zero,
-                                     .no_steps = kResting}),
-           contact_case<holding_forces, 1>(
-               "E2-forces", 1e-6,
-               {.readings = {"friction [N]", "normal force [N]"},
-                .read = seen_forces,
-                .exact =
-                    [](std::size_t k, double) {
-                      return 2 * kGravity * (k == 0 ? std::sin(kSlope) : std::cos(kSlope));
-                    },
-                .no_steps = kResting}),
-           contact_case<slide_speed, 1>(
-               "E2-slide", 1e-3,
-               {.readings = {"speed [m/s]"}, .read = velocity<1, 0>, .exact = known_slide_speed}),
-           contact_case<slide_place, 1>(
-               "E2-place", kStep,
-               {.readings = {"x downhill [m]"}, .read = place<1, 0>, .exact = known_slide}),
-           contact_case<turn_time, 10>("E2-up", kStep, up),
-           contact_case<return_speed, 1>("E2-return", 1e-9, without_steps(back, kLocated)),
-           contact_case<stopping, 5>("E2-stop", kStep, stops),
-           contact_case<headings, 5>("E2-headings", 1e-3,
-                                     of_runs(way, {"0°", "0° again", "15°", "30°", "45°"})),
-           contact_case<min_friction_to_hold, 5>("E2-threshold", 1e-3, searched(speed, "μ"))}};
+  const Plot speed{{"speed [m/s]"}, velocity<1, 0>};
+  const Plot place_x{{"x downhill [m]"}, place<1, 0>, exact_slide};
+  const Plot uphill{{"distance uphill [m]"}, read_up, exact_uphill};
+  const Plot distance{{"distance [m]"}, horizontal_distance, exact_stop};
+  const auto exact_forces = [](std::size_t k, double) {
+    return 2 * kGravity * (k == 0 ? std::sin(kSlope) : std::cos(kSlope));
+  };
+  return {
+      210,
+      {contact_case<creep, -50>("E2-creep", 1e-6,
+                                place_x.with(&Plot::exact, zero).without_convergence(kResting)),
+       contact_case<holding_forces, 1>(
+           "E2-forces", 1e-6,
+           Plot{{"friction [N]", "normal force [N]"}, read_forces, exact_forces}
+               .without_convergence(kResting)),
+       contact_case<slide_speed, 1>("E2-slide", 1e-3, speed.with(&Plot::exact, exact_slide_speed)),
+       contact_case<slide_place, 1>("E2-place", kStep, place_x),
+       contact_case<reversal_time, 10>("E2-up", kStep,
+                                       uphill.with(&Plot::convergence_note, kPartOfStep)),
+       contact_case<return_speed, 1>("E2-return", 1e-9, uphill.without_convergence(kLocated)),
+       contact_case<stopping, 5>("E2-stop", kStep,
+                                 distance.of_runs({"0°", "15°", "30°", "45°"})
+                                     .with(&Plot::convergence_note, kPartOfStep)),
+       contact_case<headings, 5>("E2-headings", 1e-3,
+                                 distance.of_runs({"0°", "0° again", "15°", "30°", "45°"})),
+       contact_case<min_friction_to_hold, 5>("E2-threshold", 1e-3, speed.searching("μ"))}};
 }
 
 }  // namespace twinarm

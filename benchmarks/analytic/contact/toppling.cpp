@@ -1,4 +1,4 @@
-// A block 0.2 m wide and 0.5 m high that topples (E3). All of it is planar: depth 0.3 m.
+// E3: a block 0.2 m wide and 0.5 m high topples. Planar motion; depth 0.3 m.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,7 @@
 namespace twinarm {
 namespace {
 
-using namespace contact_looks;
+using namespace contact_plots;
 
 constexpr double kWidth = 0.2, kHeight = 0.5, kMass = 1;
 
@@ -17,33 +17,33 @@ ContactScene::Body block(double mu, double width = kWidth) {
 double tilt(const ContactScene& scene, int body) {
   return std::acos(std::min(1.0, scene.R(body)(2, 2)));
 }
-// On an incline, at rest: does it tip within a second? Just above the limit the lean grows like
-// cosh(5.2 t), to 0.01 rad from 1e-4 rad beyond it.
+// Whether a block at rest on an incline topples within 1 s. Just above the limit the inclination
+// grows as cosh(5.2 t): to 0.01 rad at an incline of 1e-4 rad beyond the limit.
 bool topples(double incline, double mu, double width) {
   ContactScene scene(tilted_gravity(incline));
   scene.add_floor(surface(mu));
-  const int body = scene.add(block(mu, width));
-  scene.start();
+  const int body = scene.start(block(mu, width));
   scene.run(1, kStep);
   return tilt(scene, body) > 0.01;
 }
 
-CaseResult tilt_limit(double off) {  // width
-  const double limit = threshold(15 * kDegree, 30 * kDegree, 1e-4,
-                                 [off](double angle) { return topples(angle, 1, off * kWidth); });
+CaseResult tilt_limit(double scale) {  // width
+  const double limit = threshold(15 * kDegree, 30 * kDegree, 1e-4, [scale](double angle) {
+    return topples(angle, 1, scale * kWidth);
+  });
   return {relative(limit, 21.80140948635181 * kDegree)};
 }
-// On 30 degrees it slides for any mu below 0.577; the friction topples it above b/h.
-CaseResult slide_or_topple(double off) {  // width
+// On 30 degrees it slides for mu < 0.577; friction topples it for mu > b/h.
+CaseResult slide_or_topple(double scale) {  // width
   const double limit = threshold(
-      0.3, 0.5, 1e-4, [off](double mu) { return topples(30 * kDegree, mu, off * kWidth); });
+      0.3, 0.5, 1e-4, [scale](double mu) { return topples(30 * kDegree, mu, scale * kWidth); });
   return {relative(limit, 0.4)};
 }
 
-// A force along x at the middle of the upper face of a free body.
-class Push final : public ForceSource {
+// Force along x at the centre of the upper face of a free body.
+class TopForce final : public ForceSource {
  public:
-  Push(std::size_t dof, double force) : dof_(dof), force_(force) {}
+  TopForce(std::size_t dof, double force) : dof_(dof), force_(force) {}
   void add_forces(const State<double>&, const Kinematics& k,
                   Forces<double>& forces) noexcept override {
     const Vector3 F(force_, 0, 0), arm = k.X_WL[1].R * Vector3(0, 0, kHeight / 2);
@@ -58,62 +58,60 @@ class Push final : public ForceSource {
   std::size_t dof_;
   double force_;
 };
-CaseResult push_limit(double off) {  // width
-  const double limit = threshold(0.1, 0.3, 1e-4, [off](double part) {
+CaseResult push_limit(double scale) {  // width
+  const double limit = threshold(0.1, 0.3, 1e-4, [scale](double part) {
     ContactScene scene;
     scene.add_floor(surface(1));
-    const int body = scene.add(block(1, off * kWidth));
-    scene.start();
-    Push push(scene.model().iv[1], part * kMass * kGravity);
-    scene.simulation().add(push);
+    const int body = scene.start(block(1, scale * kWidth));
+    TopForce force(scene.model().iv[1], part * kMass * kGravity);
+    scene.simulation().add(force);
     scene.run(1, kStep);
     return tilt(scene, body) > 0.01;
   });
   return {relative(limit, 0.2)};
 }
 
-// Slides without friction into a curb 2 mm high, which its lower edge cannot pass: it turns about
-// that edge (plastic impact), and over it if it is fast.
+// Slides without friction into a curb 2 mm high: it rotates about its lower edge there (plastic
+// impact), and topples over it if it is fast enough.
 int start_at_curb(ContactScene& scene, double speed) {
   scene.add_floor(surface(0));
   scene.add_fixed(Box{{0.1, 1, 0.004}}, surface(0), {Matrix3::Identity(), {0.2, 0, 0}});
   ContactScene::Body body = block(0);
   body.p.x() = 0.15 - kWidth / 2 - 1e-4;
   body.v.x() = speed;
-  const int number = scene.add(body);
-  scene.start();
+  const int number = scene.start(body);
   return number;
 }
-CaseResult curb_rate(double off) {  // speed
+CaseResult curb_rate(double scale) {  // speed
   ContactScene scene;
-  const int body = start_at_curb(scene, off);
+  const int body = start_at_curb(scene, scale);
   scene.run(2e-3, kStep);
   return {relative(scene.w(body).y(), 2.586206896551724)};
 }
-CaseResult curb_speed(double off) {  // speed
-  const double limit = threshold(0.5, 1.0, 1e-4, [off](double speed) {
+CaseResult curb_speed(double scale) {  // speed
+  const double limit = threshold(0.5, 1.0, 1e-4, [scale](double speed) {
     ContactScene scene;
-    const int body = start_at_curb(scene, off * speed);
+    const int body = start_at_curb(scene, scale * speed);
     scene.run(1.5, kStep);
     return tilt(scene, body) > 30 * kDegree;
   });
   return {relative(limit, 0.7644624638064581)};
 }
 
-// Housner: leaning by 0.1 rad it falls back, and goes on about the other edge. What is left of the
-// energy of the turn is what lifts it: m g R (cos(alpha - lean) - cos alpha), before and after.
-CaseResult rocking(double off) {  // width
+// Housner: inclined by 0.1 rad, the block falls back and rotates about the other edge. The ratio of
+// the kinetic energies after and before the impact is that of the potential energies at the
+// extremes: m g R (cos(alpha - lean) - cos alpha).
+CaseResult rocking(double scale) {  // width
   constexpr double kLean = 0.1;
-  const double half = off * kWidth / 2;
+  const double half = scale * kWidth / 2;
   ContactScene scene;
   scene.add_floor(surface(1));
   ContactScene::Body body = block(1, 2 * half);
-  body.R = turn_about(Vector3::UnitY(), kLean);
+  body.R = rotation_about(Vector3::UnitY(), kLean);
   body.p = Vector3(half, 0, 0) - body.R * Vector3(half, 0, -kHeight / 2);
-  const int number = scene.add(body);
-  scene.start();
+  const int number = scene.start(body);
   scene.locate_events();
-  double back = 0;  // the furthest lean to the other side
+  double back = 0;  // largest inclination to the other side
   while (scene.t() < 0.3) {
     scene.step(kStep);
     back = std::max(back, -scene.R(number)(0, 2));
@@ -123,13 +121,13 @@ CaseResult rocking(double off) {  // width
   return {relative(lift(std::asin(back)) / lift(kLean), 0.629013079667063)};
 }
 
-// ---- what a page draws of them ----
+// ---- plots ----
 
-Values seen_lean(Scene s) {
+Values read_lean(Scene s) {
   return {std::atan2(s.R(1)(0, 2), s.R(1)(2, 2))};
 }
-// Housner: what is left of the turn's energy lifts it again.
-double known_rocking(std::size_t, double t) {
+// After the impact at the height that the remaining kinetic energy reaches.
+double exact_rocking(std::size_t, double t) {
   const double alpha = std::atan(0.4), height = std::cos(alpha);
   const double lift = 0.629013079667063 * (std::cos(alpha - 0.1) - height);
   return t < 0.2 ? NAN : std::acos(lift + height) - alpha;
@@ -138,25 +136,23 @@ double known_rocking(std::size_t, double t) {
 }  // namespace
 
 CaseFamily toppling_cases() {
-  const ContactCasePlot lean{.readings = {"lean [rad]"}, .read = seen_lean};
-  return {230,
-          {contact_case<tilt_limit, 20>("E3-tilt", 0.01, searched(lean, "α/rad")),
-           contact_case<push_limit, 20>("E3-push", 0.01, searched(lean, "F/(m g)")),
-           contact_case<slide_or_topple, 20>("E3-slide", 0.01, searched(lean, "μ")),
-           contact_case<curb_rate, 20>(
-               "E3-curb", 0.01,
-               {.readings = {"rate [rad/s]"},
-                .read = [](Scene s) { return Values{s.w(1).y()}; },
-                .exact = [](std::size_t, double) { return 2.586206896551724; },
-                .known_at = 2e-3,
-                .no_steps = "A plastic impact takes two steps: the rate is read after the "
-                            "second, and weight works on it meanwhile."}),
-           contact_case<curb_speed, 20>("E3-over", 0.01, searched(lean, "v/(m/s)")),
-           contact_case<rocking, 20>("E3-rocking", 0.01,
-                                     {.readings = lean.readings,
-                                      .read = seen_lean,
-                                      .exact = known_rocking,
-                                      .no_steps = kLocated})}};
+  const Plot lean{{"inclination [rad]"}, read_lean};
+  const auto exact_rate = [](std::size_t, double) { return 2.586206896551724; };
+  return {
+      230,
+      {contact_case<tilt_limit, 20>("E3-tilt", 0.01, lean.searching("α/rad")),
+       contact_case<push_limit, 20>("E3-push", 0.01, lean.searching("F/(m g)")),
+       contact_case<slide_or_topple, 20>("E3-slide", 0.01, lean.searching("μ")),
+       contact_case<curb_rate, 20>(
+           "E3-curb", 0.01,
+           Plot{{"rate [rad/s]"}, spin<1>, exact_rate}
+               .with(&Plot::known_at, 2e-3)
+               .without_convergence("A plastic impact takes two steps: the rate is read after the "
+                                    "second, and gravity acts in between.")),
+       contact_case<curb_speed, 20>("E3-over", 0.01, lean.searching("v/(m/s)")),
+       contact_case<rocking, 20>(
+           "E3-rocking", 0.01,
+           lean.with(&Plot::exact, exact_rocking).without_convergence(kLocated))}};
 }
 
 }  // namespace twinarm

@@ -1,5 +1,5 @@
-// C6, C10: a cart of mass M on a level line, held by a spring k or not, and a pole of mass m with
-// its centre l from the hinge, J about the hinge, th from hanging (Lagrange):
+// C6, C10: a cart of mass M on a horizontal line, with or without a spring k, and a pole of mass m,
+// centre at l from the hinge, J about the hinge, th from hanging (Lagrange):
 //   (M + m) x'' + m l cos th th'' - m l sin th th'^2 + k x = 0,
 //   m l cos th x'' + J th'' + m g l sin th = 0.
 // About th = 0 and pi, k = 0:  w^2 = +- m g l / (J - m^2 l^2 / (M + m)).
@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "solver/dynamics/kinematics.h"
 
 namespace twinarm {
 namespace {
@@ -36,19 +35,19 @@ struct CartPole {
     return all;
   }
   std::function<CaseReadings(double)> motion(double angle) const {
-    const long double both = static_cast<long double>(cart) + pole;
-    const long double ml = static_cast<long double>(pole) * com, k = spring, g = gravity;
-    const long double J = ml * com + inertia;
+    const Real both = Real(cart) + pole;
+    const Real ml = Real(pole) * com, k = spring, g = gravity;
+    const Real J = ml * com + inertia;
     return solution_of(
-        [=](long double, const special::Numbers& x, special::Numbers& dx) {
-          const long double c = std::cos(x[1]), s = std::sin(x[1]);
+        [=](Real, const special::Numbers& x, special::Numbers& dx) {
+          const Real c = std::cos(x[1]), s = std::sin(x[1]);
           const special::Two a =
               special::solve_two(both, ml * c, J, {ml * s * x[3] * x[3] - k * x[0], -ml * g * s});
           dx = {x[2], x[3], a.first, a.second};
         },
         {0, angle, 0, 0});
   }
-  // Of swings below, and of the growth above [rad/s].
+  // Frequency about hanging, and growth rate about upright [rad/s].
   double frequency() const {
     const double ml = pole * com;
     return std::sqrt(ml * gravity / (about_hinge() - ml * ml / (cart + pole)));
@@ -57,7 +56,7 @@ struct CartPole {
 
 const CartPole kPlain{};
 const CartPole kPoint{1, 0.3, 0.5, 0, 0, kGravity};
-// Chrono's: its centre at half of 1 m, on a spring, its gravity 10 m/s^2.
+// Project Chrono's: centre at 0.5 m, on a spring, g = 10 m/s^2.
 const CartPole kChrono{1, 1, 0.5, 1, 10, 10};
 
 TrajectoryCase cart_pole_motion() {
@@ -67,41 +66,39 @@ TrajectoryCase cart_pole_motion() {
           .observe = joint_state(),
           .reference = kPlain.motion(2)};
 }
-// No force acts along x, so the centre of mass stays where it was.
+// No force acts along x: the x of the centre of mass is constant.
 TrajectoryCase cart_pole_centre() {
   TrajectoryCase c = cart_pole_motion();
   c.times = {0.5, 1, 1.5, 2, 3, 4, 5};
   c.readings = {"x of the centre [m]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
+  c.observe = [](ModelRef model, StateRef x) {
+    const Kinematics k = kinematics_at(model, x);
     const double cart = model.I[1].m, pole = model.I[2].m;
     const double at = k.position(2, {0, 0, -kPlain.com}).x();
-    return CaseReadings{(cart * x.q[0] + pole * at) / (cart + pole)};
+    return values((cart * x.q[0] + pole * at) / (cart + pole));
   };
-  c.reference = [](double) {
-    return CaseReadings{kPlain.pole * kPlain.com * std::sin(2.0) / (kPlain.cart + kPlain.pole)};
-  };
-  c.lane = dopri5_lane(1e-13);
-  // A push on the cart.
+  c.reference =
+      constantly({kPlain.pole * kPlain.com * std::sin(2.0) / (kPlain.cart + kPlain.pole)});
+  c.integration = dopri5_with(1e-13);
+  // A force on the cart.
   c.mutant = [](CaseScene& scene) {
     scene.sources = {std::make_shared<JointEffort>([](double, double) { return 1e-9; })};
   };
   return c;
 }
 
-// Swings below, growth above; of a rod, and of a point mass at its middle.
+// About hanging and about upright; of a rod, and of a point mass at its centre.
 TrajectoryCase cart_pole_frequencies() {
   return evaluation(
       [] { return kPlain.scene(0); }, {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         State<double> above = x;
         above.q[1] = std::numbers::pi;
         CaseScene point = kPoint.scene(0);
         point.model.gravity = model.gravity;
-        return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
-                            std::sqrt(-squared_frequencies_of(model, above).front()),
-                            std::sqrt(squared_frequencies_of(point.model, point.start).back())};
+        return values(std::sqrt(squared_frequencies_of(model, x).back()),
+                      std::sqrt(-squared_frequencies_of(model, above).front()),
+                      std::sqrt(squared_frequencies_of(point.model, point.start).back()));
       },
       {kPlain.frequency(), kPlain.frequency(), kPoint.frequency()}, relative_each);
 }
@@ -111,8 +108,8 @@ TrajectoryCase chrono_slider() {
           .times = {1, 2, 5},
           .readings = {"x [m]", "angle from level [rad]", "speed [m/s]", "rate [rad/s]"},
           .observe =
-              [](const Model<double>&, const State<double>& x) {
-                return CaseReadings{x.q[0], x.q[1] - std::numbers::pi / 2, x.qd[0], x.qd[1]};
+              [](ModelRef, StateRef x) {
+                return values(x.q[0], x.q[1] - std::numbers::pi / 2, x.qd[0], x.qd[1]);
               },
           .reference =
               [](double t) {

@@ -2,8 +2,8 @@
 // C8, Furuta's pendulum, arm q1 about the vertical, pendulum q2 about the arm, 0 hanging:
 //   (J0 + m L^2 + Jp sin^2 q2) q1'' + m L l cos q2 q2'' = -2 Jp s c q1' q2' + m L l s q2'^2,
 //   m L l cos q2 q1'' + Jp q2'' = Jp s c q1'^2 - m g l s,  Jp = J + m l^2.
-// C9, Kane's "babyboot" (Kane, Levinson, Dynamics, 1985): a rod swings about a level axis, a plate
-// turns about the rod:
+// C9, Kane's "babyboot" (Kane, Levinson, Dynamics, 1985): a rod swings about a horizontal axis, a
+// plate rotates about the rod:
 //   (I0 + Bx cos^2 qB + By sin^2 qB) qA'' = 2 (Bx - By) s c qA' qB' - (mA LA + mB LB) g sin qA,
 //   Bz qB'' = -(Bx - By) s c qA'^2,  I0 = Ax + mA LA^2 + mB LB^2. Chaotic.
 #include <cmath>
@@ -21,10 +21,10 @@ using namespace smooth_parts;
 constexpr double kArm = 0.02, kReach = 0.3, kBob = 0.2, kBobCom = 0.15, kBobInertia = 0.0015;
 constexpr double kPivot = kBobInertia + kBob * kBobCom * kBobCom;  // Jp
 constexpr double kMixed = kBob * kReach * kBobCom;                 // m L l
-constexpr double kTurned = kArm + kBob * kReach * kReach;          // J0 + m L^2
+constexpr double kAbout = kArm + kBob * kReach * kReach;           // J0 + m L^2
 constexpr double kWhirl = 12;                                      // [rad/s]
 
-// The hinge of the pendulum lies on x of the arm; at q2 > 0 it leans towards y.
+// The pendulum's hinge axis is x of the arm; at q2 > 0 it is inclined towards y.
 CaseScene furuta(double tilt, double arm_rate, double rate) {
   ModelBuilder builder;
   builder.add_body("arm", 0, "shaft", JointType::revolute, {}, Vector3::UnitZ(),
@@ -35,15 +35,15 @@ CaseScene furuta(double tilt, double arm_rate, double rate) {
   return start_at(builder.build(), {0, tilt}, {arm_rate, rate});
 }
 special::Rates furuta_rates() {
-  return [](long double, const special::Numbers& x, special::Numbers& dx) {
-    constexpr long double J = kBobInertia + static_cast<long double>(kBob) * kBobCom * kBobCom;
-    constexpr long double m = static_cast<long double>(kBob) * kReach * kBobCom;
-    constexpr long double about = kArm + static_cast<long double>(kBob) * kReach * kReach;
-    const long double s = std::sin(x[1]), c = std::cos(x[1]);
-    const special::Two a = special::solve_two(
-        about + J * s * s, m * c, J,
-        {-2 * J * s * c * x[2] * x[3] + m * s * x[3] * x[3],
-         J * s * c * x[2] * x[2] - static_cast<long double>(kBob) * 9.81L * kBobCom * s});
+  return [](Real, const special::Numbers& x, special::Numbers& dx) {
+    constexpr Real J = kBobInertia + Real(kBob) * kBobCom * kBobCom;
+    constexpr Real m = Real(kBob) * kReach * kBobCom;
+    constexpr Real about = kArm + Real(kBob) * kReach * kReach;
+    const Real s = std::sin(x[1]), c = std::cos(x[1]);
+    const special::Two a =
+        special::solve_two(about + J * s * s, m * c, J,
+                           {-2 * J * s * c * x[2] * x[3] + m * s * x[3] * x[3],
+                            J * s * c * x[2] * x[2] - Real(kBob) * 9.81L * kBobCom * s});
     dx = {x[2], x[3], a.first, a.second};
   };
 }
@@ -59,17 +59,16 @@ TrajectoryCase furuta_motion() {
 TrajectoryCase furuta_evaluation() {
   special::Numbers dx(4);
   furuta_rates()(0, {0, 1, 2, 3}, dx);
-  return evaluation(
-      [] { return furuta(1, 2, 3); }, {"arm [rad/s2]", "pendulum [rad/s2]"},
-      [](const Model<double>& model, const State<double>& x) { return evaluate(model, x).qdd; },
-      {static_cast<double>(dx[2]), static_cast<double>(dx[3])});
+  return evaluation([] { return furuta(1, 2, 3); }, {"arm [rad/s2]", "pendulum [rad/s2]"},
+                    [](ModelRef model, StateRef x) { return evaluate(model, x).qdd; },
+                    {static_cast<double>(dx[2]), static_cast<double>(dx[3])});
 }
-// Hanging it swings, upright it falls, at w^2 = m g l / (Jp - (m L l)^2 / (J0 + m L^2)); turning
-// at W the pendulum stands out where its weight and the centrifugal couple balance.
+// About hanging and upright w^2 = +-m g l / (Jp - (m L l)^2 / (J0 + m L^2)); with the arm at a rate
+// W the pendulum is in equilibrium where the moments of weight and centrifugal force cancel.
 TrajectoryCase furuta_special() {
   const double weight = kBob * kGravity * kBobCom;
-  const double w = std::sqrt(weight / (kPivot - kMixed * kMixed / kTurned));
-  const CaseObserver observe = [](const Model<double>& model, const State<double>& x) {
+  const double w = std::sqrt(weight / (kPivot - kMixed * kMixed / kAbout));
+  const CaseObserver observe = [](ModelRef model, StateRef x) {
     State<double> above = x, round = x;
     above.q[1] = std::numbers::pi;
     round.qd[0] = kWhirl;
@@ -78,8 +77,8 @@ TrajectoryCase furuta_special() {
       round.q[1] = middle;
       (evaluate(model, round).qdd[1] > 0 ? low : high) = middle;
     }
-    return CaseReadings{std::sqrt(squared_frequencies_of(model, x).back()),
-                        std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low)};
+    return values(std::sqrt(squared_frequencies_of(model, x).back()),
+                  std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low));
   };
   return evaluation([] { return furuta(0, 0, 0); },
                     {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"}, observe,
@@ -102,13 +101,13 @@ CaseScene babyboot_scene() {
   return start_at(builder.build(), {std::numbers::pi / 2, kDegree}, {0, 0});
 }
 special::Rates babyboot_rates() {
-  return [](long double, const special::Numbers& x, special::Numbers& dx) {
-    // Exact decimals: chaos carries even their rounding to 1e-10.
-    constexpr long double mA = 0.01L, mB = 0.1L, LA = 0.075L, LB = 0.2L;
-    constexpr long double Bx = 2500e-7L, By = 500e-7L, Bz = 2000e-7L;
-    constexpr long double I0 = 50e-7L + mA * LA * LA + mB * LB * LB;
-    const long double s = std::sin(x[1]), c = std::cos(x[1]);
-    const long double weight = (mA * LA + mB * LB) * 9.81L * std::sin(x[0]);
+  return [](Real, const special::Numbers& x, special::Numbers& dx) {
+    // Exact decimals: chaos amplifies even their rounding to 1e-10.
+    constexpr Real mA = 0.01L, mB = 0.1L, LA = 0.075L, LB = 0.2L;
+    constexpr Real Bx = 2500e-7L, By = 500e-7L, Bz = 2000e-7L;
+    constexpr Real I0 = 50e-7L + mA * LA * LA + mB * LB * LB;
+    const Real s = std::sin(x[1]), c = std::cos(x[1]);
+    const Real weight = (mA * LA + mB * LB) * 9.81L * std::sin(x[0]);
     dx = {x[2], x[3],
           (2 * (Bx - By) * s * c * x[2] * x[3] - weight) / (I0 + Bx * c * c + By * s * s),
           -(Bx - By) * s * c * x[2] * x[2] / Bz};
@@ -121,36 +120,33 @@ CaseReadings in_degrees(CaseReadings x) {
 }
 
 TrajectoryCase babyboot_motion() {
-  const auto solved = solution_of(babyboot_rates(), {std::numbers::pi_v<long double> / 2,
-                                                     std::numbers::pi_v<long double> / 180, 0, 0});
+  const auto solved = solution_of(babyboot_rates(), {kPi / 2, kPi / 180, 0, 0});
   return {.scene = babyboot_scene,
           .times = {5, 10},
           .readings = {"rod [deg]", "plate [deg]"},
-          .observe = [](const Model<double>&, const State<double>& x) { return in_degrees(x.q); },
+          .observe = [](ModelRef, StateRef x) { return in_degrees(x.q); },
           .reference = [solved](double t) { return in_degrees(solved(t)); }};
 }
 TrajectoryCase babyboot_fine() {
   TrajectoryCase c = babyboot_motion();
-  c.lane = rk4_lane(2.5e-4);
+  c.integration = rk4_with(2.5e-4);
   return c;
 }
 TrajectoryCase babyboot_rates_at_end() {
   TrajectoryCase c = babyboot_motion();
   c.times = {10};
   c.readings = {"rod [rad/s]", "plate [rad/s]", "rod [rad/s2]", "plate [rad/s2]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const std::vector<double> qdd = evaluate(model, x).qdd;
-    return CaseReadings{x.qd[0], x.qd[1], qdd[0], qdd[1]};
+    return values(x.qd[0], x.qd[1], qdd[0], qdd[1]);
   };
   c.reference = [](double t) {
     special::Numbers dx(4);
-    const special::Numbers x = special::solution(
-        babyboot_rates(),
-        {std::numbers::pi_v<long double> / 2, std::numbers::pi_v<long double> / 180, 0, 0}, t);
+    const special::Numbers x = special::solution(babyboot_rates(), {kPi / 2, kPi / 180, 0, 0}, t);
     babyboot_rates()(t, x, dx);
     return CaseReadings(dx.begin(), dx.end());
   };
-  c.lane = dopri5_lane(1e-13);
+  c.integration = dopri5_with(1e-13);
   return c;
 }
 

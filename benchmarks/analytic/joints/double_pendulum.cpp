@@ -13,18 +13,17 @@ namespace {
 
 using namespace smooth_parts;
 
-constexpr double kQuarterTurn = std::numbers::pi / 2;
+constexpr double kRightAngle = std::numbers::pi / 2;
 
-special::Rates double_pendulum_rates(const ChainLink& one, const ChainLink& two,
-                                     long double gravity) {
-  const long double J1 = static_cast<long double>(one.mass) * one.com * one.com + one.inertia;
-  const long double J2 = static_cast<long double>(two.mass) * two.com * two.com + two.inertia;
-  const long double carried = static_cast<long double>(two.mass) * one.length;
-  const long double A = J1 + carried * one.length, K = carried * two.com;
-  const long double G1 = (static_cast<long double>(one.mass) * one.com + carried) * gravity;
-  const long double G2 = static_cast<long double>(two.mass) * two.com * gravity;
-  return [=](long double, const special::Numbers& x, special::Numbers& dx) {
-    const long double d = x[0] - x[1], S = K * std::sin(d);
+special::Rates double_pendulum_rates(const ChainLink& one, const ChainLink& two, Real gravity) {
+  const Real J1 = Real(one.mass) * one.com * one.com + one.inertia;
+  const Real J2 = Real(two.mass) * two.com * two.com + two.inertia;
+  const Real distal = Real(two.mass) * one.length;
+  const Real A = J1 + distal * one.length, K = distal * two.com;
+  const Real G1 = (Real(one.mass) * one.com + distal) * gravity;
+  const Real G2 = Real(two.mass) * two.com * gravity;
+  return [=](Real, const special::Numbers& x, special::Numbers& dx) {
+    const Real d = x[0] - x[1], S = K * std::sin(d);
     const special::Two a = special::solve_two(
         A, K * std::cos(d), J2,
         {-S * x[3] * x[3] - G1 * std::sin(x[0]), S * x[2] * x[2] - G2 * std::sin(x[1])});
@@ -40,10 +39,7 @@ template <int degrees1, int degrees2>
 TrajectoryCase two_points() {
   static constexpr double a1 = degrees1 * kDegree, a2 = degrees2 * kDegree;
   const ChainLink link = point_link(1, 1);
-  return {.scene =
-              [link] {
-                return start_at(plane_chain(link, 2), {a1, a2 - a1}, {0, 0});
-              },
+  return {.scene = fixed(start_at(plane_chain(link, 2), {a1, a2 - a1}, {0, 0})),
           .times = {1, 2, 5, 10},
           .readings = kAnglesAndRates,
           .observe = absolute_angles(),
@@ -53,25 +49,20 @@ TrajectoryCase two_points() {
 TrajectoryCase two_rods() {
   const ChainLink link = rod_link(1, 1);
   const auto absolute =
-      solution_of(double_pendulum_rates(link, link, 9.81L),
-                  {std::numbers::pi_v<long double> / 2, std::numbers::pi_v<long double> / 2, 0, 0});
-  return {.scene =
-              [link] {
-                return start_at(plane_chain(link, 2), {kQuarterTurn, 0}, {0, 0});
-              },
+      solution_of(double_pendulum_rates(link, link, 9.81L), {kPi / 2, kPi / 2, 0, 0});
+  return {.scene = fixed(start_at(plane_chain(link, 2), {kRightAngle, 0}, {0, 0})),
           .times = {1, 2},
           .readings = kAnglesAndRates,
           .observe = joint_state(),
-          .reference =
-              [absolute](double t) {
-                const CaseReadings x = absolute(t);
-                return CaseReadings{x[0], x[1] - x[0], x[2], x[3] - x[2]};
-              }};
+          .reference = [absolute](double t) {
+            const CaseReadings x = absolute(t);
+            return values(x[0], x[1] - x[0], x[2], x[3] - x[2]);
+          }};
 }
-TrajectoryCase two_rods_until(std::vector<double> times, const Lane& lane) {
+TrajectoryCase two_rods_until(std::vector<double> times, const Lane& integration) {
   TrajectoryCase c = two_rods();
   c.times = std::move(times);
-  c.lane = lane;
+  c.integration = integration;
   return c;
 }
 
@@ -83,33 +74,23 @@ TrajectoryCase two_rods_modes() {
                     relative_each);
 }
 
-// Angles are measured from +x there; as absolute angles from -z they are a quarter turn more.
+// Project Chrono measures angles from +x: absolute angles from -z, minus 90 degrees.
 TrajectoryCase two_plates() {
   const ChainLink link{1, 1, 0.5, 1};
-  const auto solved =
-      solution_of(double_pendulum_rates(link, link, 10),
-                  {std::numbers::pi_v<long double> / 2, std::numbers::pi_v<long double> / 2, 0, 0});
-  // From angles from -z: those from x, rates, and the centre of the second link.
-  const auto as_there = [](const CaseReadings& a) {
-    return CaseReadings{a[0] - kQuarterTurn,
-                        a[1] - kQuarterTurn,
-                        a[2],
-                        a[3],
-                        std::sin(a[0]) + std::sin(a[1]) / 2,
-                        -std::cos(a[0]) - std::cos(a[1]) / 2};
+  const auto solved = solution_of(double_pendulum_rates(link, link, 10), {kPi / 2, kPi / 2, 0, 0});
+  // From absolute angles and rates: angles from x, rates, centre of the second link.
+  const auto converted = [](const CaseReadings& a) {
+    return values(a[0] - kRightAngle, a[1] - kRightAngle, a[2], a[3],
+                  std::sin(a[0]) + std::sin(a[1]) / 2, -std::cos(a[0]) - std::cos(a[1]) / 2);
   };
-  return {.scene =
-              [link] {
-                return start_at(plane_chain(std::vector<ChainLink>{link, link}, 10),
-                                {kQuarterTurn, 0}, {0, 0});
-              },
-          .times = {1, 2, 5},
-          .readings = {"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]", "rate 2 [rad/s]",
-                       "x 2 [m]", "y 2 [m]"},
-          .observe = [as_there](
-                         const Model<double>& model,
-                         const State<double>& x) { return as_there(absolute_angles()(model, x)); },
-          .reference = [solved, as_there](double t) { return as_there(solved(t)); }};
+  return {
+      .scene = fixed(
+          start_at(plane_chain(std::vector<ChainLink>{link, link}, 10), {kRightAngle, 0}, {0, 0})),
+      .times = {1, 2, 5},
+      .readings = {"angle 1 [rad]", "angle 2 [rad]", "rate 1 [rad/s]", "rate 2 [rad/s]", "x 2 [m]",
+                   "y 2 [m]"},
+      .observe = [=](ModelRef model, StateRef x) { return converted(absolute_angles()(model, x)); },
+      .reference = [=](double t) { return converted(solved(t)); }};
 }
 
 }  // namespace
@@ -119,8 +100,8 @@ CaseFamily double_pendulum_cases() {
           {{"C1-90-90", 1e-8, two_points<90, 90>()},
            {"C1-45-30", 1e-8, two_points<45, 30>()},
            {"C2", 1e-8, two_rods()},
-           {"C2-10", 1e-4, two_rods_until({5, 10}, rk4_lane())},
-           {"C2-dopri5", 1e-8, two_rods_until({1, 2, 5}, dopri5_lane(1e-13))},
+           {"C2-10", 1e-4, two_rods_until({5, 10}, rk4_with())},
+           {"C2-dopri5", 1e-8, two_rods_until({1, 2, 5}, dopri5_with(1e-13))},
            {"C2-modes", 1e-12, two_rods_modes()},
            {"C10-double", 1e-8, two_plates()}}};
 }

@@ -3,15 +3,14 @@
 // the eigenvalues of its symmetric tridiagonal matrix (2k + 1; k) (Golub, Welsch 1969).
 // C4, rods, absolute angles: M_ij = m a^2 (n - j + 1/2) for i < j, M_ii = m a^2 (n - i + 1/3),
 // K_ii = m g a (n - i + 1/2), a = 1/n, i from 1; for n -> infinity w_k = j_(0,k)/2 sqrt(g/L).
-// C5, a folded chain of which one end is let go, with energy kept (Calkin, March, Am. J. Phys. 57,
-// 1989): v^2 = 2 g x (1 - x/2L)/(1 - x/L); a chain of n links comes near it.
+// C5, a folded chain, one end released, energy conserved (Calkin, March, Am. J. Phys. 57, 1989):
+// v^2 = 2 g x (1 - x/2L)/(1 - x/L); a chain of n links approximates it.
 #include <cmath>
 #include <numbers>
 
 #include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {
@@ -30,7 +29,7 @@ CaseReadings laguerre_frequencies(int n) {
   return all;
 }
 
-// The first `count` of a chain of n rods.
+// The lowest `count` frequencies of a chain of n rods.
 CaseReadings rod_chain_frequencies(int n, int count) {
   const double a = 1.0 / n;
   Eigen::MatrixXd M(n, n), K = Eigen::MatrixXd::Zero(n, n);  // for m = 1
@@ -41,7 +40,7 @@ CaseReadings rod_chain_frequencies(int n, int count) {
     }
     K(i, i) = kGravity * a * (n - i - 0.5);
   }
-  // K is the harmless one: M x = mu K x has the slow motions as its largest eigenvalues.
+  // K is well conditioned: the slow modes are the largest eigenvalues of M x = mu K x.
   const Eigen::VectorXd slow = generalized_eigenvalues(M, K);
   CaseReadings all;
   for (int k = 0; k < count; ++k) all.push_back(1 / std::sqrt(slow[n - 1 - k]));
@@ -54,11 +53,11 @@ std::vector<std::string> mode_names(std::size_t count) {
   return all;
 }
 
-// The first so many frequencies of a chain that hangs at rest.
+// Lowest frequencies of a chain that hangs at rest.
 TrajectoryCase chain_modes(const ChainLink& link, int n, const CaseReadings& exact) {
   const std::size_t count = exact.size();
   return evaluation([link, n] { return at_rest(plane_chain(link, n)); }, mode_names(count),
-                    [count](const Model<double>& model, const State<double>& x) {
+                    [count](ModelRef model, StateRef x) {
                       CaseReadings all = small_frequencies(model, x);
                       all.resize(count);
                       return all;
@@ -73,7 +72,7 @@ AnalyticCase rod_chain_case(const char* name, int n) {
   return {name, 1e-10,
           chain_modes(rod_link(1, 1.0 / n), n, rod_chain_frequencies(n, std::min(n, 3)))};
 }
-// Finite chains are stiffer, by 0.0307 / n^2.
+// Finite chains have higher frequencies, by 0.0307 / n^2.
 AnalyticCase rope_case() {
   constexpr int n = 50;
   return {
@@ -83,7 +82,7 @@ AnalyticCase rope_case() {
 
 // ---- C5 ----
 
-constexpr int kDown = 20, kFoldedLinks = 2 * kDown + 1;  // down, one level link, up again
+constexpr int kDown = 20, kFoldedLinks = 2 * kDown + 1;  // down, one horizontal link, up
 constexpr double kFoldedLink = 1.0 / kFoldedLinks, kDeep = 0.9;
 
 CaseScene folded_chain() {
@@ -92,22 +91,21 @@ CaseScene folded_chain() {
   return start_at(plane_chain(rod_link(kFoldedLink, kFoldedLink), kFoldedLinks), q,
                   std::vector<double>(kFoldedLinks, 0.0));
 }
-// Dampers in the joints take what the whip lives on.
-void stiffen(CaseScene& scene) {
+// Mutant: joint damping slows the tip.
+void add_damping(CaseScene& scene) {
   for (double& damping : scene.model.damping) damping = 1e-4;
 }
 
-double tip_depth(const Model<double>& model, const State<double>& x) {
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+double tip_depth(ModelRef model, StateRef x) {
+  const Kinematics k = kinematics_at(model, x);
   return -k.position(kFoldedLinks, {0, 0, -kFoldedLink}).z();
 }
 
-// From rest at depth 0, of a chain of 1 m.
-long double folded_fall_time(long double depth) {
-  // x = s^2: the speed starts as sqrt(2 g x).
-  const auto slowness = [](long double s) {
-    const long double x = s * s;
+// From rest at depth 0, chain of 1 m.
+Real folded_fall_time(Real depth) {
+  // x = s^2: the speed is sqrt(2 g x) near x = 0.
+  const auto slowness = [](Real s) {
+    const Real x = s * s;
     return 2 * std::sqrt((1 - x) / (2 * 9.81L * (1 - x / 2)));
   };
   return special::integral(slowness, 0, std::sqrt(depth));
@@ -115,13 +113,10 @@ long double folded_fall_time(long double depth) {
 
 TrajectoryCase folded_fall() {
   return {.scene = folded_chain,
-          .reference = [](double) { return rounded({folded_fall_time(kDeep)}); },
+          .reference = [](double) { return values(folded_fall_time(kDeep)); },
           .measure = relative_each,
-          .mutant = stiffen,
-          .events = {[](const Model<double>& model, const State<double>& x) {
-                       return tip_depth(model, x) - kDeep;
-                     },
-                     1, 1}};
+          .mutant = add_damping,
+          .events = {[](ModelRef model, StateRef x) { return tip_depth(model, x) - kDeep; }, 1, 1}};
 }
 TrajectoryCase folded_energy() {
   TrajectoryCase c = folded_fall();
@@ -129,37 +124,38 @@ TrajectoryCase folded_energy() {
   c.times = {0.1, 0.2, 0.3, 0.35};
   c.readings = {"energy [J]"};
   c.observe = observe_energy;
-  // Two straight halves, centres at a half of their length, and the level link below.
-  c.reference = [](double) {
-    const double half = kDown * kFoldedLink;
-    return CaseReadings{-kGravity * (2 * half * half / 2 + kFoldedLink * half)};
-  };
+  // Two straight halves, and the horizontal link below them.
+  constexpr double half = kDown * kFoldedLink;
+  c.reference = constantly({-kGravity * (2 * half * half / 2 + kFoldedLink * half)});
   c.measure = max_difference;
-  c.lane = dopri5_lane(1e-12);
+  c.integration = dopri5_with(1e-12);
   return c;
 }
 
 }  // namespace
 
 CaseFamily hanging_chain_cases() {
-  return {120,
-          {point_chain_case("C3-1", 1),
-           point_chain_case("C3-2", 2),
-           point_chain_case("C3-3", 3),
-           point_chain_case("C3-4", 4),
-           point_chain_case("C3-5", 5),
-           point_chain_case("C3-6", 6),
-           point_chain_case("C3-8", 8),
-           point_chain_case("C3-10", 10),
-           rod_chain_case("C4-1", 1),
-           rod_chain_case("C4-2", 2),
-           rod_chain_case("C4-5", 5),
-           rod_chain_case("C4-10", 10),
-           rod_chain_case("C4-20", 20),
-           rod_chain_case("C4-50", 50),
-           rope_case(),
-           {"C5", 0.01, folded_fall()},
-           {"C5-energy", 1e-8, folded_energy()}}};
+  CaseFamily family{120, {}};
+  for (const auto& [name, n] : {std::pair{"C3-1", 1},
+                                {"C3-2", 2},
+                                {"C3-3", 3},
+                                {"C3-4", 4},
+                                {"C3-5", 5},
+                                {"C3-6", 6},
+                                {"C3-8", 8},
+                                {"C3-10", 10}})
+    family.cases.push_back(point_chain_case(name, n));
+  for (const auto& [name, n] : {std::pair{"C4-1", 1},
+                                {"C4-2", 2},
+                                {"C4-5", 5},
+                                {"C4-10", 10},
+                                {"C4-20", 20},
+                                {"C4-50", 50}})
+    family.cases.push_back(rod_chain_case(name, n));
+  family.cases.push_back(rope_case());
+  family.cases.push_back({"C5", 0.01, folded_fall()});
+  family.cases.push_back({"C5-energy", 1e-8, folded_energy()});
+  return family;
 }
 
 }  // namespace twinarm

@@ -12,14 +12,12 @@
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/world_kinematics.h"
 
 namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
-using Real = long double;
 
 constexpr double kMoment = 1 * kGravity * 0.2, I1 = 0.05, I3 = 0.01, kTilt = 30 * kDegree;
 constexpr double kSpin = 100;
@@ -35,9 +33,13 @@ Eigen::Quaterniond attitude(const State<double>& x) {
 Vector3 rate(const State<double>& x) {
   return {x.qd[0], x.qd[1], x.qd[2]};
 }
-// Tilted about x, rates in body axes.
+// Rotated about x by kTilt; rates in body axes.
 CaseScene tilted(const Vector3& w) {
   return start_at(top(), {std::cos(kTilt / 2), std::sin(kTilt / 2), 0, 0}, {w.x(), w.y(), w.z()});
+}
+
+CaseScene spinning_top() {
+  return tilted({0, 0, kSpin});
 }
 
 struct Nutation {
@@ -63,7 +65,7 @@ struct Nutation {
   Real azimuth(Real t) const {  // phi
     return special::integral([this](Real s) { return precession(height(s)); }, 0, t);
   }
-  Real own_turn(Real t) const {  // psi
+  Real spin_angle(Real t) const {  // psi
     return special::integral(
         [this](Real s) {
           const Real u = height(s);
@@ -76,7 +78,7 @@ struct Nutation {
     return {double(s * std::sin(phi)), double(-s * std::cos(phi)), double(u)};
   }
   Vector3 rate(Real t) const {
-    const Real u = height(t), s = std::sqrt(1 - u * u), psi = own_turn(t);
+    const Real u = height(t), s = std::sqrt(1 - u * u), psi = spin_angle(t);
     const Real along = -height_rate(t) / s, across = precession(u) * s;
     return {double(across * std::sin(psi) + along * std::cos(psi)),
             double(across * std::cos(psi) - along * std::sin(psi)), kSpin};
@@ -87,76 +89,72 @@ const Nutation& nutation() {
   return n;
 }
 
-CaseReadings observe_axis(const Model<double>&, const State<double>& x) {
+CaseReadings observe_axis(ModelRef, StateRef x) {
   const Vector3 e = attitude(x) * Vector3::UnitZ();
   return {e.x(), e.y(), e.z()};
 }
 
 TrajectoryCase top_motion(double step) {
-  return {.scene =
-              [] {
-                return tilted({0, 0, kSpin});
-              },
+  return {.scene = spinning_top,
           .times = {0.1, 0.38054140391335806, 0.5, 1},
           .readings = {"x of the axis", "y of the axis", "z of the axis"},
           .observe = observe_axis,
           .reference =
               [](double t) {
                 const Vector3 e = nutation().axis(t);
-                return CaseReadings{e.x(), e.y(), e.z()};
+                return values(e.x(), e.y(), e.z());
               },
-          .lane = rk4_lane(step)};
+          .integration = rk4_with(step)};
 }
 
-// The rate in body axes, of which two components turn with the spin.
+// Angular velocity in body axes.
 TrajectoryCase rates() {
   TrajectoryCase c = top_motion(1e-4);
   c.readings = {"w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"};
-  c.observe = [](const Model<double>&, const State<double>& x) { return x.qd; };
+  c.observe = [](ModelRef, StateRef x) { return x.qd; };
   c.reference = [](double t) {
     const Vector3 w = nutation().rate(t);
-    return CaseReadings{w.x(), w.y(), w.z()};
+    return values(w.x(), w.y(), w.z());
   };
   return c;
 }
 
-// The axis is lowest at half a period and at rest again at a whole one, further round.
+// Maximum tilt at half a period, at rest again at a whole one.
 TrajectoryCase top_bounds() {
   TrajectoryCase c = top_motion(1e-4);
   c.times = {};
   c.readings = {"tilt [rad]", "azimuth [rad]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const CaseReadings e = observe_axis(model, x);
-    return CaseReadings{std::acos(e[2]), std::atan2(e[0], -e[1])};
+    return values(std::acos(e[2]), std::atan2(e[0], -e[1]));
   };
   c.reference = [](double k) {
     const Nutation& n = nutation();
     const Real t = n.period() * Real(k) / 2;
-    return CaseReadings{double(t), double(std::acos(n.height(t))), double(n.azimuth(t))};
+    return values(double(t), double(std::acos(n.height(t))), double(n.azimuth(t)));
   };
-  c.events = {[](const Model<double>&, const State<double>& x) {
-                return (attitude(x) * rate(x).cross(Vector3::UnitZ())).z();
-              },
-              2, 1};
+  c.events = {
+      [](ModelRef, StateRef x) { return (attitude(x) * rate(x).cross(Vector3::UnitZ())).z(); }, 2,
+      1};
   return c;
 }
 
 TrajectoryCase invariants() {
   TrajectoryCase c = top_motion(1e-3);
-  c.lane = dopri5_lane(1e-12);
+  c.integration = dopri5_with(1e-12);
   c.readings = {"Lz [N m s]", "w3 [rad/s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     Workspace<double> w(model);
     kinematics(model, x, w);
-    return CaseReadings{momentum(model, w).n.z, x.qd[2]};
+    return values(momentum(model, w).n.z, x.qd[2]);
   };
-  c.reference = [](double) { return CaseReadings{I3 * kSpin * std::cos(kTilt), kSpin}; };
+  c.reference = constantly({I3 * kSpin * std::cos(kTilt), kSpin});
   c.mutant = more_inertia;
   return c;
 }
 
-// By how much the axis accelerates away from steady precession at W, along its meridian: a
-// quadratic in W, times I1 sin(theta) the equation I1 cos(theta) W^2 - I3 w3 W + m g l = 0.
+// Meridional acceleration of the axis relative to steady precession at W: quadratic in W, and times
+// I1 sin(theta) the left side of I1 cos(theta) W^2 - I3 w3 W + m g l = 0.
 double residual(const Model<double>& model, double W) {
   const CaseScene at = tilted({0, 0, 0});
   const Eigen::Quaterniond R = attitude(at.start);
@@ -170,34 +168,30 @@ double residual(const Model<double>& model, double W) {
 }
 
 TrajectoryCase steady() {
-  const auto observe = [](const Model<double>& model, const State<double>&) {
+  const auto observe = [](ModelRef model, StateRef) {
     const double C = residual(model, 0), plus = residual(model, 20), minus = residual(model, -20);
     const double A = (plus + minus - 2 * C) / 800, B = (plus - minus) / 40;
     const double fast = (-B + (B < 0 ? 1 : -1) * std::sqrt(B * B - 4 * A * C)) / (2 * A);
-    return CaseReadings{C / (A * fast), fast, kSpin * std::sqrt(4 * A * C) / std::abs(B)};
+    return values(C / (A * fast), fast, kSpin * std::sqrt(4 * A * C) / std::abs(B));
   };
   const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
   const double fast = (B + std::sqrt(root)) / (2 * A);
-  return evaluation(
-      [] {
-        return tilted({0, 0, kSpin});
-      },
-      {"slow [rad/s]", "fast [rad/s]", "least spin [rad/s]"}, observe,
-      {kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3});
+  return evaluation(spinning_top, {"slow [rad/s]", "fast [rad/s]", "minimum spin [rad/s]"}, observe,
+                    {kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3});
 }
 
-// Upright, with z = z1 + i z2 the world's vertical and w = w1 + i w2 the rate, both in body axes:
+// Upright, with z = z1 + i z2 the vertical and w = w1 + i w2 the angular velocity, in body axes:
 //   z' = -i w3 z + i w,   w' = -i D w - i F z,   D = (1 - I3 / I1) w3,  F = m g l / I1,
-// stable where (w3 - D)^2 >= 4 F. F and D are read off the derivatives of the accelerations.
+// stable for (w3 - D)^2 >= 4 F. F and D are derivatives of the accelerations.
 TrajectoryCase sleeping() {
   return evaluation(
       [] {
         return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin});
       },
-      {"least spin [rad/s]"},
-      [](const Model<double>& model, const State<double>& x) {
+      {"minimum spin [rad/s]"},
+      [](ModelRef model, StateRef x) {
         const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
-        return CaseReadings{2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2])};
+        return values(2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2]));
       },
       {2 * std::sqrt(kMoment * I1) / I3});
 }

@@ -1,7 +1,7 @@
-// C7, Kapitza's pendulum: a point mass on a rod of 0.5 m, its pivot at a cos(w t), a = 0.02 m
+// C7, Kapitza's pendulum: a point mass on a rod of 0.5 m, pivot at z = a cos(w t), a = 0.02 m
 // (Landau, Lifshitz, Mechanics, section 30). From upright:  u'' = (g - a w^2 cos w t) sin(u) / l.
-// It stays up where the trace of its linear motion over one period is below 2: from w =
-// 156.65935736181 rad/s on; the average of many periods says sqrt(2 g l) / a = 156.6.
+// Upright is stable if the trace of the monodromy matrix is below 2: for w >= 156.65935736181
+// rad/s; averaging gives sqrt(2 g l) / a = 156.6.
 #include <cmath>
 #include <numbers>
 
@@ -35,15 +35,14 @@ CaseScene shaken(double w, double from_top) {
   };
   return scene;
 }
-double from_top(const Model<double>& model, const State<double>& x) {
+double from_top(ModelRef model, StateRef x) {
   return x.q[model.iq[2]] - std::numbers::pi;
 }
 // Angle and rate at t, from those at `from`.
-special::Numbers shaken_solution(double w, const special::Numbers& x, long double from,
-                                 long double t) {
-  const special::Rates rates = [w, from](long double after, const special::Numbers& now,
+special::Numbers shaken_solution(double w, const special::Numbers& x, Real from, Real t) {
+  const special::Rates rates = [w, from](Real after, const special::Numbers& now,
                                          special::Numbers& dx) {
-    const long double W = w, lift = 9.81L - kShake * W * W * std::cos(W * (from + after));
+    const Real W = w, lift = 9.81L - kShake * W * W * std::cos(W * (from + after));
     dx = {now[1], lift * std::sin(now[0]) / kShaken};
   };
   return special::solution(rates, x, t - from, 1.0L / 512);
@@ -55,72 +54,62 @@ TrajectoryCase shaken_motion(double w, double until) {
   return {.scene = [w] { return shaken(w, kFromTop); },
           .times = times,
           .readings = {"angle from upright [rad]"},
-          .observe = [](const Model<double>& model,
-                        const State<double>& x) { return CaseReadings{from_top(model, x)}; },
+          .observe = [](ModelRef model, StateRef x) { return values(from_top(model, x)); },
           .reference =
               [w](double t) {
-                return rounded({shaken_solution(w, {kFromTop, 0}, 0, t)[0]});
+                return values(shaken_solution(w, {kFromTop, 0}, 0, t)[0]);
               },
-          .lane = rk4_lane(2e-4)};
+          .integration = rk4_with(2e-4)};
 }
 
-// The largest angle of 20 s, looked at every 2 ms.
-void much_more_gravity(CaseScene& scene) {
-  scene.model.gravity = 1.05 * scene.model.gravity;
-}
+// Largest angle in 20 s, every 2 ms.
 TrajectoryCase stays_up(double w) {
   TrajectoryCase c = shaken_motion(w, 20);
   c.times.clear();
   for (int k = 1; k <= 10000; ++k) c.times.push_back(20.0 * k / 10000);
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{std::abs(from_top(model, x))};
-  };
-  c.reference = [](double) { return CaseReadings{0}; };
-  c.mutant = much_more_gravity;
-  c.of_its_lane = true;  // no motion is known, only how far it goes
+  c.observe = [](ModelRef model, StateRef x) { return values(std::abs(from_top(model, x))); };
+  c.reference = constantly({0});
+  c.mutant = [](CaseScene& scene) { scene.model.gravity = 1.05 * scene.model.gravity; };
+  c.needs_its_integrator = true;  // the reference is a bound, not a motion
   return c;
 }
 
-// When it passes 1 rad.
+// Time at which it passes 1 rad.
 TrajectoryCase falls(double w, double about) {
-  return times_of(shaken_motion(w, about),
-                  {[](const Model<double>& model, const State<double>& x) {
-                     return std::abs(from_top(model, x)) - 1;
-                   },
-                   1, 20},
-                  [w, about](double) {
-                    // It shakes about its path: the first of several passages.
-                    long double t = about - 0.5L, end = t;
-                    special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
-                    for (; std::abs(next[0]) < 1 && end < 20;
-                         next = shaken_solution(w, x, t, end)) {
-                      x = next;
-                      t = end;
-                      end = t + 2e-4L;
-                    }
-                    for (long double middle; (middle = (t + end) / 2) > t && middle < end;) {
-                      const special::Numbers there = shaken_solution(w, x, t, middle);
-                      if (std::abs(there[0]) < 1)
-                        x = there, t = middle;
-                      else
-                        end = middle;
-                    }
-                    return rounded({end});
-                  });
+  return times_of(
+      shaken_motion(w, about),
+      {[](ModelRef model, StateRef x) { return std::abs(from_top(model, x)) - 1; }, 1, 20},
+      [w, about](double) {
+        // The first of several passages, for it oscillates about its path.
+        Real t = about - 0.5L, end = t;
+        special::Numbers x = shaken_solution(w, {kFromTop, 0}, 0, t), next = x;
+        for (; std::abs(next[0]) < 1 && end < 20; next = shaken_solution(w, x, t, end)) {
+          x = next;
+          t = end;
+          end = t + 2e-4L;
+        }
+        for (Real middle; (middle = (t + end) / 2) > t && middle < end;) {
+          const special::Numbers there = shaken_solution(w, x, t, middle);
+          if (std::abs(there[0]) < 1)
+            x = there, t = middle;
+          else
+            end = middle;
+        }
+        return values(end);
+      });
 }
 
-// By symmetry the trace is twice where a start at 1 (at rest) is after a period: on the limit at 1.
+// By symmetry the trace is twice the final angle of a period that starts at 1 at rest: on the
+// limit 1.
 TrajectoryCase floquet() {
   static constexpr double small = 1e-5;
   TrajectoryCase c = shaken_motion(kFloquet, 1);
   c.scene = [] { return shaken(kFloquet, small); };
   c.times = {2 * std::numbers::pi / kFloquet};
-  c.readings = {"angle after a period, of the first"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
-    return CaseReadings{from_top(model, x) / small};
-  };
-  c.reference = [](double) { return CaseReadings{1}; };
-  c.lane = rk4_lane(1e-5);
+  c.readings = {"angle after a period, of the initial one"};
+  c.observe = [](ModelRef model, StateRef x) { return values(from_top(model, x) / small); };
+  c.reference = constantly({1});
+  c.integration = rk4_with(1e-5);
   return c;
 }
 

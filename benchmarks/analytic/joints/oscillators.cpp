@@ -1,9 +1,9 @@
 // B6, 1 kg on a spring of 100 N/m. With d = c / 2m, w0^2 = k / m, from x0 at rest:
-//   x = exp(-d t) x0 (C + d S),  C and S cos(w t) and sin(w t)/w, w^2 = w0^2 - d^2; where that is
-//   negative hyperbolic, where it is zero 1 and t.
+//   x = exp(-d t) x0 (C + d S),  C = cos(w t), S = sin(w t)/w, w^2 = w0^2 - d^2; hyperbolic
+//   functions for w^2 < 0; 1 and t for w = 0.
 // Driven by F cos(W t): x = A cos(W t - phi) + a free motion, A (k - m W^2 + i c W) = F e^(i phi).
 // Coulomb friction Fc: half swings about -+ Fc / k, each by 2 Fc / k shorter, until |k x| <= Fc at
-// a turn.
+// a reversal.
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -18,17 +18,16 @@ using namespace smooth_parts;
 constexpr double kStiffness = 100, kDrive = 8, kForce = 5;
 
 CaseScene oscillator(double x0, double damping, double coulomb, double force) {
-  CaseScene scene = start_at(
+  CaseScene scene = not_conserving(start_at(
       one_body(JointType::prismatic, Vector3::UnitX(), {1, Vector3::Zero(), Matrix3::Identity()},
                {0, 0, damping, coulomb, coulomb}),
-      {x0}, {0});
-  scene.conserves = false;
+      {x0}, {0}));
   scene.sources = {std::make_shared<JointEffort>(
       [force](double t, double x) { return force * std::cos(kDrive * t) - kStiffness * x; })};
   return scene;
 }
 
-// x and v, for any start.
+// x and v from any initial state.
 CaseReadings free_motion(double c, double x0, double v0, double t) {
   const double d = c / 2, square = kStiffness - d * d, w = std::sqrt(std::abs(square));
   const double C = square > 0 ? std::cos(w * t) : std::cosh(w * t);
@@ -58,37 +57,37 @@ TrajectoryCase driven() {
   c.reference = [](double t) {
     const std::complex<double> a = response(), now = a * std::polar(1.0, kDrive * t);
     const CaseReadings start = free_motion(2, -a.real(), kDrive * a.imag(), t);
-    return CaseReadings{now.real() + start[0], -kDrive * now.imag() + start[1]};
+    return values(now.real() + start[0], -kDrive * now.imag() + start[1]);
   };
   return c;
 }
 
-// Once the start is forgotten (e^-40): x = A cos(8t - phi), x' = -8 A sin(8t - phi).
+// After the transient (e^-40): x = A cos(8t - phi), x' = -8 A sin(8t - phi).
 TrajectoryCase resonance() {
   TrajectoryCase c = driven();
   c.times = {40};
   c.at_times_only = true;
-  c.readings = {"amplitude [m]", "lag [rad]"};
-  c.observe = [](const Model<double>&, const State<double>& x) {
-    const std::complex<double> turning(x.q[0], -x.qd[0] / kDrive);
-    const std::complex<double> amplitude = turning * std::polar(1.0, -kDrive * 40);
-    return CaseReadings{std::abs(amplitude), -std::arg(amplitude)};
+  c.readings = {"amplitude [m]", "phase lag [rad]"};
+  c.observe = [](ModelRef, StateRef x) {
+    const std::complex<double> phasor(x.q[0], -x.qd[0] / kDrive);
+    const std::complex<double> amplitude = phasor * std::polar(1.0, -kDrive * 40);
+    return values(std::abs(amplitude), -std::arg(amplitude));
   };
-  c.reference = [](double) { return CaseReadings{std::abs(response()), -std::arg(response())}; };
+  c.reference = constantly({std::abs(response()), -std::arg(response())});
   return c;
 }
 
-TrajectoryCase turns() {
+TrajectoryCase reversals() {
   TrajectoryCase c = fading(0);
   c.scene = [] { return oscillator(0.097, 0, 0.5, 0); };
   c.times = {};
   c.readings = {"x [m]"};
-  c.observe = [](const Model<double>&, const State<double>& x) { return x.q; };
+  c.observe = observe(coordinate(0));
   c.reference = [](double n) {
     const double sign = std::fmod(n, 2) == 0 ? 1 : -1;
-    return CaseReadings{n * std::numbers::pi / 10, sign * (0.097 - 0.01 * n)};
+    return values(n * std::numbers::pi / 10, sign * (0.097 - 0.01 * n));
   };
-  c.events = {[](const Model<double>&, const State<double>& x) { return x.qd[0]; }, 9, 4};
+  c.events = {velocity(0), 9, 4};
   return c;
 }
 
@@ -97,7 +96,7 @@ TrajectoryCase stick() {
   c.scene = [] { return oscillator(0.097, 0, 0.5, 0); };
   c.times = {std::numbers::pi, 3.5, 5};
   c.at_times_only = true;  // not before the first
-  c.reference = [](double) { return CaseReadings{-0.003, 0}; };
+  c.reference = constantly({-0.003, 0});
   c.mutant = more_inertia;
   return c;
 }
@@ -111,7 +110,7 @@ CaseFamily oscillators_cases() {
            {"B6-heavy", 1e-8, fading(40)},
            {"B6-driven", 1e-8, driven()},
            {"B6-resonance", 1e-8, resonance()},
-           {"B6-friction", 1e-6, turns()},
+           {"B6-friction", 1e-6, reversals()},
            {"B6-stick", 1e-6, stick()}}};
 }
 

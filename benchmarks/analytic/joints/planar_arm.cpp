@@ -22,9 +22,9 @@ Model<double> model_of(const PlanarArm& arm) {
   return builder.build();
 }
 
-PlanarArmTerms terms_of(const PlanarArm& arm, long double q2, long double qd1, long double qd2) {
-  const long double m1 = arm.m1, m2 = arm.m2, l1 = arm.l1, c1 = arm.c1, c2 = arm.c2;
-  const long double cosine = std::cos(q2), h = m2 * l1 * c2 * std::sin(q2);
+PlanarArmTerms terms_of(const PlanarArm& arm, Real q2, Real qd1, Real qd2) {
+  const Real m1 = arm.m1, m2 = arm.m2, l1 = arm.l1, c1 = arm.c1, c2 = arm.c2;
+  const Real cosine = std::cos(q2), h = m2 * l1 * c2 * std::sin(q2);
   return {.M11 = arm.I1 + m1 * c1 * c1 + arm.I2 + m2 * (l1 * l1 + c2 * c2 + 2 * l1 * c2 * cosine),
           .M12 = arm.I2 + m2 * (c2 * c2 + l1 * c2 * cosine),
           .M22 = arm.I2 + m2 * c2 * c2,
@@ -44,12 +44,12 @@ constexpr int kArmStates = 10;
 struct ArmState {
   double q1, q2, qd1, qd2, tau1, tau2;
 };
-ArmState arm_state(int n) {  // all over the place
+ArmState arm_state(int n) {  // well distributed
   return {3 * std::sin(3. * n + 1), 3 * std::sin(5. * n + 2),   4 * std::sin(7. * n + 3),
           6 * std::sin(11. * n),    20 * std::sin(13. * n + 5), 10 * std::sin(17. * n + 6)};
 }
 
-// What each state gives, one after the other.
+// Readings of all states, concatenated.
 template <class F>
 CaseReadings in_all_states(F&& readings) {
   CaseReadings all;
@@ -70,8 +70,8 @@ State<double> state_of(const Model<double>& model, const ArmState& s) {
   return x;
 }
 
-// The lower link's centre of mass 0.1 % further out.
-void further_out(CaseScene& scene) {
+// Mutant: the centre of mass of link 2 0.1 % further out.
+void shift_com(CaseScene& scene) {
   scene.model.I.back().h = 1.001 * scene.model.I.back().h;
 }
 
@@ -80,13 +80,13 @@ TrajectoryCase arm_case(const std::vector<std::string>& readings, ArmReadings se
                         CaseReadings (*exact)(const ArmState& s, const PlanarArmTerms& terms)) {
   TrajectoryCase c =
       evaluation([] { return at_rest(model_of({})); }, names_in_all_states(readings),
-                 [seen](const Model<double>& model, const State<double>&) {
+                 [seen](ModelRef model, StateRef) {
                    return in_all_states([&](const ArmState& s) { return seen(model, s); });
                  },
                  in_all_states([exact](const ArmState& s) {
                    return exact(s, terms_of({}, s.q2, s.qd1, s.qd2));
                  }));
-  c.mutant = further_out;
+  c.mutant = shift_com;
   return c;
 }
 CaseReadings torques_at_rate(const Model<double>& model, const ArmState& s) {
@@ -98,18 +98,17 @@ TrajectoryCase arm_mass_matrix() {
       {"M11 [kg m^2]", "M12 [kg m^2]", "M22 [kg m^2]"},
       [](const Model<double>& model, const ArmState& s) {
         const Eigen::MatrixXd M = mass_matrix(model, state_of(model, s));
-        return CaseReadings{M(0, 0), M(0, 1), M(1, 1)};
+        return values(M(0, 0), M(0, 1), M(1, 1));
       },
       [](const ArmState&, const PlanarArmTerms& terms) {
-        return rounded({terms.M11, terms.M12, terms.M22});
+        return values(terms.M11, terms.M12, terms.M22);
       });
 }
 
 TrajectoryCase velocity_terms() {
-  return arm_case({"C1 [N m]", "C2 [N m]"}, torques_at_rate,
-                  [](const ArmState&, const PlanarArmTerms& terms) {
-                    return rounded({terms.C1, terms.C2});
-                  });
+  return arm_case(
+      {"C1 [N m]", "C2 [N m]"}, torques_at_rate,
+      [](const ArmState&, const PlanarArmTerms& terms) { return values(terms.C1, terms.C2); });
 }
 
 TrajectoryCase arm_accelerations() {
@@ -124,7 +123,7 @@ TrajectoryCase arm_accelerations() {
       },
       [](const ArmState& s, const PlanarArmTerms& terms) {
         const special::Two qdd = accelerations_of(terms, {s.tau1, s.tau2});
-        return rounded({qdd.first, qdd.second});
+        return values(qdd.first, qdd.second);
       });
 }
 
@@ -134,11 +133,9 @@ TrajectoryCase no_weight() {
       [](const Model<double>& model, const ArmState& s) {
         return torques_at_rate(model, {s.q1, s.q2, 0, 0, 0, 0});
       },
-      [](const ArmState&, const PlanarArmTerms&) {
-        return CaseReadings{0, 0};
-      });
+      [](const ArmState&, const PlanarArmTerms&) { return values(0, 0); });
   c.measure = max_difference;
-  c.mutant = [](CaseScene& scene) { scene.model.gravity.x = 1e-3 * kGravity; };  // it leans
+  c.mutant = [](CaseScene& scene) { scene.model.gravity.x = 1e-3 * kGravity; };
   return c;
 }
 

@@ -1,7 +1,7 @@
-// F1: the PUMA 560, built here from its table of Denavit-Hartenberg parameters (Armstrong, Khatib,
-// Burdick 1986; Corke, Armstrong-Helouvry 1994): A_i = Rz(q_i) Tz(d_i) Tx(a_i) Rx(alpha_i). Gravity
-// loads, mass matrix, inverse and forward dynamics against values of another code, and against the
-// digits that the Robotics Toolbox publishes.
+// F1: the PUMA 560 from its Denavit-Hartenberg parameters (Armstrong, Khatib, Burdick 1986; Corke,
+// Armstrong-Helouvry 1994): A_i = Rz(q_i) Tz(d_i) Tx(a_i) Rx(alpha_i). Gravity loads, mass matrix,
+// inverse and forward dynamics against an independent code, and against the digits that the
+// Robotics Toolbox publishes.
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -20,7 +20,7 @@ using puma560::Joints;
 
 struct PumaLink {
   double a, d;                // [m]
-  int alpha;                  // quarter turns
+  int alpha;                  // [90 degrees]
   double mass;                // [kg]
   std::array<double, 3> com;  // in frame i [m]
   std::array<double, 3> I;    // about it, axes of frame i [kg m^2]
@@ -34,9 +34,9 @@ constexpr std::array<PumaLink, 6> kPumaLinks{{
     {0, 0, 0, 0.09, {0, 0, 0.032}, {0.15e-3, 0.15e-3, 0.04e-3}},
 }};
 struct PumaMotor {
-  double inertia, gear;  // before the gear [kg m^2]; its ratio, without sign
-  double viscous;        // before the gear [N m s/rad]
-  double plus, minus;    // Coulomb friction there, by the sign of the joint's rate [N m]
+  double inertia, gear;  // of the motor [kg m^2]; gear ratio without sign
+  double viscous;        // friction of the motor [N m s/rad]
+  double plus, minus;    // its Coulomb friction, by the sign of the joint velocity [N m]
 };
 constexpr std::array<PumaMotor, 6> kPumaMotors{{
     {200e-6, 62.6111, 1.48e-3, 0.395, 0.435},
@@ -47,8 +47,8 @@ constexpr std::array<PumaMotor, 6> kPumaMotors{{
     {33e-6, 76.686, 36.7e-6, 3.96e-3, 10.5e-3},
 }};
 
-// A joint turns first and shifts afterwards: link i is frame i-1 turned by q_i, and the fixed rest
-// of A_i carries the inertia of frame i and the next joint.
+// Link i is frame i-1 rotated by q_i; the constant rest of A_i is the pose of frame i, to which the
+// inertia and the next joint refer.
 Model<double> puma() {
   ModelBuilder builder;
   int parent = 0;
@@ -110,7 +110,7 @@ Model<double> links_alone(const Model<double>& model) {
   std::fill(bare.armature.begin(), bare.armature.end(), 0);
   return bare;
 }
-// By the solver's own joint friction.
+// With the solver's joint friction.
 std::vector<double> puma_accelerations(const Model<double>& model) {
   const State<double> x = puma_state(model, puma560::kNominal, puma560::kRate);
   Forces<double> forces(model);
@@ -121,7 +121,7 @@ std::vector<double> puma_accelerations(const Model<double>& model) {
   return w.qdd;
 }
 
-// The largest of what each six are off, of the largest of the six.
+// Maximum over groups of six readings of relative_to_largest().
 double relative_by_six(const CaseReadings& seen, const CaseReadings& exact) {
   if (seen.size() != exact.size() || seen.size() % 6 != 0)
     return std::numeric_limits<double>::quiet_NaN();
@@ -145,9 +145,7 @@ std::vector<std::string> puma_names(const std::vector<std::string>& rows, const 
 using PumaReadings = CaseReadings (*)(const Model<double>& model);
 TrajectoryCase puma_case(std::vector<std::string> readings, PumaReadings seen, CaseReadings exact,
                          CaseMeasure measure = relative_by_six) {
-  const CaseObserver observe = [seen](const Model<double>& model, const State<double>&) {
-    return seen(model);
-  };
+  const CaseObserver observe = [seen](ModelRef model, StateRef) { return seen(model); };
   return evaluation([] { return at_rest(puma()); }, std::move(readings), observe, std::move(exact),
                     measure);
 }
@@ -210,7 +208,7 @@ TrajectoryCase puma_forward() {
       joined({values_of(puma560::kAcceleration), values_of(puma560::kAccelerationNoFriction)}));
 }
 
-// rne from rest, moving; accel. And the unit of the last digit of each.
+// Published rne from rest, rne moving, accel; and the unit of the last digit of each.
 constexpr std::array<double, 18> kPublished{
     3.35311, 36.0025, 7.42596,  0.190043, 0.203441, 0.194133, 32.4952, 60.867,  17.7436,
     1.45452, 1.29911, 0.713781, -7.4102,  -9.8432,  -10.9694, -4.4314, -0.9881, 21.0228};

@@ -1,9 +1,9 @@
 // Reference values of the PUMA 560 (F1, assets/robots/puma560), g = 9.81 m/s^2 along -z of the
 // base.
 //
-// Computed by a Newton-Euler code of its own, in more digits than double has; every digit that the
-// Robotics Toolbox publishes (5 or 6 of rne and accel) agrees. Names as there: rne(q, qd, qdd) is
-// inverse dynamics. Units: rad, rad/s^2, N m, kg m^2.
+// Computed by an independent Newton-Euler code in more than double precision; all digits that the
+// Robotics Toolbox publishes (5 or 6 of rne and accel) agree. rne(q, qd, qdd) is its inverse
+// dynamics. Units: rad, rad/s^2, N m, kg m^2.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ using Joints = std::array<double, 6>;
 inline constexpr double kPi = 3.14159265358979323846;
 inline constexpr Joints kNominal{0, kPi / 4, kPi, 0, kPi / 4, 0};  // "qn"
 
-// Gravity loads. Joint 5 carries m6 g 0.032 m where the flange lies level (qn, qs), else nothing.
+// Gravity loads. That of joint 5 is m6 g 0.032 m for a horizontal flange axis (qn, qs), else zero.
 struct GravityLoad {
   Joints q;
   Joints tau;
@@ -30,7 +30,7 @@ inline constexpr GravityLoad kGravityLoads[] = {
 inline constexpr Joints kArmature{0.784029968642,   2.324814845,         0.576873331938,
                                   0.19079062612368, 0.17070629165700002, 0.19406450566800004};
 
-// Mass matrix at qn, armature included: its diagonal, and three of the entries beside it.
+// Mass matrix at qn with armature: diagonal and three other entries.
 inline constexpr Joints kMassDiagonal{3.65937541215279, 4.413741933635791,   0.9378415752150396,
                                       0.19253170612368, 0.17134845165700002, 0.19410450566800005};
 inline constexpr double kM12 = -0.4043612460415188;

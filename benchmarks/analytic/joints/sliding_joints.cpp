@@ -1,9 +1,8 @@
-// B4, a screw on a vertical axis, p = 0.1 m / 2 pi, 2 kg, 0.05 kg m^2: q'' = m g p / (I + m p^2),
-// held by m g p; with damping b the rate tends to m g p / b.
-// B5, 2 kg on an incline of 30 degrees with damping c: x = v (t - T (1 - exp(-t/T))), T = m / c,
-// v = m g sin 30 / c.
-// B9, cylindrical, planar and free joints: each coordinate for itself, parabolas in time, on which
-// every scheme of second order is exact.
+// B4, a screw joint on a vertical axis, p = 0.1 m / 2 pi, 2 kg, 0.05 kg m^2: q'' = m g p / (I + m
+// p^2), holding torque m g p; with damping b the rate tends to m g p / b. B5, 2 kg on an incline of
+// 30 degrees with damping c: x = v (t - T (1 - exp(-t/T))), T = m / c, v = m g sin 30 / c. B9,
+// cylindrical, planar and free joints: uncoupled coordinates, parabolas in time, for which every
+// second-order scheme is exact.
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -18,7 +17,7 @@ using namespace smooth_parts;
 
 constexpr double kPitch = 0.1 / (2 * std::numbers::pi), kSlidingMass = 2, kScrewInertia = 0.05;
 
-// Its axis points down: gravity turns it forward.
+// The axis points down: gravity drives it forward.
 CaseScene screw(double damping) {
   return at_rest(one_body(JointType::screw, -Vector3::UnitZ(),
                           {kSlidingMass, Vector3::Zero(), kScrewInertia * Matrix3::Identity()},
@@ -29,15 +28,15 @@ TrajectoryCase screw_at_rest() {
   const double qdd =
       kSlidingMass * kGravity * kPitch / (kScrewInertia + kSlidingMass * kPitch * kPitch);
   return evaluation([] { return screw(0); },
-                    {"turning [rad/s2]", "sinking [m/s2]", "holding torque [N m]"},
-                    [](const Model<double>& model, const State<double>& x) {
+                    {"rotation [rad/s2]", "translation [m/s2]", "holding torque [N m]"},
+                    [](ModelRef model, StateRef x) {
                       const Workspace<double> w = evaluate(model, x);
-                      return CaseReadings{w.qdd[0], -point_acceleration(model, w, 1, {}).z,
-                                          -inverse_dynamics(model, x, {0})[0]};
+                      return values(w.qdd[0], -point_acceleration(model, w, 1, {}).z,
+                                    -inverse_dynamics(model, x, {0})[0]);
                     },
                     {qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch}, relative_each);
 }
-// Accelerations at rest and at a rate, in which they are linear.
+// Accelerations at rest and at a rate, of which they are a linear function.
 std::array<double, 2> accelerations(const Model<double>& model, const State<double>& x,
                                     double rate) {
   State<double> moving = x;
@@ -45,12 +44,12 @@ std::array<double, 2> accelerations(const Model<double>& model, const State<doub
   return {evaluate(model, x).qdd[0], evaluate(model, moving).qdd[0]};
 }
 
-// With damping: the rate at which nothing accelerates, and how it is come near.
+// Damped: terminal rate, and the approach to it.
 TrajectoryCase screw_terminal() {
   return evaluation([] { return screw(0.01); }, {"terminal rate [rad/s]"},
-                    [](const Model<double>& model, const State<double>& x) {
+                    [](ModelRef model, StateRef x) {
                       const auto [rest, fast] = accelerations(model, x, 32);
-                      return CaseReadings{32 * rest / (rest - fast)};
+                      return values(32 * rest / (rest - fast));
                     },
                     {kSlidingMass * kGravity * kPitch / 0.01}, relative_each);
 }
@@ -59,37 +58,34 @@ TrajectoryCase screw_motion() {
   c.scene = [] { return not_conserving(screw(0.01)); };
   c.times = {1, 10, 30};
   c.readings = {"rate [rad/s]"};
-  c.observe = [](const Model<double>&, const State<double>& x) { return x.qd; };
+  c.observe = observe(velocity(0));
   c.reference = [](double t) {
     const double T = (kScrewInertia + kSlidingMass * kPitch * kPitch) / 0.01;
-    return CaseReadings{kSlidingMass * kGravity * kPitch / 0.01 * -std::expm1(-t / T)};
+    return values(kSlidingMass * kGravity * kPitch / 0.01 * -std::expm1(-t / T));
   };
   c.measure = max_difference;
   return c;
 }
 
 TrajectoryCase incline() {
-  return {.scene =
-              [] {
-                return not_conserving(
-                    at_rest(one_body(JointType::prismatic, {std::sqrt(3.0) / 2, 0, -0.5},
-                                     {2, Vector3::Zero(), Matrix3::Identity()}, {0, 0, 0.8})));
-              },
+  const BodyInertia body{2, Vector3::Zero(), Matrix3::Identity()};
+  const Vector3 downhill(std::sqrt(3.0) / 2, 0, -0.5);
+  return {.scene = fixed(
+              not_conserving(at_rest(one_body(JointType::prismatic, downhill, body, {0, 0, 0.8})))),
           .times = {0.5, 2, 10},
           .readings = {"x [m]", "v [m/s]"},
           .observe = joint_state(),
-          .reference =
-              [](double t) {
-                const double T = 2 / 0.8, v = kGravity / 2 * T, gone = -std::expm1(-t / T);
-                return CaseReadings{v * (t - T * gone), v * gone};
-              }};
+          .reference = [](double t) {
+            const double T = 2 / 0.8, v = kGravity / 2 * T, part = -std::expm1(-t / T);
+            return values(v * (t - T * part), v * part);
+          }};
 }
 TrajectoryCase incline_start() {
   return evaluation(
       incline().scene, {"start [m/s2]", "terminal speed [m/s]"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         const auto [rest, fast] = accelerations(model, x, 10);
-        return CaseReadings{rest, 10 * rest / (rest - fast)};
+        return values(rest, 10 * rest / (rest - fast));
       },
       {4.905, 12.2625}, relative_each);
 }
@@ -97,74 +93,52 @@ TrajectoryCase incline_start() {
 // ---- B9 ----
 
 TrajectoryCase cylindrical() {
-  return {.scene =
-              [] {
-                CaseScene scene =
-                    at_rest(one_body(JointType::cylindrical, Vector3::UnitZ(),
-                                     {1.5, Vector3::Zero(), 0.02 * Matrix3::Identity()}));
-                scene.conserves = false;
-                scene.sources = {std::make_shared<JointEffort>([](double, double) { return 0.3; })};
-                return scene;
-              },
+  CaseScene scene =
+      not_conserving(at_rest(one_body(JointType::cylindrical, Vector3::UnitZ(),
+                                      {1.5, Vector3::Zero(), 0.02 * Matrix3::Identity()})));
+  scene.sources = {std::make_shared<JointEffort>([](double, double) { return 0.3; })};
+  return {.scene = fixed(scene),
           .times = {1},
           .readings = {"angle [rad]", "z [m]", "rate [rad/s]", "speed [m/s]"},
           .observe = joint_state(),
           .reference =
               [](double t) {
-                return CaseReadings{7.5 * t * t, -kGravity / 2 * t * t, 15 * t, -kGravity * t};
+                return values(7.5 * t * t, -kGravity / 2 * t * t, 15 * t, -kGravity * t);
               },
           .measure = relative_to_largest};
 }
 
 TrajectoryCase planar() {
-  return {
-      .scene =
-          [] {
-            const double slope = 20 * kDegree;
-            return start_at(one_body(JointType::planar, {std::sin(slope), 0, std::cos(slope)},
-                                     {1, Vector3::Zero(), 0.1 * Matrix3::Identity()}),
-                            {0, 0, 0}, {1, 2, 3});
-          },
-      .times = {3},
-      .readings = {"x [m]", "y [m]", "angle [rad]"},
-      .observe = [](const Model<double>&, const State<double>& x) { return x.q; },
-      .reference =
-          [](double t) {
-            return CaseReadings{t + kGravity * std::sin(20 * kDegree) / 2 * t * t, 2 * t, 3 * t};
-          },
-      .measure = relative_to_largest};
-}
-
-TrajectoryCase thrown() {
-  return {.scene =
-              [] {
-                return start_at(
-                    one_body(JointType::free, Vector3::UnitZ(),
-                             {1, Vector3::Zero(), Vector3(0.1, 0.2, 0.25).asDiagonal()}),
-                    {0, 0, 1, 1, 0, 0, 0}, {0, 0, 0, 3, 0, 4});
-              },
-          .times = {1.5},
-          .readings = {"x [m]", "y [m]", "z [m]"},
-          .observe =
-              [](const Model<double>&, const State<double>& x) {
-                return CaseReadings{x.q[0], x.q[1], x.q[2]};
-              },
+  const double slope = 20 * kDegree;
+  const Vector3 normal(std::sin(slope), 0, std::cos(slope));
+  const BodyInertia body{1, Vector3::Zero(), 0.1 * Matrix3::Identity()};
+  return {.scene = fixed(start_at(one_body(JointType::planar, normal, body), {0, 0, 0}, {1, 2, 3})),
+          .times = {3},
+          .readings = {"x [m]", "y [m]", "angle [rad]"},
+          .observe = [](ModelRef, StateRef x) { return x.q; },
           .reference =
               [](double t) {
-                return CaseReadings{3 * t, 0, 1 + 4 * t - kGravity / 2 * t * t};
+                return values(t + kGravity * std::sin(20 * kDegree) / 2 * t * t, 2 * t, 3 * t);
               },
           .measure = relative_to_largest};
 }
 
-TrajectoryCase by(Lane lane, TrajectoryCase c) {
-  c.lane = lane;
-  return c;
+TrajectoryCase thrown() {
+  const BodyInertia body{1, Vector3::Zero(), Vector3(0.1, 0.2, 0.25).asDiagonal()};
+  return {.scene = fixed(start_at(one_body(JointType::free, Vector3::UnitZ(), body),
+                                  {0, 0, 1, 1, 0, 0, 0}, {0, 0, 0, 3, 0, 4})),
+          .times = {1.5},
+          .readings = {"x [m]", "y [m]", "z [m]"},
+          .observe = [](ModelRef, StateRef x) { return values(x.q[0], x.q[1], x.q[2]); },
+          .reference = [](double t) { return values(3 * t, 0, 1 + 4 * t - kGravity / 2 * t * t); },
+          .measure = relative_to_largest};
 }
 
 }  // namespace
 
 CaseFamily sliding_joints_cases() {
-  const Lane verlet{Integrator::verlet, 1e-2};
+  TrajectoryCase verlet = planar();
+  verlet.integration = {Integrator::verlet, 1e-2};
   return {70,
           {{"B4", 1e-12, screw_at_rest()},
            {"B4-terminal", 1e-12, screw_terminal()},
@@ -174,7 +148,7 @@ CaseFamily sliding_joints_cases() {
            {"B9-cylindrical", 1e-12, cylindrical()},
            {"B9-planar", 1e-12, planar()},
            {"B9-free", 1e-12, thrown()},
-           {"B9-verlet", 1e-12, by(verlet, planar())}}};
+           {"B9-verlet", 1e-12, verlet}}};
 }
 
 }  // namespace twinarm

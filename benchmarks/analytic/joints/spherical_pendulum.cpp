@@ -2,36 +2,34 @@
 // With E = v^2/2 + g z and L = x vy - y vx, for 1 kg:
 //   z'^2 = 2 (E - g z)(1 - z^2) - L^2 = 2 g (z - z1)(z2 - z)(z3 - z),
 //   z = z1 + (z2 - z1) cd^2(k t, m),  k = sqrt(g (z3 - z1) / 2),  m = (z2 - z1) / (z3 - z1),
-// from its highest point; the azimuth turns at L / (1 - z^2). Near the conical pendulum, tilt a,
-// W^2 = g / cos a, small swings have w^2 = W^2 (1 + 3 cos^2 a).
+// from its highest point; the rate of the azimuth is L / (1 - z^2). About the conical pendulum,
+// angle a, W^2 = g / cos a, small oscillations have w^2 = W^2 (1 + 3 cos^2 a).
 #include <cmath>
 
 #include "benchmarks/analytic/support/reference_math.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "solver/dynamics/kinematics.h"
 
 namespace twinarm {
 namespace {
 
 using namespace smooth_parts;
-using Real = long double;
 
 const Vector3 kRod(0, 0, -1);
 
-// On a ball joint the rod must not be without inertia about itself, of which the motion knows
-// nothing: it has no spin. On a universal joint, x then y, a point is enough.
+// On a spherical joint the rod needs an inertia about its axis, on which the motion does not
+// depend, as there is no spin. On a universal joint, x then y, a point mass is enough.
 Model<double> on(JointType type) {
   const double about_rod = type == JointType::spherical ? 0.1 : 0;
   return one_body(type, Vector3::UnitX(), {1, kRod, Vector3(0, 0, about_rod).asDiagonal()});
 }
 
-// In the x-z plane at this tilt, going round at `turning`.
-CaseScene start(JointType type, double tilt, double turning) {
+// In the x-z plane at an angle `tilt`, circling at `rate`.
+CaseScene start(JointType type, double tilt, double rate) {
   const double s = std::sin(tilt), c = std::cos(tilt);
-  if (type == JointType::universal) return start_at(on(type), {0, -tilt}, {turning * s / c, 0});
-  // Turned about -y by the tilt; rate in body axes, without a part along the rod:
-  // w x p = v with v = (0, turning s, 0).
-  const Vector3 p(s, 0, -c), w = p.cross(Vector3(0, turning * s, 0));
+  if (type == JointType::universal) return start_at(on(type), {0, -tilt}, {rate * s / c, 0});
+  // Rotated about -y by the tilt; angular velocity in body axes without a component along the rod:
+  // w x p = v with v = (0, rate s, 0).
+  const Vector3 p(s, 0, -c), w = p.cross(Vector3(0, rate * s, 0));
   const Eigen::Quaterniond R(Eigen::AngleAxisd(-tilt, Vector3::UnitY()));
   const Vector3 w_B = R.inverse() * w;
   return start_at(on(type), {R.w(), R.x(), R.y(), R.z()}, {w_B.x(), w_B.y(), w_B.z()});
@@ -39,10 +37,10 @@ CaseScene start(JointType type, double tilt, double turning) {
 
 struct ConeMotion {
   Real g = 9.81L, L, z1, z2, z3, k, m;
-  ConeMotion(Real tilt, Real turning) {
-    const Real s = std::sin(tilt), v2 = turning * turning * s * s;
+  ConeMotion(Real tilt, Real rate) {
+    const Real s = std::sin(tilt), v2 = rate * rate * s * s;
     z2 = -std::cos(tilt);
-    L = turning * s * s;
+    L = rate * s * s;
     const Real E = v2 / 2 + g * z2;
     const Real half = (E / g - z2) / 2, product = (L * L - 2 * E) / (2 * g) / z2;
     z3 = half + std::sqrt(half * half - product);
@@ -60,11 +58,11 @@ struct ConeMotion {
   }
   CaseReadings place(Real t) const {
     const Real z = height(t), vz = height_rate(t), r = std::sqrt(1 - z * z);
-    const auto turning = [this](Real s) {
+    const auto azimuth_rate = [this](Real s) {
       const Real at = height(s);
       return L / (1 - at * at);
     };
-    const Real a = special::integral(turning, 0, t), vr = -z * vz / r, va = L / r;
+    const Real a = special::integral(azimuth_rate, 0, t), vr = -z * vz / r, va = L / r;
     const Real c = std::cos(a), s = std::sin(a);
     return {double(r * c),           double(r * s),           double(z),
             double(vr * c - va * s), double(vr * s + va * c), double(vz)};
@@ -72,11 +70,13 @@ struct ConeMotion {
   Real half_period() const { return special::quarter_period(m) / k; }
 };
 
-CaseReadings observe_place(const Model<double>& model, const State<double>& x) {
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+CaseReadings observe_place(ModelRef model, StateRef x) {
+  const Kinematics k = kinematics_at(model, x);
   const Vector3 p = k.position(1, kRod), v = k.velocity(1, p);
   return {p.x(), p.y(), p.z(), v.x(), v.y(), v.z()};
+}
+double vertical_velocity(ModelRef model, StateRef x) {
+  return observe_place(model, x)[5];
 }
 const ConeMotion& wide() {
   static const ConeMotion motion(std::acos(-1.0L) / 3, 2);
@@ -91,42 +91,40 @@ TrajectoryCase cone_swing(JointType type) {
           .reference = [](double t) { return wide().place(t); }};
 }
 
-// Lowest at half a period, at the height of the start after a whole one, further round.
+// Lowest at half a period, at the initial height after a whole one.
 TrajectoryCase cone_bounds() {
   TrajectoryCase c = cone_swing(JointType::spherical);
   c.times = {};
   c.readings = {"x [m]", "y [m]", "z [m]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const CaseReadings all = observe_place(model, x);
     return CaseReadings(all.begin(), all.begin() + 3);
   };
   c.reference = [](double n) {
     const Real t = wide().half_period() * Real(n);
     const CaseReadings all = wide().place(t);
-    return rounded({t, all[0], all[1], all[2]});
+    return values(t, all[0], all[1], all[2]);
   };
-  c.events = {
-      [](const Model<double>& model, const State<double>& x) { return observe_place(model, x)[5]; },
-      2, 3};
+  c.events = {vertical_velocity, 2, 3};
   return c;
 }
 
 TrajectoryCase momentum_kept() {
   TrajectoryCase c = cone_swing(JointType::spherical);
   c.readings = {"Lz [N m s]"};
-  c.observe = [](const Model<double>& model, const State<double>& x) {
+  c.observe = [](ModelRef model, StateRef x) {
     const CaseReadings p = observe_place(model, x);
-    // About the vertical, of the body: its point mass alone has any.
-    return CaseReadings{model.I[1].m * (p[0] * p[4] - p[1] * p[3])};
+    // About the vertical, of the point mass.
+    return values(model.I[1].m * (p[0] * p[4] - p[1] * p[3]));
   };
-  c.reference = [](double) { return CaseReadings{1.5}; };
-  c.lane = dopri5_lane(1e-13);
+  c.reference = constantly({1.5});
+  c.integration = dopri5_with(1e-13);
   c.mutant = more_inertia;
   return c;
 }
 
 const double kCone = 30 * kDegree, kRound = std::sqrt(kGravity / std::cos(kCone));
-constexpr double kAside = 1e-5;  // its square is beyond the tolerance
+constexpr double kDeviation = 1e-5;  // its square is below the tolerance
 
 TrajectoryCase conical() {
   TrajectoryCase c = cone_swing(JointType::spherical);
@@ -134,28 +132,22 @@ TrajectoryCase conical() {
   c.reference = [](double t) {
     const double r = std::sin(kCone), z = -std::cos(kCone), C = std::cos(kRound * t);
     const double S = std::sin(kRound * t), v = kRound * r;
-    return CaseReadings{r * C, r * S, z, -v * S, v * C, 0};
+    return values(r * C, r * S, z, -v * S, v * C, 0);
   };
   return c;
 }
 
-// The same angular momentum, a little aside: it swings about the cone.
+// The same angular momentum at a slightly larger angle: oscillates about the cone.
 TrajectoryCase near_conical() {
   TrajectoryCase c = conical();
   c.scene = [] {
-    const double ratio = std::sin(kCone) / std::sin(kCone + kAside);
-    return start(JointType::spherical, kCone + kAside, kRound * ratio * ratio);
+    const double ratio = std::sin(kCone) / std::sin(kCone + kDeviation);
+    return start(JointType::spherical, kCone + kDeviation, kRound * ratio * ratio);
   };
-  return times_of(c,
-                  {[](const Model<double>& model, const State<double>& x) {
-                     return observe_place(model, x)[5];
-                   },
-                   4, 5},
-                  [](double n) {
-                    const double cone_swing =
-                        kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
-                    return CaseReadings{n * std::acos(-1.0) / cone_swing};
-                  });
+  return times_of(c, {vertical_velocity, 4, 5}, [](double n) {
+    const double w = kRound * std::sqrt(1 + 3 * std::cos(kCone) * std::cos(kCone));
+    return values(n * std::acos(-1.0) / w);
+  });
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // B8, Hooke's joint between shafts at an angle b: tan(out) = tan(in) / cos b, so that
 //   out' / in' = cos b / (cos^2(in) cos^2 b + sin^2(in)),   from cos b to 1 / cos b,
-// where at in = 0 the input's pin lies in the plane of the shafts. And a plate of 1 m x 0.6 m, 1
-// kg, hung by the middle of its short edge: w^2 = m g (1/2) / I about either axis of the joint.
+// with the input's pin in the plane of the shafts at in = 0. And a plate of 1 m x 0.6 m, 1 kg, on a
+// universal joint at the middle of its short edge: w^2 = m g (1/2) / I about each axis.
 #include <cmath>
 
 #include "benchmarks/analytic/support/smooth_parts.h"
@@ -16,14 +16,14 @@ using namespace smooth_parts;
 
 constexpr double kAngle = 30 * kDegree;
 
-// The input shaft leans by b; the output shaft, which the loop keeps on the world's z, is carried
-// by the input through a universal joint whose pins are x of the one and y of the other.
+// The input shaft is inclined by b; the output shaft, kept on the world's z by a loop, is its child
+// through a universal joint whose axes are x of the input and y of the output.
 Model<double> shafts(double angle) {
   const BodyInertia some{1, Vector3::Zero(), 0.1 * Matrix3::Identity()};
   ModelBuilder builder;
-  const Matrix3 leaning = Eigen::AngleAxisd(-angle, Vector3::UnitY()).toRotationMatrix();
+  const Matrix3 inclined = Eigen::AngleAxisd(-angle, Vector3::UnitY()).toRotationMatrix();
   const int input = builder.add_body("input", 0, "bearing", JointType::revolute,
-                                     {leaning, Vector3::Zero()}, Vector3::UnitZ(), some);
+                                     {inclined, Vector3::Zero()}, Vector3::UnitZ(), some);
   builder.add_body("output", input, "hooke", JointType::universal, {}, Vector3::UnitX(), some);
   return builder.build();
 }
@@ -39,8 +39,7 @@ Output output(const Model<double>& model, const State<double>& start, double inp
   State<double> x = start;
   x.q[0] = input;
   x = close_loops(model, loops, std::move(x));
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
+  Kinematics k = kinematics_at(model, x);
   LoopClosures bearing(model, {loops[0]});
   bearing.evaluate(x, k);
   const Eigen::VectorXd rates = min_solution(bearing.J().rightCols(2), -bearing.J().col(0));
@@ -56,10 +55,10 @@ TrajectoryCase hooke() {
   TrajectoryCase all = evaluation(
       [] { return at_rest(shafts(kAngle)); },
       {"angle out at 30 degrees in [rad]", "ratio there", "ratio at 0", "ratio at 90 degrees"},
-      [](const Model<double>& model, const State<double>& x) {
+      [](ModelRef model, StateRef x) {
         const Output at_30 = output(model, x, 30 * kDegree);
-        return CaseReadings{at_30.angle, at_30.ratio, output(model, x, 0).ratio,
-                            output(model, x, 90 * kDegree).ratio};
+        return values(at_30.angle, at_30.ratio, output(model, x, 0).ratio,
+                      output(model, x, 90 * kDegree).ratio);
       },
       {std::atan(std::tan(in) / c), c / (C * C + S * S), 1 / c, c}, relative_each);
   all.mutant = [](CaseScene& scene) { scene.model = shafts(1.001 * kAngle); };

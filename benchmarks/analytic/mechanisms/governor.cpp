@@ -1,7 +1,8 @@
-// D5: stiff flyball governor. A shaft turns about z; two rods of 1 m hang 1 m up, 0.05 m beside its
-// axis, with 5 kg at their ends; couplers of 0.5 m go from their middles to the sides of a slider
-// on the shaft, at height s. Start: rods 30 degrees below the horizontal, s = 0.5 m, 2 pi rad/s.
-// Rods and shaft are bars of 1 x 0.01 x 0.01 m, the slider a cube of 0.1 m, of 3000 kg/m^3.
+// D5: stiff flyball governor. A shaft rotates about z; two rods of 1 m are hinged to it at height 1
+// m, 0.05 m from its axis, with 5 kg at their ends; couplers of 0.5 m connect their centres with
+// the sides of a slider on the shaft at height s. Start: rods 30 degrees below the horizontal, s =
+// 0.5 m, 2 pi rad/s. Rods and shaft are bars of 1 x 0.01 x 0.01 m, the slider a cube of 0.1 m, 3000
+// kg/m^3.
 #include <array>
 #include <numbers>
 
@@ -16,10 +17,10 @@ namespace {
 using namespace loop_parts;
 
 constexpr double k_coupler = 8e5, b_coupler = 4e4, rest_length = 0.5;
-const Vector3 kRodMiddle(0.5, 0, 0);  // of a rod, in its own axes
-constexpr double kSide = 0.05;        // of the slider and of the hinges, from the axis
+const Vector3 kRodMiddle(0.5, 0, 0);  // in link axes
+constexpr double kSide = 0.05;        // of slider and hinges from the axis
 
-// Both couplers, as forces along the lines between their ends.
+// Both couplers as forces along the lines between their ends.
 struct CouplerForces final : ForceSource, Checkpointable {
   std::array<int, 2> rods;
   int slider;
@@ -40,8 +41,8 @@ struct CouplerForces final : ForceSource, Checkpointable {
   }
 };
 
-// Both as struts that get longer by a prismatic joint, at whose end of step the force is taken:
-// F = -k (x + h v') - b v', v' = v + h qdd, so that h b + h^2 k is an armature
+// Both as struts with a prismatic joint whose force is evaluated at the end of the step:
+// F = -k (x + h v') - b v', v' = v + h qdd: h b + h^2 k is an added armature
 // (solver/forces/spring.h).
 struct StrutSprings final : ForceSource {
   std::array<std::size_t, 2> dofs;
@@ -105,12 +106,12 @@ LoopCase governor(Couplers couplers) {
     end.X_LbC.p.x() = side == 0 ? kSide : -kSide;
     end.length = rest_length;
     if (couplers == Couplers::implicit_struts) {
-      // Turned on the rod so that its x points to the slider when both lie 30 degrees off the
-      // horizontal, on either side of it.
+      // Rotated so that its x points to the slider when rod and strut are 30 degrees below and
+      // above the horizontal.
       const BodyInertia light{1e-6, Vector3::Zero(), 1e-6 * Matrix3::Identity()};
-      const int turn = builder.add_body("pin" + n, rods[side], "pin" + n, JointType::revolute,
-                                        at(0.5, 0, 0), Vector3::UnitY(), light);
-      const int tip = builder.add_body("strut" + n, turn, "strut" + n, JointType::prismatic,
+      const int pin = builder.add_body("pin" + n, rods[side], "pin" + n, JointType::revolute,
+                                       at(0.5, 0, 0), Vector3::UnitY(), light);
+      const int tip = builder.add_body("strut" + n, pin, "strut" + n, JointType::prismatic,
                                        at(-rest_length, 0, 0), -Vector3::UnitX(), light);
       struts[side] = static_cast<std::size_t>(tip);
       end = {"end" + n, LoopType::ball, tip, slider, {}, end.X_LbC};

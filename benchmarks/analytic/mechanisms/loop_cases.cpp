@@ -9,7 +9,7 @@ namespace twinarm {
 
 using namespace loop_parts;
 
-// A body of 1 kg, 0.25 kg m^2, held 0.5 m beside its centre of mass: equivalent to a particle at
+// A body of 1 kg, 0.25 kg m^2, hinged 0.5 m from its centre of mass: equivalent to a particle at
 // (I + m c^2) / (m c) = 1 m.
 LoopCase pendulum_on_hinge() {
   LoopCase c{"pendulum: a free body hinged to the world"};
@@ -89,7 +89,8 @@ LoopCase windows(int count) {
   return c;
 }
 
-// Joint axes y, z, x, y, z, x at the corners of a cube's edge path; the last one closes the loop.
+// Joint axes y, z, x, y, z, x at the corners of a path along a cube's edges; the last closes the
+// loop.
 LoopCase bricard() {
   LoopCase c{"Bricard's 6R mechanism"};
   ModelBuilder builder;
@@ -124,7 +125,7 @@ LoopCase bricard() {
   return c;
 }
 
-// Crank 0.1 m, 1 kg; rod 0.3 m, 2 kg; piston 1.5 kg on the x axis. Angles turn x to z.
+// Crank 0.1 m, 1 kg; rod 0.3 m, 2 kg; piston 1.5 kg on the x axis. Angles rotate x to z.
 LoopCase slider_crank() {
   LoopCase c{"slider-crank"};
   ModelBuilder builder;
@@ -147,8 +148,8 @@ LoopCase slider_crank() {
   return c;
 }
 
-// Crank 0.1, coupler 0.35, rocker 0.3, ground 0.4 m; the crank at 60 degrees and 10 rad/s. Starts
-// nearby, open; one sample at t = 0, to be assembled.
+// Crank 0.1, coupler 0.35, rocker 0.3, ground 0.4 m; the crank at 60 degrees and 10 rad/s. The
+// start is an open state nearby; one sample at t = 0, after assembly.
 LoopCase four_bar() {
   LoopCase c{"four-bar at one place"};
   ModelBuilder builder;
@@ -173,16 +174,9 @@ LoopCase four_bar() {
 }
 
 std::vector<LoopCase> all_loop_cases() {
-  std::vector<LoopCase> cases;
-  cases.push_back(pendulum_on_hinge());
-  cases.push_back(pendulum_on_circle());
-  cases.push_back(windows(2));
-  cases.push_back(squeezer());
-  cases.push_back(bricard());
-  cases.push_back(governor(Couplers::springs));
-  cases.push_back(governor(Couplers::rods));
-  cases.push_back(slider_crank());
-  return cases;
+  return {
+      pendulum_on_hinge(),         pendulum_on_circle(),     windows(2),    squeezer(), bricard(),
+      governor(Couplers::springs), governor(Couplers::rods), slider_crank()};
 }
 
 }  // namespace twinarm

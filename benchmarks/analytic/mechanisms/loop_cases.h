@@ -1,9 +1,8 @@
-// Mechanisms with closed loops whose motion is known: group D of docs/reference/verification_cases.md.
+// Mechanisms with closed loops and known motion: group D of docs/reference/verification_cases.md.
 //
-// Each case holds the mechanism, where it starts, what is read off it, and reference values by
-// time. Those were computed elsewhere in extended precision, in minimal coordinates, or are closed
-// forms; nothing here computes with this project's solver. Planar mechanisms move in the x-z plane,
-// z up, but for Andrews' squeezer (x-y).
+// Reference values are closed forms, or were computed independently in extended precision and
+// minimal coordinates. Planar mechanisms move in the x-z plane, z up; Andrews' squeezer in the x-y
+// plane.
 #pragma once
 
 #include <functional>
@@ -22,19 +21,19 @@ struct LoopCase {
   std::vector<LoopClosure> loops{};
   State<double> start{};
   std::shared_ptr<ForceSource> source{};  // null: gravity alone
-  // Energy of the source, if it has one at every state [J].
+  // Potential energy of the source; null: it has none [J].
   std::function<double(const State<double>&)> stored{};
   std::function<std::vector<double>(const State<double>&, const Kinematics&)> read{};
-  std::vector<std::string> readings{};  // what read() gives, in order, with unit
+  std::vector<std::string> readings{};  // names of read()'s values, with unit
   struct Sample {
     double t;
     std::vector<double> values;
   };
   std::vector<Sample> reference{};
-  double step = 1e-3;       // of rk4, with which
-  double tolerance = 1e-6;  // holds for the largest error of all readings at all times
+  double step = 1e-3;       // of rk4
+  double tolerance = 1e-6;  // of the largest error of all readings at all times, with rk4
 
-  void set_model(Model<double> made) {  // which starts at rest, at zero
+  void set_model(Model<double> made) {  // the start is at rest at q = 0
     model = std::move(made);
     start = State<double>(model);
   }
@@ -42,17 +41,17 @@ struct LoopCase {
 
 LoopCase pendulum_on_hinge();   // D1: a free body, hinged to the world
 LoopCase pendulum_on_circle();  // D1: a particle in a plane, at a distance of 1 m
-LoopCase windows(int count);    // D2: N four-bars in a row, singular where all rods are in a line
+LoopCase windows(int count);    // D2: N four-bars in a row, singular if all rods are collinear
 LoopCase squeezer();            // D3: Andrews' mechanism
 LoopCase bricard();             // D4: 6R, over-constrained
-// D5: couplers that are stiff spring-dampers; rods of constant length; and spring-dampers as struts
-// of negligible mass whose implicit spring is an armature (semi-implicit integrators only).
+// D5: couplers as stiff spring-dampers, as rods of constant length, or as struts of negligible mass
+// with implicit spring-dampers (semi-implicit integrators only).
 enum class Couplers { springs, rods, implicit_struts };
 LoopCase governor(Couplers couplers);
 LoopCase slider_crank();  // D6
 LoopCase four_bar();      // D7: angles and rates at one place
 
-// All that have a reference in time, for rk4.
+// All with reference values over time, for rk4.
 std::vector<LoopCase> all_loop_cases();
 
 }  // namespace twinarm

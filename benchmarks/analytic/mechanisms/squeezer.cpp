@@ -1,9 +1,10 @@
 // D3: Andrews' squeezing mechanism (Manning 1981; Hairer and Wanner, Solving ODEs II, VII.7): seven
 // bodies in the x-y plane, three loops that meet in E, a motor torque and one spring, no gravity.
 //
-// K1 turns about O by beta and carries F; K2 turns on it by Theta and reaches from F to E. K3 turns
-// about B by gamma and holds E and the spring's end D; K5 and K7 turn about A by delta and epsilon
-// and carry H and G, on which K4 and K6 turn by Phi and Omega and reach to E.
+// K1 rotates about O by beta, with F at its end; K2 rotates about F by Theta and ends in E. K3
+// rotates about B by gamma and has E and the spring's end D; K5 and K7 rotate about A by delta and
+// epsilon, with H and G at their ends, about which K4 and K6 rotate by Phi and Omega; both end in
+// E.
 #include <array>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
@@ -34,7 +35,7 @@ struct MotorAndSpring final : ForceSource, Checkpointable {
     const double length = to_C.norm();
     add_point_force(k, k3, p, c0 * (length - l0) / length * to_C, forces);
   }
-  // Of the spring, and what the motor has left to give.
+  // Of the spring, and minus the work of the motor.
   double energy(const State<double>& x, const Kinematics& k) const {
     const double stretch = (C - k.position(k3, {sd, -sc, 0})).norm() - l0;
     return c0 / 2 * stretch * stretch - motor * x.q[crank];

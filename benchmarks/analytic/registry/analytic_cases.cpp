@@ -18,7 +18,7 @@ std::vector<std::string> names_in(const std::string& list) {
   return names;
 }
 
-// A line that begins with spaces goes on with the one before.
+// Joins an indented line to the one before.
 std::string with_lines_joined(std::string text) {
   for (std::size_t at = 0; (at = text.find("\n  ", at)) != std::string::npos;)
     text.replace(at, 3, " ");
@@ -28,7 +28,7 @@ std::string with_lines_joined(std::string text) {
 void read_group(const EmbeddedFile& document, std::map<std::string, CaseText>& texts) {
   const std::string group(document.name.substr(0, document.name.find('.')));
   std::string statement;
-  bool ended = true;  // the paragraph, by an empty line
+  bool ended = true;  // whether the paragraph has ended, at an empty line
   std::istringstream in(with_lines_joined(std::string(document.text)));
   for (std::string line; std::getline(in, line); ended = line.empty()) {
     if (line.starts_with("- ")) {
@@ -77,22 +77,22 @@ const std::vector<AnalyticCase>& analytic_cases() {
 const std::vector<SkippedCase>& skipped_cases() {
   static const std::vector<SkippedCase> all = {
       {"D8", "loops",
-       "the rectangular Bricard: neither its data nor reference values are published; see D4"},
-      {"E14-capstan", "contact", "optional: friction of a belt needs a rope of many contacts"},
-      {"E15", "contact", "optional: a silo needs many thousand grains"},
-      {"F5", "robots",
-       "the iiwa's parameters are those of a URDF that is not part of this program"},
+       "rectangular Bricard mechanism: neither data nor reference values are published; see D4"},
+      {"E14-capstan", "contact", "optional: belt friction needs a rope of many contacts"},
+      {"E15", "contact", "optional: a silo needs thousands of grains"},
+      {"F5", "robots", "the URDF with the parameters of the iiwa is not part of this program"},
       {"H1-anymal", "engines", "the model of the robot is not part of this program"},
-      {"H2", "engines", "the models of hand and humanoid are not published with the numbers"},
-      {"H3", "engines", "a list of what other engines test, not a case"},
+      {"H2", "engines", "the models of hand and humanoid are not published"},
+      {"H3", "engines", "a list of the tests of other engines, not a case"},
   };
   return all;
 }
 
 CaseResult run_case(const AnalyticCase& c) {
   if (!c.trajectory) return c.run();
-  const LaneResult result = run_lane(*c.trajectory, c.trajectory->lane);
-  return {result.error, result.energy_drift, observed_order(*c.trajectory, c.trajectory->lane)};
+  const TrajectoryResult result = run_trajectory(*c.trajectory, c.trajectory->integration);
+  return {result.error, result.energy_drift,
+          observed_order(*c.trajectory, c.trajectory->integration)};
 }
 
 }  // namespace twinarm

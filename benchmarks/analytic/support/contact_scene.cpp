@@ -9,9 +9,9 @@
 namespace twinarm {
 namespace {
 
-class ConstantPush final : public ForceSource {
+class ConstantForce final : public ForceSource {
  public:
-  ConstantPush(std::size_t dof, const Vector3& force) : dof_(dof), force_(force) {}
+  ConstantForce(std::size_t dof, const Vector3& force) : dof_(dof), force_(force) {}
   void add_forces(const State<double>&, const Kinematics&,
                   Forces<double>& forces) noexcept override {
     for (std::size_t i = 0; i < 3; ++i)
@@ -23,7 +23,6 @@ class ConstantPush final : public ForceSource {
   Vector3 force_;
 };
 
-// A recorder may ask for other steps than the case names.
 double scaled_step(double h) {
   return contact_recorder ? contact_recorder->step_scale * h : h;
 }
@@ -46,13 +45,12 @@ void ContactScene::add_fixed(const Shape& shape, const ContactSurface& surface, 
   fixed_.push_back({shape, surface, X_WG, 0});
 }
 
-// About the z axis of its frame.
-void ContactScene::add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
-                               double rate) {
+void ContactScene::add_rotating(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
+                                double rate) {
   const std::string name = std::to_string(++count_);
   builder_.add_body(name, 0, "joint " + name, JointType::prescribed, {}, Vector3::UnitZ(), {});
   fixed_.push_back({shape, surface, {}, count_});
-  turning_.push_back({count_, X_WG, rate});
+  rotating_.push_back({count_, X_WG, rate});
 }
 
 void ContactScene::start() {
@@ -64,31 +62,36 @@ void ContactScene::start() {
   for (const auto& [number, body] : bodies_) {
     double* q = x.q.data() + model_.iq[index(number)];
     double* qd = x.qd.data() + model_.iv[index(number)];
-    const Eigen::Quaterniond turn(body.R);
+    const Eigen::Quaterniond rotation(body.R);
     const Vector3 w_L = body.R.transpose() * body.w;
     for (int k = 0; k < 3; ++k) q[k] = body.p[k], qd[k] = w_L[k], qd[3 + k] = body.v[k];
-    q[3] = turn.w(), q[4] = turn.x(), q[5] = turn.y(), q[6] = turn.z();
+    q[3] = rotation.w(), q[4] = rotation.x(), q[5] = rotation.y(), q[6] = rotation.z();
     contacts_->bodies().add(
         {"body", number, {Matrix3::Identity(), body.shape_at}, body.shape, body.surface});
   }
   simulation_ = std::make_unique<Simulation>(model_, x);
-  for (const Turning& turning : turning_)
-    simulation_->prescribe(turning.body, [turning](double t) {
+  for (const Rotating& body : rotating_)
+    simulation_->prescribe(body.body, [body](double t) {
       PrescribedMotion motion;
-      motion.X_JL = {turning.X_WG.R * turn_about(Vector3::UnitZ(), turning.rate * t),
-                     turning.X_WG.p};
-      motion.angular_velocity = turning.rate * turning.X_WG.R.col(2);
+      motion.X_JL = {body.X_WG.R * rotation_about(Vector3::UnitZ(), body.rate * t), body.X_WG.p};
+      motion.angular_velocity = body.rate * body.X_WG.R.col(2);
       return motion;
     });
   simulation_->add(*contacts_);
-  start_energy_ = lowest_ = energy();
+  start_energy_ = min_energy_ = energy();
   max_kinetic_ = kinetic_energy(model_, simulation_->state());
   if (contact_recorder) contact_recorder->begin(*this);
 }
 
-void ContactScene::push(int body, const Vector3& force) {
-  pushes_.push_back(std::make_unique<ConstantPush>(model_.iv[index(body)] + 3, force));
-  simulation_->add(*pushes_.back());
+int ContactScene::start(const Body& body) {
+  const int number = add(body);
+  start();
+  return number;
+}
+
+void ContactScene::apply_force(int body, const Vector3& force) {
+  forces_.push_back(std::make_unique<ConstantForce>(model_.iv[index(body)] + 3, force));
+  simulation_->add(*forces_.back());
 }
 
 double ContactScene::energy() const {
@@ -96,20 +99,20 @@ double ContactScene::energy() const {
          potential_energy(model_, simulation_->state());
 }
 
-void ContactScene::watch() {
+void ContactScene::update_energy() {
   const double kinetic = kinetic_energy(model_, simulation_->state());
   const double now = kinetic + potential_energy(model_, simulation_->state());
   max_kinetic_ = std::max(max_kinetic_, kinetic);
-  strayed_ = std::max(strayed_, std::abs(now - start_energy_));
-  rise_ = std::max(rise_, now - lowest_);
-  lowest_ = std::min(lowest_, now);
-  if (contact_recorder) contact_recorder->note(*this, now);
+  energy_error_ = std::max(energy_error_, std::abs(now - start_energy_));
+  rise_ = std::max(rise_, now - min_energy_);
+  min_energy_ = std::min(min_energy_, now);
+  if (contact_recorder) contact_recorder->record(*this, now);
 }
 
 bool ContactScene::step(double h) {
   const StepReport report = simulation_->step(scaled_step(h));
   ok_ = ok_ && report.ok();
-  watch();
+  update_energy();
   return report.ok();
 }
 
@@ -127,20 +130,20 @@ Vector3 ContactScene::force(int body) const {
   return sum;
 }
 
-// ---- what a page sees of it ----
+// ---- recording ----
 
 void ContactRecorder::add(const ContactScene& scene, double energy) {
   ContactRun& run = runs.back();
   run.t.push_back(scene.t());
   run.energy.push_back(energy);
-  const std::vector<double> values = look(scene);
-  run.seen.resize(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) run.seen[i].push_back(values[i]);
+  const std::vector<double> values = read(scene);
+  run.values.resize(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) run.values[i].push_back(values[i]);
 }
 
 void ContactRecorder::begin(const ContactScene& scene) {
-  if (!look) return;
-  if (!search && runs.size() == count) throw Enough{};
+  if (!read) return;
+  if (is_complete()) throw Complete{};
   active_ = ++begun_ % every == 0;
   if (!active_) return;
   runs.emplace_back();
@@ -149,10 +152,10 @@ void ContactRecorder::begin(const ContactScene& scene) {
   add(scene, scene.energy());
 }
 
-void ContactRecorder::note(const ContactScene& scene, double energy) {
+void ContactRecorder::record(const ContactScene& scene, double energy) {
   if (!active_) return;
   if (scene.t() > until) {
-    if (!search && runs.size() == count) throw Enough{};
+    if (is_complete()) throw Complete{};
     return;
   }
   if (++steps_ % stride_ != 0) return;
@@ -160,27 +163,25 @@ void ContactRecorder::note(const ContactScene& scene, double energy) {
   constexpr std::size_t kMax = 1200;
   ContactRun& run = runs.back();
   if (run.t.size() <= kMax) return;
-  // Every other one goes; the first stays.
+  // Keeps every other point, the first included.
   const auto halve = [](std::vector<double>& values) {
     for (std::size_t i = 0; 2 * i < values.size(); ++i) values[i] = values[2 * i];
     values.resize((values.size() + 1) / 2);
   };
   halve(run.t);
   halve(run.energy);
-  for (auto& values : run.seen) halve(values);
+  for (auto& values : run.values) halve(values);
   stride_ *= 2;
 }
 
-void ContactRecorder::outcome(double tried, bool holds) {
-  if (!active_) return;  // a limit that is computed, without scenes
+void ContactRecorder::end(double parameter, bool outcome) {
+  if (!active_) return;  // a bisection without scenes
   active_ = false;
-  runs.back().tried = tried;
-  runs.back().holds = holds;
+  runs.back().parameter = parameter;
+  runs.back().outcome = outcome;
   if (runs.size() < 2) return;
-  if (runs[0].holds == holds)
-    runs.pop_back();
-  else
-    throw Enough{};
+  if (runs[0].outcome != outcome) throw Complete{};
+  runs.pop_back();
 }
 
 }  // namespace twinarm

@@ -1,8 +1,7 @@
-// Free bodies, fixed ones and turning ones under rigid contact: what the contact cases run.
+// Scene of the contact cases: free, fixed and rotating bodies under rigid contact.
 //
-// Steps are 1 ms where nothing else is said. Event times shall be met within one step, velocities
-// to 1e-3 of themselves; a place is measured by the time that its error is worth, at the speed
-// there.
+// Steps are 1 ms unless stated otherwise. Tolerances: one step for event times, 1e-3 relative for
+// velocities; an error of position is divided by the speed there and so becomes a time.
 #pragma once
 
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <memory>
 #include <numbers>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -22,18 +22,18 @@
 namespace twinarm {
 
 enum class Steps { fixed, located };
-constexpr double kStep = 1e-3;              // of the cases that name no other [s]
+constexpr double kStep = 1e-3;              // default step [s]
 inline constexpr double kBallRadius = 0.1;  // of the balls of several cases [m]
 
-// A body on the incline x: gravity is turned instead of the floor, which stays z = 0. [rad]
+// Of an incline [rad] with x downhill: gravity is rotated, the floor stays z = 0.
 inline Vector3 tilted_gravity(double angle) {
   return kGravity * Vector3(std::sin(angle), 0, -std::cos(angle));
 }
-inline Matrix3 turn_about(const Vector3& axis, double angle) {
+inline Matrix3 rotation_about(const Vector3& axis, double angle) {
   return Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
 }
-inline Matrix3 axis_along_y() {  // of a cylinder that rolls along x
-  return turn_about(Vector3::UnitX(), std::numbers::pi / 2);
+inline Matrix3 axis_along_y() {  // attitude of a cylinder that rolls along x
+  return rotation_about(Vector3::UnitX(), std::numbers::pi / 2);
 }
 inline ContactSurface surface(double friction, double restitution = 0) {
   ContactSurface s;
@@ -43,44 +43,43 @@ inline ContactSurface surface(double friction, double restitution = 0) {
 
 class ContactScene;
 
-// Of one scene; evenly spaced steps, thinned to some hundreds.
+// Readings and energy of one scene at evenly spaced times, at most 1,200.
 struct ContactRun {
-  std::vector<double> t, energy;          // [s], kinetic and potential [J]
-  std::vector<std::vector<double>> seen;  // by reading, then by t
-  double tried = 0;                       // in a search for a limit: the value, and its outcome
-  bool holds = false;
+  std::vector<double> t, energy;            // [s], kinetic and potential [J]
+  std::vector<std::vector<double>> values;  // by reading, then by t
+  double parameter = 0;                     // in a bisection: its value, and the outcome
+  bool outcome = false;
 };
 
-// What a page sees of the scenes of a contact case while it runs: readings and energy over time, or
-// the same runs with another step. Without a recorder nothing is noted, and a case is what it is.
-// Ends the experiment by an Enough that comes out of start(), step() or threshold(), once all that
-// was asked for is there.
+// Records the scenes of a contact case while it runs, or runs it with another step. Throws Complete
+// out of start(), step() or threshold() as soon as all requested runs are recorded.
 class ContactRecorder {
  public:
-  struct Enough {};
-  std::function<std::vector<double>(const ContactScene&)> look{};  // null: nothing is noted
-  std::size_t count = 1;    // of the runs to note; in a search always two, one of each outcome
-  std::size_t every = 1;    // the scenes of a case of which one is noted
+  struct Complete {};
+  std::function<std::vector<double>(const ContactScene&)> read{};  // null: nothing is recorded
+  std::size_t count = 1;    // runs to record; in a bisection two, one of each outcome
+  std::size_t every = 1;    // records one scene in so many
   double until = HUGE_VAL;  // [s]
-  bool search = false;
-  double step_scale = 1;  // all steps are longer by it
+  bool bisects = false;
+  double step_scale = 1;  // factor of all steps
   std::vector<ContactRun> runs{};
 
   void begin(const ContactScene& scene);
-  void note(const ContactScene& scene, double energy);
-  void outcome(double tried, bool holds);
+  void record(const ContactScene& scene, double energy);
+  void end(double parameter, bool outcome);
 
  private:
   void add(const ContactScene& scene, double energy);
+  bool is_complete() const { return !bisects && runs.size() == count; }
   std::size_t begun_ = 0, steps_ = 0, stride_ = 1;
   bool active_ = false;
 };
 
-// That of the scenes that this thread makes; null: none.
+// Recorder of the scenes that this thread makes; null: none.
 inline thread_local ContactRecorder* contact_recorder = nullptr;
 
-// Add all bodies, then start(), then step(). Bodies are numbered from 1, their link frames stand at
-// their centres of mass.
+// Add all bodies, then start(), then step(). Bodies are numbered from 1; a link frame has its
+// origin at the centre of mass.
 class ContactScene {
  public:
   struct Body {
@@ -97,37 +96,37 @@ class ContactScene {
   explicit ContactScene(const Vector3& gravity = {0, 0, -kGravity}) {
     builder_.set_gravity(gravity);
   }
-  // Gravity times `off`, for mistakes.
-  explicit ContactScene(double off) : ContactScene(Vector3(0, 0, -kGravity * off)) {}
+  explicit ContactScene(double gravity_scale)
+      : ContactScene(Vector3(0, 0, -kGravity * gravity_scale)) {}
   ContactScene(const ContactScene&) = delete;
   ContactScene& operator=(const ContactScene&) = delete;
 
   int add(const Body& body);
   void add_fixed(const Shape& shape, const ContactSurface& surface, const Pose& X_WG = {});
   void add_floor(const ContactSurface& surface) { add_fixed(HalfSpace{}, surface); }
-  void add_turning(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
-                   double rate);
+  void add_rotating(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
+                    double rate);  // about z of its frame [rad/s]
   void start();
-  // After start(): a constant force at the centre of mass of a free body, which no energy counts.
-  // World axes.
-  void push(int body, const Vector3& force);
-  // From now on steps of any length, whose events are located in time.
+  int start(const Body& body);  // add() of the last body, and start()
+  // After start(): constant force at the centre of mass of a free body, world axes [N]. energy()
+  // does not include its work.
+  void apply_force(int body, const Vector3& force);
   void locate_events() { simulation_->locate_events(); }
 
-  bool step(double h);  // false where it was not finite or not solved
+  bool step(double h);  // false: not finite or not solved
   void run(double duration, double h);
   double t() const { return simulation_->state().t; }
   Vector3 p(int body) const { return simulation_->kinematics().X_WL[index(body)].p; }
   Matrix3 R(int body) const { return simulation_->kinematics().X_WL[index(body)].R; }
   Vector3 v(int body) const { return simulation_->kinematics().v_WLo[index(body)]; }
   Vector3 w(int body) const { return simulation_->kinematics().w_WL[index(body)]; }
-  Vector3 force(int body) const;  // of all contacts, on the body, in the last step [N]
+  Vector3 force(int body) const;  // sum of the contact forces on the body in the last step [N]
   double energy() const;          // [J]
-  // Over all steps: max |E - E0| over the largest kinetic energy, and the most that E rose above
-  // the lowest value before it.
-  double drift() const { return strayed_ / max_kinetic_; }
+  // Over all steps, relative to the largest kinetic energy: max |E - E0|, and the largest rise of E
+  // above its earlier minimum.
+  double drift() const { return energy_error_ / max_kinetic_; }
   double rise() const { return rise_ / max_kinetic_; }
-  bool ok() const { return ok_; }  // all steps were
+  bool ok() const { return ok_; }  // so far
 
   Simulation& simulation() { return *simulation_; }
   const Model<double>& model() const { return model_; }
@@ -135,15 +134,15 @@ class ContactScene {
 
  private:
   static std::size_t index(int body) { return static_cast<std::size_t>(body); }
-  void watch();
+  void update_energy();
 
   struct Fixed {
     Shape shape;
     ContactSurface surface;
     Pose X_WG;
-    int body;  // 0, or the turning one
+    int body;  // 0, or the rotating one
   };
-  struct Turning {
+  struct Rotating {
     int body;
     Pose X_WG;
     double rate;
@@ -151,30 +150,30 @@ class ContactScene {
   ModelBuilder builder_;
   std::vector<std::pair<int, Body>> bodies_;
   std::vector<Fixed> fixed_;
-  std::vector<Turning> turning_;
+  std::vector<Rotating> rotating_;
   int count_ = 0;
   Model<double> model_;
   std::unique_ptr<ContactConstraints> contacts_;
   std::unique_ptr<Simulation> simulation_;
-  std::vector<std::unique_ptr<ForceSource>> pushes_;
-  double start_energy_ = 0, lowest_ = 0, strayed_ = 0, rise_ = 0, max_kinetic_ = 0;
+  std::vector<std::unique_ptr<ForceSource>> forces_;
+  double start_energy_ = 0, min_energy_ = 0, energy_error_ = 0, rise_ = 0, max_kinetic_ = 0;
   bool ok_ = true;
 };
 
-// The value between `low`, where the outcome is false, and `high`, where it is true, to `within`.
+// Bisects for the parameter at which the outcome changes from false (at `low`) to true (at `high`),
+// to an accuracy of `width`.
 template <class Outcome>
-double threshold(double low, double high, double within, Outcome&& outcome) {
-  while (high - low > within) {
+double threshold(double low, double high, double width, Outcome&& outcome) {
+  while (high - low > width) {
     const double middle = 0.5 * (low + high);
-    const bool holds = outcome(middle);
-    if (contact_recorder) contact_recorder->outcome(middle, holds);
-    (holds ? high : low) = middle;
+    const bool is_above = outcome(middle);
+    if (contact_recorder) contact_recorder->end(middle, is_above);
+    (is_above ? high : low) = middle;
   }
   return 0.5 * (low + high);
 }
 
-// A case whose error falls with the step: its error at h, and the order from h to h / 4 where the
-// error is more than rounding.
+// Error at h, and the order of convergence from h to h / 4 unless the error there is rounding.
 template <class Error>
 CaseResult with_order(Error&& error, double h) {
   constexpr double kRounding = 1e-9;
@@ -188,46 +187,64 @@ inline double relative(double value, double reference) {
   return std::abs(value / reference - 1);
 }
 
-// What a page draws of a contact case: which coordinate of which body, and what is known of it in
-// closed form. Its scenes are made and stepped by the case itself, while a recorder looks on
-// (contact_scene.h).
+// Plot of a contact case: which readings are drawn, and their closed form. The scenes are those of
+// the case itself, observed by a ContactRecorder.
 struct ContactCasePlot {
-  std::vector<std::string> readings;  // with unit: "height [m]"
-  std::vector<double> (*read)(const ContactScene&);
-  // Of curve `k` at a time; not a number where it is not known. Curves are readings, or runs.
+  std::vector<std::string> readings{};  // with unit: "height [m]"
+  std::vector<double> (*read)(const ContactScene&) = nullptr;
+  // Closed form of curve k at time t; NAN where it is unknown. Curves are readings, or runs.
   double (*exact)(std::size_t k, double t) = nullptr;
-  std::vector<std::string> runs{};  // of one reading: a curve each. Empty: the first run
-  std::size_t every = 1;            // of so many scenes one is such a run
+  std::vector<std::string> runs{};  // names of several runs of one reading; empty: the first run
+  std::size_t every = 1;            // one such run in so many scenes
   double until = HUGE_VAL;          // [s]
   double known_at = NAN;            // the only time at which exact() is known [s]
-  bool from_start = false;          // readings count from where they begin
-  // What is tried to find a limit, of which a run on either side is drawn; null: no search.
-  const char* search = nullptr;
-  double step = kStep;             // of the case [s]
-  const char* no_steps = nullptr;  // why no error is drawn against the step; null: it is
-  const char* about_steps = "";    // what is to be said of that error, where it has no order
+  bool from_start = false;          // readings are differences to their start
+  // Name of a parameter whose limit is bisected; a run on either side of it is drawn. Null: none.
+  const char* searched = nullptr;
+  double step = kStep;                   // of the case [s]
+  const char* no_convergence = nullptr;  // why no error is drawn against the step; null: it is
+  const char* convergence_note = "";     // remark on that error, where it has no order
+
+  // Copies with one member changed.
+  template <class T>
+  ContactCasePlot with(T ContactCasePlot::*member, std::type_identity_t<T> value) const {
+    ContactCasePlot plot = *this;
+    plot.*member = std::move(value);
+    return plot;
+  }
+  ContactCasePlot without_convergence(const char* why) const {
+    return with(&ContactCasePlot::no_convergence, why);
+  }
+  ContactCasePlot of_runs(std::vector<std::string> names) const {
+    return with(&ContactCasePlot::runs, std::move(names));
+  }
+  ContactCasePlot searching(const char* parameter) const {
+    return with(&ContactCasePlot::searched, parameter)
+        .without_convergence(
+            "The limit is found by bisection; its first runs on either side are drawn.");
+  }
 };
 
-// What several cases are looked at by, and why some have no error against the step.
-namespace contact_looks {
+// Readings and remarks that several cases share.
+namespace contact_plots {
 
+using Plot = ContactCasePlot;
 using Values = std::vector<double>;
 using Scene = const ContactScene&;
 
 inline constexpr const char* kLocated =
-    "Events are located in time: what is left of the error does not come from the step.";
+    "Events are located in time: the remaining error does not depend on the step.";
 inline constexpr const char* kPartOfStep =
-    "The end of sliding is met by the next step: the error is some part of a step.";
-inline constexpr const char* kSearch =
-    "The limit is found by bisection; drawn are its first runs on either side.";
+    "The end of sliding is found at the end of a step: the error is a fraction of a step.";
 inline constexpr const char* kCounted =
-    "Faults are counted: there is no error to draw against the step.";
+    "Violations are counted: there is no error to draw against the step.";
 inline constexpr const char* kRounding =
-    "What is kept is kept at every step: only rounding and the tolerance of the solver are left.";
+    "The quantity is conserved in every step: the error is rounding and the tolerance of the "
+    "solver.";
 inline constexpr const char* kResting =
-    "Nothing moves: the tolerance of the solver is left, at any step.";
+    "Nothing moves: at any step the error is the tolerance of the solver.";
 
-// Body by body, from 1 on; axes 0 to 2.
+// Bodies are numbered from 1, axes from 0.
 template <int body, int axis>
 Values place(Scene s) {
   return {s.p(body)[axis]};
@@ -235,6 +252,10 @@ Values place(Scene s) {
 template <int body, int axis>
 Values velocity(Scene s) {
   return {s.v(body)[axis]};
+}
+template <int axis>
+Values spin(Scene s) {
+  return {s.w(1)[axis]};
 }
 template <int... bodies>
 Values velocities_x(Scene s) {
@@ -244,33 +265,25 @@ template <int radius_mm10>
 Values speed_and_rim(Scene s) {
   return {s.v(1).x(), 1e-4 * radius_mm10 * s.w(1).y()};
 }
+inline Values horizontal_distance(Scene s) {
+  return {std::hypot(s.p(1).x(), s.p(1).y())};
+}
+inline Values slip(Scene s) {  // of a ball of kBallRadius
+  return {s.v(1).x() - 0.1 * s.w(1).y()};
+}
 inline double zero(std::size_t, double) {
   return 0;
 }
 
-// The same without an error against the step, and why; or as runs on either side of a limit.
-inline ContactCasePlot without_steps(ContactCasePlot look, const char* why) {
-  look.no_steps = why;
-  return look;
-}
-inline ContactCasePlot searched(ContactCasePlot look, const char* what) {
-  look.search = what;
-  return without_steps(look, kSearch);
-}
-inline ContactCasePlot of_runs(ContactCasePlot look, std::vector<std::string> runs) {
-  look.runs = std::move(runs);
-  return look;
-}
+}  // namespace contact_plots
 
-}  // namespace contact_looks
-
-// A case with its mistake: the experiment multiplies one thing in it by `off`, which is 1 in the
-// case; in the mistake it is some thousandths more or less, and the case must fail.
-template <CaseResult (*experiment)(double off), int thousandths>
-AnalyticCase contact_case(const char* name, double tolerance, ContactCasePlot look = {}) {
+// A case with its mutant: the experiment multiplies one of its parameters by `scale`, which is 1 in
+// the case and 1 + thousandths / 1000 in the mutant, which must fail.
+template <CaseResult (*experiment)(double scale), int thousandths>
+AnalyticCase contact_case(const char* name, double tolerance, ContactCasePlot plot = {}) {
   AnalyticCase c(name, tolerance,
-                 [](bool mistaken) { return experiment(mistaken ? 1 + 1e-3 * thousandths : 1); });
-  if (look.read) c.look = std::make_shared<const ContactCasePlot>(std::move(look));
+                 [](bool is_mutant) { return experiment(is_mutant ? 1 + 1e-3 * thousandths : 1); });
+  if (plot.read) c.plot = std::make_shared<const ContactCasePlot>(std::move(plot));
   return c;
 }
 

@@ -1,6 +1,5 @@
 // Gragg's extrapolated midpoint rule (Hairer, Norsett, Wanner, Solving Ordinary Differential
 // Equations I, section II.9): 2, 4 .. 16 substeps of a step, extrapolated in h^2, order 16.
-
 #include "benchmarks/analytic/support/reference_math.h"
 
 #include <array>
@@ -36,8 +35,8 @@ Numbers midpoint_rule(const Rates& rates, long double t, const Numbers& x, long 
 
 }  // namespace
 
-Numbers solution(const Rates& rates, Numbers x, long double t, long double longest) {
-  const long double steps = std::ceil(t / longest), h = steps > 0 ? t / steps : 0;
+Numbers solution(const Rates& rates, Numbers x, long double t, long double max_step) {
+  const long double steps = std::ceil(t / max_step), h = steps > 0 ? t / steps : 0;
   for (long double step = 0; step < steps; ++step) {
     std::array<Numbers, kColumns> row;  // Neville: row[j] has been extrapolated k - j times
     for (std::size_t k = 0; k < kColumns; ++k) {
@@ -56,7 +55,7 @@ Numbers solution(const Rates& rates, Numbers x, long double t, long double longe
 Jacobi jacobi(long double u, long double m) {
   Jacobi j{};
   j.sn = boost::math::jacobi_elliptic(std::sqrt(m), u, &j.cn, &j.dn);
-  // The library's dn is 0/0 where cn = 0, and loses all digits of a small one there.
+  // Boost's dn is 0/0 at cn = 0 and loses all digits near it if dn is small.
   j.dn = std::sqrt(1 - m + m * j.cn * j.cn);
   return j;
 }

@@ -50,7 +50,7 @@ CaseScene start_at(Model<double> model, std::vector<double> q, std::vector<doubl
   return scene;
 }
 
-Workspace<double> evaluate(const Model<double>& model, const State<double>& x) {
+Workspace<double> evaluate(ModelRef model, StateRef x) {
   Workspace<double> w(model);
   Forces<double> forces(model);
   kinematics(model, x, w);
@@ -66,7 +66,7 @@ std::vector<double> inverse_dynamics(const Model<double>& model, const State<dou
   return w.tau;
 }
 
-Vector3 reaction(const Model<double>& model, const State<double>& x) {
+Vector3 reaction(ModelRef model, StateRef x) {
   const std::vector<double> qdd = evaluate(model, x).qdd;
   Workspace<double> w(model);
   kinematics(model, x, w);
@@ -74,7 +74,7 @@ Vector3 reaction(const Model<double>& model, const State<double>& x) {
   return to_eigen(w.X0[1].E).transpose() * to_eigen(w.f[1].f);
 }
 
-std::vector<double> squared_frequencies_of(const Model<double>& model, const State<double>& x) {
+std::vector<double> squared_frequencies_of(ModelRef model, StateRef x) {
   const Eigen::MatrixXd dq = forward_dynamics_derivatives(model, x, Forces<double>(model)).dq;
   const Eigen::VectorXcd values = eigenvalues_of(dq);
   std::vector<double> all;
@@ -83,7 +83,7 @@ std::vector<double> squared_frequencies_of(const Model<double>& model, const Sta
   return all;
 }
 
-std::vector<double> small_frequencies(const Model<double>& model, const State<double>& x) {
+std::vector<double> small_frequencies(ModelRef model, StateRef x) {
   std::vector<double> all = squared_frequencies_of(model, x);
   for (double& w : all) w = std::sqrt(w);
   return all;
@@ -93,7 +93,7 @@ CaseReadings attitude_and_rate(const Eigen::Quaterniond& attitude, const Vector3
   return {attitude.w(), attitude.x(), attitude.y(), attitude.z(), rate.x(), rate.y(), rate.z()};
 }
 
-CaseReadings observe_attitude_and_rate(const Model<double>&, const State<double>& x) {
+CaseReadings observe_attitude_and_rate(ModelRef, StateRef x) {
   return {x.q[3], x.q[4], x.q[5], x.q[6], x.qd[0], x.qd[1], x.qd[2]};
 }
 
@@ -135,7 +135,7 @@ Model<double> plane_chain(const ChainLink& link, int count) {
 }
 
 CaseObserver absolute_angles() {
-  return [](const Model<double>&, const State<double>& x) {
+  return [](ModelRef, StateRef x) {
     CaseReadings all;
     for (const std::vector<double>& joints : {x.q, x.qd}) {
       double sum = 0;

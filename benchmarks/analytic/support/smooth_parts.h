@@ -1,41 +1,45 @@
-// What several of the smooth cases are made of.
+// Mechanisms, observers and error measures of the cases without contact.
 #pragma once
 
 #include <Eigen/Geometry>
+#include <numbers>
 
 #include "benchmarks/analytic/support/analytic_case.h"
 #include "benchmarks/analytic/support/reference_math.h"
 #include "solver/dynamics/energy_momentum.h"
+#include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/model/workspace.h"
 #include "solver/support/checkpointable.h"
 
 namespace twinarm::smooth_parts {
 
+using ModelRef = const Model<double>&;
+using StateRef = const State<double>&;
+using Real = long double;  // of references
+inline constexpr Real kPi = std::numbers::pi_v<Real>;
+
 // ---- mechanisms ----
 
-// One free body of these principal moments about its centre, without gravity [kg m^2].
+// One free body, principal moments about its centre [kg m^2], no gravity.
 Model<double> free_body(double mass, const Vector3& moments);
 // One body on one joint at the world's origin, gravity (0, 0, -9.81).
 Model<double> one_body(JointType type, const Vector3& axis, const BodyInertia& inertia,
                        const JointProperties& properties = {}, const Pose& X_PJ = {});
-// 1 kg on a massless rod, hinge along y; it hangs on -z at angle 0.
+// 1 kg on a massless rod, revolute joint about y; angle 0: at -z.
 Model<double> point_pendulum(double length = 1);
 
 CaseScene at_rest(Model<double> model);
-// Something takes energy out of it, or puts it in.
+// The same, marked as one whose energy changes.
 CaseScene not_conserving(CaseScene scene);
 CaseScene start_at(Model<double> model, std::vector<double> q, std::vector<double> qd);
-inline CaseObserver joint_state() {  // all coordinates, then all velocities
-  return [](const Model<double>&, const State<double>& x) {
-    CaseReadings all = x.q;
-    all.insert(all.end(), x.qd.begin(), x.qd.end());
-    return all;
-  };
+// The same scene for every run; its sources must have no internal state.
+inline std::function<CaseScene()> fixed(CaseScene scene) {
+  return [scene = std::move(scene)] { return scene; };
 }
 
-// A torque or force on one dof, by time and by the dof's coordinate, which has its number among
-// the velocities.
+// Torque or force on one dof as a function of time and of its coordinate, which must have the same
+// index among the coordinates.
 class JointEffort : public ForceSource, public Checkpointable {
  public:
   using Law = std::function<double(double t, double q)>;
@@ -50,43 +54,69 @@ class JointEffort : public ForceSource, public Checkpointable {
   std::size_t dof_;
 };
 
-// ---- what is seen ----
+// ---- observers ----
 
-// Positions, velocities, and accelerations under gravity, joint friction and nothing else.
-Workspace<double> evaluate(const Model<double>& model, const State<double>& x);
-// Generalised forces for given accelerations.
+inline Kinematics kinematics_at(ModelRef model, StateRef x) {
+  Kinematics k(model);
+  forward_kinematics(model, x, k);
+  return k;
+}
+
+// One number of a state: reading, or function whose zeros are events.
+using Observed = std::function<double(ModelRef, StateRef)>;
+inline Observed coordinate(std::size_t i) {
+  return [i](ModelRef, StateRef x) { return x.q[i]; };
+}
+inline Observed velocity(std::size_t i) {
+  return [i](ModelRef, StateRef x) { return x.qd[i]; };
+}
+inline CaseObserver observe(Observed number) {
+  return [number](ModelRef model, StateRef x) { return CaseReadings{number(model, x)}; };
+}
+inline CaseObserver joint_state() {  // all coordinates, then all velocities
+  return [](ModelRef, StateRef x) {
+    CaseReadings all = x.q;
+    all.insert(all.end(), x.qd.begin(), x.qd.end());
+    return all;
+  };
+}
+inline CaseReference constantly(CaseReadings values) {
+  return [values](double) { return values; };
+}
+
+// Positions, velocities, and accelerations under gravity and joint friction.
+Workspace<double> evaluate(ModelRef model, StateRef x);
 std::vector<double> inverse_dynamics(const Model<double>& model, const State<double>& x,
                                      const std::vector<double>& qdd);
-// What the joint of the first body transmits, for its true acceleration: force, world axes [N].
-Vector3 reaction(const Model<double>& model, const State<double>& x);
-// Eigenvalues of -d(qdd)/dq, ascending: squares of the frequencies, negative where it is unstable.
-std::vector<double> squared_frequencies_of(const Model<double>& model, const State<double>& x);
+// Reaction force of the joint of body 1, world axes [N].
+Vector3 reaction(ModelRef model, StateRef x);
+// Eigenvalues of -d(qdd)/dq, ascending: squared frequencies, negative if unstable.
+std::vector<double> squared_frequencies_of(ModelRef model, StateRef x);
 // Undamped frequencies about a state at rest, ascending [rad/s].
-std::vector<double> small_frequencies(const Model<double>& model, const State<double>& x);
+std::vector<double> small_frequencies(ModelRef model, StateRef x);
 
-// Of a free body that is the first of its model: w, x, y, z of its attitude, and the angular
-// velocity in body axes.
+// Of a free body 1: quaternion w, x, y, z, and angular velocity in body axes.
 CaseReadings attitude_and_rate(const Eigen::Quaterniond& attitude, const Vector3& rate);
-CaseReadings observe_attitude_and_rate(const Model<double>&, const State<double>& x);
+CaseReadings observe_attitude_and_rate(ModelRef, StateRef x);
 
-inline CaseReadings observe_energy(const Model<double>& model, const State<double>& x) {
+inline CaseReadings observe_energy(ModelRef model, StateRef x) {
   return {kinetic_energy(model, x) + potential_energy(model, x)};
 }
 
 // ---- measures ----
 
-// The larger of the angle between the attitudes and the length of the difference of the rates.
+// max(angle between the attitudes, norm of the difference of the rates).
 double attitude_and_rate_error(const CaseReadings& seen, const CaseReadings& exact);
-// The largest of what each reading is off, relative to itself.
+// Largest relative error of the readings.
 double relative_each(const CaseReadings& seen, const CaseReadings& exact);
 
-// ---- plane chains of links, hanging on -z from the world's origin, that turn from -z to x ----
+// ---- plane chains of links that hang along -z from the origin; angles rotate -z to x ----
 
 struct ChainLink {
   double mass = 1, length = 1;
   double com = 0.5;      // from the link's joint [m]
   double inertia = 0;    // about the centre of mass [kg m^2]
-  bool in_line = false;  // a rod: no inertia about itself
+  bool in_line = false;  // a rod: no inertia about its own axis
 };
 inline ChainLink rod_link(double mass, double length) {
   return {mass, length, length / 2, mass * length * length / 12, true};
@@ -95,14 +125,14 @@ inline ChainLink point_link(double mass, double length) {
   return {mass, length, length, 0, true};
 }
 
-// Angles are those between neighbours.
+// Joint angles are relative to the parent.
 Model<double> plane_chain(const std::vector<ChainLink>& links, double gravity = kGravity);
 Model<double> plane_chain(const ChainLink& link, int count);
 
-// Angles and rates from the vertical, in place of those of the joints.
+// Angles and rates relative to the vertical.
 CaseObserver absolute_angles();
 
-// The case's own equations, from (q, qd) at time 0.
+// Solution of the equations of motion `rates` from (q, qd) at time 0.
 std::function<CaseReadings(double)> solution_of(special::Rates rates, special::Numbers start);
 
 }  // namespace twinarm::smooth_parts

@@ -13,37 +13,37 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-// A simulation that is looked at, at given times or as something passes through zero.
+// Simulation of a case up to given times or events.
 class Run {
  public:
-  Run(const TrajectoryCase& c, CaseScene& scene, const Lane& lane,
+  Run(const TrajectoryCase& c, CaseScene& scene, const Lane& integration,
       std::vector<TrajectoryPoint>* recording)
       : case_(c),
         scene_(scene),
-        lane_(lane),
+        integration_(integration),
         recording_(recording),
         simulation_(scene.model, scene.start) {
-    simulation_.set_integrator(lane.integrator, lane.tolerance);
+    simulation_.set_integrator(integration.integrator, integration.tolerance);
     for (const auto& source : scene.sources) simulation_.add(*source);
     if (scene.prepare) scene.prepare(simulation_);
-    energy_at_start_ = look();
+    energy_at_start_ = record();
   }
 
-  // Where it stands at t, no earlier than before; nothing where the run stopped by itself.
+  // State at t >= the time of the last call; empty if the run stopped early.
   std::optional<State<double>> at(double t) {
-    const double short_of_a_step = 1e-9 * lane_.step;
+    const double rounding = 1e-9 * integration_.step;
     if (adaptive()) {
-      while (t - now_ > short_of_a_step)
+      while (t - now_ > rounding)
         if (!advance(t - now_)) return {};
       return simulation_.state();
     }
-    while (t - now_ > lane_.step - short_of_a_step)
-      if (!advance(lane_.step)) return {};
-    if (t - now_ <= short_of_a_step) return simulation_.state();
+    while (t - now_ > integration_.step - rounding)
+      if (!advance(integration_.step)) return {};
+    if (t - now_ <= rounding) return simulation_.state();
     return side_step(simulation_, t - now_);
   }
 
-  // The next place where the case's event changes its sign, and its time.
+  // State and time of the next sign change of the event function.
   std::optional<State<double>> next_event(double& t) {
     const auto sign = [&](const State<double>& x) {
       const double value = case_.events.zero(scene_.model, x);
@@ -53,7 +53,7 @@ class Run {
     while (now_ < case_.events.until) {
       const State<double> before = simulation_.state();
       const double start = now_;
-      if (!advance(lane_.step)) return {};
+      if (!advance(integration_.step)) return {};
       const int after = sign(simulation_.state());
       if (after == 0 || sign_ == 0 || after == sign_) {
         if (after != 0) sign_ = after;
@@ -75,26 +75,25 @@ class Run {
 
   std::optional<double> energy_drift() const {
     if (!scene_.conserves || !case_.has_steps() || !(max_kinetic_ > 0)) return {};
-    return strayed_ / max_kinetic_;
+    return energy_error_ / max_kinetic_;
   }
   long steps() const { return steps_; }
 
  private:
-  bool adaptive() const { return lane_.integrator == Integrator::dopri5; }
+  bool adaptive() const { return integration_.integrator == Integrator::dopri5; }
 
-  // By one step of h, of dopri5 by at most that.
+  // One step of h; of dopri5 at most h.
   bool advance(double h) {
     const StepReport report = simulation_.step(h, adaptive());
     if (!report.ok()) return false;
-    // Without the rounding of a sum of many steps, which would be an error of time.
+    // A product has less rounding than a sum of many steps.
     ++steps_;
-    now_ = adaptive() ? now_ + report.h : static_cast<double>(steps_) * lane_.step;
-    const double energy = look();
-    strayed_ = std::max(strayed_, std::abs(energy - energy_at_start_));
+    now_ = adaptive() ? now_ + report.h : static_cast<double>(steps_) * integration_.step;
+    energy_error_ = std::max(energy_error_, std::abs(record() - energy_at_start_));
     return true;
   }
 
-  double look() {
+  double record() {  // returns the energy
     const State<double>& x = simulation_.state();
     if (!scene_.conserves && !recording_) return 0;
     const double kinetic = kinetic_energy(scene_.model, x);
@@ -107,43 +106,39 @@ class Run {
 
   const TrajectoryCase& case_;
   CaseScene& scene_;
-  Lane lane_;
+  Lane integration_;
   std::vector<TrajectoryPoint>* recording_;
   Simulation simulation_;
-  double now_ = 0, energy_at_start_ = 0, strayed_ = 0, max_kinetic_ = 0;
+  double now_ = 0, energy_at_start_ = 0, energy_error_ = 0, max_kinetic_ = 0;
   long steps_ = 0;
-  int sign_ = 0;  // of the event's function, the last that was not zero
+  int sign_ = 0;  // last nonzero sign of the event function
 };
 
-LaneResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& lane,
-                   std::vector<TrajectoryPoint>* recording) {
+TrajectoryResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& integration,
+                         std::vector<TrajectoryPoint>* recording) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  LaneResult result;
-  Run run(c, scene, lane, recording);
-  const auto judge = [&](const CaseReadings& seen, double argument) {
-    const double error = c.measure(seen, c.reference(argument));
-    result.error = nan_max(result.error, error);
+  TrajectoryResult result;
+  Run run(c, scene, integration, recording);
+  const auto compare = [&](const CaseReadings& seen, double argument) {
+    result.error = nan_max(result.error, c.measure(seen, c.reference(argument)));
+    return !std::isnan(result.error);
   };
-  const auto all = [&] {
-    for (const double t : c.times) {
-      const auto x = run.at(t);
-      if (!x) return false;
-      judge(c.observe(scene.model, *x), t);
-      if (std::isnan(result.error)) return false;
-    }
-    for (int n = 1; n <= c.events.count; ++n) {
-      double t = 0;
-      const auto x = run.next_event(t);
-      if (!x) return false;
-      CaseReadings seen{t};
-      for (const double reading : c.observe(scene.model, *x)) seen.push_back(reading);
-      judge(seen, n);
-      if (std::isnan(result.error)) return false;
-    }
-    return true;
+  const auto at_time = [&](double t) {
+    const auto x = run.at(t);
+    return x && compare(c.observe(scene.model, *x), t);
   };
-  if (!all()) result.error = kNothing;
+  const auto at_event = [&](int n) {
+    double t = 0;
+    const auto x = run.next_event(t);
+    if (!x) return false;
+    CaseReadings seen = c.observe(scene.model, *x);
+    seen.insert(seen.begin(), t);
+    return compare(seen, n);
+  };
+  bool ok = std::ranges::all_of(c.times, at_time);
+  for (int n = 1; ok && n <= c.events.count; ++n) ok = at_event(n);
+  if (!ok) result.error = kNothing;
   result.energy_drift = run.energy_drift();
   result.steps = run.steps();
   result.seconds = std::chrono::duration<double>(Clock::now() - start).count();
@@ -152,11 +147,11 @@ LaneResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& lane,
 
 double max_reference(const TrajectoryCase& c) {
   double largest = 0;
-  const auto look = [&](double argument) {
+  const auto include = [&](double argument) {
     for (const double value : c.reference(argument)) largest = std::max(largest, std::abs(value));
   };
-  for (const double t : c.times) look(t);
-  for (int n = 1; n <= c.events.count; ++n) look(n);
+  for (const double t : c.times) include(t);
+  for (int n = 1; n <= c.events.count; ++n) include(n);
   return largest;
 }
 
@@ -205,15 +200,15 @@ void more_inertia(CaseScene& scene) {
   }
 }
 
-LaneResult run_lane(const TrajectoryCase& c, const Lane& lane,
-                    std::vector<TrajectoryPoint>* recording) {
-  return measure(c, c.scene(), lane, recording);
+TrajectoryResult run_trajectory(const TrajectoryCase& c, const Lane& integration,
+                                std::vector<TrajectoryPoint>* recording) {
+  return measure(c, c.scene(), integration, recording);
 }
 
 double mutant_error(const TrajectoryCase& c) {
   CaseScene scene = c.scene();
   c.mutant(scene);
-  return measure(c, std::move(scene), c.lane, nullptr).error;
+  return measure(c, std::move(scene), c.integration, nullptr).error;
 }
 
 std::optional<double> slope_of(const std::vector<double>& errors, double rounding) {
@@ -231,15 +226,15 @@ double rounding_of(const TrajectoryCase& c) {
   return 1e-12 * max_reference(c);
 }
 
-std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane) {
-  if (!c.takes_lanes() || lane.integrator == Integrator::dopri5) return {};
+std::optional<double> observed_order(const TrajectoryCase& c, const Lane& integration) {
+  if (!c.takes_any_integrator() || integration.integrator == Integrator::dopri5) return {};
   const double rounding = rounding_of(c);
   std::vector<double> errors;
-  double h = lane.step;
+  double h = integration.step;
   for (int i = 0; i < 9; ++i, h *= 2) {
     CaseScene scene = c.scene();
-    scene.conserves = false;  // nobody asks for its energy
-    errors.push_back(measure(c, std::move(scene), {lane.integrator, h}, nullptr).error);
+    scene.conserves = false;  // its energy is not needed
+    errors.push_back(measure(c, std::move(scene), {integration.integrator, h}, nullptr).error);
     if (const auto slope = slope_of(errors, rounding)) return slope;
   }
   return {};

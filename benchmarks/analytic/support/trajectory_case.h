@@ -1,12 +1,11 @@
-// A motion that is known: what moves, where and when it is looked at, and what should be seen.
+// A known motion: mechanism, times, readings, and their reference values.
 //
-// One aggregate holds a whole case; run_trajectory() runs it with any integrator. A case of one
-// evaluation (accelerations, torques, energies in one state) is one whose only time is 0: no step
-// is taken, and no integrator is asked. How to add one: docs/develop/adding_a_case.md.
+// run_trajectory() runs a case with any integrator. A case of one evaluation (accelerations,
+// torques, energies in one state) has the only time 0: no step is taken. How to add a case:
+// docs/develop/adding_a_case.md.
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,111 +19,109 @@ namespace twinarm {
 
 class Simulation;
 
-// What moves. Made anew for every run.
+// Mechanism and initial state; created for every run.
 struct CaseScene {
   Model<double> model{};
   State<double> start{};
-  // Rewindable too (checkpointable.h) where a time lies between two steps.
+  // Checkpointable if a time lies between two steps.
   std::vector<std::shared_ptr<ForceSource>> sources{};
-  bool conserves = true;  // energy is kept, so that its drift tells something
-  // Energy of the sources, beside that of gravity [J].
+  bool conserves = true;  // whether energy is constant
+  // Potential energy of the sources [J].
   std::function<double(const State<double>&)> stored{};
-  // Loops, laws of prescribed joints: once, before the first step.
+  // Adds loops and prescribed motions before the first step.
   std::function<void(Simulation&)> prepare{};
 };
 
-// By what it is run.
+// Integrator and step of a run.
 struct Lane {
   Integrator integrator = Integrator::rk4;
-  double step = 1e-3;       // [s]; of dopri5 the longest
+  double step = 1e-3;       // [s]; maximum step of dopri5
   double tolerance = 1e-9;  // of dopri5, relative and absolute
 };
-inline Lane rk4_lane(double step = 1e-3) {
+inline Lane rk4_with(double step = 1e-3) {
   return {Integrator::rk4, step};
 }
-inline Lane dopri5_lane(double tolerance = 1e-10) {
+inline Lane dopri5_with(double tolerance = 1e-10) {
   return {Integrator::dopri5, 0.1, tolerance};
 }
 
 using CaseReadings = std::vector<double>;
-inline CaseReadings rounded(std::initializer_list<long double> values) {
-  return {values.begin(), values.end()};
+template <class... Number>
+CaseReadings values(Number... numbers) {
+  return {static_cast<double>(numbers)...};
 }
 using CaseObserver = std::function<CaseReadings(const Model<double>&, const State<double>&)>;
 using CaseReference = std::function<CaseReadings(double)>;
-// One number from what was seen at one time and what should have been.
+// Error of the readings at one time.
 using CaseMeasure = double (*)(const CaseReadings& seen, const CaseReadings& exact);
 
 double max_difference(const CaseReadings& seen, const CaseReadings& exact);
 double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact);
 
-// Mistakes that a case must notice.
+// Mutants, with which a case must fail.
 void more_gravity(CaseScene& scene);  // by 0.1 %
-// 0.1 % in mass and in two of the moments of inertia of every body, about its origin, body axes.
+// By 0.1 % mass, Ixx and Izz of every body, about its origin, body axes.
 void more_inertia(CaseScene& scene);
 
-// In place of times: the first places where `zero` changes its sign, found with the integrator's
-// own step. A reading more, the time, comes before those of `observe`.
+// Instead of times: the first instants at which `zero` changes its sign, located with the
+// integrator's own step. Their time is the first reading, before those of `observe`.
 struct CaseEvents {
   std::function<double(const Model<double>&, const State<double>&)> zero{};
   int count = 0;
-  double until = 0;  // a run in which they have not all come by then fails [s]
+  double until = 0;  // the run fails if not all have occurred by then [s]
 };
 
 struct TrajectoryCase {
   std::function<CaseScene()> scene;
-  std::vector<double> times{};          // ascending [s]; with events, none
-  std::vector<std::string> readings{};  // what observe() gives, in order, with unit: "angle [rad]"
+  std::vector<double> times{};          // ascending [s]; none with events
+  std::vector<std::string> readings{};  // names of observe()'s values, with unit: "angle [rad]"
   CaseObserver observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  // Computed in the case at every time; with events, for the number of the event, from 1 on.
-  CaseReference reference;
-  Lane lane{};  // in which it is judged
+  CaseReference reference;  // by time; with events, by the number of the event, from 1
+  Lane integration{};       // of the case's error
   CaseMeasure measure = max_difference;
-  void (*mutant)(CaseScene&) = more_gravity;  // with this mistake the error is above the tolerance
+  void (*mutant)(CaseScene&) = more_gravity;  // its error must exceed the tolerance
   CaseEvents events{};
-  // The reference is what a scheme gives at its step: no lane but its own.
-  bool of_its_lane = false;
-  bool at_times_only = false;  // the reference is known at the times and nowhere between
+  // The reference is the result of one scheme at one step.
+  bool needs_its_integrator = false;
+  bool at_times_only = false;  // the reference is known at these times only
 
   bool has_steps() const { return events.count > 0 || times.back() > 0; }
-  bool takes_lanes() const { return has_steps() && !of_its_lane; }
+  bool takes_any_integrator() const { return has_steps() && !needs_its_integrator; }
 };
 
-// One evaluation, in the state at the start.
+// One evaluation in the initial state.
 TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::string> readings,
                           CaseObserver observe, CaseReadings exact,
                           CaseMeasure measure = relative_to_largest);
-// Of the same motion the times of events alone.
+// The same motion, of which only the times of events are checked.
 TrajectoryCase times_of(TrajectoryCase motion, CaseEvents events, CaseReference reference);
 
-// Runs a TrajectoryCase in any lane.
-struct LaneResult {
-  double error = 0;  // largest measure of all times; not a number where the run stopped by itself
+struct TrajectoryResult {
+  double error = 0;                      // maximum over all times; NAN if the run stopped early
   std::optional<double> energy_drift{};  // max |E - E0| over the largest kinetic energy
   double seconds = 0;
-  long steps = 0;  // that were done
+  long steps = 0;
 };
 
-// A run to look at: a point at the start and after every step.
+// Recorded at the start and after every step.
 struct TrajectoryPoint {
   double t;
   CaseReadings seen;
-  double energy;  // kinetic, of gravity, of the sources [J]
+  double energy;  // kinetic + gravity + sources [J]
 };
 
-LaneResult run_lane(const TrajectoryCase& c, const Lane& lane,
-                    std::vector<TrajectoryPoint>* recording = nullptr);
+TrajectoryResult run_trajectory(const TrajectoryCase& c, const Lane& integration,
+                                std::vector<TrajectoryPoint>* recording = nullptr);
 
-// The same with the case's mistake in it, in its own lane.
+// Error of the mutant with the case's integrator and step.
 double mutant_error(const TrajectoryCase& c);
 
-// Of errors with the steps h, 2h, 4h ..: by how much, in powers of two, they fall when the step
-// halves. The slope through the first three that are above rounding and whose two slopes agree to
-// 0.3; nothing where no three do.
+// Order of convergence from errors with the steps h, 2h, 4h ..: slope of log2(error) through the
+// first three that exceed rounding and whose two slopes agree to 0.3; empty if there are none.
 std::optional<double> slope_of(const std::vector<double>& errors, double rounding);
 double rounding_of(const TrajectoryCase& c);  // 1e-12 of the largest reading
 
-// The slope of the lane's step, its double and so on. Nothing for dopri5.
-std::optional<double> observed_order(const TrajectoryCase& c, const Lane& lane);
+// With the given step, its double and so on; empty for dopri5.
+std::optional<double> observed_order(const TrajectoryCase& c, const Lane& integration);
 
 }  // namespace twinarm

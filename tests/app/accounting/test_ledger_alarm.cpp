@@ -1,4 +1,4 @@
-// The ledger's alarm, fed with rows by hand: a row counts by its kind, and its name is free.
+// Energy alarm with synthetic rows: the kind of a row decides, not its name.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@ using namespace twinarm;
 
 namespace {
 
-// A row that doubles every window, beside a kinetic energy of 1 J.
+// A row that doubles in every window, with a kinetic energy of 1 J.
 std::optional<Alarm> alarm_of(EnergyRowKind kind, const std::string& name) {
   EnergyAlarm alarm(1);
   for (int n = 0; n < 20; ++n)
@@ -20,7 +20,7 @@ std::optional<Alarm> alarm_of(EnergyRowKind kind, const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("ledger alarm: rows of what no law of nature does are watched, whatever their name") {
+TEST_CASE("energy alarm: rows of numerical work raise it, whatever their names") {
   for (const EnergyRowKind kind :
        {EnergyRowKind::numerical, EnergyRowKind::coupling_implicit,
         EnergyRowKind::constraint_stabilisation, EnergyRowKind::contact_stabilisation,
@@ -31,7 +31,7 @@ TEST_CASE("ledger alarm: rows of what no law of nature does are watched, whateve
   }
 }
 
-TEST_CASE("ledger alarm: forces that may work are not watched, whatever their name") {
+TEST_CASE("energy alarm: rows of physical work do not raise it, whatever their names") {
   for (const EnergyRowKind kind : {EnergyRowKind::gravity, EnergyRowKind::actuator,
                                    EnergyRowKind::wrench, EnergyRowKind::coupling_other})
     for (const char* name : {kNumericalRow, "coupling/a/implicit", "contact/stabilisation"})

@@ -33,9 +33,9 @@ TEST_CASE("devices: each kind and each hand is in the list that people are shown
     CHECK(tells(list, kind.name + kind.argument));
     CHECK(tells(list, kind.help));
   }
-  for (const ScriptedMotion& hand : scripted_hands()) CHECK(tells(list, hand.help));
+  for (const ScriptedMotion& hand : scripted_motions()) CHECK(tells(list, hand.help));
   CHECK(device_kinds().size() == 5);
-  CHECK(scripted_hands().size() == 6);
+  CHECK(scripted_motions().size() == 6);
 }
 
 TEST_CASE("devices: only hands without a file stay inside the program") {
@@ -52,7 +52,7 @@ TEST_CASE("devices: every scripted hand moves a virtual Omni within its ranges")
   const std::string trace =
       (std::filesystem::temp_directory_path() / "twinarm-devices-trace.csv").string();
   write_trace(SyntheticOperator(5, 3), 100, trace);
-  for (const ScriptedMotion& hand : scripted_hands()) {
+  for (const ScriptedMotion& hand : scripted_motions()) {
     CAPTURE(hand.name);
     const std::string spec = "virtual:" + hand.name + (hand.name == "trace" ? ":" + trace : "");
     const auto device = open_device(spec);

@@ -111,8 +111,8 @@ TEST_CASE("keys: one that is not repeated is let go of after its time, buttons g
   const double held = hand.sample(0.1, 1).theta[3];
   CHECK(held > start);
   decoder.pass(10.3, hand);
-  const double let_go = hand.sample(0.2, 1).theta[3];
-  CHECK(hand.sample(0.3, 1).theta[3] == let_go);
+  const double released = hand.sample(0.2, 1).theta[3];
+  CHECK(hand.sample(0.3, 1).theta[3] == released);
   decoder.feed(&space, 1, 11, hand);
   CHECK(hand.sample(0.3, 1).button);
   decoder.feed(&space, 1, 11, hand);

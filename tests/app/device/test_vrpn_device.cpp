@@ -147,22 +147,22 @@ TEST_CASE("VRPN device: garbage in the middle of a run is survived, counted and 
 }
 
 TEST_CASE("VRPN device: silence makes it not alive, in place; speech makes it alive again") {
-  std::atomic<bool> speak{true};
+  std::atomic<bool> send_pending{true};
   VrpnServer server([&](const VrpnClient& client, int) {
     client.say(greeting);
-    while (!client.stopped()) client.go_on(pose_at_waist(0.3), speak ? 1 : 0);
+    while (!client.stopped()) client.go_on(pose_at_waist(0.3), send_pending ? 1 : 0);
   });
   Said said;
   VrpnSettings settings = quick(said);
   settings.patience = 30;  // the connection is kept
   VrpnDevice device({"Phantom0", "127.0.0.1", server.port()}, {}, settings);
   CHECK(soon(device, [](const DeviceState& s) { return s.alive; }));
-  speak = false;
+  send_pending = false;
   CHECK(soon(device, [](const DeviceState& s) { return !s.alive; }));
   const DeviceState still = device.poll(test_clock());
   CHECK(still.theta[0] == doctest::Approx(0.3));
   CHECK(test_clock() - still.t > 0.8);  // it says how old it is
-  speak = true;
+  send_pending = true;
   CHECK(soon(device, [](const DeviceState& s) { return s.alive; }));
   CHECK(device.counts().broken == 0);
 }
@@ -204,7 +204,7 @@ TEST_CASE("VRPN device: one that cannot be had is refused with a remedy") {
     });
     return fault_of({"Phantom", "127.0.0.1", server.port()});
   };
-  CHECK(has(answer(hex("48 54 54 50")).problem, "no VRPN server"));
+  CHECK(has(answer(hex("48 54 54 50")).problem, "not a VRPN server"));
   CHECK(has(answer({}).problem, "does not answer"));
   Bytes other = cookie;
   other[12] = '6';
@@ -220,7 +220,7 @@ TEST_CASE("VRPN device: one that cannot be had is refused with a remedy") {
   const Diagnostic refused = fault_of({"Phantom0", "127.0.0.1", port});
   CHECK(has(refused.problem, "refused"));
   CHECK(has(refused.fix, "vrpn_server"));
-  CHECK(has(fault_of({"Phantom0", "no.such.host.invalid", 3883}).problem, "not known"));
+  CHECK(has(fault_of({"Phantom0", "no.such.host.invalid", 3883}).problem, "unknown host"));
 }
 
 TEST_CASE("VRPN device: forces go out as newtons at the stylus, clamped, and end when let go") {

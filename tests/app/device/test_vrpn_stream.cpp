@@ -9,7 +9,7 @@
 
 using namespace twinarm;
 using namespace vrpn_bytes;
-using StreamFault = VrpnStream::Diagnostic;
+using StreamFault = VrpnStream::Error;
 
 namespace {
 
@@ -34,8 +34,8 @@ TEST_CASE("VRPN: a server's greeting names its devices and types, a pose and but
   CHECK(stream.version() == "vrpn: ver. 07.38");
   CHECK(stream.has_device());
   CHECK(stream.devices() == std::vector<std::string>{"Phantom0"});
-  CHECK(stream.knows_type(VrpnSpeech::kForceName));
-  CHECK_FALSE(stream.knows_type(VrpnSpeech::kRateName));
+  CHECK(stream.knows_type(VrpnWriter::kForceName));
+  CHECK_FALSE(stream.knows_type(VrpnWriter::kRateName));
   CHECK(stream.poses() == 0);
   CHECK(feed(stream, all({pose, press_0})) == StreamFault::none);
   CHECK(stream.poses() == 1);
@@ -123,7 +123,7 @@ TEST_CASE("VRPN: what is no VRPN, speaks another version, or has no length is gi
 }
 
 TEST_CASE("VRPN: our own words are those that a vrpn_Phantom server reads, byte for byte") {
-  VrpnSpeech speech;
+  VrpnWriter speech;
   VrpnBytes out;
   speech.cookie(out);
   CHECK(out == cookie);

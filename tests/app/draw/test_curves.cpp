@@ -1,4 +1,4 @@
-// Curves under pictures, and what counts as part of the scene.
+// Curves below pictures, and the distance of interest.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ const PlotCurve& curve_of(const Plot& plot, const std::string& name) {
   return plot.curves.front();
 }
 
-TEST_CASE("curves: a ball that falls gains the kinetic energy that it loses, from the lowest up") {
+TEST_CASE("curves: the energy of a falling ball is constant, relative to the lowest potential") {
   const SceneModel scene = built(R"(
 [[body]]
 name = "ball"
@@ -42,7 +42,7 @@ position = [0, 0, 10]
   for (const double sum : curve_of(plot, "sum").y) CHECK(sum == doctest::Approx(m_g_h));
 }
 
-TEST_CASE("curves: a curve that begins late has a gap before, and all are as long as the times") {
+TEST_CASE("curves: a curve that begins late starts with a gap") {
   const SceneModel scene = built(
       "[[body]]\nname = \"b\"\nmass = 1\n"
       "shape = { sphere = { radius = 1 } }\n");
@@ -55,7 +55,7 @@ TEST_CASE("curves: a curve that begins late has a gap before, and all are as lon
   pull.pull_W = Vector3(3, 0, 4);
   moment.pulls.push_back(pull);
   trace.add(&scene, moment);
-  trace.add(&scene, moment);  // the same instant again: left out
+  trace.add(&scene, moment);  // the same instant again: ignored
   const Plot plot = trace.plots().front();
   REQUIRE(plot.t.size() == 2);
   REQUIRE(plot.curves.size() == 1);
@@ -63,13 +63,13 @@ TEST_CASE("curves: a curve that begins late has a gap before, and all are as lon
   CHECK(plot.curves[0].y[1] == 5);
 }
 
-TEST_CASE("curves: misspelt names are told, all at once") {
+TEST_CASE("curves: all misspelt names are reported") {
   CHECK(faults_of([] { parse_curves("energie,laag"); }).size() == 2);
   CHECK(parse_curves("none").empty());
   CHECK(parse_curves("lag,energy").size() == 2);
 }
 
-// Instants of a point that goes x(t) = f(i).
+// Instants of a point at x = f(i).
 template <class F>
 double interest(F&& f) {
   std::vector<Extent> instants;
@@ -78,10 +78,10 @@ double interest(F&& f) {
     for (const double s : {-1.0, 1.0}) extent.add(Vector3(f(i) + s, s, s));
     instants.push_back(extent);
   }
-  return max_of_interest(instants);
+  return max_distance_of_interest(instants);
 }
 
-TEST_CASE("framing: a thrown ball stays of interest, what a diverged run throws away does not") {
+TEST_CASE("framing: a thrown ball is framed, bodies of a diverged run are not") {
   CHECK(interest([](int i) { return 0.5 * i; }) > 100);            // thrown: 100 m in all
   CHECK(interest([](int i) { return 0.005 * i * i; }) > 200);      // falling: 200 m
   CHECK(interest([](int i) { return std::exp2(i - 170); }) < 10);  // 1e8 m in the end

@@ -1,4 +1,4 @@
-// Cameras: what they must see, checked with the painter's own projection.
+// Cameras, checked with the painter's projection.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -25,19 +25,19 @@ Extent random_extent(unsigned seed) {
   return extent;
 }
 
-// How far the points reach from the middle of the picture: 1 is its border.
+// Largest distance of a point from the picture's centre; 1: its border.
 double reach(const Camera& camera, const Extent& extent) {
   SceneBounds bounds;
   bounds.all = bounds.solid = {extent.center(), extent.radius()};
   const auto clip = make_clip_from_world(camera, double{kWide} / kHigh, bounds, 1.0);
-  double most = 0;
+  double farthest = 0;
   for (const Vector3& p : extent.points()) {
     const auto pixel = project(clip, p, kWide, kHigh);
     REQUIRE(pixel);
-    most = std::max(
-        {most, std::abs(2 * pixel->x() / kWide - 1), std::abs(2 * pixel->y() / kHigh - 1)});
+    farthest = std::max(
+        {farthest, std::abs(2 * pixel->x() / kWide - 1), std::abs(2 * pixel->y() / kHigh - 1)});
   }
-  return most;
+  return farthest;
 }
 
 const char* const kBall = R"(
@@ -47,7 +47,7 @@ shape = { sphere = { radius = 0.1 } }
 mass = 1
 )";
 
-TEST_CASE("framing: from any side all points are in the picture, and one is at its margin") {
+TEST_CASE("framing: all points are in the picture, and one is at its margin, from any side") {
   for (unsigned seed = 1; seed <= 40; ++seed)
     for (const char* name : {"auto", "front", "side", "top", "iso", "123,-40", "10,90", "0,-90"}) {
       CAPTURE(seed);
@@ -59,7 +59,9 @@ TEST_CASE("framing: from any side all points are in the picture, and one is at i
     }
 }
 
-TEST_CASE("framing: in the front view x goes to the right, in the side view y, from the top both") {
+TEST_CASE(
+    "framing: x is to the right in the front view, y in the side view, both as usual in the top "
+    "view") {
   const Extent extent = random_extent(7);
   const Model<double> model = built(kBall).model;
   const auto pixel_of = [&](const char* name, const Vector3& p) {
@@ -77,7 +79,7 @@ TEST_CASE("framing: in the front view x goes to the right, in the side view y, f
   CHECK(pixel_of("top", c + y).y() < pixel_of("top", c).y() - 1);
 }
 
-TEST_CASE("framing: one point alone, and none, give a camera that is finite") {
+TEST_CASE("framing: one point, and none, give a finite camera") {
   Extent extent;
   const auto is_finite = [](const Camera& c) {
     return c.eye.allFinite() && c.target.allFinite() && (c.eye - c.target).norm() > 0;
@@ -89,8 +91,8 @@ TEST_CASE("framing: one point alone, and none, give a camera that is finite") {
   CHECK(is_finite(make_camera({}, extent, 1.5)));
 }
 
-// Tables whose upper face lies at 0, that stand on 0, that 0 cuts in two, that hang in the air.
-TEST_CASE("framing: a floor that is only drawn goes through no body") {
+// Tables below, on, across and above z = 0.
+TEST_CASE("framing: a floor that is not part of the scene intersects no body") {
   for (const double thickness : {0.001, 0.01, 0.03, 0.1, 1.0})
     for (const double middle : {-0.5 * thickness, 0.5 * thickness, 0.0, 3.0}) {
       CAPTURE(thickness);
@@ -107,7 +109,7 @@ TEST_CASE("framing: a floor that is only drawn goes through no body") {
     }
 }
 
-TEST_CASE("framing: a camera that does not exist is refused by name") {
+TEST_CASE("framing: an unknown camera is rejected by name") {
   const Model<double> model = built(kBall).model;
   for (const char* name : {"frnt", "follow:bal", "1", "1,2,3,4", "1,95", "1,2,-3", "nan,0"}) {
     CAPTURE(name);

@@ -1,4 +1,4 @@
-// Pictures on plain shapes: where they lie, from a list and from files of robots and scenes.
+// Textures on plain shapes, from a list and from files of robots and scenes.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ struct TextureFolder : TemporaryFolder {
   TextureFolder() { write_png((path() / "quarters.png").string(), quarters(64)); }
 };
 
-// What the eye sees of the list, looking at the origin; `up` upwards, light from where it stands.
+// Picture of the list from `eye` towards the origin; light from the eye.
 std::string seen_quarters(DrawList list, const Vector3& eye, const Vector3& up) {
   list.ground.visible = false;
   list.camera.eye = eye;
@@ -38,7 +38,7 @@ DrawList with_quarters(UnitShape shape, const Pose& X_WM = {}) {
   return list;
 }
 
-// Of what a robot's or a scene's file shows, all at its place.
+// Picture of a robot or a scene.
 DrawList list_of(const SceneMeshes& cast, DrawList list) {
   for (const ScenePart& part : cast.parts) {
     add_mesh_instance(list, part.mesh, part.X_LM, part.color, part.scale);
@@ -66,7 +66,7 @@ ShownRobot show_robot(const TextureFolder& folder, const std::string& visual) {
   ModelOptions floating;
   floating.floating = true;
   const Model<double> model = build_model(shown.robot, floating);
-  shown.cast = cast_of(shown.robot, model, shown.list);
+  shown.cast = make_scene_meshes(shown.robot, model, shown.list);
   return shown;
 }
 
@@ -81,20 +81,19 @@ TEST_CASE("textures: each face of a box shows the whole picture, upright") {
     CHECK(seen_quarters(box, end, Vector3::UnitY()) == "rgbw");
 }
 
-TEST_CASE("textures: a ball and a cylinder show the picture once around, its middle towards x") {
+TEST_CASE("textures: a sphere and a cylinder show the picture once around, its centre towards x") {
   const Pose centred{Matrix3::Identity(), Vector3(0, 0, -0.5)};
   for (const DrawList& round :
        {with_quarters(UnitShape::sphere), with_quarters(UnitShape::cylinder, centred)}) {
     CHECK(seen_quarters(round, Vector3(6, 0, 0), Vector3::UnitZ()) == "rgbw");
-    // Where its borders meet, the right half is to the left.
+    // At the border of the texture its right half is on the left.
     CHECK(seen_quarters(round, Vector3(-6, 0, 0), Vector3::UnitZ()) == "grwb");
   }
   CHECK(seen_quarters(with_quarters(UnitShape::cylinder), Vector3(0, 0, 6), Vector3::UnitY()) ==
         "rgbw");
 }
 
-TEST_CASE(
-    "textures: a URDF's material lays its picture on shapes and on meshes that can have one") {
+TEST_CASE("textures: a URDF material applies to shapes and to meshes with texture coordinates") {
   const TextureFolder folder;
   folder.write(
       "square.obj",
@@ -122,7 +121,7 @@ TEST_CASE(
   CHECK(!bare.cast.parts.at(0).texture);
 }
 
-TEST_CASE("textures: one that is missing or no picture is told, and the link drawn without it") {
+TEST_CASE("textures: a missing or invalid file is reported and the link drawn without it") {
   const TextureFolder folder;
   folder.write("text.png", "no picture");
   const auto robot = [&](const char* file) {
@@ -140,7 +139,7 @@ TEST_CASE("textures: one that is missing or no picture is told, and the link dra
     CHECK(seen_quarters(list_of(r->cast, r->list), Vector3(6, 0, 0), Vector3::UnitZ()) == "rrrr");
 }
 
-TEST_CASE("textures: a body of a scene has its colour, its picture, or both multiplied") {
+TEST_CASE("textures: a body of a scene has its colour, its texture, or their product") {
   const TextureFolder folder;
   const auto body = [&](const std::string& looks) {
     const SceneModel scene = built(
@@ -148,7 +147,7 @@ TEST_CASE("textures: a body of a scene has its colour, its picture, or both mult
         "[1, 1, 1] } }\n" +
         looks);
     DrawList list;
-    const SceneMeshes cast = cast_of(scene, list);
+    const SceneMeshes cast = make_scene_meshes(scene, list);
     return seen_quarters(list_of(cast, list), Vector3(6, 0, 0), Vector3::UnitZ());
   };
   const std::string texture =

@@ -1,15 +1,14 @@
-// An articulated body of two bodies, as in example 7.1 of RBDA: a box, and inside of it a cylinder
-// that may turn about x and slide along y. The book was not at hand. The arrangement is as Drake's
+// An articulated body as in example 7.1 of RBDA: a box, and inside it a cylinder with rotation
+// about x and translation along y. The book was not at hand. The arrangement is as Drake's
 // articulated_body_algorithm_test describes that example, with the sizes used there; every number
 // below is worked out here, by hand.
 //
-// All axes along x, y, z, both centres of mass in one place. Diagonals, turning part first:
+// All axes along x, y, z, equal centres of mass. Diagonals, angular part first:
 //   box       0.4 x 1 x 1 m, 2 kg            I1 = (1/3, 29/150, 29/150, 2, 2, 2)
 //   cylinder  r 0.2, length 0.3 m, 4/5 kg    I2 = (2/125, 7/500, 7/500, 4/5, 4/5, 4/5)
 //   S = (e1 e5), U = I2 S = (2/125 e1  4/5 e5), D = S^T U = (2/125 0; 0 4/5)
-//   Ia = I2 - U D^-1 U^T = (0, 7/500, 7/500, 4/5, 0, 4/5): what turns about x or slides along y
-//   with the cylinder is not felt IA = I1 + Ia = (1/3, 311/1500, 311/1500, 14/5, 2, 14/5): no rigid
-//   body, whose mass is one number
+//   Ia = I2 - U D^-1 U^T = (0, 7/500, 7/500, 4/5, 0, 4/5): zero in the joint's directions
+//   IA = I1 + Ia = (1/3, 311/1500, 311/1500, 14/5, 2, 14/5): not the inertia of a rigid body
 // With the cylinder 1/4 m along y, Ia acts there: X^T Ia X adds m y^2 = 1/20 about x and z, and
 //   H = [r]x M = (0 0 1/5; 0 0 0; -1/5 0 0).
 #include <doctest/doctest.h>
@@ -21,7 +20,7 @@ using namespace twinarm;
 
 namespace {
 
-// Turning and sliding are two joints here, one after the other, with a carriage of no mass between.
+// Two joints in series with a massless carriage between them.
 Model<double> cylinder_in_box() {
   ModelBuilder builder;
   builder.set_gravity(Vector3::Zero());
@@ -52,8 +51,7 @@ void check_equal(const Eigen::MatrixXd& found, const Eigen::MatrixXd& wanted) {
 
 }  // namespace
 
-TEST_CASE(
-    "a cylinder in a box, after RBDA example 7.1: U, D, Ia and IA are the fractions by hand") {
+TEST_CASE("cylinder in a box, after RBDA example 7.1: U, D, Ia and IA are the fractions by hand") {
   const Model<double> model = cylinder_in_box();
   const Inspection in(model, State<double>(model), {});
   constexpr std::size_t kBox = 1, kCarriage = 2, kCylinder = 3;
@@ -67,11 +65,11 @@ TEST_CASE(
   check_equal(value_of(in, kBox, "IA"), diagonal(1.0 / 3, 311.0 / 1500, 311.0 / 1500, 2.8, 2, 2.8));
 }
 
-TEST_CASE("a cylinder in a box, off its middle: the masses felt along x and z have a lever arm") {
+TEST_CASE("cylinder off the centre of a box: apparent masses along x and z have a lever arm") {
   const Model<double> model = cylinder_in_box();
   State<double> x(model);
   x.q[model.iq[2]] = 0.25;
-  x.q[model.iq[3]] = 0.7;  // of a round body this is not felt
+  x.q[model.iq[3]] = 0.7;  // no effect: the cylinder is round
   const Inspection in(model, x, {});
   Eigen::MatrixXd wanted = diagonal(1.0 / 3 + 0.05, 311.0 / 1500, 311.0 / 1500 + 0.05, 2.8, 2, 2.8);
   wanted(0, 5) = wanted(5, 0) = 0.2;

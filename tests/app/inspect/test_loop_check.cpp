@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A tree whose links `a` and `b` are closed by a loop of this type as they stand at x.
+// A loop of this type that is closed at x.
 LoopClosure closed_at(Random& random, const Model<double>& model, const State<double>& x,
                       LoopType type) {
   Kinematics k(model);
@@ -35,7 +35,7 @@ LoopClosure closed_at(Random& random, const Model<double>& model, const State<do
   if (type == LoopType::distance) loop.X_LbC.p += random.vector(0.4);
   loop.length = (k.X_WL[a] * loop.X_LaC.p - k.X_WL[b] * loop.X_LbC.p).norm();
   loop.ratio = random.uniform(-2, 2);
-  // A fixed last joint has no coordinate; check_loops() refuses it.
+  // A fixed last joint has no coordinate; check_loops() rejects it.
   const auto q = [&](std::size_t i) { return model.iq[i] < x.q.size() ? x.q[model.iq[i]] : 0.0; };
   loop.offset = q(a) - (type == LoopType::gear ? loop.ratio * q(b) : 0);
   return loop;
@@ -45,11 +45,11 @@ struct Closed {
   Model<double> model;
   State<double> x;
   std::vector<LoopClosure> loops;
-  VectorXd along, force;  // a part of the force that J^T gamma makes; J^T lambda
+  VectorXd along, force;  // share of the force by gamma; J^T lambda
 };
 
-// Velocities that the loop allows, and M qdd + h = J^T lambda with J qdd + gamma = 0. Nothing where
-// the joints between its ends are too few for that.
+// Velocities that satisfy the loop, and M qdd + h = J^T lambda with J qdd + gamma = 0. Empty for a
+// singular loop.
 std::optional<Closed> try_closed(Random& random, const std::vector<JointType>& types,
                                  LoopType type) {
   Closed c{random_tree(random, 6, types), {}, {}, {}, {}};
@@ -98,7 +98,8 @@ Check check_of(const Closed& c, const VectorXd& force) {
 
 }  // namespace
 
-TEST_CASE("the acceleration of the dense equations keeps every loop closed; without gamma none") {
+TEST_CASE(
+    "the acceleration of the dense equations keeps every loop closed; without gamma it does not") {
   Random random(41);
   int moving = 0;
   for (const LoopTypeFacts& facts : all_loop_types()) {
@@ -113,9 +114,9 @@ TEST_CASE("the acceleration of the dense equations keeps every loop closed; with
       const Check good = check_of(c, c.force);
       CHECK_MESSAGE(good.pass(), good.error);
       worst = std::max(worst, good.error);
-      // As if J qdd = 0: what every check but this one takes for right.
+      // As if J qdd = 0: undetected by all other checks.
       const Check bad = check_of(c, c.force + c.along);
-      if (c.along.norm() < 1e-3) continue;  // nothing of the loop turns
+      if (c.along.norm() < 1e-3) continue;  // gamma is zero
       ++moving;
       CHECK_FALSE(bad.pass());
       CHECK(bad.worst == facts.name);
@@ -125,14 +126,14 @@ TEST_CASE("the acceleration of the dense equations keeps every loop closed; with
   CHECK(moving > 60);
 }
 
-TEST_CASE("a loop's force that is off by a millionth is found") {
+TEST_CASE("loop check: an error of 1e-6 in the loop force is detected") {
   Random random(42);
   const Closed c = random_closed(random, {JointType::revolute}, LoopType::ball);
   CHECK(check_of(c, c.force).pass());
   CHECK_FALSE(check_of(c, (1 + 1e-6) * c.force).pass());
 }
 
-TEST_CASE("a follower that leaves its leader is found by its name") {
+TEST_CASE("loop check: a mimic joint with a wrong acceleration is named") {
   Random random(43);
   std::vector<TreeBody> bodies = random_bodies(random, 4, {JointType::revolute});
   Model<double> model = build(bodies);

@@ -1,4 +1,4 @@
-// Wrenches from any viewpoint, and forces by their names.
+// Wrenches in any viewpoint, and named forces.
 #include <doctest/doctest.h>
 
 #include "app/inspect/force_balance.h"
@@ -18,7 +18,7 @@ std::vector<Viewpoint> all_viewpoints(std::size_t last_body) {
   return all;
 }
 
-// A force in world axes at a point of the world, as body i has it.
+// Force on body i in world axes at a point of the world.
 AppliedForce::OnBody at_point(const Inspection& in, std::size_t i, const Vector3& p,
                               const Vector3& f) {
   const Matrix3 R_BW = in.k.R_WB[i].transpose();
@@ -28,7 +28,7 @@ AppliedForce::OnBody at_point(const Inspection& in, std::size_t i, const Vector3
 
 }  // namespace
 
-TEST_CASE("wrenches balance from every viewpoint, on 100 random trees of all joints") {
+TEST_CASE("wrenches balance in every viewpoint, on 100 random trees of all joints") {
   Random random(31);
   const std::vector<JointType> types{all_joint_types.begin(), all_joint_types.end()};
   for (int k = 0; k < 100; ++k) {
@@ -42,7 +42,7 @@ TEST_CASE("wrenches balance from every viewpoint, on 100 random trees of all joi
         REQUIRE(seen.wrenches.size() == plain.wrenches.size());
         for (std::size_t n = 0; n < plain.wrenches.size(); ++n) {
           const NamedWrench &a = seen.wrenches[n], &b = plain.wrenches[n];
-          // What no viewpoint changes: the size of the force, and the torque along it.
+          // Invariants: size of the force, and torque along it.
           const double size = 1 + b.force.norm() + b.torque.norm();
           CHECK(std::abs(a.force.norm() - b.force.norm()) < 1e-12 * size);
           CHECK(std::abs(a.force.dot(a.torque) - b.force.dot(b.torque)) < 1e-11 * size * size);
@@ -51,8 +51,7 @@ TEST_CASE("wrenches balance from every viewpoint, on 100 random trees of all joi
   }
 }
 
-TEST_CASE(
-    "about its centre of mass a body's weight has no torque, nor a force about its own point") {
+TEST_CASE("torque of a weight about the centre of mass and of a force about its point is zero") {
   Random random(32);
   const Model<double> model = random_tree(random, 3, {JointType::revolute});
   const State<double> x = random_state(random, model);
@@ -79,8 +78,7 @@ TEST_CASE(
   CHECK((named.ends[0].about - p).norm() == 0);
 }
 
-TEST_CASE(
-    "a contact has two ends that cancel about one point, and is told by pressing and sliding") {
+TEST_CASE("a contact has opposite wrenches on its two bodies, and its normal and friction force") {
   Random random(33);
   const Model<double> model = random_tree(random, 3, {JointType::spherical});
   const State<double> x = random_state(random, model);

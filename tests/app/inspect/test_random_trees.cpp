@@ -1,5 +1,4 @@
-// The second ways of `twinarm inspect`, and the equations of the passes term by term, on mechanisms
-// of all joints.
+// Cross-checks and equations of the passes, on random mechanisms of all joints.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -24,7 +23,7 @@ Model<double> tree_with_armatures(Random& random) {
   return build(bodies);
 }
 
-// Torques, wrenches, and what implicit springs and dampers bring.
+// Torques, wrenches, and added inertia of implicit spring-dampers.
 std::vector<AppliedForce> random_actors(Random& random, const Model<double>& model, bool implicit) {
   Forces<double> forces(model);
   const auto vec = [&](double size) {
@@ -46,7 +45,7 @@ std::vector<AppliedForce> random_actors(Random& random, const Model<double>& mod
   return {actor_of("all", forces)};
 }
 
-// What the wrenches on a body leave, as a part of the largest of their numbers, whatever it is.
+// Sum of the wrenches on a body, relative to their largest number.
 double rest_of_wrenches(const BodyBalance& balance) {
   Vector6 sum = Vector6::Zero();
   double largest = 0;
@@ -60,8 +59,7 @@ double rest_of_wrenches(const BodyBalance& balance) {
 
 }  // namespace
 
-TEST_CASE(
-    "every second way agrees with the passes, on 1,000 random trees and states of all joints") {
+TEST_CASE("all cross-checks pass on 1,000 random trees and states of all joints") {
   Random random(20);
   std::map<std::string, double> worst;
   for (int k = 0; k < 1000; ++k) {
@@ -83,7 +81,7 @@ TEST_CASE(
   for (const auto& [name, error] : worst) MESSAGE(name, ": ", error);
 }
 
-TEST_CASE("a number that is off by 1e-8 is found by the check of its name") {
+TEST_CASE("cross-checks: an error of 1e-8 is detected by the check of that quantity") {
   Random random(21);
   const Model<double> model = random_tree(random, 4, {JointType::revolute});
   const State<double> x = random_state(random, model);
@@ -116,7 +114,7 @@ TEST_CASE("a number that is off by 1e-8 is found by the check of its name") {
   fails("momentum", [&](W& w) { w.qdd[1] += 1e-5; });
 }
 
-TEST_CASE("the terms of every equation add up to what aba() has, on random trees of all joints") {
+TEST_CASE("the terms of every equation sum to the result of aba(), on random trees of all joints") {
   Random random(31);
   std::map<std::string, int> met;
   for (int k = 0; k < 300; ++k) {
@@ -137,7 +135,7 @@ TEST_CASE("the terms of every equation add up to what aba() has, on random trees
     CHECK_MESSAGE(met[name] > 100, name);
 }
 
-TEST_CASE("a body's left sides are the numbers that the passes show of it") {
+TEST_CASE("left sides of the equations are the displayed quantities") {
   Random random(32);
   for (int k = 0; k < 50; ++k) {
     const Model<double> model = build(random_bodies(random, 6, kAllTypes));

@@ -10,13 +10,13 @@
 //   p1 = (0; -1, 0)                p2 = (9/2; -27/2, 9)
 //   U2 = (1; 0, 3/2), D2 = 1, u2 = -1 - 9/2 = -11/2
 //   Ia2 = diag(0; 3, 3 - 9/4 = 3/4), pa2 = p2 + Ia c2 + U2 u2 = (-1; -27/2, -3/4)
-//   seen from link 1 (x2 = y1, y2 = -x1, 1 m further out):
+//   in link 1 (x2 = y1, y2 = -x1, 1 m further out):
 //     X^T Ia X = (3 0 3; 0 3/4 0; 3 0 3), X^T pa = (-29/2; 3/4, -27/2)
 //   IA1 = (11/3 0 4; 0 11/4 0; 4 0 5), pA1 = (-29/2; -1/4, -27/2)
 //   U1 = (11/3; 0, 4), D1 = 11/3, u1 = 5 + 29/2 = 39/2
 //   a1' = (0; 0, 10), qdd1 = (39/2 - 40) 3/11 = -123/22, a1 = (-123/22; 0, 10)
 //   a2' = (-123/22; 97/22, -2), qdd2 = -11/2 + 123/22 + 3 = 34/11, a2 = (-5/2; 97/22, -2)
-// Lagrange: 14/3 qdd1 + qdd2 = 5 + 12 - 40, qdd1 + qdd2 = -1 - 3/2. So it is.
+// Lagrange: 14/3 qdd1 + qdd2 = 5 + 12 - 40, qdd1 + qdd2 = -1 - 3/2.
 #include <doctest/doctest.h>
 
 #include <map>
@@ -31,7 +31,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// The same arm, drawn in axes that are turned by R.
+// The arm in axes rotated by R.
 Model<double> arm(const Matrix3& R) {
   ModelBuilder builder;
   builder.set_gravity(R * Vector3(0, -10, 0));
@@ -71,7 +71,7 @@ Vector6 turned(const Matrix3& R, const Plane& p) {
 
 }  // namespace
 
-TEST_CASE("the passes on two links are the fractions worked by hand, in any axes of the file") {
+TEST_CASE("two links: the passes give the fractions by hand, in any axes of the file") {
   Random random(3);
   std::vector<Matrix3> axes{Matrix3::Identity(),
                             (Matrix3() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished(),
@@ -102,7 +102,7 @@ TEST_CASE("the passes on two links are the fractions worked by hand, in any axes
     number(2, "tau", -1), number(1, "tau", 5);
     number(1, "qdd", -123.0 / 22), number(2, "qdd", 34.0 / 11);
     check(1, "a", {-123.0 / 22, 0, 10}), check(2, "a", {-2.5, 97.0 / 22, -2});
-    // Of the inertias what the plane sees: columns of unit motions.
+    // Planar part of the inertias: columns of unit motions.
     const Eigen::MatrixXd &IA = of[1].at("IA"), &Ia = of[2].at("Ia");
     const auto column = [&](const Eigen::MatrixXd& m, const Plane& motion, const Plane& wanted) {
       CHECK((m * turned(R, motion) - turned(R, wanted)).norm() < 1e-13 * 10);
@@ -113,11 +113,11 @@ TEST_CASE("the passes on two links are the fractions worked by hand, in any axes
     column(Ia, {1, 0, 0}, {0, 0, 0});
     column(Ia, {0, 1, 0}, {0, 3, 0});
     column(Ia, {0, 0, 1}, {0, 0, 0.75});
-    CHECK(of[1].count("Ia") == 0);  // the base feels it, and asks for nothing
+    CHECK(of[1].count("Ia") == 0);  // not computed for children of the base
   }
 }
 
-TEST_CASE("free-body view of the hanging arm: each joint carries what hangs on it") {
+TEST_CASE("free-body diagram of a hanging arm: each joint carries the weight below it") {
   const Model<double> model = arm(Matrix3::Identity());
   State<double> x(model);
   x.q = {-std::numbers::pi / 2, 0};

@@ -1,4 +1,4 @@
-// Small motions whose frequencies are known.
+// Modes with known frequencies.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -43,7 +43,7 @@ std::vector<Mode> modes_at(const Model<double>& model, const State<double>& x,
 
 }  // namespace
 
-TEST_CASE("n hanging point masses swing at the zeros of Laguerre's polynomial") {
+TEST_CASE("n hanging point masses have frequencies at the zeros of Laguerre's polynomial") {
   const double g = 9.81;
   const std::vector<std::vector<double>> zeros{
       {1},
@@ -62,7 +62,7 @@ TEST_CASE("n hanging point masses swing at the zeros of Laguerre's polynomial") 
   }
 }
 
-TEST_CASE("a cart-pole swings when it hangs, grows and decays when it stands; the cart drifts") {
+TEST_CASE("cart-pole: oscillation when hanging, growth and decay when upright, drift of the cart") {
   const Model<double> model = cart_and_pole();
   const double wanted = 4.2183982411491488;  // w^2 = m g l / (J - m^2 l^2 / (M + m))
   State<double> x(model);
@@ -88,7 +88,9 @@ TEST_CASE("a cart-pole swings when it hangs, grows and decays when it stands; th
   CHECK(product < 0);
 }
 
-TEST_CASE("a spring-damper: w = sqrt(k/I), zeta = b / (2 sqrt(k I)); overdamped it is two decays") {
+TEST_CASE(
+    "spring-damper: omega = sqrt(k/I), zeta = b / (2 sqrt(k I)); overdamped: two real "
+    "eigenvalues") {
   ModelBuilder builder;
   builder.set_gravity(Vector3::Zero());
   builder.add_body("wheel", 0, "axle", JointType::revolute, {}, {1, 2, 2},
@@ -114,8 +116,8 @@ TEST_CASE("a spring-damper: w = sqrt(k/I), zeta = b / (2 sqrt(k I)); overdamped 
   }
 }
 
-TEST_CASE("a point pulled to a far target swings with the lever arm it has: geometric stiffness") {
-  // I w^2 = k r R for a point at radius r pulled to radius R in line with it.
+TEST_CASE("a point spring with a distant target has geometric stiffness") {
+  // I w^2 = k r R for a point at radius r and a target at radius R in line with it.
   ModelBuilder builder;
   builder.set_gravity(Vector3::Zero());
   builder.add_body("wheel", 0, "axle", JointType::revolute, {}, Vector3::UnitZ(),
@@ -133,7 +135,7 @@ TEST_CASE("a point pulled to a far target swings with the lever arm it has: geom
   CHECK(modes[0].frequency() == doctest::Approx(std::sqrt(k * r * R / I)).epsilon(1e-11));
 }
 
-TEST_CASE("A moves as the passes do: differences of aba at random states, without groups") {
+TEST_CASE("A equals differences of aba() at random states of joints with vector coordinates") {
   Random random(5);
   const Model<double> model =
       random_tree(random, 5, {JointType::revolute, JointType::prismatic, JointType::universal});

@@ -1,9 +1,9 @@
-// Small motions of mechanisms that loops hold, against frequencies from energy.
+// Modes of mechanisms with closed loops, against frequencies from energy.
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "app/modes/linear_loops.h"
+#include "app/modes/linear_system.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/loops/loop_closure.h"
 
@@ -48,8 +48,8 @@ Model<double> parallelogram() {
 }
 constexpr double kSwinging = 2 * kCrankMass / 3 + kBarMass;  // times l^2
 
-// Crank and rod hang in line, the piston slides along y below them. theta leads; phi is the rod's
-// angle in the plane.
+// Crank and rod hang in line, the piston moves along y below them. theta is independent; phi: angle
+// of the rod in the plane.
 struct SliderCrank {
   double r = 0.3, L = 0.7, crank = 1, rod = 2, piston = 1.5;
 
@@ -96,7 +96,7 @@ struct SliderCrank {
   }
 };
 
-// Central differences, two terms of the error taken out.
+// Central differences with Richardson extrapolation.
 template <class F>
 double derivative(F f, double x) {
   const double h = 4e-3;
@@ -112,7 +112,7 @@ double SliderCrank::acceleration(double theta, double rate) const {
 
 }  // namespace
 
-TEST_CASE("a hanging parallelogram swings as its energies say, with three rows or five") {
+TEST_CASE("a hanging parallelogram has the frequency of its energies, with three or five rows") {
   const Model<double> model = parallelogram();
   const double wanted =
       std::sqrt(kFall * (kCrankMass + kBarMass) / (kSwinging * kCrank));  // 2 m l/2 + M l
@@ -127,14 +127,14 @@ TEST_CASE("a hanging parallelogram swings as its energies say, with three rows o
     CHECK(modes[0].frequency() == doctest::Approx(wanted).epsilon(1e-11));
     const Mode all = by_all_velocities(looped, modes[0]);
     CHECK(std::abs(all.shape[0] - 1.0) < 1e-11);
-    CHECK(std::abs(all.shape[1] + 1.0) < 1e-11);  // the bar does not turn
+    CHECK(std::abs(all.shape[1] + 1.0) < 1e-11);  // the bar does not rotate
     CHECK(std::abs(all.shape[2] - 1.0) < 1e-11);
     CHECK(looped.system.B(1, 0) ==
           doctest::Approx(1 / (kSwinging * kCrank * kCrank)).epsilon(1e-11));
   }
 }
 
-TEST_CASE("a spring and a damper on one crank of a parallelogram act on all of it") {
+TEST_CASE("a spring-damper on one crank of a parallelogram acts on the whole mechanism") {
   const Model<double> model = parallelogram();
   const double k = 25, b = 0.7, inertia = kSwinging * kCrank * kCrank;
   const AppliedForces spring = [&](const State<double>& x, const Kinematics&, Forces<double>& f) {
@@ -151,8 +151,8 @@ TEST_CASE("a spring and a damper on one crank of a parallelogram act on all of i
         doctest::Approx(b / (2 * inertia * std::sqrt(w2))).epsilon(1e-11));
 }
 
-TEST_CASE("a hanging slider-crank: the piston's weight makes it stiffer, its mass not heavier") {
-  // Its move is of second order: V'' = m1 g r/2 + m2 g (r + r^2/2L) + m3 g (r + r^2/L), J = (m1 +
+TEST_CASE("hanging slider-crank: the piston's weight adds stiffness, its mass no inertia") {
+  // V'' = m1 g r/2 + m2 g (r + r^2/2L) + m3 g (r + r^2/L), J = (m1 +
   // m2) r^2/3.
   const SliderCrank crank;
   const Model<double> model = crank.model();
@@ -167,7 +167,7 @@ TEST_CASE("a hanging slider-crank: the piston's weight makes it stiffer, its mas
   CHECK(modes[0].frequency() == doctest::Approx(std::sqrt(stiffness / inertia)).epsilon(1e-10));
 }
 
-TEST_CASE("a slider-crank in motion: A is how its own equation changes with angle and rate") {
+TEST_CASE("slider-crank in motion: A is the derivative of its equation by angle and rate") {
   const SliderCrank crank;
   const Model<double> model = crank.model();
   for (const double theta : {0.4, 0.9, -2.0})
@@ -219,7 +219,7 @@ TEST_CASE("a gear couples two wheels by its ratio; a locked joint makes two link
         doctest::Approx(std::sqrt(1.5 * kFall / 0.8)).epsilon(1e-12));
 }
 
-TEST_CASE("without loops nothing changes, and what is told to keep still does") {
+TEST_CASE("without loops the result is linearise(); fixed velocities are left out") {
   const Model<double> model = parallelogram();
   const State<double> x(model);
   const LinearSystem free = linearise(model, x, no_push, model.nv);

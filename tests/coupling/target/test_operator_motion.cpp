@@ -103,7 +103,7 @@ TEST_CASE("synthetic operator: deterministic by seed, different for other seeds"
 }
 
 TEST_CASE("synthetic operator: theta_dot is the derivative of theta, within the Omni's ranges") {
-  // docs/understand/couplings.md: theta1, theta2, theta3, yaw, pitch, roll of the device [rad].
+  // docs/understand/phantom_omni.md: theta1, theta2, theta3, yaw, pitch, roll of the device [rad].
   constexpr double low[] = {-0.98, 0, -0.81, -2.45, -0.5, -2.58};
   constexpr double high[] = {0.98, 1.75, 1.25, 2.45, 1.75, 2.58};
   for (const unsigned seed : {0u, 1u, 2u, 12345u}) {

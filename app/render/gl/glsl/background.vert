@@ -1,4 +1,4 @@
-// One triangle over the whole picture, at the far end of the depth range.
+// One triangle over the whole picture, at maximum depth.
 uniform mat4 world_from_clip;
 uniform vec3 eye;
 out vec3 line_of_sight;

@@ -1,8 +1,6 @@
-// sRGB by a polynomial of the square root, the best of degree 4 for colours above 0.004: within 0.2
-// steps of eight bits there, below at most 2.2 steps too dark. A canvas that encodes does it for
-// each of the four samples of a pixel. Eight bits show bands in a slow gradient: noise of half a
-// step in either direction dissolves them. It is a fixed function of the pixel: the same scene gives
-// the same bits.
+// sRGB by a polynomial of degree 4 in the square root: within 0.2 steps of eight bits above 0.004,
+// up to 2.2 steps too dark below. Dither noise of half a step avoids banding; it is a fixed function
+// of the pixel.
 out vec4 color_out;
 
 float pixel_noise() {

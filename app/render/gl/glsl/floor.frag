@@ -1,12 +1,12 @@
-// Grid lines as box-filtered stripes: the share of the pixel's footprint that the line covers. Far
-// away it tends to the line's mean cover instead of to moire.
+// Grid lines as box-filtered stripes: share of the pixel's footprint that the line covers, which
+// avoids moire.
 uniform vec4 ground;
 uniform vec4 grid;      // thin cell, strong cell, half width of a line [m]
-uniform vec4 per_grid;  // one over: the cells, ground.w, the share of it where the grid has faded
+uniform vec4 per_grid;  // reciprocals: cells, ground.w, share of it where the grid has faded
 
 float line_cover(float cell, float per_cell, float half_width, vec2 footprint, vec2 per_footprint) {
-  vec2 half_line = max(vec2(half_width), 0.5 * footprint);   // never thinner than a pixel,
-  vec2 dim = min(vec2(1.0), 2.0 * half_width * per_footprint);  // but dimmer instead
+  vec2 half_line = max(vec2(half_width), 0.5 * footprint);   // at least a pixel wide,
+  vec2 dim = min(vec2(1.0), 2.0 * half_width * per_footprint);  // dimmer if thinner
   vec2 off = abs(fract(p_world.xy * per_cell + 0.5) - 0.5) * cell;  // to the nearest line
   vec2 cover = clamp((half_line - off) * per_footprint + 0.5, 0.0, 1.0);
   cover *= 0.55 + 0.45 * dim;

@@ -1,5 +1,4 @@
-// A landscape: the haze takes its ground into the colour of the horizon. With a the distance from the
-// middle over the floor's radius: ground = mix(horizon, ground, exp(-(a / 0.35)^2))
+// Ground of a landscape with haze. With a the distance from the centre over the floor's radius: ground = mix(horizon, ground, exp(-(a / 0.35)^2))
 uniform vec3 background_bottom, background_ground;
 
 vec3 hazy_ground(float away) {

@@ -1,17 +1,16 @@
-// Light: one key light with a shadow, a sky above, the floor's bounce from below.
+// One key light with a shadow, sky light from above, bounce light from below.
 //
 //   out = colour * (KEY * n.l * visible + SKY * sky(n) + BOUNCE * (1 - n.z) / 2) + gloss
-//   sky(n) = (1 + n.z) / 2            the irradiance of an unhidden uniform sky, or
-//   sky(n) = 2 * n.d * visible(d)     one direction d of it: with d uniform on the hemisphere its
-//                                     mean is the same where nothing hides the sky, and ambient
-//                                     occlusion where something does
+//   sky(n) = (1 + n.z) / 2            irradiance of an unoccluded uniform sky, or
+//   sky(n) = 2 * n.d * visible(d)     of one direction d; its mean over the hemisphere is the same
+//                                     with ambient occlusion
 in vec3 p_world, n_world, p_key, p_sky;
 uniform vec3 eye, key_direction, sky_direction;
 uniform sampler2DShadow sky_shadow;
 uniform float texel;
-uniform vec2 shadow_reach;  // where the squares drawn into key and sky map end
+uniform vec2 shadow_reach;  // ends of the used squares of key and sky map
 
-// Nothing casts a shadow at the border of a map, nor beyond it.
+// No shadow at and beyond the border of a map.
 vec3 within(vec3 p, float reach) {
   return clamp(p, vec3(2.0 * texel, 2.0 * texel, 0.0), vec3(reach, reach, 1.0));
 }
@@ -19,8 +18,8 @@ vec3 within(vec3 p, float reach) {
 #ifndef KEY_SHADOW
 float key_visible() { return 1.0; }
 #elif defined(SOFT_SHADOW)
-// The share of a square of 2 x 2 texels about the place that is lit: nine looks at the map, where
-// four that the sampler makes softer would be sixteen.
+// Lit share of 2 x 2 texels about the point: nine lookups, instead of sixteen by four of the
+// sampler.
 uniform sampler2D key_shadow;
 #define LIT(x, y) step(p.z, textureOffset(key_shadow, p.xy, ivec2(x, y)).r)
 float key_visible() {

@@ -1,9 +1,8 @@
-// The normal offset moves the point that is looked up a texel off its surface, which keeps the
-// surface from shadowing itself.
+// The normal offset moves the lookup point off the surface, against self-shadowing.
 uniform mat4 clip_from_world, key_from_world, sky_from_world;
 uniform float normal_offset;
 out vec3 p_world, n_world, p_key, p_sky;
-invariant gl_Position;  // a ghost's two passes must agree to the last bit
+invariant gl_Position;  // both passes of a translucent body give the same bits
 
 void place(vec3 p, vec3 n) {
   p_world = p;

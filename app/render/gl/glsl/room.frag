@@ -1,5 +1,4 @@
-// A room: its floor takes the background's colour wherever it is fully lit, so that no horizon is
-// seen. It is there by its shadows and its grid.
+// A room: where fully lit, the floor has the colour of the background.
 uniform vec3 background_bottom, background_top;
 uniform float per_height;
 

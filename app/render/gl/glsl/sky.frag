@@ -1,4 +1,4 @@
-// A landscape's sky. With e the sine of the elevation of a line of sight:
+// Sky of a landscape. With e the sine of the elevation:
 // sky = mix(zenith, horizon, (1 - e)^5)
 in vec3 line_of_sight;
 uniform vec3 background_bottom, background_top;

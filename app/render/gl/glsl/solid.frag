@@ -21,7 +21,7 @@ void main() {
   wide *= wide; wide *= wide; wide *= wide; wide *= wide;
   float tight = wide * wide;
   tight *= tight;
-  // A bright ceiling mirrored in the surface, stronger at grazing angles.
+  // Reflection of a bright ceiling, stronger at grazing angles.
   float grazing = 1.0 - max(dot(n, v), 0.0);
   float fresnel = grazing * grazing * grazing * grazing;
   float ceiling = smoothstep(-0.1, 0.9, reflect(-v, n).z) * (0.3 + 0.7 * min(sky, 1.0));

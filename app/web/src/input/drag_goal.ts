@@ -6,11 +6,10 @@ import { rayAt } from '../view/pick';
 
 const UP = new THREE.Vector3(0, 0, 1);
 
-// A point of the world that a pointer leads: in the plane through it that faces the eye; with
-// shift up and down alone; the wheel moves the plane nearer or farther. The point does not jump
-// when it is taken: it keeps its distance from the pointer.
+// A point moved in the plane through it that faces the camera; with shift vertically only; the wheel moves
+// the plane along the line of sight. The offset between point and pointer is kept.
 export class PointDrag {
-  private readonly offset = new THREE.Vector3(); // of the point from where the ray meets the plane
+  private readonly offset = new THREE.Vector3(); // from the ray's intersection with the plane to the point
   private vertical = false;
 
   constructor(private readonly stage: Stage, readonly goal: THREE.Vector3, private at: Pixel) {
@@ -30,7 +29,7 @@ export class PointDrag {
     else this.goal.copy(met);
   }
 
-  // Along the line of sight, by a share of the distance.
+  // Along the line of sight, by a fraction of the distance.
   deepen(share: number): void {
     const sight = this.goal.clone().sub(this.stage.camera.position);
     this.goal.addScaledVector(sight, share);
@@ -46,7 +45,7 @@ export class PointDrag {
   private meet(): THREE.Vector3 | null {
     const facing = this.stage.camera.getWorldDirection(new THREE.Vector3());
     if (this.vertical) facing.addScaledVector(UP, -facing.dot(UP));
-    if (facing.lengthSq() < 1e-3) return null; // from straight above, nothing is up or down
+    if (facing.lengthSq() < 1e-3) return null; // seen from above: no vertical direction in the view
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(facing.normalize(), this.goal);
     return rayAt(this.stage, this.at).intersectPlane(plane, new THREE.Vector3());
   }
@@ -59,11 +58,10 @@ export interface Axis {
 }
 
 const STEPS = 8;
-const LEAST = 30; // pixels: from where the axis hides the motion, a small one is not made a large one
+const MIN_PIXELS = 30; // lower bound of |J|, for views along the motion
 
-// A joint that a pointer turns: the point that was grabbed stays under the pointer as well as one
-// joint can hold it there. On the picture that is a least-squares fit of one number: with J, the
-// point's pixels per radian (or metre), each step adds e J / |J|^2. It holds from any side.
+// Joint coordinate that keeps the grabbed point nearest to the pointer: least squares by Gauss-Newton steps
+// dq = J e / |J|^2, with the pixel error e and J in pixels per radian (or metre).
 export class JointDrag {
   private readonly start = this.value;
 
@@ -76,16 +74,16 @@ export class JointDrag {
   ) {}
 
   move(at: Pixel): number {
-    const unit = this.axis.slides ? 0.001 : 0.005; // small: J is that of here
+    const unit = this.axis.slides ? 0.001 : 0.005; // of the finite difference J
     for (let i = 0; i < STEPS; ++i) {
       const here = this.pixel(this.value);
       const there = this.pixel(this.value + unit);
       if (!here || !there) break;
       const [jx, jy] = [(there.x - here.x) / unit, (there.y - here.y) / unit];
       const along = (at.x - here.x) * jx + (at.y - here.y) * jy;
-      const step = along / Math.max(LEAST * LEAST, jx * jx + jy * jy);
-      const most = this.axis.slides ? Infinity : 0.5;
-      this.value += Math.min(most, Math.max(-most, step));
+      const step = along / Math.max(MIN_PIXELS ** 2, jx * jx + jy * jy);
+      const max = this.axis.slides ? Infinity : 0.5;
+      this.value += Math.min(max, Math.max(-max, step));
     }
     this.value = within(this.range, this.value);
     return this.value;

@@ -1,6 +1,5 @@
-// What is drawn over the picture for a hand: the ring at the tip of the kinematic robot (a button,
-// so that fingers and keys find it), the arc of a joint that is turned, the spring under the mouse.
-// In the page's own pixels: sharp, and no picture later than the mouse.
+// Handles over the 3-D view, as SVG: the ring at the tip of the target robot (a button, for touch and
+// keyboard), the range of a joint, the spring of the mouse.
 import './handles.css';
 import * as THREE from 'three';
 import { element, svg } from '../ui/dom';
@@ -11,6 +10,15 @@ import { type Frame, placeOf, type SceneJoint, type SceneMessage, type Vector } 
 const POINTS = 48; // of an arc
 const COILS = 9;
 
+// Without a stage (no WebGL) there is keyboard input only.
+export type LabView = { scene: SceneMessage; frame: Frame; stage: Stage | null };
+
+export interface AppliedSpring {
+  body: number;
+  point: Vector; // link axes
+  goal: THREE.Vector3;
+}
+
 const path = (className: string) => svg('path', { class: className });
 
 function poseOf(places: Float32Array, body: number) {
@@ -19,7 +27,7 @@ function poseOf(places: Float32Array, body: number) {
   return place && { origin: new THREE.Vector3(...place), turn };
 }
 
-// A point of link axes in the world; null: the link's place is not known.
+// A point in link axes, in the world; null: the pose of the link is unknown.
 export function inWorld(places: Float32Array, body: number, p: Vector): THREE.Vector3 | null {
   const pose = poseOf(places, body);
   return pose && new THREE.Vector3(...p).applyQuaternion(pose.turn).add(pose.origin);
@@ -29,7 +37,7 @@ export function inLink(places: Float32Array, body: number, p: THREE.Vector3): Ve
   return pose && p.clone().sub(pose.origin).applyQuaternion(pose.turn.conjugate()).toArray();
 }
 
-// Of a joint of the kinematic robot.
+// Axis of a joint of the target robot, in the world.
 export function axisOf(frame: Frame, { body, axis, slides }: SceneJoint): Axis | null {
   const origin = inWorld(frame.twin, body, [0, 0, 0]);
   if (!axis || !origin) return null;
@@ -42,19 +50,17 @@ export class Handles {
   private readonly svg = svg('svg', { 'aria-hidden': 'true' });
   private readonly track = path('arc');
   private readonly turned = path('arc turned');
-  private readonly leader = path('leader');
+  private readonly goalLine = path('goal-line');
   private readonly spring = path('spring');
-  private readonly words = element('output.pulled', { hidden: '' });
+  private readonly force = element('output.spring-force', { hidden: '' });
 
   constructor(host: HTMLElement) {
-    this.tip.setAttribute('aria-label', 'the hand: arrow keys move it, page up and down too');
-    this.svg.append(this.track, this.turned, this.leader, this.spring);
-    host.append(this.svg, this.words, this.tip);
+    this.tip.setAttribute('aria-label', 'end effector: arrow keys, page up and page down move it');
+    this.svg.append(this.track, this.turned, this.goalLine, this.spring);
+    host.append(this.svg, this.force, this.tip);
   }
 
-  // Where the hand's point of the kinematic robot is, and the ring around it.
-  tipPlace(frame: Frame, scene: SceneMessage): THREE.Vector3 | null {
-    const { tip } = scene;
+  tipPosition({ frame, scene: { tip } }: LabView): THREE.Vector3 | null {
     if (!tip || tip.body >= frame.bodies) return null;
     return inWorld(frame.twin, tip.body, tip.p);
   }
@@ -65,14 +71,14 @@ export class Handles {
     return at;
   }
 
-  // From the tip to where it is wanted, if that is farther than it reaches.
-  showLeader(from: Pixel | null, to: Pixel | null): void {
+  // From the tip to its goal, if that is out of reach.
+  showGoalLine(from: Pixel | null, to: Pixel | null): void {
     const far = from && to && Math.hypot(to.x - from.x, to.y - from.y) > 14;
-    this.leader.setAttribute('d', far ? `M${from.x} ${from.y}L${to.x} ${to.y}` : '');
+    this.goalLine.setAttribute('d', far ? `M${from.x} ${from.y}L${to.x} ${to.y}` : '');
   }
 
-  showSpring(from: Pixel | null, to: Pixel | null, words: string): void {
-    this.words.hidden = !to || !words;
+  showSpring(from: Pixel | null, to: Pixel | null, force: string): void {
+    this.force.hidden = !to || !force;
     if (!from || !to) return this.spring.setAttribute('d', '');
     const [dx, dy] = [to.x - from.x, to.y - from.y];
     const length = Math.hypot(dx, dy) || 1;
@@ -84,11 +90,11 @@ export class Handles {
     );
     const points = [at(0, 0), at(0.12, 0), ...coils, at(0.88, 0), at(1, 0)];
     this.spring.setAttribute('d', `M${points.join('L')}`);
-    this.words.textContent = words;
-    this.words.style.transform = `translate(${to.x + 16}px, ${to.y + 14}px)`;
+    this.force.textContent = force;
+    this.force.style.transform = `translate(${to.x + 16}px, ${to.y + 14}px)`;
   }
 
-  // The range of a joint about its axis, and where it stands; null: none.
+  // Range and position of a joint, about or along its axis; null: none.
   showArc(stage: Stage, frame: Frame, joint: SceneJoint | null, value: number, reach: number): void {
     const found = joint && axisOf(frame, joint);
     if (!joint || !found) {
@@ -97,12 +103,12 @@ export class Handles {
       return;
     }
     const { origin, direction: axis } = found;
-    const radial = aside(frame, joint.body, axis, origin).multiplyScalar(reach);
+    const radial = radialDirection(frame, joint.body, axis, origin).multiplyScalar(reach);
     const bound = (limit: number | undefined, otherwise: number) =>
       limit !== undefined && Math.abs(limit) < 1e3 ? limit : otherwise;
     const low = bound(joint.low, value - Math.PI);
     const high = bound(joint.high, value + Math.PI);
-    // The link is at `value` now: angles are counted from there.
+    // Relative to `value`, where the link is now.
     const point = (angle: number) =>
       joint.slides
         ? origin.clone().addScaledVector(axis, angle - value)
@@ -121,12 +127,12 @@ export class Handles {
   }
 }
 
-// Across the axis, towards the link's child or whatever of it is farthest from the axis.
-function aside(frame: Frame, body: number, axis: THREE.Vector3, origin: THREE.Vector3): THREE.Vector3 {
+// Perpendicular to the axis, towards the instance of the link that is farthest from the axis.
+function radialDirection(frame: Frame, body: number, axis: THREE.Vector3, origin: THREE.Vector3) {
   const best = new THREE.Vector3();
   for (let i = frame.first[0]; i < frame.first[1]; ++i) {
     if (frame.body[i] !== body) continue;
-    // Entries are those of the dynamic link: taken into link axes there, and out by the twin.
+    // Instances of the robot's link, moved to the link of the target robot.
     const entry = new THREE.Vector3().fromArray(frame.position, 3 * i);
     const local = inLink(frame.link, body, entry);
     const away = local && inWorld(frame.twin, body, local)?.sub(origin);

@@ -1,6 +1,5 @@
-// What moves the robot from the page: commands of the hand. Of each kind only the newest waits, and
-// they go out once a picture, with the time at which they were made; so the page also knows how
-// long it takes until it sees what it did.
+// Commands that move the robot. Of each kind only the newest is kept; they are sent once per picture with the
+// time of the input, from which the delay until its picture is measured.
 import type { Command, Frame, Link, StateMessage } from '../source/link';
 
 type Moves = Extract<Command, { stamp: number }>;
@@ -10,69 +9,68 @@ type Unstamped = Moves extends infer M ? (M extends Moves ? Omit<M, 'stamp'> : n
 const KEPT = 240; // stamps and delays
 
 export class Operator {
-  readonly delays: number[] = []; // from a movement to its picture [ms], the newest last
+  readonly delays: number[] = []; // from an input to its picture [ms], the newest last
   clutch = false;
-  private readonly waiting = new Map<string, Unstamped>();
+  private readonly pending = new Map<string, Unstamped>();
   private readonly stamps = new Set<number>();
-  private seen = 0;
+  private painted = 0; // stamp
 
   constructor(
     private readonly link: Link,
     private readonly state: () => StateMessage | null,
-    private readonly say: (words: string) => void,
+    private readonly showMessage: (text: string) => void,
   ) {}
 
-  get grip(): boolean {
+  get isGripperClosed(): boolean {
     return this.state()?.hand.gripper ?? false;
   }
-  get holds(): boolean {
+  get hasControl(): boolean {
     const state = this.state();
     return state !== null && state.holder === state.you;
   }
 
-  // Asks for the hand where this page has not got it. False: somebody else has it.
-  claim(): boolean {
+  // Requests control if this page does not have it. False: another client has it.
+  requestControl(): boolean {
     const state = this.state();
-    if (!state || this.holds) return state !== null;
+    if (!state || this.hasControl) return state !== null;
     this.link.send({ do: 'take' });
-    if (!state.holder) return true; // free: it is given at once
-    if (!state.asked.includes(state.you)) this.say('Another page has the hand. It has been asked.');
+    if (!state.holder) return true; // granted at once
+    if (!state.asked.includes(state.you)) this.showMessage('Another client has control. Control requested.');
     return false;
   }
 
-  // The robot is led by this from now on.
-  lead(source: 'drag' | 'joints'): boolean {
-    if (!this.claim()) return false;
+  // Makes the pointer the input source of the target robot.
+  useSource(source: 'drag' | 'joints'): boolean {
+    if (!this.requestControl()) return false;
     if (this.state()?.hand.source !== source) this.link.send({ do: 'hand', source });
     return true;
   }
 
-  // Goes out with the next picture, unless a newer one of its kind has come.
+  // Sent with the next picture, unless replaced by a newer command of its kind.
   move(command: Unstamped): void {
-    this.waiting.set(command.do === 'joint' ? `joint${command.index}` : command.do, command);
+    this.pending.set(command.do === 'joint' ? `joint${command.index}` : command.do, command);
   }
   button(index: 0 | 1, down: boolean): boolean {
-    if (!this.claim()) return false;
+    if (!this.requestControl()) return false;
     this.sendNow({ do: 'button', index, down });
     if (index === 1) this.clutch = down;
     return true;
   }
-  drop(): void {
-    this.waiting.delete('pull');
+  releaseSpring(): void {
+    this.pending.delete('pull');
     this.link.send({ do: 'drop' });
   }
 
-  // Once a picture.
+  // Once per picture.
   flush(): void {
-    for (const command of this.waiting.values()) this.sendNow(command);
-    this.waiting.clear();
+    for (const command of this.pending.values()) this.sendNow(command);
+    this.pending.clear();
   }
 
-  // After the frame has been painted.
-  painted(frame: Frame): void {
-    const { stamp } = frame;
-    if (stamp === this.seen || !this.stamps.has(stamp)) return; // shown before, or of another page
-    this.seen = stamp;
+  // After the frame has been drawn.
+  measureDelay({ stamp }: Frame): void {
+    if (stamp === this.painted || !this.stamps.has(stamp)) return; // known, or of another client
+    this.painted = stamp;
     this.delays.push(performance.now() - stamp);
     if (this.delays.length > KEPT) this.delays.shift();
   }

@@ -1,12 +1,12 @@
-// Two fingers move and zoom the view, whatever the first has touched. They never come at the same
-// instant: what the first has grabbed meanwhile is let go, and what it has turned is turned back.
+// Two fingers pan and zoom the view. The first one always comes earlier: its drag is cancelled, its
+// rotation of the view is undone.
 import * as THREE from 'three';
 import type { Stage } from '../view/stage';
 
 const TOGETHER = 250; // [ms]
 
 interface First {
-  event: PointerEvent; // the newest of it
+  event: PointerEvent; // its newest
   at: number;
   eye: THREE.Vector3;
   target: THREE.Vector3;
@@ -19,17 +19,17 @@ export class Pinch {
   constructor(
     host: HTMLElement,
     private readonly stage: () => Stage | null,
-    // True: it had been grabbed, so that the camera does not know of it.
-    private readonly letGo: () => boolean,
+    // True: the camera did not get the first finger.
+    private readonly cancelDrag: () => boolean,
   ) {
-    // Before those who grab and turn.
+    // Before the listeners of drag and camera.
     host.addEventListener('pointerdown', (event) => this.down(event), { capture: true });
     host.addEventListener('pointermove', (event) => this.move(event), { capture: true });
     for (const end of ['pointerup', 'pointercancel'] as const)
       host.addEventListener(end, (event) => this.up(event), { capture: true });
   }
 
-  // The first finger comes once more, for the camera alone.
+  // The first finger's event is being repeated for the camera.
   isPassing(): boolean {
     return this.passing;
   }
@@ -46,11 +46,11 @@ export class Pinch {
     this.first = null;
     if (!first || !(event.target instanceof HTMLCanvasElement)) return;
     if (event.timeStamp - first.at > TOGETHER) return;
-    const wasGrabbed = this.letGo();
+    const wasDrag = this.cancelDrag();
     stage.camera.position.copy(first.eye);
     stage.controls.target.copy(first.target);
     stage.controls.update();
-    if (wasGrabbed) this.pass(first.event, event.target);
+    if (wasDrag) this.pass(first.event, event.target);
   }
 
   private move(event: PointerEvent): void {

@@ -1,4 +1,4 @@
-// The quantities of a pass at a body, each in its equation where it has one.
+// Quantities of a pass at a body, with their equations and numbers.
 import type { Equation, Quantity, Term } from '../protocol/inspection';
 import type { BodyInspection } from '../protocol/messages';
 import { bold, fraction, math, mathNumber, operator, set, signedSum } from './math';
@@ -6,16 +6,14 @@ import { quantityCard, unitOfSix, valueOf } from './quantity';
 import { element, largestOf, short, unitText } from '../ui/dom';
 import { numberCell, row, table } from '../ui/table';
 
-// Of a joint: the first where it turns, the second where it shifts.
+// Of "revolute; prismatic", the unit of the body's joint.
 export function unitOf({ passes }: BodyInspection, unit: string): string {
   const S = passes?.[0].quantities.find(({ name }) => name === 'S')?.value;
-  const [turn, shift] = unit.split(';').map((text) => text.trim());
-  if (!S || !shift) return unit;
-  if (typeof (S as number[])[0] !== 'number') return unit;
-  return (S as number[]).slice(0, 3).every((part) => part === 0) ? shift : turn;
+  const [angular, linear] = unit.split(';').map((text) => text.trim());
+  if (!S || !linear || typeof (S as number[])[0] !== 'number') return unit;
+  return (S as number[]).slice(0, 3).every((part) => part === 0) ? linear : angular;
 }
 
-// Each quantity of the pass, in its equation where it has one.
 export function passCards(numbers: BodyInspection, which: number): HTMLElement[] {
   const step = numbers.passes!.find(({ pass }) => pass === which)!;
   const equations = (numbers.equations ?? []).filter(({ pass }) => pass === which);
@@ -30,12 +28,12 @@ export function passCards(numbers: BodyInspection, which: number): HTMLElement[]
   const before = find("a'");
   const a = step.quantities.find(({ name }) => name === 'a');
   if (!before || !a) return step.quantities.map(card);
-  const meaning = 'acceleration as if its joint kept still';
-  const asIf = { ...a, name: "a'", meaning, equation: `${before.text}, table 7.1`, value: before.value };
-  return [asIf, ...step.quantities].map(card);
+  const meaning = 'acceleration for qdd = 0';
+  const equation = `${before.text}, table 7.1`;
+  return [{ ...a, name: "a'", meaning, equation, value: before.value }, ...step.quantities].map(card);
 }
 
-// Of one degree of freedom the division is shown too.
+// For one degree of freedom with the division of qdd.
 function block(equation: Equation, quantity: Quantity, numbers: BodyInspection, unit: string): Node[] {
   const { name: body = '', passes } = numbers;
   if (equation.name !== 'D qdd') return equationBlock(equation, body, unit);
@@ -45,32 +43,30 @@ function block(equation: Equation, quantity: Quantity, numbers: BodyInspection, 
     const divided = { ...equation, name: 'qdd', text: 'qdd = D^-1 (D qdd)', terms: [], value };
     return [...equationBlock(equation, body, ''), ...equationBlock(divided, body, unit)];
   }
-  const [u, felt] = equation.terms.map(({ value }) => value as number);
-  const over = signedSum([{ sign: '', value: u }, { sign: felt > 0 ? '+' : '-', value: Math.abs(felt) }]);
+  const [u, Ua] = equation.terms.map(({ value }) => value as number);
+  const over = signedSum([{ sign: '', value: u }, { sign: Ua > 0 ? '+' : '-', value: Math.abs(Ua) }]);
   const parts = [fraction(over, mathNumber(D)), operator('='), bold(mathNumber(value))];
   return [equationLine("qdd = D^-1 ( u - U^T a' )"), line(parts, value, unit)];
 }
 
-// An equation of the passes with its numbers in: columns as on paper, one for each term, with the
-// signs between; matrices below one another; of one number all in a line.
+// An equation with its numbers: vectors as columns, one per term; matrices one below the other; scalars in
+// a line.
 const ROWS = ['x', 'y', 'z', 'x', 'y', 'z'];
-const NOTHING = 1e-9; // larger rests are told
+const TOLERANCE = 1e-9; // larger residuals are shown
 
 function isMinus({ symbol }: Term): boolean {
   return symbol.startsWith('- ');
 }
-// With the sign that stands before it taken off.
+// Without the minus of the term. Numbers that are not finite come as null.
 function signed(term: Term): number[] {
   const numbers = term.value as number[];
-  // What is not finite comes as null.
   return isMinus(term) ? numbers.map((number) => (number === null ? number : -number + 0)) : numbers;
 }
 function whose(term: Term, body: string): string {
   return term.of === body ? term.words : `${term.words} (${term.of})`;
 }
 
-// Two parts of three, as the book has them; of a joint as many rows as it has velocities. One term
-// alone is not told twice.
+// Spatial vectors have an angular and a linear half. A single term equals the result and is omitted.
 function columns(equation: Equation, body: string, unit: string): HTMLElement {
   const terms = equation.terms.length > 1 ? equation.terms : [];
   const value = equation.value as number[];
@@ -81,11 +77,11 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
     return { sign, symbol, words: whose(term, body), numbers: signed(term) };
   });
   parts.push({ sign: terms.length > 0 ? '=' : '', symbol: equation.name, words: '', numbers: value });
-  // Each half has a unit of its own, and so a size.
+  // Each half has its unit, and so its scale.
   const half = (from: number) => largestOf(parts.flatMap(({ numbers }) => numbers.slice(from, from + 3)));
   const sizes = isSix ? [half(0), half(3)] : [largestOf(parts.flatMap(({ numbers }) => numbers))];
   const heads = parts.flatMap(({ sign, symbol, words }) => [
-    element('td.sign', sign),
+    element('td.operator', sign),
     element('th', { scope: 'col', title: words }, math(symbol)),
   ]);
   const units = unit.split(';').map((text) => text.trim());
@@ -93,7 +89,7 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
     row(
       isSix ? ROWS[k] : String(k + 1),
       ...parts.flatMap(({ numbers }, i) => [
-        element('td.sign'),
+        element('td.operator'),
         numberCell(numbers[k], sizes[isSix ? Math.floor(k / 3) : 0], i === parts.length - 1 ? 'total' : ''),
       ]),
       element('td.unit', k % 3 === 0 ? unitText(units[Math.floor(k / 3)] ?? units[0]) : ''),
@@ -103,16 +99,15 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
   return element('div.wide', table([element('td'), ...heads, element('td')], rows, style));
 }
 
-// What it adds up to stands open, the terms can be opened.
+// The result, and its terms folded.
 function matrices(equation: Equation, body: string, unit: string): HTMLElement[] {
   const terms = equation.terms.map((term) => {
-    const words = element('p', math(term.symbol), ` ${whose(term, body)}`);
-    return element('div.term', words, valueOf({ value: term.value, unit }));
+    const symbol = element('p.fine', math(term.symbol), ` ${whose(term, body)}`);
+    return element('div.term', symbol, valueOf({ value: term.value, unit }));
   });
   const sum = valueOf({ value: equation.value, unit });
   if (terms.length < 2) return [sum];
-  const words = `its ${terms.length} terms`;
-  return [sum, element('details.terms', element('summary', words), ...terms)];
+  return [sum, element('details.terms', element('summary.fine', `${terms.length} terms`), ...terms)];
 }
 
 function inLine({ terms, value }: Equation, unit: string): HTMLElement {
@@ -124,18 +119,16 @@ function inLine({ terms, value }: Equation, unit: string): HTMLElement {
   return line([...left, bold(mathNumber(value as number))], value as number, unit);
 }
 
-// All digits stand at the pointer.
 function line(parts: Node[], value: number, unit: string): HTMLElement {
-  const words = element('span.unit', ` ${unitText(unit)}`);
-  return element('p.line', { title: String(value) }, set(...parts), words);
+  return element('p.line', { title: String(value) }, set(...parts), element('span.unit', ` ${unitText(unit)}`));
 }
 
-// A browser lets the focus stop at an equation that is too wide for the panel: it needs a name.
+// Named, since an equation that overflows the panel can have the focus.
 function equationLine(text: string): HTMLElement {
   return element('p.set', { role: 'math', 'aria-label': text }, math(text));
 }
 
-// `unit` of the left side: of six "angular; linear", of a joint "turning; shifting".
+// `unit` of the left side: "angular; linear".
 function equationBlock(equation: Equation, body: string, unit: string): Node[] {
   const { value, residual, text } = equation;
   const parts = [equationLine(text)];
@@ -143,6 +136,7 @@ function equationBlock(equation: Equation, body: string, unit: string): Node[] {
   else if (Array.isArray(value[0])) parts.push(...matrices(equation, body, unit));
   else parts.push(columns(equation, body, unit));
   if (residual === null) parts.push(element('p.note', 'not all numbers are finite'));
-  else if (residual > NOTHING) parts.push(element('p.note', `but for ${short(residual)} of the largest`));
+  else if (residual > TOLERANCE)
+    parts.push(element('p.note', `residual: ${short(residual)} of the largest term`));
   return parts;
 }

@@ -1,7 +1,8 @@
-// The free-body diagram: all wrenches on a body tip to tail, forces in one picture and torques in
-// the other. They close to a polygon: what is left is the residual.
+// Free-body diagram: polygon of all forces on a body, and polygon of all torques. Both close (sum = 0) up
+// to the residual.
 import type { Balance } from '../protocol/inspection';
 import { element, short, svg } from '../ui/dom';
+import { niceStep } from '../ui/scale';
 
 const WIDTH = 200;
 const HEIGHT = 150;
@@ -12,7 +13,7 @@ export type Plane = 'xz' | 'yz' | 'xy';
 const PLANES: Plane[] = ['xz', 'yz', 'xy'];
 const AXIS = { x: 0, y: 1, z: 2 } as const;
 
-// Which of the three shows most of what there is.
+// The plane with the largest components.
 function bestPlane(balance: Balance): Plane {
   const spread = [0, 0, 0];
   for (const { force, torque } of balance.wrenches)
@@ -33,11 +34,6 @@ function tipToTail(vectors: number[][], plane: Plane): Segment[] {
   });
 }
 
-// A round length of about a third of the picture.
-function scaleBar(most: number): number {
-  const power = 10 ** Math.floor(Math.log10(most));
-  return [5, 2, 1].map((n) => n * power).find((length) => length <= most) ?? power;
-}
 
 function arrow({ from, to, number }: Segment): SVGElement[] {
   const color = `var(--c${number % 8})`;
@@ -64,18 +60,18 @@ function polygon(vectors: number[][], plane: Plane, unit: string, what: string):
   const [xs, ys] = [all.map((p) => p[0]), all.map((p) => p[1])];
   const [left, bottom] = [Math.min(...xs), Math.min(...ys)];
   const [wide, high] = [Math.max(...xs) - left, Math.max(...ys) - bottom];
-  const most = Math.max(wide, high);
-  const label = `${what} on the body, tip to tail, seen in ${plane}`;
+  const max = Math.max(wide, high);
+  const label = `polygon of the ${what} on the body, in the plane ${plane}`;
   const host = svg('svg', { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: 'img', 'aria-label': label });
-  const figure = (words: string) => element('figure', host, element('figcaption', words));
-  if (!(most > 0) || !Number.isFinite(most)) return figure(most === 0 ? `no ${what} in this plane` : what);
-  const room = HEIGHT - 2 * MARGIN - 8;
-  const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(wide, 1e-9 * most), room / Math.max(high, 1e-9 * most));
+  const figure = (words: string) => element('figure', host, element('figcaption.fine', words));
+  if (!(max > 0) || !Number.isFinite(max)) return figure(max === 0 ? `no ${what} in this plane` : what);
+  const space = HEIGHT - 2 * MARGIN - 8;
+  const scale = Math.min((WIDTH - 2 * MARGIN) / Math.max(wide, 1e-9 * max), space / Math.max(high, 1e-9 * max));
   const place = ([x, y]: Point): Point => [
     WIDTH / 2 + scale * (x - left - wide / 2),
-    MARGIN + room / 2 - scale * (y - bottom - high / 2),
+    MARGIN + space / 2 - scale * (y - bottom - high / 2),
   ];
-  const bar = scaleBar((0.45 * (WIDTH - 2 * MARGIN)) / scale);
+  const bar = niceStep((0.45 * (WIDTH - 2 * MARGIN)) / scale);
   const y = HEIGHT - 5;
   const [cx, cy] = place([0, 0]);
   host.append(
@@ -91,7 +87,7 @@ export function diagram(balance: Balance, chosen: Plane | null): HTMLElement {
   const plane = chosen ?? bestPlane(balance);
   const choice = PLANES.map((name) => {
     const state = { 'data-plane': name, 'aria-pressed': String(name === plane) };
-    const title = `look at the plane of ${name[0]} and ${name[1]}`;
+    const title = `project to the ${name[0]}–${name[1]} plane`;
     return element('button', { type: 'button', ...state, title }, `${name[0]}–${name[1]}`);
   });
   const forces = balance.wrenches.map(({ force }) => force);
@@ -105,8 +101,5 @@ export function diagram(balance: Balance, chosen: Plane | null): HTMLElement {
 }
 
 export function closing({ residual, largest }: Balance): string {
-  return (
-    'Tip to tail they come back to where they began (the dot): what is left is ' +
-    `${short(residual)} of the largest, ${short(largest)}.`
-  );
+  return `Each polygon closes at the dot. Residual: ${short(residual)} of the largest, ${short(largest)}.`;
 }

@@ -1,33 +1,39 @@
-// The inspector follows the selected body. The three passes with their numbers in
-// the equations, the free-body diagram, contacts, ledger; and, while time stands still, a walk
-// through one call of the algorithm.
+// The inspector of the selected body: quantities of the three ABA passes with their equations, free-body
+// diagram, contacts, energy balance; while paused, a walk through one call of the algorithm.
 import './inspector.css';
 import type { BodyInspection, Vector } from '../protocol/messages';
 import {
-  balanceTable, checkTable, checkWords, contactTables, energyTable, jointTables, neighbourCards, soFar,
+  adjacentCards, balanceTable, checkSummary, checkTable, contactTables, energyTable, jointTables, passTable,
   wrenchColor,
 } from './tables';
 import { button, element, icon, morph, short } from '../ui/dom';
+import { definition } from '../ui/glossary';
 import { key, listen } from '../ui/keys';
 import type { SceneMessage } from '../source/link';
 import { passCards, unitOf } from './cards';
 import { closing, diagram, type Plane } from './diagram';
 import type { LabPage, Panel } from '../panels/panel';
 
-const LENGTH = 0.38; // of the longest arrow, of what is seen
+const LENGTH = 0.38; // of the longest arrow, relative to the size of the scene
+const PASSES: Record<number, [string, string]> = {
+  1: ['Pass 1, outward', 'velocities v, velocity-product accelerations c, bias forces p'],
+  2: ['Pass 2, inward', 'articulated-body inertias IA and bias forces pA'],
+  3: ['Pass 3, outward', 'joint and body accelerations qdd, a'],
+};
 
-// The way of one call: outward, inward, outward.
+type Step = { pass: number; body: string };
+
+// The steps of one call: outward, inward, outward.
 function stepsOf(bodies: string[]): Step[] {
   const outward = (pass: number) => bodies.map((body) => ({ pass, body }));
   return [...outward(1), ...outward(2).reverse(), ...outward(3)];
 }
 
-// What it needs of a page.
 export type InspectorPage = Pick<LabPage, 'scene' | 'selected' | 'send' | 'select' | 'arrows'>;
 
 export class Inspector implements Panel {
-  readonly root = element('section.glass', { 'aria-label': 'inspector' });
-  private readonly who = element('div.heading');
+  readonly root = element('section.inspector', { 'aria-label': 'inspector' });
+  private readonly heading = element('div.heading');
   private readonly stepper = new Stepper((step) => this.go(step), (pass) => this.goPass(pass));
   private readonly place = element('output.place');
   private readonly content = element('div.content');
@@ -35,29 +41,29 @@ export class Inspector implements Panel {
   private bodies: string[] = []; // from number 1 on
   private body = 1;
   private pass = 1;
-  private seen = false;
+  private isSeen = false;
   private plane: Plane | null = null;
   private newest: BodyInspection | null = null;
 
   constructor(private readonly page: InspectorPage) {
     const walk = element(
-      'div.walk',
+      'div.walk.fine',
       { role: 'group', 'aria-label': 'one call, step by step' },
-      button(icon('back'), 'one step of the call back (,)', () => this.move(-1)),
-      button(icon('on'), 'one step of the call on (.)', () => this.move(1)),
+      button(icon('back'), 'previous step of the call (,)', () => this.move(-1)),
+      button(icon('on'), 'next step of the call (.)', () => this.move(1)),
       this.place,
     );
-    this.root.append(this.who, this.stepper.root, walk, this.content);
+    this.root.append(this.heading, this.stepper.root, walk, this.content);
     this.content.addEventListener('click', (event) => this.click(event));
-    const move = (by: number) => () => this.seen && this.move(by);
-    listen([key(', .', 'one step of the call back, on', { ',': move(-1), '.': move(1) })]);
-    // Nobody looks: nothing is asked for.
+    const move = (by: number) => () => this.isSeen && this.move(by);
+    listen([key(', .', 'previous, next step of the call', { ',': move(-1), '.': move(1) })]);
+    // Requests data only while visible.
     new IntersectionObserver((entries) => {
-      const seen = entries.some((entry) => entry.isIntersecting);
-      if (seen === this.seen) return;
-      this.seen = seen;
-      this.ask();
-      if (!seen) this.page.arrows('glass', []);
+      const isSeen = entries.some((entry) => entry.isIntersecting);
+      if (isSeen === this.isSeen) return;
+      this.isSeen = isSeen;
+      this.request();
+      if (!isSeen) this.page.arrows('inspector', []);
     }).observe(this.root);
     if (page.scene) this.onScene(page.scene);
   }
@@ -75,20 +81,19 @@ export class Inspector implements Panel {
   onSelect(body: number | null): void {
     if (body !== null && body > 0 && body <= this.bodies.length) this.body = body;
     this.show();
-    this.ask();
+    this.request();
   }
 
-  onGlass(numbers: BodyInspection): void {
+  onInspection(numbers: BodyInspection): void {
     if (this.page.scene && numbers.scene !== this.page.scene.scene) return;
     this.newest = numbers;
-    if (this.seen) this.render(numbers);
+    this.refresh();
   }
 
   onTheme(): void {
-    if (this.seen && this.newest) this.showForces(this.newest);
+    if (this.isSeen && this.newest) this.showForces(this.newest);
   }
 
-  // The step of the walk that is shown.
   get state() {
     return { pass: this.pass, body: this.bodies[this.body - 1], step: this.at + 1 };
   }
@@ -98,42 +103,38 @@ export class Inspector implements Panel {
     return this.steps.findIndex(({ pass, body }) => pass === this.pass && body === name);
   }
 
-  private ask(): void {
+  private request(): void {
     if (this.bodies.length === 0) return;
-    if (this.seen) this.page.send({ do: 'glass', on: true, body: this.body });
-    else this.page.send({ do: 'glass', on: false });
+    this.page.send(this.isSeen ? { do: 'glass', on: true, body: this.body } : { do: 'glass', on: false });
   }
 
   move(by: number): void {
     this.go(this.at + by);
   }
 
-  // To a step of the call, or the nearest one.
+  // To the nearest step of the call.
   go(step: number): void {
     const { pass, body } = this.steps[Math.min(this.steps.length - 1, Math.max(0, step || 0))];
     this.pass = pass;
     this.body = this.bodies.indexOf(body) + 1;
     this.show();
-    if (this.page.selected !== this.body) this.page.select(this.body); // and comes back by onSelect
-    else if (this.newest && this.seen) this.render(this.newest);
+    if (this.page.selected !== this.body) this.page.select(this.body); // which calls onSelect
+    else this.refresh();
   }
 
   goPass(pass: number): void {
     this.pass = pass;
     this.show();
-    if (this.newest && this.seen) this.render(this.newest);
+    this.refresh();
   }
 
   private click(event: Event): void {
     const at = (event.target as Element).closest<HTMLElement>('[data-plane], [data-body]');
     if (!at) return;
-    if (at.dataset.plane) {
-      this.plane = at.dataset.plane as Plane;
-      if (this.newest) this.render(this.newest);
-      return;
-    }
-    const body = at.dataset.body!;
-    this.go(this.steps.findIndex((step) => step.pass === this.pass && step.body === body));
+    const { plane, body } = at.dataset;
+    if (!plane) return this.go(this.steps.findIndex((step) => step.pass === this.pass && step.body === body));
+    this.plane = plane as Plane;
+    this.refresh();
   }
 
   private show(): void {
@@ -141,21 +142,20 @@ export class Inspector implements Panel {
     this.place.textContent = `step ${this.at + 1} of ${this.steps.length}`;
   }
 
-  private render(numbers: BodyInspection): void {
-    const made = element('div.content', ...this.sections(numbers));
-    morph(this.content, made);
+  private refresh(): void {
+    if (!this.newest || !this.isSeen) return;
+    const numbers = this.newest;
+    morph(this.content, element('div.content', ...this.sections(numbers)));
     const { name, t, stands, passes, neighbours } = numbers;
     const joint = passes?.[0]?.joint;
-    const parent = neighbours?.find(({ is }) => is === 'parent')?.body ?? 'the world';
-    const on = neighbours ? ` on ${parent}` : '';
-    const when = stands ? 'time stands still' : 'stop the time to walk through the call';
-    const time = t === undefined ? [] : [element('p', `${short(t)} s: ${when}`)];
-    this.who.replaceChildren(
+    const parent = neighbours?.find(({ is }) => is === 'parent')?.body ?? 'world';
+    const state = stands ? 'paused' : 'pause to step through the algorithm';
+    this.heading.replaceChildren(
       element('h2', name ?? ''),
-      element('p', `${joint ? `carried by ${joint}` : 'stands'}${on}`),
-      ...time,
+      element('p.fine', `${joint ? `joint: ${joint}` : 'fixed'}${neighbours ? ` · parent: ${parent}` : ''}`),
+      ...(t === undefined ? [] : [element('p.fine', `${short(t)} s: ${state}`)]),
     );
-    this.root.classList.toggle('stands', stands);
+    this.root.classList.toggle('paused', stands);
     this.showForces(numbers);
   }
 
@@ -163,73 +163,63 @@ export class Inspector implements Panel {
     const { name = '', passes, balance, forces = [], ledger, checks, stands, warnings = [] } = numbers;
     const notes = warnings.map((text) => element('p.note', text));
     if (!passes || !balance) return notes;
-    const { axes = 'world', about = 'origin', joint_balance = [], neighbours = [] } = numbers;
+    const { axes = 'world', about = 'origin', joint_balance = [], neighbours } = numbers;
     const fold = (title: string, open: boolean, ...inside: Node[]) => {
-      const made = element('details', element('summary', title), ...inside);
+      const made = element('details', element('summary', { title: definition(title) }, title), ...inside);
       made.open = open;
       return made;
     };
     const contacts = contactTables(forces, name);
-    const taken = neighbourCards(neighbours, this.pass);
+    const adjacent = adjacentCards(neighbours ?? [], this.pass);
     const rows = numbers.rows?.filter(({ pass }) => pass === this.pass) ?? [];
-    const checked = checks?.length ? checkWords(checks) : 'while time stands still';
-    // Always the same parts in the same places: morph() goes by them.
+    const checked = checks?.length ? checkSummary(checks) : 'while paused';
+    const [title, contents] = PASSES[this.pass];
+    // Always the same parts in the same order, as morph() matches them.
     return [
       element('div', ...notes),
-      element('div.so-far', ...(rows.length > 0 ? [soFar(rows, name)] : [])),
-      element('h3', PASSES[this.pass][0], element('span', ` ${PASSES[this.pass][1]}`)),
+      element('div.pass-table', ...(rows.length > 0 ? [passTable(rows, name)] : [])),
+      element('h3', title, element('span', ` ${contents}`)),
       element('div.cards', ...passCards(numbers, this.pass)),
-      ...(numbers.neighbours ? [fold('From its neighbours', false, ...orWords(taken, 'nothing in this pass'))] : []),
+      ...(neighbours ? [fold('Parent and children', false, ...orHint(adjacent, 'none in this pass'))] : []),
       fold(
-        'Free body',
+        'Free-body diagram',
         true,
         ...balance.flatMap((forces) => [
           diagram(forces, this.plane),
-          words(closing(forces)),
+          element('p.hint', closing(forces)),
           element('div.wide.wrenches', balanceTable(forces, axes, about)),
         ]),
         ...jointTables(joint_balance, unitOf(numbers, 'N m; N')),
       ),
-      fold(`Contacts: ${contacts.length || 'none'}`, true, ...orWords(contacts, 'nothing touches it')),
-      ...(ledger ? [fold('Ledger of energy, of all bodies', false, energyTable(ledger))] : []),
-      ...(checks || !stands ? [fold(`Checks: ${checked}`, false, checkTable(checks ?? [], []))] : []),
+      fold(`Contacts: ${contacts.length || 'none'}`, true, ...orHint(contacts, 'no contact')),
+      ...(ledger ? [fold('Energy balance of all bodies', false, energyTable(ledger))] : []),
+      ...(checks || !stands ? [fold(`Cross-checks: ${checked}`, false, checkTable(checks ?? [], []))] : []),
     ];
   }
 
-  // The forces on the body, from the point about which torques are taken; where time goes on they
-  // would lag behind.
+  // Arrows of the forces, from the point about which torques are taken; only while paused, since the
+  // inspection is older than the frame.
   private showForces({ stands, balance, axes }: BodyInspection): void {
     const found = stands && axes === 'world' ? balance?.[0] : undefined;
-    if (!found || !this.page.scene) return this.page.arrows('glass', []);
+    if (!found || !this.page.scene) return this.page.arrows('inspector', []);
     const lengths = found.wrenches.map(({ force }) => Math.hypot(...force));
-    const most = Math.max(...lengths.filter(Number.isFinite), 1e-300);
-    const scale = (LENGTH * this.page.scene.view.radius) / most;
+    const max = Math.max(...lengths.filter(Number.isFinite), 1e-300);
+    const scale = (LENGTH * this.page.scene.view.radius) / max;
     const arrows = found.wrenches.map(({ force }, i) => ({
       from: found.about as Vector,
       along: force.map((part) => scale * part) as Vector,
       color: wrenchColor(i),
     }));
-    this.page.arrows('glass', arrows);
+    this.page.arrows('inspector', arrows);
   }
 }
 
-function orWords(parts: Node[], text: string): Node[] {
-  return parts.length > 0 ? parts : [words(text)];
-}
-function words(text: string): HTMLElement {
-  return element('p.hint', text);
+function orHint(parts: Node[], text: string): Node[] {
+  return parts.length > 0 ? parts : [element('p.hint', text)];
 }
 
-// The way of the passes: one button for each step, a row a pass.
-export const PASSES: Record<number, [string, string]> = {
-  1: ['Pass 1, outward', 'velocities, and the force that each body alone takes'],
-  2: ['Pass 2, inward', 'articulated inertias: each body with all that hangs on it'],
-  3: ['Pass 3, outward', 'accelerations'],
-};
-
-export type Step = { pass: number; body: string };
-
-export class Stepper {
+// One button per step, one row per pass.
+class Stepper {
   readonly root = element('nav.stepper', { 'aria-label': 'steps of the passes' });
   private chips: HTMLButtonElement[] = [];
   private steps: readonly Step[] = [];
@@ -238,9 +228,7 @@ export class Stepper {
   constructor(private readonly go: (step: number) => void, private readonly goPass: (pass: number) => void) {}
 
   set(steps: readonly Step[]): void {
-    this.chips = steps.map(({ pass, body }, i) =>
-      button(body, `pass ${pass} at ${body}`, () => this.go(i)),
-    );
+    this.chips = steps.map(({ pass, body }, i) => button(body, `pass ${pass} at ${body}`, () => this.go(i)));
     this.steps = steps;
     this.rows = [1, 2, 3].map((pass) =>
       element(

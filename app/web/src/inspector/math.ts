@@ -1,4 +1,4 @@
-// Equations as print sets them: the plain text that the program writes, to MathML.
+// Plain-text equations of the program as MathML.
 import { element } from '../ui/dom';
 
 const SPACE = 'http://www.w3.org/1998/Math/MathML';
@@ -10,52 +10,39 @@ function node(tag: string, ...children: (Node | string)[]): MathMLElement {
 }
 const letter = (text: string) => node('mi', text);
 export const operator = (text: string) => node('mo', text);
-const above = (base: Node, text: string) => node('msup', base, text === '*' ? operator(text) : letter(text));
-const below = (base: Node, text: string) => node('msub', base, letter(text));
+const over = (base: Node, script: Node) => node('msup', base, script);
 const dotted = (dots: string) => {
   const made = node('mover', letter('q'), operator(dots));
   made.setAttribute('accent', 'true');
   return made;
 };
-const inverse = (base: string) => node('msup', letter(base), node('mrow', operator('−'), node('mn', '1')));
 
-// RBDA's letters, as the text has them. lambda: the parent.
-const WORDS: Record<string, () => Node> = {
-  Xup: () => node('mmultiscripts', letter('X'), letter('λ'), node('mrow'), node('mprescripts'), node('mrow'), letter('i')),
-  XJ: () => below(letter('X'), 'J'),
-  Xtree: () => below(letter('X'), 'T'),
-  v_p: () => below(letter('v'), 'λ'),
-  a_p: () => below(letter('a'), 'λ'),
-  v_base: () => below(letter('v'), '0'),
-  a_base: () => below(letter('a'), '0'),
-  cJ: () => below(letter('c'), 'J'),
-  vJ: () => below(letter('v'), 'J'),
+// Letters of RBDA with scripts; λ is the parent.
+const SCRIPTS: Record<string, string> = {
+  XJ: 'X_J', Xtree: 'X_T', v_p: 'v_λ', a_p: 'a_λ', v_base: 'v_0', a_base: 'a_0', cJ: 'c_J', vJ: 'v_J',
+  f_ext: 'f^x', IA: 'I^A', Ia: 'I^a', pA: 'p^A', pa: 'p^a',
+};
+const SYMBOLS: Record<string, () => Node> = {
+  Xup: () =>
+    node('mmultiscripts', letter('X'), letter('λ'), node('mrow'), node('mprescripts'), node('mrow'), letter('i')),
   qd: () => dotted('˙'),
   qdd: () => dotted('¨'),
   x: () => operator('×'),
-  'x*': () => above(operator('×'), '*'),
-  f_ext: () => above(letter('f'), 'x'),
-  IA: () => above(letter('I'), 'A'),
-  Ia: () => above(letter('I'), 'a'),
-  pA: () => above(letter('p'), 'A'),
-  pa: () => above(letter('p'), 'a'),
-  "a'": () => node('msup', letter('a'), operator('′')),
+  'x*': () => over(operator('×'), operator('*')),
+  "a'": () => over(letter('a'), operator('′')),
+  'D^-1': () => over(letter('D'), node('mrow', operator('−'), node('mn', '1'))),
   tau: () => letter('τ'),
-  'D^-1': () => inverse('D'),
-  'S^T': () => above(letter('S'), 'T'),
-  'U^T': () => above(letter('U'), 'T'),
-  'X^T': () => above(letter('X'), 'T'),
   sum: () => operator('∑'),
   '-': () => operator('−'),
 };
 const SILENT = new Set(['', 'of']);
 
 function nodeOf(word: string): Node {
-  if (word in WORDS) return WORDS[word]();
+  if (word in SYMBOLS) return SYMBOLS[word]();
   if (/^[\d.]+$/.test(word)) return node('mn', word);
-  if (!/^\w+$/.test(word)) return operator(word);
-  const [base, index] = word.split('_');
-  return index ? below(letter(base), index) : letter(base);
+  const [, base, kind, script] = /^(\w+?)([_^])([\wλ]+)$/.exec(SCRIPTS[word] ?? word) ?? [];
+  if (kind) return node(kind === '_' ? 'msub' : 'msup', letter(base), letter(script));
+  return /^\w+$/.test(word) ? letter(word) : operator(word);
 }
 
 export function set(...parts: Node[]): HTMLElement {
@@ -67,7 +54,6 @@ export function math(text: string): HTMLElement {
   return set(...words.filter((word) => !SILENT.has(word)).map(nodeOf));
 }
 
-// With its sign; what has a power of ten is one row.
 export function mathNumber(value: number | null): Node {
   if (value === null || !Number.isFinite(value)) return node('mtext', '–');
   if (value === 0) return node('mn', '0');
@@ -90,7 +76,7 @@ export function bold(part: Node): Node {
   return made;
 }
 
-// "a + (-b) - c": numbers with the signs that stand before them.
+// "a + (-b) - c"
 export function signedSum(parts: { sign: string; value: number }[]): Node[] {
   return parts.flatMap(({ sign, value }) => {
     const number = mathNumber(value);
@@ -104,7 +90,7 @@ export function fraction(over: Node[], under: Node): Node {
   return node('mfrac', node('mrow', ...over), under);
 }
 
-// "v = Xup v_p + S qd, table 7.1": the equation, and where it stands.
+// "v = Xup v_p + S qd, table 7.1": the equation, and its place in RBDA.
 export function source(text: string): HTMLElement {
   const at = text.search(/, table|, section|; \(/);
   if (!text.includes(' = ')) return element('span', text.replace('table', 'RBDA table'));

@@ -1,5 +1,4 @@
-// A quantity of a pass: numbers by their shape, 6 x 6 as a map of its sizes; unit, frame and
-// equation at the pointer.
+// Card of a quantity: scalar, vectors or matrix (as heat map), with a tooltip of unit, frame and equation.
 import './quantity.css';
 import type { Quantity } from '../protocol/inspection';
 import { element, largestOf, short, unitText } from '../ui/dom';
@@ -10,22 +9,22 @@ export type Numbers = Pick<Quantity, 'value' | 'unit'> & { frame?: string };
 
 const AXES = ['x', 'y', 'z'];
 
-// Angular part first, as in the book; each half has a unit of its own.
+// Angular part first, as in RBDA; each half has its unit.
 function six(values: number[], unit: string): HTMLElement {
   const units = unit.split(';').map((text) => text.trim());
   const rows = [values.slice(0, 3), values.slice(3)].map((half, i) => {
-    const words = element('td.unit', unitText(units[i] ?? units[0]));
-    return element('tr', ...half.map((value) => numberCell(value)), words);
+    const unitCell = element('td.unit', unitText(units[i] ?? units[0]));
+    return element('tr', ...half.map((value) => numberCell(value)), unitCell);
   });
   return table([...AXES, ''], rows, { class: 'six' });
 }
 
-// Colours by the size within each 3 x 3 block: blocks have different units.
+// Colours relative to the maximum of each 3 x 3 block, since blocks have different units.
 function heat(rows: number[][]): HTMLElement {
   const three = <T>(all: T[], i: number) => all.slice(i - (i % 3), i - (i % 3) + 3);
   const cell = (value: number, i: number, k: number) => {
-    const most = largestOf(three(rows, i).flatMap((row) => three(row, k)));
-    const share = most > 0 ? Math.abs(value) / most : 0;
+    const max = largestOf(three(rows, i).flatMap((row) => three(row, k)));
+    const share = max > 0 ? Math.abs(value) / max : 0;
     const made = numberCell(value, 0, value < 0 ? 'minus' : 'plus');
     made.style.setProperty('--share', `${Math.round(62 * share)}%`);
     if (share < 1e-12) made.classList.add('none');
@@ -35,8 +34,8 @@ function heat(rows: number[][]): HTMLElement {
   return element('table.heat', element('tbody', ...lines));
 }
 
-// Units of both halves of six numbers. Those of a joint (it floats) shift first and turn then; told
-// is where a joint turns, and where it shifts.
+// Units of both halves of six numbers. `unit` is "angular; linear"; the coordinates of a free joint are
+// linear first.
 export function unitOfSix({ value, unit, frame }: Numbers): string {
   const isJoint = frame === 'joint' && Array.isArray(value) && value.length === 6;
   return isJoint ? unit.split(';').reverse().join(';') : unit;
@@ -58,22 +57,16 @@ export function valueOf(quantity: Numbers): HTMLElement {
   return element('p.one', ...parts, unitText(unit));
 }
 
-// `content`: in the place of the numbers alone.
+// `content` replaces the plain numbers.
 export function quantityCard(quantity: Quantity, content?: Node[]): HTMLElement {
   const { name, meaning, unit, frame, equation } = quantity;
-  const fact = (name: string, said: Node | string) => [element('dt', name), element('dd', said)];
-  const tip = element(
-    'dl.tip',
-    { role: 'tooltip' },
-    ...fact('is', meaning),
-    ...fact('unit', unit.replaceAll('^2', '²')),
-    ...fact('frame', frame),
-    ...fact('from', source(equation)),
-  );
+  const facts = { meaning, unit: unit.replaceAll('^2', '²'), frame, equation: source(equation) };
+  const lines = Object.entries(facts).flatMap(([name, fact]) => [element('dt', name), element('dd', fact)]);
+  const tip = element('dl.tip', { role: 'tooltip' }, ...lines);
   return element(
     'article.quantity',
     { tabindex: '0', 'data-quantity': name, 'aria-label': `${name}: ${meaning}` },
-    element('h4', math(name), element('span', meaning)),
+    element('h4', math(name), element('span.fine', meaning)),
     ...(content ?? [valueOf(quantity)]),
     tip,
   );

@@ -1,19 +1,18 @@
-// The page of one inspected state: the inspector over the numbers that the page carries, with the
-// robot beside it.
-import { checkTable, checkWords } from '../inspector/tables';
+// Page of one inspected state: 3-D view and inspector.
+import { checkTable, checkSummary } from '../inspector/tables';
 import { Inspector, type InspectorPage } from '../inspector/inspector';
 import type { InspectedRobot, Inspection } from '../protocol/inspection';
 import type { BodyInspection, SceneMessage } from '../protocol/messages';
 import type { Layer } from '../protocol/run';
 import { element } from '../ui/dom';
-import { key, type Key, MOUSE, viewKeys } from '../ui/keys';
+import { key, type Key, MOUSE } from '../ui/keys';
 import './inspect.css';
 import { type Instant, RecordedPage } from './recorded_page';
 import { start } from '../source/embedded';
 
-const FAINT = 60; // of 255: bodies that are not looked at
+const FAINT = 60; // alpha of 255 of the other bodies
 
-// Of one body, as the lab sends it.
+// Of one body, as the lab's message.
 function inspectionOf(all: Inspection, name: string): BodyInspection {
   const passes = all.passes.filter(({ body }) => body === name);
   return {
@@ -26,7 +25,7 @@ function inspectionOf(all: Inspection, name: string): BodyInspection {
     rows: all.passes,
     balance: all.balance.filter(({ body }) => body === name),
     joint_balance: all.joint_balance.filter(({ joint }) => joint !== '' && joint === passes[0]?.joint),
-    checks: undefined, // have a page of their own
+    checks: undefined, // in their own tab
     warnings: [],
   };
 }
@@ -37,12 +36,12 @@ class Page extends RecordedPage {
 
   constructor(private readonly robot: InspectedRobot) {
     const isBody = ({ name }: Layer) => name.startsWith('body/');
-    super(robot, robot.layers.filter((layer) => !isBody(layer)));
+    super(robot, robot.layers.filter((layer) => !isBody(layer)), false); // 1 to 3: passes
     this.bodies = robot.layers.filter(isBody);
     this.inspector = new Inspector(this.source());
     const { checks, warnings } = robot.inspection;
     this.tabs.add('Passes', this.inspector.root);
-    this.tabs.add(`Checks: ${checkWords(checks)}`, checkTable(checks, warnings));
+    this.tabs.add(`Cross-checks: ${checkSummary(checks)}`, checkTable(checks, warnings));
     this.tabs.root.parentElement!.classList.add('inspect');
     const title = [element('h1', robot.title), element('p', robot.state.replaceAll('\n', ' · '))];
     const foot = element(
@@ -51,14 +50,14 @@ class Page extends RecordedPage {
       element('span', `twinarm ${robot.version}`),
     );
     this.begin(title, foot, this.keys(), MOUSE);
-    this.inspector.go(Number(this.asked('step') ?? 1) - 1);
+    this.inspector.go(Number(this.hashValue('step') ?? 1) - 1);
   }
 
   get state() {
     return this.inspector.state;
   }
 
-  // What the lab does for its inspector.
+  // The lab's interface to its inspector.
   private source(): InspectorPage {
     const { inspection, view } = this.robot;
     const names = inspection.passes.filter(({ pass }) => pass === 1).map(({ body }) => body);
@@ -68,7 +67,7 @@ class Page extends RecordedPage {
       selected: 1,
       send: (command) => {
         if (command.do === 'glass' && command.on)
-          this.inspector.onGlass(inspectionOf(inspection, names[command.body! - 1]));
+          this.inspector.onInspection(inspectionOf(inspection, names[command.body! - 1]));
         return true;
       },
       select: (body) => {
@@ -88,14 +87,10 @@ class Page extends RecordedPage {
     const next = () => this.inspector.move(1);
     const pass = (number: number) => () => this.inspector.goPass(number);
     return [
-      key('→', 'the next body', { ArrowRight: next, ' ': next }),
-      key('←', 'the body before', { ArrowLeft: () => this.inspector.move(-1) }),
-      key('1, 2, 3', 'to that pass', { 1: pass(1), 2: pass(2), 3: pass(3) }),
-      ...viewKeys({
-        orbit: (...by) => this.stage.orbit(...by),
-        look: (name) => this.look(name),
-        toggleTheme: () => this.theme.toggle(),
-      }),
+      key('→', 'next body', { ArrowRight: next, ' ': next }),
+      key('←', 'previous body', { ArrowLeft: () => this.inspector.move(-1) }),
+      key('1, 2, 3', 'pass', { 1: pass(1), 2: pass(2), 3: pass(3) }),
+      ...this.viewKeys(),
     ];
   }
 
@@ -108,7 +103,7 @@ class Page extends RecordedPage {
     return { a: 0, b: 0, share: 0 };
   }
 
-  // The body of the step solid, the others as ghosts.
+  // The body of the step solid, the others translucent.
   protected parts(shown: Layer[], instant: Instant) {
     const { body } = this.inspector.state;
     const bodies = this.bodies.map(({ name, instances }) => {
@@ -120,8 +115,8 @@ class Page extends RecordedPage {
   }
 }
 
-type Carried = Omit<InspectedRobot, 'inspection'> & { inspection: string };
-start<Carried>((carried) => {
-  const robot = { ...carried, inspection: JSON.parse(carried.inspection) as Inspection };
+type Packed = Omit<InspectedRobot, 'inspection'> & { inspection: string };
+start<Packed>((packed) => {
+  const robot = { ...packed, inspection: JSON.parse(packed.inspection) as Inspection };
   return { robot, page: new Page(robot) };
 });

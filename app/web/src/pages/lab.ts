@@ -1,19 +1,19 @@
-// The lab's page: a run that goes on elsewhere, seen and moved from here. This file holds together
-// the connection, the view, the hand and the panels; once a picture it takes the newest of
-// everything that has come, and nothing older.
+// The lab's page: connects socket, 3-D view, input and panels. Once per picture it takes the newest message
+// of each kind.
 import '../ui/style.css';
 import { Inspector } from '../inspector/inspector';
 import { Controller } from '../input/gamepad';
-import { Drag, type Seen } from '../input/drag';
+import { Drag } from '../input/drag';
 import { Operator } from '../input/operator';
 import { Handles } from '../input/handles';
 import { KeyInput } from '../input/key_input';
 import { isKept, labKeys, type LabKeys, MOUSE } from './lab_keys';
+import { panelsOf } from './lab_panels';
 import * as wire from '../source/link';
 import { LiveStage, Picture } from '../view/live_stage';
 import { remember, remembered, Theme } from '../ui/preferences';
 import { Overlays, Views } from '../view/view_options';
-import { type Listener, type Panel, panelsOf } from '../panels/panel';
+import type { Listener, Panel } from '../panels/panel';
 import { Pace } from '../view/pace';
 import { Hints } from '../panels/hints';
 import { button, element, icon } from '../ui/dom';
@@ -23,11 +23,11 @@ import { Tabs } from '../ui/choices';
 import type { Arrow } from '../view/arrows';
 import type { ViewName } from '../view/stage';
 
-import './lab.css'; // last: it changes what parts look like under fingers
+import './lab.css'; // last: overrides for touch screens
 
-const TABS = ['Knobs', 'Plots', 'Glass', 'Ledger'];
-// Commands that need no hand.
-const FREE = new Set(['layers', 'glass', 'look', 'take']);
+const TABS = ['Parameters', 'Plots', 'Inspector', 'Energy'];
+const DEFAULT_LAYERS = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
+const NO_CONTROL = new Set(['layers', 'glass', 'look', 'take']); // commands that need no control
 
 class Page implements LabKeys {
   scene: wire.SceneMessage | null = null;
@@ -35,26 +35,35 @@ class Page implements LabKeys {
   frame: wire.Frame | null = null;
   selected: number | null = null;
   readonly pace = new Pace();
-  private readonly words = new Hints();
+  private readonly hints = new Hints();
   private readonly title = element('h1', 'twinarm lab');
   private readonly file = element('p');
   private readonly over = element('div.handles');
   private readonly host = element('div.stage', this.over);
   private readonly tabs = new Tabs();
   private readonly theme = new Theme(() => this.recolor());
-  readonly overlays = new Overlays(() => this.sendLayers());
+  private readonly layers = new Set(remembered('layers', DEFAULT_LAYERS));
+  readonly overlays = new Overlays(this.layers, () => this.sendLayers());
   readonly views = new Views((name) => this.look(name), () => this.touch());
   readonly live = new LiveStage(this.host, this.over, () => this.touch());
   private readonly picture = this.live.canDraw ? null : new Picture();
   readonly link = new wire.Link(socketAddress(), (open) => this.connected(open));
-  readonly hand = new Operator(this.link, () => this.state, (words) => this.say(words));
-  private readonly controller = new Controller(this.hand, (words) => this.say(words));
+  readonly operator = new Operator(this.link, () => this.state, (text) => this.showMessage(text));
+  private readonly controller = new Controller(this.operator, (text) => this.showMessage(text));
   private readonly handles = new Handles(this.over);
-  readonly drag: Drag = new Drag(this.host, () => this.seen(), this.hand, this.handles, {
+  private readonly changed = () => this.touch();
+  private readonly labView = () => this.view;
+  readonly drag: Drag = new Drag(this.host, this.labView, this.operator, this.handles, {
     select: (body) => this.select(body),
-    changed: () => this.touch(),
+    changed: this.changed,
   });
-  readonly keys = new KeyInput(() => this.known(), this.hand, this.handles, this.drag, () => this.touch());
+  readonly keys = new KeyInput(
+    this.labView,
+    this.operator,
+    this.handles,
+    (view, joint) => this.drag.jointValue(view, joint),
+    this.changed,
+  );
   private readonly run = new LiveRun(this);
   readonly set = panelsOf(this, this.run);
   private readonly inspector = new Inspector(this);
@@ -64,8 +73,8 @@ class Page implements LabKeys {
   private stale = true;
 
   constructor() {
-    const { knobs, plots, ledger } = this.set;
-    [knobs, plots, this.inspector, ledger].forEach((panel, i) => this.tabs.add(TABS[i], panel.root));
+    const { parameters, plots, energy } = this.set;
+    [parameters, plots, this.inspector, energy].forEach((panel, i) => this.tabs.add(TABS[i], panel.root));
     this.build();
     const theme = remembered<boolean | null>('dark', null);
     if (theme !== null) this.theme.set(theme);
@@ -73,12 +82,12 @@ class Page implements LabKeys {
     requestAnimationFrame((now) => this.tick(now));
   }
 
-  get holds(): boolean {
-    return this.hand.holds;
+  get hasControl(): boolean {
+    return this.operator.hasControl;
   }
 
   send(command: wire.Command): boolean {
-    if (!FREE.has(command.do) && !this.hand.claim()) return false;
+    if (!NO_CONTROL.has(command.do) && !this.operator.requestControl()) return false;
     return this.link.send(command);
   }
 
@@ -90,8 +99,8 @@ class Page implements LabKeys {
     this.touch();
   }
 
-  say(words: string): void {
-    this.words.say(words);
+  showMessage(text: string): void {
+    this.hints.showMessage(text);
   }
 
   arrows(owner: string, arrows: Arrow[]): void {
@@ -107,24 +116,25 @@ class Page implements LabKeys {
   }
 
   private build(): void {
-    const { time, hand, gallery, dead } = this.set;
+    const { time, input, gallery, diverged } = this.set;
+    const { hints } = this;
     const keys = labKeys(this);
     const dialog = help(keys, `${MOUSE} ${PLOTS}`);
-    const scenes = button(icon('gallery'), 'scenes (e)', () => gallery.root.showModal(), 'words');
+    const scenes = button(icon('gallery'), 'scenes (e)', () => gallery.root.showModal(), 'labelled');
     scenes.append('Scenes');
     const header = pageHeader([this.title, this.file, scenes], dialog, () => this.toggleTheme());
-    header.append(button(icon('panel'), 'the panel (\\)', () => this.togglePanel()));
+    header.append(button(icon('panel'), 'hide or show the panel (\\)', () => this.togglePanel()));
     this.host.append(
       ...(this.picture ? [this.picture.root] : []),
-      element('div.corner', this.overlays.root, this.overlays.legend),
+      this.overlays.root,
       this.views.root,
-      element('div.foot', this.words.look, this.words.again, this.words.hint, this.words.spoken),
-      element('div.hand-corner', hand.root),
-      this.words.banner,
-      dead.root,
+      element('div.foot', hints.look, hints.again, hints.hint, hints.spoken),
+      element('div.input-corner', input.root),
+      hints.banner,
+      diverged.root,
     );
     this.host.addEventListener('pointerdown', ({ target }) => {
-      if (target instanceof HTMLCanvasElement || target === this.handles.tip) this.words.fold(true);
+      if (target instanceof HTMLCanvasElement || target === this.handles.tip) hints.fold(true);
     });
     document.body.classList.add('lab');
     document.body.append(header, element('main', this.host, time.root, this.tabs.root), gallery.root, dialog);
@@ -167,21 +177,18 @@ class Page implements LabKeys {
     this.stale = true;
   }
 
-  private known() {
+  private get view() {
     const { scene, frame } = this;
     return scene && frame ? { scene, frame, stage: this.live.stage } : null;
   }
-  private seen(): Seen | null {
-    const known = this.known();
-    return known?.stage ? { ...known, stage: known.stage } : null;
-  }
 
   private connected(open: boolean): void {
-    this.words.connection(open);
+    this.hints.connection(open);
     if (open) this.sendLayers();
   }
 
   private sendLayers(): void {
+    remember('layers', [...this.layers]);
     this.link.send({ do: 'layers', names: this.overlays.names });
     this.touch();
   }
@@ -190,25 +197,25 @@ class Page implements LabKeys {
     requestAnimationFrame((next) => this.tick(next));
     this.controller.poll();
     this.drag.tick();
-    this.hand.flush();
+    this.operator.flush();
     this.takeNews(this.link.take());
     if (this.stale && this.frame) this.paint(this.frame, now);
     this.picture?.tick(now);
-    this.words.tick(now, (!this.drag.held && this.keys.hint) || this.drag.hint);
+    this.hints.tick(now, (!this.drag.held && this.keys.hint) || this.drag.hint);
     for (const panel of this.panels)
       if (panel.draw && !(panel.root.closest('[hidden]') || (this.folded && panel.root.closest('aside'))))
         panel.draw();
   }
 
-  private takeNews({ scene, state, glass, frame }: wire.News): void {
+  private takeNews({ scene, state, inspection, frame }: wire.News): void {
     if (scene) this.takeScene(scene);
     if (state) {
-      const asked = this.state?.asked.includes(this.state.you);
+      const wasRequested = this.state?.asked.includes(this.state.you);
       this.state = state;
-      if (asked && this.holds) this.say('The hand is yours now.');
+      if (wasRequested && this.hasControl) this.showMessage('You have control now.');
       for (const listener of this.listeners) listener.onState?.(state);
     }
-    if (glass) for (const panel of this.panels) panel.onGlass?.(glass);
+    if (inspection) for (const panel of this.panels) panel.onInspection?.(inspection);
     if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
   }
 
@@ -224,8 +231,8 @@ class Page implements LabKeys {
     this.title.textContent = scene.title;
     this.file.textContent = scene.file;
     this.views.show(scene.bodies);
-    this.overlays.show(scene);
-    this.words.show(scene);
+    this.overlays.show(scene.layers);
+    this.hints.show(scene);
     void this.live.show(scene);
     for (const listener of this.listeners) listener.onScene?.(scene);
   }
@@ -237,12 +244,10 @@ class Page implements LabKeys {
   }
 
   private paint(frame: wire.Frame, now: number): void {
-    this.stale = false;
-    this.live.paint(frame, this.overlays.shown, this.selected, this.views.body);
-    if (this.views.body !== null) this.stale = false; // that moved the camera, and is drawn now
-    const seen = this.seen();
-    if (seen) this.drag.draw(seen, this.keys);
-    this.hand.painted(frame);
+    this.live.paint(frame, this.overlays, this.selected, this.views.body);
+    this.stale = false; // following a body has moved the camera, which is drawn already
+    this.drag.draw(this.keys);
+    this.operator.measureDelay(frame);
     if (this.pace.painted(now) && !frame.stands) this.live.coarsen();
     if (this.live.isReady && document.documentElement.dataset.ready !== 'true') {
       document.documentElement.dataset.ready = 'true';
@@ -257,7 +262,7 @@ function socketAddress(): string {
   return address.href;
 }
 
-// Marks on the way to the first frame: scripts/measure/lab_first_frame.
+// Performance marks for scripts/measure/lab_first_frame.
 performance.mark('script runs');
 Object.assign(window, { twinarm: { page: new Page() } });
 performance.mark('page is built');

@@ -1,12 +1,11 @@
-// What the pages that carry their data have in common: the picture with its layers, views and
-// labels, theme, keys, printing; painted when something has changed.
+// Base of the pages with embedded data: 3-D view with overlays and labels, theme, keys, printing.
 import '../ui/style.css';
-import type { Carried, Layer } from '../protocol/run';
+import type { PageData, Layer } from '../protocol/run';
 import { element } from '../ui/dom';
-import { help, type Key, listen, pageHeader } from '../ui/keys';
+import { help, type Key, listen, pageHeader, viewKeys } from '../ui/keys';
 import { Tabs } from '../ui/choices';
 import { Theme } from '../ui/preferences';
-import { LayerChoice, Views } from '../view/view_options';
+import { Overlays, Views } from '../view/view_options';
 import type { Part } from '../view/painter';
 import { Stage, type ViewName } from '../view/stage';
 import './print.css';
@@ -14,19 +13,22 @@ import './print.css';
 export type Instant = Pick<Part, 'a' | 'b' | 'share'>; // of all layers
 
 export abstract class RecordedPage {
-  readonly layers: LayerChoice;
+  protected readonly overlays: Overlays;
   readonly stage: Stage;
   readonly theme = new Theme(() => this.recolor());
   protected readonly tabs = new Tabs();
   protected readonly views = new Views((name) => this.look(name), () => this.release());
-  private stale = true; // the picture
+  private stale = true; // the 3-D view
 
-  constructor(private readonly carried: Carried, layers = carried.layers) {
+  constructor(private readonly data: PageData, private readonly layers = data.layers, hasNumbers = true) {
     const host = element('div.stage');
-    this.layers = new LayerChoice(layers, () => this.touch());
-    host.append(this.layers.switches, this.layers.legend, this.views.root);
+    const isUsed = ({ instances, labels }: Layer) => instances.mesh.length > 0 || labels.text.length > 0;
+    const shown = layers.filter((layer) => layer.shown).map(({ name }) => name);
+    this.overlays = new Overlays(new Set(shown), () => this.touch(), hasNumbers);
+    this.overlays.show(layers.filter(isUsed));
+    host.append(this.overlays.root, this.views.root);
     document.body.append(element('main', host, this.tabs.root));
-    this.stage = new Stage(host, carried.view, carried, () => this.touch());
+    this.stage = new Stage(host, data.view, data, () => this.touch());
     onPaper(host, (isPaper) => {
       this.stage.resize();
       this.paint();
@@ -34,13 +36,13 @@ export abstract class RecordedPage {
     });
   }
 
-  // The parts around the picture; then the page goes on by itself.
+  // Adds header, footer and keys, and starts drawing.
   protected begin(title: Node[], foot: Node, keys: Key[], mouse: string): void {
     const dialog = help(keys, mouse);
     document.body.prepend(pageHeader(title, dialog, () => this.theme.toggle()));
     document.body.append(foot, dialog);
     listen(keys);
-    const theme = this.asked('theme');
+    const theme = this.hashValue('theme');
     if (theme) this.theme.set(theme === 'dark');
     this.recolor();
     const tick = (now: number) => {
@@ -51,9 +53,23 @@ export abstract class RecordedPage {
     requestAnimationFrame(tick);
   }
 
-  // "#t=1.5&theme=dark": a link to what is shown.
-  protected asked(name: string): string | null {
+  // Of an address that ends in "#t=1.5&theme=dark".
+  protected hashValue(name: string): string | null {
     return new URLSearchParams(location.hash.slice(1)).get(name);
+  }
+
+  protected get shownLayers(): Layer[] {
+    return this.layers.filter(({ name }) => this.overlays.isShown(name));
+  }
+
+  protected viewKeys(followNext?: () => void): Key[] {
+    return viewKeys({
+      orbit: (...by) => this.stage.orbit(...by),
+      look: (name) => this.look(name),
+      followNext,
+      overlays: this.overlays,
+      toggleTheme: () => this.theme.toggle(),
+    });
   }
 
   protected look(name: ViewName): void {
@@ -70,15 +86,15 @@ export abstract class RecordedPage {
 
   private paint(): void {
     const instant = this.before();
-    this.stale = false; // though the camera may have moved: it is drawn now
-    const shown = this.layers.shown;
+    this.stale = false; // a move of the camera by before() is drawn now
+    const shown = this.shownLayers;
     this.stage.paint(this.parts(shown, instant));
     this.stage.draw();
     const labels = shown.map((layer) => ({ columns: layer.labels, frame: instant.a }));
-    this.stage.labels.paint(this.stage, this.carried.texts, labels);
+    this.stage.labels.paint(this.stage.project, this.data.texts, labels);
   }
 
-  // Which instant is to be painted; the camera goes along with what it follows.
+  // The instant to draw; moves the camera to the body that it follows.
   protected abstract before(): Instant;
   protected parts(shown: Layer[], instant: Instant): Part[] {
     return shown.map(({ name, instances }) => ({ ...instant, columns: instances, shadow: name === 'bodies' }));
@@ -91,11 +107,11 @@ export abstract class RecordedPage {
   }
 }
 
-// Printing: picture and plots take the size of a page before the browser looks at them. What WebGL
-// has drawn is gone by then, so a copy lies on it.
-export const PAPER = 680; // pixels of a page's width, as style.css has it
+export const PAPER = 680; // width when printed, in pixels, as in print.css
 
-export function onPaper(host: HTMLElement, paint: (isPaper: boolean) => void): void {
+// Before printing, view and plots take the size of the paper. The WebGL canvas is blank by the time the
+// browser prints it, so a copy is laid over it.
+function onPaper(host: HTMLElement, paint: (isPaper: boolean) => void): void {
   const copy = element('canvas');
   addEventListener('beforeprint', () => {
     host.classList.add('paper');

@@ -1,4 +1,4 @@
-// The page of a recorded run: one clock, and all that follows it.
+// Page of a recorded run.
 import { EnergyPanel, MomentumPanel } from '../panels/balances';
 import type { Panel } from '../panels/panel';
 import { TimeBar } from '../panels/time_bar';
@@ -6,7 +6,7 @@ import { Plots } from '../plot/plots';
 import type { Run } from '../protocol/run';
 import { Player } from '../source/playhead';
 import { button, element, icon } from '../ui/dom';
-import { clockKeys, key, type Key, MOUSE, PLOTS, viewKeys } from '../ui/keys';
+import { clockKeys, key, type Key, MOUSE, PLOTS } from '../ui/keys';
 import { type Instant, PAPER, RecordedPage } from './recorded_page';
 import { start } from '../source/embedded';
 import { row, table } from '../ui/table';
@@ -20,10 +20,10 @@ class Page extends RecordedPage {
     'time in seconds',
     [
       button(icon('first'), 'to the start (Home)', () => this.player.seek(this.player.start)),
-      button(icon('back'), 'one frame back (←)', () => this.player.step(-1)),
+      button(icon('back'), 'previous frame (←)', () => this.player.step(-1)),
     ],
     [
-      button(icon('on'), 'one frame on (→)', () => this.player.step(1)),
+      button(icon('on'), 'next frame (→)', () => this.player.step(1)),
       button(icon('last'), 'to the end (End)', () => this.player.seek(this.player.end)),
     ],
   );
@@ -34,22 +34,22 @@ class Page extends RecordedPage {
   constructor(private readonly run: Run) {
     super(run);
     this.tabs.add('Plots', this.plots.root);
-    this.tabs.add('Ledger', ...this.balances.map((panel) => panel.root));
+    this.tabs.add('Energy', ...this.balances.map((panel) => panel.root));
     this.tabs.add('Setup', setup(run));
     this.views.show(run.bodies.map((name) => ({ name, moves: true })));
-    this.views.root.after(element('div.scale', gridWords(run)));
+    this.views.root.after(element('div.scale.fine', gridText(run)));
     const title = [element('h1', run.title), element('p', headline(run))];
     this.takeHash();
     this.begin(title, this.bar.root, this.keys(), `${MOUSE} ${PLOTS}`);
   }
 
-  // What tests and the curious ask.
+  // For tests.
   get state() {
     return {
       time: this.player.at,
       frame: this.player.frame,
       playing: this.player.playing,
-      layers: this.layers.shown.map((layer) => layer.name),
+      layers: this.shownLayers.map(({ name }) => name),
       eye: this.stage.camera.position.toArray(),
     };
   }
@@ -60,17 +60,11 @@ class Page extends RecordedPage {
     const tab = (number: number) => () => this.tabs.show(number);
     return [
       ...clockKeys(player),
-      key('← →', 'one frame back or on; with shift ten', { ArrowLeft: step(-1), ArrowRight: step(1) }),
+      key('← →', 'previous, next frame; with shift by ten', { ArrowLeft: step(-1), ArrowRight: step(1) }),
       key('Home', 'to the start', () => player.seek(player.start)),
       key('End', 'to the end', () => player.seek(player.end)),
-      ...viewKeys({
-        orbit: (...by) => this.stage.orbit(...by),
-        look: (name) => this.look(name),
-        followNext: () => this.views.next(null),
-        toggleLayer: (number) => this.layers.toggleNumber(number),
-        toggleTheme: () => this.theme.toggle(),
-      }),
-      key('p, l, u', 'plots, ledger, setup', { p: tab(0), l: tab(1), u: tab(2) }),
+      ...this.viewKeys(() => this.views.next(null)),
+      key('p, l, u', 'plots, energy, setup', { p: tab(0), l: tab(1), u: tab(2) }),
     ];
   }
 
@@ -79,13 +73,13 @@ class Page extends RecordedPage {
     this.plots.onTheme();
   }
 
-  // "#t=1.5&theme=dark&show=contacts,trails&tab=ledger": a link to a moment.
+  // "#t=1.5&theme=dark&show=contacts,trails&tab=ledger"
   private takeHash(): void {
-    const time = Number(this.asked('t') ?? NaN);
+    const time = Number(this.hashValue('t') ?? NaN);
     if (Number.isFinite(time)) this.player.seek(time);
-    const show = this.asked('show')?.split(',');
-    if (show) for (const { name } of this.run.layers) this.layers.set(name, show.includes(name));
-    const tab = TABS.indexOf(this.asked('tab') ?? '');
+    const show = this.hashValue('show')?.split(',');
+    if (show) for (const { name } of this.run.layers) this.overlays.set(name, show.includes(name));
+    const tab = TABS.indexOf(this.hashValue('tab') ?? '');
     if (tab >= 0) this.tabs.show(tab);
   }
 
@@ -103,7 +97,7 @@ class Page extends RecordedPage {
     this.bar.show({
       time: at,
       share: (at - start) / Math.max(1e-12, end - start),
-      goes: playing,
+      isPlaying: playing,
       speed,
       words: `${at.toFixed(3)} seconds`,
     });
@@ -126,18 +120,18 @@ class Page extends RecordedPage {
   }
 }
 
-function gridWords(run: Run): string {
+function gridText(run: Run): string {
   const { visible, cell, cellsPerMajor } = run.view.ground;
   const length = (metres: number) => `${+metres.toPrecision(3)} m`;
   return visible ? `grid ${length(cell)}, bold ${length(cell * cellsPerMajor)}` : '';
 }
 
-// All digits stand below Setup.
+// Rounded; the Setup tab has all digits.
 function headline(run: Run): string {
   const rounded = (text: string) => text.replace(/^[\d.]+/, (digits) => String(+(+digits).toPrecision(4)));
   const fact = (name: string) => run.facts.find(([key]) => key === name)?.[1];
-  const words = ['integrator', 'step', 'duration'].map(fact).filter((word) => word !== undefined);
-  return words.map(rounded).join(' · ');
+  const facts = ['integrator', 'step', 'duration'].map(fact).filter((text) => text !== undefined);
+  return facts.map(rounded).join(' · ');
 }
 
 function section(title: string, head: string[], rows: string[][]): HTMLElement {
@@ -149,14 +143,14 @@ function fold(title: string, text: string): HTMLElement {
   return element('details', element('summary', title), element('pre', text));
 }
 
-// What the run was made of.
+// Settings and input files of the run.
 function setup(run: Run): HTMLElement {
   const root = element('section.setup');
   const copy = button('copy', 'copy the command', () => {
     void navigator.clipboard?.writeText(run.command);
   });
   root.append(
-    element('h3', 'Made by'),
+    element('h3', 'Command'),
     element('div.command', element('code', { id: 'command' }, run.command), copy),
   );
   for (const note of run.notes) root.append(element('p.note', note));
@@ -167,7 +161,7 @@ function setup(run: Run): HTMLElement {
   for (const { title, head, rows } of run.tables) root.append(section(title, head, rows));
   for (const { name, text } of run.files) root.append(fold(name, text));
   const licences = document.getElementById('licences');
-  if (licences) root.append(fold('Licences of what draws this page', licences.textContent ?? ''));
+  if (licences) root.append(fold('Licences of the libraries in this page', licences.textContent ?? ''));
   return root;
 }
 

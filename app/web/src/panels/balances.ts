@@ -3,15 +3,17 @@ import { NUMERICAL, type Run } from '../protocol/run';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
 import { element } from '../ui/dom';
+import { definition, heading } from '../ui/glossary';
 import { numberCell, putNumber, row, table } from '../ui/table';
 import type { Panel } from './panel';
 import type { Player } from '../source/playhead';
 
-const DRAW = 60; // numbers that run faster cannot be read [ms]
-const rank = (name: string) => (name === NUMERICAL ? 1 : 0);
+const DRAW = 60; // interval of updates [ms]
+const DIGITS = 'Hover for full precision.';
 
-// In the order in which they stand in a table: the remainder is last.
+// The largest first, the integration error last.
 export function inOrder(works: [string, number][]): [string, number][] {
+  const rank = (name: string) => (name === NUMERICAL ? 1 : 0);
   return [...works].sort(([a, x], [b, y]) => rank(a) - rank(b) || (Math.abs(y) || 0) - (Math.abs(x) || 0));
 }
 
@@ -20,14 +22,16 @@ export class EnergyTable {
   private readonly cells: { now: HTMLElement; bar: HTMLElement }[];
   private readonly sum = numberCell(0);
 
-  // `digits`: below the names.
+  // `digits`: shown below the names.
   constructor(names: string[], head = 'work since the start', digits?: string[]) {
     this.cells = names.map(() => ({ now: numberCell(0), bar: element('i') }));
     const rows = this.cells.map(({ now, bar }, i) => {
       const below = digits ? [element('small', { 'data-row': names[i], title: 'at the end' }, digits[i])] : [];
-      return row([names[i], ...below], now, element('td.bar', bar));
+      const term = names[i] === NUMERICAL ? 'residual' : names[i];
+      const name = element('span', { title: definition(term) }, names[i]);
+      return row([name, ...below], now, element('td.bar', bar));
     });
-    const foot = row('their sum: rise of kinetic energy', this.sum, element('td'));
+    const foot = row('total = change in kinetic energy', this.sum, element('td'));
     this.root = table([head, 'now [J]', ''], rows, { class: 'energy' }, foot);
   }
 
@@ -53,10 +57,9 @@ export class EnergyPanel implements Panel {
 
   constructor(private readonly source: RunSource) {
     const hint =
-      'Each row is the work that something has done. The rows add up to the rise of kinetic ' +
-      'energy; “numerical” is what is left over, the integrator’s error. All digits stand at ' +
-      'the pointer.';
-    this.root.append(element('h3', 'Energy'), element('p.hint', hint), this.host);
+      'Work of each force since the start. The rows sum to the change in kinetic energy; “numerical” ' +
+      `is the residual, the error of the integrator. ${DIGITS}`;
+    this.root.append(heading('Energy balance'), element('p.hint', hint), this.host);
     if (source.record) this.take(source.record);
   }
 
@@ -75,7 +78,7 @@ export class EnergyPanel implements Panel {
     this.table!.show(this.columns.map((column) => store.value(column, shown)), largest);
   }
 
-  // Of a run that goes on the rows stay where they are, else the largest at the end is first.
+  // Rows of a live run keep their order; those of a recorded one are sorted by their final values.
   private take(record: RunRecord): void {
     this.record = record;
     const { store, scene, works } = record;
@@ -83,31 +86,29 @@ export class EnergyPanel implements Panel {
     const end = (i: number) => store.value(works + i, store.length - 1);
     const rows = inOrder(scene.ledger.map((name, i) => [name, isLive ? 0 : end(i)]));
     this.columns = rows.map(([name]) => works + scene.ledger.indexOf(name));
-    const head = isLive ? undefined : 'work, and below it all digits of the end [J]';
-    const digits = isLive ? undefined : rows.map(([, work]) => String(work));
-    this.table = new EnergyTable(rows.map(([name]) => name), head, digits);
+    const names = rows.map(([name]) => name);
+    this.table = isLive
+      ? new EnergyTable(names)
+      : new EnergyTable(names, 'work; below: at the end, all digits [J]', rows.map(([, work]) => String(work)));
     this.host.replaceChildren(this.table.root);
   }
 }
 
-// The momentum balance: what acted from outside, and its moment about the origin.
 export class MomentumPanel implements Panel {
   readonly root = element('section.momentum');
-  private readonly cells: HTMLElement[][]; // the last: their sum
+  private readonly cells: HTMLElement[][]; // the last row: the sum
   private shown = -1;
 
   constructor(private readonly run: Run, private readonly player: Player) {
     const { rows } = run.momentum;
     this.cells = [...rows, ''].map(() => Array.from({ length: 6 }, () => numberCell(0)));
     const lines = rows.map((name, i) => row(name, ...this.cells[i]));
-    const foot = row('their sum: change of momentum', ...this.cells[rows.length]);
+    const foot = row('total = change in momentum', ...this.cells[rows.length]);
     const heads = ['', 'x', 'y', 'z [N s]', 'about x', 'y', 'z [N m s]'];
-    const hint =
-      'What acted from outside on all that forces move, up to the time shown; the moments are ' +
-      'about the world’s origin. All digits stand at the pointer.';
+    const hint = `External impulse on all moving bodies since the start; about the world origin. ${DIGITS}`;
     this.root.hidden = rows.length === 0;
     this.root.append(
-      element('h3', 'Momentum'),
+      heading('Momentum balance'),
       element('p.hint', hint),
       element('div.wide', table(heads, lines, {}, foot)),
     );

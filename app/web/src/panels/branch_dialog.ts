@@ -1,19 +1,19 @@
-// Going on from an instant with other knobs: which ones is chosen here.
+// Dialog of a new branch: its parameter changes.
 import './branch_dialog.css';
 import { button, element, option, unitText } from '../ui/dom';
-import type { Knob } from '../source/link';
+import type { LabParameter } from '../source/link';
 import type { LabPage } from './panel';
 import type { Rewind } from '../source/playhead';
 import { numberText, parseNumber } from '../ui/scale';
 
-type Line = { knob: Knob; root: HTMLElement; control: HTMLInputElement | HTMLSelectElement };
+type Line = { parameter: LabParameter; root: HTMLElement; control: HTMLInputElement | HTMLSelectElement };
 
 export class BranchDialog {
   readonly root = element('dialog.card-dialog.branch', { 'aria-labelledby': 'branch-title' });
   private readonly title = element('h2', { id: 'branch-title' });
   private readonly list = element('div.lines');
-  private readonly none = element('p.hint', 'All knobs are left as they are now.');
-  private readonly more = element('select', { 'aria-label': 'turn one more knob' });
+  private readonly none = element('p.hint', 'No parameter is changed.');
+  private readonly more = element('select', { 'aria-label': 'add a parameter' });
   private lines: Line[] = [];
   private at = 0;
 
@@ -22,20 +22,23 @@ export class BranchDialog {
     private readonly rewind: Rewind,
     private readonly changes: () => string[],
   ) {
-    const words =
-      'The run goes back to this instant and on from there; what the hand did is done again. ' +
-      'The run that is left stays beside it: pale in the view, dotted in the plots.';
-    const go = element('button.main', { type: 'submit' }, 'Branch');
+    const text =
+      'The run continues from this instant; recorded input is repeated. The previous branch remains ' +
+      'visible: translucent in the view, dotted in the plots.';
     const form = element(
       'form',
       { method: 'dialog' },
       this.title,
-      element('p', words),
-      element('h3', 'Knobs that are turned'),
+      element('p.fine', text),
+      element('h3', 'Changed parameters'),
       this.list,
       this.none,
       this.more,
-      element('div.ends', button('Cancel', 'nothing happens (Escape)', () => this.root.close()), go),
+      element(
+        'div.ends',
+        button('Cancel', 'close (Escape)', () => this.root.close()),
+        element('button.main', { type: 'submit' }, 'Branch'),
+      ),
     );
     form.addEventListener('submit', (event) => {
       event.preventDefault();
@@ -46,7 +49,7 @@ export class BranchDialog {
     this.root.append(form);
   }
 
-  ask(at: number): void {
+  open(at: number): void {
     this.at = at;
     this.title.textContent = `Branch at ${at.toFixed(3)} s`;
     this.lines = [];
@@ -57,21 +60,21 @@ export class BranchDialog {
   }
 
   private offer(): void {
-    const knobs = this.page.state?.knobs ?? [];
-    const left = knobs.filter((knob) => !this.lines.some((line) => line.knob.path === knob.path));
+    const all = this.page.state?.knobs ?? [];
+    const left = all.filter(({ path }) => !this.lines.some((line) => line.parameter.path === path));
     const offers = left.map(({ path, label, group }) => option(path, `${group}: ${label}`));
-    this.more.replaceChildren(option('', 'turn one more knob …'), ...offers);
+    this.more.replaceChildren(option('', 'add a parameter …'), ...offers);
     this.none.hidden = this.lines.length > 0;
   }
 
   private add(path: string): void {
-    const knob = this.page.state?.knobs.find((one) => one.path === path);
-    if (!knob) return;
-    const control = controlOf(knob);
-    const { label, unit } = knob;
+    const parameter = this.page.state?.knobs.find((one) => one.path === path);
+    if (!parameter) return;
+    const control = controlOf(parameter);
+    const { label, unit } = parameter;
     const root = element('div.line', element('span', label), control, element('span.unit', unitText(unit)));
-    const line = { knob, root, control };
-    root.append(button('×', `leave ${label} as it is now`, () => this.remove(line)));
+    const line = { parameter, root, control };
+    root.append(button('×', `do not change ${label}`, () => this.remove(line)));
     this.lines.push(line);
     this.list.append(root);
     this.offer();
@@ -87,12 +90,11 @@ export class BranchDialog {
 
   private send(): void {
     const changes: string[] = [];
-    for (const { knob, control } of this.lines) {
-      const isNumber = knob.form !== 'choice';
-      const number = isNumber ? parseNumber(control.value, knob.unit) : 0;
-      control.setCustomValidity(Number.isNaN(number) ? 'a number' : '');
+    for (const { parameter: { form, unit, path }, control } of this.lines) {
+      const value = form === 'choice' ? control.value : parseNumber(control.value, unit);
+      control.setCustomValidity(Number.isNaN(value) ? 'a number' : '');
       if (!control.reportValidity()) return;
-      changes.push(`${knob.path}=${isNumber ? number : control.value}`);
+      changes.push(`${path}=${value}`);
     }
     this.root.close();
     this.rewind.look(null);
@@ -100,11 +102,11 @@ export class BranchDialog {
   }
 }
 
-function controlOf(knob: Knob): HTMLInputElement | HTMLSelectElement {
-  const label = { 'aria-label': knob.label };
-  const value = knob.value === null ? '' : numberText(Number(knob.value));
-  if (knob.form !== 'choice') return element('input', { type: 'text', ...label, value });
-  const control = element('select', label, ...(knob.choices ?? []).map((name) => option(name)));
-  control.value = String(knob.value);
+function controlOf({ label, value, form, choices }: LabParameter): HTMLInputElement | HTMLSelectElement {
+  const name = { 'aria-label': label };
+  const text = value === null ? '' : numberText(Number(value));
+  if (form !== 'choice') return element('input', { type: 'text', ...name, value: text });
+  const control = element('select', name, ...(choices ?? []).map((choice) => option(choice)));
+  control.value = String(value);
   return control;
 }

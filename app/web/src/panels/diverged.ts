@@ -1,18 +1,18 @@
-// When the run has stopped by itself: what, where, why, and what would have held.
+// Post-mortem of a diverged run: cause, and changes that make it stable.
 import './diverged.css';
-import { button, element, sign } from '../ui/dom';
-import { type Death, type StateMessage, watches } from '../source/link';
+import { button, element, statusIcon } from '../ui/dom';
+import { type Divergence, isViewOnly, type StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 import type { Rewind } from '../source/playhead';
 
-const BEFORE = 1; // a remedy goes back so far [s]
-const SLOW = 0.1; // of the last second, when it is looked at
+const REWIND = 1; // a change is applied at least this long before the divergence [s]
+const SLOW = 0.1; // playback speed of the last second
 
 export class Diverged implements Panel {
-  readonly root = element('section.post-mortem', { role: 'alertdialog', 'aria-label': 'the run has stopped' });
+  readonly root = element('section.post-mortem', { role: 'alertdialog', 'aria-label': 'the run has diverged' });
   private shown = '';
-  private away = false; // put aside
-  private before: Element | null = null; // had the focus
+  private isClosed = false;
+  private focusBefore: Element | null = null;
 
   constructor(private readonly page: LabPage, private readonly rewind: Rewind) {
     this.root.hidden = true;
@@ -26,72 +26,74 @@ export class Diverged implements Panel {
 
   onState(state: StateMessage): void {
     const { dead, first, at } = state;
-    // While the past is seen, the card makes room.
-    this.root.classList.toggle('small', at !== null);
-    const isWatching = watches(state);
-    const wanted = JSON.stringify([dead, isWatching]);
+    this.root.classList.toggle('small', at !== null); // while an earlier instant is shown
+    const isDisabled = isViewOnly(state);
+    const wanted = JSON.stringify([dead, isDisabled]);
     if (wanted === this.shown) return;
     const isNew = dead !== null && this.root.hidden;
-    if (!dead) this.giveBack();
-    if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== dead?.time) this.away = false;
+    if (!dead) this.restoreFocus();
+    if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== dead?.time) this.isClosed = false;
     this.shown = wanted;
-    this.root.hidden = dead === null || this.away;
+    this.root.hidden = dead === null || this.isClosed;
     if (!dead) return;
-    this.root.replaceChildren(...this.content(dead, first, isWatching));
-    if (!isNew || this.away) return;
-    this.before = document.activeElement;
+    this.root.replaceChildren(...this.content(dead, first, isDisabled));
+    if (!isNew || this.isClosed) return;
+    this.focusBefore = document.activeElement;
     this.root.focus({ preventScroll: true });
   }
 
-  // The focus, to where it was.
-  private giveBack(): void {
-    const { before } = this;
+  private restoreFocus(): void {
+    const { focusBefore: before } = this;
     if (!this.root.contains(document.activeElement)) return;
     const play = document.querySelector<HTMLElement>('.transport .play');
     (before instanceof HTMLElement && before !== document.body ? before : play)?.focus();
   }
 
   private hide(): void {
-    this.away = true;
-    this.giveBack();
+    this.isClosed = true;
+    this.restoreFocus();
     this.root.hidden = true;
   }
 
-  private content(dead: Death, first: number, isWatching: boolean): Node[] {
+  private content(dead: Divergence, first: number, isDisabled: boolean): Node[] {
     const [headline, ...rest] = dead.words;
     const { quantity, body, spring } = dead;
-    const facts = Object.entries({ when: `${dead.time.toFixed(3)} s`, quantity, body, spring })
+    const facts = Object.entries({ time: `${dead.time.toFixed(3)} s`, quantity, body, spring })
       .filter(([, value]) => value)
       .map(([name, value]) => element('div', element('dt', name), element('dd', value)));
-    const back = Math.max(first, Math.min(dead.from, dead.time - BEFORE));
-    const remedies = dead.remedies.map(({ words, changes }, i) => {
-      const title = `goes back ${(dead.time - back).toFixed(1)} s with ${changes.join(', ')}`;
-      const made = button(words, title, () => this.mend(back, changes), i === 0 ? 'main' : '');
-      made.disabled = isWatching;
+    const from = Math.max(first, Math.min(dead.from, dead.time - REWIND));
+    const back = `${(dead.time - from).toFixed(1)} s`;
+    const changing = (label: string, title: string, act: () => void, className = '') => {
+      const made = button(label, title, act, className);
+      made.disabled = isDisabled;
       return made;
+    };
+    const remedies = dead.remedies.map(({ words, changes }, i) => {
+      const title = `rewinds ${back} and sets ${changes.join(', ')}`;
+      return changing(words, title, () => this.branch(from, changes), i === 0 ? 'main' : '');
     });
-    const look = button('Look at the last second, slowly', 'at a tenth of the speed', () =>
-      this.rewind.play(back, SLOW, dead.time),
-    );
-    const again = button('Begin anew', 'from the start, as it is', () => this.page.send({ do: 'reset' }));
-    again.disabled = isWatching;
-    const close = button('×', 'put aside (Escape)', () => this.hide(), 'close');
-    const title = element('h2', headline ?? 'The run has stopped');
-    const parts: Node[] = [
-      element('header', sign('beyond'), title, close),
+    const replay = () => this.rewind.play(from, SLOW, dead.time);
+    return [
+      element(
+        'header',
+        statusIcon('beyond'),
+        element('h2', headline ?? 'The run has diverged'),
+        button('×', 'close (Escape)', () => this.hide(), 'close'),
+      ),
       ...rest.map((line) => element('p', line)),
       element('dl', ...facts),
+      ...(remedies.length > 0 ? [element('h3', `Stable settings (rewinds ${back})`)] : []),
+      ...(remedies.length > 0 ? [element('div.remedies', ...remedies)] : []),
+      element(
+        'div.ends',
+        button(`Replay the last second at ${SLOW}×`, 'slow motion up to the divergence', replay),
+        changing('Restart', 'with the same parameters', () => this.page.send({ do: 'reset' })),
+      ),
     ];
-    if (remedies.length > 0)
-      parts.push(
-        element('h3', `What holds, from ${(dead.time - back).toFixed(1)} s before`),
-        element('div.remedies', ...remedies),
-      );
-    return [...parts, element('div.ends', look, again)];
   }
 
-  private mend(at: number, changes: string[]): void {
+  private branch(at: number, changes: string[]): void {
     this.rewind.look(null);
-    this.page.send({ do: 'branch', at, changes }); // which goes on by itself
+    this.page.send({ do: 'branch', at, changes }); // and plays
   }
 }

@@ -1,18 +1,17 @@
-// Scenes to choose from, each with what to look for; and files of one's own: a URDF, a scene, a
-// recording. The lab imports them; what it says of faults is shown as it says it.
+// Scenes of the gallery, and files of the user: a URDF, a scene or a recording, which the lab imports.
 import './gallery.css';
 import { bullets, button, changeDetector, element } from '../ui/dom';
 import type { StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 
-const MESHES = /\.(stl|obj|dae|ply|gltf|glb|bin|png|jpe?g|mtl)$/i; // go first: a robot's file names them
+const MESHES = /\.(stl|obj|dae|ply|gltf|glb|bin|png|jpe?g|mtl)$/i; // sent before the robot
 const ROBOTS = '.urdf,.xml,.xacro,.toml,.twinrec,.stl,.obj,.dae,.ply,.gltf,.glb,.mtl,.png,.jpg,.jpeg';
 
 export class Gallery implements Panel {
   readonly root = element('dialog.card-dialog.gallery', { 'aria-label': 'scenes' });
   private readonly cards = element('div.cards');
   private readonly zone = element('div.zone');
-  private readonly said = element('div.said', { role: 'status' });
+  private readonly message = element('div.message', { role: 'status' });
   private readonly input = element('input', { type: 'file', multiple: '', accept: ROBOTS });
   private readonly isNew = changeDetector();
 
@@ -23,17 +22,17 @@ export class Gallery implements Panel {
       this.input.value = '';
     });
     this.zone.append(
-      element('p', 'Drop a robot (URDF, with its meshes), a scene or a recording anywhere on this page, or'),
+      'Drop a robot (URDF with meshes), a scene or a recording anywhere on this page, or',
       button('open files …', 'from this computer', () => this.input.click()),
       this.input,
     );
     const close = button('×', 'close (Escape)', () => this.root.close(), 'close');
-    this.root.append(element('header', element('h2', 'Scenes'), close), this.said, this.cards, this.zone);
+    this.root.append(element('header', element('h2', 'Scenes'), close), this.message, this.cards, this.zone);
     this.root.addEventListener('click', (event) => {
       if (event.target === this.root) this.root.close();
     });
     this.root.addEventListener('keydown', (event) => this.press(event));
-    this.takeDrops();
+    this.acceptDrops();
   }
 
   onState({ gallery }: StateMessage): void {
@@ -44,15 +43,15 @@ export class Gallery implements Panel {
     const src = `/gallery/${encodeURIComponent(name)}.png`;
     const image = element('img', { src, alt: '', loading: 'lazy' });
     image.addEventListener('error', () => image.remove());
-    const words = [element('b', title), bullets(look)];
-    const card = element('button.card', { type: 'button', 'data-scene': name }, image, ...words);
+    const head = element('b', title);
+    const card = element('button.card', { type: 'button', 'data-scene': name }, image, head, bullets(look));
     card.addEventListener('click', () => {
       if (this.page.send({ do: 'scene', name })) this.root.close();
     });
     return card;
   }
 
-  // Arrows go from card to card as they lie.
+  // Arrow keys move between the cards.
   private press(event: KeyboardEvent): void {
     event.stopPropagation();
     const cards = [...this.cards.children] as HTMLElement[];
@@ -67,58 +66,58 @@ export class Gallery implements Panel {
     next.focus();
   }
 
-  private takeDrops(): void {
-    const curtain = element('div.curtain', { 'aria-hidden': 'true', hidden: '' }, 'Let go to open it here');
-    document.body.append(curtain);
+  private acceptDrops(): void {
+    const target = element('div.drop-target', { 'aria-hidden': 'true', hidden: '' }, 'Drop to open');
+    document.body.append(target);
     const hasFiles = (event: DragEvent) => event.dataTransfer?.types.includes('Files') ?? false;
     for (const kind of ['dragover', 'drop'] as const)
       document.addEventListener(kind, (event) => {
         if (!hasFiles(event)) return;
         event.preventDefault();
-        curtain.hidden = kind === 'drop';
+        target.hidden = kind === 'drop';
         if (kind === 'drop') void this.open([...event.dataTransfer!.files]);
       });
     document.addEventListener('dragleave', (event) => {
-      if (!event.relatedTarget) curtain.hidden = true;
+      if (!event.relatedTarget) target.hidden = true;
     });
   }
 
-  // Meshes first, one by one, then what names them.
+  // Meshes first, one by one, then the file that refers to them.
   async open(files: File[]): Promise<void> {
     if (files.length === 0) return;
     const rank = ({ name }: File) => (MESHES.test(name) ? 0 : 1);
     const sorted = [...files].sort((a, b) => rank(a) - rank(b));
     let opened = false;
     for (const file of sorted) {
-      this.tell('note', `Opening ${file.name} …`);
+      this.show('note', `Opening ${file.name} …`);
       const { state, words } = await post(file, this.page.state?.secret ?? '');
       if (state === 'failed') {
-        const faults = words.split('\n').filter((line) => line.trim());
-        return this.stop('error', `${file.name} was not opened`, faults);
+        const errors = words.split('\n').filter((line) => line.trim());
+        return this.stop('error', `${file.name} was not opened`, errors);
       }
       opened = state === 'opened';
     }
     const { name } = sorted[sorted.length - 1];
-    if (!opened) return this.stop('note', `${name} is kept: now open the robot that names it`);
-    this.said.replaceChildren();
+    if (!opened) return this.stop('note', `${name} is stored: now open the robot that refers to it`);
+    this.message.replaceChildren();
     this.root.close();
-    this.page.say(`${name} is open`);
+    this.page.showMessage(`${name} is open`);
   }
 
-  private stop(level: string, words: string, faults: string[] = []): void {
-    this.tell(level, words, faults);
+  private stop(level: string, text: string, errors: string[] = []): void {
+    this.show(level, text, errors);
     if (!this.root.open) this.root.showModal();
   }
 
-  private tell(level: string, words: string, faults: string[] = []): void {
-    this.said.className = `said ${level}`;
-    this.said.replaceChildren(element('b', words), ...(faults.length > 0 ? [bullets(faults)] : []));
+  private show(level: string, text: string, errors: string[] = []): void {
+    this.message.className = `message ${level}`;
+    this.message.replaceChildren(element('b', text), ...(errors.length > 0 ? [bullets(errors)] : []));
   }
 }
 
 const KEPT = 202; // HTTP: Accepted
 
-// What the lab says of it: that it is open or kept, or all its faults.
+// The lab's answer to an upload, with all errors.
 type Answer = { state: 'opened' | 'kept' | 'failed'; words: string };
 export async function post(file: File, secret: string): Promise<Answer> {
   try {
@@ -126,7 +125,7 @@ export async function post(file: File, secret: string): Promise<Answer> {
     const answer = await fetch(`/open?${query}`, { method: 'POST', body: file });
     const words = await answer.text();
     const state = answer.status === KEPT ? 'kept' : answer.ok ? 'opened' : 'failed';
-    return { state, words: words || `the lab answers ${answer.status}` };
+    return { state, words: words || `HTTP status ${answer.status}` };
   } catch {
     return { state: 'failed', words: 'the lab does not answer' };
   }

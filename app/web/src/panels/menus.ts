@@ -1,33 +1,32 @@
-// Menus at the end of the lab's time bar: files to save, and notes.
-import { button, changeDetector, element, sign, type SignState } from '../ui/dom';
+// Menus at the end of the lab's time bar: files to save, messages.
+import { button, changeDetector, element, type Status, statusIcon } from '../ui/dom';
 import './menus.css';
 import type { Note, StateMessage } from '../source/link';
 import type { Panel } from './panel';
 
 const FILES: [string, string, string][] = [
-  ['/save', 'Recording', 'the run as it is remembered (.twinrec): replays bit by bit'],
-  ['/share', 'Page to share', 'the same in one file that any browser opens'],
-  ['/scene', 'Scene', 'as it runs now, all that was turned included (.toml)'],
+  ['/save', 'Recording', 'of the buffered run (.twinrec), for bit-exact replay'],
+  ['/share', 'Replay page', 'the same as one HTML file for any browser'],
+  ['/scene', 'Scene', 'with the current parameters (.toml)'],
 ];
 
 export class SaveMenu {
   readonly root = element('details.menu');
 
   constructor() {
-    const list = element('div.sheet');
-    for (const [address, name, what] of FILES) {
-      const words = [element('b', name), element('span', what)];
-      const link = element('a', { href: address, download: '' }, ...words);
+    const links = FILES.map(([address, name, what]) => {
+      const text = [element('b', name), element('span.fine', what)];
+      const link = element('a', { href: address, download: '' }, ...text);
       link.addEventListener('click', () => (this.root.open = false));
-      list.append(link);
-    }
-    this.root.append(element('summary', { title: 'save, share' }, 'Save'), list);
-    closesByItself(this.root);
+      return link;
+    });
+    this.root.append(element('summary', { title: 'save, share' }, 'Save'), element('div.sheet', ...links));
+    closeOutside(this.root);
   }
 }
 
-// A press elsewhere or Escape closes it.
-export function closesByItself(menu: HTMLDetailsElement): void {
+// Closed by Escape and by a press elsewhere.
+function closeOutside(menu: HTMLDetailsElement): void {
   document.addEventListener('pointerdown', (event) => {
     if (menu.open && !menu.contains(event.target as Node)) menu.open = false;
   });
@@ -39,50 +38,47 @@ export function closesByItself(menu: HTMLDetailsElement): void {
   });
 }
 
-const STAYS = 6000; // [ms]
-const LONGER = 15_000; // errors
-const MOST = 3; // at a time
-const SIGNS: Record<Note['level'], SignState> = { note: 'ok', warning: 'near', error: 'beyond' };
+const SHOWN_FOR = 6000; // [ms]
+const ERRORS_SHOWN_FOR = 15_000;
+const MAX_TOASTS = 3;
+const STATUS: Record<Note['level'], Status> = { note: 'ok', warning: 'near', error: 'beyond' };
 
-// What the lab says: each note once, for a while, and all of the last ones behind a button.
+// Messages of the lab: new ones as toasts, the last ones in a menu.
 export class Notes implements Panel {
   readonly root = element('details.menu.notes');
   private readonly toasts = element('div.toasts', { role: 'log', 'aria-live': 'polite' });
   private readonly list = element('ol.sheet');
-  private readonly count = element('summary', { title: 'what the lab has said' }, 'Notes');
-  private seen = -1; // newest that was shown; before the first state: none
+  private readonly count = element('summary', { title: 'messages of the lab' }, 'Messages');
+  private seen = -1; // number of the newest message; -1: before the first state
   private readonly isNew = changeDetector();
 
   constructor() {
     this.root.append(this.count, this.list);
-    closesByItself(this.root);
+    closeOutside(this.root);
     document.body.append(this.toasts);
   }
 
   onState({ notes }: StateMessage): void {
-    const isFirst = this.seen < 0;
-    const newest = notes.reduce((most, { n }) => Math.max(most, n), 0);
-    // What was said before this page came is in the list only; a lab that began anew counts anew.
-    const fresh = isFirst || newest < this.seen ? [] : notes.filter(({ n }) => n > this.seen);
+    const newest = notes.reduce((max, { n }) => Math.max(max, n), 0);
+    // No toasts for messages before the page was opened; a restarted lab counts from 1 again.
+    const fresh = this.seen < 0 || newest < this.seen ? [] : notes.filter(({ n }) => n > this.seen);
     this.seen = newest;
     for (const note of fresh) this.toast(note);
     if (!this.isNew(newest, notes.length)) return;
     const lines = [...notes].reverse().map((note) => line('li', note));
-    this.list.replaceChildren(...(lines.length > 0 ? lines : [element('li', 'Nothing yet.')]));
-    this.count.textContent = notes.length > 0 ? `Notes (${notes.length})` : 'Notes';
+    this.list.replaceChildren(...(lines.length > 0 ? lines : [element('li', 'No messages.')]));
+    this.count.textContent = notes.length > 0 ? `Messages (${notes.length})` : 'Messages';
   }
 
   private toast(note: Note): void {
     const made = line('div', note);
-    const close = button('×', 'away', () => made.remove(), 'close');
-    made.append(close);
+    made.append(button('×', 'close', () => made.remove(), 'close'));
     this.toasts.append(made);
-    while (this.toasts.childElementCount > MOST) this.toasts.firstElementChild!.remove();
-    setTimeout(() => made.remove(), note.level === 'error' ? LONGER : STAYS);
+    while (this.toasts.childElementCount > MAX_TOASTS) this.toasts.firstElementChild!.remove();
+    setTimeout(() => made.remove(), note.level === 'error' ? ERRORS_SHOWN_FOR : SHOWN_FOR);
   }
 }
 
 function line(tag: 'li' | 'div', { level, text }: Note): HTMLElement {
-  const mark = sign(SIGNS[level] ?? 'ok');
-  return element(tag, { class: `said ${level}` }, mark, element('span', text));
+  return element(tag, { class: `message ${level}` }, statusIcon(STATUS[level] ?? 'ok'), element('span', text));
 }

@@ -1,40 +1,40 @@
-// One knob: its name, its control, and beside it what is predicted for its value.
-import { changeDetector, element, icon, option, signed, unitText } from '../ui/dom';
-import { isTurned, type Knob } from '../source/link';
+// One parameter: name, control, and predictions for its value.
+import { changeDetector, element, icon, option, statusLine, unitText } from '../ui/dom';
+import { isChanged, type LabParameter } from '../source/link';
 import { numberText, parseNumber, placeOf, type Scale, stepped, valueAt } from '../ui/scale';
 import { putMark, Slider } from '../ui/slider';
 import { Segments } from '../ui/choices';
 
-const SETTLE = 800; // for so long the lab may take to say the value that was set [ms]
-const FEW = 3; // choices that stand side by side, if they have room: letters and gaps [pixels]
-const ROOM = 250;
+const SETTLE = 800; // until the lab's state has the value that was set [ms]
+const MAX_SEGMENTS = 3; // choices side by side, if they fit into WIDTH [pixels]
+const WIDTH = 250;
 const LETTER = 7.4;
 const GAP = 20;
-const RESTARTS = 'restarts: the run goes on from where all is, what laws remember begins anew';
+const RESTARTS = 'resets the solver memory (warm starts, past poses); positions and velocities are kept';
 
-type Turn = (path: string, value: string) => void;
+type SetValue = (path: string, value: string) => void;
 
 export abstract class ParameterRow {
-  readonly root = element('div.knob');
-  protected readonly side = element('div.predicted', { 'aria-live': 'polite' });
+  readonly root = element('div.parameter');
+  protected readonly side = element('div.predicted.fine', { 'aria-live': 'polite' });
   private readonly isNew = changeDetector();
   private setAt = -Infinity;
 
-  constructor(protected knob: Knob, private readonly turn: Turn) {
-    this.root.dataset.path = knob.path;
+  constructor(protected parameter: LabParameter, private readonly setValue: SetValue) {
+    this.root.dataset.path = parameter.path;
   }
 
-  // The lab's value, unless it is just being changed here.
-  update(knob: Knob): void {
-    this.knob = knob;
-    if (!this.isHeld() && performance.now() - this.setAt > SETTLE) this.show(knob.value);
-    else if (String(knob.value) === this.sent) this.setAt = -Infinity;
-    this.tell(knob);
+  // Shows the lab's value, unless it is being edited here.
+  update(parameter: LabParameter): void {
+    this.parameter = parameter;
+    if (!this.isHeld() && performance.now() - this.setAt > SETTLE) this.show(parameter.value);
+    else if (String(parameter.value) === this.sent) this.setAt = -Infinity;
+    this.showStatus(parameter);
   }
 
   protected begin(): void {
-    this.show(this.knob.value);
-    this.update(this.knob);
+    this.show(this.parameter.value);
+    this.update(this.parameter);
   }
 
   focus(): void {
@@ -46,24 +46,24 @@ export abstract class ParameterRow {
       control.toggleAttribute('disabled', !on);
   }
 
-  // Many couplings have a stiffness.
+  // With the group: several couplings have a stiffness.
   protected get fullName(): string {
-    return `${this.knob.group}: ${this.knob.label}`;
+    return `${this.parameter.group}: ${this.parameter.label}`;
   }
 
   protected sent = '';
   protected set(value: string): void {
     this.sent = value;
     this.setAt = performance.now();
-    this.turn(this.knob.path, value);
+    this.setValue(this.parameter.path, value);
   }
 
-  protected abstract show(value: Knob['value']): void;
+  protected abstract show(value: LabParameter['value']): void;
   protected abstract isHeld(): boolean;
   protected limited(_limit: number | null): void {}
 
   protected head(control: HTMLElement[], id?: string): void {
-    const { label, meaning, restarts } = this.knob;
+    const { label, meaning, restarts } = this.parameter;
     const name = element(id ? 'label' : 'span', { class: 'name', title: meaning }, label);
     if (id) name.setAttribute('for', id);
     if (restarts) {
@@ -73,23 +73,23 @@ export abstract class ParameterRow {
     this.root.append(name, ...control, this.side);
   }
 
-  private tell(knob: Knob): void {
-    const { limit, lag, start, unit } = knob;
-    const turned = isTurned(knob);
-    if (!this.isNew(limit, lag, turned)) return;
+  private showStatus(parameter: LabParameter): void {
+    const { limit, lag, start, unit } = parameter;
+    const hasChanged = isChanged(parameter);
+    if (!this.isNew(limit, lag, hasChanged)) return;
     const lines: HTMLElement[] = [];
-    if (limit) lines.push(signed(limit.state, limit.words));
-    if (lag) lines.push(element('span.lag', `lag ${lag}`));
-    const from = start ? `${start} ${unitText(unit)}` : 'left out';
-    if (turned) lines.push(element('span.from', `the scene: ${from.trim()}`));
-    this.root.classList.toggle('turned', turned);
+    if (limit) lines.push(statusLine(limit.state, limit.words));
+    if (lag) lines.push(element('span', `tracking error ${lag}`));
+    const from = start ? `${start} ${unitText(unit)}` : 'not set';
+    if (hasChanged) lines.push(element('span', `scene file: ${from.trim()}`));
+    this.root.classList.toggle('changed', hasChanged);
     this.side.replaceChildren(...lines);
     this.root.dataset.limit = limit?.state ?? '';
     this.limited(limit?.value ?? null);
   }
 }
 
-// A slider, where there is a range, and a field for digits.
+// A slider, if there is a range, and a number field.
 class NumberRow extends ParameterRow {
   private readonly scale: Scale | null;
   private readonly slider: Slider | null;
@@ -97,12 +97,12 @@ class NumberRow extends ParameterRow {
   private readonly field: HTMLInputElement;
   private value = NaN;
 
-  constructor(knob: Knob, turn: Turn) {
-    super(knob, turn);
-    const { form, low, high, path, unit } = knob;
+  constructor(parameter: LabParameter, setValue: SetValue) {
+    super(parameter, setValue);
+    const { form, low, high, path, unit } = parameter;
     const hasRange = low !== undefined && high !== undefined && high > low;
     this.scale = hasRange && (form === 'log' || form === 'linear') ? { form, low, high } : null;
-    const id = `knob-${path.replaceAll(/[^\w]/g, '-')}`;
+    const id = `parameter-${path.replaceAll(/[^\w]/g, '-')}`;
     this.field = element('input', {
       type: 'text',
       id,
@@ -111,13 +111,12 @@ class NumberRow extends ParameterRow {
       spellcheck: 'false',
       placeholder: '–',
       'aria-label': `${this.fullName}${unit && unit !== '1' ? ` in ${unit}` : ''}`,
-      title: `${knob.meaning}. Enter sets it, Escape leaves it; arrows change it`,
+      title: `${parameter.meaning}. Enter: set, Escape: cancel, arrow keys: change`,
     });
     const { scale } = this;
     const slide = (place: number) => this.put(valueAt(scale!, place));
     this.slider = scale && new Slider(this.fullName, slide, this.mark);
-    const words = element('span.unit', unitText(unit));
-    const number = element('div.number', this.field, words);
+    const number = element('div.number', this.field, element('span.unit', unitText(unit)));
     this.head(this.slider ? [this.slider.root, number] : [number], id);
     this.listen();
     this.begin();
@@ -127,21 +126,21 @@ class NumberRow extends ParameterRow {
     return this.slider?.isHeld || document.activeElement === this.field;
   }
 
-  protected show(value: Knob['value']): void {
+  protected show(value: LabParameter['value']): void {
     this.value = value === null ? NaN : Number(value);
     this.field.value = value === null ? '' : numberText(this.value);
     this.field.setCustomValidity('');
     if (!this.scale || !this.slider) return;
     const place = placeOf(this.scale, this.value);
     this.slider.put(place);
-    this.slider.fill(place, `${this.field.value} ${this.knob.unit}`);
+    this.slider.fill(place, `${this.field.value} ${this.parameter.unit}`);
   }
 
   protected limited(limit: number | null): void {
     const { scale } = this;
     const isShown = scale && limit !== null && limit >= scale.low && limit <= scale.high;
     putMark(this.mark, isShown ? placeOf(scale, limit) : null);
-    this.mark.title = limit === null ? '' : `limit ${numberText(limit)} ${this.knob.unit}`;
+    this.mark.title = limit === null ? '' : `limit ${numberText(limit)} ${this.parameter.unit}`;
   }
 
   private put(value: number): void {
@@ -156,10 +155,8 @@ class NumberRow extends ParameterRow {
       field.select();
     });
     field.addEventListener('input', () => field.setCustomValidity(''));
-    field.addEventListener('blur', () => this.show(this.knob.value));
-    // Before the page's own keys.
-    for (const at of [slider?.input, field])
-      at?.addEventListener('keydown', (event) => this.press(event));
+    field.addEventListener('blur', () => this.show(this.parameter.value));
+    for (const at of [slider?.input, field]) at?.addEventListener('keydown', (event) => this.press(event));
   }
 
   private press(event: KeyboardEvent): void {
@@ -168,7 +165,7 @@ class NumberRow extends ParameterRow {
     const sideways = event.key === 'ArrowLeft' || event.key === 'ArrowRight';
     if (isField && event.key === 'Enter') this.commit();
     else if (isField && event.key === 'Escape') {
-      this.show(this.knob.value);
+      this.show(this.parameter.value);
       this.field.select();
     } else if (event.key in way && !(isField && sideways)) {
       const scale = this.scale ?? this.near();
@@ -181,37 +178,37 @@ class NumberRow extends ParameterRow {
     event.stopPropagation();
   }
 
-  // Of a number without a range: about its size.
+  // Of a number without a range: proportional to the number.
   private near(): Scale {
     const size = Math.abs(this.value) || 1;
     return { form: 'linear', low: -5 * size, high: 5 * size };
   }
 
   private commit(): void {
-    const { unit } = this.knob;
+    const { unit } = this.parameter;
     const value = parseNumber(this.field.value, unit);
-    const words = unit && unit !== '1' ? `a number in ${unitText(unit)}` : 'a number';
-    this.field.setCustomValidity(Number.isNaN(value) ? words : '');
+    const expected = unit && unit !== '1' ? `a number in ${unitText(unit)}` : 'a number';
+    this.field.setCustomValidity(Number.isNaN(value) ? expected : '');
     if (!this.field.reportValidity()) return;
     this.put(value);
     this.field.select();
   }
 }
 
-// Buttons side by side, or a list where they are many.
+// Segmented buttons, or a list of many choices.
 class ChoiceRow extends ParameterRow {
   private readonly control: Segments | HTMLSelectElement;
-  private readonly left = element('option', { value: '', disabled: '' }, 'as the scene leaves it');
+  private readonly left = element('option', { value: '', disabled: '' }, 'not set');
 
-  constructor(knob: Knob, turn: Turn) {
-    super(knob, turn);
-    const choices = knob.choices ?? [];
+  constructor(parameter: LabParameter, setValue: SetValue) {
+    super(parameter, setValue);
+    const choices = parameter.choices ?? [];
     const letters = choices.join('').length;
-    if (choices.length <= FEW && LETTER * letters + GAP * choices.length < ROOM) {
+    if (choices.length <= MAX_SEGMENTS && LETTER * letters + GAP * choices.length < WIDTH) {
       this.control = new Segments(this.fullName, choices, '', (name) => this.set(name));
       this.head([this.control.root]);
     } else {
-      const attributes = { 'aria-label': this.fullName, title: knob.meaning };
+      const attributes = { 'aria-label': this.fullName, title: parameter.meaning };
       const list = element('select', attributes, this.left, ...choices.map((name) => option(name)));
       list.addEventListener('change', () => this.set(list.value));
       this.control = list;
@@ -224,22 +221,22 @@ class ChoiceRow extends ParameterRow {
   protected isHeld(): boolean {
     return false;
   }
-  protected show(value: Knob['value']): void {
+  protected show(value: LabParameter['value']): void {
     if (this.control instanceof Segments) this.control.show(String(value));
     else {
       const name = String(value ?? '');
-      const isOffered = this.knob.choices?.includes(name) ?? false;
+      const isOffered = this.parameter.choices?.includes(name) ?? false;
       this.left.hidden = isOffered;
       this.control.value = isOffered ? name : '';
     }
   }
 }
 
-export function parameterRow(knob: Knob, turn: Turn): ParameterRow {
-  return knob.form === 'choice' ? new ChoiceRow(knob, turn) : new NumberRow(knob, turn);
+export function parameterRow(parameter: LabParameter, setValue: SetValue): ParameterRow {
+  return parameter.form === 'choice' ? new ChoiceRow(parameter, setValue) : new NumberRow(parameter, setValue);
 }
 
-// Two that differ only by their numbers can be shown by the same row.
-export function shapeOf({ path, form, choices, unit, low, high, label, group, restarts }: Knob) {
+// Parameters of the same shape differ only in their numbers and can share a row.
+export function shapeOf({ path, form, choices, unit, low, high, label, group, restarts }: LabParameter) {
   return [path, form, choices, unit, low, high, label, group, restarts];
 }

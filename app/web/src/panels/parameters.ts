@@ -1,69 +1,71 @@
-// What can be turned while the run goes on: presets, then knobs by their groups. Many changes of
-// one moment (a slider that moves) are sent as one, ten times a second.
+// Panel of presets and parameters by group. Changes are collected and sent ten times a second.
 import './parameters.css';
 import { button, changeDetector, element } from '../ui/dom';
 import { parameterRow, type ParameterRow, shapeOf } from './parameter_row';
-import { isTurned, type Knob, type StateMessage, watches } from '../source/link';
+import { isChanged, type LabParameter, type StateMessage, isViewOnly } from '../source/link';
 import type { LabPage, Panel } from './panel';
 
 const PAUSE = 100; // between two messages [ms]
-const WATCHING =
-  'Somebody else holds the hand: you see what they turn. Ask for the hand to turn yourself.';
+const VIEW_ONLY = 'View only: another client has control. Request control to change parameters.';
+
+const RESTORE = 'restore all parameters of the scene file (the run continues)';
 
 export class Parameters implements Panel {
-  readonly root = element('div.knobs');
+  readonly root = element('div.parameters');
   private readonly presets = element('div.presets');
-  private readonly watching = element('p.note', WATCHING);
+  private readonly viewOnly = element('p.note', VIEW_ONLY);
   private readonly groups = element('div');
-  private readonly again = button('Reset knobs', 'all knobs as the scene came; the run goes on', () =>
-    this.reset(),
-  );
+  private readonly restore = button('Reset', RESTORE, () => {
+    this.takeWaiting();
+    this.page.send({ do: 'restore' });
+  });
   private readonly rows = new Map<string, ParameterRow>();
   private readonly waiting = new Map<string, string>(); // changes not sent yet
   private readonly folded = new Set<string>(); // groups
   private timer = 0;
   private sentAt = -Infinity;
-  private readonly areKnobsNew = changeDetector();
+  private readonly areParametersNew = changeDetector();
   private readonly arePresetsNew = changeDetector();
 
   constructor(private readonly page: LabPage) {
-    this.root.append(this.watching, this.presets, this.groups, this.again);
+    this.root.append(this.viewOnly, this.presets, this.groups, this.restore);
   }
 
-  // What differs from the scene's file.
+  // Relative to the scene file.
   get changes(): string[] {
-    const turned = this.page.state?.knobs.filter(isTurned) ?? [];
-    return turned.filter(({ value }) => value !== null).map(({ path, value }) => `${path}=${value}`);
+    const changed = this.page.state?.knobs.filter(isChanged) ?? [];
+    return changed.filter(({ value }) => value !== null).map(({ path, value }) => `${path}=${value}`);
   }
 
   onState(state: StateMessage): void {
     const { knobs, presets } = state;
-    if (this.areKnobsNew(knobs.map(shapeOf))) this.build(knobs);
-    else for (const knob of knobs) this.rows.get(knob.path)!.update(knob);
+    if (this.areParametersNew(knobs.map(shapeOf))) this.build(knobs);
+    else for (const parameter of knobs) this.rows.get(parameter.path)!.update(parameter);
     this.showPresets(presets);
-    const isWatching = watches(state);
-    this.watching.hidden = !isWatching;
-    for (const row of this.rows.values()) row.enable(!isWatching);
-    for (const preset of this.presets.querySelectorAll('button')) preset.disabled = isWatching;
-    this.again.disabled = isWatching || !state.changes?.length;
+    const isDisabled = isViewOnly(state);
+    this.viewOnly.hidden = !isDisabled;
+    for (const row of this.rows.values()) row.enable(!isDisabled);
+    for (const preset of this.presets.querySelectorAll('button')) preset.disabled = isDisabled;
+    this.restore.disabled = isDisabled || !state.changes?.length;
   }
 
-  // Who was at a knob is there again.
-  private build(knobs: Knob[]): void {
-    const at = document.activeElement?.closest<HTMLElement>('.knob')?.dataset.path;
+  // Keeps the focus.
+  private build(parameters: LabParameter[]): void {
+    const at = document.activeElement?.closest<HTMLElement>('.parameter')?.dataset.path;
     this.rows.clear();
     const groups = new Map<string, HTMLElement>();
-    for (const knob of knobs) {
-      const row = parameterRow(knob, (path, value) => this.turn(path, value));
-      this.rows.set(knob.path, row);
-      if (!groups.has(knob.group)) groups.set(knob.group, this.group(knob.group));
-      groups.get(knob.group)!.append(row.root);
+    for (const parameter of parameters) {
+      const { path, group } = parameter;
+      const row = parameterRow(parameter, (path, value) => this.set(path, value));
+      this.rows.set(path, row);
+      if (!groups.has(group)) groups.set(group, this.group(group));
+      groups.get(group)!.append(row.root);
     }
     this.groups.replaceChildren(...groups.values());
     if (at !== undefined) this.rows.get(at)?.focus();
   }
 
-  // Stays folded when the knobs are built anew.
+  // Stays folded when the rows are replaced.
   private group(name: string): HTMLElement {
     const made = element('details.group', element('summary', name));
     made.open = !this.folded.has(name);
@@ -77,14 +79,14 @@ export class Parameters implements Panel {
   private showPresets(presets: StateMessage['presets']): void {
     if (!this.arePresetsNew(presets)) return;
     const buttons = presets.map(({ name, what }) => {
-      const words = [element('b', name), element('span', what)];
-      return button(words, what, () => this.page.send({ do: 'preset', name }));
+      const label = [element('b', name), element('span.fine', what)];
+      return button(label, what, () => this.page.send({ do: 'preset', name }));
     });
     this.presets.replaceChildren(...buttons);
     this.presets.hidden = presets.length === 0;
   }
 
-  private turn(path: string, value: string): void {
+  private set(path: string, value: string): void {
     this.waiting.set(path, value);
     const left = this.sentAt + PAUSE - performance.now();
     if (this.timer) return;
@@ -95,11 +97,6 @@ export class Parameters implements Panel {
   private flush(): void {
     this.sentAt = performance.now();
     this.page.send({ do: 'set', changes: this.takeWaiting() });
-  }
-
-  private reset(): void {
-    this.takeWaiting();
-    this.page.send({ do: 'restore' });
   }
 
   private takeWaiting(): string[] {

@@ -1,4 +1,4 @@
-// The bar below the view: whether the run goes on, how fast, and which of its instants is shown.
+// Time bar below the view: play or pause, speed, instant shown.
 import { button, element, icon, option } from '../ui/dom';
 import { Slider } from '../ui/slider';
 import './time_bar.css';
@@ -6,15 +6,15 @@ import './time_bar.css';
 const SPEEDS = [0.01, 0.1, 0.25, 0.5, 1, 2, 5, 10];
 const SPEED_WORDS = ['1/100', '1/10', '1/4', '1/2', '1', '2', '5', '10'];
 
-// What a bar moves, and what its keys move.
+// Controlled by a bar and by its keys.
 export interface Clock {
   readonly speed: number;
   toggle(): void;
   setSpeed(factor: number): void;
-  seekShare(share: number): void; // of what is remembered, 0 to 1
+  seekShare(share: number): void; // of the run, 0 to 1
 }
 
-// By places in SPEEDS.
+// By entries of SPEEDS.
 export function changeSpeed(clock: Clock, places: number): void {
   const near = (speed: number) => Math.abs(speed - clock.speed);
   const nearest = SPEEDS.reduce((a, b) => (near(b) < near(a) ? b : a));
@@ -27,11 +27,11 @@ export function speedText(speed: number): string {
 }
 
 interface Shown {
-  time: number | null; // of the clock; null: as it is
+  time: number | null; // null: unchanged
   share: number;
-  goes: boolean;
+  isPlaying: boolean;
   speed: number;
-  words: string; // of the slider's place, for ears
+  words: string; // position of the slider, for screen readers
 }
 
 export class TimeBar {
@@ -39,7 +39,7 @@ export class TimeBar {
   readonly play: HTMLButtonElement;
   readonly slider: Slider;
   readonly speed = element('select', { title: 'speed: [ slower, ] faster', 'aria-label': 'speed' });
-  readonly where = element('output.where');
+  readonly where = element('output.where.fine');
   readonly ends = element('div.buttons');
   private readonly clock = element('output.clock', { 'aria-live': 'off' });
 
@@ -59,15 +59,15 @@ export class TimeBar {
     );
   }
 
-  show({ time, share, goes, speed, words }: Shown): void {
+  show({ time, share, isPlaying, speed, words }: Shown): void {
     if (time !== null) {
       const text = `${time.toFixed(3)} s`;
       if (this.clock.textContent !== text) this.clock.textContent = text;
     }
-    if (this.play.dataset.goes !== String(goes)) {
-      this.play.dataset.goes = String(goes);
-      this.play.replaceChildren(icon(goes ? 'pause' : 'play'));
-      this.play.title = goes ? 'pause (space)' : 'play (space)';
+    if (this.play.dataset.playing !== String(isPlaying)) {
+      this.play.dataset.playing = String(isPlaying);
+      this.play.replaceChildren(icon(isPlaying ? 'pause' : 'play'));
+      this.play.title = isPlaying ? 'pause (space)' : 'play (space)';
       this.play.setAttribute('aria-label', this.play.title);
     }
     if (!this.slider.isHeld) this.slider.put(share);

@@ -1,15 +1,15 @@
-// One plot of a run: uPlot over the rows that are in its window, a legend with the
-// numbers of one instant, a marker there, the branch that was left as dots, and a limit as a line.
+// One plot, by uPlot: curves in a time window, legend with the values at one instant, marker, the previous
+// branch dotted, and a limit line.
 import uPlot from 'uplot';
 import { axesOfTime, drawOver, Gestures } from './chart_parts';
 import { button, element, short } from '../ui/dom';
+import { definition } from '../ui/glossary';
 import { token } from '../ui/preferences';
 import {
-  type Beside, colorOf, DASH, ghostsOf, lines, lineSeries, rangeOf, stack, stackSeries, usualSize,
+  branchCurves, type ChartExtras, colorOf, DASH, lines, lineSeries, rangeOf, stack, stackSeries, usualSize,
   type Window,
 } from './chart_data';
-import { savePicture } from './export';
-import type { Plots } from './plots';
+import { type CsvColumn, savePicture } from './export';
 import { type Curve, type PlotSpec, screenUnit } from './specs';
 import type { RunRecord } from '../source/run_record';
 import { bucketsOf } from '../source/store';
@@ -17,38 +17,45 @@ import { bucketsOf } from '../source/store';
 const HEIGHT = 128;
 const PICTURE = { width: 960, height: 420 };
 
+// The panel, as its charts use it.
+export interface ChartPanel {
+  readonly degrees: boolean;
+  zoom(window: Window | null): void;
+  seek(time: number): void;
+  saveCsv(what: string, columns: CsvColumn[]): void;
+  pictureName(what: string): string;
+}
+
 export class Chart {
   readonly root: HTMLElement;
-  isSeen = true; // within what is scrolled to
+  isSeen = true; // in the visible part of the panel
   private readonly canvas = element('div.canvas', { role: 'img' });
   private readonly title = element('span');
   private readonly chips: { curve: Curve | null; chip: HTMLElement; value: HTMLElement }[] = [];
   private readonly hidden = new Set<Curve>();
   private chart: uPlot | null = null;
-  private made = ''; // what the chart was made for
-  private beside: Beside | null = null; // what the range makes room for, besides the curves
+  private made = ''; // width and unit of the chart
+  private extras: ChartExtras | null = null;
   private window: Window = { from: 0, to: 1 };
   private factor = 1;
   private unit = '';
-  private at: number | null = null; // the instant that is shown, if not the newest
+  private at: number | null = null; // instant shown; null: the newest
   private readonly marker = element('div.marker');
   private readonly gestures: Gestures;
 
-  constructor(readonly spec: PlotSpec, readonly record: RunRecord, private readonly plots: Plots) {
-    const file = (kind: string, what: string, save: () => void) => {
-      const made = button(kind, `${spec.title}: ${what} as a file`, save, 'small');
+  constructor(readonly spec: PlotSpec, readonly record: RunRecord, private readonly plots: ChartPanel) {
+    const file = (kind: string, save: () => void) => {
+      const made = button(kind, `save ${spec.title} as ${kind}`, save, 'small');
       made.setAttribute('aria-label', `${kind}: ${spec.title}`);
       return made;
     };
-    const files = [
-      file('CSV', 'numbers', () => this.saveCsv()),
-      file('PNG', 'picture', () => this.savePicture()),
-    ];
-    const head = element('h3', element('span.name', spec.title), this.title, element('span.space'), ...files);
+    const files = [file('CSV', () => this.saveCsv()), file('PNG', () => this.savePicture())];
+    const name = element('span.name', { title: definition(spec.title) }, spec.title);
+    const head = element('h3', name, this.title, element('span.space'), ...files);
     const legend = element('div.chips');
     for (const curve of spec.curves) legend.append(this.chip(curve, curve.name));
-    if (spec.sum !== undefined) legend.append(this.chip(null, 'sum: rise of kinetic energy'));
-    if (spec.omitted > 0) legend.append(element('span.omitted', `${spec.omitted} smaller not shown`));
+    if (spec.sum !== undefined) legend.append(this.chip(null, 'sum: change in kinetic energy'));
+    if (spec.omitted > 0) legend.append(element('span.fine', `${spec.omitted} smaller not shown`));
     const names = spec.curves.map(({ name }) => name).join(', ');
     this.canvas.setAttribute('aria-label', `${spec.title} over time: ${names}`);
     this.root = element('section.plot', { id: `plot-${spec.id}` }, head, this.canvas, legend);
@@ -59,14 +66,14 @@ export class Chart {
     this.made = '';
   }
 
-  // uPlot knows all charts whose pointers go together until they are told to end.
+  // uPlot keeps charts with a common cursor alive until they are destroyed.
   end(): void {
     this.chart?.destroy();
     this.chart = null;
   }
 
-  // `isBlown`: the run has ended in huge numbers. `width`: that of paper, where it is not seen.
-  draw(window: Window, isBlown: boolean, width = this.canvas.clientWidth): void {
+  // `hasDiverged`: the range excludes the last values. `width`: for printing.
+  draw(window: Window, hasDiverged: boolean, width = this.canvas.clientWidth): void {
     if (width < 60) return;
     this.window = window;
     const { store } = this.record;
@@ -78,9 +85,9 @@ export class Chart {
     const { sum, limit, unit } = spec;
     const data = sum !== undefined ? stack(store, buckets, shown, sum) : lines(store, buckets, shown, factor);
     const sums = shown.filter((curve) => curve.color < 0 && end > 0);
-    this.beside = {
-      usual: isBlown ? usualSize(data.slice(1).flatMap((column) => [...column])) : Infinity,
-      ghosts: ghostsOf(this.record, window, spec, shown, factor),
+    this.extras = {
+      usual: hasDiverged ? usualSize(data.slice(1).flatMap((column) => [...column])) : Infinity,
+      branch: branchCurves(this.record, window, spec, shown, factor),
       limit: limit && { ...limit, value: limit.value * factor },
       sums: sums.map(({ column }) => factor * store.value(column, end - 1)),
       isForce: unit === 'N',
@@ -103,11 +110,11 @@ export class Chart {
     const left = at === null ? -1 : this.chart.valToPos(at, 'x');
     this.marker.hidden = left < 0 || left > this.chart.over.clientWidth;
     this.marker.style.transform = `translateX(${left}px)`;
-    this.tell();
+    this.showValues();
   }
 
-  // The numbers under the pointer, else of what is looked at, else the newest.
-  private tell(): void {
+  // Values at the pointer, else at the instant shown, else the newest.
+  private showValues(): void {
     const { store } = this.record;
     const left = this.chart?.cursor.left ?? -1;
     const time = left >= 0 ? this.chart!.posToVal(left, 'x') : this.at;
@@ -116,7 +123,7 @@ export class Chart {
       value.textContent = row < 0 ? '–' : short(this.factor * this.value(curve, row));
   }
 
-  // Of a curve, or of their sum.
+  // null: of the sum.
   private value(curve: Curve | null, row: number): number {
     const columns = curve ? [curve.column, ...(curve.rest ?? [])] : [this.spec.sum!];
     return columns.reduce((all, column) => all + this.record.store.value(column, row), 0);
@@ -140,7 +147,7 @@ export class Chart {
 
   private scaleUnits(): void {
     const { low, high } = this.record;
-    const size = this.spec.curves.reduce((most, { column }) => Math.max(most, high[column], -low[column]), 0);
+    const size = this.spec.curves.reduce((max, { column }) => Math.max(max, high[column], -low[column]), 0);
     const { unit, factor } = screenUnit(this.spec.unit, this.plots.degrees, size);
     this.factor = factor;
     if (unit === this.unit) return;
@@ -152,7 +159,6 @@ export class Chart {
     return this.spec.curves.filter((curve) => !this.hidden.has(curve));
   }
 
-  // Anew, in the colours of the theme.
   private make(width: number): void {
     this.chart?.destroy();
     const options = this.options(width, HEIGHT);
@@ -169,7 +175,7 @@ export class Chart {
       width,
       height,
       legend: { show: false },
-      scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, this.beside!) } },
+      scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high, this.extras!) } },
       padding: [8, 16, 0, 0],
       cursor: {
         y: false,
@@ -188,9 +194,9 @@ export class Chart {
       series: [{}, ...series],
       bands,
       hooks: {
-        setCursor: [() => this.tell()],
+        setCursor: [() => this.showValues()],
         setSelect: [(chart) => this.select(chart)],
-        draw: [(chart) => drawOver(chart, this.beside!)],
+        draw: [(chart) => drawOver(chart, this.extras!)],
       },
     };
   }
@@ -211,7 +217,7 @@ export class Chart {
     this.plots.saveCsv(id, columns);
   }
 
-  // Drawn once more, larger than on the page.
+  // Drawn again, larger than on the page.
   private savePicture(): void {
     if (!this.chart) return;
     const host = element('div.unseen', { 'aria-hidden': 'true' });

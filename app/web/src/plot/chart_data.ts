@@ -1,12 +1,12 @@
-// What uPlot gets of a record: rows of a window thinned to what can be seen, as lines or as areas
-// upon each other; and the same of the branch that was left.
+// Data for uPlot: rows of a window, decimated to the resolution, as lines or stacked areas; and those of the
+// previous branch.
 import uPlot from 'uplot';
 import { token } from '../ui/preferences';
 import type { Curve, PlotSpec } from './specs';
 import type { RunRecord } from '../source/run_record';
 import { type Buckets, bucketsOf, outline, type Points, samples, type Store, timesOf } from '../source/store';
 
-const MOST_LEFT = 400; // buckets of what was left
+const BRANCH_BUCKETS = 400; // of the previous branch
 export const DASH: Record<Curve['style'], number[] | undefined> = {
   line: undefined,
   dashed: [6, 4],
@@ -15,7 +15,7 @@ export const DASH: Record<Curve['style'], number[] | undefined> = {
 
 export type Window = { from: number; to: number };
 
-export type Ghost = { times: number[]; values: Points; color: string };
+export type BranchCurve = { times: number[]; values: Points; color: string };
 
 export function colorOf(curve: Curve): string {
   return token(curve.color < 0 ? '--ink' : `--c${curve.color % 8}`);
@@ -31,7 +31,7 @@ export function lines(store: Store, buckets: Buckets, curves: Curve[], factor: n
   return [timesOf(store.times, buckets, true), ...values];
 }
 
-// What is positive piles up above zero, what is negative below; their sum is the line.
+// Positive values are stacked above zero, negative ones below; the line is their sum.
 export function stack(store: Store, buckets: Buckets, curves: Curve[], sum: number): uPlot.AlignedData {
   const times = timesOf(store.times, buckets, false);
   const data: uPlot.AlignedData = [times];
@@ -59,7 +59,7 @@ export function lineSeries(curves: Curve[]): Series {
     width: curve.style === 'line' ? 1.75 : 1.5,
     dash: DASH[curve.style],
     points: { show: false },
-    auto: curve.color >= 0, // what was summed up gets what room is left
+    auto: curve.color >= 0, // statistics do not determine the range
   }));
   return { series, bands: [] };
 }
@@ -80,12 +80,12 @@ export function stackSeries(curves: Curve[]): Series {
   return { series, bands };
 }
 
-export function ghostsOf(record: RunRecord, window: Window, spec: PlotSpec, curves: Curve[], factor: number) {
+export function branchCurves(record: RunRecord, window: Window, spec: PlotSpec, curves: Curve[], factor: number) {
   const { before } = record;
   if (!before || before.length === 0) return [];
   const begin = Math.max(0, before.after(window.from) - 1);
   const end = Math.min(before.length, before.after(window.to) + 1);
-  const buckets = bucketsOf(begin, end, 0, MOST_LEFT);
+  const buckets = bucketsOf(begin, end, 0, BRANCH_BUCKETS);
   const times = timesOf(before.times, buckets, true);
   const of = (column: number) => scaled(outline(before.column(column), buckets), factor);
   if (spec.sum !== undefined) return [{ times, values: of(spec.sum), color: token('--ink') }];
@@ -93,42 +93,43 @@ export function ghostsOf(record: RunRecord, window: Window, spec: PlotSpec, curv
   return shown.map((curve) => ({ times, values: of(curve.column), color: colorOf(curve) }));
 }
 
-// The size that nine of ten points stay below: without the last instants of a run that blew up.
+// 90 % of the values are smaller: excludes the last values of a diverged run.
 export function usualSize(values: (number | null | undefined)[]): number {
   const known = values.filter((value): value is number => typeof value === 'number');
   const sizes = known.map(Math.abs).sort((one, other) => one - other);
   return sizes[Math.floor(0.9 * sizes.length)] ?? 0;
 }
 
-export interface Beside {
-  usual: number; // size of the curves, if the largest ones have no room; infinite: all have
-  ghosts: Ghost[];
+// Shown beside the curves.
+export interface ChartExtras {
+  usual: number; // magnitude that limits the range; infinite: no limit
+  branch: BranchCurve[];
   limit: PlotSpec['limit'];
-  sums: number[]; // of the curves in ink: the largest so far, at the window's end
+  sums: number[]; // last values of the statistics
   isForce: boolean;
 }
 
-const FAR = 3; // what is so many times larger than the curves would press them flat
+const FAR = 3; // values this many times larger than the curves are left out of the range
 
-// So that all of it can be seen: the branch that was left, the limit, what was summed up.
-export function rangeOf(low: number | null, high: number | null, beside: Beside): [number, number] {
-  const { usual, ghosts, limit, sums, isForce } = beside;
+// Range of the y axis, with the previous branch, the limit and the statistics.
+export function rangeOf(low: number | null, high: number | null, extras: ChartExtras): [number, number] {
+  const { usual, branch, limit, sums, isForce } = extras;
   const inner = usual > 0 ? FAR * usual : Infinity;
   let a = Math.max(-inner, low ?? 0);
   let b = Math.min(inner, high ?? 0);
-  if (isForce) a = Math.min(a, 0); // how much it is, is read against nothing
-  const room = (value: number) => {
+  if (isForce) a = Math.min(a, 0);
+  const include = (value: number) => {
     a = Math.min(a, value);
     b = Math.max(b, value);
   };
-  const left = ghosts.flatMap(({ values }) => values);
-  const most = FAR * Math.max(Math.abs(a), Math.abs(b), usualSize(left));
-  for (const value of left) if (value !== null && Math.abs(value) <= most) room(value);
+  const left = branch.flatMap(({ values }) => values);
+  const max = FAR * Math.max(Math.abs(a), Math.abs(b), usualSize(left));
+  for (const value of left) if (value !== null && Math.abs(value) <= max) include(value);
   const far = FAR * Math.max(Math.abs(a), Math.abs(b));
-  for (const sum of sums) if (Math.abs(sum) <= far) room(sum);
+  for (const sum of sums) if (Math.abs(sum) <= far) include(sum);
   if (limit && (limit.always || b > limit.value / FAR)) {
-    room(0);
-    room(limit.value);
+    include(0);
+    include(limit.value);
   }
   if (a === b) return a === 0 ? [-1, 1] : [a - 0.1 * Math.abs(a), b + 0.1 * Math.abs(b)];
   const [from, to] = uPlot.rangeNum(a, b, 0.08, true);

@@ -1,7 +1,7 @@
-// Parts of a chart besides its curves: axes, the previous branch and the limit, pointer gestures.
+// Axes of a chart, previous branch and limit, pointer gestures.
 import type uPlot from 'uplot';
 import { token } from '../ui/preferences';
-import type { Beside, Ghost } from './chart_data';
+import type { ChartExtras, BranchCurve } from './chart_data';
 import type { PlotSpec } from './specs';
 
 export function axesOfTime(): uPlot.Axis[] {
@@ -27,10 +27,10 @@ function tickText(value: number): string {
   return text.replaceAll('-', '−');
 }
 
-// What stands over the curves of a plot: the branch that was left, the limit. Pixels of the canvas.
-const PALE = '90'; // opacity of what was left
+const PALE = '90'; // opacity of the previous branch
 
-export function drawOver(chart: uPlot, { ghosts, limit }: Beside): void {
+// The previous branch and the limit. Pixels of the canvas.
+export function drawOver(chart: uPlot, { branch, limit }: ChartExtras): void {
   const { ctx, bbox } = chart;
   const px = devicePixelRatio;
   ctx.save();
@@ -39,9 +39,9 @@ export function drawOver(chart: uPlot, { ghosts, limit }: Beside): void {
   ctx.clip();
   ctx.lineWidth = 1.75 * px;
   ctx.setLineDash([1.5 * px, 3.5 * px]);
-  for (const ghost of ghosts) {
-    ctx.strokeStyle = ghost.color + PALE;
-    strokeGhost(chart, ghost);
+  for (const curve of branch) {
+    ctx.strokeStyle = curve.color + PALE;
+    strokeBranch(chart, curve);
   }
   if (limit) drawLimit(chart, limit, px);
   ctx.restore();
@@ -60,7 +60,7 @@ function drawLimit(chart: uPlot, limit: NonNullable<PlotSpec['limit']>, px: numb
   ctx.fillText(limit.words, bbox.left + 6 * px, y + 3 * px);
 }
 
-function strokeGhost(chart: uPlot, { times, values }: Ghost): void {
+function strokeBranch(chart: uPlot, { times, values }: BranchCurve): void {
   const path = new Path2D();
   values.forEach((value, i) => {
     if (value === null) return;
@@ -71,12 +71,11 @@ function strokeGhost(chart: uPlot, { times, values }: Ghost): void {
   chart.ctx.stroke(path);
 }
 
-// The pointer on a plot: a click seeks, as does the marker when it is dragged. uPlot has the others:
-// a drag zooms, a double click shows all.
-const NEAR = 7; // pixels from the marker: it is held
-const MOVED = 5; // pixels: no click
-const DOUBLE = 250; // until a click is none of two [ms]
+const NEAR = 7; // pixels from the marker
+const MOVED = 5; // pixels from a click to a drag
+const DOUBLE = 250; // interval of a double click [ms]
 
+// A click seeks, as does dragging the marker. uPlot handles the others: drag to zoom, double-click to reset.
 export class Gestures {
   isHeld = false; // the marker
 
@@ -86,7 +85,7 @@ export class Gestures {
     marker: () => number | null, // its time
     seek: (time: number) => void,
   ) {
-    let from = 0; // where the pointer went down
+    let from = 0; // x of pointerdown
     let click = 0;
     const seekAt = ({ clientX }: MouseEvent) => {
       const plot = chart();

@@ -1,4 +1,4 @@
-// Numbers and pictures out of the page, as files.
+// Export of numbers and plots as files.
 import { element } from '../ui/dom';
 import { token } from '../ui/preferences';
 
@@ -8,10 +8,9 @@ export interface CsvColumn {
   value: (row: number) => number;
 }
 
-// One line a row, all digits; what has no value is empty. RFC 4180.
+// CSV (RFC 4180) with all digits; NaN is empty.
 export function csvText(columns: CsvColumn[], rows: number): string {
-  const quoted = (text: string) =>
-    /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  const quoted = (text: string) => (/[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
   const lines = [columns.map(({ name, unit }) => quoted(unit ? `${name} [${unit}]` : name)).join()];
   const text = (value: number) => (Number.isNaN(value) ? '' : String(value));
   for (let row = 0; row < rows; ++row) lines.push(columns.map(({ value }) => text(value(row))).join());
@@ -22,7 +21,7 @@ export function download(name: string, content: Blob): void {
   const address = URL.createObjectURL(content);
   const link = element('a', { href: address, download: name });
   link.click();
-  // Not at once: the browser still reads it.
+  // Later, since the browser still reads it.
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
 }
 
@@ -38,7 +37,7 @@ export function fileName(title: string, what: string, ending: string): string {
 
 type PictureLine = { name: string; color: string; dash: number[] };
 
-// A plot's canvas with its title above and its names below, on the page's paper.
+// A plot's canvas with title and legend, on the background of the theme.
 export function savePicture(name: string, title: string, plot: HTMLCanvasElement, lines: PictureLine[]): void {
   const scale = plot.width / plot.clientWidth || 1;
   const row = 18 * scale;

@@ -1,22 +1,21 @@
-// The plots' panel: which charts, over which time, and their files. Draws at most thirty times a
-// second, and only what is seen.
+// Panel of plots: charts, time window, export. Draws at most 30 times a second, and only visible charts.
 import 'uplot/dist/uPlot.min.css';
 import './plot.css';
 import type { Panel } from '../panels/panel';
 import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
 import { button, element, icon, option } from '../ui/dom';
-import { Chart } from './chart';
+import { Chart, type ChartPanel } from './chart';
 import type { Window } from './chart_data';
 import { type CsvColumn, fileName, saveCsv } from './export';
 import { type PlotSpec, PlotSpecs } from './specs';
 import { Segments } from '../ui/choices';
 
 const DRAW = 33; // [ms]
-const SHARE = 5; // where drawing is slow, it takes one in so many milliseconds
-const REVIEW = 1000; // how often it is asked which curves there are [ms]
+const SHARE = 5; // drawing takes at most this fraction of the time, 1/5
+const REVIEW = 1000; // between updates of the list of curves [ms]
 
-export class Plots implements Panel {
+export class Plots implements Panel, ChartPanel {
   readonly root = element('div.plots');
   degrees = true; // else radians
   private record: RunRecord | null = null;
@@ -33,9 +32,9 @@ export class Plots implements Panel {
   private charts: Chart[] = [];
   private signature = '';
   private single: Chart | null = null;
-  private window: Window | null = null; // zoomed; null: the newest
+  private window: Window | null = null; // zoomed or paused; null: the newest
   private drawnAt = 0;
-  private pauseAfter = DRAW; // a picture
+  private pauseAfter = DRAW; // drawing
   private drawn = '';
   private marked: number | null = null;
   private reviewedAt = 0;
@@ -76,14 +75,13 @@ export class Plots implements Panel {
     this.pauseAfter = Math.max(DRAW, SHARE * (performance.now() - now));
   }
 
-  // On paper all of them, whether they are seen or not.
+  // All charts, visible or not.
   print(width: number): void {
     if (this.source.record !== this.record) this.take(this.source.record!);
     for (const chart of this.every) chart.draw(this.shownWindow(this.record!), false, width);
     this.refresh();
   }
 
-  // Of a chart.
   zoom(window: Window | null): void {
     this.window = window;
     this.bar.showPaused(window !== null);
@@ -101,17 +99,13 @@ export class Plots implements Panel {
     return fileName(this.record!.scene.title, what, 'png');
   }
 
-  // Every channel and every row of the ledger.
+  // All channels and all rows of the energy balance.
   saveAll(): void {
     if (!this.record) return;
     const { scene, store, works } = this.record;
     const value = (column: number) => (row: number) => store.value(column, row);
     const channels = scene.channels.map(({ name, unit }, i) => ({ name, unit, value: value(i) }));
-    const rows = scene.ledger.map((name, i) => ({
-      name: `ledger/${name}`,
-      unit: 'J',
-      value: value(works + i),
-    }));
+    const rows = scene.ledger.map((name, i) => ({ name: `ledger/${name}`, unit: 'J', value: value(works + i) }));
     this.saveCsv('all', [...channels, ...rows]);
   }
 
@@ -151,7 +145,7 @@ export class Plots implements Panel {
     return { from: to - length, to };
   }
 
-  // Charts anew where their curves have changed.
+  // Replaces charts whose curves have changed.
   private review(): void {
     this.reviewedAt = performance.now();
     const { record, specs } = this;
@@ -198,8 +192,9 @@ export class Plots implements Panel {
 }
 
 const LENGTHS: Record<string, number> = { '10 s': 10, '30 s': 30, all: Infinity };
+const PAUSE = 'pause the plots while the run continues';
 
-// Above the plots: of a run that goes on how much time they show and whether they stand; their file.
+// Toolbar: time span and pause of a live run, unit of angles, export.
 class PlotBar {
   readonly root = element('div.plot-bar', { role: 'toolbar', 'aria-label': 'plots' });
   length: number; // of the time shown [s]
@@ -217,13 +212,13 @@ class PlotBar {
       this.showPaused(!this.isPaused);
       plots.pause(this.isPaused);
     };
-    this.pause = button(icon('pause'), 'let the plots stand, while the run goes on', toggle, 'pause');
-    const whole = button('whole run', 'all of the time (double click)', () => plots.zoom(null));
+    this.pause = button(icon('pause'), PAUSE, toggle);
+    const whole = button('whole run', 'show all of the run (double-click)', () => plots.zoom(null));
     this.root.append(
       ...(isLive ? [this.pause, lengths.root] : [whole]),
       angles.root,
       element('span.space'),
-      button('all CSV', 'every quantity that is remembered, as a file', () => plots.saveAll()),
+      button('all CSV', 'save all quantities as CSV', () => plots.saveAll()),
     );
   }
 
@@ -231,7 +226,7 @@ class PlotBar {
     this.isPaused = on;
     this.pause.setAttribute('aria-pressed', String(on));
     this.pause.replaceChildren(icon(on ? 'play' : 'pause'));
-    this.pause.title = on ? 'on with the newest' : 'let the plots stand, while the run goes on';
+    this.pause.title = on ? 'follow the run' : PAUSE;
     this.pause.setAttribute('aria-label', this.pause.title);
   }
 }

@@ -1,11 +1,11 @@
-// Which plots a run has, and which curves stand in them. What has not moved or acted yet has no
-// curve; what has once been shown keeps its colour.
+// The plots of a run and their curves. Quantities without motion or force so far have no curve; a quantity
+// keeps its colour.
 import type { SceneChannel } from '../source/link';
 import type { RunRecord } from '../source/run_record';
 
 export interface Curve {
   column: number; // of the record
-  rest?: number[]; // columns that are added to it
+  rest?: number[]; // columns added to it
   name: string;
   color: number; // of the theme's; -1: ink
   style: 'line' | 'dashed' | 'dotted';
@@ -16,17 +16,14 @@ export interface PlotSpec {
   title: string;
   unit: string; // SI
   curves: Curve[];
-  sum?: number; // column: the curves are areas upon each other, and this is their sum
-  limit?: { value: number; words: string; always: boolean }; // seen whatever the curves are
+  sum?: number; // column of the sum of stacked curves
+  limit?: { value: number; words: string; always: boolean }; // always: extends the range
   omitted: number;
 }
 
-export const DEVICE_LIMIT = 3.3; // [N], the Omni's nominal largest force
-const LANE_TITLES = new Map([
-  ['total_energy', 'Total energy'],
-  ['numerical', 'Energy error: made by the method'],
-]);
-const MOST = 7; // curves that the eye can tell apart
+export const DEVICE_LIMIT = 3.3; // [N], nominal maximum force of the Phantom Omni
+const VARIANT_TITLES = new Map([['total_energy', 'Total energy'], ['numerical', 'Numerical energy error']]);
+const MAX_CURVES = 7; // per plot, with distinguishable colours
 
 type Numbered = SceneChannel & { column: number };
 
@@ -36,26 +33,26 @@ export class PlotSpecs {
   // `colors`: by name.
   constructor(private readonly record: RunRecord, readonly colors = new Map<string, number>()) {}
 
-  // `step`: of the run [s], the time that a step may take.
+  // `step`: step size of the run [s].
   all(step: number): PlotSpec[] {
     const acting = (kind: string) => this.of(kind).filter(({ column }) => this.size(column) > 0);
     return [
-      ...this.lanes(),
+      ...this.variants(),
       ...this.bodies(),
       ...this.coordinates('rad'),
       ...this.error(),
       ...this.ledger(),
-      ...this.plain('couplings', 'Pull of the couplings', this.of('coupling')),
+      ...this.plain('couplings', 'Coupling force / torque', this.of('coupling')),
       ...this.plain('contacts', 'Contact force', acting('contact')),
       ...this.device(),
-      ...this.plain('pull', 'Pull of the mouse', acting('pull')),
+      ...this.plain('pull', 'Mouse spring force', acting('pull')),
       ...this.coordinates('m'),
       ...this.plain('energies', 'Energies', this.of('energy')),
       ...this.loop(step),
     ].filter((spec) => spec.curves.length > 0);
   }
 
-  // Any one quantity.
+  // A plot of one quantity.
   single(column: number): PlotSpec | null {
     const channel = this.channels[column];
     if (!channel) return null;
@@ -74,15 +71,15 @@ export class PlotSpecs {
     return Math.max(0, this.record.high[column], -this.record.low[column]);
   }
 
-  // The largest of them, in their own order.
+  // The largest channels, in their order.
   private largest(all: Numbered[], measure: (column: number) => number): Numbered[] {
-    if (all.length <= MOST) return all;
+    if (all.length <= MAX_CURVES) return all;
     const sorted = [...all].sort((a, b) => measure(b.column) - measure(a.column));
-    const chosen = new Set(sorted.slice(0, MOST));
+    const chosen = new Set(sorted.slice(0, MAX_CURVES));
     return all.filter((channel) => chosen.has(channel));
   }
 
-  // Those that have one keep it; the others take what is free.
+  // Keeps known colours; new channels get free ones.
   private paint(channels: Numbered[]): number[] {
     const taken = new Set(channels.map(({ name }) => this.colors.get(name)));
     for (const { name } of channels) {
@@ -111,8 +108,8 @@ export class PlotSpecs {
     });
   }
 
-  // Each quantity with a curve a lane, in the lane's colour of the view.
-  private lanes(): PlotSpec[] {
+  // One plot per quantity, one curve per variant, in its colour of the 3-D view.
+  private variants(): PlotSpec[] {
     const all = this.of('lane');
     const names = [...new Set(all.map(({ of }) => of))];
     const quantity = ({ name, of }: Numbered) => name.slice('lane/'.length, -of.length - 1);
@@ -121,7 +118,7 @@ export class PlotSpecs {
       const curves = own.map(({ column, of }) => curve(column, of, names.indexOf(of)));
       const [{ unit }] = own;
       const joint = `${unit === 'm' ? 'Position' : 'Angle'}: ${what.slice(what.indexOf('/') + 1)}`;
-      const title = LANE_TITLES.get(what) ?? joint;
+      const title = VARIANT_TITLES.get(what) ?? joint;
       return { id: `lane-${what.replaceAll('/', '-')}`, title, unit, curves, omitted: 0 };
     });
   }
@@ -133,36 +130,32 @@ export class PlotSpecs {
     return this.plain('bodies', 'Positions', moving, ({ name }) => name.replace('links/', ''));
   }
 
-  // The dynamic robot as a line, the kinematic one in the same colour, dashed.
+  // The robot as a line, the target robot dashed in the same colour.
   private coordinates(unit: 'rad' | 'm'): PlotSpec[] {
     const targets = new Map(this.of('target').map((channel) => [channel.of, channel.column]));
     const all = this.of('coordinate').filter(
       (channel) =>
         channel.unit === unit && (targets.has(channel.of) || this.span(channel.column) > 1e-9),
     );
-    const led = all.filter((channel) => targets.has(channel.of)).slice(0, MOST);
-    if (led.length === 0 && this.of('lane').length > 0) return []; // stand there for every lane
-    const shown = led.length > 0 ? led : this.largest(all, (column) => this.span(column));
+    const driven = all.filter((channel) => targets.has(channel.of)).slice(0, MAX_CURVES);
+    if (driven.length === 0 && this.of('lane').length > 0) return []; // shown per variant
+    const shown = driven.length > 0 ? driven : this.largest(all, (column) => this.span(column));
     const colors = this.paint(shown);
     const curves = shown.flatMap(({ column, of }, i) => {
       const target = targets.get(of);
       if (target === undefined) return [curve(column, of, colors[i])];
-      return [curve(column, `${of} DVR`, colors[i]), curve(target, `${of} KVR`, colors[i], 'dashed')];
+      return [curve(column, of, colors[i]), curve(target, `${of} target`, colors[i], 'dashed')];
     });
     const [id, title] = unit === 'rad' ? ['angles', 'Angles'] : ['positions', 'Positions'];
     return [{ id, title, unit, curves, omitted: all.length - shown.length }];
   }
 
   private error(): PlotSpec[] {
-    return this.record.errors.map(({ unit, channels, most, mean }, i) => {
+    return this.record.errors.map(({ unit, channels, max, mean }, i) => {
       const own = channels.map((column) => this.channels[column]);
-      const [spec] = this.plain(i === 0 ? 'error' : `error-${unit}`, 'Error: DVR less KVR', own);
-      const curves = [
-        ...spec.curves,
-        curve(most, 'largest so far', -1, 'dashed'),
-        curve(mean, 'mean so far', -1, 'dotted'),
-      ];
-      return { ...spec, curves };
+      const [spec] = this.plain(i === 0 ? 'error' : `error-${unit}`, 'Tracking error (actual − target)', own);
+      const statistics = [curve(max, 'maximum so far', -1, 'dashed'), curve(mean, 'mean so far', -1, 'dotted')];
+      return { ...spec, curves: [...spec.curves, ...statistics] };
     });
   }
 
@@ -171,20 +164,20 @@ export class PlotSpecs {
     const all = scene.ledger
       .map((of, row): Numbered => ({ name: of, of, unit: 'J', kind: 'energy', column: works + row }))
       .filter(({ column }) => this.size(column) > 0);
-    const [spec] = this.plain('ledger', 'Energy ledger, stacked', all);
+    const [spec] = this.plain('ledger', 'Energy balance, stacked', all);
     if (!spec) return [];
     const shown = new Set(spec.curves.map(({ column }) => column));
     const [first, ...rest] = all.filter(({ column }) => !shown.has(column)).map(({ column }) => column);
     const name = `${rest.length + 1} smaller rows`;
-    const others = first === undefined ? [] : [{ ...curve(first, name, MOST), rest }];
+    const others = first === undefined ? [] : [{ ...curve(first, name, MAX_CURVES), rest }];
     return [{ ...spec, curves: [...spec.curves, ...others], sum, omitted: 0 }];
   }
 
   private device(): PlotSpec[] {
-    const words = `the device's limit, ${DEVICE_LIMIT} N`;
-    // Angles of the device's own joints stand among its coordinates already.
+    const words = `maximum device force, ${DEVICE_LIMIT} N`;
+    // Device joint angles are among the coordinates.
     const shown = this.of('hand').filter(({ unit }) => unit !== 'rad' && unit !== '1');
-    return this.plain('device', 'Torques of the device’s motors', shown).map((spec) =>
+    return this.plain('device', 'Motor torques of the device', shown).map((spec) =>
       spec.unit === 'N'
         ? { ...spec, title: 'Device force', limit: { value: DEVICE_LIMIT, words, always: true } }
         : spec,
@@ -192,8 +185,8 @@ export class PlotSpecs {
   }
 
   private loop(step: number): PlotSpec[] {
-    const words = 'the time of a step';
-    return this.plain('loop', 'Wall time over run time', this.of('time')).map((spec) => {
+    const words = 'step size';
+    return this.plain('loop', 'Real-time factor', this.of('time')).map((spec) => {
       const value = spec.unit === 'us' ? 1e6 * step : step;
       if (spec.unit !== 's' && spec.unit !== 'us') return spec;
       return { ...spec, title: 'Loop time', limit: { value, words, always: false } };
@@ -205,13 +198,13 @@ function curve(column: number, name: string, color: number, style: Curve['style'
   return { column, name, color, style };
 }
 
-// What is of the run itself has names that tell it; joints, couplings, pairs are told by theirs.
+// Channels of the run itself have their own names, others those of their joint, coupling or pair.
 function labelOf({ name, kind, of }: SceneChannel): string {
   const isOwn = kind === 'hand' || kind === 'time' || kind === 'pull';
   return isOwn || !of ? name.slice(name.indexOf('/') + 1) : of;
 }
 
-// Stored is SI. On screen: degrees if asked for, microseconds, millimetres where all is small.
+// From SI: to degrees if chosen, microseconds, millimetres below 0.1 m.
 export function screenUnit(unit: string, degrees: boolean, size: number): { unit: string; factor: number } {
   if (unit === 's') return { unit: 'µs', factor: 1e6 };
   if (unit === 'us') return { unit: 'µs', factor: 1 };

@@ -1,13 +1,13 @@
-// One frame of the run, as it came: views into the message, nothing is copied.
+// A frame of the run: typed-array views into the binary message, not copied.
 import type { Vector } from './messages';
 
-// Arrays of a frame in the order of the message, each from the next multiple of 8 bytes: of what,
-// and how many numbers of each.
+// Arrays of a frame in the order of the message, each aligned to 8 bytes: element type, what is counted,
+// numbers per item.
 const ARRAYS = {
-  channels: [Float64Array, 'channels', 1], // NaN: has no value now
-  works: [Float64Array, 'ledger rows', 1], // [J]
-  // Where links stand, and those of the kinematic robot (NaN: it has none): x y z, then the turn as
-  // a quaternion x y z w, by number of the scene's bodies.
+  channels: [Float64Array, 'channels', 1], // NaN: no value at this time
+  works: [Float64Array, 'works', 1], // [J]
+  // Poses X_WB of the scene's bodies, and of the same links of the target robot (NaN: none):
+  // position x y z [m], then quaternion x y z w.
   link: [Float32Array, 'bodies', 7],
   twin: [Float32Array, 'bodies', 7],
   position: [Float32Array, 'instances', 3],
@@ -21,7 +21,7 @@ const ARRAYS = {
   mesh: [Uint16Array, 'instances', 1],
   body: [Uint16Array, 'instances', 1], // 65535: none
   color: [Uint8Array, 'instances', 4],
-  flags: [Uint8Array, 'instances', 1], // 1: seen through
+  flags: [Uint8Array, 'instances', 1], // 1: faintly visible through bodies
   shininess: [Uint8Array, 'instances', 1],
   texture: [Uint8Array, 'instances', 1], // 0: none
   text: [Uint8Array, 'bytes of text', 1], // of all labels, UTF-8
@@ -33,13 +33,13 @@ type Arrays = { -readonly [K in keyof typeof ARRAYS]: InstanceType<(typeof ARRAY
 export interface Frame extends Arrays {
   scene: number;
   time: number; // of the run [s]
-  stamp: number; // of the newest input in it, as its sender gave it; 0: none
-  delay: number; // from when that input came to when the message was made [s]
+  stamp: number; // of the newest input that it includes, as the sender set it; 0: none
+  delay: number; // from receipt of that input to this message [s]
   step: number;
-  number: number; // counts up
-  stands: boolean;
-  lookedBack: boolean;
-  dead: boolean; // the run stopped by itself
+  number: number; // increases by one per frame
+  stands: boolean; // paused
+  lookedBack: boolean; // an earlier instant
+  dead: boolean; // the run has diverged
   layers: number;
   bodies: number;
 }
@@ -48,7 +48,7 @@ export const NO_BODY = 65535;
 const MAGIC = 0x31465754; // "TWF1"
 const HEADER = 80;
 
-// Null: no frame, or one that was cut off. A processor that is not little-endian has no browser.
+// Null: not a frame, or truncated. All browsers run on little-endian processors.
 export function decodeFrame(buffer: ArrayBuffer): Frame | null {
   if (buffer.byteLength < HEADER) return null;
   const head = new DataView(buffer);
@@ -58,7 +58,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
   const bodies = u32(72);
   const counts = {
     channels: u32(48),
-    'ledger rows': u32(52),
+    'works': u32(52),
     'layers and an end': layers + 1,
     instances: u32(60),
     labels: u32(64),
@@ -70,7 +70,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
     const at = 8 * Math.ceil(end / 8);
     const count = counts[of] * width;
     end = at + count * Kind.BYTES_PER_ELEMENT;
-    if (end > buffer.byteLength) return null; // shorter than it says
+    if (end > buffer.byteLength) return null; // truncated
     return [name, new Kind(buffer, count > 0 ? at : 0, count)];
   });
   if (end > buffer.byteLength) return null;
@@ -98,7 +98,7 @@ export function labelText(frame: Frame, label: number): string {
   return decoder.decode(frame.text.subarray(begin, frame.textEnd[label]));
 }
 
-// Where a link stands; null: not known, or not a number.
+// Position of a link; null: not known, or not finite.
 export function placeOf(places: Float32Array, body: number): Vector | null {
   const [x, y, z] = places.subarray(7 * body, 7 * body + 3);
   return Number.isFinite(x + y + z) ? [x, y, z] : null;

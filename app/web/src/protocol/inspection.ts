@@ -1,5 +1,5 @@
-// What `twinarm inspect --json` tells, and the picture beside it.
-import type { Carried } from './run';
+// Output of `twinarm inspect --json`, and the data of its page.
+import type { PageData } from './run';
 
 export type Value = number | number[] | number[][];
 
@@ -42,18 +42,18 @@ export interface Check {
   pass: boolean;
 }
 
-// What acts under a name of its own: coupling, contact, constraint, actuator, wrench.
+// A named force: coupling, contact, constraint, actuator or applied wrench.
 export interface NamedForce {
   source: string;
   point?: number[]; // world
-  axis?: number[]; // of a contact: its normal, towards its second body, world
-  normal?: number; // how hard it presses [N]
-  friction?: number; // [N]
+  axis?: number[]; // of a contact: normal, towards the second body, world
+  normal?: number; // normal force N [N]
+  friction?: number; // friction force |Ft| [N]
   on: { body: string; force: number[]; torque: number[]; about: number[] }[];
   joints: { joint: string; component: number; value: number }[];
 }
 
-// At one degree of freedom of a joint: what pulls at it, and what it hands on; they sum to zero.
+// Joint forces at one degree of freedom; they sum to zero.
 export interface JointBalance {
   joint: string;
   component: number;
@@ -61,9 +61,9 @@ export interface JointBalance {
   residual: number;
 }
 
-// How a quantity came to be: terms with the body that hands each over.
+// Term of an equation, and the body that it comes from.
 export interface Term {
-  symbol: string; // "Xup v_p", with its sign where that is a minus
+  symbol: string; // "Xup v_p"; "- ..." where it is subtracted
   words: string;
   of: string;
   value: Value;
@@ -78,7 +78,7 @@ export interface Equation {
   residual: number | null;
 }
 
-export interface Neighbour {
+export interface AdjacentBody {
   body: string;
   is: 'parent' | 'child';
   quantities: Quantity[];
@@ -97,7 +97,7 @@ export interface Inspection {
 }
 
 // Layers: "body/NAME" for each body, "body/world", and the overlays; of one frame.
-export interface InspectedRobot extends Carried {
+export interface InspectedRobot extends PageData {
   title: string;
   state: string;
   command: string;

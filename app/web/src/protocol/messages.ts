@@ -1,13 +1,13 @@
-// What goes between the lab and its page. TypeScript's types are the description: the page compiles
-// against them, docs/reference/lab_protocol.md shows them, and tests/cli/test_lab_protocol.py holds the
-// program's messages and commands against them. World frame: z up; metres, seconds, radians, newtons.
-import type { Equation, Inspection, Neighbour, PassStep } from './inspection';
+// Messages between the lab and its page. These types are the specification: docs/reference/lab_protocol.md
+// includes them, tests/cli/test_lab_protocol.py checks the program's messages and commands against them.
+// World frame: z up; metres, seconds, radians, newtons.
+import type { Equation, Inspection, AdjacentBody, PassStep } from './inspection';
 import type { Channel, LegendLine, View } from './run';
 
 export type Vector = [number, number, number];
 
 export interface SceneLayer {
-  name: string; // "bodies" first; the last, "before", is the robot of the branch that was left
+  name: string; // "bodies" first; the last, "before", is the robot of the previous branch
   what: string;
   legend: LegendLine[];
 }
@@ -30,14 +30,14 @@ export interface SceneJoint {
   body: number;
   low?: number; // absent: no limit
   high?: number;
-  driven?: number; // its place in hand.q; absent: the hand does not drive it
-  axis?: Vector; // link axes of `body`, through its origin; absent: it has not one axis
-  slides?: boolean; // along the axis, else about it
+  driven?: number; // index into hand.q; absent: not driven by the input
+  axis?: Vector; // in link axes of `body`, through its origin; absent: not one axis
+  slides?: boolean; // prismatic, else revolute
 }
 
 export interface SceneMessage {
   kind: 'scene';
-  scene: number; // counts up; frames carry it
+  scene: number; // increases with each scene; frames repeat it
   title: string;
   file: string;
   look: string[]; // what to look for
@@ -48,7 +48,7 @@ export interface SceneMessage {
   ledger: string[];
   bodies: SceneBody[];
   joints: SceneJoint[];
-  tip?: { body: number; p: Vector }; // the point that the hand leads, link axes
+  tip?: { body: number; p: Vector }; // point of the target robot that the input moves, link axes
   view: View;
 }
 
@@ -58,12 +58,12 @@ export interface Limit {
   state: 'ok' | 'near' | 'beyond';
 }
 
-export interface Knob {
+export interface LabParameter {
   path: string; // "coupling.stiffness"
   label: string;
   group: string;
-  value: number | string | null; // null: the scene leaves it out
-  start?: string; // as the scene was opened; '': left out; absent: it had no such knob
+  value: number | string | null; // null: not set in the scene
+  start?: string; // when the scene was opened; '': not set; absent: no such parameter
   unit: string;
   form: 'log' | 'linear' | 'choice' | 'number';
   low: number;
@@ -80,11 +80,11 @@ export interface Remedy {
   changes: string[];
 }
 
-export interface Death {
+export interface Divergence {
   words: string[];
   time: number;
-  from: number; // the last change: to go on from with a remedy
-  quantity: string; // '': none, as body and spring
+  from: number; // time of the last change: a remedy continues from there
+  quantity: string; // '': none; so for body and spring
   body: string;
   spring: string;
   remedies: Remedy[];
@@ -96,22 +96,22 @@ export interface Note {
   text: string;
 }
 
-export interface HandState {
-  source: 'scene' | 'drag' | 'joints' | 'device' | ''; // '': no hand leads this scene
-  spec: string; // of a device, as it was chosen after --device; else ''
+export interface InputState {
+  source: 'scene' | 'drag' | 'joints' | 'device' | ''; // '': the scene has no target robot
+  spec: string; // of a device, as after --device; else ''
   mapping: string; // "paper", "arm", "cartesian"
   q: number[]; // targets of the driven joints
-  felt: string; // what device it is, in words
-  mode: string; // of a device: live, held (it is silent), released (silent for longer); else ''
+  felt: string; // description of the device
+  mode: string; // of a device: live, held (sends nothing), released (watchdog timeout); else ''
   gripper: boolean; // closed
-  trace?: string; // file of a recorded hand, where one lies with the program
+  trace?: string; // file of a recorded operator motion, if one is installed
 }
 
 // Variants side by side.
-export interface Lanes {
+export interface Variants {
   path: string;
   values: string[];
-  stopped: (number | null)[]; // when one stopped [s]
+  stopped: (number | null)[]; // time at which a variant diverged [s]
 }
 
 export interface Branch {
@@ -124,34 +124,34 @@ export interface StateMessage {
   kind: 'state';
   scene: number;
   you: number;
-  secret: string; // of this page: goes with an upload
-  holder: number | null; // of the hand; null: nobody
+  secret: string; // of this page: required for uploads
+  holder: number | null; // client with control; null: none
   clients: number;
-  asked: number[]; // who asks for the hand
+  asked: number[]; // clients that request control
   playing: boolean;
   speed: number;
   time: number;
-  first: number; // what is remembered [s]
-  last: number;
-  at: number | null; // the instant that is looked at, if not the newest
+  first: number; // buffered run, from [s]
+  last: number; // to [s]
+  at: number | null; // instant shown [s]; null: the newest
   branch: Branch | null;
-  lanes: Lanes | null;
+  lanes: Variants | null;
   pace: number;
   step: number;
   step_us: number;
-  hand: HandState;
-  knobs: Knob[];
+  hand: InputState;
+  knobs: LabParameter[];
   presets: { name: string; what: string }[];
   gallery: { name: string; title: string; look: string[] }[];
-  name: string; // of the gallery
-  changes: string[]; // to the scene's file
-  building: string; // what is being prepared
-  dead: Death | null;
+  name: string; // of the gallery's scene
+  changes: string[]; // relative to the scene file
+  building: string; // scene in preparation
+  dead: Divergence | null;
   notes: Note[]; // the last twenty
 }
 
-// What the inspector tells of one body in one frame. Absent: the frame could not be looked into,
-// and a warning says why.
+// What the inspector shows of one body in one frame. Absent values: the frame could not be inspected; a
+// warning says why.
 export interface BodyInspection extends Partial<Inspection> {
   kind: 'glass';
   scene: number;
@@ -161,42 +161,42 @@ export interface BodyInspection extends Partial<Inspection> {
   body?: number;
   name?: string;
   equations?: Equation[];
-  neighbours?: Neighbour[];
-  rows?: Omit<PassStep, 'joint'>[]; // the whole call in its order, where time stands
+  neighbours?: AdjacentBody[];
+  rows?: Omit<PassStep, 'joint'>[]; // all steps of the call, while paused
 }
 
-// Those marked * need no hand.
+// Those marked * need no control.
 export type Command =
-  | { do: 'layers'; names: string[] } // * which layers come in this client's frames
-  | { do: 'glass'; on: boolean; body?: number } // * inspection of a body comes, or not
-  | { do: 'look'; at: number | null } // * this instant is shown (to all); null: the newest
-  | { do: 'take' } // * asks for the hand; it is given at once where nobody holds it
-  | { do: 'give'; to: number } // * the hand
-  | { do: 'play'; on: boolean } // goes on, or stands
-  | { do: 'step'; steps: number } // so many, then it stands
+  | { do: 'layers'; names: string[] } // * layers in this client's frames
+  | { do: 'glass'; on: boolean; body?: number } // * start or stop the inspection of a body
+  | { do: 'look'; at: number | null } // * show this instant (to all clients); null: the newest
+  | { do: 'take' } // * request control; granted at once if no client has it
+  | { do: 'give'; to: number } // * pass control to a client
+  | { do: 'play'; on: boolean } // play or pause
+  | { do: 'step'; steps: number } // take some steps, then pause
   | { do: 'speed'; factor: number } // run time over wall time, 0.001 to 10
-  | { do: 'set'; changes: string[] } // "coupling.stiffness=800": turns knobs, at this instant
-  | { do: 'branch'; at: number | null; changes: string[] } // back to that instant, and on from there
-  | { do: 'preset'; name: string } // all of its values, and its scene
-  | { do: 'scene'; name: string } // another one of the gallery
-  | { do: 'reset' } // to the start
-  | { do: 'restore' } // all knobs as the scene was opened, at this instant
-  | { do: 'hand'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string } // who moves the robot
-  | { do: 'tip'; goal: Vector; stamp: number } // where the tip of the kinematic robot is dragged to
-  | { do: 'joint'; index: number; value: number; stamp: number } // a driven joint is dragged there
-  | { do: 'turn'; yaw: number; pitch: number; roll: number; stamp: number } // the stylus
+  | { do: 'set'; changes: string[] } // "coupling.stiffness=800": set parameters, at this instant
+  | { do: 'branch'; at: number | null; changes: string[] } // return to that instant and continue with changes
+  | { do: 'preset'; name: string } // load its scene and values
+  | { do: 'scene'; name: string } // open a scene of the gallery
+  | { do: 'reset' } // restart
+  | { do: 'restore' } // all parameters as the scene was opened, at this instant
+  | { do: 'hand'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string } // choose the input source
+  | { do: 'tip'; goal: Vector; stamp: number } // goal of the target robot's tip
+  | { do: 'joint'; index: number; value: number; stamp: number } // goal of a driven joint
+  | { do: 'turn'; yaw: number; pitch: number; roll: number; stamp: number } // angles of the stylus
   | { do: 'axes'; rates: number[]; stamp: number } // right, up, toward, yaw, pitch, roll: -1 to 1
   | { do: 'button'; index: number; down: boolean; stamp: number } // 0: gripper, 1: clutch
-  | { do: 'pull'; body: number; point: Vector; goal: Vector; stamp: number } // point: link axes
-  | { do: 'drop' }; // spring, axes and clutch are released, the gripper stays as it is
+  | { do: 'pull'; body: number; point: Vector; goal: Vector; stamp: number } // mouse spring; point: link axes
+  | { do: 'drop' }; // release spring, axes and clutch; the gripper stays as it is
 
-// Whether it differs from what the scene came with.
-export function isTurned({ value, start }: Knob): boolean {
+// Whether it differs from the value that the scene was opened with.
+export function isChanged({ value, start }: LabParameter): boolean {
   if (start === undefined) return false;
   return typeof value === 'number' && start !== '' ? Number(start) !== value : start !== (value ?? '');
 }
 
-// Somebody else holds the hand.
-export function watches({ holder, you }: StateMessage): boolean {
+// Another client has control.
+export function isViewOnly({ holder, you }: StateMessage): boolean {
   return !!holder && holder !== you;
 }

@@ -1,11 +1,10 @@
-// What a page knows of a run, whoever tells it: a page's own data (embedded.ts), or a program that
-// still runs. World frame: z up, metres, radians; colours sRGB, one byte a channel.
+// Data of a recorded run. World frame: z up, metres, radians; colours sRGB, one byte a channel.
 
 // A quantity over the frames.
 export interface Channel {
   name: string; // "q/arm/joint1", "coupling/pull_arm1"
   unit: string; // SI
-  // What it is: coordinate, target and error belong together by `of`.
+  // Coordinate, target and error of a joint have the same `of`.
   kind: 'coordinate' | 'target' | 'error' | 'energy' | 'coupling' | 'contact' | 'position' | 'rate';
   of: string; // joint, coupling, pair, body
   values: Float64Array; // one per frame
@@ -30,7 +29,7 @@ export interface LabelColumns {
   offset: Int16Array; // pixels to the right and down
 }
 
-// The ledger's row of what is left, by its name in recordings and in the lab's messages.
+// Row of the energy balance with the integration error, as recordings and messages name it.
 export const NUMERICAL = 'numerical';
 
 export interface LegendLine {
@@ -55,7 +54,7 @@ export interface MeshData {
   twoSided: boolean; // an open surface
 }
 
-// Rows add up to the change of momentum: three numbers linear, three angular about the origin.
+// Rows sum to the change of momentum: three numbers linear, three angular about the origin.
 export interface MomentumData {
   rows: string[];
   values: Float64Array; // frame by frame, row by row, six each
@@ -73,14 +72,14 @@ export interface View {
   up: [number, number, number];
   fieldOfView: number; // vertical
   light: [number, number, number]; // towards the light
-  radius: number; // of what is seen
+  radius: number; // of the scene
   bottom: [number, number, number]; // of the background
   top: [number, number, number];
   ground: { visible: boolean; height: number; cell: number; cellsPerMajor: number };
 }
 
-// What every page carries for its picture.
-export interface Carried {
+// Data of every page for its 3-D view.
+export interface PageData {
   meshes: MeshData[];
   textures: ImageBitmap[];
   layers: Layer[];
@@ -88,7 +87,7 @@ export interface Carried {
   view: View;
 }
 
-export interface Run extends Carried {
+export interface Run extends PageData {
   title: string;
   facts: [string, string][]; // name and value
   tables: { title: string; head: string[]; rows: string[][] }[];

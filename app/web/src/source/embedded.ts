@@ -1,6 +1,6 @@
-// What a page carries: a text of JSON, and one block of bytes to which it points, deflated
-// and in base64. `{"at": byte, "count": n, "type": "f64"}` stands for an array.
-import type { Carried, MeshData } from '../protocol/run';
+// Data embedded in a page: JSON, and one deflated base64 block of arrays, referenced as
+// `{"at": byte, "count": n, "type": "f64"}`.
+import type { PageData, MeshData } from '../protocol/run';
 import { element } from '../ui/dom';
 
 const KINDS = {
@@ -19,7 +19,7 @@ function isPlace(value: unknown): value is ArrayPlace {
   return typeof value === 'object' && value !== null && 'at' in value && 'count' in value;
 }
 
-// Puts arrays in the place of what points to them, all the way down.
+// Replaces references by arrays, recursively.
 function resolve(value: unknown, buffer: ArrayBuffer): unknown {
   if (isPlace(value)) return new KINDS[value.type](buffer, value.at, value.count);
   if (Array.isArray(value)) return value.map((item) => resolve(item, buffer));
@@ -33,7 +33,7 @@ async function inflate(base64: string): Promise<ArrayBuffer> {
   return new Response(stream).arrayBuffer();
 }
 
-// Positions come as 16-bit shares of the mesh's box, normals as bytes, indices as differences.
+// Positions are 16-bit fractions of the bounding box, normals bytes, indices differences.
 interface PackedMesh extends Pick<MeshData, 'uv' | 'twoSided'> {
   low: [number, number, number];
   high: [number, number, number];
@@ -55,30 +55,28 @@ function textOf(id: string): string {
   return document.getElementById(id)?.textContent ?? '';
 }
 
-// No fetch: a page may load nothing, not even from itself.
+// Without fetch(), which the page's content security policy forbids.
 function picture({ png }: { png: Uint8Array<ArrayBuffer> }): Promise<ImageBitmap> {
   return createImageBitmap(new Blob([png], { type: 'image/png' }));
 }
 
 type Packed = { meshes: PackedMesh[]; textures: { png: Uint8Array<ArrayBuffer> }[] };
-// The program that wrote the page vouches for its shape.
-async function embedded<T extends Carried>(): Promise<T> {
+async function embedded<T extends PageData>(): Promise<T> {
   const data = resolve(JSON.parse(textOf('run')), await inflate(textOf('run-bytes'))) as Packed;
   const textures = await Promise.all(data.textures.map(picture));
   return { ...data, meshes: data.meshes.map(unpackMesh), textures } as unknown as T;
 }
 
-// How a page begins: what it carries is read and shown, or the page says why it cannot be.
-// `show` gives what tests and the curious find as window.twinarm.
-export function start<T extends Carried>(show: (data: T) => object): void {
+// Reads the data and shows it, or the error. The result of `show` is window.twinarm.
+export function start<T extends PageData>(show: (data: T) => object): void {
   const begin = async (): Promise<void> => {
     Object.assign(window, { twinarm: show(await embedded<T>()) });
     document.documentElement.dataset.ready = 'true';
   };
   begin().catch((error: unknown) => {
-    const words = error instanceof Error ? error.message : String(error);
-    const said = element('p.failed', { role: 'alert' }, `This page cannot be shown: ${words}`);
-    document.body.replaceChildren(said);
+    const reason = error instanceof Error ? error.message : String(error);
+    const alert = element('p.failed', { role: 'alert' }, `This page cannot be shown: ${reason}`);
+    document.body.replaceChildren(alert);
     console.error(error);
   });
 }

@@ -1,6 +1,5 @@
-// The connection to the lab. Of each kind of message only the newest is kept, and nobody looks at
-// it before the next picture is drawn: a page that draws slowly sees less, never later. A lost
-// connection is tried again until it holds.
+// WebSocket of the lab. Only the newest message of each kind is kept, and decoded when the next picture is
+// drawn: a slow page skips frames but adds no delay. Reconnects until the connection is open.
 import { decodeFrame, type Frame } from '../protocol/frame';
 import type { BodyInspection, Command, SceneMessage, StateMessage } from '../protocol/messages';
 
@@ -10,17 +9,17 @@ export * from '../protocol/messages';
 export interface News {
   scene: SceneMessage | null;
   state: StateMessage | null;
-  glass: BodyInspection | null;
+  inspection: BodyInspection | null;
   frame: Frame | null;
 }
 
 const FIRST_PAUSE = 250; // [ms]
 const LONGEST_PAUSE = 2000;
-const KIND = /"kind":\s*"(\w+)"/; // stands before anything that a scene could name
+const KIND = /"kind":\s*"(\w+)"/; // precedes all names of the scene
 
 export class Link {
   open = false;
-  received = 0; // frames, shown or not
+  received = 0; // frames, drawn or not
   private socket: WebSocket | null = null;
   private waiting: ArrayBuffer | null = null;
   private readonly texts = new Map<string, string>(); // by kind
@@ -35,25 +34,25 @@ export class Link {
     this.connect();
   }
 
-  // False: there is no connection, and it is not kept: a hand's movement of a while ago is no use.
+  // False: not connected; the command is dropped, since old input is of no use later.
   send(command: Command): boolean {
     if (!this.open) return false;
     this.socket!.send(JSON.stringify(command));
     return true;
   }
 
-  // The newest of each kind, once; null: none has come since.
+  // The newest message of each kind, once; null: none since the last call.
   take(): News {
     const text = <T>(kind: string) => {
       const found = this.texts.get(kind);
       return found === undefined ? null : (JSON.parse(found) as T);
     };
     const state = text<StateMessage>('state');
-    if (state) state.holder ||= null; // 0: nobody
+    if (state) state.holder ||= null; // 0: no client
     const news: News = {
       scene: text<SceneMessage>('scene'),
       state,
-      glass: text<BodyInspection>('glass'),
+      inspection: text<BodyInspection>('glass'),
       frame: this.waiting && decodeFrame(this.waiting),
     };
     this.waiting = null;
@@ -61,7 +60,6 @@ export class Link {
     return news;
   }
 
-  // At once, if there is none.
   connect(): void {
     clearTimeout(this.timer);
     if (this.socket) return;

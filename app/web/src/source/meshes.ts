@@ -1,4 +1,4 @@
-// Meshes and textures by the hash of what they are: each is fetched once, and never again.
+// Meshes and textures by content hash; each is fetched once.
 import type { MeshData } from '../protocol/run';
 
 const TWO_SIDED = 1;
@@ -35,7 +35,7 @@ async function fetched(address: string): Promise<Response> {
 export class MeshStore {
   private readonly kept = new Map<string, Promise<unknown>>(); // by address
 
-  // One that cannot be had is empty, and asked for again by the next scene.
+  // One that cannot be fetched is empty; the next scene tries again.
   async get(hashes: string[]): Promise<MeshData[]> {
     const read = async (answer: Response) => decodeMesh(await answer.arrayBuffer());
     return Promise.all(hashes.map((hash) => this.one(`/mesh/${hash}`, read).catch(() => NOTHING)));

@@ -1,5 +1,4 @@
-// The instant that is shown, and whether it moves on by itself: of a recorded run (Player), and of what
-// a lab remembers (Rewind).
+// Instant shown, and its playback: of a recorded run (Player), and of the lab's buffered run (Rewind).
 import type { Clock } from '../panels/time_bar';
 import { frameAt, type Run } from '../protocol/run';
 import { recordOf } from './run_record';
@@ -15,13 +14,13 @@ export class Playhead {
   // `at`: null is the newest.
   constructor(public at: number | null) {}
 
-  // Stands there.
+  // Seeks and pauses.
   look(at: number | null): void {
     this.playing = false;
     this.put(at);
   }
 
-  // From an instant on; at the end of what there is it stands at `until`.
+  // At the end `at` becomes `until`.
   play(from: number, speed: number, until: number | null): void {
     this.playing = true;
     this.speed = speed;
@@ -34,10 +33,9 @@ export class Playhead {
     this.playing = false;
   }
 
-  // `end`: of what there is.
   advance(now: number, end: number): void {
     if (!this.playing || this.at === null) return;
-    const passed = Math.min(0.1, Math.max(0, now - this.last) / 1000); // a tab that slept does not jump
+    const passed = Math.min(0.1, Math.max(0, now - this.last) / 1000); // no jump after a suspended tab
     this.last = now;
     const at = this.at + passed * this.speed;
     this.playing = at < (this.until ?? end);
@@ -49,7 +47,7 @@ export class Playhead {
   }
 }
 
-// The clock of a replay: what time is shown, and whether it runs.
+// Clock of the replay page.
 export class Player extends Playhead implements RunSource, Clock {
   readonly isLive = false;
   readonly hasDiverged = false;
@@ -73,14 +71,14 @@ export class Player extends Playhead implements RunSource, Clock {
   get frame(): number {
     return frameAt(this.times, this.at);
   }
-  // Of the way from this frame to the next.
+  // Interpolation factor between this frame and the next.
   get share(): number {
     const { frame, times, at } = this;
     if (frame + 1 >= times.length) return 0;
     return Math.min(1, Math.max(0, (at - times[frame]) / (times[frame + 1] - times[frame])));
   }
 
-  // By frames; stops on one.
+  // Seeks by frames and pauses.
   step(frames: number): void {
     const here = this.frame;
     const between = this.at > this.times[here] + 1e-9;
@@ -99,7 +97,7 @@ export class Player extends Playhead implements RunSource, Clock {
     this.changed();
   }
 
-  // Goes on from there, if it was going.
+  // Keeps playing if it was playing.
   seek(time: number): void {
     this.put(time);
   }
@@ -117,12 +115,11 @@ export class Player extends Playhead implements RunSource, Clock {
   }
 }
 
-const PAUSE = 33; // between two instants that are asked for [ms]
-const SETTLE = 400; // until the lab says what was asked for [ms]
+const PAUSE = 33; // between two requests [ms]
+const SETTLE = 400; // until the lab's state reflects a request [ms]
 
-// Looking back: which instant is asked for. What is remembered can also be played again, in slow
-// motion too; the lab only knows instants, the clock is here.
-// `at` is as asked for, which is newer than what the lab says.
+// Instant of the buffered run to show. The lab serves single instants; playback runs here. `at` is the
+// requested instant, which is newer than the lab's state.
 export class Rewind extends Playhead {
   private startedAt = -Infinity;
   private sentAt = -Infinity;
@@ -132,10 +129,10 @@ export class Rewind extends Playhead {
     super(null);
   }
 
-  // Of the lab's state, unless this page is just choosing.
+  // Takes the instant of the lab's state, unless a request of this page is pending.
   follow(at: number | null): void {
     const now = performance.now();
-    if (at === null && now - this.startedAt > SETTLE) this.playing = false; // somebody went on
+    if (at === null && now - this.startedAt > SETTLE) this.playing = false; // another client resumed
     if (!this.playing && now - this.sentAt > SETTLE) this.at = this.sent = at;
   }
 
@@ -152,7 +149,7 @@ export class Rewind extends Playhead {
   protected put(at: number | null): void {
     this.at = at;
     const now = performance.now();
-    if (now - this.sentAt < PAUSE && at !== null) return; // with a later tick
+    if (now - this.sentAt < PAUSE && at !== null) return; // sent by a later tick
     this.sent = at;
     this.sentAt = now;
     this.page.send({ do: 'look', at });

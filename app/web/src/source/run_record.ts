@@ -1,24 +1,22 @@
-// The run as the plots remember it: channels, ledger, and what is made of them, frame by frame; and
-// the branch that was left.
+// Data of the plots, one row per frame; and of the previous branch.
 //
-// Columns: the scene's channels, its ledger rows, the ledger's sum, and for each unit of the errors
-// the largest of any joint so far and the mean over time of the largest of each instant.
+// Columns: the scene's channels, the works of its energy balance, their sum; and for each unit of tracking
+// errors the maximum over joints and time so far, and the time average of the maximum over joints.
 import type { Run } from '../protocol/run';
 import type { Frame, SceneChannel, SceneMessage, StateMessage } from './link';
 import { Store } from './store';
 
-const MOST = 36_000; // frames: ten minutes at sixty a second
+const CAPACITY = 36_000; // frames: ten minutes at 60 Hz
 const FRESH = 1000; // [ms]
 const HISTORY_MAGIC = 0x31485754; // "TWH1"
 const HISTORY_HEADER = 24;
 
-// Of a scene, what names the columns.
 export type RunHead = Pick<SceneMessage, 'scene' | 'title' | 'channels' | 'ledger'>;
 
 export interface ErrorGroup {
   unit: string;
   channels: number[];
-  most: number; // columns
+  max: number; // columns
   mean: number;
 }
 
@@ -34,8 +32,8 @@ export function decodeHistory(buffer: ArrayBuffer) {
   return {
     scene,
     times: part(0, frames),
-    width: channels, // of a frame
-    rows, // of the ledger
+    width: channels, // per frame
+    rows, // of the energy balance
     channels: part(frames, frames * channels), // frame by frame
     works: part(frames * (1 + channels), frames * rows),
   };
@@ -43,14 +41,14 @@ export function decodeHistory(buffer: ArrayBuffer) {
 
 export class RunRecord {
   readonly store: Store;
-  before: Store | null = null; // of the branch that was left, from where it was left
+  before: Store | null = null; // the previous branch, from where this one begins
   readonly errors: ErrorGroup[] = [];
-  readonly works: number; // column of the first ledger row
+  readonly works: number; // column of the first work
   readonly sum: number;
-  version = 0; // changes with what is remembered
-  epoch = 0; // changes when time went back
-  lost: number | null = null; // frames later than this were not seen by the page
-  // Of each column, all that was ever there.
+  version = 0; // changes with the data
+  epoch = 0; // changes when time goes back
+  lost: number | null = null; // frames after this time were missed
+  // Of each column, over all time, dropped rows included.
   readonly low: Float64Array;
   readonly high: Float64Array;
   private left: { store: Store; at: number } | null = null;
@@ -58,7 +56,7 @@ export class RunRecord {
   private began = NaN;
   private number = NaN; // of the newest frame
 
-  constructor(readonly scene: RunHead, most = MOST) {
+  constructor(readonly scene: RunHead, capacity = CAPACITY) {
     const { channels, ledger } = scene;
     this.works = channels.length;
     this.sum = this.works + ledger.length;
@@ -66,10 +64,10 @@ export class RunRecord {
     const errors = channels.flatMap(({ kind, unit }, i) => (kind === 'error' ? [{ unit, i }] : []));
     for (const unit of new Set(errors.map((error) => error.unit))) {
       const own = errors.filter((error) => error.unit === unit).map(({ i }) => i);
-      this.errors.push({ unit, channels: own, most: next, mean: next + 1 });
+      this.errors.push({ unit, channels: own, max: next, mean: next + 1 });
       next += 2;
     }
-    this.store = new Store(next, most);
+    this.store = new Store(next, capacity);
     this.low = new Float64Array(next).fill(Infinity);
     this.high = new Float64Array(next).fill(-Infinity);
   }
@@ -82,7 +80,7 @@ export class RunRecord {
     this.addRow(frame.time, frame.channels, frame.works);
   }
 
-  // What the page has not seen, or missed: takes the place of what is remembered of that time.
+  // Replaces the rows of that time span, of which frames were missed.
   addHistory({ scene, times, width: C, rows: R, channels, works }: History): void {
     if (scene !== this.scene.scene || times.length === 0) return;
     const end = times[times.length - 1];
@@ -96,9 +94,9 @@ export class RunRecord {
     if (later) this.replay(later, this, end);
   }
 
-  // The same run, of which more is told now: pairs that touch come up as they do.
+  // The same run with more channels: a contact pair gets its channel at its first contact.
   grownTo(scene: RunHead): RunRecord {
-    const made = new RunRecord(scene, this.store.most);
+    const made = new RunRecord(scene, this.store.capacity);
     made.replay(this.store, this);
     if (this.before) {
       const left = new RunRecord(scene, Math.max(1, this.before.length));
@@ -109,7 +107,7 @@ export class RunRecord {
     return made;
   }
 
-  // Rows later than a time of a store with the columns of another record.
+  // Copies rows after a time from a store that has the columns of another record.
   private replay(store: Store, of: RunRecord, after = -Infinity): void {
     const channels = columnsOf(this.scene.channels, of.scene.channels);
     const ledger = this.scene.ledger.map((name) => of.scene.ledger.indexOf(name));
@@ -130,7 +128,7 @@ export class RunRecord {
     this.version += 1;
     this.before = null;
     if (!branch) return;
-    // The frames may have gone back before this message came.
+    // Frames of the new branch may have come before this message.
     const isFresh = this.left && performance.now() - this.left.at < FRESH;
     if (!isFresh && this.store.last > branch.from) this.goBack(branch.from);
     this.before = this.left?.store ?? null;
@@ -154,7 +152,7 @@ export class RunRecord {
       if (value < this.low[index]) this.low[index] = value;
       if (value > this.high[index]) this.high[index] = value;
     };
-    // A frame may be older or newer than the scene: what comes up stands behind all others.
+    // A frame may be older or newer than the scene; new channels are the last.
     for (let i = 0; i < this.works; ++i) keep(i, channels[i] ?? NaN);
     let sum = 0;
     for (let i = this.works; i < this.sum; ++i) {
@@ -164,32 +162,31 @@ export class RunRecord {
     }
     keep(this.sum, sum);
     for (const group of this.errors) {
-      const now = group.channels.reduce((most, i) => Math.max(most, Math.abs(channels[i]) || 0), 0);
-      const [most, mean] = this.errorSoFar(group, now, time);
-      keep(group.most, most);
+      const now = group.channels.reduce((max, i) => Math.max(max, Math.abs(channels[i]) || 0), 0);
+      const [max, mean] = this.errorSoFar(group, now, time);
+      keep(group.max, max);
       keep(group.mean, mean);
     }
     this.version += 1;
   }
 
-  // The largest so far, and the mean over time by the rectangle rule, from the row before.
-  private errorSoFar({ most, mean }: ErrorGroup, now: number, time: number): [number, number] {
+  // Maximum and time average (rectangle rule) up to now, from the previous row.
+  private errorSoFar({ max, mean }: ErrorGroup, now: number, time: number): [number, number] {
     const { store, began } = this;
     const row = store.length - 2;
     if (row < 0) return [now, now];
     const then = store.times[row];
     const sum = store.value(mean, row) * (then - began) + now * (time - then);
-    return [Math.max(store.value(most, row), now), sum / (time - began)];
+    return [Math.max(store.value(max, row), now), sum / (time - began)];
   }
 }
 
-// For each of the first where it stands among the second; -1: nowhere.
+// Index of each wanted channel; -1: missing.
 function columnsOf(wanted: SceneChannel[], there: SceneChannel[]): number[] {
   const places = new Map(there.map(({ name }, i) => [name, i]));
   return wanted.map(({ name }) => places.get(name) ?? -1);
 }
 
-// Of a run that has ended.
 export function recordOf({ title, channels, ledger, times }: Run): RunRecord {
   const { rows, works } = ledger;
   const record = new RunRecord({ scene: 0, title, channels, ledger: rows }, times.length);

@@ -1,29 +1,28 @@
-// A run that plots and tables show: one that a page carries (Player), or one that goes on in a lab
-// (LiveRun).
+// Run shown by plots and tables: recorded (Player), or live in the lab (LiveRun).
 import { decodeHistory, RunRecord } from './run_record';
 import type { LabPage, Listener } from '../panels/panel';
 import type { Frame, SceneMessage, StateMessage } from './link';
 
 export interface RunSource {
-  readonly record: RunRecord | null; // null: nothing has come yet
-  readonly at: number | null; // the instant that is shown [s]; null: the newest
+  readonly record: RunRecord | null; // null: no data yet
+  readonly at: number | null; // instant shown [s]; null: the newest
   readonly stepSize: number; // [s]
   readonly hasDiverged: boolean;
-  readonly isLive: boolean; // more will come
+  readonly isLive: boolean;
   look(time: number): void;
 }
 
-const REFILL = 3000; // how often missed frames are asked for [ms]
+const REFILL = 3000; // between requests of missed frames [ms]
 
-// What the page remembers of the lab's run. Frames that it missed come from the lab's memory.
+// Missed frames are fetched from the lab's buffer.
 export class LiveRun implements RunSource, Listener {
   readonly isLive = true;
   record: RunRecord | null = null;
-  private askedAt = -Infinity;
-  private asking = false;
+  private requestedAt = -Infinity;
+  private isRequesting = false;
 
   constructor(private readonly page: LabPage) {
-    // Hidden pages get no pictures, and so no frames.
+    // A hidden page draws no pictures and so takes no frames.
     document.addEventListener('visibilitychange', () => this.fill());
   }
 
@@ -48,9 +47,9 @@ export class LiveRun implements RunSource, Listener {
       JSON.stringify([channels, ledger]);
     if (!isSame || names(old) !== names(scene))
       this.record = isSame ? this.record!.grownTo(scene) : new RunRecord(scene);
-    // A connection that was lost has missed frames too.
+    // Frames were missed while the connection was lost.
     this.record!.lost = isSame ? (this.record!.lost ?? this.record!.store.last) : -Infinity;
-    this.askedAt = -Infinity;
+    this.requestedAt = -Infinity;
   }
 
   onState(state: StateMessage): void {
@@ -65,13 +64,13 @@ export class LiveRun implements RunSource, Listener {
   private fill(): void {
     const { record } = this;
     const now = performance.now();
-    if (!record || record.lost === null || this.asking || now - this.askedAt < REFILL) return;
-    this.asking = true;
-    this.askedAt = now;
-    void this.ask(record, record.lost).finally(() => (this.asking = false));
+    if (!record || record.lost === null || this.isRequesting || now - this.requestedAt < REFILL) return;
+    this.isRequesting = true;
+    this.requestedAt = now;
+    void this.request(record, record.lost).finally(() => (this.isRequesting = false));
   }
 
-  private async ask(record: RunRecord, lost: number): Promise<void> {
+  private async request(record: RunRecord, lost: number): Promise<void> {
     const { epoch } = record;
     record.lost = null;
     const from = Number.isFinite(lost) ? lost : 0;
@@ -80,7 +79,7 @@ export class LiveRun implements RunSource, Listener {
       const history = answer.ok ? decodeHistory(await answer.arrayBuffer()) : null;
       if (history && epoch === record.epoch) record.addHistory(history);
     } catch {
-      record.lost = Math.min(lost, record.lost ?? Infinity); // no connection: later
+      record.lost = Math.min(lost, record.lost ?? Infinity); // not connected: retried later
     }
   }
 }

@@ -1,21 +1,18 @@
-// What the plots remember: columns of numbers over time, the oldest dropped when they are full, so
-// that hours cost what minutes cost. Time rises from row to row.
-//
-// Each column lies in one piece of memory with room for a quarter more than is kept; when that is
-// full, what is kept moves to the front: a copy every quarter, nothing per row.
+// Ring buffer of columns over increasing time; drops the oldest rows when full. Each column is one array with
+// space for 25 % more than its capacity; when that is full, the kept rows move to its front.
 export class Store {
   length = 0;
-  dropped = 0; // rows that were there before row 0
-  private readonly room: number;
+  dropped = 0; // rows before row 0
+  private readonly space: number;
   private readonly memory: Float64Array[];
   private begin = 0;
 
   constructor(
     readonly columns: number, // besides the time
-    readonly most: number, // rows
+    readonly capacity: number, // rows
   ) {
-    this.room = most + Math.max(1, most >> 2);
-    this.memory = Array.from({ length: columns + 1 }, () => new Float64Array(this.room));
+    this.space = capacity + Math.max(1, capacity >> 2);
+    this.memory = Array.from({ length: columns + 1 }, () => new Float64Array(this.space));
   }
 
   get first(): number {
@@ -24,7 +21,7 @@ export class Store {
   get last(): number {
     return this.length > 0 ? this.memory[0][this.begin + this.length - 1] : NaN;
   }
-  // Views that hold until the next row.
+  // Views are valid until the next row.
   get times(): Float64Array {
     return this.view(0);
   }
@@ -35,7 +32,7 @@ export class Store {
     return this.memory[index + 1][this.begin + row];
   }
 
-  // Fills the row that was added, or that already stands at this time. Earlier: refused.
+  // Setter of a new row, or of the last row if it has this time; null: the time is earlier.
   add(time: number): ((index: number, value: number) => void) | null {
     if (time < this.last) return null;
     if (time > this.last || this.length === 0) {
@@ -62,12 +59,12 @@ export class Store {
     return low;
   }
 
-  // Forgets all that is later.
+  // Removes rows after a time.
   cut(time: number): void {
     this.length = this.after(time);
   }
 
-  // Another one with the rows later than a time, that does not change with this one.
+  // Copy of the rows after a time.
   copy(from: number): Store {
     const row = Math.max(0, this.after(from) - 1); // one more, so that curves meet
     const count = this.length - row;
@@ -82,38 +79,36 @@ export class Store {
   }
 
   private makeRoom(): void {
-    if (this.length === this.most) {
+    if (this.length === this.capacity) {
       this.begin += 1;
       this.length -= 1;
       this.dropped += 1;
     }
-    if (this.begin + this.length < this.room) return;
-    for (const column of this.memory)
-      column.copyWithin(0, this.begin, this.begin + this.length);
+    if (this.begin + this.length < this.space) return;
+    for (const column of this.memory) column.copyWithin(0, this.begin, this.begin + this.length);
     this.begin = 0;
   }
 }
 
-// Rows [begin, end) in buckets of `stride`, which stand where they stand however the window moves
-// (a curve does not shiver): the smallest power of two that leaves at most `most` buckets.
+// Rows [begin, end) in buckets of `stride` rows, a power of two such that there are at most `max` buckets.
+// Bucket edges do not move with the window, so that curves do not flicker.
 export interface Buckets {
   stride: number;
   edges: number[]; // one more than buckets
 }
 
-export function bucketsOf(begin: number, end: number, dropped: number, most: number): Buckets {
+export function bucketsOf(begin: number, end: number, dropped: number, max: number): Buckets {
   let stride = 1;
-  while ((end - begin) / stride > most) stride *= 2;
+  while ((end - begin) / stride > max) stride *= 2;
   const edges: number[] = begin < end ? [begin] : [];
-  for (let at = begin + stride - ((begin + dropped) % stride); at < end; at += stride)
-    edges.push(at);
+  for (let at = begin + stride - ((begin + dropped) % stride); at < end; at += stride) edges.push(at);
   if (begin < end) edges.push(end);
   return { stride, edges };
 }
 
 export type Points = (number | null)[];
 
-// Times of the points that `outline` (two a bucket) and `samples` give.
+// Times of the points of `outline` (pairs) and of `samples`.
 export function timesOf(times: Float64Array, buckets: Buckets, pairs: boolean): number[] {
   const { stride, edges } = buckets;
   if (!pairs) return sampled(buckets).map((row) => times[row]);
@@ -125,8 +120,7 @@ export function timesOf(times: Float64Array, buckets: Buckets, pairs: boolean): 
   return out;
 }
 
-// Two points a bucket, the least and the largest value in the order in which they came: no peak
-// is lost. NaN has no point.
+// Minimum and maximum of each bucket, in their order of time, so that no peak is lost; NaN: no point.
 export function outline(values: Float64Array, { stride, edges }: Buckets): Points {
   const out: Points = [];
   for (let b = 0; b + 1 < edges.length; ++b) {
@@ -144,8 +138,7 @@ export function outline(values: Float64Array, { stride, edges }: Buckets): Point
   return out;
 }
 
-// One point a bucket, its first, and the very last: of areas upon each other, which must be of one
-// instant.
+// First row of each bucket, and the last row: stacked areas need values of one instant.
 export function samples(values: Float64Array, buckets: Buckets): Points {
   return sampled(buckets).map((row) => (Number.isNaN(values[row]) ? null : values[row]));
 }

@@ -1,7 +1,8 @@
-// Choices of one among several: tabs of the side panel, segments side by side.
+// Choice of one option: tabs of the side panel, segmented buttons.
 import { element } from './dom';
+import { definition } from './glossary';
 
-// Pages of the side panel. One stop of the tab key; arrows go from one to the next.
+// Tabs of the side panel: one tab stop; arrow keys move between the tabs.
 export class Tabs {
   readonly root: HTMLElement;
   private readonly list = element('div', { role: 'tablist' });
@@ -26,7 +27,7 @@ export class Tabs {
     const at = this.tabs.length;
     const tab = element(
       'button',
-      { type: 'button', role: 'tab', id: `tab-${at}`, 'aria-controls': `panel-${at}` },
+      { type: 'button', role: 'tab', title: definition(title), id: `tab-${at}`, 'aria-controls': `panel-${at}` },
       title,
     );
     const panel = element(
@@ -54,7 +55,7 @@ export class Tabs {
 
 let groups = 0;
 
-// A choice among few, side by side: one stop of the tab key, arrows change it.
+// Radio buttons side by side: one tab stop; arrow keys change the choice.
 export class Segments {
   readonly root: HTMLElement;
   private readonly choices: HTMLInputElement[];

@@ -1,10 +1,9 @@
-// Elements of the page: made in one call, drawn as SVG, updated in place.
+// DOM and SVG elements: created in one call, updated in place.
 type TagOf<T extends string> = T extends `${infer Tag}.${string}` ? Tag : T;
 type Made<T extends string> =
   TagOf<T> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<T>] : never;
 
-// An element in one call: element('p.hint.small', { title: 'attributes' }, 'text', child). Texts are
-// set as texts: names of a file cannot become tags.
+// element('p.hint.small', { title: 'attribute' }, 'text', child). Strings become text nodes, never HTML.
 export function element<T extends string>(
   tag: T,
   ...parts: (Record<string, string> | Node | string)[]
@@ -26,8 +25,8 @@ export function button(
   className = '',
 ): HTMLButtonElement {
   const made = element('button', { type: 'button', title, class: className }, ...[label].flat());
-  const isSaid = Array.isArray(label) || (typeof label === 'string' && label.length >= 3);
-  if (!isSaid) made.setAttribute('aria-label', title);
+  const isReadable = Array.isArray(label) || (typeof label === 'string' && label.length >= 3);
+  if (!isReadable) made.setAttribute('aria-label', title);
   made.addEventListener('click', act);
   return made;
 }
@@ -61,7 +60,7 @@ export function icon(name: keyof typeof ICONS): SVGSVGElement {
   return drawing(ICONS[name], { class: 'icon', 'aria-hidden': 'true' });
 }
 
-// One path in a square of 16.
+// One path in a 16 x 16 view box.
 export function drawing(path: string, attributes: Record<string, string>): SVGSVGElement {
   return svg('svg', { viewBox: '0 0 16 16', ...attributes }, svg('path', { d: path }));
 }
@@ -77,7 +76,7 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return made;
 }
 
-// Digits that people read; all of them stand in the tables. What is rounding beside `scale` is 0.
+// Four significant digits; below 1e-13 of `scale`: 0.
 export function short(value: number | null | undefined, scale = 0): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   const size = Math.abs(value);
@@ -86,51 +85,41 @@ export function short(value: number | null | undefined, scale = 0): string {
   return value.toPrecision(4).replaceAll('-', '−');
 }
 
-// "kg m^2" as print has it.
+// "kg m^2" as "kg m²".
 export function unitText(unit: string): string {
   return unit === '1' ? '' : unit.replaceAll('^2', '²').replaceAll('^3', '³');
 }
 
-// Asked with what is to be shown: whether it differs from the last time.
+// A function that returns whether its arguments differ from those of the previous call.
 export function changeDetector(): (...now: unknown[]) => boolean {
   let last = '';
   return (...now) => last !== (last = JSON.stringify(now));
 }
 
 export function largestOf(values: (number | null)[]): number {
-  return values.reduce<number>((most, value) => Math.max(most, Math.abs(value ?? 0)), 0);
+  return values.reduce<number>((max, value) => Math.max(max, Math.abs(value ?? 0)), 0);
 }
 
-// Signs of how near a limit is: a form, a colour and a word each, for eyes that miss one of them.
-const FORMS = {
-  ok: 'M2.5 8.5l3.5 3.5 7.5-8', // a tick
-  near: 'M8 2L15 14H1zM8 6.5v3.5M8 12v.6', // a triangle
-  beyond: 'M5 1.5h6L15 5.5v5l-4 4H5l-4-4v-5zM5.2 5.2l5.6 5.6M10.8 5.2l-5.6 5.6', // an octagon
+// Distance to a limit, by shape, colour and text: tick, triangle, octagon.
+const STATUS = {
+  ok: ['ok', 'M2.5 8.5l3.5 3.5 7.5-8'],
+  near: ['near the limit', 'M8 2L15 14H1zM8 6.5v3.5M8 12v.6'],
+  beyond: ['beyond the limit', 'M5 1.5h6L15 5.5v5l-4 4H5l-4-4v-5zM5.2 5.2l5.6 5.6M10.8 5.2l-5.6 5.6'],
 };
-export type SignState = keyof typeof FORMS;
-export const SIGN_WORDS: Record<SignState, string> = {
-  ok: 'holds',
-  near: 'near the limit',
-  beyond: 'beyond the limit',
-};
+export type Status = keyof typeof STATUS;
 
-export function sign(state: SignState): SVGSVGElement {
-  const words = SIGN_WORDS[state];
-  return drawing(FORMS[state], { class: `sign ${state}`, role: 'img', 'aria-label': words });
+export function statusIcon(state: Status): SVGSVGElement {
+  const [text, path] = STATUS[state];
+  return drawing(path, { class: `status-icon ${state}`, role: 'img', 'aria-label': text });
 }
 
-// Icon and words: one line below a knob, a heading of a card.
-export function signed(state: SignState, words: string): HTMLElement {
-  return element('span', { class: `signed ${state}` }, sign(state), element('span', words));
+export function statusLine(state: Status, text: string): HTMLElement {
+  return element('span', { class: `status ${state}` }, statusIcon(state), element('span', text));
 }
 
-// Makes what stands like what was made anew, in place: focus, pointer, scrolling and what has been
-// opened stay where they are.
-function same(a: Node, b: Node): boolean {
-  return a.nodeType === b.nodeType && a.nodeName === b.nodeName;
-}
-
+// Changes `now` into `wanted` in place: focus, pointer, scroll positions and open details are kept.
 export function morph(now: Element, wanted: Element): void {
+  const same = (a: Node, b: Node) => a.nodeType === b.nodeType && a.nodeName === b.nodeName;
   for (const { name } of [...now.attributes])
     if (!wanted.hasAttribute(name) && name !== 'open') now.removeAttribute(name);
   for (const { name, value } of wanted.attributes)

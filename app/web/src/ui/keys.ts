@@ -1,6 +1,7 @@
-// The keyboard. What is said here is what the help shows.
+// Keyboard shortcuts and their help.
 import { changeSpeed, type Clock } from '../panels/time_bar';
 import type { ViewName } from '../view/stage';
+import type { Overlays } from '../view/view_options';
 import { button, element, icon } from './dom';
 
 type Act = (event: KeyboardEvent) => void;
@@ -11,43 +12,43 @@ export interface Key {
   acts: Record<string, Act>; // by KeyboardEvent.key
 }
 
-// One key, or several that belong together.
+// One key, or a group of keys.
 export function key(shown: string, what: string, acts: Act | Record<string, Act>): Key {
   return { shown, what, acts: typeof acts === 'function' ? { [shown]: acts } : acts };
 }
 
-export interface ViewTargets {
+interface ViewTargets {
   orbit(around: number, up: number, closer: number): void;
   look(name: ViewName): void;
   followNext?(): void;
-  toggleLayer?(number: number): void;
+  overlays: Overlays;
   toggleTheme(): void;
 }
 
 const VIEWS: ViewName[] = ['front', 'side', 'top', 'iso'];
 
-// Of the picture, on every page.
-export function viewKeys({ orbit, look, followNext, toggleLayer, toggleTheme }: ViewTargets): Key[] {
+// Keys of the 3-D view, on every page.
+export function viewKeys({ orbit, look, followNext, overlays, toggleTheme }: ViewTargets): Key[] {
   let view = 0;
-  const digits = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((n) => [n, () => toggleLayer!(n)]);
+  const digits = [1, 2, 3, 4, 5, 6, 7, 8, 9].map((n) => [n, () => overlays.toggleNumber(n)]);
   const nearer = () => orbit(0, 0, 0.88);
   return [
     ...(followNext ? [key('f', 'follow the selected body, or the next one', followNext)] : []),
-    key('a d w s', 'turn the view', {
+    key('a d w s', 'rotate the view', {
       a: () => orbit(-0.1, 0, 1),
       d: () => orbit(0.1, 0, 1),
       w: () => orbit(0, 0.08, 1),
       s: () => orbit(0, -0.08, 1),
     }),
-    key('+ −', 'nearer, farther', { '+': nearer, '=': nearer, '-': () => orbit(0, 0, 1 / 0.88) }),
-    key('r', 'the view of the start', () => look('start')),
-    key('v', 'front, side, top, from a corner', () => look(VIEWS[view++ % VIEWS.length])),
-    ...(toggleLayer ? [key('1 – 9', 'show or hide an overlay', Object.fromEntries(digits))] : []),
-    key('t', 'light or dark', toggleTheme),
+    key('+ −', 'zoom in, out', { '+': nearer, '=': nearer, '-': () => orbit(0, 0, 1 / 0.88) }),
+    key('r', 'reset the view', () => look('start')),
+    key('v', 'front, side, top, isometric view', () => look(VIEWS[view++ % VIEWS.length])),
+    key('o', 'list of overlays', () => overlays.fold(!overlays.folded)),
+    ...(overlays.hasNumbers ? [key('1 – 9', 'toggle an overlay', Object.fromEntries(digits))] : []),
+    key('t', 'light or dark theme', toggleTheme),
   ];
 }
 
-// Of the clock.
 export function clockKeys(clock: Clock): Key[] {
   const toggle = () => clock.toggle();
   return [
@@ -56,7 +57,7 @@ export function clockKeys(clock: Clock): Key[] {
   ];
 }
 
-// Fields and buttons that take the key themselves keep it.
+// Whether a field or button handles the key itself.
 function isTaken(event: KeyboardEvent): boolean {
   if (event.ctrlKey || event.metaKey || event.altKey) return true;
   const at = event.target;
@@ -66,10 +67,10 @@ function isTaken(event: KeyboardEvent): boolean {
   return at.matches('button, input[type=checkbox]') && (event.key === ' ' || event.key === 'Enter');
 }
 
-// `isKept`: besides, keys that somebody else is to have.
+// `isKept`: further keys to leave to the focused element.
 export function listen(keys: Key[], isKept: (event: KeyboardEvent) => boolean = () => false): void {
   const all = new Map(keys.flatMap(({ acts }) => Object.entries(acts)));
-  // Before others: a focused slider would move by itself too.
+  // In the capture phase: a focused slider would move too.
   document.addEventListener(
     'keydown',
     (event) => {
@@ -82,7 +83,7 @@ export function listen(keys: Key[], isKept: (event: KeyboardEvent) => boolean = 
   );
 }
 
-// A dialog of all keys, which `?` opens and closes.
+// Dialog with all keys, opened and closed by `?`.
 export function help(keys: Key[], mouse: string): HTMLDialogElement {
   const list = element('dl');
   const dialog = element('dialog.help', { 'aria-label': 'keys' });
@@ -91,21 +92,19 @@ export function help(keys: Key[], mouse: string): HTMLDialogElement {
   keys.push(key('?', 'this help', toggle));
   for (const { shown, what } of keys)
     list.append(element('dt', element('kbd', shown)), element('dd', what));
-  dialog.append(element('h2', 'Keys'), list, element('p', mouse), close);
+  dialog.append(element('h2', 'Keys'), list, element('p.fine', mouse), close);
   return dialog;
 }
 
 export const PLOTS =
-  'On a plot: a drag zooms, a double click shows all; a click goes to that instant, as does the ' +
-  'marker when it is dragged.';
-export const MOUSE = 'Mouse: drag turns, right button moves, wheel zooms.';
+  'Plots: drag to zoom, double-click for the whole run, click or drag the marker to seek.';
+export const MOUSE = 'Mouse: drag to rotate, right button to pan, wheel to zoom.';
 
-// The line above everything: what is shown, keys, theme, and what else a page has.
 export function pageHeader(parts: Node[], dialog: HTMLDialogElement, toggleTheme: () => void): HTMLElement {
   return element(
     'header',
     ...parts,
     button('?', 'keys (?)', () => dialog.showModal()),
-    button(icon('theme'), 'light or dark (t)', toggleTheme),
+    button(icon('theme'), 'light or dark theme (t)', toggleTheme),
   );
 }

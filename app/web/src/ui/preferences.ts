@@ -1,11 +1,11 @@
-// Light or dark, as the system is until somebody chooses; and choices that the browser keeps.
+// Theme (the system's until the user chooses), and choices stored by the browser.
 
 export class Theme {
   dark = matchMedia('(prefers-color-scheme: dark)').matches;
 
   constructor(private readonly changed: () => void) {
     document.documentElement.dataset.theme = this.dark ? 'dark' : 'light';
-    // Paper is white.
+    // Print in the light theme.
     let chosen = this.dark;
     addEventListener('beforeprint', () => {
       chosen = this.dark;
@@ -31,7 +31,6 @@ export function token(name: string): string {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 
-// What the page keeps of a person's choices, where the browser lets it.
 export function remembered<T>(name: string, otherwise: T): T {
   try {
     const text = localStorage.getItem(`twinarm.${name}`);
@@ -45,6 +44,6 @@ export function remember(name: string, value: unknown): void {
   try {
     localStorage.setItem(`twinarm.${name}`, JSON.stringify(value));
   } catch {
-    // A private window keeps nothing.
+    // Storage may be disabled.
   }
 }

@@ -1,9 +1,8 @@
-// A knob's slider: where a value stands on it, what stands at a place, what an arrow key makes of
-// it; and its number as text. Places go from 0 to 1.
+// Scale of a parameter's slider: position (0 to 1) of a value and back, arrow-key steps, number as text.
 export type Scale = { form: 'log' | 'linear'; low: number; high: number };
 
-const DECADES = 6; // of a logarithmic slider that begins at zero
-const DIGITS = 3; // that a slider sets
+const DECADES = 6; // of a logarithmic slider whose lower end is zero
+const DIGITS = 3; // significant digits of a value set by a slider
 
 function foot(scale: Scale): number {
   return scale.low > 0 ? scale.low : scale.high / 10 ** DECADES;
@@ -26,8 +25,8 @@ export function valueAt(scale: Scale, place: number): number {
   return within(scale, tidy(Math.round((low + place * (high - low)) / step) * step));
 }
 
-// Up (1) or down (-1): a tenth of the value, or of the decade's worth of a linear scale; a coarse
-// step doubles, or is ten small ones.
+// Up (1) or down (-1): by 10 % on a logarithmic scale, by about 1 % of the range on a linear one. Coarse:
+// by a factor of two, or ten steps.
 export function stepped(scale: Scale, value: number, way: 1 | -1, coarse: boolean): number {
   if (scale.form === 'linear') {
     const step = niceStep((scale.high - scale.low) / 100) * (coarse ? 10 : 1);
@@ -47,7 +46,7 @@ function round(value: number): number {
   return Number(value.toPrecision(DIGITS));
 }
 
-// Without what binary fractions leave over: 0.30000000000000004.
+// Without binary rounding: 0.3 for 0.30000000000000004.
 function tidy(value: number): number {
   return Number(value.toPrecision(12));
 }
@@ -59,7 +58,7 @@ export function niceStep(size: number): number {
   return tidy((lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power);
 }
 
-// As it stands in a field: what was typed, else five digits.
+// As a field shows it: all digits if they are few, else five.
 export function numberText(value: number): string {
   if (!Number.isFinite(value)) return String(value);
   const size = Math.abs(value);
@@ -70,10 +69,10 @@ export function numberText(value: number): string {
 
 const PREFIXES: Record<string, number> = { M: 1e6, k: 1e3, m: 1e-3, u: 1e-6, µ: 1e-6, μ: 1e-6 };
 
-// "800", "1.2e4", "12k", "12 kN/m", "−3,5 ms": in the knob's own unit. NaN: none of these.
+// "800", "1.2e4", "12k", "12 kN/m", "−3,5 ms", in the parameter's unit. NaN: none of these.
 export function parseNumber(text: string, unit: string): number {
-  const said = text.trim().replaceAll('−', '-').replace(',', '.');
-  const found = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i.exec(said);
+  const plain = text.trim().replaceAll('−', '-').replace(',', '.');
+  const found = /^([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*(.*)$/i.exec(plain);
   if (!found) return NaN;
   const [, digits, rest] = found;
   const value = Number(digits);

@@ -1,4 +1,4 @@
-// A slider with marks on it. Places go from 0 to 1.
+// Slider with marks. Positions are 0 to 1.
 import './slider.css';
 import { element } from './dom';
 
@@ -21,14 +21,14 @@ export class Slider {
   put(place: number): void {
     this.input.value = String(STEPS * place);
   }
-  // `words`: for ears.
+  // `words`: for screen readers.
   fill(place: number, words: string): void {
     this.input.style.setProperty('--share', `${100 * place}%`);
     this.input.setAttribute('aria-valuetext', words);
   }
 }
 
-// Puts a mark to its place; null: nowhere on the slider.
+// null: hides the mark.
 export function putMark(mark: HTMLElement, place: number | null): void {
   mark.hidden = place === null || place < 0 || place > 1;
   mark.style.setProperty('--place', String(place ?? 0));

@@ -1,4 +1,4 @@
-// Tables of numbers: all digits stand at the pointer.
+// Tables of numbers; the tooltip of a cell has all digits.
 import './table.css';
 import { element, short } from './dom';
 

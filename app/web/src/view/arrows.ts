@@ -1,4 +1,4 @@
-// Arrows that a page adds to the picture by itself: forces on the body that is looked at.
+// Arrows that the page adds to the view: forces on the inspected body.
 import * as THREE from 'three';
 import type { Vector } from '../protocol/messages';
 
@@ -19,7 +19,7 @@ export class Arrows {
     scene.add(this.group);
   }
 
-  // In the place of those before. Seen through bodies: most of them begin inside of one.
+  // Replaces all arrows. Drawn over bodies, since most begin inside one.
   set(arrows: Arrow[]): void {
     for (const mesh of this.group.children as THREE.Mesh<THREE.BufferGeometry, THREE.Material>[])
       mesh.material.dispose();

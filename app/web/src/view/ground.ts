@@ -1,5 +1,5 @@
-// The floor: a metric grid that fades with the distance, and the shadows on it. The floor itself
-// takes the colour of what lies behind, so that no horizon is seen, as in the painter's studio.
+// Ground: a metric grid that fades with distance, and the shadows on it. The plane itself is transparent, so
+// that there is no horizon, as in pictures of `twinarm render`.
 import * as THREE from 'three';
 import type { View } from '../protocol/run';
 
@@ -11,7 +11,7 @@ void main() {
   gl_Position = projectionMatrix * viewMatrix * world;
 }`;
 
-// A line is one pixel wide, by the derivatives; it melts away where cells become smaller than that.
+// A line is one pixel wide, by screen-space derivatives; it fades where cells become smaller than a pixel.
 const FRAGMENT = `
 uniform float cell;
 uniform float major;

@@ -1,12 +1,15 @@
-// Texts at points of the world: over the picture, in the page's own letters, never hidden by
-// bodies. They step aside from one another and from what lies on the picture, by whole lines or to
-// the other side of their point; a thin line leads to it. What finds no room is left out.
+// Labels at points of the world, drawn over the 3-D view. Overlaps with other labels and controls are avoided
+// by moving a label by whole lines or to the other side of its point; a leader line connects both. A label
+// without a free place is omitted.
 import type { LabelColumns } from '../protocol/run';
 import { element, svg } from '../ui/dom';
-import type { Pixel, Stage } from './stage';
 
-const LINE = 17; // pixels from one line to the next
-const LOOK_AGAIN = 300; // [ms]: asking for places makes the browser lay out the page
+export type Pixel = { x: number; y: number };
+export type Project = (x: number, y: number, z: number) => Pixel | null;
+
+const CONTROLS = ':scope > :not(canvas, .labels, .handles, .corner), .corner > *';
+const LINE = 17; // line height in pixels
+const LAYOUT_INTERVAL = 300; // [ms]: reading positions makes the browser lay out the page
 
 type Box = Record<'left' | 'top' | 'right' | 'bottom', number>;
 type Item = { text: HTMLSpanElement; leader: SVGLineElement };
@@ -15,20 +18,20 @@ export class Labels {
   private readonly leaders = svg('svg');
   readonly root = element('div.labels', { 'aria-hidden': 'true' }, this.leaders);
   private readonly items: Item[] = [];
-  private others: Box[] = []; // as they were a moment ago
-  private lookedAt = -Infinity;
+  private controls: Box[] = [];
+  private measuredAt = -Infinity;
 
-  paint(stage: Stage, texts: string[], parts: { columns: LabelColumns; frame: number }[]): void {
-    if (parts.length > 0 && performance.now() - this.lookedAt > LOOK_AGAIN) {
-      this.others = this.covered();
-      this.lookedAt = performance.now();
+  paint(project: Project, texts: string[], parts: { columns: LabelColumns; frame: number }[]): void {
+    if (parts.length > 0 && performance.now() - this.measuredAt > LAYOUT_INTERVAL) {
+      this.controls = this.covered();
+      this.measuredAt = performance.now();
     }
-    const taken = [...this.others];
+    const taken = [...this.controls];
     let used = 0;
     for (const { columns, frame } of parts)
       for (let i = columns.first[frame]; i < columns.first[frame + 1]; ++i) {
         const [x, y, z] = columns.position.subarray(3 * i, 3 * i + 3);
-        const point = stage.project(x, y, z);
+        const point = project(x, y, z);
         if (!point) continue;
         const [right, down] = columns.offset.subarray(2 * i, 2 * i + 2);
         const text = texts[columns.text[i]];
@@ -43,12 +46,11 @@ export class Labels {
     }
   }
 
-  // Switches, legend and the like: whatever else the view holds besides its picture.
+  // Boxes of the controls in the view.
   private covered(): Box[] {
     const { left, top } = this.root.getBoundingClientRect();
     const boxes: Box[] = [];
-    for (const other of this.root.parentElement?.children ?? []) {
-      if (other === this.root || other.matches('canvas, .handles')) continue;
+    for (const other of this.root.parentElement?.querySelectorAll(CONTROLS) ?? []) {
       const { x, y, width, height } = other.getBoundingClientRect();
       if (width > 0) boxes.push(new DOMRect(x - left, y - top, width, height));
     }
@@ -79,7 +81,7 @@ export class Labels {
   }
 }
 
-// The nearest free place; at the right before the left.
+// The nearest free place, right before left.
 function place(point: Pixel, right: number, down: number, width: number, taken: Box[]): Box | null {
   const free = ({ left, top, right, bottom }: Box) =>
     taken.every((t) => t.right < left || t.left > right || t.bottom <= top || t.top >= bottom);

@@ -1,25 +1,25 @@
-// The view of the run: the newest frame, as it came. Nothing is interpolated between frames: that
-// would show each of them one frame later, and a hand feels that.
+// 3-D view of the live run. Draws the newest frame without interpolation, which would delay it by one frame.
 import { element } from '../ui/dom';
 import type { Part } from './painter';
+import type { Overlays } from './view_options';
 import { Stage } from './stage';
 import { type Frame, labelText, placeOf, type SceneMessage } from '../source/link';
 import { MeshStore } from '../source/meshes';
 
-const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // around what is selected: the accent
-const FINE = new URLSearchParams(location.search).has('fine'); // for pictures, at any cost
+const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // outline of the selected body: the accent colour
+const FINE = new URLSearchParams(location.search).has('fine'); // full detail, for screenshots
 const SHADOWS_AFTER = 300; // [ms]
 const NO_DATA = { meshes: [], textures: [] };
 
 export class LiveStage {
-  stage: Stage | null = null; // before the first scene, and where a browser cannot draw: none
+  stage: Stage | null = null; // null: before the first scene, or without WebGL
   private readonly gl = webGl(); // null: none
   private readonly isSlow = this.gl !== null && isSoftware(this.gl) && !FINE;
   readonly canDraw = this.gl !== null;
   private readonly store = new MeshStore();
   private readonly tag = element('div.tag', { hidden: '' });
   private scene: SceneMessage | null = null;
-  private meshes = 0; // that the stage has
+  private meshes = 0; // of the stage
   private textures = 0;
   private isSeen = false;
   private dark = false;
@@ -29,13 +29,13 @@ export class LiveStage {
     handles.append(this.tag);
   }
 
-  // A scene of the same number has more of everything, and nothing else.
+  // A scene with the same number only adds meshes, layers and channels.
   async show(scene: SceneMessage): Promise<void> {
     const before = this.scene;
     this.scene = scene;
     if (!this.canDraw) return;
     if (!this.stage) {
-      // A context costs a tenth of a second there: the one that was asked is drawn with.
+      // Creating a context takes 0.1 s in software: the probed one is used.
       const plain = this.isSlow ? this.gl : null;
       this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, plain);
       if (!plain) this.gl!.getExtension('WEBGL_lose_context')?.loseContext();
@@ -50,7 +50,7 @@ export class LiveStage {
       this.store.get(scene.meshes),
       this.store.images(scene.textures),
     ]);
-    if (this.scene !== scene) return; // another one has come meanwhile
+    if (this.scene !== scene) return; // replaced meanwhile
     this.stage.add(meshes.slice(this.meshes), textures.slice(this.textures));
     this.meshes = meshes.length;
     this.textures = textures.length;
@@ -67,14 +67,14 @@ export class LiveStage {
     return this.scene !== null && this.meshes === this.scene.meshes.length;
   }
 
-  // `shown`: names of layers. `selected`, `followed`: bodies.
-  paint(frame: Frame, shown: Set<string>, selected: number | null, followed: number | null): void {
+  // `selected`, `followed`: bodies.
+  paint(frame: Frame, overlays: Overlays, selected: number | null, followed: number | null): void {
     const { stage, scene } = this;
     if (!stage || !scene) return;
     if (followed !== null) stage.follow(placeOf(frame.link, followed));
     const parts: Part[] = [];
     scene.layers.forEach(({ name }, l) => {
-      if (l >= frame.layers || !(l === 0 || shown.has(name))) return;
+      if (l >= frame.layers || !overlays.isShown(name)) return;
       parts.push({ columns: frame, a: l, b: l, share: 0, shadow: l === 0 });
     });
     const marked = [...parts];
@@ -92,7 +92,7 @@ export class LiveStage {
     this.paintTag(stage, frame, selected);
   }
 
-  // The page is too slow for what comes. Without a graphics card it helps little.
+  // Called when drawing is too slow. No effect without a graphics card.
   coarsen(): void {
     if (!this.isSlow && !FINE) this.stage?.coarsen();
   }
@@ -104,10 +104,10 @@ export class LiveStage {
     const columns = { first, text: this.numbers, position, offset };
     const texts = Array.from({ length: count }, (_, i) => labelText(frame, i));
     const layers = count > 0 ? parts.map(({ a }) => ({ columns, frame: a })) : [];
-    stage.labels.paint(stage, texts, layers);
+    stage.labels.paint(stage.project, texts, layers);
   }
 
-  // The name of what is selected, beside it.
+  // Name of the selected body.
   private paintTag(stage: Stage, frame: Frame, body: number | null): void {
     const place = body === null ? null : placeOf(frame.link, body);
     const at = place && stage.project(...place);
@@ -120,11 +120,11 @@ export class LiveStage {
 }
 
 function webGl(): WebGL2RenderingContext | null {
-  if (new URLSearchParams(location.search).has('plain')) return null; // asked to do without
+  if (new URLSearchParams(location.search).has('plain')) return null; // for tests
   return document.createElement('canvas').getContext('webgl2', { antialias: false });
 }
 
-// A program draws in the place of a graphics card.
+// Rendering without a graphics card.
 function isSoftware(gl: WebGL2RenderingContext): boolean {
   const names = gl.getExtension('WEBGL_debug_renderer_info');
   const name = names ? String(gl.getParameter(names.UNMASKED_RENDERER_WEBGL)) : '';
@@ -133,13 +133,12 @@ function isSoftware(gl: WebGL2RenderingContext): boolean {
 
 const EVERY = 200; // [ms]
 const NO_WEBGL =
-  'This browser cannot draw in three dimensions (WebGL): the program draws, five pictures a ' +
-  'second, from one side. Keys move the hand all the same.';
+  'WebGL is unavailable: showing images rendered by the server, 5 per second, from a fixed view. The ' +
+  'keyboard still moves the robot.';
 
-// Where a browser cannot draw: the program's own picture, five times a second. Never more than one
-// on its way.
+// Without WebGL: images rendered by the server. At most one request at a time.
 export class Picture {
-  private readonly image = element('img', { alt: 'the robot, drawn by the program' });
+  private readonly image = element('img', { alt: 'the robot, rendered by the server' });
   readonly root = element('figure.picture', this.image, element('figcaption', NO_WEBGL));
   private asked = 0;
   private loading = false;

@@ -1,26 +1,25 @@
-// A draw list painted by three.js: entries with the same mesh and surface are one instanced mesh.
-// A live frame is a part too: its columns, with layers in the place of frames.
+// Draws a draw list with three.js: entries with the same mesh and surface form one instanced mesh.
 import * as THREE from 'three';
 import type { InstanceColumns, MeshData } from '../protocol/run';
 import {
-  Batch, ghostMaterials, hiddenMaterials, ORDER, outlineMaterials, solidMaterial, type SurfaceOf,
+  Batch, translucentMaterials, hiddenMaterials, ORDER, outlineMaterials, solidMaterial, type SurfaceOf,
 } from './surfaces';
 
-// Frames a and b of one layer, and how far between the two.
+// Frames a and b of one layer, interpolated by `share`. A live frame has layers in the place of frames.
 export interface Part {
   columns: InstanceColumns;
   a: number;
   b: number;
   share: number;
-  alpha?: number; // 0 to 255, in the place of that of the entries
-  shadow?: boolean; // whether its entries throw one
-  // Instead of the entries a line around those that are meant, in this colour.
+  alpha?: number; // 0 to 255, overrides that of the entries
+  shadow?: boolean; // casts shadows
+  // Draws only an outline, of the entries for which `of` is true.
   outline?: { color: THREE.ColorRepresentation; of: (entry: number) => boolean };
 }
 
 const SEEN_THROUGH = 1;
-// How an entry is drawn: with a shadow, without, over what hides it, translucent, as a line around.
-const [BODY, SOLID, HIDDEN, GHOST, OUTLINE] = [0, 1, 2, 3, 4];
+// Kinds of entries: with shadow, without, drawn over what hides it, translucent, outline.
+const [BODY, SOLID, HIDDEN, TRANSLUCENT, OUTLINE] = [0, 1, 2, 3, 4];
 const KINDS = 5;
 
 function geometryOf(mesh: MeshData): THREE.BufferGeometry {
@@ -32,7 +31,7 @@ function geometryOf(mesh: MeshData): THREE.BufferGeometry {
   return geometry;
 }
 
-// Rows run down, as they do in an ImageBitmap; a place outside wraps round.
+// Rows run downwards, as in an ImageBitmap.
 function textureOf(image: ImageBitmap): THREE.Texture {
   const texture = new THREE.Texture(image);
   texture.flipY = false;
@@ -43,16 +42,16 @@ function textureOf(image: ImageBitmap): THREE.Texture {
   return texture;
 }
 
-// A point of a contact is a ball of few pixels: a hundred of them would cost as much as all robots.
+// A coarse sphere in place of a unit sphere: contact points cover few pixels, but there may be a hundred.
 function coarser(mesh: MeshData, fine: THREE.BufferGeometry): THREE.BufferGeometry {
   const p = mesh.position;
   if (mesh.index.length < 3 * 500) return fine;
   for (let i = 0; i < p.length; i += 3)
-    if (Math.abs(Math.hypot(p[i], p[i + 1], p[i + 2]) - 1) > 1e-3) return fine; // no unit ball
+    if (Math.abs(Math.hypot(p[i], p[i + 1], p[i + 2]) - 1) > 1e-3) return fine; // not a unit sphere
   return new THREE.SphereGeometry(1, 14, 9);
 }
 
-// What entries have in common that one batch draws.
+// Common properties of the entries of a batch.
 interface Look {
   mesh: number;
   isSmall: boolean; // drawn coarsely
@@ -62,7 +61,6 @@ interface Look {
   texture: number; // as in the columns
 }
 
-// Where an entry stands.
 export class Pose {
   readonly position = new THREE.Vector3();
   readonly turn = new THREE.Quaternion();
@@ -97,11 +95,11 @@ export class Painter {
 
   constructor(
     private readonly scene: THREE.Scene,
-    private readonly small: number, // size of what is drawn coarsely
+    private readonly small: number, // entries up to this size are drawn coarsely
     private readonly surface: SurfaceOf,
   ) {}
 
-  // Behind those that it has.
+  // Appends.
   add(meshes: MeshData[], textures: ImageBitmap[]): void {
     for (const mesh of meshes) {
       const fine = geometryOf(mesh);
@@ -112,7 +110,7 @@ export class Painter {
     this.textures.push(...textures.map(textureOf));
   }
 
-  // Nothing of it stays, in the scene or in the graphics card.
+  // Frees all GPU memory.
   remove(): void {
     for (const batch of this.batches.values()) batch.remove();
     for (const made of [...this.geometries, ...this.coarse, ...this.textures]) made.dispose();
@@ -129,7 +127,7 @@ export class Painter {
     const from = columns.first[a];
     const to = columns.first[a + 1];
     const other = columns.first[b];
-    // Between two frames only where both have the same entries.
+    // Interpolated only if both frames have the same entries.
     let between = share > 0 && columns.first[b + 1] - other === to - from;
     for (let i = 0; between && i < to - from; ++i)
       between = columns.mesh[from + i] === columns.mesh[other + i];
@@ -152,10 +150,9 @@ export class Painter {
     const { x, y, z } = this.pose.scale;
     const isSmall = Math.max(x, y, z) < this.small;
     const mesh = columns.mesh[i];
-    if (mesh >= this.meshes.length) return; // it has not come yet
+    if (mesh >= this.meshes.length) return; // not loaded yet
     const shininess = columns.shininess[i];
-    const kind = alpha < 255 ? GHOST : shadow ? BODY : SOLID;
-    // A ghost shows no texture.
+    const kind = alpha < 255 ? TRANSLUCENT : shadow ? BODY : SOLID;
     const texture = alpha < 255 ? 0 : columns.texture[i];
     const look = { mesh, isSmall, alpha, shininess, kind, texture };
     this.batch(look).add(this.matrix, this.color);
@@ -188,7 +185,7 @@ export class Painter {
     if (kind === OUTLINE) return outlineMaterials();
     const surface = this.surface(shininess / 255);
     if (kind === HIDDEN) return hiddenMaterials(surface, alpha / 255);
-    if (kind === GHOST) return ghostMaterials(surface, alpha / 255);
+    if (kind === TRANSLUCENT) return translucentMaterials(surface, alpha / 255);
     const { uv, twoSided } = this.meshes[mesh];
     const map = texture > 0 && uv.length > 0 ? (this.textures[texture - 1] ?? null) : null;
     const material = solidMaterial(surface, map, twoSided);

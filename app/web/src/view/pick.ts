@@ -1,4 +1,4 @@
-// What lies under a point of the view: the nearest entry of a layer that belongs to a body.
+// Ray casting: the nearest entry of a layer under a point of the view.
 import * as THREE from 'three';
 import { Pose } from './painter';
 import type { Pixel, Stage } from './stage';
@@ -17,7 +17,7 @@ const probe = new THREE.Mesh<THREE.BufferGeometry, THREE.MeshBasicMaterial>(
 );
 const pose = new Pose();
 
-// The ray through a point of the view, in pixels from its upper left.
+// The ray through a point of the view.
 export function rayAt(stage: Stage, { x, y }: Pixel): THREE.Ray {
   const { clientWidth, clientHeight } = stage.host;
   const at = new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight);
@@ -25,7 +25,7 @@ export function rayAt(stage: Stage, { x, y }: Pixel): THREE.Ray {
   return ray.ray.clone();
 }
 
-// Cost: one test of a ball for each entry, and of triangles for those that the ray comes near.
+// Cost: a bounding-sphere test per entry, triangle tests for those hit.
 export function pick(stage: Stage, frame: Frame, layer: number, at: Pixel): Hit | null {
   if (layer >= frame.layers) return null;
   rayAt(stage, at);

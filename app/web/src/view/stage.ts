@@ -1,18 +1,18 @@
-// The 3-D view: light, floor, camera, and the draw list of the moment.
+// 3-D view: lights, ground, camera and the current draw list.
 import './stage.css';
 import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import type { MeshData, View } from '../protocol/run';
 import { Arrows } from './arrows';
 import { Ground } from './ground';
-import { Labels } from './labels';
+import { Labels, type Pixel } from './labels';
 import { glossy, plainly } from './surfaces';
 import { Painter, type Part } from './painter';
 
-export type Pixel = { x: number; y: number };
+export type { Pixel };
 export type ViewName = 'start' | 'front' | 'side' | 'top' | 'iso';
 
-// From the target to the eye. Top: x to the right, y up.
+// From target to eye. Top: x to the right, y up.
 const DIRECTIONS: Record<Exclude<ViewName, 'start'>, [number, number, number]> = {
   front: [0, -1, 0.07],
   side: [1, 0, 0.07],
@@ -20,8 +20,7 @@ const DIRECTIONS: Record<Exclude<ViewName, 'start'>, [number, number, number]> =
   iso: [1, -1, 0.82],
 };
 
-// The painter's studio: from the bottom to the top by a smooth step, mixed as light mixes. At night
-// with a fifth of the light.
+// Background as in pictures of `twinarm render`: a smooth step from bottom to top, mixed in linear light.
 function backdrop(view: View, dark: boolean): string {
   const light = dark ? 0.05 : 1;
   const encode = new THREE.Color();
@@ -35,7 +34,7 @@ function backdrop(view: View, dark: boolean): string {
   return `linear-gradient(to top, ${stops.join(', ')})`;
 }
 
-// What a slow machine saves: pixels, and those of the shadows. From fine to coarse.
+// Levels of detail: device pixel ratio, size of the shadow map.
 const DETAILS = [{ pixels: 2, shadow: 2048 }, { pixels: 1, shadow: 1024 }, { pixels: 0.75, shadow: 512 }];
 
 export class Stage {
@@ -59,7 +58,7 @@ export class Stage {
     private view: View,
     data: { meshes: MeshData[]; textures: ImageBitmap[] },
     private readonly changed: () => void,
-    // Without a graphics card: drawn plainly, with this.
+    // Context of a software renderer: drawn without gloss.
     plain: WebGL2RenderingContext | null = null,
   ) {
     const canvas = plain?.canvas as HTMLCanvasElement | undefined;
@@ -70,12 +69,12 @@ export class Stage {
       ...(plain ? { canvas, context: plain } : {}),
     });
     if (plain) this.detail = DETAILS.length - 1;
-    this.hasShadows = plain === null; // else after the first picture
+    this.hasShadows = plain === null; // else from the first picture on
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     const { domElement } = this.renderer;
     domElement.setAttribute('role', 'img');
-    domElement.setAttribute('aria-label', 'the robot, to be turned, moved and zoomed');
+    domElement.setAttribute('aria-label', '3-D view of the robot');
     host.prepend(domElement, this.labels.root);
 
     this.camera.up.set(0, 0, 1);
@@ -89,7 +88,7 @@ export class Stage {
     this.resize();
   }
 
-  // Another run, without its meshes; the camera stays where it is.
+  // Another run, without its meshes; keeps the camera.
   refurnish(view: View): void {
     this.painter.remove();
     this.ground.remove();
@@ -97,12 +96,12 @@ export class Stage {
     this.furnish(view);
   }
 
-  // Behind the meshes that it has.
+  // Appends to the meshes.
   add(meshes: MeshData[], textures: ImageBitmap[]): void {
     this.painter.add(meshes, textures);
   }
 
-  // They need shaders of their own, which a slow machine makes when there is something to see.
+  // Later on slow machines, which take time to compile the shadow shaders.
   addShadows(): void {
     if (this.hasShadows) return;
     this.hasShadows = this.sun.castShadow = true;
@@ -110,16 +109,15 @@ export class Stage {
     this.changed();
   }
 
-  // Draws less finely from now on; false: it does already.
-  coarsen(): boolean {
-    if (this.detail === DETAILS.length - 1) return false;
+  // To the next coarser level of detail.
+  coarsen(): void {
+    if (this.detail === DETAILS.length - 1) return;
     this.detail += 1;
     const { shadow } = this.sun;
     shadow.mapSize.setScalar(DETAILS[this.detail].shadow);
     shadow.map?.dispose();
     shadow.map = null;
     this.resize();
-    return true;
   }
 
   get geometries(): THREE.BufferGeometry[] {
@@ -141,7 +139,6 @@ export class Stage {
     this.painter = new Painter(this.scene, 0.03 * view.radius, this.isPlain ? plainly : glossy);
   }
 
-  // Nothing is drawn before draw().
   paint(parts: Part[]): void {
     this.painter.paint(parts);
   }
@@ -175,7 +172,7 @@ export class Stage {
     this.controls.update();
   }
 
-  // Radians about the target; a factor of the distance.
+  // Rotates about the target by angles [rad] and scales the distance.
   orbit(around: number, up: number, closer: number): void {
     const offset = this.camera.position.clone().sub(this.controls.target);
     const length = offset.length() * closer;
@@ -193,13 +190,13 @@ export class Stage {
     this.controls.update();
   }
 
-  // Pixels from the upper left of the view; null: behind the camera.
-  project(x: number, y: number, z: number): Pixel | null {
+  // World to pixels from the upper left of the view; null: behind the camera.
+  readonly project = (x: number, y: number, z: number): Pixel | null => {
     const p = new THREE.Vector3(x, y, z).project(this.camera);
     if (p.z > 1 || p.z < -1) return null;
     const { clientWidth, clientHeight } = this.host;
     return { x: (0.5 + 0.5 * p.x) * clientWidth, y: (0.5 - 0.5 * p.y) * clientHeight };
-  }
+  };
 
   setTheme(dark: boolean): void {
     this.host.style.background = backdrop(this.view, dark);
@@ -227,17 +224,15 @@ export class Stage {
     box.updateProjectionMatrix();
   }
 
-  // To the room that it has; the middle of the picture is that of what the switches leave free.
+  // Fits the host.
   resize(): void {
     const { clientWidth, clientHeight } = this.host;
-    // Laid out for paper it has the legend below it, and its picture already.
+    // While printing, the layout has another size.
     if (clientWidth === 0 || clientHeight === 0 || matchMedia('print').matches) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, DETAILS[this.detail].pixels));
     this.renderer.setSize(clientWidth, clientHeight);
     this.camera.aspect = clientWidth / clientHeight;
-    const covered = this.host.querySelector<HTMLElement>('.switches')?.offsetWidth ?? 0;
-    const shift = clientWidth > 4 * covered ? -0.5 * covered : 0;
-    this.camera.setViewOffset(clientWidth, clientHeight, shift, 0, clientWidth, clientHeight);
+    this.camera.updateProjectionMatrix();
     this.changed();
   }
 }

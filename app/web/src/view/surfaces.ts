@@ -1,9 +1,9 @@
-// Materials of surfaces, their drawing order, and batches of instances.
+// Surface materials, their drawing order, and batches of instances.
 import * as THREE from 'three';
 
-export const ORDER = { solid: 0, outline: 1, hidden: 5, ghostDepth: 6, ghost: 7 };
+export const ORDER = { solid: 0, outline: 1, hidden: 5, translucentDepth: 6, translucent: 7 };
 
-// Plain: without gloss, a third of the work for a processor that draws by itself.
+// Plain: without gloss, a third of the work of a software renderer.
 export type Surface = THREE.MeshStandardMaterial | THREE.MeshLambertMaterial;
 export type SurfaceOf = (shininess: number) => Surface;
 export const glossy: SurfaceOf = (shininess) =>
@@ -16,19 +16,19 @@ export function solidMaterial(material: Surface, map: THREE.Texture | null, twoS
   return material;
 }
 
-// Depth first, then colour where nearest: a shell shows one surface and not its inside. Both are
-// pushed back a little: a ghost in the place of a body vanishes instead of flickering.
-export function ghostMaterials(color: Surface, alpha: number) {
+// Depth first, then colour at the nearest surface: the inside of a shell is not visible. Both have a depth
+// offset, so that a translucent body at the place of a solid one does not flicker.
+export function translucentMaterials(color: Surface, alpha: number) {
   const pushed = { polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 };
   const depth = new THREE.MeshBasicMaterial({ colorWrite: false, transparent: true, ...pushed });
   color.setValues({ transparent: true, opacity: alpha, depthWrite: false, ...pushed });
   return [
-    { material: depth, order: ORDER.ghostDepth, shadow: false },
-    { material: color, order: ORDER.ghost, shadow: false },
+    { material: depth, order: ORDER.translucentDepth, shadow: false },
+    { material: color, order: ORDER.translucent, shadow: false },
   ];
 }
 
-// What lies behind bodies, laid over them.
+// Parts behind bodies, drawn over them.
 export function hiddenMaterials(color: Surface, alpha: number) {
   color.setValues({
     transparent: true,
@@ -39,7 +39,7 @@ export function hiddenMaterials(color: Surface, alpha: number) {
   return [{ material: color, order: ORDER.hidden, shadow: false }];
 }
 
-// The back of a hull that is wider by a few pixels at any distance: of it only the rim is seen.
+// Back faces of a hull offset by a few pixels at any distance; only its rim is visible.
 const WIDER = `
 vec3 lengths = vec3(dot(instanceMatrix[0], instanceMatrix[0]),
   dot(instanceMatrix[1], instanceMatrix[1]), dot(instanceMatrix[2], instanceMatrix[2]));
@@ -56,7 +56,7 @@ export function outlineMaterials() {
   return [{ material, order: ORDER.outline, shadow: false }];
 }
 
-// Instances of one mesh and one surface.
+// Instances of one mesh with one surface.
 export class Batch {
   readonly meshes: THREE.InstancedMesh[] = [];
   count = 0;

@@ -1,97 +1,36 @@
-// Layers that are shown, what their colours mean, and views of the camera.
+// Overlay switches, legend, and views of the camera.
 import type { Layer } from '../protocol/run';
 import { button, changeDetector, element, icon, option } from '../ui/dom';
-import type { SceneBody, SceneMessage } from '../source/link';
-import { remember, remembered } from '../ui/preferences';
+import type { SceneBody } from '../source/link';
 import type { ViewName } from './stage';
 
-type LayerHead = Pick<Layer, 'name' | 'what' | 'shown' | 'legend'>;
+type LayerHead = Pick<Layer, 'name' | 'what' | 'legend'>;
 
-export class LayerChoice<L extends LayerHead = Layer> {
-  readonly switches = element('fieldset.switches', element('legend', 'Show'));
-  readonly legend = element('ul.legend', { 'aria-label': 'what the colours mean' });
-  private readonly boxes = new Map<string, HTMLInputElement>();
-
-  constructor(private readonly layers: L[], private readonly changed: () => void) {
-    // The bodies themselves are always there; what never has an entry needs no switch.
-    const choice = layers.filter((layer) => layer.name !== 'bodies' && mayHaveEntries(layer));
-    choice.forEach((layer, i) => this.addSwitch(layer, i < 9 ? String(i + 1) : ''));
-    this.fillLegend();
-  }
-
-  get shown(): L[] {
-    return this.layers.filter((layer) => layer.name === 'bodies' || layer.shown);
-  }
-
-  set(name: string, shown: boolean): void {
-    const layer = this.layers.find((l) => l.name === name);
-    const box = this.boxes.get(name);
-    if (!layer || !box) return;
-    layer.shown = box.checked = shown;
-    this.fillLegend();
-    this.changed();
-  }
-
-  toggleNumber(number: number): void {
-    const name = [...this.boxes.keys()][number - 1];
-    if (name) this.set(name, !this.boxes.get(name)!.checked);
-  }
-
-  private addSwitch(layer: LayerHead, key: string): void {
-    const box = element('input', { type: 'checkbox', 'data-layer': layer.name });
-    box.checked = layer.shown;
-    box.addEventListener('change', () => this.set(layer.name, box.checked));
-    this.boxes.set(layer.name, box);
-    const words = element('span', layer.name);
-    const label = element('label', { title: layer.what }, box, words);
-    if (key) label.append(element('kbd', key));
-    this.switches.append(label);
-  }
-
-  // After what the colours mean has changed.
-  fillLegend(): void {
-    this.legend.replaceChildren();
-    for (const layer of this.shown)
-      for (const line of layer.legend) {
-        const swatch = element('i');
-        swatch.style.background = `rgb(${line.color.join(' ')})`;
-        this.legend.append(element('li', swatch, line.text));
-      }
-    this.legend.hidden = this.legend.childElementCount === 0;
-  }
-}
-
-// What is still to come has no columns yet.
-function mayHaveEntries(layer: LayerHead): boolean {
-  const { instances, labels } = layer as Partial<Layer>;
-  if (!instances || !labels) return true;
-  return instances.mesh.length > 0 || labels.text.length > 0;
-}
-
-const AT_FIRST = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
-type Head = SceneMessage['layers'][number] & { shown: boolean };
-
-// Which overlays are shown: chosen once, kept for all scenes, and told to the lab, which sends no
-// others. Folded away until wanted: there are many of them.
 export class Overlays {
-  readonly root = element('div.overlays');
-  readonly legend = element('div');
-  readonly shown = new Set(remembered<string[]>('layers', AT_FIRST)); // of other scenes too
-  private choice: LayerChoice<Head> | null = null;
+  readonly legend = element('ul.legend', { 'aria-label': 'legend' });
+  private readonly list = element('div.switches', { role: 'group', 'aria-label': 'overlays', hidden: '' });
   private readonly toggle: HTMLButtonElement;
-  private readonly list = element('div.list', { hidden: '' });
-  private readonly areNew = changeDetector(); // names of layers
-  private heads: Head[] = [];
+  readonly root: HTMLElement;
+  private readonly areNew = changeDetector(); // layer names
+  private layers: LayerHead[] = [];
 
-  constructor(private readonly changed: () => void) {
-    this.toggle = button(icon('layers'), 'what is shown (o)', () => this.fold(!this.list.hidden));
+  // `shown`: layer names, also of other scenes. `hasNumbers`: keys 1 to 9 toggle them.
+  constructor(
+    private readonly shown: Set<string>,
+    private readonly changed: () => void,
+    readonly hasNumbers = true,
+  ) {
+    this.toggle = button(icon('layers'), 'overlays (o)', () => this.fold(!this.list.hidden));
     this.toggle.append(' Show');
-    this.toggle.setAttribute('aria-expanded', 'false');
-    this.root.append(this.toggle, this.list);
+    this.root = element('div.corner', element('div.overlays', this.toggle, this.list), this.legend);
+    this.fold(true);
   }
 
   get names(): string[] {
     return ['bodies', ...this.shown];
+  }
+  isShown(name: string): boolean {
+    return name === 'bodies' || this.shown.has(name);
   }
 
   fold(folded: boolean): void {
@@ -103,48 +42,63 @@ export class Overlays {
     return this.list.hidden;
   }
 
-  show(scene: SceneMessage): void {
-    if (!this.areNew(scene.layers.map(({ name }) => name))) {
-      // What the colours mean changes on the way: scales of arrows grow.
-      scene.layers.forEach(({ legend }, l) => (this.heads[l].legend = legend));
-      this.choice?.fillLegend();
-      return;
-    }
-    this.heads = scene.layers.map((layer) => ({ ...layer, shown: this.shown.has(layer.name) }));
-    this.choice = new LayerChoice<Head>(this.heads, () => this.take());
-    this.list.replaceChildren(this.choice.switches);
-    this.legend.replaceChildren(this.choice.legend);
+  show(layers: LayerHead[]): void {
+    this.layers = layers;
+    const overlays = layers.filter(({ name }) => name !== 'bodies');
+    if (this.areNew(overlays.map(({ name }) => name)))
+      this.list.replaceChildren(...overlays.map((layer, i) => this.line(layer, i + 1)));
+    this.showLegend();
+  }
+
+  set(name: string, shown: boolean): void {
+    if (this.shown.has(name) !== shown) this.list.querySelector<HTMLElement>(`[data-layer="${name}"]`)?.click();
   }
 
   toggleNumber(number: number): void {
-    this.choice?.toggleNumber(number);
+    this.list.querySelectorAll('input')[number - 1]?.click();
   }
 
-  private take(): void {
-    for (const { name, shown } of this.heads)
-      if (shown) this.shown.add(name);
+  private line({ name, what }: LayerHead, number: number): HTMLElement {
+    const box = element('input', { type: 'checkbox', 'data-layer': name });
+    box.checked = this.shown.has(name);
+    box.addEventListener('change', () => {
+      if (box.checked) this.shown.add(name);
       else this.shown.delete(name);
-    this.shown.delete('bodies');
-    remember('layers', [...this.shown]);
-    this.changed();
+      this.showLegend();
+      this.changed();
+    });
+    const key = this.hasNumbers && number < 10 ? [element('kbd', String(number))] : [];
+    return element('label', { title: what }, box, element('span', name), ...key);
+  }
+
+  // Legends change during a run: scales of arrows grow.
+  private showLegend(): void {
+    const lines = this.layers.filter(({ name }) => this.isShown(name)).flatMap(({ legend }) => legend);
+    const items = lines.map(({ color, text }) => {
+      const swatch = element('i');
+      swatch.style.background = `rgb(${color.join(' ')})`;
+      return element('li', swatch, text);
+    });
+    this.legend.replaceChildren(...items);
+    this.legend.hidden = lines.length === 0;
   }
 }
 
 const NAMES: ViewName[] = ['start', 'front', 'side', 'top', 'iso'];
 
-// From where the robot is seen, and what the camera goes along with.
+// View directions, and the body that the camera follows.
 export class Views {
   readonly root = element('div.views');
-  private readonly follows = element('select', { title: 'what the camera follows (f)', 'aria-label': 'camera' });
+  private readonly follows = element('select', { title: 'body to follow (f)', 'aria-label': 'camera' });
   private readonly areNew = changeDetector(); // bodies
 
   constructor(look: (name: ViewName) => void, private readonly changed: () => void) {
     const views = NAMES.map((name) => {
-      const [words, title] = name === 'start' ? ['fit', 'all in view (r)'] : [name, `from: ${name} (v)`];
-      return button(words, title, () => look(name));
+      const [label, title] = name === 'start' ? ['fit', 'reset the view (r)'] : [name, `${name} view (v)`];
+      return button(label, title, () => look(name));
     });
     this.root.append(...views, this.follows);
-    this.follows.hidden = true; // until it is known what it may follow
+    this.follows.hidden = true; // until the bodies are known
     this.follows.addEventListener('change', changed);
   }
 
@@ -160,11 +114,11 @@ export class Views {
     const moving = bodies.flatMap(({ name, moves }, i) => (moves ? [{ name, i }] : []));
     if (!this.areNew(moving)) return;
     this.follows.hidden = false;
-    const others = moving.map(({ name, i }) => option(i, `on ${name}`));
+    const others = moving.map(({ name, i }) => option(i, `follow ${name}`));
     this.follows.replaceChildren(option('', 'camera: free'), ...others);
   }
 
-  // The selected one, else the next; then free again.
+  // The selected body, else the next one; then free again.
   next(selected: number | null): void {
     if (selected !== null && this.body !== selected) this.body = selected;
     else {

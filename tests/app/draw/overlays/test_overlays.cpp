@@ -1,4 +1,4 @@
-// What overlays put into the list, against the shapes and forces that they stand for.
+// Overlays against the shapes and forces that they represent.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,6 +9,14 @@
 
 namespace twinarm {
 namespace {
+
+const char* const kBall = R"(
+[[body]]
+name = "ball"
+shape = { sphere = { radius = 0.4 } }
+mass = 1
+position = [0, 0, 0.4]
+)";
 
 SceneView stage_at(const SceneModel& scene, const Snapshot& moment) {
   SceneView stage = make_stage(scene);
@@ -27,7 +35,7 @@ std::vector<Instance> instances_of(SceneView& stage, const Snapshot& moment, con
           stage.list.instances.end()};
 }
 
-TEST_CASE("inertia: the ellipsoid of a uniform ellipsoid is that ellipsoid") {
+TEST_CASE("inertia: the inertia ellipsoid of a uniform ellipsoid is that ellipsoid") {
   const SceneModel scene = built(R"(
 [[body]]
 name = "stone"
@@ -49,7 +57,7 @@ orientation = [0.5, 0.5, 0.5, 0.5]
   CHECK(close(quadric(found[0].X_WM, found[0].scale), expected, 1e-9));
 }
 
-TEST_CASE("forces: of a pair the points add up, at their centre of pressure") {
+TEST_CASE("forces: the resultant of a pair acts at its centre of pressure") {
   const SceneModel scene = built(R"(
 [[body]]
 name = "floor"
@@ -82,13 +90,8 @@ position = [0, 0, 1]
   CHECK(length < 0.6 * stage.scales.length);
 }
 
-TEST_CASE("overlays: each leaves a moment without contacts, couplings or motion in peace") {
-  const SceneModel scene = built(R"(
-[[body]]
-name = "ball"
-shape = { sphere = { radius = 0.1 } }
-mass = 1
-)");
+TEST_CASE("overlays: each one accepts a snapshot without contacts, couplings or motion") {
+  const SceneModel scene = built(kBall);
   const Snapshot moment = moment_of(scene.model, scene.start);
   SceneView stage = stage_at(scene, moment);
   for (const Overlay& overlay : all_overlays()) {
@@ -100,14 +103,8 @@ mass = 1
   }
 }
 
-TEST_CASE("device: its stylus is where the hand's angles put it, beside all that is seen") {
-  const SceneModel scene = built(R"(
-[[body]]
-name = "ball"
-shape = { sphere = { radius = 0.4 } }
-mass = 1
-position = [0, 0, 0.4]
-)");
+TEST_CASE("device: the stylus is at its forward kinematics, beside the scene") {
+  const SceneModel scene = built(kBall);
   Snapshot moment = moment_of(scene.model, scene.start);
   SceneView none = stage_at(scene, moment);
   CHECK(instances_of(none, moment, "device").empty());
@@ -120,11 +117,11 @@ position = [0, 0, 0.4]
     for (const Instance& part : found) CHECK(part.X_WM.p.x() < -0.4);
     for (const Instance& part : found)
       if (part.scale.isApproxToConstant(0.013)) return part.X_WM.p;
-    FAIL("no ball where the stylus' joints meet");
+    FAIL("no sphere at the stylus joints");
     return Vector3(0, 0, 0);
   };
-  // Half a right angle of the waist, at a lever of L1 = 133.35 mm: to the left and away from the
-  // user, who sits at -y; half a right angle of the arm lifts the point by both links.
+  // 45 degrees of the waist at L1 = 133.35 mm: to the left and away from the user at -y; 45 degrees
+  // of the arm lift the point by both links.
   constexpr double L = 0.13335, half = 0.7853981633974483, s = 0.7071067811865476;
   const Vector3 rest = ball_of_stylus({});
   CHECK((ball_of_stylus({half, 0, 0, 1, 1, 1}) - rest - L * Vector3(-s, 1 - s, 0)).norm() < 1e-6);
@@ -132,7 +129,7 @@ position = [0, 0, 0.4]
         1e-6);
 }
 
-TEST_CASE("overlays: all misspelt names are told at once") {
+TEST_CASE("overlays: all misspelt names are reported") {
   const std::vector<Diagnostic> faults = faults_of([] { parse_overlays("forces,contcts,sprngs"); });
   REQUIRE(faults.size() == 2);
   CHECK(faults[0].fix.find("contacts") != std::string::npos);
@@ -141,12 +138,13 @@ TEST_CASE("overlays: all misspelt names are told at once") {
   CHECK(parse_overlays("forces,contacts") == std::vector<std::string>{"forces", "contacts"});
 }
 
-TEST_CASE("units: three digits and the prefix that fits") {
-  CHECK(with_unit(0, "N") == "0 N");
-  CHECK(with_unit(9.81, "N") == "9.81 N");
-  CHECK(with_unit(98.1, "N") == "98.1 N");
-  CHECK(with_unit(4567, "N") == "4.57 kN");
-  CHECK(with_unit(999.9, "N") == "1 kN");
+TEST_CASE("units: three digits with a unit prefix") {
+  for (const auto& [newtons, text] : {std::pair{0.0, "0 N"},
+                                      {9.81, "9.81 N"},
+                                      {98.1, "98.1 N"},
+                                      {4567, "4.57 kN"},
+                                      {999.9, "1 kN"}})
+    CHECK(with_unit(newtons, "N") == text);
   CHECK(with_unit(-0.00123, "J") == "-1.23 mJ");
   CHECK(with_unit(0.0123, "N m") == "0.0123 N m");
 }
@@ -163,7 +161,7 @@ Vector3 lab_of(const Vector3& rgb) {
   return {116 * v.y() - 16, 500 * (v.x() - v.y()), 200 * (v.y() - v.z())};
 }
 
-TEST_CASE("palette: eyes without red or green receptors tell the first colours of bodies apart") {
+TEST_CASE("palette: body colours differ for protanopic and deuteranopic viewers") {
   // Machado, Oliveira, Fernandes (2009), full severity, on linear light.
   Matrix3 protan, deutan;
   protan << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,

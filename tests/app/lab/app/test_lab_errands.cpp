@@ -1,4 +1,4 @@
-// What the lab does for requests over HTTP beside its run: errands, and files that are uploaded.
+// What the lab does for requests over HTTP beside its run: tasks, and files that are uploaded.
 #include <doctest/doctest.h>
 
 #include <future>
@@ -11,9 +11,9 @@ namespace twinarm {
 
 TEST_CASE("errands: one that throws is reported, and the next one is done") {
   std::promise<std::string> reported, done;
-  TaskQueue errands([&](const std::string& why) { reported.set_value(why); });
-  errands.add([] { throw std::runtime_error("no room on the disk"); });
-  errands.add([&] { done.set_value("done"); });
+  TaskQueue tasks([&](const std::string& why) { reported.set_value(why); });
+  tasks.add([] { throw std::runtime_error("no room on the disk"); });
+  tasks.add([&] { done.set_value("done"); });
   CHECK(reported.get_future().get() == "no room on the disk");
   CHECK(done.get_future().get() == "done");
 }

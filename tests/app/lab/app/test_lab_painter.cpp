@@ -32,14 +32,14 @@ struct SentFrame {
 struct Painted {
   explicit Painted(const std::string& text)
       : session(built_from(text), gallery),
-        painter(session, audience, gallery,
+        painter(session, clients, gallery,
                 [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes, bool) {
                   if (client == 1)
                     take(channel, *bytes);
                   else
                     take_as_newcomer(client, channel, *bytes);
                 }) {
-    audience.opened(1);
+    clients.opened(1);
     painter.begin();
     REQUIRE(comes_true([&] { return !frames().empty(); }));
   }
@@ -65,14 +65,14 @@ struct Painted {
   void take_as_newcomer(ClientId client, MessageStreamer::Channel channel,
                         const std::string& bytes) {
     const std::lock_guard lock(mutex);
-    told_newcomers_[client].push_back(
+    newcomer_messages_[client].push_back(
         {channel, channel == MessageStreamer::frame_channel ? read(bytes).step : 0});
   }
   // Of each: what it was sent, a frame with its step.
   std::map<ClientId, std::vector<std::pair<MessageStreamer::Channel, std::uint64_t>>>
-  told_newcomers() const {
+  newcomer_messages() const {
     const std::lock_guard lock(mutex);
-    return told_newcomers_;
+    return newcomer_messages_;
   }
   std::vector<SentFrame> frames() const {
     const std::lock_guard lock(mutex);
@@ -83,7 +83,7 @@ struct Painted {
     return states_;
   }
   LabStatus status() const { return *session.shown().now().status; }
-  // Told once more, and done: all that was said before has been done then, and painted.
+  // RunSample once more, and done: all that was said before has been done then, and painted.
   void settle() {
     static int count = 0;
     const std::string text = "settled " + std::to_string(++count);
@@ -109,8 +109,8 @@ struct Painted {
   std::vector<SentFrame> frames_;
   std::size_t states_ = 0;
   std::map<ClientId, std::vector<std::pair<MessageStreamer::Channel, std::uint64_t>>>
-      told_newcomers_;
-  Clients audience;
+      newcomer_messages_;
+  Clients clients;
   LabSession session;
   MessageStreamer painter;
 };
@@ -190,7 +190,7 @@ TEST_CASE(
   lab.settle();
   CHECK(lab.frames().size() == before);
   // Another layer, which no step brings.
-  lab.audience.want_layers(1, {"bodies", "frames"});
+  lab.clients.want_layers(1, {"bodies", "frames"});
   lab.painter.look_again();
   REQUIRE(comes_true([&] { return lab.frames().size() > before; }));
   lab.settle();
@@ -206,16 +206,16 @@ TEST_CASE(
 TEST_CASE("lab painter: a newcomer is told the scene first, and each frame once") {
   Painted lab(kSlowlyDriven);
   for (ClientId client = 2; client < 60; ++client) {
-    lab.audience.opened(client);
+    lab.clients.opened(client);
     if (client % 2 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));
     lab.painter.look_again();
   }
   REQUIRE(comes_true([&] {
-    const auto told = lab.told_newcomers();
+    const auto told = lab.newcomer_messages();
     return told.size() == 58 &&
            std::ranges::all_of(told, [](const auto& entry) { return entry.second.size() > 8; });
   }));
-  for (const auto& [client, messages] : lab.told_newcomers()) {
+  for (const auto& [client, messages] : lab.newcomer_messages()) {
     CHECK(messages.front().first == MessageStreamer::scene_channel);
     std::set<std::uint64_t> steps;
     for (const auto& [channel, step] : messages)
@@ -274,7 +274,7 @@ TEST_CASE("lab session: a page that comes later is told of the hand as it is") {
   lab.session.push(said(R"({"do": "hand", "source": "device", "spec": "virtual:synthetic:4"})"));
   REQUIRE(comes_true([&] { return lab.status().hand.source == "device"; }));
   CHECK(lab.status().hand.spec == "virtual:synthetic:4");
-  const std::string message = state_message(lab.status(), lab.audience.view(), {}, {});
+  const std::string message = state_message(lab.status(), lab.clients.view(), {}, {});
   for (const char* part :
        {R"("spec": "virtual:synthetic:4")", R"("mode": "live")", R"("gripper": )"})
     CHECK(message.find(part) != std::string::npos);

@@ -35,7 +35,7 @@ std::string texts_of(const std::vector<Change>& changes) {
 }
 
 // Whatever was told of it; waits for what is being built.
-struct ToldSession {
+struct TestSession {
   const std::vector<GalleryScene> gallery{};
   LabSession session{built_from(kSlowlyDriven), gallery};
   void set(const std::string& change) {
@@ -56,7 +56,7 @@ struct ToldSession {
 
 TEST_CASE(
     "lab session: a change that is refused does not undo those that wait, nor spoil the next") {
-  ToldSession lab;
+  TestSession lab;
   lab.set("coupling.one.stiffness=30");
   lab.set("coupling.one.damping=2");
   lab.set("coupling.one.stiffness=-7");
@@ -71,7 +71,7 @@ TEST_CASE(
 }
 
 TEST_CASE("lab session: what restores the scene outlives changes before it, not those behind it") {
-  ToldSession lab;
+  TestSession lab;
   lab.set("coupling.one.stiffness=30");
   lab.session.push(parse_command(R"({"do": "restore"})"));
   lab.set("coupling.one.damping=2");
@@ -87,7 +87,7 @@ TEST_CASE("lab session: of two changes to one number the later holds, by whichev
 }
 
 TEST_CASE("lab session: a failure in the run's thread pauses the run and is shown as an error") {
-  ToldSession lab;
+  TestSession lab;
   BuildRequest order;
   const TemporaryFolder folder;
   order.file = folder.write("scene.toml", kFreeBox);
@@ -102,7 +102,7 @@ TEST_CASE("lab session: a failure in the run's thread pauses the run and is show
 TEST_CASE("lab session: an order that is replaced may ask the session in its answer") {
   std::promise<void> begun, go_on;
   std::string answer;
-  ToldSession lab;
+  TestSession lab;
   BuildRequest blocking, replaced, last;
   blocking.file = "nowhere.toml";
   blocking.done = [&](const std::string&) {
@@ -121,7 +121,7 @@ TEST_CASE("lab session: an order that is replaced may ask the session in its ans
 }
 
 TEST_CASE("lab session: of more notes than are kept the last are told") {
-  ToldSession lab;
+  TestSession lab;
   for (int n = 1; n <= 500; ++n) lab.session.note("note", "number " + std::to_string(n) + ".");
   CHECK(lab.has_note("number 500."));
   CHECK(lab.has_note("number 481."));
@@ -129,7 +129,7 @@ TEST_CASE("lab session: of more notes than are kept the last are told") {
 }
 
 TEST_CASE("lab session: what is remembered of a run begins at its start, however many steps wait") {
-  ToldSession lab;
+  TestSession lab;
   const long before = lab.session.shown().now().change_number;
   lab.session.push(parse_command(R"({"do": "step", "steps": 100000})"));
   lab.session.push(parse_command(R"({"do": "reset"})"));
@@ -143,7 +143,7 @@ TEST_CASE("lab session: what is remembered of a run begins at its start, however
 TEST_CASE("lab session: whoever opens a file is answered, also where others do at the same time") {
   std::atomic<int> answered = 0;
   {
-    ToldSession lab;
+    TestSession lab;
     for (int n = 0; n < 20; ++n) {
       BuildRequest order;
       order.file =
@@ -197,65 +197,65 @@ TEST_CASE("what a page brings is opened by what it is, kept, or refused in clear
       "\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- <sdf> -->\n<robot name=\"a\"/>";
   for (const char* name : {"arm.urdf", "arm.xml", "arm.xacro", "arm.URDF"}) {
     INFO(std::string(name));
-    const BroughtFile file = brought_file(name, robot);
+    const UploadedFile file = classify_upload(name, robot);
     CHECK(file.fault.empty());
     CHECK(file.opens);
     CHECK(file.path == "arm.urdf");
   }
-  CHECK(brought_file("s.toml", "").opens);
-  CHECK(brought_file("r.twinrec", "").opens);
+  CHECK(classify_upload("s.toml", "").opens);
+  CHECK(classify_upload("r.twinrec", "").opens);
   for (const char* name : {"a.stl", "a.OBJ", "meshes/a.dae", "wood.png"}) {
-    const BroughtFile file = brought_file(name, "");
+    const UploadedFile file = classify_upload(name, "");
     CHECK(file.fault.empty());
     CHECK_FALSE(file.opens);
     CHECK(file.path == name);
   }
   const auto said = [](const char* name, const char* bytes, const char* words) {
-    return brought_file(name, bytes).fault.find(words) != std::string::npos;
+    return classify_upload(name, bytes).fault.find(words) != std::string::npos;
   };
   CHECK(said("a.xml", "<mujoco model=\"a\">", "MJCF"));
   CHECK(said("a.xml", "<sdf version=\"1.7\">", "SDFormat"));
   CHECK(said("a.xml", "<html>", "<html>"));
-  CHECK(said("a.xml", "<!-- never ended <robot>", "no XML"));
-  CHECK(said("a.xacro", "", "no XML"));
+  CHECK(said("a.xml", "<!-- never ended <robot>", "not an XML"));
+  CHECK(said("a.xacro", "", "not an XML"));
   for (const char* name : {"junk.bin2", "photo", "a.exe", "notes.txt"})
     CHECK(said(name, "<robot>", ".urdf"));
 }
 
 TEST_CASE("the first who comes has the hand, and others get it in turn") {
-  Clients audience;
-  for (const ClientId client : {11u, 12u, 13u}) audience.opened(client);
-  CHECK(audience.has_hand(11));
-  audience.take(13);
-  audience.take(12);
-  audience.take(13);
-  audience.opened(14);
-  audience.take(14);
-  audience.closed(14);  // who asks and goes asks no more
-  CHECK(audience.view().asked == std::vector<ClientId>{13, 12});
-  CHECK_FALSE(audience.give(12, 12));  // who has none gives none
-  CHECK_FALSE(audience.give(11, 99));
-  CHECK(audience.give(11, 12));
-  CHECK(audience.has_hand(12));
-  audience.closed(12);  // the next who asked
-  CHECK(audience.has_hand(13));
-  audience.closed(13);
-  CHECK(audience.has_hand(11));  // the only one left
-  audience.closed(11);
-  CHECK(audience.view().holder == 0);
+  Clients clients;
+  for (const ClientId client : {11u, 12u, 13u}) clients.opened(client);
+  CHECK(clients.has_hand(11));
+  clients.take(13);
+  clients.take(12);
+  clients.take(13);
+  clients.opened(14);
+  clients.take(14);
+  clients.closed(14);  // who asks and goes asks no more
+  CHECK(clients.view().waiting == std::vector<ClientId>{13, 12});
+  CHECK_FALSE(clients.give(12, 12));  // who has none gives none
+  CHECK_FALSE(clients.give(11, 99));
+  CHECK(clients.give(11, 12));
+  CHECK(clients.has_hand(12));
+  clients.closed(12);  // the next who asked
+  CHECK(clients.has_hand(13));
+  clients.closed(13);
+  CHECK(clients.has_hand(11));  // the only one left
+  clients.closed(11);
+  CHECK(clients.view().controller == 0);
 }
 
 TEST_CASE("all layers that anybody wants are drawn, each once") {
-  Clients audience;
-  audience.opened(1);
-  audience.opened(2);
-  audience.want_layers(1, {"bodies", "frames"});
-  audience.want_layers(2, {"trails", "bodies"});
-  CHECK(audience.layers() == std::vector<std::string>{"bodies", "frames", "trails"});
-  audience.want_glass(2, 4);
-  CHECK(audience.glass() == std::map<ClientId, long>{{2, 4}});
-  audience.want_glass(2, std::nullopt);
-  CHECK(audience.glass().empty());
+  Clients clients;
+  clients.opened(1);
+  clients.opened(2);
+  clients.want_layers(1, {"bodies", "frames"});
+  clients.want_layers(2, {"trails", "bodies"});
+  CHECK(clients.layers() == std::vector<std::string>{"bodies", "frames", "trails"});
+  clients.want_glass(2, 4);
+  CHECK(clients.inspected() == std::map<ClientId, long>{{2, 4}});
+  clients.want_glass(2, std::nullopt);
+  CHECK(clients.inspected().empty());
 }
 
 TEST_CASE("run time follows wall time, and what was missed is not made up for in a rush") {
@@ -264,9 +264,9 @@ TEST_CASE("run time follows wall time, and what was missed is not made up for in
   RealTimePacer pace;
   pace.begin(start, 5.0, 0.5);
   CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
-  pace.forgive(start + milliseconds(1000), 5.49, 0.05);  // as good as in time
+  pace.limit_backlog(start + milliseconds(1000), 5.49, 0.05);  // as good as in time
   CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
-  pace.forgive(start + milliseconds(1000), 5.2, 0.05);  // 0.6 s of wall time behind
+  pace.limit_backlog(start + milliseconds(1000), 5.2, 0.05);  // 0.6 s of wall time behind
   CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.225));
   CHECK(pace.factor(start + milliseconds(2000), 5.5) == doctest::Approx(0.5));
 }

@@ -23,14 +23,14 @@ inline SimulatePlan plan_of_asset(const std::string& file, double duration) {
 }
 
 // A frame after so many steps, and what the next step found.
-struct Told {
+struct RunSample {
   LabFrame frame;
   std::vector<std::string> ledger;
   std::vector<double> qdd;     // of the next step
   std::vector<Vector3> force;  // of its contacts
 };
-inline Told told_of(SimulatePlan plan, long steps) {
-  Told told;
+inline RunSample sample_of(SimulatePlan plan, long steps) {
+  RunSample told;
   RunWatch watch;
   watch.warn = [](const std::string&) {};
   watch.sample = [](double, const State<double>&) {};
@@ -59,8 +59,8 @@ inline Told told_of(SimulatePlan plan, long steps) {
   REQUIRE(!told.qdd.empty());
   return told;
 }
-inline Told told_of(const std::string& file, long steps) {
-  return told_of(plan_of_asset(file, 1), steps);
+inline RunSample sample_of(const std::string& file, long steps) {
+  return sample_of(plan_of_asset(file, 1), steps);
 }
 
 inline Value parsed(const std::string& message) {

@@ -15,7 +15,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr const char* kGlassScenes[] = {
+constexpr const char* kInspectedScenes[] = {
     "hand_and_obstacles",     "box_stack", "four_bar", "incline",
     "robot_beside_obstacles", "turntable"};
 
@@ -31,11 +31,11 @@ const Value* quantity_of(const Value& passes, int pass, const std::string& name)
 }  // namespace
 
 TEST_CASE("glass: accelerations and contact forces are those that the run's own next step finds") {
-  for (const std::string name : kGlassScenes) {
+  for (const std::string name : kInspectedScenes) {
     CAPTURE(name);
     const std::string file = "scenes/" + name + ".toml";
-    const Told told = told_of(file, 120);
-    BodyInspector glass(plan_of_asset(file, 1));
+    const RunSample told = sample_of(file, 120);
+    BodyInspector inspector(plan_of_asset(file, 1));
     const SimulatePlan plan = plan_of_asset(file, 1);
     const Model<double>& model = plan.input.robot.model;
     double size = 1;
@@ -43,7 +43,7 @@ TEST_CASE("glass: accelerations and contact forces are those that the run's own 
     std::size_t pressing = 0;
     for (std::size_t body = 1; body < model.parent.size(); ++body) {
       CAPTURE(model.body_name[body]);
-      const Value message = parsed(glass.message(told.frame, {body, false, 3, &told.ledger}));
+      const Value message = parsed(inspector.message(told.frame, {body, false, 3, &told.ledger}));
       CHECK(at(message, "scene").number == 3);
       CHECK(at(message, "name").text == model.body_name[body]);
       if (model.dofs(body) == 1) {
@@ -65,14 +65,14 @@ TEST_CASE("glass: accelerations and contact forces are those that the run's own 
 }
 
 TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation") {
-  for (const std::string name : kGlassScenes) {
+  for (const std::string name : kInspectedScenes) {
     CAPTURE(name);
     const std::string file = "scenes/" + name + ".toml";
-    const Told told = told_of(file, 77);
-    BodyInspector glass(plan_of_asset(file, 1));
+    const RunSample told = sample_of(file, 77);
+    BodyInspector inspector(plan_of_asset(file, 1));
     const SimulatePlan plan = plan_of_asset(file, 1);
     for (std::size_t body = 1; body < plan.input.robot.model.parent.size(); ++body) {
-      const Value message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
+      const Value message = parsed(inspector.message(told.frame, {body, true, 1, &told.ledger}));
       const Value& balance = at(message, "balance").items.at(0);
       Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
       double largest = 0;
@@ -97,7 +97,7 @@ TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation")
 
 TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger the frame's") {
   const std::string file = "scenes/hand_and_obstacles.toml";
-  const Told told = told_of(file, 50);
+  const RunSample told = sample_of(file, 50);
   SimulatePlan plan = plan_of_asset(file, 1);
   StateArchive memory = simulation_memory(told.frame.recorded.memory);
   Inspected inspected = inspect_scene(plan.input, plan.run.step, &memory);
@@ -107,15 +107,15 @@ TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger t
   write_passes(json.key("passes"), in, {1, 2, 3}, {2});
   std::string wanted = json.str();
   wanted = wanted.substr(wanted.find("\"passes\""));
-  BodyInspector glass(plan_of_asset(file, 1));
+  BodyInspector inspector(plan_of_asset(file, 1));
   for (int again = 0; again < 3; ++again) {  // what was asked before leaves no trace
-    const std::string message = glass.message(told.frame, {2, again == 1, 1, &told.ledger});
+    const std::string message = inspector.message(told.frame, {2, again == 1, 1, &told.ledger});
     CHECK(message.find(wanted) != std::string::npos);
     const Value tree = parsed(message);
     const Value& ledger = at(tree, "ledger");
     for (std::size_t i = 0; i < told.ledger.size(); ++i)
       CHECK(at(ledger, told.ledger[i]).number == told.frame.recorded.works[i]);
-    glass.message(told_of(file, 10).frame, {1, true, 1});
+    inspector.message(sample_of(file, 10).frame, {1, true, 1});
   }
 }
 
@@ -124,24 +124,24 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   options.robot.model = TWINARM_SOURCE_DIR "/assets/scenes/hand_and_obstacles.toml";
   options.duration = 1;
   const LabScene scene(options);
-  LabHand hand;
-  LabRun run(scene, {}, hand);
-  hand.choose(LabHand::Source::joints);
-  hand.joint(0, 2.5, 1);  // at LabHand::kFastest it is long under way
+  OperatorInput hand;
+  LabRun run(scene.plan(), hand);
+  hand.choose(OperatorInput::Source::joints);
+  hand.joint(0, 2.5, 1);  // at OperatorInput::kMaxJointSpeed it is long under way
   for (int n = 0; n < 100; ++n) REQUIRE(run.step());
   LabNames names;
   const LabFrame frame = run.frame(names);
   REQUIRE(frame.hand);
-  CHECK(frame.hand->leads);
-  CHECK(frame.hand->qd_K.at(0) == doctest::Approx(LabHand::kFastest));
-  BodyInspector glass(std::move(scene.plan()->prepared));
+  CHECK(frame.hand->active);
+  CHECK(frame.hand->qd_K.at(0) == doctest::Approx(OperatorInput::kMaxJointSpeed));
+  BodyInspector inspector(std::move(scene.plan()->prepared));
   const Model<double>& model = run.prepared().input.robot.model;
   const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
   REQUIRE(run.step());
   const double wanted = run.view().simulation().mechanism().w.qdd[model.iv[body]];
   CHECK(std::abs(wanted) > 0.1);
   const auto told_by = [&](const LabFrame& of) {
-    const Value message = parsed(glass.message(of, {body, true, 1, &names.rows}));
+    const Value message = parsed(inspector.message(of, {body, true, 1, &names.rows}));
     for (const Value& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
     const Value* qdd = quantity_of(at(message, "passes"), 3, "qdd");
     REQUIRE(qdd);
@@ -153,8 +153,8 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   still.hand->qd_K.assign(still.hand->qd_K.size(), 0);
   CHECK(std::abs(told_by(still) - wanted) > 1e-3 * std::abs(wanted));
   LabFrame pulled = frame;
-  pulled.pull = MousePoint{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
-  const Value message = parsed(glass.message(pulled, {body, false, 1}));
+  pulled.mouse = MouseSpringState{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
+  const Value message = parsed(inspector.message(pulled, {body, false, 1}));
   bool found = false;
   for (const Value& wrench : at(at(message, "balance").items.at(0), "wrenches").items)
     if (at(wrench, "source").text == "mouse")
@@ -164,13 +164,13 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
 
 TEST_CASE("glass: where time stands, all bodies come in the order of the call") {
   const std::string file = "scenes/robot_beside_obstacles.toml";
-  const Told told = told_of(file, 5);
+  const RunSample told = sample_of(file, 5);
   const SimulatePlan plan = plan_of_asset(file, 1);
   std::vector<std::string> names(plan.input.robot.model.body_name.begin() + 1,
                                  plan.input.robot.model.body_name.end());
-  BodyInspector glass(plan_of_asset(file, 1));
-  CHECK(!parsed(glass.message(told.frame, {1, false, 1, &told.ledger})).find("rows"));
-  const Value message = parsed(glass.message(told.frame, {1, true, 1}));
+  BodyInspector inspector(plan_of_asset(file, 1));
+  CHECK(!parsed(inspector.message(told.frame, {1, false, 1, &told.ledger})).find("rows"));
+  const Value message = parsed(inspector.message(told.frame, {1, true, 1}));
   std::vector<std::pair<int, std::string>> order, wanted;
   for (const Value& row : at(message, "rows").items) {
     order.emplace_back(static_cast<int>(at(row, "pass").number), at(row, "body").text);
@@ -186,12 +186,12 @@ TEST_CASE("glass: where time stands, all bodies come in the order of the call") 
 
 TEST_CASE("glass: a robot alone, without a scene") {
   const std::string file = "robots/s103/s103.urdf";
-  const Told told = told_of(file, 40);
-  BodyInspector glass(plan_of_asset(file, 1));
+  const RunSample told = sample_of(file, 40);
+  BodyInspector inspector(plan_of_asset(file, 1));
   const SimulatePlan plan = plan_of_asset(file, 1);
   const Model<double>& model = plan.input.robot.model;
   const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
-  const Value message = parsed(glass.message(told.frame, {body, true, 1, &told.ledger}));
+  const Value message = parsed(inspector.message(told.frame, {body, true, 1, &told.ledger}));
   const Value* qdd = quantity_of(at(message, "passes"), 3, "qdd");
   REQUIRE(qdd);
   CHECK(std::isfinite(qdd->number));
@@ -200,9 +200,9 @@ TEST_CASE("glass: a robot alone, without a scene") {
 
 TEST_CASE("glass: numbers that are not finite are told, and a frame of another scene too") {
   const std::string file = "scenes/hand_and_obstacles.toml";
-  Told told = told_of(file, 20);
-  BodyInspector glass(plan_of_asset(file, 1));
-  const std::string good = glass.message(told.frame, {1, true, 1, &told.ledger});
+  RunSample told = sample_of(file, 20);
+  BodyInspector inspector(plan_of_asset(file, 1));
+  const std::string good = inspector.message(told.frame, {1, true, 1, &told.ledger});
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
     CAPTURE(bad);
@@ -219,13 +219,13 @@ TEST_CASE("glass: numbers that are not finite are told, and a frame of another s
     REQUIRE(place < head);
     broken.recorded.memory.replace(place, sizeof bad, reinterpret_cast<const char*>(&bad),
                                    sizeof bad);
-    const Value message = parsed(glass.message(broken, {1, true, 1, &told.ledger}));
+    const Value message = parsed(inspector.message(broken, {1, true, 1, &told.ledger}));
     CHECK(at(message, "kind").text == "glass");
     if (std::isnan(bad)) CHECK(!at(message, "warnings").items.empty());
   }
-  const Told other = told_of("scenes/box_stack.toml", 3);
-  const Value message = parsed(glass.message(other.frame, {1, true, 1, &told.ledger}));
+  const RunSample other = sample_of("scenes/box_stack.toml", 3);
+  const Value message = parsed(inspector.message(other.frame, {1, true, 1, &told.ledger}));
   CHECK(at(message, "warnings").items.size() == 1);
   CHECK(!message.find("passes"));
-  CHECK(glass.message(told.frame, {1, true, 1, &told.ledger}) == good);
+  CHECK(inspector.message(told.frame, {1, true, 1, &told.ledger}) == good);
 }

@@ -39,9 +39,9 @@ TEST_CASE("glass: the acceleration of an origin is classical: w^2 r on a circle,
     CAPTURE(w);
     options.robot.state =
         folder.write("state.json", "{\"qd\": {\"j1\": " + std::to_string(w) + "}}");
-    BodyInspector glass(prepare_simulation(options));
-    const Told told = told_of(prepare_simulation(options), 0);
-    const Value message = parsed(glass.message(told.frame, {2, true, 1}));
+    BodyInspector inspector(prepare_simulation(options));
+    const RunSample told = sample_of(prepare_simulation(options), 0);
+    const Value message = parsed(inspector.message(told.frame, {2, true, 1}));
     CHECK(acceleration_of(message, "a").norm() < 1e-12);
     CHECK((acceleration_of(message, "b") - Vector3(-0.5 * w * w, 0, 0)).norm() < 1e-12);
   }
@@ -49,11 +49,11 @@ TEST_CASE("glass: the acceleration of an origin is classical: w^2 r on a circle,
 
 TEST_CASE("glass: the acceleration of an origin is the second derivative of its position") {
   const std::string file = "robots/s103/s103.urdf";
-  BodyInspector glass(plan_of_asset(file, 1));
+  BodyInspector inspector(plan_of_asset(file, 1));
   const SimulatePlan plan = plan_of_asset(file, 1);
   const Model<double>& model = plan.input.robot.model;
-  const Told told = told_of(file, 200);
-  const Value message = parsed(glass.message(told.frame, {1, true, 1}));
+  const RunSample told = sample_of(file, 200);
+  const Value message = parsed(inspector.message(told.frame, {1, true, 1}));
   StateArchive memory = simulation_memory(told.frame.recorded.memory);
   State<double> x(model);
   memory.visit(x.q);

@@ -55,10 +55,10 @@ inline std::filesystem::path temporary_scene(const std::string& name, const std:
   return folder.write(name + ".toml", text);
 }
 
-inline const LabParameter& knob_at(const std::vector<LabParameter>& knobs,
+inline const LabParameter& parameter_at(const std::vector<LabParameter>& parameters,
                                    const std::string& path) {
-  for (const LabParameter& knob : knobs)
-    if (knob.path == path) return knob;
+  for (const LabParameter& parameter : parameters)
+    if (parameter.path == path) return parameter;
   throw InputError({{"", 0, path, "there is no such knob", "", "test.no-knob"}});
 }
 

@@ -17,8 +17,8 @@ TEST_CASE("knobs: all, set to the values that they show, change no bit of the ru
     const std::string memory = ran(plan, 20).memory;
     REQUIRE(!memory.empty());
     std::vector<std::string> changes;
-    for (const LabParameter& knob : knobs_of(plan))
-      if (!knob.change().empty()) changes.push_back(knob.change());
+    for (const LabParameter& parameter : parameters_of(plan))
+      if (!parameter.change().empty()) changes.push_back(parameter.change());
     CHECK(changes.size() >= 3);
     CHECK(ran(planned(file, changes, 20), 20).memory == memory);
   }
@@ -28,15 +28,15 @@ TEST_CASE("knobs: each end of a range and each choice makes a scene that runs") 
   const auto folder = read_gallery().front().file.parent_path();
   for (const char* name : {"study.toml", "study_e3.toml", "study_e4.toml", "tracking_map.toml",
                            "pendulum.toml", "incline.toml", "bouncing_ball.toml"})
-    for (const LabParameter& knob : knobs_of(planned(folder / name, {}))) {
-      std::vector<std::string> values = knob.choices;
-      if (knob.form != LabParameter::Form::choice) {
-        CHECK(knob.low < knob.high);
-        values = {fmt::format("{}", knob.low), fmt::format("{}", knob.high)};
+    for (const LabParameter& parameter : parameters_of(planned(folder / name, {}))) {
+      std::vector<std::string> values = parameter.choices;
+      if (parameter.form != LabParameter::Form::choice) {
+        CHECK(parameter.low < parameter.high);
+        values = {fmt::format("{}", parameter.low), fmt::format("{}", parameter.high)};
       }
       for (const std::string& value : values) {
-        INFO(std::string(name), ": ", knob.path, "=", value);
-        SimulatePlan plan = planned(folder / name, {knob.path + "=" + value}, 2);
+        INFO(std::string(name), ": ", parameter.path, "=", value);
+        SimulatePlan plan = planned(folder / name, {parameter.path + "=" + value}, 2);
         plan.run.energy_bound = HUGE_VAL;
         CHECK(ran(plan, 2).end > 0);
       }
@@ -45,14 +45,14 @@ TEST_CASE("knobs: each end of a range and each choice makes a scene that runs") 
 
 TEST_CASE("knobs: each has a label, a group, a meaning, and its value among its choices") {
   for (const auto& file : offered_scenes())
-    for (const LabParameter& knob : knobs_of(planned(file, {}))) {
-      INFO(file.filename().string(), ": ", knob.path);
-      CHECK(!knob.label.empty());
-      CHECK(!knob.group.empty());
-      CHECK(knob.meaning.size() > 20);
-      if (knob.form == LabParameter::Form::choice && !knob.text.empty())
-        CHECK(std::count(knob.choices.begin(), knob.choices.end(), knob.text) == 1);
-      if (knob.form == LabParameter::Form::log) CHECK(knob.low > 0);
+    for (const LabParameter& parameter : parameters_of(planned(file, {}))) {
+      INFO(file.filename().string(), ": ", parameter.path);
+      CHECK(!parameter.label.empty());
+      CHECK(!parameter.group.empty());
+      CHECK(parameter.description.size() > 20);
+      if (parameter.form == LabParameter::Form::choice && !parameter.text.empty())
+        CHECK(std::count(parameter.choices.begin(), parameter.choices.end(), parameter.text) == 1);
+      if (parameter.form == LabParameter::Form::log) CHECK(parameter.low > 0);
     }
 }
 
@@ -62,9 +62,9 @@ namespace {
 std::vector<LabParameter> predicted(const std::string& text,
                                     const std::vector<std::string>& changes = {}) {
   SimulatePlan plan = planned(temporary_scene("predicted", text), changes);
-  std::vector<LabParameter> knobs = knobs_of(plan);
-  predict_knobs(plan, State<double>(plan.input.robot.state.x), knobs);
-  return knobs;
+  std::vector<LabParameter> parameters = parameters_of(plan);
+  predict_limits(plan, State<double>(plan.input.robot.state.x), parameters);
+  return parameters;
 }
 
 struct LimitCase {
@@ -114,12 +114,12 @@ TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not
     INFO(std::string(c.name), ": ", std::string(c.path));
     std::string text = held_arm(c.top, c.spring);
     if (std::string(c.spring).find("torsional") != std::string::npos) text = pointless(text);
-    const std::vector<LabParameter> knobs = predicted(text);
-    const LabParameter& knob = knob_at(knobs, c.path);
-    REQUIRE(knob.limit);
-    REQUIRE(knob.limit->value);
-    const double limit = *knob.limit->value;
-    CHECK(knob.limit->state == ParameterLimit::State::ok);
+    const std::vector<LabParameter> parameters = predicted(text);
+    const LabParameter& parameter = parameter_at(parameters, c.path);
+    REQUIRE(parameter.limit);
+    REQUIRE(parameter.limit->value);
+    const double limit = *parameter.limit->value;
+    CHECK(parameter.limit->state == ParameterLimit::State::ok);
     INFO(limit);
     CHECK(dies_out(text, fmt::format("{}={}", c.path, 0.9 * limit)));
     CHECK(!dies_out(text, fmt::format("{}={}", c.path, 1.15 * limit)));
@@ -129,11 +129,11 @@ TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not
 TEST_CASE("knobs: a held force holds at the predicted rate, and not a quarter slower") {
   const std::string text =
       held_arm("", "type = \"linear\"\nstiffness = 4000\ndamping = 40\nrate = 500");
-  const std::vector<LabParameter> knobs = predicted(text);
-  const LabParameter& knob = knob_at(knobs, "coupling[1].rate");
-  REQUIRE(knob.limit);
-  REQUIRE(knob.limit->value);
-  const long steps = std::lround(1 / (*knob.limit->value * 1e-3));
+  const std::vector<LabParameter> parameters = predicted(text);
+  const LabParameter& parameter = parameter_at(parameters, "coupling[1].rate");
+  REQUIRE(parameter.limit);
+  REQUIRE(parameter.limit->value);
+  const long steps = std::lround(1 / (*parameter.limit->value * 1e-3));
   CHECK(steps > 2);
   const auto at = [&](long n) { return fmt::format("coupling[1].rate={}", 1000.0 / double(n)); };
   CHECK(dies_out(text, at(steps)));
@@ -143,7 +143,7 @@ TEST_CASE("knobs: a held force holds at the predicted rate, and not a quarter sl
 TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would be stable") {
   const std::string text = held_arm("", std::string(kLinear) + "treatment = \"explicit\"");
   const auto limit_at = [&](const std::vector<std::string>& changes) {
-    return *knob_at(predicted(text, changes), "coupling.stiffness").limit;
+    return *parameter_at(predicted(text, changes), "coupling.stiffness").limit;
   };
   const ParameterLimit at_start = limit_at({});
   REQUIRE(at_start.value);
@@ -168,41 +168,41 @@ TEST_CASE("knobs: where it does not hold, those that would mend it alone say so,
                               "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
                               "treatment = \"explicit\"");
   const std::vector<LabParameter> at_start = predicted(text);
-  const double limit = *knob_at(at_start, "coupling[0].stiffness").limit->value;
+  const double limit = *parameter_at(at_start, "coupling[0].stiffness").limit->value;
   const std::string too_stiff = fmt::format("coupling[0].stiffness={}", 3 * limit);
   const std::vector<LabParameter> one = predicted(text, {too_stiff});
-  CHECK(knob_at(one, "coupling[0].stiffness").limit->state == ParameterLimit::State::beyond);
-  CHECK(knob_at(one, "step").limit->state == ParameterLimit::State::beyond);
-  CHECK(knob_at(one, "step").limit->value);
-  CHECK_FALSE(knob_at(one, "coupling[1].stiffness").limit);
-  CHECK_FALSE(knob_at(one, "coupling[1].damping").limit);
+  CHECK(parameter_at(one, "coupling[0].stiffness").limit->state == ParameterLimit::State::beyond);
+  CHECK(parameter_at(one, "step").limit->state == ParameterLimit::State::beyond);
+  CHECK(parameter_at(one, "step").limit->value);
+  CHECK_FALSE(parameter_at(one, "coupling[1].stiffness").limit);
+  CHECK_FALSE(parameter_at(one, "coupling[1].damping").limit);
   // Both beyond: neither alone mends it, a shorter step does.
   const std::vector<LabParameter> both =
       predicted(text, {too_stiff, fmt::format("coupling[1].stiffness={}", 100 * limit)});
-  CHECK_FALSE(knob_at(both, "coupling[0].stiffness").limit);
-  CHECK_FALSE(knob_at(both, "coupling[1].stiffness").limit);
-  CHECK(knob_at(both, "step").limit->value);
+  CHECK_FALSE(parameter_at(both, "coupling[0].stiffness").limit);
+  CHECK_FALSE(parameter_at(both, "coupling[1].stiffness").limit);
+  CHECK(parameter_at(both, "step").limit->value);
 }
 
 TEST_CASE("knobs: each tells what the scene's file says, whatever was turned since") {
   const auto file = read_gallery().front().file;
-  const std::vector<LabParameter> unchanged = knobs_of(planned(file, {}));
-  std::vector<LabParameter> knobs = knobs_of(
+  const std::vector<LabParameter> unchanged = parameters_of(planned(file, {}));
+  std::vector<LabParameter> parameters = parameters_of(
       planned(file, {"coupling[0].stiffness=123", "step=0.0005", "coupling[0].type=weld"}));
-  know_starts(unchanged, knobs);
+  set_initial_values(unchanged, parameters);
   std::vector<std::string> back;
-  for (const LabParameter& knob : knobs) {
-    INFO(knob.path);
+  for (const LabParameter& parameter : parameters) {
+    INFO(parameter.path);
     const auto before =
         std::find_if(unchanged.begin(), unchanged.end(),
-                     [&](const LabParameter& other) { return other.path == knob.path; });
-    CHECK(knob.start.has_value() == (before != unchanged.end()));
-    if (knob.start) CHECK(knob.path + "=" + *knob.start == before->path + "=" + before->value());
-    if (knob.start && knob.start != knob.value()) back.push_back(knob.path);
+                     [&](const LabParameter& other) { return other.path == parameter.path; });
+    CHECK(parameter.initial.has_value() == (before != unchanged.end()));
+    if (parameter.initial) CHECK(parameter.path + "=" + *parameter.initial == before->path + "=" + before->value());
+    if (parameter.initial && parameter.initial != parameter.value()) back.push_back(parameter.path);
   }
   CHECK(std::count(back.begin(), back.end(), "step") == 1);
   CHECK(std::count(back.begin(), back.end(), "coupling[0].type") == 1);
-  CHECK_FALSE(knob_at(knobs, "coupling[0].time_constant").start);  // the file has no such key
+  CHECK_FALSE(parameter_at(parameters, "coupling[0].time_constant").start);  // the file has no such key
 }
 
 TEST_CASE("knobs: the predicted lag is what the arm falls behind a twin that starts at 1 rad/s") {
@@ -221,8 +221,8 @@ link = "arm1"
 stiffness = 500
 damping = 0
 )";
-  const std::vector<LabParameter> knobs = predicted(text);
-  const std::string lag = knob_at(knobs, "coupling[0].stiffness").lag;
+  const std::vector<LabParameter> parameters = predicted(text);
+  const std::string lag = parameter_at(parameters, "coupling[0].stiffness").tracking_error;
   // The period of a free swing says the inertia: a run from 1e-3 rad, its first zero.
   SimulatePlan swing =
       planned(temporary_scene("lag", text),
@@ -235,13 +235,13 @@ damping = 0
   run_plan(swing.input, swing.run, watch);
   REQUIRE(quarter > 0);
   const double peak = quarter / (std::numbers::pi / 2) * 180 / std::numbers::pi;  // v / w
-  CHECK(lag == fmt::format("up to {:.2g}° at a start to 1 rad/s", peak));
+  CHECK(lag == fmt::format("peak {:.2g}° after a velocity step of 1 rad/s", peak));
 }
 
 TEST_CASE("knobs: a coupling's type turns linear into torsional, and its point goes") {
   const auto file = read_gallery().front().file;
-  const std::vector<LabParameter> knobs = knobs_of(planned(file, {}));
-  for (const std::string& type : knob_at(knobs, "coupling[0].type").choices) {
+  const std::vector<LabParameter> parameters = parameters_of(planned(file, {}));
+  for (const std::string& type : parameter_at(parameters, "coupling[0].type").choices) {
     INFO(type);
     const SimulatePlan plan = planned(file, {"coupling[0].type=" + type}, 10);
     const CouplingDescription& now = plan.input.scene->description.couplings[0];
@@ -265,10 +265,10 @@ TEST_CASE("presets: each has a scene, and moves its robot as it says") {
 }
 
 TEST_CASE("gallery: the lanes of an entry are read, and what is wrong with them is told") {
-  const VariantSet lanes = find_scene(read_gallery(), "six_integrators")->lanes;
-  CHECK(lanes.path == "integrator");
-  CHECK(lanes.values.size() == 6);
-  CHECK(lanes.apart.has_value());
+  const VariantSet variants = find_scene(read_gallery(), "six_integrators")->variants;
+  CHECK(variants.path == "integrator");
+  CHECK(variants.values.size() == 6);
+  CHECK(variants.apart.has_value());
   const auto entry = [](const std::string& told) {
     return temporary_scene("lanes",
                            "[[scene]]\nname = \"a\"\nfile = \"no.toml\"\ntitle = \"t\"\n"

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "app/diagnose/post_mortem.h"
-#include "app/diagnose/remedies.h"
 #include "tests/app/lab/parameters/knob_scenes.h"
 
 using namespace twinarm;
@@ -48,10 +47,10 @@ TEST_CASE("remedies: each that is offered holds for two seconds where the run ha
     INFO(std::string(bad.name));
     SimulatePlan plan = planned(bad.file, bad.changes, 2000);
     plan.run.energy_bound = kFarTooMuch;
-    const SimulateResult dead = run_plan(plan.input, plan.run, {});
-    CHECK(dead.post_mortem);
-    if (!dead.post_mortem) continue;
-    const std::vector<SuggestedFix> remedies = remedies_of(plan, *dead.post_mortem);
+    const SimulateResult failure = run_plan(plan.input, plan.run, {});
+    CHECK(failure.post_mortem);
+    if (!failure.post_mortem) continue;
+    const std::vector<SuggestedFix> remedies = remedies_of(plan, *failure.post_mortem);
     CHECK(!remedies.empty());
     for (const SuggestedFix& fix : remedies) {
       INFO(fix.words);
@@ -89,10 +88,10 @@ TEST_CASE("remedies: they follow from the kind and the place of a suspect, whate
   damped.input.robot.model.damping.assign(damped.input.robot.model.nv, 1e4);
   const auto changes_by = [](const SimulatePlan& plan,
                              const std::vector<StabilityViolation>& suspects) {
-    PostMortem dead;
-    dead.suspects = suspects;
+    PostMortem failure;
+    failure.suspects = suspects;
     std::vector<std::string> changes;
-    for (const SuggestedFix& fix : remedies_of(plan, dead))
+    for (const SuggestedFix& fix : remedies_of(plan, failure))
       changes.insert(changes.end(), fix.changes.begin(), fix.changes.end());
     return changes;
   };

@@ -37,7 +37,7 @@ inline LabScene lab_scene(const std::string& text) {
 // A run with what is remembered of it: a frame each 16 steps.
 struct Session {
   explicit Session(const std::string& text) : scene(lab_scene(text)) {
-    run = std::make_unique<LabRun>(scene, std::vector<Change>{}, hand);
+    run = std::make_unique<LabRun>(scene.plan(), hand);
     history.begin_segment({});
     history.add(run->frame(names));
   }
@@ -45,17 +45,17 @@ struct Session {
     for (long n = 0; n < steps; ++n) {
       REQUIRE(run->step());
       history.add(run->input());
-      if (run->step_count() % 16 == 0) history.add(run->frame(names));
+      if (run->view().step() % 16 == 0) history.add(run->frame(names));
     }
   }
   void change(const std::vector<Change>& changes) {
     const auto frame = history.add(run->frame(names));
-    run = std::make_unique<LabRun>(scene, changes, hand, *frame);
+    run = std::make_unique<LabRun>(scene.plan(changes), hand, frame.get());
     history.begin_segment(changes);
     history.add(run->frame(names));
   }
   LabScene scene;
-  LabHand hand;
+  OperatorInput hand;
   LabNames names;
   LabHistory history;
   std::unique_ptr<LabRun> run;
@@ -78,7 +78,7 @@ inline MomentumRow momentum_of(const std::vector<MomentumRow>& rows, const std::
 inline std::vector<double> kvr_of(const LabRun& run) {
   const SimulateInput& input = run.prepared().input;
   std::vector<double> q;
-  for (const int body : run.driven())
+  for (const int body : run.input_override().driven())
     q.push_back(
         input.couplings->kvr(0).start().x.q[input.robot.model.iq[static_cast<std::size_t>(body)]]);
   return q;

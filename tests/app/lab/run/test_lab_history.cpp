@@ -5,24 +5,24 @@ namespace twinarm {
 
 TEST_CASE("lab run: a branch that is moved as before repeats the frames' hashes bit for bit") {
   Session s(arm_with("device"));
-  s.hand.choose(LabHand::Source::drag);
+  s.hand.choose(OperatorInput::Source::drag);
   const Vector3 tip = s.run->prepared().input.couplings->kvr(0).start().k.position(
-      s.run->tip()->first, s.run->tip()->second);
+      s.run->input_override().tip()->first, s.run->input_override().tip()->second);
   for (int n = 0; n < 50; ++n) {
     s.hand.tip(tip + Vector3(-0.1 * std::sin(0.1 * n), 0.2 * std::sin(0.2 * n), 0), n);
-    if (n == 20) REQUIRE(s.run->pull(s.run->driven().back(), Vector3::Zero(), tip, n));
-    if (n == 35) s.run->drop();
+    if (n == 20) REQUIRE(s.run->drag(s.run->input_override().driven().back(), Vector3::Zero(), tip, n));
+    if (n == 35) s.run->release_mouse();
     s.step(20);
   }
   const std::size_t from = s.history.at(0.3);
   const LabHistory left = s.history.cut(from);
   CHECK(s.history.size() == from + 1);
-  LabRun again(s.scene, {}, s.hand, *left.frame(0));
-  CHECK(again.begun_anew().empty());
+  LabRun again(s.scene.plan(), s.hand, left.frame(0).get());
+  CHECK(again.restart_reason().empty());
   std::size_t same = 0;
   for (std::size_t n = 1; n < left.size(); ++n) {
-    while (again.step_count() < left.frame(n)->recorded.step) {
-      const LabInput* input = left.input(again.step_count() + 1);
+    while (again.view().step() < left.frame(n)->recorded.step) {
+      const LabInput* input = left.input(again.view().step() + 1);
       REQUIRE(again.step(input ? *input : LabInput{}));
     }
     const LabFrame frame = again.frame(s.names);
@@ -43,7 +43,7 @@ TEST_CASE("lab run: a branch that is moved as before repeats the frames' hashes 
 
 TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and all") {
   Session s(arm_with("device"));
-  s.hand.choose(LabHand::Source::drag);
+  s.hand.choose(OperatorInput::Source::drag);
   const TemporaryFolder folder;
   const auto drag = [&](int moves) {
     for (int n = 0; n < moves; ++n) {
@@ -53,7 +53,7 @@ TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and 
   };
   const auto check = [&](double from, std::size_t frames) {
     const std::filesystem::path file = folder.path() / "lab.twinrec";
-    const LabHistory::Saved saved = s.history.save(s.scene, s.names, s.run->led(), file);
+    const LabHistory::Saved saved = s.history.save(s.scene, s.names, s.run->input_override().couplings(), file);
     CHECK(saved.frames >= frames);
     CHECK(saved.from == doctest::Approx(from).epsilon(1e-9));
     const Recording recording(file);
@@ -68,9 +68,9 @@ TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and 
   drag(20);
   check(0.4, 20);
   // After a pull: what no header describes is left out.
-  REQUIRE(s.run->pull(s.run->driven()[1], Vector3(0.35, 0, 0.1), Vector3(0.2, 0.2, 0.2), 3));
+  REQUIRE(s.run->drag(s.run->input_override().driven()[1], Vector3(0.35, 0, 0.1), Vector3(0.2, 0.2, 0.2), 3));
   drag(5);
-  s.run->drop();
+  s.run->release_mouse();
   drag(20);
   check(0.912, 20);
   s.change({{"coupling.stiffness", "700"}, {"step", "0.0004"}});
@@ -86,7 +86,7 @@ TEST_CASE("lab history: the header of what is saved has the couplings that its f
   s.step(32);
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "lab.twinrec";
-  s.history.save(s.scene, s.names, s.run->led(), file);
+  s.history.save(s.scene, s.names, s.run->input_override().couplings(), file);
   const Recording recording(file);
   CHECK(recording.header().couplings.size() > couplings);
   for (std::size_t n = 0; n < recording.size(); ++n)
@@ -98,14 +98,14 @@ TEST_CASE("lab run: another step length goes on at the same place and time, to b
   s.step(500);
   const State<double> before = s.run->view().simulation().state();
   s.change({{"step", "0.0003"}});
-  CHECK(s.run->begun_anew().empty());
+  CHECK(s.run->restart_reason().empty());
   CHECK(s.run->view().simulation().state().q == before.q);
   s.step(100);
   CHECK(s.run->time() == doctest::Approx(0.53).epsilon(1e-12));
-  CHECK(s.run->step_count() == 600);
+  CHECK(s.run->view().step() == 600);
   const LabFrame half = s.run->frame(s.names);
   s.step(100);
-  LabRun again(s.scene, {{"step", "0.0003"}}, s.hand, half);
+  LabRun again(s.scene.plan({{"step", "0.0003"}}), s.hand, &half);
   for (int n = 0; n < 100; ++n) REQUIRE(again.step());
   CHECK(again.view().memory() == s.run->view().memory());
   // Another response of contacts remembers other things: whatever it takes over, it goes on there.
@@ -121,7 +121,7 @@ TEST_CASE("lab history: the bound of bytes holds, the oldest goes first, times a
   Session s(arm_with("device"));
   s.history = LabHistory(400000);
   s.history.begin_segment({});
-  s.hand.choose(LabHand::Source::drag);
+  s.hand.choose(OperatorInput::Source::drag);
   s.step(3000);
   CHECK(s.history.bytes() <= 400000 + sizeof(LabInput) * 16);
   CHECK(s.history.bytes() > 300000);

@@ -36,8 +36,8 @@ TEST_CASE("lab run: a run step by step has the bits of `simulate`, its files gon
     run_plan(plan.input, plan.run, watch);
     REQUIRE(memories.size() == 11);
     const LabScene scene = lab_scene(arm_with(target));
-    LabHand hand;
-    LabRun run(scene, {}, hand);
+    OperatorInput hand;
+    LabRun run(scene.plan(), hand);
     for (long n = 0; n < 1500; ++n) {  // on beyond the end of `simulate`
       if (n % 100 == 0 && n <= 1000)
         CHECK(run.view().memory() == memories[static_cast<std::size_t>(n / 100)]);
@@ -68,13 +68,13 @@ TEST_CASE("lab run: a stiffness changed on the way is the fork of a recording fr
   LabFrame from;
   from.recorded = recording.frame(8);
   const LabScene scene{recording.header()};
-  LabHand hand;
-  LabRun run(scene, changes, hand, from);
-  CHECK(run.begun_anew().empty());
+  OperatorInput hand;
+  LabRun run(scene.plan(changes), hand, &from);
+  CHECK(run.restart_reason().empty());
   LabNames names;
   CHECK(fork.frames.size() == recording.size() - 8);
   for (const RecordedFrame& frame : fork.frames) {
-    while (run.step_count() < frame.step) REQUIRE(run.step());
+    while (run.view().step() < frame.step) REQUIRE(run.step());
     CHECK(run.frame(names).recorded.hash == frame.hash);
   }
   CHECK(fork.frames.back().hash != recording.frame(recording.size() - 1).hash);
@@ -96,11 +96,11 @@ TEST_CASE("lab run: whoever moves the robot, it never jumps, and goes where it i
   };
   const auto nothing = [](long) {};
   run(500, nothing);
-  CHECK(s.run->scene_leads());
-  s.hand.choose(LabHand::Source::drag);
+  CHECK(!s.run->input_override().is_active());
+  s.hand.choose(OperatorInput::Source::drag);
   const Vector3 goal(0.35, 0.4, 0.4);
   run(3000, [&](long n) { s.hand.tip(goal, static_cast<double>(n)); });
-  const auto tip = *s.run->tip();
+  const auto tip = *s.run->input_override().tip();
   const auto tip_now = [&] {
     return s.run->prepared().input.couplings->kvr(0).end().k.position(tip.first, tip.second);
   };
@@ -110,42 +110,42 @@ TEST_CASE("lab run: whoever moves the robot, it never jumps, and goes where it i
   CHECK((tip_now() - goal).head<2>().norm() < reach);
   CHECK(felt.norm() <= OmniParameters{}.peak_force * 1.01);
   s.hand.release();
-  const Vector3 let_go = tip_now();
+  const Vector3 force_timeout = tip_now();
   run(300, nothing);
-  CHECK((tip_now() - let_go).norm() < 0.01);
-  s.hand.choose(LabHand::Source::joints);
+  CHECK((tip_now() - force_timeout).norm() < 0.01);
+  s.hand.choose(OperatorInput::Source::joints);
   s.hand.joint(0, -0.6, 1);
   s.hand.joint(2, 0.3, 2);
   run(2000, nothing);
-  CHECK(s.run->driven_q()[0] == doctest::Approx(-0.6));
-  CHECK(s.run->driven_q()[2] == doctest::Approx(0.3));
-  s.hand.choose(LabHand::Source::device, "virtual:synthetic:3");
+  CHECK(s.run->input_override().q()[0] == doctest::Approx(-0.6));
+  CHECK(s.run->input_override().q()[2] == doctest::Approx(0.3));
+  s.hand.choose(OperatorInput::Source::device, "virtual:synthetic:3");
   run(1000, nothing);
-  CHECK(!s.run->scene_leads());
-  s.hand.choose(LabHand::Source::scene);
+  CHECK(s.run->input_override().is_active());
+  s.hand.choose(OperatorInput::Source::scene);
   run(3000, nothing);
-  CHECK(s.run->scene_leads());
+  CHECK(!s.run->input_override().is_active());
   CHECK(farthest <= 20 * 0.001 * (1 + 1e-9));  // of the mapping; our own limit is below it
   CHECK(farthest > 1e-4);
 }
 
 TEST_CASE("lab run: a frame between the choice of another hand and the next step is a good one") {
   Session s(arm_with("device"));
-  s.hand.choose(LabHand::Source::drag);
+  s.hand.choose(OperatorInput::Source::drag);
   s.step(20);
-  REQUIRE(s.run->frame(s.names).hand->leads);
-  const std::vector<double> q = s.run->driven_q();
-  s.hand.choose(LabHand::Source::joints);  // which has no device
+  REQUIRE(s.run->frame(s.names).hand->active);
+  const std::vector<double> q = s.run->input_override().q();
+  s.hand.choose(OperatorInput::Source::joints);  // which has no device
   CHECK(s.run->frame(s.names).hand->q_K == q);
-  s.hand.choose(LabHand::Source::device, "virtual:step");
-  const LabHandFrame frame = *s.run->frame(s.names).hand;
+  s.hand.choose(OperatorInput::Source::device, "virtual:step");
+  const OperatorFrame frame = *s.run->frame(s.names).hand;
   CHECK(frame.q_K == q);
   CHECK(frame.torque == std::array<double, 3>{});
 }
 
 TEST_CASE("lab run: the gripper stays as it is where keys are released and another device comes") {
   Session s(arm_with("device"));
-  s.hand.choose(LabHand::Source::drag);
+  s.hand.choose(OperatorInput::Source::drag);
   s.hand.button(0, true, 1);
   s.hand.axes({1, 0, 0, 0, 0, 0}, 1);
   s.step(20);
@@ -153,7 +153,7 @@ TEST_CASE("lab run: the gripper stays as it is where keys are released and anoth
   s.hand.release();
   s.step(20);
   CHECK(s.run->frame(s.names).hand->gripper_closed);
-  s.hand.choose(LabHand::Source::drag);
+  s.hand.choose(OperatorInput::Source::drag);
   s.step(20);
   CHECK(s.run->frame(s.names).hand->gripper_closed);
   s.hand.button(0, false, 2);
@@ -164,7 +164,7 @@ TEST_CASE("lab run: the gripper stays as it is where keys are released and anoth
 TEST_CASE("lab run: a body on the mouse is a damped oscillator, and both ledgers close") {
   Session s(kFreeBox);
   const Vector3 goal(0.1, -0.05, 1.2);
-  REQUIRE(s.run->pull(1, Vector3::Zero(), goal, 7));
+  REQUIRE(s.run->drag(1, Vector3::Zero(), goal, 7));
   const double m = 2, h = 0.001, k = m * MouseSpring::kOmega * MouseSpring::kOmega,
                b = 2 * m * MouseSpring::kOmega;
   Vector3 x(0, 0, 1), v = Vector3::Zero();
@@ -200,15 +200,15 @@ TEST_CASE(
     "large for a light body") {
   Session s(arm_with("device"));
   const Vector3 goal(0.3, 0.6, 0.5);
-  REQUIRE(s.run->pull(s.run->driven()[1], Vector3(0.35, 0, 0.1), goal, 1));
+  REQUIRE(s.run->drag(s.run->input_override().driven()[1], Vector3(0.35, 0, 0.1), goal, 1));
   s.step(2000);
   const auto momenta = s.run->view().momentum();
   CHECK(momentum_of(momenta, "mouse").linear.norm() > 1);
   // All rows together are the change of momentum, and what the integrator adds is little of it.
   CHECK(momentum_of(momenta, "numerical").linear.norm() <
         1e-3 * momentum_of(momenta, "mouse").linear.norm());
-  CHECK(!s.run->pull(0, Vector3::Zero(), goal, 1));  // the world does not move
-  CHECK(!s.run->pull(99, Vector3::Zero(), goal, 1));
+  CHECK(!s.run->drag(0, Vector3::Zero(), goal, 1));  // the world does not move
+  CHECK(!s.run->drag(99, Vector3::Zero(), goal, 1));
 }
 
 TEST_CASE("lab run: bad changes are refused with all faults, and the run goes on as it was") {
@@ -216,9 +216,7 @@ TEST_CASE("lab run: bad changes are refused with all faults, and the run goes on
   s.step(10);
   const LabFrame frame = s.run->frame(s.names);
   try {
-    const LabRun other(s.scene,
-                       {{"step", "-1"}, {"coupling.one.stiffnes", "3"}, {"integrator", "rk5"}},
-                       s.hand, frame);
+    const LabRun other(s.scene.plan({{"step", "-1"}, {"coupling.one.stiffnes", "3"}, {"integrator", "rk5"}}), s.hand, &frame);
     FAIL("it was taken");
   } catch (const InputError& error) {
     CHECK(error.faults().size() >= 2);

@@ -58,6 +58,10 @@ class LabHost {
     if (!comes_true([&] { return opened >= number; })) throw std::runtime_error("not opened");
     return number;
   }
+  void send_to_all(int channel, const twinarm::Bytes& message, bool is_binary) {
+    for (twinarm::ClientId client = 1; client <= opened_by_test_; ++client)
+      server.send(client, channel, message, is_binary);
+  }
   bool is_alive() const {
     return RawClient(server.port()).ask(request("GET /", cookie())).body == "GET / ";
   }

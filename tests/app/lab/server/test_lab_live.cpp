@@ -102,7 +102,7 @@ TEST_CASE("lab live: a client that reads gets every message while another does n
   constexpr std::size_t kSize = 200000;
   double memory = 0;
   for (int n = 0; n < kMessages; ++n) {
-    lab.server.send_all(2, numbered(n, kSize), true);
+    lab.send_to_all(2, numbered(n, kSize), true);
     const Frame frame = reads.hear_message();
     REQUIRE(frame.opcode == RawClient::kBinary);
     REQUIRE(std::stoi(frame.payload) == n);
@@ -165,7 +165,7 @@ TEST_CASE(
   CHECK(boxes.put(1, 3, {bytes_of("c"), true}));
   CHECK_FALSE(boxes.put(1, 1, {bytes_of("a"), true}));  // has been woken
   boxes.put(1, 2, {bytes_of("b"), true});
-  boxes.awake();
+  boxes.clear_wakeup();
   std::string order;
   for (int n = 0; n < 9; ++n) {
     const std::string taken = *boxes.take(1)->bytes;
@@ -229,7 +229,7 @@ TEST_CASE("lab live: there is an end to clients, and place again when one leaves
   CHECK(comes_true([&] { return lab.closed == 1; }));
   RawClient next(lab.server.port());
   lab.open(next);
-  lab.server.send_all(2, bytes_of("all"), false);
+  lab.send_to_all(2, bytes_of("all"), false);
   CHECK(next.hear_message().payload == "all");
   for (const auto& client : clients) CHECK(client->hear_message().payload == "all");
 }
@@ -247,7 +247,7 @@ TEST_CASE("lab live: who floods is told so and dropped; the others notice nothin
     floods.say(flood);
     std::string why;
     CHECK(floods.hear_close(&why) == 1008);
-    CHECK(why == "more than 100 messages a second");
+    CHECK(why == "more than 100 messages per second");
     CHECK(comes_true([&] { return lab.server.traffic(number).sent == 0 && lab.closed > 0; }));
     other.say_frame(RawClient::kText, "x");
     CHECK(other.hear_message().payload == "you said x");
@@ -263,7 +263,7 @@ TEST_CASE("lab live: the server ends with clients of all kinds open") {
       if (n % 3 == 0) clients.back()->say("GET / HT");
       if (n % 3 == 1) lab.open(*clients.back());
     }
-    for (int n = 0; n < 50; ++n) lab.server.send_all(2, numbered(n, 1 << 20), true);
+    for (int n = 0; n < 50; ++n) lab.send_to_all(2, numbered(n, 1 << 20), true);
   }
   for (const auto& client : clients) CHECK(client->hear_end());
 }

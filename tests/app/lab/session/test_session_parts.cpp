@@ -18,7 +18,7 @@ LabFrame frame_at(long step) {
 LabInput input_at(long step) {
   LabInput input;
   input.step = step;
-  input.pull = PullInput{};  // one without is not remembered
+  input.mouse = MouseSpringInput{};  // one without is not remembered
   input.stamp = static_cast<double>(step);
   return input;
 }

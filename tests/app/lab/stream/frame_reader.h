@@ -25,7 +25,7 @@ struct ReadFrame {
   double time, stamp, age;
   std::uint64_t step;
   std::vector<double> channels, works;
-  std::vector<float> link, twin, position, scale, label_position;
+  std::vector<float> link, target, position, scale, label_position;
   std::vector<std::int16_t> turn, label_offset;
   std::vector<std::uint32_t> text_end, first, first_label;
   std::vector<std::uint16_t> mesh, body;
@@ -52,7 +52,7 @@ struct ReadFrame {
     take(bytes, C, channels);
     take(bytes, R, works);
     take(bytes, 7 * P, link);
-    take(bytes, 7 * P, twin);
+    take(bytes, 7 * P, target);
     take(bytes, 3 * N, position);
     take(bytes, 3 * N, scale);
     take(bytes, 4 * N, turn);
@@ -72,7 +72,7 @@ struct ReadFrame {
     text = bytes.substr(end, B);
     end += B;
   }
-  // x y z of a body's place, in `link` or `twin`; and its quaternion, x y z w.
+  // x y z of a body's place, in `link` or `target`; and its quaternion, x y z w.
   static std::array<float, 7> place(const std::vector<float>& places, std::size_t body) {
     std::array<float, 7> place{};
     for (std::size_t c = 0; c < 7; ++c) place[c] = places.at(7 * body + c);

@@ -33,7 +33,7 @@ TEST_CASE(
   frame.input_stamp = 12.5;
   FrameFacts facts;
   facts.number = 41;
-  facts.stands = true;
+  facts.paused = true;
   facts.stopped = true;
   facts.input_age = 0.011;
   const std::string bytes = watched.view->frame(frame, nullptr, all_layers(watched), facts);
@@ -77,7 +77,7 @@ TEST_CASE("lab frame: bodies stand and are turned as forward kinematics has them
   REQUIRE(read.link.size() == 7 * bodies.size());
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     check_place(ReadFrame::place(read.link, body), k.X_WL[body]);
-    CHECK(std::isnan(ReadFrame::place(read.twin, body)[0]));  // no kinematic robot
+    CHECK(std::isnan(ReadFrame::place(read.target, body)[0]));  // no kinematic robot
   }
 }
 
@@ -140,7 +140,7 @@ TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the s
   const std::size_t ghost = watched.layer("ghost");
   const int tip = model.find_body("quill");
   REQUIRE(tip > 0);
-  frame.hand->leads = true;
+  frame.hand->active = true;
   for (const double angle : {0.3, -0.5, 0.3}) {
     frame.hand->q_K = {angle, 0.4, -0.2};
     State<double> x = watched.plan->prepared.input.robot.state.x;
@@ -170,7 +170,7 @@ TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the s
     CHECK(seen > 0);
     for (int body = 1; body < model.body_count(); ++body) {
       const auto i = static_cast<std::size_t>(body);
-      check_place(ReadFrame::place(read.twin, i), k.X_WL[i]);
+      check_place(ReadFrame::place(read.target, i), k.X_WL[i]);
       check_place(ReadFrame::place(read.link, i), now.X_WL[i]);
     }
     const auto at = [&](const char* name) {
@@ -211,7 +211,7 @@ TEST_CASE("lab frame: what the hand feels is an arrow from the stylus, as long a
   Watched watched = watched_arm();
   LabFrame frame = watched.after(1);
   REQUIRE(frame.hand);
-  frame.hand->leads = true;
+  frame.hand->active = true;
   frame.hand->theta = {0.2, 0.7, 0.1, 0, 0, 0};
   const std::size_t felt = watched.layer("felt");
   const auto length = [&](double newton) {
@@ -237,7 +237,7 @@ TEST_CASE("lab frame: the mouse's spring is drawn from the body's point to the g
   Watched watched = watched_boxes();
   LabFrame frame = watched.after(1);
   const Model<double>& model = watched.plan->prepared.input.robot.model;
-  frame.pull = MousePoint{model.find_body("resting"), Vector3(0.2, 0, 0), Vector3(0.9, 0, 0.5),
+  frame.mouse = MouseSpringState{model.find_body("resting"), Vector3(0.2, 0, 0), Vector3(0.9, 0, 0.5),
                           Vector3(7, 0, 0)};
   const ReadFrame read(watched.view->frame(frame, nullptr, {"pull"}, {}));
   const std::size_t pull = watched.layer("pull");

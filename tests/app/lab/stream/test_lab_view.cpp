@@ -71,7 +71,7 @@ TEST_CASE(
   after.pop_back();
   CHECK(after == before);
   for (const std::string& hash : texts_in(watched.view->scene_message(), "meshes", ""))
-    CHECK(watched.view->mesh(hash));
+    CHECK(watched.view->store().mesh(hash));
 }
 
 TEST_CASE(

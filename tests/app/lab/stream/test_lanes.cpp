@@ -20,26 +20,26 @@ LabScene swinging() {
 
 // Held by an explicit spring, which gains energy from 3.96e6 N m/rad on: slowly at 4e6.
 const std::string kRod = test_data("app/lab/stream/rod.toml");
-const VariantSet kOneExplodes{"coupling.stiffness", {"2000", "4e6", "500"}, {}};
+const VariantSet kOneDiverges{"coupling.stiffness", {"2000", "4e6", "500"}, {}};
 
-// A run with its lanes, as the session has them, and what is remembered: a frame each 4 steps.
+// A run with its variants, as the session has them, and what is remembered: a frame each 4 steps.
 struct SideBySide {
-  SideBySide(const LabScene& of, VariantSet lanes, std::vector<Change> with = {})
-      : scene(of), set(std::move(lanes)), changes(std::move(with)) {
+  SideBySide(const LabScene& of, VariantSet variants, std::vector<Change> with = {})
+      : scene(of), set(std::move(variants)), changes(std::move(with)) {
     begin(nullptr);
   }
-  std::vector<Change> changes_of(std::size_t lane) const {
+  std::vector<Change> changes_of(std::size_t variant) const {
     std::vector<Change> own = changes;
-    put(own, set.change(lane));
+    put(own, set.change(variant));
     return own;
   }
   void begin(const LabFrame* from) {
     std::vector<std::unique_ptr<LabScene::Plan>> plans;
-    for (std::size_t lane = 1; lane < set.values.size(); ++lane)
-      plans.push_back(scene.plan(changes_of(lane)));
+    for (std::size_t variant = 1; variant < set.values.size(); ++variant)
+      plans.push_back(scene.plan(changes_of(variant)));
     run = std::make_unique<LabRun>(scene.plan(changes_of(0)), hand, from);
     others = LabVariants(set, std::move(plans), from, names);
-    if (from) run->keep_books(*from, names);
+    if (from) run->carry_over_energy(*from, names);
     history.begin_segment(changes_of(0));
     history.add(frame());
   }
@@ -50,19 +50,19 @@ struct SideBySide {
   }
   void step(long steps, const LabHistory* again = nullptr) {
     for (long n = 0; n < steps; ++n) {
-      const LabInput* input = again ? again->input(run->step_count() + 1) : nullptr;
+      const LabInput* input = again ? again->input(run->view().step() + 1) : nullptr;
       REQUIRE((again ? run->step(input ? *input : LabInput{}) : run->step()));
       others.follow(*run);
       history.add(run->input());
-      if (run->step_count() % 4 == 0) history.add(frame());
+      if (run->view().step() % 4 == 0) history.add(frame());
     }
   }
-  const LabFrame& lane(std::size_t n) const { return *history.newest()->lanes[n - 1].frame; }
+  const LabFrame& variant(std::size_t n) const { return *history.newest()->variants[n - 1].frame; }
 
   const LabScene& scene;
   VariantSet set;
   std::vector<Change> changes;
-  LabHand hand;
+  OperatorInput hand;
   LabNames names;
   LabHistory history;
   std::unique_ptr<LabRun> run;
@@ -88,11 +88,11 @@ void check_books(const LabFrame& one, const LabFrame& other) {
     CHECK(one.recorded.works[k] == doctest::Approx(other.recorded.works[k]).epsilon(1e-9));
 }
 
-// The scene with one lane's changes, alone, up to that step.
-LabFrame alone(SideBySide& s, std::size_t lane, long steps) {
-  LabHand nobody;
-  LabRun run(s.scene, s.changes_of(lane), nobody);
-  while (run.step_count() < steps) REQUIRE(run.step());
+// The scene with one variant's changes, alone, up to that step.
+LabFrame alone(SideBySide& s, std::size_t variant, long steps) {
+  OperatorInput nobody;
+  LabRun run(s.scene.plan(s.changes_of(variant)), nobody);
+  while (run.view().step() < steps) REQUIRE(run.step());
   return run.frame(s.names);
 }
 
@@ -105,10 +105,10 @@ TEST_CASE("lanes: each repeats bit for bit what the scene does alone with its va
   const LabScene scene = swinging();
   SideBySide s(scene, kSix);
   s.step(640);
-  for (std::size_t lane = 1; lane < 6; ++lane) {
-    CAPTURE(kSix.values[lane]);
-    check_same(s.lane(lane), alone(s, lane, 640));
-    CHECK(s.lane(lane).recorded.memory != s.history.newest()->recorded.memory);
+  for (std::size_t variant = 1; variant < 6; ++variant) {
+    CAPTURE(kSix.values[variant]);
+    check_same(s.variant(variant), alone(s, variant, 640));
+    CHECK(s.variant(variant).recorded.memory != s.history.newest()->recorded.memory);
   }
   check_same(*s.history.newest(), alone(s, 0, 640));
 }
@@ -118,80 +118,80 @@ TEST_CASE("lanes: of other steps each keeps to the run's clock within half a ste
   SideBySide s(scene, {"step", {"0.02", "0.0007", "0.05"}, {}});
   for (int n = 0; n < 20; ++n) {
     s.step(16);
-    CHECK(std::abs(s.lane(1).recorded.t - s.run->time()) <= 0.5 * 0.0007 + 1e-12);
-    CHECK(std::abs(s.lane(2).recorded.t - s.run->time()) <= 0.5 * 0.05 + 1e-12);
+    CHECK(std::abs(s.variant(1).recorded.t - s.run->time()) <= 0.5 * 0.0007 + 1e-12);
+    CHECK(std::abs(s.variant(2).recorded.t - s.run->time()) <= 0.5 * 0.05 + 1e-12);
   }
-  for (std::size_t lane = 1; lane < 3; ++lane)
-    check_same(s.lane(lane), alone(s, lane, s.lane(lane).recorded.step));
+  for (std::size_t variant = 1; variant < 3; ++variant)
+    check_same(s.variant(variant), alone(s, variant, s.variant(variant).recorded.step));
 }
 
 // A hand that goes at its fastest from 0.7 rad on: in a step that begins at t it is at
-// 0.7 + kFastest (t + h), h the run's. A lane whose last step began later has gone on with it.
+// 0.7 + kMaxJointSpeed (t + h), h the run's. A variant whose last step began later has gone on with it.
 TEST_CASE("lanes: of shorter steps they see a hand that moves where it is in each of them") {
   const LabScene scene = lab_scene(kRod);
   constexpr double h = 0.004, begin = 0.7;
   SideBySide s(scene, {"step", {"0.004", "0.002", "0.001"}, {}});
-  s.hand.choose(LabHand::Source::joints);
+  s.hand.choose(OperatorInput::Source::joints);
   s.hand.joint(0, 100, 0);
   s.step(16);
-  for (std::size_t lane = 0; lane < 3; ++lane) {
-    const LabFrame& own = lane == 0 ? *s.history.newest() : s.lane(lane);
-    const double last_began = 16 * h - h / std::pow(2, lane);
+  for (std::size_t variant = 0; variant < 3; ++variant) {
+    const LabFrame& own = variant == 0 ? *s.history.newest() : s.variant(variant);
+    const double last_began = 16 * h - h / std::pow(2, variant);
     CHECK(own.hand->q_K[0] ==
-          doctest::Approx(begin + LabHand::kFastest * (last_began + h)).epsilon(1e-12));
+          doctest::Approx(begin + OperatorInput::kMaxJointSpeed * (last_began + h)).epsilon(1e-12));
   }
 }
 
-// Two lanes of the same value must be the same run, whoever moves it.
+// Two variants of the same value must be the same run, whoever moves it.
 TEST_CASE("lanes: hand and mouse do to all what they do to the first") {
   const LabScene scene = lab_scene(arm_with("device"));
   SideBySide s(scene, {"coupling.stiffness", {"700", "700", "4000"}, {}});
-  s.hand.choose(LabHand::Source::drag);
+  s.hand.choose(OperatorInput::Source::drag);
   const Vector3 tip = s.run->prepared().input.couplings->kvr(0).start().k.position(
-      s.run->tip()->first, s.run->tip()->second);
+      s.run->input_override().tip()->first, s.run->input_override().tip()->second);
   for (int n = 0; n < 40; ++n) {
     s.hand.tip(tip + Vector3(-0.1 * std::sin(0.1 * n), 0.2 * std::sin(0.2 * n), 0), n);
-    if (n == 20) REQUIRE(s.run->pull(s.run->driven().back(), Vector3::Zero(), tip, n));
-    if (n == 30) s.run->drop();
+    if (n == 20) REQUIRE(s.run->drag(s.run->input_override().driven().back(), Vector3::Zero(), tip, n));
+    if (n == 30) s.run->release_mouse();
     s.step(16);
-    check_same(s.lane(1), *s.history.newest());
-    CHECK(s.lane(1).hand->q_K == s.history.newest()->hand->q_K);
-    CHECK(s.lane(2).hand->q_K == s.history.newest()->hand->q_K);
+    check_same(s.variant(1), *s.history.newest());
+    CHECK(s.variant(1).hand->q_K == s.history.newest()->hand->q_K);
+    CHECK(s.variant(2).hand->q_K == s.history.newest()->hand->q_K);
   }
-  CHECK(s.lane(2).recorded.memory != s.lane(1).recorded.memory);
+  CHECK(s.variant(2).recorded.memory != s.variant(1).recorded.memory);
 }
 
 TEST_CASE("lanes: one that explodes stays where it was, and the others are as they would be") {
   const LabScene scene = lab_scene(kRod);
-  SideBySide s(scene, kOneExplodes);
-  CHECK(s.others.take_words().empty());
+  SideBySide s(scene, kOneDiverges);
+  CHECK(s.others.take_warnings().empty());
   s.step(640);
-  const std::vector<std::string> words = s.others.take_words();
+  const std::vector<std::string> words = s.others.take_warnings();
   REQUIRE(words.size() == 1);
-  CHECK(words[0].find("the lane 4e6 stopped at") == 0);
-  CHECK(s.others.take_words().empty());
-  const VariantFrame dead = s.history.newest()->lanes[0];
-  CHECK(dead.stopped);
-  CHECK(dead.frame->recorded.t < 0.5);
-  CHECK(std::isfinite(dead.frame->recorded.values[0]));
-  CHECK_FALSE(s.history.newest()->lanes[1].stopped);
-  check_same(s.lane(2), alone(s, 2, 640));
+  CHECK(words[0].find("variant 4e6 stopped at") == 0);
+  CHECK(s.others.take_warnings().empty());
+  const VariantFrame failure = s.history.newest()->variants[0];
+  CHECK(failure.stopped);
+  CHECK(failure.frame->recorded.t < 0.5);
+  CHECK(std::isfinite(failure.frame->recorded.values[0]));
+  CHECK_FALSE(s.history.newest()->variants[1].stopped);
+  check_same(s.variant(2), alone(s, 2, 640));
   check_same(*s.history.newest(), alone(s, 0, 640));
   s.step(160);
-  CHECK(s.history.newest()->lanes[0].frame == dead.frame);  // it costs nothing any more
+  CHECK(s.history.newest()->variants[0].frame == failure.frame);  // it costs nothing any more
 }
 
 TEST_CASE("lanes: going back and on again repeats them all, the one that explodes too") {
   const LabScene scene = lab_scene(kRod);
-  SideBySide s(scene, kOneExplodes);
-  s.hand.choose(LabHand::Source::joints);
+  SideBySide s(scene, kOneDiverges);
+  s.hand.choose(OperatorInput::Source::joints);
   for (int n = 0; n < 40; ++n) {
     s.hand.joint(0, 0.3 * std::sin(0.2 * n), n);
     s.step(16);
   }
-  REQUIRE(s.history.newest()->lanes[0].stopped);
+  REQUIRE(s.history.newest()->variants[0].stopped);
   std::size_t first_dead = 0;
-  while (!s.history.frame(first_dead)->lanes[0].stopped) ++first_dead;
+  while (!s.history.frame(first_dead)->variants[0].stopped) ++first_dead;
   REQUIRE(first_dead > 1);
   for (const std::size_t from : {first_dead - 1, first_dead + 5}) {
     const LabHistory left = s.history.cut(from);
@@ -203,10 +203,10 @@ TEST_CASE("lanes: going back and on again repeats them all, the one that explode
       const LabFrame &was = *left.frame(n), &is = *s.history.frame(from + n);
       check_same_state(is, was);
       check_books(is, was);
-      for (std::size_t lane = 0; lane < 2; ++lane) {
-        CHECK(is.lanes[lane].stopped == was.lanes[lane].stopped);
-        check_same_state(*is.lanes[lane].frame, *was.lanes[lane].frame);
-        check_books(*is.lanes[lane].frame, *was.lanes[lane].frame);
+      for (std::size_t variant = 0; variant < 2; ++variant) {
+        CHECK(is.variants[variant].stopped == was.variants[variant].stopped);
+        check_same_state(*is.variants[variant].frame, *was.variants[variant].frame);
+        check_books(*is.variants[variant].frame, *was.variants[variant].frame);
       }
     }
   }
@@ -224,8 +224,8 @@ TEST_CASE("lanes: what is remembered of them stays within the bound of bytes") {
   std::size_t memory = 0;
   for (std::size_t n = 0; n < s.history.size(); ++n) {
     memory += s.history.frame(n)->recorded.memory.size();
-    for (const VariantFrame& lane : s.history.frame(n)->lanes)
-      memory += lane.frame->recorded.memory.size() + sizeof(LabFrame);
+    for (const VariantFrame& variant : s.history.frame(n)->variants)
+      memory += variant.frame->recorded.memory.size() + sizeof(LabFrame);
   }
   CHECK(memory < s.history.bytes());
   CHECK(s.history.bytes() <= 100000);
@@ -237,8 +237,8 @@ TEST_CASE("lanes: a view shows each in its place, and says its joints and energi
   const LabScene scene = swinging();
   SideBySide s(scene, {"integrator", {"semi-implicit", "euler", "rk4"}, Vector3(0, 0.5, 0)});
   s.step(160);
-  const auto shared = [&](std::size_t lane) {
-    const std::shared_ptr<const LabScene::Plan> plan = scene.plan(s.changes_of(lane));
+  const auto shared = [&](std::size_t variant) {
+    const std::shared_ptr<const LabScene::Plan> plan = scene.plan(s.changes_of(variant));
     return std::shared_ptr<const SimulatePlan>(plan, &plan->prepared);
   };
   LabView view(1, shared(0), scene.header(s.changes_of(0), {}), {},
@@ -255,10 +255,10 @@ TEST_CASE("lanes: a view shows each in its place, and says its joints and energi
   REQUIRE(read.instances() == 9);  // hook, rod and ball of each
   // 1 kg at 1 m below a hinge at 1.2 m; 2/5 m r^2 about its own middle; energies about the hinge.
   const double start = -9.81 * std::cos(std::numbers::pi / 3), hinge = 9.81 * 1.2;
-  for (std::size_t lane = 0; lane < 3; ++lane) {
-    CAPTURE(lane);
-    const std::string& name = s.set.values[lane];
-    const LabFrame& own = lane == 0 ? frame : *frame.lanes[lane - 1].frame;
+  for (std::size_t variant = 0; variant < 3; ++variant) {
+    CAPTURE(variant);
+    const std::string& name = s.set.values[variant];
+    const LabFrame& own = variant == 0 ? frame : *frame.variants[variant - 1].frame;
     const State<double> x = instant_of(own.recorded, scene.plan()->prepared.input.robot.model).x;
     const double energy = 0.5 * 1.00144 * x.qd[0] * x.qd[0] - 9.81 * std::cos(x.q[0]);
     CHECK(value(read, "lane/q/hinge/" + name) == x.q[0]);
@@ -266,17 +266,17 @@ TEST_CASE("lanes: a view shows each in its place, and says its joints and energi
           doctest::Approx(hinge + energy).epsilon(1e-9));
     CHECK(value(read, "lane/numerical/" + name) ==
           doctest::Approx(energy - start).epsilon(1e-9).scale(1));
-    const std::size_t ball = 3 * lane + 2;
+    const std::size_t ball = 3 * variant + 2;
     CHECK(std::abs(read.position[3 * ball]) == doctest::Approx(std::abs(std::sin(x.q[0]))));
-    CHECK(read.position[3 * ball + 1] == doctest::Approx(0.5 * static_cast<double>(lane)));
+    CHECK(read.position[3 * ball + 1] == doctest::Approx(0.5 * static_cast<double>(variant)));
     CHECK(read.position[3 * ball + 2] == doctest::Approx(1.2 - std::cos(x.q[0])));
-    CHECK((read.body[ball] == 65535) == (lane > 0));  // who is clicked at is the first
+    CHECK((read.body[ball] == 65535) == (variant > 0));  // who is clicked at is the first
   }
   CHECK(read.text ==
         "semi-implicit"
         "euler"
         "rk4");
-  frame.lanes[0].stopped = true;
+  frame.variants[0].stopped = true;
   const ReadFrame after(view.frame(frame, nullptr, {}, {}));
   CHECK(after.labels_of(0) ==
         std::vector<std::string>{"semi-implicit", "euler: stopped at 3.2 s", "rk4"});

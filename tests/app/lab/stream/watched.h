@@ -16,7 +16,7 @@ inline const std::string kBoxes = test_data("app/lab/stream/boxes.toml");
 
 struct Watched {
   std::unique_ptr<LabScene> scene;
-  LabHand hand;
+  OperatorInput hand;
   std::unique_ptr<LabRun> run;
   std::shared_ptr<const LabScene::Plan> plan;
   std::unique_ptr<LabView> view;
@@ -27,7 +27,7 @@ struct Watched {
     SimulateOptions options;
     options.robot.model = file;
     scene = std::make_unique<LabScene>(options);
-    run = std::make_unique<LabRun>(*scene, std::vector<Change>{}, hand);
+    run = std::make_unique<LabRun>(scene->plan(), hand);
     plan = scene->plan();
     header = scene->header({}, {});
     view = std::make_unique<LabView>(7, std::shared_ptr<const SimulatePlan>(plan, &plan->prepared),

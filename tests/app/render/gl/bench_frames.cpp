@@ -1,5 +1,5 @@
-// What a picture costs: some 20,000 triangles with their shadow, the camera going round. Processor
-// time of this process, in milliseconds; give LP_NUM_THREADS=0 so that Mesa has no threads beside.
+// Time of a picture: about 20,000 triangles with shadows, rotating camera. Processor time of this
+// process in milliseconds; LP_NUM_THREADS=0 disables Mesa's threads.
 //
 //   LP_NUM_THREADS=0 bench_frames [FRAMES]
 #include <algorithm>

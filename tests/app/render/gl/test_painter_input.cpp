@@ -1,4 +1,4 @@
-// What a painter is given that makes no picture, or only just one.
+// Invalid and extreme input of the painter.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ DrawList one_box() {
 
 }  // namespace
 
-TEST_CASE("painter: sizes without a pixel, or with too many, are refused in one sentence") {
+TEST_CASE("painter: sizes of zero or too many pixels are rejected") {
   for (const PixelSize& size : {PixelSize{0, 10}, {10, 0}, {-1, 10}, {10, 1 << 20}}) {
     CAPTURE(size.width);
     CAPTURE(size.height);
@@ -32,7 +32,7 @@ TEST_CASE("painter: sizes without a pixel, or with too many, are refused in one 
   }
 }
 
-TEST_CASE("painter: any odd size has all its pixels, opaque") {
+TEST_CASE("painter: pictures of odd size are complete and opaque") {
   for (const Quality quality : {Quality::draft, Quality::normal})
     for (const PixelSize& size : {PixelSize{1, 1}, {1, 7}, {3, 1}, {17, 33}, {333, 5}}) {
       const Image image =
@@ -43,7 +43,7 @@ TEST_CASE("painter: any odd size has all its pixels, opaque") {
     }
 }
 
-TEST_CASE("painter: what stands at no finite place is left out, and the rest is drawn") {
+TEST_CASE("painter: instances that are not finite are left out") {
   DrawList list = one_box();
   const Image without = Painter(Backend::osmesa, 64, 48).paint(list);
   const double inf = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ TEST_CASE("painter: what stands at no finite place is left out, and the rest is 
   CHECK(Painter(Backend::osmesa, 64, 48).paint(list).rgba == without.rgba);
 }
 
-TEST_CASE("painter: a camera that sees nothing is refused with what is wrong with it") {
+TEST_CASE("painter: an invalid camera is rejected with the reason") {
   Painter painter(Backend::osmesa, 16, 16, Quality::draft);
   const auto is_refused = [&](auto change) {
     DrawList list = one_box();
@@ -71,8 +71,8 @@ TEST_CASE("painter: a camera that sees nothing is refused with what is wrong wit
   is_refused([](Camera& c) { c.field_of_view = 3.2; });
 }
 
-// By the camera's own geometry, not by its matrix: where does the line of sight meet the floor?
-TEST_CASE("view: the rows that the floor is said to fill, it fills; and few more") {
+// Intersection of the line of sight with the floor, by the camera's geometry instead of its matrix.
+TEST_CASE("view: rows_all_floor() counts the rows that the floor fills") {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> at(-1, 1);
   constexpr int kHeight = 90;

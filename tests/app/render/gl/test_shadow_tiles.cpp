@@ -1,4 +1,4 @@
-// Where the painter looks up shadows on the floor, against single rays of light.
+// Tiles with shadow lookup, against single light rays.
 #include "app/render/gl/scene_pass.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kPictureWidth = 300, kPictureHeight = 200;  // not whole tiles
 
-// Numbers in -1..1, and what is made of them.
+// Random numbers in -1..1, vectors and poses.
 class BoxDice {
  public:
   explicit BoxDice(unsigned seed) : generator_(seed) {}
@@ -56,7 +56,7 @@ LitBoxes random_boxes(BoxDice& dice, int box_count) {
   return scene;
 }
 
-// How many parts hold the middle of this pixel, counted from the lower left corner.
+// Number of tiles with the centre of this pixel, from the lower left corner.
 int parts_at(const std::vector<FloorTiles>& tiles, int x, int y, bool only_shadowed) {
   int count = 0;
   for (const FloorTiles& part : tiles) {
@@ -69,7 +69,7 @@ int parts_at(const std::vector<FloorTiles>& tiles, int x, int y, bool only_shado
 
 }  // namespace
 
-TEST_CASE("shadow tiles: each pixel lies in one part of the picture") {
+TEST_CASE("shadow tiles: each pixel is in one tile") {
   BoxDice dice(1);
   for (int run = 0; run < 20; ++run) {
     const std::vector<FloorTiles> tiles = random_boxes(dice, run % 4).tiles();
@@ -80,7 +80,7 @@ TEST_CASE("shadow tiles: each pixel lies in one part of the picture") {
   }
 }
 
-TEST_CASE("shadow tiles: wherever a ray of light that meets a body ends, shadows are looked up") {
+TEST_CASE("shadow tiles: every shadow on the floor is in a tile with shadow lookup") {
   BoxDice dice(2);
   int seen = 0, lit = 0;
   for (int run = 0; run < 200; ++run) {
@@ -88,7 +88,7 @@ TEST_CASE("shadow tiles: wherever a ray of light that meets a body ends, shadows
     const std::vector<FloorTiles> tiles = scene.tiles();
     for (const FloorTiles& part : tiles) lit += !part.maybe_shadowed;
     for (int i = 0; i < 200; ++i) {
-      // A point of a body, or as far beside one as the margin says.
+      // A point of a body or within the margin of one.
       const CasterBox& box = scene.boxes[static_cast<std::size_t>(i) % scene.boxes.size()];
       const Vector3 beside = scene.light.margin * dice.vector().normalized();
       const Vector3 p = box.X_WB * box.half.cwiseProduct(dice.vector()) + beside;
@@ -103,11 +103,11 @@ TEST_CASE("shadow tiles: wherever a ray of light that meets a body ends, shadows
       CHECK(parts_at(tiles, x, y, true) == 1);
     }
   }
-  CHECK(seen > 5000);  // the test is about something,
-  CHECK(lit > 500);    // and something is left out
+  CHECK(seen > 5000);  // enough shadowed points,
+  CHECK(lit > 500);    // and lit tiles
 }
 
-TEST_CASE("shadow tiles: under a light without height, shadows are looked up everywhere") {
+TEST_CASE("shadow tiles: horizontal light looks up shadows everywhere") {
   BoxDice dice(3);
   for (const double height : {-0.5, 0.0, 1e-3}) {
     LitBoxes scene = random_boxes(dice, 1);
@@ -118,7 +118,7 @@ TEST_CASE("shadow tiles: under a light without height, shadows are looked up eve
   }
 }
 
-TEST_CASE("shadow tiles: a shadow that reaches behind the eye is looked up everywhere") {
+TEST_CASE("shadow tiles: a shadow that extends behind the eye is looked up everywhere") {
   BoxDice dice(4);
   LitBoxes scene = random_boxes(dice, 1);
   scene.boxes[0].half = Vector3(1000, 1000, 0.1);

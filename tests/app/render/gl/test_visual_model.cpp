@@ -1,4 +1,4 @@
-// Meshes of files as they are drawn: textures the right way up, broken pictures told.
+// Mesh files as drawn: orientation of textures, broken textures.
 #include "app/render/list/visual_model.h"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ using namespace twinarm;
 
 namespace {
 
-// A unit square in the plane z = 0, seen from above, with the picture upright: u along x, v down y.
+// A unit square in the plane z = 0 with the texture upright from above: u along x, v along -y.
 const std::string kSquare = test_data("app/render/gl/square.obj");
 
 VisualModel painted_square(const TemporaryFolder& folder, const std::string& picture) {
@@ -28,7 +28,7 @@ VisualModel painted_square(const TemporaryFolder& folder, const std::string& pic
   return load_visual(folder.write("square.obj", kSquare));
 }
 
-// From above the square's middle, y up in the picture.
+// From above the centre of the square, y up in the picture.
 Image picture_of(const VisualModel& model, double from_z) {
   DrawList list;
   list.ground.visible = false;
@@ -50,41 +50,41 @@ bool any_note(const VisualModel& model, const std::string& words) {
 
 }  // namespace
 
-TEST_CASE("a texture lies on the square as the file says, upright, from both sides") {
+TEST_CASE("a texture has the orientation of the file, on both sides of a square") {
   const TemporaryFolder folder;
   const std::string picture = encode_png(quarters(64));
   const VisualModel model = painted_square(folder, picture);
   REQUIRE(model.parts.size() == 1);
   CHECK(model.parts[0].mesh.two_sided);
   CHECK(quarters_of(picture_of(model, 3)) == "rgbw");
-  CHECK(quarters_of(picture_of(model, -3)) == "grwb");  // from below, left is right
+  CHECK(quarters_of(picture_of(model, -3)) == "grwb");  // mirrored from below
 }
 
 namespace {
 
-// Within the triangle that the square's file gives last, away from its own mirror line.
+// Within the last triangle of the file, away from its mirror line.
 std::string upper_half_of(const Image& image) {
   return {color_at(image, 5, -25), color_at(image, -25, -5), color_at(image, -25, 5)};
 }
 
 }  // namespace
 
-TEST_CASE("a texture stays where it lay when triangles are turned about, or the mesh is mirrored") {
+TEST_CASE("a texture keeps its place when triangles are flipped or the mesh is mirrored") {
   const TemporaryFolder folder;
   const std::string picture = encode_png(quarters(64));
   std::string one_turned = kSquare;
   one_turned.replace(one_turned.find("f 1/1 3/3 4/4"), 13, "f 4/4 3/3 1/1");
-  painted_square(folder, picture);  // writes what the square below names
+  painted_square(folder, picture);  // writes the files for the square below
   const fs::path file = folder.write("turned.obj", one_turned);
   const VisualModel mended = load_visual(file);
-  CHECK(any_note(mended, "1 triangles looked inwards"));
+  CHECK(any_note(mended, "1 triangles faced inwards"));
   CHECK(quarters_of(picture_of(mended, 3)) == "rgbw");
   CHECK(upper_half_of(picture_of(mended, 3)) == "grb");
   for (const fs::path& square : {file, folder.write("square.obj", kSquare)}) {
     VisualModel mirrored = load_visual(square, Vector3(-1, 1, 1));
     REQUIRE(mirrored.parts.size() == 1);
     DrawMesh& mesh = mirrored.parts[0].mesh;
-    for (auto& p : mesh.positions) p[0] += 1;  // before the camera again
+    for (auto& p : mesh.positions) p[0] += 1;  // into the view
     mesh.bound_center.x() += 1;
     const Image image = picture_of(mirrored, 3);
     CHECK(quarters_of(image) == "grwb");
@@ -93,7 +93,7 @@ TEST_CASE("a texture stays where it lay when triangles are turned about, or the 
   }
 }
 
-TEST_CASE("a mesh that is mirrored by its scale has its outside outside, and nothing is said") {
+TEST_CASE("a mesh mirrored by its scale has outward triangles, without a note") {
   const TemporaryFolder folder;
   const fs::path file = folder.write(
       "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
@@ -109,7 +109,7 @@ TEST_CASE("a mesh that is mirrored by its scale has its outside outside, and not
   }
 }
 
-TEST_CASE("a picture that is broken is told, and the mesh drawn without it") {
+TEST_CASE("a broken texture is reported and the mesh drawn without it") {
   const TemporaryFolder folder;
   const std::string good = encode_png(quarters(64));
   for (const std::string& bad : {good.substr(0, good.size() / 2), std::string("text"),
@@ -121,7 +121,7 @@ TEST_CASE("a picture that is broken is told, and the mesh drawn without it") {
   }
 }
 
-TEST_CASE("a JPEG's quarters come back as they were, but for what its compression loses") {
+TEST_CASE("JPEG quarters are decoded within the compression error") {
   Image image = quarters(64);
   unsigned char* bytes = nullptr;
   unsigned long size = 0;
@@ -138,21 +138,21 @@ TEST_CASE("a JPEG's quarters come back as they were, but for what its compressio
     CHECK_THROWS_AS(decode_image("x", jpeg.substr(0, cut)), InputError);
 }
 
-TEST_CASE("what PNG encodes, decoding gives back") {
+TEST_CASE("PNG: decoding returns the encoded image") {
   Image image = quarters(6);
   image.rgba[3] = 77;  // with an alpha
   CHECK(decode_image("x", encode_png(image)).rgba == image.rgba);
 }
 
-TEST_CASE("triangles that look inwards are turned about, and that is said") {
+TEST_CASE("triangles that face inwards are flipped, with a note") {
   const TemporaryFolder folder;
   const VisualModel model = load_visual(folder.write(
       "t.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 2\nf 1 4 3\nf 2 3 4\n"));
-  CHECK(any_note(model, "1 triangles looked inwards"));
+  CHECK(any_note(model, "1 triangles faced inwards"));
   CHECK(!model.parts.at(0).mesh.two_sided);
 }
 
-TEST_CASE("each part has the picture that its own material names") {
+TEST_CASE("each part has the texture of its material") {
   const TemporaryFolder folder;
   Image picture = quarters(8);
   for (const auto& [name, channel] :

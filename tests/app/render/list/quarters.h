@@ -1,4 +1,4 @@
-// A picture whose quarters can be told apart, and what a painter makes of it.
+// A picture with four different quarters.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ inline Image quarters(int side) {
   return image;
 }
 
-// 'r', 'g', 'b' where one of them rules, 'w' for none, at a place right and down of the middle.
+// Dominant colour 'r', 'g', 'b', or 'w', at an offset right and down of the centre.
 inline char color_at(const Image& image, int right, int down) {
   const std::uint8_t* p = image.pixel(image.width / 2 + right, image.height / 2 + down);
   const auto most = std::max_element(p, p + 3), least = std::min_element(p, p + 3);

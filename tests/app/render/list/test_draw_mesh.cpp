@@ -1,4 +1,4 @@
-// Bare meshes on their way to the painter: windings mended, normals made, whatever comes.
+// Winding and normals of arbitrary meshes.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ TriangleMesh tetrahedron() {
           {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
 
-// Of any two numbers some stand side by side: far apart in size, equal, or hardly different.
+// Numbers of very different size, equal, or nearly equal.
 TriangleMesh senseless_mesh(std::mt19937& random) {
   static constexpr double kNumbers[] = {0,     1,    -1,  1e-38, 1e-45, 1e38,
                                         -3e38, 1e-7, 0.5, 1e19,  2,     1 + 1e-7};
@@ -46,19 +46,19 @@ double length_of(const std::array<float, 3>& v) {
 
 }  // namespace
 
-TEST_CASE("a closed surface gets its outside outside, whichever of its triangles look inwards") {
+TEST_CASE("winding: a closed surface faces outwards, whichever triangles were flipped") {
   for (unsigned turned = 0; turned < 16; ++turned) {
     TriangleMesh mesh = tetrahedron();
     for (std::size_t i = 0; i < 4; ++i)
       if (turned >> i & 1) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-    const MendedWinding mended = mend_winding(mesh);
+    const ConsistentWinding mended = make_winding_consistent(mesh);
     CHECK(mended.is_closed);
     CHECK(mesh.triangles == tetrahedron().triangles);
     for (std::size_t i = 0; i < 4; ++i) CHECK(mended.turned[i] == ((turned >> i & 1) != 0));
   }
 }
 
-TEST_CASE("surfaces that do not touch are mended each for itself, open ones too") {
+TEST_CASE("winding: separate surfaces are repaired separately, open ones too") {
   TriangleMesh good;
   for (int copy = 0; copy < 3; ++copy) {
     TriangleMesh part = tetrahedron();
@@ -69,28 +69,28 @@ TEST_CASE("surfaces that do not touch are mended each for itself, open ones too"
   }
   for (unsigned turned = 0; turned < 1u << 11; turned += 7) {
     TriangleMesh mesh = good;
-    // Of the open part one triangle at most: most of its area says where its outside is.
+    // Of the open part at most one triangle: the side of most of its area counts.
     const unsigned open = turned >> 4 & 7;
     if ((open & (open - 1)) != 0) continue;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
       if (turned >> i & 1) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-    const MendedWinding mended = mend_winding(mesh);
+    const ConsistentWinding mended = make_winding_consistent(mesh);
     REQUIRE(mesh.triangles == good.triangles);
     CHECK(!mended.is_closed);
   }
 }
 
-TEST_CASE("an open surface keeps the side that most of its area has") {
+TEST_CASE("winding: an open surface keeps the side of most of its area") {
   TriangleMesh mesh = tetrahedron();
   mesh.triangles.pop_back();  // the slanted one
   const auto good = mesh.triangles;
   std::swap(mesh.triangles[1][1], mesh.triangles[1][2]);
-  const MendedWinding mended = mend_winding(mesh);
+  const ConsistentWinding mended = make_winding_consistent(mesh);
   CHECK(!mended.is_closed);
   CHECK(mesh.triangles == good);
 }
 
-TEST_CASE("a strip with a half turn has no outside: it is said to be open") {
+TEST_CASE("winding: a Moebius strip is open") {
   TriangleMesh strip{{}, {}};
   const int n = 12;
   for (int i = 0; i < n; ++i) {
@@ -106,15 +106,15 @@ TEST_CASE("a strip with a half turn has no outside: it is said to be open") {
     strip.triangles.push_back({a, b, c});
     strip.triangles.push_back({c, b, d});
   }
-  CHECK(!mend_winding(strip).is_closed);
+  CHECK(!make_winding_consistent(strip).is_closed);
 }
 
-TEST_CASE("what a senseless mesh becomes can be drawn: corners that exist, normals of length 1") {
+TEST_CASE("a random mesh gives valid indices and unit normals") {
   std::mt19937 random(5);
   std::size_t drawn = 0;
   for (int i = 0; i < 1000; ++i) {
     TriangleMesh mesh = senseless_mesh(random);
-    mend_winding(mesh);
+    make_winding_consistent(mesh);
     const DrawMesh draw = make_draw_mesh(mesh);
     drawn += draw.triangles.size();
     REQUIRE(draw.normals.size() == draw.positions.size());
@@ -126,7 +126,7 @@ TEST_CASE("what a senseless mesh becomes can be drawn: corners that exist, norma
   CHECK(drawn > 1000);
 }
 
-TEST_CASE("a corner of a hundred thousand facets takes no time to speak of, and looks as a cone") {
+TEST_CASE("a vertex of 100,000 facets is fast, with the normals of a cone") {
   TriangleMesh cone{{{0, 0, 1}}, {}};
   const int n = 100000;
   const auto turn = [](double k) { return 2 * 3.14159265358979 * k / n; };
@@ -135,7 +135,7 @@ TEST_CASE("a corner of a hundred thousand facets takes no time to speak of, and 
     cone.triangles.push_back({0, 1 + k, 1 + (k + 1) % n});
   }
   const std::clock_t begin = std::clock();
-  mend_winding(cone);
+  make_winding_consistent(cone);
   const DrawMesh draw = make_draw_mesh(cone);
   CHECK(static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC < 20);  // squared: minutes
   REQUIRE(draw.triangles.size() == static_cast<std::size_t>(n));

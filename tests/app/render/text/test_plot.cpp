@@ -1,4 +1,4 @@
-// Plots that run under pictures: ticks, ranges, and where the curve is in the pixels.
+// Plots below pictures: ticks, ranges, pixels of the curve.
 #include "app/render/text/plot.h"
 
 #include <doctest/doctest.h>
@@ -9,7 +9,7 @@
 namespace twinarm {
 namespace {
 
-TEST_CASE("plot: ticks are round, evenly apart, inside, and not more than asked for") {
+TEST_CASE("plot: ticks are round, evenly spaced, inside the range, and at most as many as given") {
   for (const double low : {-7.3, 0.0, 0.013, 1e5})
     for (const double span : {1e-9, 0.37, 3.0, 10.0, 99.0, 4.2e7})
       for (const int most : {1, 3, 6}) {
@@ -33,7 +33,7 @@ TEST_CASE("plot: ticks are round, evenly apart, inside, and not more than asked 
   CHECK(round_ticks(1, 1, 4).empty());
 }
 
-TEST_CASE("plot: one range holds 0 and all of two plots; what is not finite is left out") {
+TEST_CASE("plot: a common range contains 0 and two plots, without values that are not finite") {
   Plot a, b;
   a.t = {0, 1};
   a.curves = {{"x", {}, {3, -1}}};
@@ -49,7 +49,7 @@ TEST_CASE("plot: one range holds 0 and all of two plots; what is not finite is l
   CHECK(range_of({&nothing}).y_high > 0);
 }
 
-// The mean height of the pixels of one colour in a column, from the bottom; none: negative.
+// Mean height of the pixels of one colour in a column, from the bottom; negative: none.
 double height_of(const Image& image, int x, const Color& color) {
   double sum = 0;
   int count = 0;
@@ -63,7 +63,7 @@ double height_of(const Image& image, int x, const Color& color) {
   return count > 0 ? sum / count : -1;
 }
 
-TEST_CASE("plot: a straight line of values is a straight line of pixels, and ends in a gap") {
+TEST_CASE("plot: a linear curve is a straight line of pixels and ends at a gap") {
   const Color magenta{1, 0, 1, 1};
   Plot plot;
   plot.title = "a [m]";

@@ -1,5 +1,5 @@
-// The PUMA 560, read from its URDF, against published and recomputed torques: all of its numbers
-// count in them. Built from its tables it is benchmarks/analytic/joints/puma560.cpp, F1.
+// The PUMA 560, read from its URDF, against published and recomputed torques, which depend on all
+// its parameters. The model built from tables: benchmarks/analytic/joints/puma560.cpp, F1.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace {
 
 using puma560::Joints;
 
-// The robot's own joints in order; the root link stands on the world by a fixed joint.
+// The robot's joints in order; the root link is fixed to the world.
 Model<double> puma(bool armature, bool friction) {
   ModelOptions options;
   options.armature = armature;
@@ -29,7 +29,7 @@ State<double> state(const Model<double>& model, const Joints& q, const Joints& q
   std::copy(qd.begin(), qd.end(), x.qd.begin());
   return x;
 }
-// Viscous and Coulomb friction resist a rate that is not zero.
+// Viscous and Coulomb friction oppose the rate.
 Joints friction(const Model<double>& model, const Joints& qd) {
   Joints tau{};
   for (std::size_t k = 0; k < 6; ++k)
@@ -45,7 +45,7 @@ Joints inverse(const Model<double>& model, const State<double>& x, double qdd) {
   for (std::size_t k = 0; k < 6; ++k) tau[k] += w.tau[k];
   return tau;
 }
-// Of the largest entry.
+// Relative to the largest entry.
 double difference(const Joints& got, const Joints& expected) {
   double largest = 0, error = 0;
   for (std::size_t k = 0; k < 6; ++k) {
@@ -55,7 +55,7 @@ double difference(const Joints& got, const Joints& expected) {
   return error / largest;
 }
 
-TEST_CASE("F1: the PUMA 560 bears its weight as published") {
+TEST_CASE("F1: gravity torques of the PUMA 560 as published") {
   const Model<double> model = puma(true, true);
   for (const puma560::GravityLoad& load : puma560::kGravityLoads)
     CHECK(difference(inverse(model, state(model, load.q), 0), load.tau) < 1e-14);

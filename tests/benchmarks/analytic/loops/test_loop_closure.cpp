@@ -1,4 +1,5 @@
-// Rows of loop closures: by differences of g along the motion, by virtual work; what is refused.
+// Rows of loop closures, by finite differences of g along the motion and by virtual work; invalid
+// loops.
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
@@ -20,7 +21,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// One of each type in a random tree, between random links that something moves against each other.
+// One of each type in a random tree, between random links that can move relative to each other.
 std::vector<LoopClosure> random_loops(Random& random, const Model<double>& model) {
   std::vector<int> one_dof;
   for (int i = 1; i < model.body_count(); ++i)
@@ -97,7 +98,7 @@ TEST_CASE(
       forward_kinematics(model, x, k);
       loops.evaluate(x, k);
 
-      // g' = J qd: nothing is prescribed here.
+      // g' = J qd: no prescribed motion here.
       const VectorXd qd = Eigen::Map<const VectorXd>(x.qd.data(), static_cast<Index>(model.nv));
       CHECK((loops.rate() - loops.J() * qd).norm() < 1e-8);
       for (std::size_t d = 0; d < model.nv; ++d) {
@@ -119,7 +120,7 @@ TEST_CASE(
   CHECK(checked > 40);
 }
 
-TEST_CASE("loops: the wrenches on both links do the power lambda g'") {
+TEST_CASE("loops: the power of the wrenches on both links is lambda g'") {
   Random random(52);
   for (int trial = 0; trial < 30; ++trial) {
     const Model<double> model = random_tree(random, 7, {JointType::revolute, JointType::spherical});
@@ -151,7 +152,7 @@ TEST_CASE("loops: the wrenches on both links do the power lambda g'") {
   }
 }
 
-TEST_CASE("loops: rows know the dofs between their ends, and those alone") {
+TEST_CASE("loops: rows contain exactly the dofs between their ends") {
   ModelBuilder builder;
   const BodyInertia cube{1, {0, 0, 0}, Matrix3::Identity()};
   builder.add_body("trunk", 0, "free", JointType::free, {}, Vector3::UnitZ(), cube);
@@ -163,7 +164,7 @@ TEST_CASE("loops: rows know the dofs between their ends, and those alone") {
   CHECK(loops.dofs_of(5) == std::vector<std::size_t>{6, 7});
 }
 
-TEST_CASE("loops: all faults at once, each with its remedy") {
+TEST_CASE("loops: all errors at once, each with its fix") {
   const LoopCase c = slider_crank();
   const LoopClosure good = c.loops[0];
   std::vector<LoopClosure> loops(11, good);
@@ -193,7 +194,7 @@ TEST_CASE("loops: all faults at once, each with its remedy") {
   CHECK(what_of(c.model, c.loops, c.start).empty());
 }
 
-TEST_CASE("loops: a joint of two dofs is neither geared nor locked") {
+TEST_CASE("loops: gear and locked reject a joint of two dofs") {
   ModelBuilder builder;
   const BodyInertia cube{1, {0, 0, 0}, Matrix3::Identity()};
   builder.add_body("a", 0, "ball", JointType::spherical, {}, Vector3::UnitZ(), cube);

@@ -1,5 +1,5 @@
-// Accelerations and forces with loops: the saddle-point system of M and A, reactions by closed
-// form, friction of joints that loops couple.
+// Accelerations and forces with loops: the saddle-point system of M and A, reactions in closed
+// form, friction of joints coupled by loops.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -21,7 +21,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of a mechanism with loops at a state: what ForwardDynamics finds, and the dense answer.
+// A mechanism with loops in a state: result of ForwardDynamics, and the dense solution.
 struct Both {
   ForwardDynamics dynamics;
   Workspace<double> w;
@@ -49,7 +49,7 @@ struct Both {
     gamma = VectorXd::Zero(A.rows());
     gamma.tail(loops.J().rows()) = loops.gamma();
   }
-  // (qdd; lambda), the shortest.
+  // (qdd; lambda) of minimum norm.
   VectorXd solve(const VectorXd& tau) const {
     const Index n = M.rows(), m = A.rows();
     MatrixXd K = MatrixXd::Zero(n + m, n + m);
@@ -95,8 +95,8 @@ TEST_CASE(
                                    {"gear", LoopType::gear, 2, 3}};
     loops[1].length = 1;
     loops[2].ratio = 0.7;
-    if (trial % 2) loops.push_back({"ball", LoopType::ball, 9, 0, A, B});  // says it again
-    const bool geared_again = trial % 3 == 0;  // and what the mimic says
+    if (trial % 2) loops.push_back({"ball", LoopType::ball, 9, 0, A, B});  // redundant
+    const bool geared_again = trial % 3 == 0;  // redundant with the mimic
     if (geared_again) {
       loops.push_back({"again", LoopType::gear, 6, 3});
       loops.back().ratio = model.mimics[0].ratio;
@@ -112,11 +112,11 @@ TEST_CASE(
     const double scale = 1 + largest(dense);
     CHECK(largest(vector_of(both.w.qdd) - dense.head(n)) < 1e-9 * scale);
     CHECK(largest(both.A * vector_of(both.w.qdd) + both.gamma) < 1e-9 * scale);
-    if (geared_again) continue;  // who of the two bears how much is anyone's choice
+    if (geared_again) continue;  // the forces of the two are not unique
     CHECK(largest(vector_of(both.dynamics.torques().loop) -
                   both.A.bottomRows(m).transpose() * dense.tail(m)) < 1e-8 * scale);
     CHECK(largest(both.dynamics.bilateral().lambda_of_loops() - dense.tail(m)) < 1e-7 * scale);
-    // The bodies' accelerations go with qdd.
+    // Body accelerations consistent with qdd.
     Workspace<double> plain(model);
     rnea(model, x, both.w.qdd, forces.f_ext, plain);
     for (std::size_t i = 1; i < model.parent.size(); ++i)
@@ -143,7 +143,7 @@ TEST_CASE("loops: reactions of a hinged rod, m g / 4 when released, 5/2 m g at t
   LoopWrench on_rod = wrench();
   CHECK((on_rod.force - Vector3(0, 0, 2 * 9.81 / 4)).norm() < 1e-12);
   CHECK(on_rod.couple.norm() < 1e-12);
-  const double r = std::sqrt(0.5);  // turned by 90 degrees about y: along -z
+  const double r = std::sqrt(0.5);  // rotated by 90 degrees about y: along -z
   const double rate = std::sqrt(3 * 9.81);
   x.q = {0, 0, 0, r, 0, r, 0};
   x.qd = {0, rate, 0, 0, 0, 0};
@@ -169,7 +169,7 @@ TEST_CASE("loops: Andrews' mechanism starts with the published acceleration and 
   CHECK(both.dynamics.bilateral().rank() == 6);
 }
 
-TEST_CASE("loops: friction of joints that a loop couples is felt through the loop, moving") {
+TEST_CASE("loops: sliding friction of coupled joints acts through the loop") {
   for (const double direction : {1.0, -1.0}) {
     const LoopCase c = rubbing_slider_crank(0.3, 0.8);
     State<double> x = c.start;
@@ -184,23 +184,23 @@ TEST_CASE("loops: friction of joints that a loop couples is felt through the loo
     CHECK(both.dynamics.bilateral().loops().rate().norm() < 1e-14);
     Forces<double> forces(c.model);
     forces.clear();
-    const VectorXd friction{{-0.3 * direction, 0, 0.8 * direction}};  // the piston goes back
+    const VectorXd friction{{-0.3 * direction, 0, 0.8 * direction}};  // the piston moves backward
     both.dynamics(x, forces, both.w);
     CHECK(largest(vector_of(both.w.qdd) - both.solve(friction).head(3)) < 1e-10);
     CHECK(largest(vector_of(both.dynamics.torques().coulomb) - friction) < 1e-15);
   }
 }
 
-TEST_CASE("loops: at rest, coupled friction holds exactly up to its sum felt at the crank") {
+TEST_CASE("loops: static friction of coupled joints holds up to its sum reflected to the crank") {
   const LoopCase c = rubbing_slider_crank(0.3, 0.8);
   State<double> x = c.start;
   const double q = std::acos(-1.0) / 3;
   x.q = {q, std::asin(-0.1 * std::sin(q) / 0.3) - q, 0.33722813232690142};
   x.qd = {0, 0, 0};
-  // dx/dq of the piston, and the torque that gravity needs, by virtual work.
+  // dx/dq of the piston, and the torque that balances gravity, by virtual work.
   const double s = -0.1 * std::cos(q) / (0.3 * std::cos(x.q[0] + x.q[1]));
   const double dx = -0.1 * std::sin(q) - 0.3 * std::sin(x.q[0] + x.q[1]) * s;
-  const double weight = 9.81 * 0.1 * std::cos(q) * (1 * 0.5 + 2 * 0.5);  // rod: half of its rise
+  const double weight = 9.81 * 0.1 * std::cos(q) * (1 * 0.5 + 2 * 0.5);  // rod: half the height
   const double most = 0.3 + 0.8 * std::abs(dx);
   for (const double part : {-1.02, -0.98, 0.0, 0.98, 1.02}) {
     CAPTURE(part);
@@ -221,7 +221,7 @@ TEST_CASE("loops: at rest, coupled friction holds exactly up to its sum felt at 
   }
 }
 
-TEST_CASE("loops: a rubbing slider-crank comes to rest, does not creep, and stays closed") {
+TEST_CASE("loops: a slider-crank with friction stops, does not creep, and remains closed") {
   for (const Integrator integrator :
        {Integrator::semi_implicit, Integrator::semi_implicit_xv, Integrator::rk4,
         Integrator::dopri5, Integrator::implicit_midpoint}) {

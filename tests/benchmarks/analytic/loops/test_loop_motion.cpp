@@ -1,5 +1,5 @@
-// Motions with closed loops: group D of docs/reference/verification_cases.md, orders, energy, and what every step
-// promises.
+// Motions with closed loops: group D of docs/reference/verification_cases.md, orders, energy,
+// invariants of every step.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -61,7 +61,7 @@ Outcome run(const LoopCase& c, Integrator integrator, double h, double t_end) {
 
 }  // namespace
 
-TEST_CASE("loops: every case of group D keeps its reference with rk4, closed to 1e-12 throughout") {
+TEST_CASE("loops: all cases of group D meet their reference with rk4, closed to 1e-12") {
   for (const LoopCase& c : all_loop_cases()) {
     CAPTURE(c.title);
     const Outcome out = run(c, Integrator::rk4, c.step, 10);
@@ -91,7 +91,7 @@ TEST_CASE(
   CHECK(nearest < 1e-3);
 }
 
-TEST_CASE("loops: every integrator has its order on the slider-crank, and rk4 on the four-bars") {
+TEST_CASE("loops: order of all integrators on the slider-crank, and of rk4 on the four-bars") {
   const LoopCase c = slider_crank();
   for (const IntegratorFacts& facts : all_integrators) {
     if (facts.integrator == Integrator::dopri5) continue;
@@ -111,13 +111,13 @@ TEST_CASE("loops: every integrator has its order on the slider-crank, and rk4 on
   CHECK(std::log2(ratio) == doctest::Approx(4).epsilon(0.1));
 }
 
-TEST_CASE("loops: dopri5 keeps its tolerance on Bricard's mechanism and on the slider-crank") {
+TEST_CASE("loops: dopri5 meets its tolerance on Bricard's mechanism and on the slider-crank") {
   const LoopCase bricards = bricard(), crank = slider_crank();
   CHECK(run(bricards, Integrator::dopri5, 0.05, 10).error < 1e-6);
   CHECK(run(crank, Integrator::dopri5, 0.05, 2).error < 1e-6);
 }
 
-TEST_CASE("loops: Bricard's mechanism is closed to 1e-8 and keeps its energy over two minutes") {
+TEST_CASE("loops: Bricard's mechanism, closed to 1e-8, conserves energy over two minutes") {
   const LoopCase c = bricard();
   Simulation simulation = simulation_of(c, Integrator::rk4);
   const double start = energy_of(simulation);
@@ -130,7 +130,7 @@ TEST_CASE("loops: Bricard's mechanism is closed to 1e-8 and keeps its energy ove
   CHECK(energy < 1e-8);
 }
 
-TEST_CASE("loops: a four-bar whose crank is driven by a law comes round to where it was") {
+TEST_CASE("loops: a four-bar with a prescribed crank returns to its start") {
   ModelBuilder builder;
   const auto bar = [](double l) {
     return BodyInertia{1, {l / 2, 0, 0}, l * l / 12 * Matrix3::Identity()};
@@ -157,16 +157,16 @@ TEST_CASE("loops: a four-bar whose crank is driven by a law comes round to where
     return motion;
   });
   simulation.set_loops({c.loops[0]});
-  CHECK(std::abs(simulation.state().qd[0] - x.qd[0]) < 1e-12);  // they fitted
+  CHECK(std::abs(simulation.state().qd[0] - x.qd[0]) < 1e-12);  // they were consistent
   const double turn = 2 * std::numbers::pi / 10;
   for (int n = 0; n < 1000; ++n) CHECK(simulation.step(turn / 1000).ok());
   CHECK(std::abs(simulation.state().q[model.iq[3]] - x.q[model.iq[3]]) < 1e-9);
   CHECK(std::abs(simulation.state().qd[1] - x.qd[1]) < 1e-8);
 }
 
-TEST_CASE("loops: a slightly open start is assembled; one that cannot be closed is told") {
+TEST_CASE("loops: a slightly open start is assembled; one that cannot be closed is an error") {
   LoopCase c = slider_crank();
-  c.start.q[0] = 0.3;  // the rod's end is then off the piston
+  c.start.q[0] = 0.3;  // the end of the rod is off the piston
   CHECK_THROWS_AS(simulation_of(c, Integrator::rk4), InputError);
   const State<double> closed = close_loops(c.model, c.loops, c.start);
   CHECK_NOTHROW(Simulation(c.model, closed).set_loops(c.loops));
@@ -181,7 +181,7 @@ TEST_CASE("loops: a slightly open start is assembled; one that cannot be closed 
   CHECK(what.find("loop 'wrist': it is open by ") == 0);
 }
 
-TEST_CASE("loops: a state that opens a loop is refused, and the run goes on where it was") {
+TEST_CASE("loops: a state that opens a loop is rejected, and the run continues unchanged") {
   const LoopCase c = slider_crank();
   Simulation simulation = simulation_of(c, Integrator::rk4);
   State<double> open = c.start;
@@ -189,7 +189,7 @@ TEST_CASE("loops: a state that opens a loop is refused, and the run goes on wher
   CHECK_THROWS_AS(simulation.set_state(open), InputError);
   CHECK(simulation.state().q == c.start.q);
   State<double> moving = c.start;
-  moving.qd = {5, 0, 0};  // as after a blow: only what the loop allows is left
+  moving.qd = {5, 0, 0};  // as after an impact: only the admissible part remains
   simulation.set_state(moving);
   LoopClosures loops(c.model, c.loops);
   loops.evaluate(simulation.state(), simulation.kinematics());
@@ -197,7 +197,7 @@ TEST_CASE("loops: a state that opens a loop is refused, and the run goes on wher
   CHECK(kinetic_energy(c.model, simulation.state()) < kinetic_energy(c.model, moving));
 }
 
-TEST_CASE("loops: gear, locked, weld and ball hold over a run, with every integrator") {
+TEST_CASE("loops: gear, locked, weld and ball remain closed with every integrator") {
   ModelBuilder builder;
   const BodyInertia cube{1, {0.1, 0, 0.05}, 0.02 * Matrix3::Identity()};
   builder.add_body("a", 0, "ja", JointType::revolute, {}, Vector3::UnitY(), cube);
@@ -250,7 +250,7 @@ TEST_CASE(
       CHECK(one.state().q == two.state().q);
       CHECK(one.state().qd == two.state().qd);
       CHECK(aside.q == two.state().q);
-      // A run that starts here from nothing but the state goes the same way.
+      // A run that starts here from the state alone has the same result.
       if (facts.integrator == Integrator::dopri5) continue;
       Simulation three = simulation_of(rubbing, facts.integrator);
       three.set_state(one.state());

@@ -1,4 +1,4 @@
-// What constraints did in a step (constraint_work.h).
+// Work of constraints in a step (constraint_work.h).
 #include <doctest/doctest.h>
 
 #include <string>
@@ -28,7 +28,7 @@ double energy_now(const Simulation& s) {
          potential_energy(s.mechanism().model, s.state());
 }
 
-// By how much accounts differ from what the mechanism gains, and what they hold, over some steps.
+// Difference between accounts and the mechanism's energy gain, and the accounts, over some steps.
 struct Sums {
   double gained = 0, loops = 0, stabilisation = 0;
 };
@@ -47,7 +47,7 @@ Sums run_with_account(Simulation& simulation, double h, int steps) {
 
 }  // namespace
 
-TEST_CASE("accounts: a step that keeps one takes nothing from the heap, and has the same bits") {
+TEST_CASE("accounts: a step with an account allocates nothing and is bit-identical") {
   for (const LoopCase& c : {bricard(), windows(2), slider_crank()})
     for (const IntegratorFacts& facts : all_integrators) {
       CAPTURE(std::string(facts.name));
@@ -62,9 +62,9 @@ TEST_CASE("accounts: a step that keeps one takes nothing from the heap, and has 
     }
 }
 
-TEST_CASE("accounts: what rk4 drifts off its loops is mended by stabilisation, which is counted") {
-  // The error of a step is of order 5, in and out of the closed states alike: over a time both the
-  // drift of energy and its stabilised part fall by 16, and are of one size.
+TEST_CASE("accounts: stabilisation corrects the drift of rk4, and its work is counted") {
+  // The error of a step is of order 5, both in and off the closed states: over a fixed time the
+  // energy drift and its stabilised part both decrease by 16 and are of the same size.
   const LoopCase c = slider_crank();
   double last = 0;
   for (const double h : {8e-3, 4e-3}) {
@@ -79,8 +79,8 @@ TEST_CASE("accounts: what rk4 drifts off its loops is mended by stabilisation, w
 
 TEST_CASE(
     "accounts: a loop that nothing drives does no work in steps by impulses, but of first order") {
-  // By accelerations g'' = 0, by impulses g' = 0: two methods of the first order for one motion.
-  // Nothing drives the loop, so its work falls with h.
+  // Accelerations give g'' = 0, impulses g' = 0: two first-order methods for one motion. The loop
+  // is not driven, so its work decreases with h.
   const LoopCase c = slider_crank();
   double last = 0;
   for (const double h : {1e-3, 5e-4}) {

@@ -1,7 +1,7 @@
-// The worked example of docs/develop/adding_a_case.md: 2 kg hang on a spring of 50 N/m, are
-// held where it is slack, and let go. With w^2 = k / m,
+// The worked example of docs/develop/adding_a_case.md: 2 kg on a spring of 50 N/m are
+// released with the spring unstretched. With w^2 = k / m,
 //   z = -(g / w^2) (1 - cos w t).
-// A case of the list would stand in benchmarks/analytic/ as it stands here, down to its last line.
+// The same text in a file of benchmarks/analytic/ is a case of the list.
 #include <cmath>
 
 #include "benchmarks/analytic/support/smooth_parts.h"
@@ -17,7 +17,7 @@ CaseScene hanging_scene() {
   const BodyInertia mass{kHangingMass, Vector3::Zero(), Matrix3::Identity()};
   CaseScene s = at_rest(one_body(JointType::prismatic, Vector3::UnitZ(), mass));
   s.sources = {std::make_shared<JointEffort>([](double, double z) { return -kSpringRate * z; })};
-  // Without this line the energy would be that of motion and gravity alone, and seem to drift.
+  // Potential energy of the spring; without it the energy appears to drift.
   s.stored = [](const State<double>& x) { return kSpringRate / 2 * x.q[0] * x.q[0]; };
   return s;
 }
@@ -43,13 +43,13 @@ CaseFamily hanging_mass_cases() {
 
 }  // namespace twinarm
 
-// In benchmarks/ the file ends here; the tests that loop over the list do the rest.
+// In benchmarks/ the file ends here; the tests of the list cover it.
 #include <doctest/doctest.h>
 
 #include "benchmarks/analytic/registry/analytic_cases.h"
 #include "benchmarks/analytic/support/trajectory_case.h"
 
-TEST_CASE("the example of a case: it keeps its tolerance and energy, its mistake does not") {
+TEST_CASE("example case: tolerance and energy are met, the mutant fails") {
   using namespace twinarm;
   const AnalyticCase example = hanging_mass_cases().cases[0];
   const CaseResult result = run_case(example);

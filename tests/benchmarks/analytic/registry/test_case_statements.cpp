@@ -1,4 +1,4 @@
-// What the cases say of themselves, for people.
+// Statements of the cases.
 #include <doctest/doctest.h>
 
 #include <set>
@@ -8,7 +8,7 @@
 
 using namespace twinarm;
 
-TEST_CASE("cases: every one says what is known of it, with a formula") {
+TEST_CASE("cases: every case has a statement with a formula") {
   for (const AnalyticCase& c : analytic_cases()) {
     CAPTURE(std::string(c.name));
     CHECK(std::string(c.group) != "");
@@ -22,7 +22,7 @@ TEST_CASE("cases: every one says what is known of it, with a formula") {
   }
 }
 
-TEST_CASE("cases: docs/reference/cases/ tells of no case that is not there") {
+TEST_CASE("cases: docs/reference/cases/ describes existing cases only") {
   std::set<std::string> names;
   for (const AnalyticCase& c : analytic_cases()) names.insert(c.name);
   for (const auto& described : case_texts()) {
@@ -31,7 +31,7 @@ TEST_CASE("cases: docs/reference/cases/ tells of no case that is not there") {
   }
 }
 
-TEST_CASE("cases: the files that a page quotes are those of this folder") {
+TEST_CASE("cases: the sources on a page are those of this folder") {
   bool found = false;
   for (const EmbeddedFile& source : case_sources())
     found |= source.name == "joints/pendulum.cpp" &&

@@ -9,7 +9,7 @@
 
 using namespace twinarm;
 
-TEST_CASE("analytic cases: names are unique, groups and references are told") {
+TEST_CASE("analytic cases: unique names, groups and references") {
   std::set<std::string> names;
   for (const AnalyticCase& c : analytic_cases()) {
     CAPTURE(std::string(c.name));
@@ -21,7 +21,7 @@ TEST_CASE("analytic cases: names are unique, groups and references are told") {
   CHECK(names.size() > 50);
 }
 
-TEST_CASE("analytic cases: every experiment keeps its tolerance") {
+TEST_CASE("analytic cases: every experiment meets its tolerance") {
   for (const AnalyticCase& c : analytic_cases()) {
     if (c.trajectory) continue;
     CAPTURE(std::string(c.name));
@@ -30,13 +30,13 @@ TEST_CASE("analytic cases: every experiment keeps its tolerance") {
   }
 }
 
-TEST_CASE("analytic cases: every experiment has a mistake, with which it fails") {
+TEST_CASE("analytic cases: every experiment has a mutant, which fails") {
   for (const AnalyticCase& c : analytic_cases()) {
     if (c.trajectory) continue;
     CAPTURE(std::string(c.name));
-    const bool has_one = c.mistaken != nullptr;
+    const bool has_one = c.mutant != nullptr;
     REQUIRE(has_one);
-    const double error = c.mistaken().error;
+    const double error = c.mutant().error;
     CHECK(std::isfinite(error));
     CHECK(error > c.tolerance);
   }

@@ -1,5 +1,5 @@
-// The references of the cases against digits that another code found by integrating in 30 digits
-// and more (docs/reference/verification_cases.md): neither knows of the other.
+// References of the cases against an independent code that integrates with 30 digits and more
+// (docs/reference/verification_cases.md).
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -49,8 +49,8 @@ TEST_CASE("references of the cases: the digits of an independent computation, to
   CHECK(rows == 90);
 }
 
-// The other code's digits end before 1e-12 there: the case's own solution is the same to 2e-14 with
-// steps from 1/512 to 1/4096 s.
+// The independent code is less accurate than 1e-12 there; the solution of the case agrees to 2e-14
+// for steps from 1/512 to 1/4096 s.
 TEST_CASE("references of the cases: the undamped coupling of F3, to 5e-11") {
   const CaseReadings exact = find("F3-undamped")->reference(3);
   const double elsewhere[] = {-1.542622579885601, 0.7725853769809631, -0.8066396833891154,

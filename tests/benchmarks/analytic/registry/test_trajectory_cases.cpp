@@ -1,4 +1,4 @@
-// The known motions of the list (benchmarks/analytic/support/trajectory_case.h): all at once.
+// All known motions of the list (benchmarks/analytic/support/trajectory_case.h).
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -32,15 +32,15 @@ const AnalyticCase& case_named(const std::string& name) {
 
 }  // namespace
 
-TEST_CASE("known motions: every case keeps its tolerance") {
+TEST_CASE("known motions: every case meets its tolerance") {
   for_each_trajectory([](const AnalyticCase& c, const TrajectoryCase& motion) {
-    const LaneResult result = run_lane(motion, motion.lane);
+    const TrajectoryResult result = run_trajectory(motion, motion.integration);
     CAPTURE(result.seconds);
     CHECK(result.error <= c.tolerance);
   });
 }
 
-TEST_CASE("known motions: a mistake of 0.1 % in gravity or inertia fails every case") {
+TEST_CASE("known motions: every case fails with 0.1 % more gravity or inertia") {
   for_each_trajectory([](const AnalyticCase& c, const TrajectoryCase& motion) {
     const double error = mutant_error(motion);
     CHECK(std::isfinite(error));
@@ -48,7 +48,7 @@ TEST_CASE("known motions: a mistake of 0.1 % in gravity or inertia fails every c
   });
 }
 
-TEST_CASE("known motions: what is seen has a name each, and the times ascend") {
+TEST_CASE("known motions: a name for each reading, ascending times") {
   for_each_trajectory([](const AnalyticCase&, const TrajectoryCase& motion) {
     const CaseScene scene = motion.scene();
     const std::size_t seen = motion.observe(scene.model, scene.start).size();
@@ -62,46 +62,46 @@ TEST_CASE("known motions: what is seen has a name each, and the times ascend") {
   });
 }
 
-TEST_CASE("known motions: times between two steps are met to the order of the scheme") {
+TEST_CASE("known motions: times between two steps are reached to the order of the scheme") {
   for (const auto& [integrator, factor] :
        {std::pair{Integrator::rk4, 16.0}, {Integrator::verlet, 4.0}}) {
     const TrajectoryCase& swing = *case_named("B2").trajectory;  // times of whole seconds
-    const double coarse = run_lane(swing, {integrator, 0.0124}).error;
-    const double fine = run_lane(swing, {integrator, 0.0062}).error;
+    const double coarse = run_trajectory(swing, {integrator, 0.0124}).error;
+    const double fine = run_trajectory(swing, {integrator, 0.0062}).error;
     CHECK(std::abs(coarse / fine / factor - 1) < 0.1);
     const double order = observed_order(swing, {integrator, 0.0031}).value_or(0);
     CHECK(std::abs(order - std::log2(factor)) < 0.1);
   }
 }
 
-TEST_CASE("known motions: no event, a reading too few or not a number are no success") {
+TEST_CASE("known motions: a missing event, a missing reading or NAN fails") {
   TrajectoryCase swing = *case_named("B1-90").trajectory;
   swing.events.until = 1;
-  CHECK(std::isnan(run_lane(swing, swing.lane).error));
+  CHECK(std::isnan(run_trajectory(swing, swing.integration).error));
   TrajectoryCase fewer = *case_named("B2").trajectory;
   fewer.observe = [](const Model<double>&, const State<double>& x) { return x.q; };
-  CHECK(std::isnan(run_lane(fewer, fewer.lane).error));
+  CHECK(std::isnan(run_trajectory(fewer, fewer.integration).error));
   fewer.observe = [](const Model<double>&, const State<double>& x) {
     return CaseReadings{std::nan(""), x.qd[0]};
   };
-  CHECK(std::isnan(run_lane(fewer, fewer.lane).error));
+  CHECK(std::isnan(run_trajectory(fewer, fewer.integration).error));
 }
 
-TEST_CASE("known motions: a recording has the start and every step, with the energy") {
+TEST_CASE("known motions: a recording has the start, every step and the energy") {
   const TrajectoryCase& swing = *case_named("B2").trajectory;
   std::vector<TrajectoryPoint> points;
-  const LaneResult result = run_lane(swing, {Integrator::euler, 0.01}, &points);
+  const TrajectoryResult result = run_trajectory(swing, {Integrator::euler, 0.01}, &points);
   REQUIRE(points.size() == 1001);
   CHECK(points.back().t == 10);
   double strayed = 0;
   for (const TrajectoryPoint& p : points)
     strayed = std::max(strayed, std::abs(p.energy - points[0].energy));
-  // The pendulum gets energy from Euler's method: by more than its kinetic energy was at first.
+  // Euler's method adds energy: more than the initial kinetic energy.
   CHECK(result.energy_drift.value_or(0) > 0.1);
   CHECK(strayed > 1);
 }
 
-TEST_CASE("known motions: what is not run is listed by a name that no case has, and says why") {
+TEST_CASE("known motions: skipped cases have unique names and a reason") {
   for (const SkippedCase& skipped : skipped_cases()) {
     CAPTURE(std::string(skipped.name));
     CHECK(std::string(skipped.why).size() > 10);

@@ -1,0 +1,270 @@
+// D: mechanisms with closed loops (mechanisms/loop_cases.h) as known motions. Closed forms:
+//   D1  th = 2 asin(k sn(K - w0 t)), th' = -2 k w0 cn(K - w0 t); x = -sin th, z = -cos th
+//   D2  q'' = a sin q, a = c g / l, from upright at 1 rad/s: with W^2 = 1 + 4 a, m = 4 a / W^2 and
+//       u = W t / 2 - K(m), q = pi + 2 am(u, m), q' = W dn u
+//   D6  initially the crank rotates about its bearing and the rod about the wrist:
+//       E = (1/2) (I_crank w^2 + I_rod (w r/l)^2) = 1/8 J
+//   D7  a e^(i th2) + b e^(i th3) = d + c e^(i th4), and its derivative
+// D3 to D6 have reference values at the times of loop_cases.h, computed independently.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "benchmarks/analytic/mechanisms/loop_cases.h"
+#include "benchmarks/analytic/support/reference_math.h"
+#include "benchmarks/analytic/support/smooth_parts.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/loops/loop_closure.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm {
+namespace {
+
+using namespace smooth_parts;
+
+// Reference readings at the times of the table, else NAN.
+CaseReadings tabulated(const LoopCase& c, double t) {
+  for (const LoopCase::Sample& sample : c.reference)
+    if (std::abs(sample.t - t) < 1e-12) return sample.values;
+  return CaseReadings(c.readings.size(), std::numeric_limits<double>::quiet_NaN());
+}
+
+CaseScene scene_of(const LoopCase& c) {
+  CaseScene scene{c.model, c.start};
+  if (c.source) scene.sources = {c.source};
+  scene.conserves = !c.source || c.stored;
+  scene.stored = c.stored;
+  scene.prepare = [loops = c.loops](Simulation& simulation) { simulation.set_loops(loops); };
+  return scene;
+}
+
+// Each run creates its own mechanism, to which its sources refer.
+TrajectoryCase loop_motion(LoopCase (*make)()) {
+  const auto c = std::make_shared<const LoopCase>(make());
+  TrajectoryCase motion{};
+  motion.scene = [make] { return scene_of(make()); };
+  for (const LoopCase::Sample& sample : c->reference) motion.times.push_back(sample.t);
+  motion.readings = c->readings;
+  motion.observe = [c](ModelRef model, StateRef x) { return c->read(x, kinematics_at(model, x)); };
+  motion.reference = [c](double t) { return tabulated(*c, t); };
+  motion.at_times_only = true;
+  motion.integration = rk4_with(c->step);
+  return motion;
+}
+// The same with a reference for all times.
+TrajectoryCase loop_motion(LoopCase (*make)(), CaseReference reference) {
+  TrajectoryCase motion = loop_motion(make);
+  motion.reference = std::move(reference);
+  motion.at_times_only = false;
+  return motion;
+}
+// The same with other readings at one time.
+TrajectoryCase read_at(LoopCase (*make)(), double t, std::vector<std::string> readings,
+                       CaseObserver observer, CaseReadings known) {
+  TrajectoryCase motion = loop_motion(make);
+  motion.times = {t};
+  motion.readings = std::move(readings);
+  motion.observe = std::move(observer);
+  motion.reference = constantly(std::move(known));
+  return motion;
+}
+// One evaluation of an assembled mechanism. Mutant: a crank 0.1 % longer.
+TrajectoryCase assembled(const std::shared_ptr<const LoopCase>& c,
+                         std::vector<std::string> readings, CaseObserver observer,
+                         CaseReadings known) {
+  const auto scene = [c] { return CaseScene{c->model, c->start}; };
+  TrajectoryCase result =
+      evaluation(scene, std::move(readings), std::move(observer), std::move(known), max_difference);
+  result.mutant = [](CaseScene& changed) {
+    changed.model.Xtree[2].r = 1.001 * changed.model.Xtree[2].r;
+  };
+  return result;
+}
+
+// ---- D1 ----
+
+CaseReadings swinging(double t) {  // from 90 degrees at rest
+  const Real w0 = std::sqrt(9.81L), m = 0.5L, k = std::sqrt(m);
+  const special::Jacobi j = special::jacobi(special::quarter_period(m) - w0 * Real(t), m);
+  const Real angle = 2 * std::asin(k * j.sn);
+  return values(-std::sin(angle), -std::cos(angle), -2 * k * w0 * j.cn);
+}
+
+// ---- D2 ----
+
+template <int count>
+TrajectoryCase windows_motion(double step) {
+  TrajectoryCase motion = loop_motion(
+      [] { return windows(count); },
+      [](double t) {
+        const Real n = count, c = ((n + 1) / 2 + n) / ((n + 1) / 3 + n), a = c * 9.81L;
+        const Real W = std::sqrt(1 + 4 * a), m = 4 * a / (W * W);
+        const special::Jacobi j = special::jacobi(W * Real(t) / 2 - special::quarter_period(m), m);
+        const Real sine = -2 * j.sn * j.cn, cosine = 2 * j.sn * j.sn - 1, rate = W * j.dn;
+        return values(sine, cosine, cosine * rate, -sine * rate);
+      });
+  motion.times = {1, 10};
+  motion.integration = rk4_with(step);
+  return motion;
+}
+
+// ---- D3, D4 ----
+
+TrajectoryCase squeezer_motion() {
+  TrajectoryCase motion = loop_motion(squeezer);
+  motion.mutant = more_inertia;  // there is no gravity
+  return motion;
+}
+// Velocities by the reader of the coordinates.
+TrajectoryCase squeezer_rates() {
+  const auto c = std::make_shared<const LoopCase>(squeezer());
+  TrajectoryCase motion =
+      read_at(squeezer, 0.03,
+              {"beta [rad/s]", "Theta [rad/s]", "gamma [rad/s]", "Phi [rad/s]", "delta [rad/s]",
+               "Omega [rad/s]", "epsilon [rad/s]"},
+              [c](ModelRef model, StateRef x) {
+                State<double> rates = x;
+                rates.q = x.qd;
+                return c->read(rates, Kinematics(model));
+              },
+              {1139.9203022591061, -1424.3792951775401, 11.032911910618594, 19.293374105032041,
+               0.57356991482950245, -19.293374105032041, 0.32317914924913088});
+  motion.measure = relative_to_largest;
+  motion.mutant = more_inertia;
+  return motion;
+}
+
+TrajectoryCase bricard_velocity() {
+  return read_at(bricard, 10, {"vx [m/s]", "vy [m/s]", "vz [m/s]"},
+                 [](ModelRef model, StateRef x) {
+                   const Vector3 v = kinematics_at(model, x).v_WLo[3];
+                   return values(v.x(), v.y(), v.z());
+                 },
+                 {-0.03245328022227769, 8.726822183481425e-06, -0.03244454987786557});
+}
+
+// ---- D5 ----
+
+template <Couplers couplers>
+LoopCase governor_with() {
+  return governor(couplers);
+}
+// Dofs of the governor: shaft, slider, rods.
+TrajectoryCase governor_end() {
+  return read_at(governor_with<Couplers::springs>, 10, {"alpha [rad]", "omega [rad/s]"},
+                 [](ModelRef, StateRef x) { return values(x.q[2], x.qd[0]); },
+                 {22.349576814742957 * std::numbers::pi / 180, 5.548203622654942});
+}
+
+// Range of the slider in the first and the last 2 s of 10 s, in steps of 5 ms, twenty times too
+// long for explicit couplers [m].
+struct Swing {
+  double first = NAN, last = NAN;
+};
+Swing swing(Couplers couplers, Integrator integrator) {
+  const LoopCase c = governor(couplers);
+  Simulation simulation(c.model, c.start);
+  simulation.set_integrator(integrator);
+  simulation.set_loops(c.loops);
+  if (c.source) simulation.add(*c.source);
+  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL};
+  for (int n = 0; n < 2000; ++n) {
+    if (!simulation.step(5e-3).ok()) return {};
+    if (n >= 400 && n < 1600) continue;
+    const double s = c.read(simulation.state(), simulation.kinematics())[0];
+    const int part = n < 400 ? 0 : 1;
+    low[part] = std::min(low[part], s), high[part] = std::max(high[part], s);
+  }
+  return {high[0] - low[0], high[1] - low[1]};
+}
+// Change of the swing by implicit couplers: implicit struts against rods in the same scheme, whose
+// first-order error increases both swings; the midpoint rule against its own first 2 s.
+CaseResult governor_swings(bool is_mutant) {
+  if (is_mutant) {
+    const Swing damped = swing(Couplers::springs, Integrator::implicit_euler);
+    return {std::abs(damped.last / damped.first - 1)};
+  }
+  const double rods = swing(Couplers::rods, Integrator::semi_implicit).last;
+  const double struts = swing(Couplers::implicit_struts, Integrator::semi_implicit).last;
+  const Swing midpoint = swing(Couplers::springs, Integrator::implicit_midpoint);
+  return {nan_max(std::abs(struts / rods - 1), std::abs(midpoint.last / midpoint.first - 1))};
+}
+
+// ---- D6 ----
+
+// The crank locked at 60 degrees.
+TrajectoryCase piston_place() {
+  const auto c = std::make_shared<LoopCase>(slider_crank());
+  LoopClosure input{"input", LoopType::locked, 1};
+  input.offset = std::numbers::pi / 3;
+  c->loops.push_back(input);
+  c->start.q = {1.0, -1.2, 0.34};
+  return assembled(
+      c, {"piston [m]"},
+      [c](ModelRef model, StateRef x) { return values(close_loops(model, c->loops, x).q[2]); },
+      {0.05 + std::sqrt(0.09 - 0.0075)});
+}
+
+TrajectoryCase crank_energy() {
+  TrajectoryCase motion = read_at(slider_crank, 10, {"energy [J]"}, observe_energy, {0.125});
+  motion.times = {1, 2, 5, 10};
+  motion.at_times_only = false;
+  motion.mutant = more_inertia;
+  return motion;
+}
+
+// ---- D7 ----
+
+CaseReadings four_bar_closed_form() {
+  constexpr Real a = 0.1L, b = 0.35L, c = 0.3L, d = 0.4L, w2 = 10;
+  const Real th2 = kPi / 3;
+  // From the crank's end B to the rocker's pivot D; C is at distance b from B, c from D, above BD.
+  const Real x = d - a * std::cos(th2), y = -a * std::sin(th2), BD = std::hypot(x, y);
+  const Real at_B = std::acos((b * b + BD * BD - c * c) / (2 * b * BD));
+  const Real th3 = std::atan2(y, x) + at_B;
+  const Real th4 =
+      std::atan2(a * std::sin(th2) + b * std::sin(th3), a * std::cos(th2) + b * std::cos(th3) - d);
+  const Real w3 = -a * w2 * std::sin(th2 - th4) / (b * std::sin(th3 - th4));
+  const Real w4 = a * w2 * std::sin(th2 - th3) / (c * std::sin(th4 - th3));
+  return values(th3, th4, w3, w4);
+}
+// Assembled from an open state; rates from J qd = 0 with the crank's given.
+TrajectoryCase four_bar_place() {
+  const auto c = std::make_shared<const LoopCase>(four_bar());
+  const auto observer = [c](ModelRef model, StateRef nearby) {
+    State<double> x = close_loops(model, c->loops, nearby);
+    const Kinematics k = kinematics_at(model, x);
+    LoopClosures loops(model, {c->loops[0]});
+    loops.evaluate(x, k);
+    const Eigen::VectorXd rates = min_solution(loops.J().rightCols(2), -10 * loops.J().col(0));
+    x.qd = {10, rates[0], rates[1]};
+    return c->read(x, k);
+  };
+  return assembled(c, c->readings, observer, four_bar_closed_form());
+}
+
+}  // namespace
+
+CaseFamily loop_motions_cases() {
+  constexpr auto springs = governor_with<Couplers::springs>, rods = governor_with<Couplers::rods>;
+  return {160,
+          {{"D1-hinge", pendulum_on_hinge().tolerance, loop_motion(pendulum_on_hinge, swinging)},
+           {"D1-circle", pendulum_on_circle().tolerance, loop_motion(pendulum_on_circle, swinging)},
+           {"D2-2", windows(2).tolerance, windows_motion<2>(1e-3)},
+           {"D2-40", windows(40).tolerance, windows_motion<40>(8e-3)},
+           {"D3", squeezer().tolerance, squeezer_motion()},
+           {"D4", bricard().tolerance, loop_motion(bricard)},
+           {"D5-springs", springs().tolerance, loop_motion(springs)},
+           {"D5-rods", rods().tolerance, loop_motion(rods)},
+           {"D6", slider_crank().tolerance, loop_motion(slider_crank)},
+           {"D7", four_bar().tolerance, four_bar_place()},
+           {"D3-rates", 1e-8, squeezer_rates()},
+           {"D4-velocity", 1e-6, bricard_velocity()},
+           {"D5-end", 1e-8, governor_end()},
+           {"D5-implicit", 0.01, governor_swings},
+           {"D6-place", 1e-12, piston_place()},
+           {"D6-energy", 1e-8, crank_energy()}}};
+}
+
+}  // namespace twinarm
