@@ -178,7 +178,7 @@ TEST_CASE("loops: a slightly open start is assembled; one that cannot be closed 
   } catch (const InputError& e) {
     what = e.what();
   }
-  CHECK(what.find("loop 'wrist': it is open by ") == 0);
+  CHECK(what.find("loop 'wrist': position error is ") == 0);
 }
 
 TEST_CASE("loops: a state that opens a loop is rejected, and the run continues unchanged") {

@@ -89,7 +89,8 @@ TEST_CASE("the published PUMA 560 loads, and its two impossible inertias are rep
   };
   CHECK(reported(robot.warnings, "no rigid body of positive density has it") == 2);
   CHECK(reported(robot.warnings, "link 'link1': its inertia is not positive definite") == 1);
-  CHECK(reported(robot.warnings, "link 'link3': its inertia violates the triangle inequality") == 1);
+  CHECK(reported(robot.warnings, "link 'link3': its inertia violates the triangle inequality") ==
+        1);
   const auto faults = faults_of([&] {
     read_urdf(file, {RobotFileOptions::Geometry::required, true});
   });
