@@ -21,7 +21,7 @@ Eigen::VectorXd chain_sag(const Eigen::MatrixXd& K, const Eigen::VectorXd& G);
 double series_stiffness(double k_c, double k_e);
 
 // Maximum radius R_K of the target for stability of an implicit point spring at lever arm r with
-// step h on an inertia I about the joint [m] (docs/understand/couplings.md, 3):
+// step h on an inertia I about the joint [m] (docs/understand/stability_of_spring_dampers.md):
 //   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b).
 double max_target_radius(double I, double r, double k, double b, double h);
 

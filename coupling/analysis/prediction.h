@@ -1,5 +1,5 @@
 // Linear theory of couplings about a pose, e = q_K - q_D:  M e'' + B_q e' + K_q e = M q_K''
-// (docs/understand/couplings.md). Includes all headers of the folder.
+// (docs/understand/stability_of_spring_dampers.md). Includes all headers of the folder.
 #pragma once
 
 #include "coupling/analysis/gains.h"

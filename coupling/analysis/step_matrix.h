@@ -10,7 +10,7 @@
 // K includes the geometric stiffness, K_zero does not: the added inertia depends on the latter
 // only, hence the limit of an implicit point spring.
 //
-// Other laws (docs/understand/couplings.md, 7, 10, 11): as published, the rate of a held force is
+// Other laws (docs/understand/coupling_laws.md): as published, the rate of a held force is
 // (e - e at the previous evaluation)/n, n steps apart, or one frame older, (e at the previous
 // evaluation - e at the one before)/n; stable PD has `lead` and inertia = 1 + h B; a god object has
 // a_u = -(e + h v)/h^2 and adds -M_r (e + h v), M_r the rows of M of its robot.

@@ -16,7 +16,7 @@
 //   a = (1 - d) a_0 + d a_ref.
 //
 // So the weld is a spring-damper k = m_R k_ref, b = m_R b_ref with an absolute damper and an added
-// inertia m_R (docs/understand/couplings.md, 2), O(n), which here also resists velocity-product
+// inertia m_R (docs/understand/coupling_laws.md), O(n), which here also resists velocity-product
 // accelerations. The effect of all other forces is reduced to 1 - d. m_0 is the effective mass of
 // the link as in MuJoCo: at the given pose, 3/trace(J M^-1 J^T) of its centre of mass and of its
 // orientation. MuJoCo's orientation error is sin(angle/2) about the axis, here the rotation vector.

@@ -9,7 +9,7 @@
 // times the DVR's velocity, and an added inertia m* = h b + h^2 k (particle, flywheel or armature).
 // Explicit remains, for a point, the geometric stiffness (rotation of the lever arm): a point at
 // radius r with a target at radius R_K is stable only if
-//   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b)    (docs/understand/couplings.md)
+//   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b)    (docs/understand/stability_of_spring_dampers.md)
 // and for an orientation the change of the axis of phi, which vanishes for parallel joint axes.
 #pragma once
 

@@ -6,7 +6,7 @@
 // The unknown qdd gives an armature h b: (M + h b) qdd = ... The spring's position lead is h qd,
 // without h^2 qdd of the implicit discretization (coupling/laws/spring_damper.h), so there is a
 // stability limit. With an inertia I, alpha = k h^2/I and beta = b h/I
-// (docs/understand/couplings.md):
+// (docs/understand/stability_of_spring_dampers.md):
 //
 //   x' = x + h v'  (semi-implicit Euler, used here):  alpha < (4 + 2 beta)/3
 //   x' = x + h v   (explicit Euler):  alpha < 4 + 2 beta

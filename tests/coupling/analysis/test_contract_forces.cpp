@@ -1,6 +1,6 @@
 // Force properties: consistent laws agree with their definition, action equals reaction, dampers
 // dissipate, implicit discretizations converge to explicit ones as h -> 0. Exceptions by law are
-// listed with their behaviour (docs/understand/couplings.md, 12).
+// listed with their behaviour (docs/understand/coupling_laws.md).
 #include <doctest/doctest.h>
 
 #include "tests/coupling/analysis/laws.h"

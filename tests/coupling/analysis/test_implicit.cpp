@@ -1,5 +1,5 @@
 // Semi-implicit and implicit spring-dampers on mechanisms with known discrete motion:
-// docs/understand/couplings.md, solver/forces/spring.h.
+// docs/understand/coupling_laws.md, solver/forces/spring.h.
 #include <doctest/doctest.h>
 
 #include "coupling/analysis/prediction.h"

@@ -1,5 +1,5 @@
 // Stability limits of coupling/analysis/gains.h and step_matrix.h: against closed forms of
-// docs/understand/couplings.md, and against simulations, by bisection.
+// docs/understand/stability_of_spring_dampers.md, and against simulations, by bisection.
 #include <doctest/doctest.h>
 
 #include "collision/import/robot/robot_model.h"

@@ -125,7 +125,7 @@ TEST_CASE("couplings with different discretizations, rates or laws diverge at th
 }
 
 TEST_CASE(
-    "on one joint the terms of every law have the closed form of docs/understand/couplings.md, 4 "
+    "on one joint the terms of every law have the closed form of docs/understand/coupling_laws.md "
     "to 11") {
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
   const double I = 0.7, k = 40, b = 0.9;

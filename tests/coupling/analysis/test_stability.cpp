@@ -1,6 +1,6 @@
 // Stability limits of coupling/analysis/prediction.h against simulations
-// (docs/reference/verification_cases_robots.md, F4), and the periodic orbit of the as-published,
-// unsigned damper (docs/understand/paper_analysis.md, 4d).
+// (docs/understand/stability_of_spring_dampers.md), and the periodic orbit of the as-published,
+// unsigned damper (docs/understand/coupling_laws.md).
 #include <doctest/doctest.h>
 
 #include <numbers>

@@ -72,8 +72,8 @@ TEST_CASE("virtual Omni: no error behind a goal of constant velocity; closed-for
     slow.poll(n * kTick);
     lag = std::max(lag, (slow.truth().position - slow.truth().goal).norm());
   }
-  // a_max / w^2 of the reach, 5.77 D / T^2 (docs/understand/couplings.md); an absolute damper: b v
-  // / k = 30 um.
+  // a_max / w^2 of the reach, 5.77 D / T^2 (docs/understand/tracking_error.md); an absolute damper:
+  // b v / k = 30 um.
   CHECK(lag < 2 * 5.7735 * 0.02 * 0.13335 / 16 / (w * w));
 }
 
