@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""One pendulum, six integrators: what does a step do to the energy?  Lesson 1, from Python.
+"""Energy drift of six integrators: how does the integrator change the energy of a pendulum?  Lesson 1, from Python.
 
 Write down before you run: the energy after 10 s at a step of 10 ms, in parts of that at the start, for each.
 """

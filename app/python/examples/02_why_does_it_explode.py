@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Why does it explode?  How stiff may a spring be for a step?  Lesson 2, from Python.
+"""Stability limit of a discrete spring-damper: how stiff may a spring be at a given step?  Lesson 2, from Python.
 
 A hinge is held by a spring-damper that is stepped explicitly, 10 ms. Write down before you run: which of the four
 pairs of stiffness and damping hold, and how large the angle is at its largest.

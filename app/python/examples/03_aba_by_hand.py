@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The articulated-body algorithm by hand, beside what the solver left.  Lesson 3, from Python.
+"""The articulated-body algorithm by hand, compared with the workspace of the solver.  Lesson 3, from Python.
 
 A double pendulum, RBDA table 7.1 in numpy: every quantity is compared with model.workspace(). Write down before you
 run: 1 N pushes the box along x, then along y: which accelerations? The two rods are let go level: which at the

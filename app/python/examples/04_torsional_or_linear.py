@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Torsional or linear?  Which springs hold a robot, and why?  Lesson 4, from Python.
+"""Torsional and linear couplings: which track a target robot better, and why?  Lesson 4, from Python.
 
 Two rods follow a twin that makes the paper's motion, by torsional or by linear springs whose fast mode is the same.
 Write down before you run: by what factor does the torsional one lag farther?

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the hand feels: how hard can a wall be that a computer makes?  Lesson 5, from Python.
+"""Haptic walls, stability and passivity: how stiff can a virtual wall be?  Lesson 5, from Python.
 
 A device of 45 g and 0.1 N s/m renders F = -K y - B (y - y_before)/T, held for a tick. Write down before you run: what
 becomes of the largest K at 4 kHz, and at 500 Hz?

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Closed loops: which forces are in a pin, and are they unique?  Lesson 6, from Python.
+"""Closed loops and constraint forces: which forces act in a joint of a loop?  Lesson 6, from Python.
 
 A slider-crank is a chain that a pin closes. Write down before you run: the force in the pin, and whether it pulls or
 pushes the piston; whether the four-bar linkage moves, of which Gruebler's count says -5 freedoms.

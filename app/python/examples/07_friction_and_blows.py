@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Friction and blows: when does a block slide, who flies off?  Lesson 7, from Python.
+"""Friction and impact: when does a block slide, and which balls move?  Lesson 7, from Python.
 
 Write down before you run: a block on 30 degrees, does it stay with friction 0.577, and with 0.578? One ball meets two
 that rest and touch: what happens?

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The handle that turns over: what is a spin that cannot last?  Lesson 8, from Python.
+"""Rotation about the intermediate axis: why is it unstable?  Lesson 8, from Python.
 
 A T-handle spins about its middle axis, and a little beside it. Write down before you run: how much longer does it take
 to turn over if you are ten times as careful?

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The wheel that does not fall: where does the weight's torque go?  Lesson 9, from Python.
+"""Gyroscopic precession and nutation: what does the torque of the weight change?  Lesson 9, from Python.
 
 A wheel spins at the end of a level arm. Write down before you run: with half the spin, does it go round faster or
 slower? Pushed in the direction in which it goes round anyway, does it go round faster?

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Implicit springs cost energy: who took the joules?  Lesson 10, from Python.
+"""Numerical dissipation of implicit springs: how much energy do they remove?  Lesson 10, from Python.
 
 A spring of 10 rad/s without a damper, stepped implicitly. Write down before you run: the amplitude that is left after
 2 s at 20 ms; and with weight, does the implicit spring sag less, more, or as the explicit one?

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The mass matrix and the modes: what is a frequency, and what only looks like one?  Lesson 11, from Python.
+"""Mass matrix and normal modes: when is an eigenvalue the frequency of an oscillation?  Lesson 11, from Python.
 
 Two equal rods hang one below the other. Write down before you run: let go in the slow shape, what does the elbow do
 while the shoulder swings? Upside down, which "frequencies" will be printed?

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The paper, reproduced: what made the published difference?  Lesson 12, from Python.
+"""The paper's experiments, reproduced: what caused the published difference?  Lesson 12, from Python.
 
 Write down before you run: from E3 (torsional) to E4 (linear) the largest error of joint 1 falls by 4.9. How much of
 that is "linear in place of torsional", and how much the damper?

@@ -124,9 +124,8 @@ TEST_CASE("couplings with different discretizations, rates or laws diverge at th
   }
 }
 
-TEST_CASE(
-    "on one joint the terms of every law have the closed form of docs/understand/coupling_laws.md "
-    "to 11") {
+// docs/understand/coupling_laws.md
+TEST_CASE("on one hinge the parts of every law have their closed form") {
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
   const double I = 0.7, k = 40, b = 0.9;
   const auto growth = [&](StepLaw law, Integrator integrator, double alpha, double beta,

@@ -1,4 +1,4 @@
-# Energy of each integrator over that of the start; below, the long race.
+# Energy of each integrator relative to the initial energy; below, the long run.
 set terminal svg size 760,640 font "sans,13" background "white"
 set output "out/energy.svg"
 set datafile separator ","

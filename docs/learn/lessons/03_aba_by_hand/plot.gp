@@ -1,4 +1,4 @@
-# The shoulder falls: with a free elbow, with a locked one, and the two parabolas by hand.
+# Angle of the shoulder with a free and with a locked elbow, and the two parabolas by hand.
 set terminal svg size 680,380 font "sans,13" background "white"
 set output "out/fall.svg"
 set datafile separator ","

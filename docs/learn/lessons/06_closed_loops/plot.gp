@@ -1,4 +1,4 @@
-# The piston over the crank's angle, with the loop's closed form; how high the four-bar's corner is.
+# Position of the piston over the crank's angle, with the closed form; height of the four-bar's corner.
 set terminal svg size 700,620 font "sans,13" background "white"
 set output "out/loops.svg"
 set datafile separator ","

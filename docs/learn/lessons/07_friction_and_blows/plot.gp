@@ -1,11 +1,11 @@
-# How far the block slid, beside the parabola; where the three balls are.
+# Displacement of the block and the parabola by hand; positions of the three balls.
 set terminal svg size 700,720 font "sans,13" background "white"
 set output "out/contacts.svg"
 set datafile separator ","
 set grid lc rgb "#dddddd"
 set multiplot layout 3,1
 set xlabel "t [s]"
-set ylabel "slid [m]"
+set ylabel "displacement [m]"
 set key outside right
 down(x) = (x - 0.025) / cos(pi / 6)
 plot "out/slides.csv" using "t[s]":(down(column("links/block/x[m]"))) with lines lw 2 lc 7 title "friction 0.5", \

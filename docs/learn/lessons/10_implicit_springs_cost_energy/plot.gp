@@ -1,4 +1,4 @@
-# The swing for three steps, implicit; in black what the explicit spring does at the longest.
+# Oscillation with the implicit spring at three steps; grey: with the explicit spring at the longest step.
 set terminal svg size 720,400 font "sans,13" background "white"
 set output "out/swing.svg"
 set datafile separator ","

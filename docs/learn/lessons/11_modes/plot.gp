@@ -1,4 +1,4 @@
-# Two rods let go in the shape of their slow mode; small, and fifty times larger.
+# Two rods released in the shape of their slow mode, at a small amplitude and at fifty times that.
 set terminal svg size 720,600 font "sans,13" background "white"
 set output "out/modes.svg"
 set datafile separator ","
@@ -6,7 +6,7 @@ set grid lc rgb "#dddddd"
 set key outside right
 set multiplot layout 2,1
 set xlabel "t [s]"
-set ylabel "angle over the shoulder's first"
+set ylabel "angle / initial shoulder angle"
 do for [size in "small large"] {
   set title size
   first = size eq "small" ? 0.02 : 1.0

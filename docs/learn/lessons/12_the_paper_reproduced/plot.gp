@@ -1,4 +1,4 @@
-# How far joint 1 lags in each of the runs.
+# Tracking error of joint 1 in each of the runs.
 set terminal svg size 760,640 font "sans,13" background "white" noenhanced
 set output "out/errors.svg"
 set datafile separator ","
@@ -6,7 +6,7 @@ set grid lc rgb "#dddddd"
 set key outside right
 set multiplot layout 2,1
 set xlabel "t [s]"
-set ylabel "error of joint 1 [deg]"
+set ylabel "tracking error of joint 1 [deg]"
 set yrange [-25:25]
 plot "out/E3.dat" using 1:2 with lines lw 2 lc 7 title "E3", \
      "out/E3_stiffer.dat" using 1:2 with lines lw 1 lc 4 title "E3, 5 % stiffer", \
