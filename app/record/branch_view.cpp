@@ -189,9 +189,9 @@ ComparedBalances compared_balances(const Replay& recorded, const Replay& branch)
   for (const std::string& name : names_of_both(recorded.rows, branch.rows))
     found.works.push_back(
         {name, works_since(recorded, name).back(), works_since(branch, name).back()});
-  const auto gained = [](const Replay& branch, const std::string& name) {
-    return Eigen::Matrix<double, 6, 1>(momentum_in(branch, branch.frames.size() - 1, name) -
-                                       momentum_in(branch, 0, name));
+  const auto gained = [](const Replay& run, const std::string& name) {
+    return Eigen::Matrix<double, 6, 1>(momentum_in(run, run.frames.size() - 1, name) -
+                                       momentum_in(run, 0, name));
   };
   for (const std::string& name : names_of_both(recorded.momentum_rows, branch.momentum_rows))
     found.momenta.push_back({name, gained(recorded, name), gained(branch, name)});
