@@ -1,5 +1,5 @@
-// A command of the program is a file of this folder that defines `Command STEM_command()`. Help,
-// manual and completion are made from these entries (docs/develop/extending.md).
+// A command is a file of this folder that defines `Command STEM_command()`. Help, manual and
+// completion are made from these entries (docs/develop/extending.md).
 #pragma once
 
 #include <functional>
@@ -14,42 +14,37 @@ class App;
 
 namespace twinarm {
 
-using Words = std::vector<std::string>;  // the command line as it was typed, the program first
+using Words = std::vector<std::string>;  // the command line as typed, with the program's name
 
 struct Command {
-  // `add` adds the options. `run` gives the exit code; it throws InputError for bad input and
-  // Interrupted after Ctrl-C.
-  template <class Options>
+  // `add` adds the options. `run(options)` or `run(options, words)` returns the exit code; it
+  // throws InputError for bad input and Interrupted after Ctrl-C.
+  template <class Options, class... Typed>
   Command(int at, std::string called, std::string text, void (*add)(CLI::App&, Options&),
-          int (*run)(const Options&, const Words&))
+          int (*run)(const Options&, Typed...))
       : place(at), name(std::move(called)), help(std::move(text)) {
     prepare = [add, run](CLI::App& command) {
       const auto options = std::make_shared<Options>();
       add(command, *options);
-      return [options, run](const Words& words) { return run(*options, words); };
-    };
-  }
-  template <class Options>
-  Command(int at, std::string called, std::string text, void (*add)(CLI::App&, Options&),
-          int (*run)(const Options&))
-      : place(at), name(std::move(called)), help(std::move(text)) {
-    prepare = [add, run](CLI::App& command) {
-      const auto options = std::make_shared<Options>();
-      add(command, *options);
-      return [options, run](const Words&) { return run(*options); };
+      return [options, run]([[maybe_unused]] const Words& words) {
+        if constexpr (sizeof...(Typed) == 0)
+          return run(*options);
+        else
+          return run(*options, words);
+      };
     };
   }
   Command(int at, std::string called, std::string text, std::vector<Command> commands)
       : place(at), name(std::move(called)), help(std::move(text)), below(std::move(commands)) {}
 
   int place;         // in the list of commands, ascending
-  std::string name;  // as it is typed
-  std::string help;  // a line, an example, and what else there is to say, as paragraphs
-  // Adds the options; gives what runs with them.
+  std::string name;  // as typed
+  std::string help;  // paragraphs: summary in one sentence, "Examples:" with one per line, notes
+  // Adds the options and returns the function that runs with them.
   std::function<std::function<int(const Words&)>(CLI::App&)> prepare;
-  std::vector<Command> below;  // those of which one comes next: "coupling predict"
+  std::vector<Command> below;  // subcommands, as in "coupling predict"
 };
 
-const std::vector<Command>& commands();  // by the names of their files
+const std::vector<Command>& commands();  // by file name
 
 }  // namespace twinarm

@@ -21,28 +21,33 @@ struct CompareOptions {
   std::string group;
   std::vector<std::string> integrators;
   std::vector<double> steps;
-  std::filesystem::path html;  // folder or .html file of the page; empty: none
+  std::filesystem::path html;  // folder or .html file; empty: no page
   bool json = false;
 };
 
 void add_options(CLI::App& command, CompareOptions& options) {
+  begin_group(command, "Cases");
   command.add_option("case", options.cases,
-                     "names; E1 also means E1-.., E all of E, joints that group; all if not given");
-  command.add_option("--group", options.group, "all cases of this group");
+                     "case names, or prefixes (E1 for E1-.., E for all of E), or a group name; "
+                     "default: all cases");
+  command.add_option("--group", options.group, "run all cases of this group");
+  begin_group(command, "Run");
   command
       .add_option("--integrator", options.integrators,
-                  "run known motions with these beside: name,name,..; of" + integrator_names())
+                  "also run cases with a known motion with these integrators: NAME,..; of: " +
+                      integrator_names())
       ->delimiter(',')
       ->allow_extra_args(false);
-  command.add_option("--step", options.steps, "and with these steps: h1,h2,.. [s]")
+  command.add_option("--step", options.steps, "also run them with these steps: h1,h2,.. [s]")
       ->delimiter(',')
       ->allow_extra_args(false);
+  begin_group(command, "Output");
   add_file_option(command, "--html", options.html,
-                  "folder for the page compare.html: statements, figures, code of all cases");
+                  "write the page compare.html into this folder: statements, figures, code");
   add_json_option(command, options.json);
 }
 
-// Runs all cases. Until they have run nobody knows which take long: each counts alike.
+// Runs all cases. Their durations are not known before: each counts equally in the progress bar.
 std::vector<CompareRow> run_all(const CaseSelection& selection, const std::vector<Lane>& lanes,
                                 Progress& progress, double share) {
   const std::size_t count = selection.cases.size();
@@ -58,17 +63,17 @@ std::vector<CompareRow> run_all(const CaseSelection& selection, const std::vecto
   return rows;
 }
 
-// The sections of the page, in the order of the rows. Those that take long are made first, so that
-// all threads end together.
+// The sections of the page, in the order of the rows. The longest are made first, to balance the
+// threads.
 std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
                                        const std::vector<Lane>& lanes, Progress& progress,
                                        double share) {
-  constexpr double kDrawing = 0.1;  // [s], beside what a case takes
+  constexpr double kDrawing = 0.1;  // [s], added to the duration of a case
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::stable_sort(
       order, [&](std::size_t a, std::size_t b) { return rows[a].seconds > rows[b].seconds; });
-  std::vector<double> before{0};  // the work of the first n
+  std::vector<double> before{0};  // [s], of the first n
   for (const std::size_t i : order) before.push_back(before.back() + rows[i].seconds + kDrawing);
   std::vector<std::string> sections(rows.size());
   parallel_for(
@@ -85,26 +90,18 @@ std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
   return sections;
 }
 
-std::string joined(const std::vector<std::string>& words, const char* between) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
-  return text;
-}
-
-// As it could be typed again.
 std::string command_line(const CompareOptions& options) {
   std::string line = "twinarm compare";
   for (const std::string& name : options.cases) line += " " + name;
   if (!options.group.empty()) line += " --group " + options.group;
-  if (!options.integrators.empty()) line += " --integrator " + joined(options.integrators, ",");
-  std::vector<std::string> steps;
-  for (const double step : options.steps) steps.push_back(fmt::format("{:g}", step));
-  if (!steps.empty()) line += " --step " + joined(steps, ",");
+  if (!options.integrators.empty())
+    line += fmt::format(" --integrator {}", fmt::join(options.integrators, ","));
+  if (!options.steps.empty()) line += fmt::format(" --step {:g}", fmt::join(options.steps, ","));
   return line + " --html " + options.html.string();
 }
 
 int run_compare(const CompareOptions& options) {
-  constexpr int kFellShort = 1;
+  constexpr int kFailed = 1;
   DiagnosticList faults;
   const CaseSelection selection = select_cases(options.cases, options.group, faults);
   const std::vector<Lane> lanes = read_lanes(options.integrators, options.steps, faults);
@@ -115,7 +112,7 @@ int run_compare(const CompareOptions& options) {
   }
   faults.check();
 
-  constexpr double kPageShare = 0.75;  // of the work, as it was measured
+  constexpr double kPageShare = 0.75;  // of the duration, measured
   std::vector<CompareRow> rows;
   {
     Progress progress(false, Progress::kPatience);
@@ -133,15 +130,17 @@ int run_compare(const CompareOptions& options) {
     fmt::print("{}", compare_table(rows, lanes, selection.skipped));
     if (!page.empty()) fmt::print("page: {}\n", page.string());
   }
-  return failures(rows) == 0 ? 0 : kFellShort;
+  return failures(rows) == 0 ? 0 : kFailed;
 }
 
 }  // namespace
 
 Command compare_command() {
   return {120, "compare",
-          "Run cases whose outcome is known, and tell how far off this solver is\n\n"
-          "Example:  twinarm compare A1 B --integrator rk4,verlet --step 0.001,0.002",
+          "Run the analytic test cases and report the errors of the solver\n\n"
+          "Examples:\n"
+          "  twinarm compare --html out/compare\n"
+          "  twinarm compare A1 B --integrator rk4,verlet --step 0.001,0.002",
           add_options, run_compare};
 }
 

@@ -1,10 +1,9 @@
 // `twinarm coupling predict` and `twinarm coupling gains`.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
-#include <sstream>
 #include <utility>
 
 #include "app/command/command.h"
@@ -12,46 +11,49 @@
 #include "app/coupling/gain_equivalents.h"
 #include "app/coupling/prediction.h"
 #include "app/data/value.h"
+#include "app/support/text.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
 
 struct CouplingPredictOptions {
-  RobotOptions robot;  // its model: a scene; or a URDF, with one coupling in words
+  RobotOptions robot;  // model: a scene, or a URDF and one coupling from the options below
   std::string type = "linear", link, point, measure, treatment;  // as in a scene; point "x,y,z"
   std::optional<double> stiffness, damping;
-  std::optional<double> step;   // [s]; left out: the scene's
+  std::optional<double> step;   // [s]; default: the scene's
   std::string integrator;       // empty: the scene's
-  double turn = 180, time = 1;  // of the target [deg, or mm], [s]
+  double turn = 180, time = 1;  // move of the target [deg, or mm], [s]
   std::optional<double> wall;   // [N/m]
-  std::string along;            // "j1=1,j2=-0.5": parts of that move; empty: 1 of each joint
+  std::string along;            // "j1=1,j2=-0.5": factors of that move; empty: 1 for each joint
   bool json = false;
 };
 
 void add_options(CLI::App& command, CouplingPredictOptions& options) {
   add_robot_options(command, options.robot,
-                    "a scene in TOML, with couplings; or a URDF, with --link and --stiffness");
-  command.add_option("--type", options.type, "of a URDF's coupling, as in a scene")
-      ->capture_default_str();
-  command.add_option("--link", options.link, "likewise: the link that is pulled");
-  command.add_option("--point", options.point, "likewise: x,y,z in link axes [m]");
-  command.add_option("--measure", options.measure, "likewise: world or joint");
-  command.add_option("--treatment", options.treatment, "likewise");
-  command.add_option("--stiffness", options.stiffness, "likewise [N/m or N m/rad]");
-  command.add_option("--damping", options.damping, "likewise [N s/m or N m s/rad]");
+                    "scene (TOML) with couplings; or URDF with --link and --stiffness");
+  begin_group(command, "Coupling of a URDF");
+  command.add_option("--type", options.type, "type of the coupling, as in a scene");
+  command.add_option("--link", options.link, "link on which the coupling acts");
+  command.add_option("--point", options.point, "point x,y,z in link axes [m]; default 0,0,0");
+  command.add_option("--measure", options.measure, "torsional coupling: world or joint");
+  command.add_option("--treatment", options.treatment,
+                     "discretization: explicit, semi-implicit or implicit");
+  command.add_option("--stiffness", options.stiffness, "stiffness [N/m or N m/rad]");
+  command.add_option("--damping", options.damping, "damping [N s/m or N m s/rad]");
+  begin_group(command, "Prediction");
   add_scene_step_options(command, options.step, options.integrator);
-  command.add_option("--turn", options.turn, "how far the target goes [deg, or mm]")
-      ->capture_default_str();
-  command.add_option("--time", options.time, "in which time [s]")->capture_default_str();
+  command.add_option("--turn", options.turn, "move of the target [deg, or mm]");
+  command.add_option("--time", options.time, "duration of the move [s]");
   command.add_option("--along", options.along,
-                     "joint=part,..: what part of it each joint goes; all of it if not given");
-  command.add_option("--wall", options.wall, "stiffness of a wall in the way [N/m]");
+                     "joint=factor,..: factor of the move for each joint; default: 1 for all");
+  command.add_option("--wall", options.wall, "stiffness of a wall that the robot touches [N/m]");
+  begin_group(command, "Output");
   add_json_option(command, options.json);
 }
 
 struct CouplingGainsOptions {
-  RobotOptions robot;  // its model: a scene; empty: gains from the options below
+  RobotOptions robot;  // model: a scene; empty: gains from the options below
   std::optional<double> frequency, damping_ratio;  // [Hz], 1
   std::optional<double> stiffness, inertia;
   double damping = 0;
@@ -60,58 +62,55 @@ struct CouplingGainsOptions {
 };
 
 void add_options(CLI::App& command, CouplingGainsOptions& options) {
+  begin_group(command, "Scene");
   add_input_option(command, "model", options.robot.model,
-                   "a scene in TOML, with couplings; may be left out");
-  add_input_option(command, "--state", options.robot.state, "JSON file: q");
-  command.add_option("--frequency", options.frequency, "wanted [Hz]");
-  command.add_option("--damping-ratio", options.damping_ratio, "wanted");
-  command.add_option("--inertia", options.inertia, "without a scene: what is moved [kg or kg m^2]");
-  command.add_option("--stiffness", options.stiffness, "without a scene [N/m or N m/rad]");
-  command.add_option("--damping", options.damping, "likewise [N s/m or N m s/rad]");
+                   "scene (TOML) with couplings; default: gains from the options below");
+  add_input_option(command, "--state", options.robot.state, "state file (JSON): q");
+  begin_group(command, "Gains");
+  command.add_option("--frequency", options.frequency, "natural frequency [Hz]");
+  command.add_option("--damping-ratio", options.damping_ratio, "damping ratio");
+  command.add_option("--inertia", options.inertia,
+                     "inertia that the spring moves, without a scene [kg or kg m^2]");
+  command.add_option("--stiffness", options.stiffness,
+                     "stiffness, without a scene [N/m or N m/rad]");
+  command.add_option("--damping", options.damping, "damping, without a scene [N s/m or N m s/rad]");
   command.add_option("--solref", options.solref,
-                     "likewise, MuJoCo's timeconst,dampratio or -stiffness,-damping");
-  command.add_option("--impedance", options.impedance, "MuJoCo's d, or d,dmax; 0.95 if not given");
+                     "MuJoCo solref, without a scene: timeconst,dampratio or -stiffness,-damping");
+  command.add_option("--impedance", options.impedance,
+                     "MuJoCo impedance d, or d,dmax; default 0.95");
+  begin_group(command, "Output");
   add_json_option(command, options.json);
 }
 
-void check_positive(const std::string& option, double value, DiagnosticList& faults) {
-  if (value > 0 && std::isfinite(value)) return;
-  faults.add(
-      {"", 0, option, "must be positive, is " + number_text(value), "", "option.not-positive"});
-}
 void check_not_negative(const std::string& option, double value, DiagnosticList& faults) {
   if (value >= 0 && std::isfinite(value)) return;
-  faults.add(
-      {"", 0, option, "must not be negative, is " + number_text(value), "", "option.negative"});
+  faults.add(option, "must not be negative, is " + number_text(value), "", "option.negative");
 }
 
 // "joint1=1,joint2=-0.5"
 std::vector<std::pair<std::string, double>> read_along(const std::string& text,
                                                        DiagnosticList& faults) {
-  std::vector<std::pair<std::string, double>> parts;
-  std::istringstream all(text);
-  for (std::string one; std::getline(all, one, ',');) {
-    const std::size_t at = one.find('=');
-    const std::string value = at == std::string::npos ? "" : one.substr(at + 1);
-    char* end = nullptr;
-    const double part = std::strtod(value.c_str(), &end);
-    if (value.empty() || *end != 0 || !std::isfinite(part))
-      faults.add({"", 0, "--along", "'" + one + "' is not joint=number",
-                  "give joint1=1,joint2=-0.5", "option.form"});
+  std::vector<std::pair<std::string, double>> factors;
+  if (text.empty()) return factors;
+  for (const std::string& item : split(text)) {
+    const std::size_t at = std::min(item.find('='), item.size());
+    if (const auto factor = parse_number(item.substr(std::min(at + 1, item.size()))))
+      factors.emplace_back(item.substr(0, at), *factor);
     else
-      parts.emplace_back(one.substr(0, at), part);
+      faults.add("--along", "'" + item + "' is not joint=number", "give joint1=1,joint2=-0.5",
+                 "option.form");
   }
-  return parts;
+  return factors;
 }
 
-// A scene that has couplings, and its step; `scene` in place of a file.
+// Prepares a scene with couplings: the file, or `scene` in its place.
 SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<double>& step,
                                const std::string& integrator, DiagnosticList& faults,
                                std::optional<Value> scene = {}) {
   if (robot.model.extension() != ".toml" && !scene)
-    faults.add({robot.model.string(), 0, "", "is no scene, and only a scene has couplings",
-                "write a scene with a [[robot]] and a [[coupling]] (docs/reference/scene_file.md); or give "
-                "`coupling predict` --link and --stiffness",
+    faults.add({robot.model.string(), 0, "", "is not a scene; only a scene has couplings",
+                "write a scene with a [[robot]] and a [[coupling]] "
+                "(docs/reference/scene_file.md), or give `coupling predict` --link and --stiffness",
                 "file.no-scene"});
   faults.check();
   SimulateOptions simulate;
@@ -124,12 +123,12 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
   faults.check();
   if (prepared->input.couplings->size() == 0)
     throw InputError({{robot.model.string(), 0, "scene", "it has no coupling",
-                       "write a [[coupling]] (docs/reference/scene_file.md)", "scene.no-coupling"}});
+                       "add a [[coupling]] (docs/reference/scene_file.md)", "scene.no-coupling"}});
   return std::move(*prepared);
 }
 
-// The tree that such a scene file would have, of one robot and one coupling; its values are checked
-// where scenes are read.
+// The scene of one robot and one coupling that the options describe; its values are checked by the
+// reader of scenes.
 Value scene_of_options(const CouplingPredictOptions& options, DiagnosticList& faults) {
   Value robot, coupling, scene;
   robot.put("name", Value::of("robot"));
@@ -164,9 +163,8 @@ int run_coupling_predict(const CouplingPredictOptions& options) {
                             !options.point.empty() || !options.measure.empty() ||
                             !options.treatment.empty();
   if (is_scene && has_coupling)
-    faults.add({"", 0, "--link, --point, --measure, --treatment, --stiffness, --damping",
-                "are for a robot without a scene", "change the scene's [[coupling]]",
-                "option.useless"});
+    faults.add("--link, --point, --measure, --treatment, --stiffness, --damping",
+               "apply to a URDF only", "change the scene's [[coupling]]", "option.useless");
   std::optional<Value> scene;
   if (!is_scene && has_coupling) scene = scene_of_options(options, faults);
   SimulatePlan prepared =
@@ -184,74 +182,73 @@ struct GivenGains {
 };
 
 GivenGains read_given_gains(const CouplingGainsOptions& options, DiagnosticList& faults) {
-  GivenGains asked;
+  GivenGains given;
   if (options.frequency.has_value() != options.damping_ratio.has_value()) {
-    faults.add({"", 0, "--frequency, --damping-ratio", "go together", "give both, or neither",
-                "option.together"});
+    faults.add("--frequency, --damping-ratio", "one is given without the other",
+               "give both, or neither", "option.together");
   } else if (options.frequency) {
     check_positive("--frequency", *options.frequency, faults);
     check_not_negative("--damping-ratio", *options.damping_ratio, faults);
-    asked.response = {2 * std::numbers::pi * *options.frequency, *options.damping_ratio};
+    given.response = {2 * std::numbers::pi * *options.frequency, *options.damping_ratio};
   }
   if (!options.solref.empty()) {
     const std::vector<double> two = parse_list("--solref", options.solref, faults);
     if (two.size() == 2 && ((two[0] > 0 && two[1] > 0) || (two[0] <= 0 && two[1] <= 0)))
-      asked.solref = {two[0], two[1]};
+      given.solref = {two[0], two[1]};
     else
-      faults.add({"", 0, "--solref", "'" + options.solref + "' is no solref",
-                  "give timeconst,dampratio, both positive, or -stiffness,-damping",
-                  "option.form"});
+      faults.add("--solref", "'" + options.solref + "' is not a solref",
+                 "give timeconst,dampratio, both positive, or -stiffness,-damping", "option.form");
   }
   if (!options.impedance.empty()) {
     const std::vector<double> d = parse_list("--impedance", options.impedance, faults);
-    const bool good = !d.empty() && d.size() <= 2 && d.front() > 0 && d.front() < 1 &&
-                      d.back() > 0 && d.back() < 1;
-    if (good)
-      asked.impedance = {d.front(), d.back()};
+    const auto fits = [](double value) { return value > 0 && value < 1; };
+    if (!d.empty() && d.size() <= 2 && std::ranges::all_of(d, fits))
+      given.impedance = {d.front(), d.back()};
     else
-      faults.add({"", 0, "--impedance", "'" + options.impedance + "' is none",
-                  "give d, or d,dmax, each above 0 and below 1", "option.form"});
+      faults.add("--impedance", "'" + options.impedance + "' is not an impedance",
+                 "give d, or d,dmax, each above 0 and below 1", "option.form");
   }
-  return asked;
+  return given;
 }
 
-// Without a scene: an inertia, and gains in one of four ways.
-Equivalents bare_equivalents(const CouplingGainsOptions& options, const GivenGains& asked,
+// Without a scene: from an inertia and gains in one of three forms.
+Equivalents bare_equivalents(const CouplingGainsOptions& options, const GivenGains& given,
                              DiagnosticList& faults) {
-  const int ways = (options.stiffness ? 1 : 0) + (asked.response ? 1 : 0) + (asked.solref ? 1 : 0);
+  const int ways = (options.stiffness ? 1 : 0) + (given.response ? 1 : 0) + (given.solref ? 1 : 0);
   if (!options.inertia)
-    faults.add({"", 0, "--inertia", "is needed where there is no scene",
-                "give what the spring moves [kg or kg m^2], or a scene", "option.missing"});
+    faults.add("--inertia", "is needed without a scene",
+               "give the inertia that the spring moves [kg or kg m^2], or a scene",
+               "option.missing");
   else
     check_positive("--inertia", *options.inertia, faults);
   if (ways != 1)
-    faults.add({"", 0, "gains", fmt::format("are given in {} ways", ways),
-                "give one of --stiffness and --damping, --frequency and --damping-ratio, --solref",
-                "option.conflict"});
+    faults.add("gains", fmt::format("are given in {} forms", ways),
+               "give one of --stiffness and --damping, --frequency and --damping-ratio, --solref",
+               "option.conflict");
   if (options.stiffness) check_positive("--stiffness", *options.stiffness, faults);
   check_not_negative("--damping", options.damping, faults);
   faults.check();
-  const SpringGains gains = asked.response ? gains_of(*asked.response, *options.inertia)
-                            : asked.solref
-                                ? gains_of(*asked.solref, *options.inertia, asked.impedance)
+  const SpringGains gains = given.response ? gains_of(*given.response, *options.inertia)
+                            : given.solref
+                                ? gains_of(*given.solref, *options.inertia, given.impedance)
                                 : SpringGains{*options.stiffness, options.damping};
-  return equivalents_of(gains, *options.inertia, asked.impedance);
+  return equivalents_of(gains, *options.inertia, given.impedance);
 }
 
 int run_coupling_gains(const CouplingGainsOptions& options) {
   DiagnosticList faults;
-  const GivenGains asked = read_given_gains(options, faults);
+  const GivenGains given = read_given_gains(options, faults);
   std::vector<Equivalents> all;
   double step = 0.001;
   if (options.robot.model.empty()) {
-    all.push_back(bare_equivalents(options, asked, faults));
+    all.push_back(bare_equivalents(options, given, faults));
   } else {
-    if (options.stiffness || options.inertia || asked.solref)
-      faults.add({"", 0, "--stiffness, --inertia, --solref", "are for gains without a scene",
-                  "leave the scene out, or these", "option.useless"});
+    if (options.stiffness || options.inertia || given.solref)
+      faults.add("--stiffness, --inertia, --solref", "apply to gains without a scene only",
+                 "leave out the scene, or these", "option.useless");
     SimulatePlan prepared = prepare_couplings(options.robot, {}, "semi-implicit", faults);
     step = prepared.run.step;
-    all = scene_equivalents(prepared.input, asked.response, asked.impedance);
+    all = scene_equivalents(prepared.input, given.response, given.impedance);
     if (all.empty())
       throw InputError(
           {{options.robot.model.string(), 0, "scene", "none of its couplings has a stiffness",
@@ -264,19 +261,26 @@ int run_coupling_gains(const CouplingGainsOptions& options) {
 }  // namespace
 
 Command coupling_command() {
-  return {
-      50,
-      "coupling",
-      "What theory says of a scene's couplings before it is run\n\n"
-      "Example:  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml",
-      {{10, "predict",
-        "Stiffness, modes, limits of step and stiffness, errors behind a moving target, sag\n\n"
-        "Example:  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml --step 0.004",
-        add_options, run_coupling_predict},
-       {20, "gains",
-        "The same gains as a frequency, as a torsional coupling, in MuJoCo and as a PhysX drive\n\n"
-        "Example:  twinarm coupling gains --inertia 0.5 --frequency 8 --damping-ratio 1",
-        add_options, run_coupling_gains}}};
+  return {50,
+          "coupling",
+          "Predict stability limits, modes and tracking error of couplings; convert gains\n\n"
+          "Examples:\n"
+          "  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml\n"
+          "  twinarm coupling gains --inertia 0.5 --frequency 8 --damping-ratio 1",
+          {{10, "predict",
+            "Predict joint-space stiffness, modes, the largest stable step and stiffness, tracking "
+            "error and static deflection of couplings\n\n"
+            "Examples:\n"
+            "  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml --step 0.004\n"
+            "  twinarm coupling predict assets/robots/s103/s103.urdf --link arm1 --stiffness 500",
+            add_options, run_coupling_predict},
+           {20, "gains",
+            "Convert gains between stiffness and damping, frequency and damping ratio, MuJoCo "
+            "solref and PhysX drive\n\n"
+            "Examples:\n"
+            "  twinarm coupling gains --inertia 0.5 --frequency 8 --damping-ratio 1\n"
+            "  twinarm coupling gains assets/scenes/robot_beside_obstacles.toml",
+            add_options, run_coupling_gains}}};
 }
 
 }  // namespace twinarm

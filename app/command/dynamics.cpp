@@ -17,15 +17,13 @@
 namespace twinarm {
 namespace {
 
-// What `twinarm dynamics` prints: one JSON object, or tables for people.
-
-constexpr Eigen::Index kWidestMatrix = 12;  // wider ones are for machines
+constexpr Eigen::Index kMaxPrintedColumns = 12;  // wider mass matrices are in the JSON only
 
 std::string xyz(const Vector3& v) {
   return fmt::format("({}, {}, {})", cell(v.x()), cell(v.y()), cell(v.z()));
 }
 
-// A row for each number of a joint; those of a quaternion stand beside the rates about its axes.
+// One row per coordinate; a quaternion's x, y, z are in the rows of the angular velocity.
 std::string joint_table(const RobotInput& input, const Dynamics& d) {
   const JointUnits units(input.coordinates);
   TextTable table({"joint", "q [" + units.q + "]", "qd [" + units.qd + "]",
@@ -115,14 +113,14 @@ std::string dynamics_table(const RobotInput& input, const Dynamics& d) {
                   input.coordinates.floating() ? "floating (base in world axes)" : "fixed base",
                   xyz({g.x, g.y, g.z}));
   text += joint_table(input, d) + "\n";
-  if (d.mass_matrix.rows() > 0 && d.mass_matrix.rows() <= kWidestMatrix)
+  if (d.mass_matrix.rows() > 0 && d.mass_matrix.rows() <= kMaxPrintedColumns)
     text += matrix_table(input.coordinates, d.mass_matrix) + "\n";
   text += link_table(input) + "\n";
   text += fmt::format(
       "mass {} kg, centre of mass {} m\n"
       "kinetic energy {} J, potential energy {} J (0 at the world's origin)\n"
       "momentum {} N s, angular momentum {} N m s about the world's origin\n"
-      "on the root link, for the inverse's qdd: force {} N, torque {} N m about its origin\n",
+      "wrench on the root link (inverse dynamics): force {} N, torque {} N m about its origin\n",
       cell(d.mass), xyz(d.com), cell(d.kinetic_energy), cell(d.potential_energy),
       xyz(d.linear_momentum), xyz(d.angular_momentum), xyz(d.base_force), xyz(d.base_torque));
   for (const std::string& warning : input.warnings) text += "\nwarning: " + warning;
@@ -135,16 +133,17 @@ struct DynamicsOptions {
 };
 
 void add_options(CLI::App& command, DynamicsOptions& options) {
-  add_robot_options(command, options.robot, "the robot's URDF");
+  add_robot_options(command, options.robot, "robot (URDF)");
+  begin_group(command, "Output");
   add_json_option(command, options.json);
 }
 
-// The number of the state that is furthest from 1: where results overflow it mostly is behind it.
+// The largest input, with its name: the usual cause of overflow.
 std::string max_input(const RobotInput& input) {
   std::string name = "gravity";
-  double largest = to_eigen(input.model.gravity).lpNorm<Eigen::Infinity>();
+  double max = to_eigen(input.model.gravity).lpNorm<Eigen::Infinity>();
   const auto look = [&](const std::string& of, double value) {
-    if (std::abs(value) > largest) largest = std::abs(value), name = of;
+    if (std::abs(value) > max) max = std::abs(value), name = of;
   };
   for (const NamedJoint& joint : input.coordinates.all()) {
     const std::string of = joint.name.empty() ? " of the base" : " of joint '" + joint.name + "'";
@@ -156,31 +155,30 @@ std::string max_input(const RobotInput& input) {
       look("qdd" + of, input.state.qdd[row]);
     }
   }
-  return name + ", " + short_number_text(largest);
+  return name + ", " + short_number_text(max);
 }
 
-// No result is printed that is not a number.
+// Throws if a result is not finite.
 void check_finite(const std::string& file, const RobotInput& input, const Dynamics& d) {
   std::string names;
-  const auto look = [&](const char* name, const auto& values) {
-    if (!values.array().isFinite().all()) names += (names.empty() ? "" : ", ") + std::string(name);
+  const auto check = [&](const char* name, bool finite) {
+    if (!finite) names += (names.empty() ? "" : ", ") + std::string(name);
   };
-  const auto one = [](double value) { return Eigen::Matrix<double, 1, 1>(value); };
-  look("qdd", d.qdd);
-  look("tau_inverse", d.tau_inverse);
-  look("base_wrench", d.base_force + d.base_torque);
-  look("mass_matrix", d.mass_matrix);
-  look("bias", d.bias);
-  look("gravity", d.gravity);
-  look("kinetic_energy", one(d.kinetic_energy));
-  look("potential_energy", one(d.potential_energy));
-  look("com", d.com);
-  look("linear_momentum", d.linear_momentum);
-  look("angular_momentum", d.angular_momentum);
+  check("qdd", d.qdd.allFinite());
+  check("tau_inverse", d.tau_inverse.allFinite());
+  check("base_wrench", (d.base_force + d.base_torque).allFinite());
+  check("mass_matrix", d.mass_matrix.allFinite());
+  check("bias", d.bias.allFinite());
+  check("gravity", d.gravity.allFinite());
+  check("kinetic_energy", std::isfinite(d.kinetic_energy));
+  check("potential_energy", std::isfinite(d.potential_energy));
+  check("com", d.com.allFinite());
+  check("linear_momentum", d.linear_momentum.allFinite());
+  check("angular_momentum", d.angular_momentum.allFinite());
   if (names.empty()) return;
   const std::string first = d.first_bad.empty() ? "" : "; the first is " + d.first_bad;
   throw InputError({{file, 0, "", "not finite in this state: " + names + first,
-                     "the largest number that was given is " + max_input(input) +
+                     "the largest input is " + max_input(input) +
                          ": give numbers whose squares and products stay below 1e308",
                      "state.not-finite"}});
 }
@@ -198,8 +196,10 @@ int run_dynamics(const DynamicsOptions& options) {
 
 Command dynamics_command() {
   return {20, "dynamics",
-          "Forward and inverse dynamics, mass matrix, energies of a robot in one state\n\n"
-          "Example:  twinarm dynamics assets/robots/puma560/puma560.urdf --state "
+          "Compute forward and inverse dynamics, mass matrix and energies of a robot in a state\n\n"
+          "Examples:\n"
+          "  twinarm dynamics assets/robots/puma560/puma560.urdf\n"
+          "  twinarm dynamics assets/robots/puma560/puma560.urdf --state "
           "assets/states/puma_qn.json",
           add_options, run_dynamics};
 }

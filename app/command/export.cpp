@@ -1,4 +1,4 @@
-// `twinarm export`: a recording as CSV or JSON, or as a page (app/web).
+// `twinarm export`: converts a recording to CSV, JSON or an HTML page (app/web).
 
 #include <fmt/format.h>
 
@@ -19,11 +19,9 @@
 namespace twinarm {
 namespace {
 
-// What `twinarm export` prints of a recording.
-
 using GeometryPair = std::pair<int, int>;
 
-// The pairs that touch in any frame, whose forces have columns.
+// The pairs in contact in any frame; each has columns for its force.
 std::vector<GeometryPair> pairs_of(const Recording& recording) {
   std::vector<GeometryPair> pairs;
   for (std::size_t n = 0; n < recording.size(); ++n)
@@ -58,14 +56,14 @@ std::vector<std::string> csv_header(const Recording& recording,
   return names;
 }
 
-// In the order of the header, from the columns of a run to the hash.
+// In the order of csv_header(), without t, step and hash.
 std::vector<double> csv_values(const Recording& recording, const RecordedFrame& frame,
                                const std::vector<GeometryPair>& pairs) {
   std::vector<double> values = frame.values;
   const auto add = [&](const auto& several) {
     values.insert(values.end(), several.begin(), several.end());
   };
-  for (const Vector3& pull : frame.pulls) add(pull);
+  for (const Vector3& force : frame.pulls) add(force);
   for (const GeometryPair& pair : pairs) {
     Vector3 force = Vector3::Zero();
     for (const RecordedContact& c : frame.contacts)
@@ -162,35 +160,35 @@ void print_recording_json(const Recording& recording) {
 
 struct ExportOptions {
   std::filesystem::path recording;
-  std::filesystem::path page;  // an HTML file with all of the run; empty: text on stdout
+  std::filesystem::path page;  // HTML file; empty: CSV or JSON on stdout
   bool json = false, csv = false;
 };
 
 void add_options(CLI::App& command, ExportOptions& options) {
-  add_file_option(command, "recording", options.recording, "of `twinarm simulate --record`")
+  add_file_option(command, "recording", options.recording,
+                  "recording of `twinarm simulate --record`")
       ->required();
   add_file_option(command, "page", options.page,
-                  "write one HTML file: picture, plots, ledger, settings");
+                  "write one HTML file: animation, plots, energy balance, settings");
+  begin_group(command, "Output on stdout");
   add_json_option(command, options.json);
-  command.add_flag("--csv", options.csv, "print one row a frame on stdout");
+  command.add_flag("--csv", options.csv, "print one CSV row per frame");
 }
 
-// Throws InputError with all faults of the options.
 int export_page(const ExportOptions& options) {
   DiagnosticList faults;
   if (options.csv)
-    faults.add({"", 0, "--csv", "prints on stdout, and a page is asked for", "give one of them",
-                "option.conflict"});
+    faults.add("--csv", "cannot be combined with a page", "give one of them", "option.conflict");
   const std::string file = options.page.string(), end = options.page.extension().string();
   if (end != ".html" && end != ".htm")
-    faults.add({file, 0, "", "is no name of a page", "let it end in .html", "file.ending"});
+    faults.add({file, 0, "", "is not the name of a page", "end it in .html", "file.ending"});
   check_place(options.page, faults);
   faults.check();
 
   const ReplayPage page = replay_page(options.recording);
   write_whole_file(options.page, page.html);
   if (!options.json) {
-    fmt::print("wrote {}: {} frames, {:.3g} a second, {:.2f} MB\n", file, page.frames, page.rate,
+    fmt::print("wrote {}: {} frames, {:.3g} per second, {:.2f} MB\n", file, page.frames, page.rate,
                1e-6 * static_cast<double>(page.html.size()));
     return 0;
   }
@@ -216,9 +214,10 @@ int run_export(const ExportOptions& options) {
 
 Command export_command() {
   return {90, "export",
-          "A recording as CSV or JSON, units in the headers, or as a page that "
-          "replays it in any browser\n\n"
-          "Example:  twinarm export out/run.twinrec out/run.html",
+          "Convert a recording to CSV or JSON, or to an HTML page that replays it\n\n"
+          "Examples:\n"
+          "  twinarm export out/run.twinrec out/run.html\n"
+          "  twinarm export out/run.twinrec --csv > out/run.csv",
           add_options, run_export};
 }
 

@@ -1,4 +1,4 @@
-// twinarm hand: a scene under a hand device, in real time (docs/understand/phantom_omni.md).
+// `twinarm hand`: runs a scene with an input device in real time (docs/use/haptic_loop.md).
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
@@ -11,6 +11,7 @@
 #include "app/command/parser/shared_options.h"
 #include "app/device/devices.h"
 #include "app/plot/gnuplot.h"
+#include "app/robot/robot_input.h"
 #include "app/scene/read/read_scene.h"
 #include "app/servo/output/servo_output.h"
 #include "app/support/files.h"
@@ -25,7 +26,7 @@ struct HandOptions {
   std::string device = "virtual:synthetic";  // app/device/devices.h
   std::string mapping = "paper";
   std::optional<double> scale, force_scale;  // of the mapping
-  std::optional<double> duration, step;      // [s]; left out: until Ctrl-C, the scene's
+  std::optional<double> duration, step;      // [s]; default: until Ctrl-C, the scene's
   bool simulated = false, fifo = false, control = false, picture = false, record = false;
   std::filesystem::path out = "out/hand";
   bool json = false;
@@ -33,50 +34,47 @@ struct HandOptions {
 
 void add_options(CLI::App& command, HandOptions& options) {
   add_input_option(command, "scene", options.scene,
-                   "TOML, with couplings whose target is \"device\"");
+                   "scene (TOML) with couplings whose target is \"device\"");
+  begin_group(command, "Device");
+  command.add_option("--device", options.device, "input device; `--device list` lists them");
+  command.add_option("--mapping", options.mapping,
+                     "device to joints: paper (theta1, 4, 6), arm (theta1, 2, 3) or cartesian");
   command
-      .add_option("--device", options.device, "who moves it; `--device list` says what there is")
-      ->capture_default_str();
-  command
-      .add_option("--mapping", options.mapping,
-                  "paper (theta1, 4, 6), arm (theta1, 2, 3) or cartesian")
-      ->capture_default_str();
-  command.add_option("--scale", options.scale, "of cartesian: the robot's way over the hand's (4)")
+      .add_option("--scale", options.scale,
+                  "motion scaling of the cartesian mapping, robot over device; default 4")
       ->check(above_zero());
-  command.add_option("--force-scale", options.force_scale, "of what is felt (1)")
+  command
+      .add_option("--force-scale", options.force_scale, "scaling of the force feedback; default 1")
       ->check(zero_or_more());
-  command.add_option("--duration", options.duration, "seconds; left out: until Ctrl-C");
-  command.add_option("--step", options.step, "seconds, 1e-6 to 0.1; left out: the scene's")
+  begin_group(command, "Run");
+  command.add_option("--duration", options.duration, "[s]; default: until Ctrl-C");
+  command.add_option("--step", options.step, "step [s], 1e-6 to 0.1; default: the scene's")
       ->check(above_zero());
-  command.add_flag(
-      "--simulated", options.simulated,
-      "as fast as it goes: the same run on every machine, for a device that is simulated");
+  command.add_flag("--simulated", options.simulated,
+                   "run without real-time pacing: reproducible, for simulated devices");
   command.add_flag("--fifo", options.fifo,
-                   "ask for the real-time scheduler and locked memory; goes on without them");
+                   "request SCHED_FIFO and locked memory; continue if they are refused");
   command.add_flag("--control", options.control,
-                   "every other second an empty loop: what this machine can do at all");
+                   "alternate each second with an empty loop, to measure the machine's jitter");
+  begin_group(command, "Output");
   command.add_flag("--timing", options.picture, "write OUT/timing.svg: histograms of the ticks");
   command.add_flag("--record", options.record,
-                   "make the run again from its log, and write OUT/run.twinrec");
-  add_file_option(command, "--out", options.out, "folder of the log hand.csv and of what is made")
-      ->capture_default_str();
+                   "simulate again from the log and write the recording OUT/run.twinrec");
+  add_file_option(command, "--out", options.out, "folder of the log hand.csv and of other output");
   add_json_option(command, options.json);
 }
 
 MappingSpec mapping_of(const HandOptions& options, DiagnosticList& faults) {
   MappingSpec spec;
-  const auto found = std::ranges::find(kMappingNames, options.mapping);
-  if (found == kMappingNames.end())
-    faults.add({"", 0, "--mapping", "'" + options.mapping + "' is none",
-                "give paper, arm or cartesian", "option.choice"});
-  else
-    spec.kind = static_cast<MappingKind>(found - kMappingNames.begin());
+  const std::vector<std::string> names(kMappingNames.begin(), kMappingNames.end());
+  if (const auto kind = choose("--mapping", options.mapping, names, "mappings", faults))
+    spec.kind = static_cast<MappingKind>(*kind);
   if (options.scale) spec.scale = *options.scale;
   if (options.force_scale) spec.force_scale = *options.force_scale;
   return spec;
 }
 
-void gather(const TickResult& view, double step, LiveSummary& summary) {
+void add_tick(const TickResult& view, double step, LiveSummary& summary) {
   ++summary.ticks;
   summary.held += view.mode == DeviceWatchdog::Mode::held ? 1 : 0;
   summary.released += view.mode == DeviceWatchdog::Mode::released ? 1 : 0;
@@ -92,19 +90,17 @@ void gather(const TickResult& view, double step, LiveSummary& summary) {
 
 SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
   if (options.scene.extension() != ".toml")
-    faults.add({options.scene.string(), 0, "scene", "it is no scene",
+    faults.add({options.scene.string(), 0, "scene", "is not a scene",
                 "give a TOML file with couplings whose target is \"device\"", "file.no-scene"});
-  if (options.duration && !(*options.duration > 0))
-    faults.add({"", 0, "--duration", "must be a positive number of seconds", "give --duration 60",
-                "option.not-positive"});
+  if (options.duration) check_positive("--duration", *options.duration, faults, " [s]");
   if (options.control && options.simulated)
-    faults.add({"", 0, "--control", "there is nothing to be compared without real time",
-                "leave --simulated out", "option.conflict"});
+    faults.add("--control", "measures real time, which --simulated does not keep",
+               "leave --simulated out", "option.conflict");
   faults.check();
   return build_scene(read_scene(options.scene));
 }
 
-// The run, its ticks gathered and written as they come.
+// Runs; summarises and logs the ticks meanwhile.
 void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummary& summary) {
   ServoPlan plan;
   plan.duration = options.duration.value_or(HUGE_VAL);
@@ -116,17 +112,16 @@ void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummar
   progress.stage("hand", 1);
   summary.servo = run_servo(run, plan, stop, [&](SpscRing<TickResult>& ring) {
     for (TickResult view; ring.pop(view);) {
-      gather(view, run.step(), summary);
+      add_tick(view, run.step(), summary);
       log.write(view.hand);
     }
     log.flush();
-    // Ctrl-C is an ordinary end: what was done is kept. A run without its log is not worth going
-    // on.
+    // After Ctrl-C the results so far are kept.
     if (is_interrupted() || !log.is_whole()) stop = true;
     if (options.duration) progress.advance(std::min(1.0, summary.duration / *options.duration));
   });
   progress.finish();
-  forget_interrupt();  // it was the run's: its recording and its picture are made all the same
+  forget_interrupt();  // it ended the run only: recording and picture are still made
   summary.silences = run.watch().silences();
 }
 
@@ -168,12 +163,12 @@ int run_hand(const HandOptions& options) {
     draw_timing(summary, summary.picture);
   }
   if (options.record && summary.ticks > 0) {
-    const std::filesystem::path again = options.out / "scene.toml";
-    write_scene_of_log(options.scene, summary.log, run.step(), summary.duration, again);
+    const std::filesystem::path logged = options.out / "scene.toml";
+    write_scene_of_log(options.scene, summary.log, run.step(), summary.duration, logged);
     summary.recording = (options.out / "run.twinrec").string();
-    const State<double> end = record_again(again, summary.recording);
-    const State<double>& lived = run.simulation().state();
-    summary.same_bits = end.q == lived.q && end.qd == lived.qd;
+    const State<double> end = record_again(logged, summary.recording);
+    const State<double>& live_end = run.simulation().state();
+    summary.same_bits = end.q == live_end.q && end.qd == live_end.qd;
   }
   fmt::print("{}", options.json ? live_json(summary) + "\n" : live_table(summary));
   return summary.servo.finite ? 0 : kStopped;
@@ -182,12 +177,12 @@ int run_hand(const HandOptions& options) {
 }  // namespace
 
 Command hand_command() {
-  return {
-      70, "hand",
-      "A scene under a hand device, at 1 kHz in real time: the hand moves the kinematic robot and "
-      "feels the springs\n\n"
-      "Example:  twinarm hand assets/scenes/hand_and_obstacles.toml --duration 10 --timing",
-      add_options, run_hand};
+  return {70, "hand",
+          "Run a scene with a haptic device at 1 kHz: the haptic rendering loop\n\n"
+          "Examples:\n"
+          "  twinarm hand assets/scenes/hand_and_obstacles.toml --duration 10 --timing\n"
+          "  twinarm hand --device list",
+          add_options, run_hand};
 }
 
 }  // namespace twinarm

@@ -1,69 +1,124 @@
-// `twinarm help`.
+// `twinarm help`: help of a command, a glossary entry, manual, completion.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <regex>
 
 #include "app/command/command.h"
 #include "app/command/parser/command_tree.h"
+#include "app/command/parser/shared_options.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/embedded_file.h"
 
 namespace twinarm {
+
+const std::vector<EmbeddedFile>& glossary_files();  // CMakeLists.txt
+
 namespace {
 
 struct HelpOptions {
   CLI::App* program = nullptr;
-  std::vector<std::string> command;
+  std::vector<std::string> words;
   bool man = false, completion = false, scene_numbers = false;
 };
 
 void add_options(CLI::App& command, HelpOptions& options) {
   options.program = command.get_parent();
-  command.add_option("command", options.command, "the program itself if not given");
+  command.add_option("word", options.words,
+                     "a command, or a term of the glossary; default: the list of commands");
+  begin_group(command, "Instead");
   CLI::Option* man = command.add_flag("--man", options.man, "print the man page, for man -l -");
   CLI::Option* completion =
       command
           .add_flag("--completion", options.completion,
-                    "print the completion of commands, options and files, for bash")
+                    "print the completion script for bash: commands, options, files")
           ->excludes(man);
   command
       .add_flag("--scene-numbers", options.scene_numbers,
-                "print the numbers of a scene file as tables: units, defaults, ranges, meanings")
+                "print tables of the numbers in a scene file: units, defaults, ranges, meanings")
       ->excludes(man)
       ->excludes(completion);
 }
 
-CLI::App* find_command(CLI::App& parent, const std::string& name) {
-  std::vector<std::string> names;
-  for (CLI::App* command : parent.get_subcommands({})) {
+const CLI::App* find_subcommand(const CLI::App& parent, const std::string& name) {
+  for (const CLI::App* command : parent.get_subcommands({}))
     if (command->get_name() == name) return command;
-    names.push_back(command->get_name());
-  }
-  throw InputError(
-      {{"", 0, "help", fmt::format("there is no command '{}'", name),
-        names.empty() ? "leave it out" : name_remedy(name, names, "commands"), "command.unknown"}});
+  return nullptr;
 }
 
-int run_help(const HelpOptions& asked) {
-  CLI::App& program = *asked.program;
-  if (asked.man) {
-    fmt::print("{}", man_page(program, kProgramVersion));
-  } else if (asked.completion) {
-    fmt::print("{}", shell_completion(program));
-  } else if (asked.scene_numbers) {
-    fmt::print("{}", scene_numbers());
-  } else {
-    CLI::App* command = &program;
-    std::string path = "twinarm";
-    for (const std::string& word : asked.command) {
-      command = find_command(*command, word);
-      path += " " + word;
-    }
-    fmt::print("{}",
-               command->get_formatter()->make_help(command, path, CLI::AppFormatMode::Normal));
+// A Markdown cell as plain text: links by their names, formulas by their letters.
+std::string plain(const std::string& cell) {
+  std::string text = std::regex_replace(cell, std::regex(R"(\[([^\]]*)\]\([^)]*\))"), "$1");
+  text = std::regex_replace(text, std::regex(R"([\\$`]|^ +| +$)"), "");
+  return text;
+}
+
+// The rows of the glossary's tables: term, symbol, unit, meaning, source; or a word that is not
+// used and its replacement.
+std::vector<std::vector<std::string>> glossary_rows() {
+  std::vector<std::vector<std::string>> rows;
+  for (const std::string& line : split(std::string(glossary_files().front().text), '\n')) {
+    if (!line.starts_with("| ")) continue;
+    std::vector<std::string> cells;
+    static const std::regex kCell(R"(((?:[^|\\]|\\.)*)\|)");
+    for (std::sregex_iterator cell(line.begin() + 1, line.end(), kCell), end; cell != end; ++cell)
+      cells.push_back(plain((*cell)[1]));
+    if (cells.front() != "term" && cells.front() != "not") rows.push_back(std::move(cells));
   }
+  return rows;
+}
+
+// The entries whose term or symbol is `word`; the names of all terms are added to `terms`.
+std::string glossary_entries(const std::string& word, std::vector<std::string>& terms) {
+  std::string text;
+  for (const std::vector<std::string>& row : glossary_rows()) {
+    std::vector<std::string> names = split(row[0] + (row.size() == 5 ? "," + row[1] : ""));
+    for (std::string& name : names) name.erase(0, name.find_first_not_of(' '));
+    terms.push_back(names.front());
+    if (std::ranges::find(names, word) == names.end()) continue;
+    if (row.size() != 5) {
+      text += fmt::format("{}: not used; use {}\n", row[0], row[1]);
+      continue;
+    }
+    text += row[0] + (row[1].empty() ? "" : ", symbol " + row[1]) +
+            (row[2].empty() ? "" : " [" + row[2] + "]") + "\n  " + row[3] + "\n" +
+            (row[4].empty() ? "" : "  source: " + row[4] + "\n");
+  }
+  return text;
+}
+
+// The help of a command, or else a glossary entry.
+std::string help_of(const CLI::App& program, const std::vector<std::string>& words) {
+  const CLI::App* command = &program;
+  std::string path = "twinarm";
+  for (const std::string& word : words) {
+    const CLI::App* parent = command;
+    command = find_subcommand(*parent, word);
+    path += " " + word;
+    if (command) continue;
+    std::vector<std::string> names;
+    for (const CLI::App* other : parent->get_subcommands({})) names.push_back(other->get_name());
+    if (parent == &program)
+      if (std::string found = glossary_entries(fmt::format("{}", fmt::join(words, " ")), names);
+          !found.empty())
+        return found;
+    throw InputError(
+        {{"", 0, "help", fmt::format("there is no command or term '{}'", word),
+          names.empty() ? "leave it out" : name_remedy(word, names, "words"), "command.unknown"}});
+  }
+  return command->get_formatter()->make_help(command, path, CLI::AppFormatMode::Normal);
+}
+
+int run_help(const HelpOptions& options) {
+  CLI::App& program = *options.program;
+  fmt::print("{}", options.man             ? man_page(program, kProgramVersion)
+                   : options.completion    ? shell_completion(program)
+                   : options.scene_numbers ? scene_numbers()
+                                           : help_of(program, options.words));
   return 0;
 }
 
@@ -71,8 +126,10 @@ int run_help(const HelpOptions& asked) {
 
 Command help_command() {
   return {180, "help",
-          "The help of a command, or the manual of all of them\n\n"
-          "Example:  twinarm help coupling predict",
+          "Print the help of a command, a glossary entry, or the manual\n\n"
+          "Examples:\n"
+          "  twinarm help coupling predict\n"
+          "  twinarm help \"bias force\"",
           add_options, run_help};
 }
 

@@ -16,55 +16,54 @@ namespace twinarm {
 namespace {
 
 void add_options(CLI::App& command, InspectOptions& options) {
-  add_robot_options(command, options.robot, "the robot's URDF, a scene in TOML, or a recording");
-  command.add_option("--pass", options.passes, "1, 2 or 3; all if not given");
-  command.add_option("--body", options.bodies, "names of links and bodies; all if not given");
-  command
-      .add_option("--axes", options.axes,
-                  "of the wrenches: world, link (each body its own), or the name of a body")
-      ->capture_default_str();
-  command
-      .add_option("--about", options.about,
-                  "where torques are taken: origin or com (each body its own), the name of a "
-                  "body, or a point x,y,z of the world")
-      ->capture_default_str();
+  add_robot_options(command, options.robot, "robot (URDF), scene (TOML) or recording");
+  command.add_option("--at", options.at, "time in a recording [s]; default: its end");
+  command.add_option("--step", options.step, "step of a scene [s]; default: the scene's");
+  begin_group(command, "Selection");
+  command.add_option("--pass", options.passes, "passes of ABA: 1, 2 or 3; default: all");
+  command.add_option("--body", options.bodies, "names of links and bodies; default: all");
+  command.add_option("--axes", options.axes,
+                     "axes of the wrenches: world, link (each body's own), or the name of a body");
+  command.add_option(
+      "--about", options.about,
+      "reference point of torques: origin or com (each body's own), the name of a body, "
+      "or a point x,y,z of the world");
   command.add_option("--force", options.forces,
-                     "read out these alone: coupling/NAME, contact/A-B, constraint/NAME ..");
-  command.add_option("--at", options.at, "seconds; of a recording; its end if not given");
-  command.add_option("--step", options.step, "of a scene: seconds; the scene's if not given");
+                     "show only these forces: coupling/NAME, contact/A-B, constraint/NAME ..");
+  begin_group(command, "Output");
   add_file_option(command, "--html", options.html, "write a page that steps through the passes");
   add_json_option(command, options.json);
 }
 
-constexpr int kFellShort = 1;
+constexpr int kFailed = 1;
 
 std::string title_of(const RobotInput& input, const Inspection& in, const std::string& state) {
   const Vec3<double>& g = in.model.gravity;
   return fmt::format(
-      "{}: {} bodies that move, {} degrees of freedom; gravity ({:g}, {:g}, {:g}) m/s^2\n{}",
+      "{}: {} moving bodies, {} degrees of freedom; gravity ({:g}, {:g}, {:g}) m/s^2\n{}",
       input.robot.name, in.body_count() - 1, in.model.nv, g.x, g.y, g.z, state);
 }
 
-// Options that have no meaning for what is inspected.
+// Rejects options that do not apply to the model.
 void check_useless(const InspectOptions& options, bool is_recorded, DiagnosticList& faults) {
   if (options.at && !is_recorded)
-    faults.add({"", 0, "--at", "is for a recording", "give one, or --state", "option.useless"});
+    faults.add("--at", "applies to a recording only", "give one, or --state", "option.useless");
   if (options.step && is_recorded)
-    faults.add({"", 0, "--step", "a recording has its own step", "leave it out", "option.useless"});
+    faults.add("--step", "a recording has its own step", "leave it out", "option.useless");
   else if (options.step && options.robot.model.extension() != ".toml")
-    faults.add({"", 0, "--step", "a robot alone takes no step: what is told is of one instant",
-                "leave it out, or give a scene", "option.useless"});
+    faults.add("--step", "applies to a scene only", "leave it out, or give a scene",
+               "option.useless");
   if (is_recorded) check_recorded(options.robot, faults);
 }
 
-// What is inspected, and how it is to be shown.
+// The model at an instant, and how to show it.
 struct Reading {
   InspectView view;
-  RecordedInstant instant;  // of what was not recorded the plan alone
+  RecordedInstant instant;  // without a recording only the plan
   Inspected inspected;
 };
 
-// Throws all faults of options and files together.
+// Throws InputError with all errors of options and files.
 Reading read_all(const InspectOptions& options, bool is_recorded) {
   DiagnosticList faults;
   InspectView view;
@@ -105,7 +104,7 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
   if (is_scene && input.scene->description.integrator.value_or(Integrator::semi_implicit) !=
                       Integrator::semi_implicit)
     inspected.warnings.emplace_back(
-        "the forces are those of a semi-implicit step, not of the scene's integrator");
+        "forces are those of a semi-implicit step, not of the scene's integrator");
   const Inspection in(input.robot.model, inspected.x, inspected.actors, inspected.loops);
   std::vector<Check> checks = run_checks(in);
   if (is_scene) checks.push_back(step_check(in, inspected.qdd_of_step));
@@ -115,7 +114,7 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
   const std::string file = options.robot.state.string();
   view.title = title_of(input.robot, in,
                         is_recorded    ? fmt::format("recorded, t = {:.9g} s", instant.t)
-                        : file.empty() ? "at its start, no state file"
+                        : file.empty() ? "at the start, no state file"
                                        : "state " + file);
   if (!options.html.empty()) {
     const InspectedJson words{input.robot.robot.name, view.title, typed};
@@ -126,16 +125,18 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
              options.json ? inspect_json(in, view, checks) : inspect_text(in, view, checks));
   const bool all_pass =
       std::ranges::all_of(checks, [](const Check& check) { return check.pass(); });
-  return all_pass ? 0 : kFellShort;
+  return all_pass ? 0 : kFailed;
 }
 
 }  // namespace
 
 Command inspect_command() {
   return {30, "inspect",
-          "The passes of the articulated-body algorithm with their numbers, every wrench on every "
-          "body, and checks by second ways\n\n"
-          "Example:  twinarm inspect assets/robots/s103/s103.urdf --body arm2",
+          "Show the ABA passes with numbers, free-body diagrams, and cross-checks by CRBA and "
+          "RNEA\n\n"
+          "Examples:\n"
+          "  twinarm inspect assets/robots/s103/s103.urdf --body arm2\n"
+          "  twinarm inspect out/run.twinrec --at 0.5 --html out/inspect.html",
           add_options, run_inspect};
 }
 

@@ -15,7 +15,7 @@ struct MakeRobotOptions {
 };
 
 void add_options(CLI::App& command, MakeRobotOptions& options) {
-  add_file_option(command, "recipe", options.recipe, "the robot's TOML recipe")->required();
+  add_file_option(command, "recipe", options.recipe, "recipe of the robot (TOML)")->required();
 }
 
 int run_make_robot(const MakeRobotOptions& options) {
@@ -28,8 +28,9 @@ int run_make_robot(const MakeRobotOptions& options) {
 
 Command make_robot_command() {
   return {150, "make-robot",
-          "Make a robot's URDF and collision hulls from its CAD meshes and densities\n\n"
-          "Example:  twinarm make-robot assets/robots/s103/robot.toml",
+          "Make the URDF and collision hulls of a robot from CAD meshes and densities\n\n"
+          "Examples:\n"
+          "  twinarm make-robot assets/robots/s103/robot.toml",
           add_options, run_make_robot};
 }
 

@@ -1,4 +1,4 @@
-// `twinarm map`: a plane of two numbers of a scene, computed cell by cell (docs/use/parameter_maps.md).
+// `twinarm map`: sweeps two scene parameters (docs/use/parameter_maps.md).
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -20,59 +20,60 @@ namespace {
 
 void add_options(CLI::App& command, MapOptions& options) {
   add_input_option(command, "scene", options.scene,
-                   "a scene in TOML; with --merge it may be left out");
+                   "scene (TOML); default with --merge: its scene");
+  begin_group(command, "Parameters");
   command.add_option(
       "--x", options.x,
-      "PATH:FROM:TO:N[:log]: a number of the scene file, its range, and how many cells");
-  command.add_option("--y", options.y, "likewise, upward");
-  command.add_option("--measure", options.measure, "stable max_error mean_error energy passivity")
-      ->capture_default_str();
+      "PATH:MIN:MAX:N[:log]: parameter of the scene along x, range, number of cells");
+  command.add_option("--y", options.y, "PATH:MIN:MAX:N[:log]: parameter along y, upward");
+  command.add_option(
+      "--measure", options.measure,
+      "result to print and draw: stable, max_error, mean_error, energy or passivity");
   command.add_option("--of", options.of,
-                     "the coupling whose joints' errors are measured; the first");
-  command.add_option("--duration", options.duration,
-                     "seconds; if not given, as long as the scene says");
+                     "coupling whose tracking error is measured; default: the first");
+  begin_group(command, "Run");
+  command.add_option("--duration", options.duration, "[s]; default: the scene's");
   add_scene_step_options(command, options.step, options.integrator);
-  add_file_option(command, "--svg", options.svg,
-                  "write a picture with the limits of theory on top");
-  add_file_option(command, "--png", options.png, "likewise, in pixels");
-  add_file_option(command, "--csv", options.csv, "write a row for each cell, with all measures");
-  add_file_option(command, "--work", options.work,
-                  "the file that keeps what is finished, and from which a killed map goes on; "
-                  "below out/map if not given");
-  command.add_option("--tiles", options.tiles, "how many machines share the map");
-  command.add_option("--tile", options.tile, "which part this one computes, from 0; no picture");
-  add_file_option(command, "--merge", options.merge, "join these files of --tile");
-  command.add_option("--cell", options.cell, "IX,IY: open a cell, from 0");
-  add_file_option(command, "--record", options.record,
-                  "of that cell: its recording; its scene goes beside");
-  command.add_flag("--alone", options.alone,
-                   "run each cell by itself, as simulate does, where cells could run side by side");
-  command.add_option("--threads", options.threads, "all processors if not given");
-  command.add_flag("--force", options.force, "write over files that are there");
+  command.add_flag("--alone", options.alone, "run cells one at a time, not in SIMD batches");
+  command.add_option("--threads", options.threads, "number of threads; default: all processors")
+      ->default_str("");
+  begin_group(command, "Output");
+  add_file_option(command, "--svg", options.svg, "write the map as SVG, with predicted limits");
+  add_file_option(command, "--png", options.png, "write the map as PNG, with predicted limits");
+  add_file_option(command, "--csv", options.csv, "write one row per cell with all measures");
+  command.add_flag("--force", options.force, "overwrite existing files");
   add_json_option(command, options.json);
+  begin_group(command, "One cell");
+  command.add_option("--cell", options.cell, "IX,IY: index of a cell, from 0");
+  add_file_option(command, "--record", options.record,
+                  "write the recording of that cell, and its scene beside it");
+  begin_group(command, "Resume and share");
+  add_file_option(command, "--work", options.work,
+                  "checkpoint file, from which an interrupted map resumes; default: in out/map");
+  command.add_option("--tiles", options.tiles, "number of jobs that share the map")
+      ->default_str("");
+  command.add_option("--tile", options.tile, "index of this job, from 0")->default_str("");
+  add_file_option(command, "--merge", options.merge, "merge these files of --tile");
 }
 
-bool is_there(const std::filesystem::path& file) {
+bool file_exists(const std::filesystem::path& file) {
   std::error_code ignored;
   return !file.empty() && std::filesystem::exists(file, ignored);
 }
 
-// Before anything is computed: nothing is overwritten, and all can be written.
+// Checks before the computation that the file can be written and overwrites nothing.
 void check_output(const char* option, const std::filesystem::path& file, const char* extension,
                   bool force, DiagnosticList& faults) {
   if (file.empty()) return;
   if (*extension && file.extension() != extension)
-    faults.add({file.string(), 0, option, std::string("writes a file that ends in ") + extension,
-                "give it that name", "file.ending"});
-  if (is_there(file) && !force)
-    faults.add({file.string(), 0, option, "the file is there already",
-                "choose another name, or give --force", "file.exists"});
+    faults.add({file.string(), 0, option, std::string("writes a ") + extension + " file",
+                std::string("end the name in ") + extension, "file.ending"});
+  if (file_exists(file) && !force)
+    faults.add({file.string(), 0, option, "the file exists", "choose another name, or give --force",
+                "file.exists"});
   else if (std::error_code ignored; std::filesystem::is_directory(file, ignored))
     faults.add({file.string(), 0, option, "is a folder", "name a file in it", "file.is-folder"});
-  attempt(faults, [&] {
-    require_writable_folder(file.has_parent_path() ? file.parent_path() : ".", option);
-    return true;
-  });
+  attempt(faults, [&] { require_writable_folder(folder_of(file), option); });
 }
 
 bool is_part(const MapOptions& options) {
@@ -82,44 +83,41 @@ bool is_part(const MapOptions& options) {
 void check_modes(const MapOptions& options, DiagnosticList& faults) {
   const bool part = is_part(options);
   if (part && (options.tiles < 1 || options.tile < 0 || options.tile >= options.tiles))
-    faults.add({"", 0, "--tiles, --tile",
-                fmt::format("there is no part {} of {}", options.tile, options.tiles),
-                "give --tiles N with N at least 1, and --tile I with I from 0 to N - 1",
-                "map.part"});
+    faults.add("--tiles, --tile",
+               fmt::format("there is no tile {} of {}", options.tile, options.tiles),
+               "give --tiles N with N at least 1, and --tile I with I from 0 to N - 1", "map.part");
   if (part && !(options.svg.empty() && options.png.empty() && options.csv.empty()))
-    faults.add({"", 0, "--tile", "a part of a map has no picture and no table",
-                "leave --svg, --png and --csv to --merge", "map.part-output"});
+    faults.add("--tile", "a single tile has no picture and no table",
+               "give --svg, --png and --csv together with --merge", "map.part-output");
   if (!options.merge.empty() && (part || !options.cell.empty()))
-    faults.add({"", 0, "--merge", "joins finished parts", "leave --tiles, --tile and --cell out",
-                "map.merge-options"});
+    faults.add("--merge", "merges finished tiles", "leave --tiles, --tile and --cell out",
+               "map.merge-options");
   if (!options.cell.empty() && part)
-    faults.add({"", 0, "--cell", "opens a cell of the map as a whole", "leave --tile out",
-                "map.cell-options"});
+    faults.add("--cell", "cannot be combined with --tile", "leave --tile out", "map.cell-options");
   if (options.cell.empty() != options.record.empty())
-    faults.add({"", 0, options.cell.empty() ? "--record" : "--cell",
-                options.cell.empty() ? "of which cell" : "where should its recording go",
-                "give --cell IX,IY --record FILE together", "map.cell-options"});
+    faults.add(options.cell.empty() ? "--record" : "--cell",
+               options.cell.empty() ? "needs --cell" : "needs --record",
+               "give --cell IX,IY --record FILE together", "map.cell-options");
 }
 
 void check_outputs(const MapOptions& options, DiagnosticList& faults) {
   check_output("--svg", options.svg, ".svg", options.force, faults);
   check_output("--png", options.png, ".png", options.force, faults);
   check_output("--csv", options.csv, ".csv", options.force, faults);
-  if (!options.svg.empty() || !options.png.empty())
-    attempt(faults, [] { return require_gnuplot(), true; });
+  if (!options.svg.empty() || !options.png.empty()) attempt(faults, require_gnuplot);
   if (!options.merge.empty()) check_output("--work", options.work, "", options.force, faults);
   if (!options.record.empty()) {
     std::filesystem::path scene = options.record;
     scene.replace_extension(".toml");
     if (scene == options.record)
-      return faults.add({options.record.string(), 0, "--record", "is the name of a scene",
+      return faults.add({options.record.string(), 0, "--record", "is the name of a scene file",
                          "end it in .twinrec", "file.ending"});
     check_output("--record", options.record, "", options.force, faults);
     check_output("--record", scene, "", options.force, faults);
   }
 }
 
-// Below out/map, with a name of its own for each map.
+// --work, or a file in out/map whose name is unique for the map.
 std::filesystem::path work_file(const MapOptions& options, const TileFile& empty) {
   if (!options.work.empty()) return options.work;
   std::string all;
@@ -132,7 +130,7 @@ std::filesystem::path work_file(const MapOptions& options, const TileFile& empty
                      hash_of(all) & 0xffffffffU, part);
 }
 
-// The n-th blocks of each N: their work is alike.
+// Blocks tile, tile + tiles, ..: jobs of similar cost.
 std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& blocks) {
   std::vector<int> wanted;
   const int step = is_part(options) ? options.tiles : 1;
@@ -140,22 +138,18 @@ std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& block
     wanted.push_back(b);
   if (wanted.empty())
     throw InputError({{"", 0, "--tiles",
-                       fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} parts",
+                       fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} tiles",
                                    blocks.count(), options.tiles),
                        "give fewer --tiles", "map.part"}});
   return wanted;
 }
 
-void make_folder_of(const std::filesystem::path& file, const char* option) {
-  if (file.has_parent_path()) make_folder(file.parent_path(), option);
-}
-
 void write_result(const char* option, const std::filesystem::path& file, const std::string& bytes) {
-  make_folder_of(file, option);
+  make_folder(folder_of(file), option);
   write_whole_file(file, bytes);
 }
 
-void put_out(const MapOptions& options, const MapJob& job, const TileFile& file) {
+void write_results(const MapOptions& options, const MapJob& job, const TileFile& file) {
   const bool wants_curves = options.json || !options.svg.empty() || !options.png.empty();
   const std::vector<MapCurve> curves = wants_curves ? theory_curves(job) : std::vector<MapCurve>{};
   if (!options.csv.empty()) write_result("--csv", options.csv, map_csv(job, file));
@@ -167,16 +161,16 @@ void put_out(const MapOptions& options, const MapJob& job, const TileFile& file)
     fmt::print("{}", map_words(job, file));
 }
 
-int open_it(const MapOptions& options, const MapJob& job) {
+int record_one_cell(const MapOptions& options, const MapJob& job) {
   const auto at = parse_cell(options.cell, job);
-  make_folder_of(options.record, "--record");
+  make_folder(folder_of(options.record), "--record");
   const OpenedCell cell = open_cell(job, at.first, at.second, options.record);
   if (!options.json) {
     fmt::print("{} = {} {}, {} = {} {}\n", job.x.path, number_text(cell.x), job.x_unit, job.y.path,
                number_text(cell.y), job.y_unit);
     for (std::size_t m = 0; m < kMapMeasures.size(); ++m)
       fmt::print("{}: {}\n", kMapMeasures[m], short_number_text(cell.values[m]));
-    fmt::print("recording: {}\nthe same run: {}\n", options.record.string(), cell.command);
+    fmt::print("recording: {}\nsame run: {}\n", options.record.string(), cell.command);
     return 0;
   }
   const auto write = [&](JsonWriter& json) {
@@ -190,8 +184,8 @@ int open_it(const MapOptions& options, const MapJob& job) {
   return 0;
 }
 
-// Left out with --merge: as the first file says.
-MapOptions as_merged(MapOptions options) {
+// With --merge, options that are not given are taken from the first file.
+MapOptions with_merged(MapOptions options) {
   if (options.merge.empty()) return options;
   const TileFile first = read_tile_file(options.merge.front());
   const auto take = [&](std::string& option, const char* key) {
@@ -219,25 +213,23 @@ int compute(const MapOptions& options, const MapJob& job) {
   if (!options.merge.empty()) {
     const TileFile file = merge_tile_files(options.merge, empty, blocks);
     if (!options.work.empty()) write_result("--work", work, to_text(file));
-    put_out(options, job, file);
+    write_results(options, job, file);
     return 0;
   }
   const std::vector<int> wanted = wanted_blocks(options, blocks);
-  TileFile file = is_there(work) ? resume_tile_file(work, empty, blocks, options.force) : empty;
-  make_folder_of(work, "--work");
-  const auto is_there_already = [&](int block) { return file.has_all_of(blocks[block]); };
-  if (!std::ranges::all_of(wanted, is_there_already))
-    require_writable_folder(work.has_parent_path() ? work.parent_path() : ".", "--work");
+  TileFile file = file_exists(work) ? resume_tile_file(work, empty, blocks, options.force) : empty;
+  make_folder(folder_of(work), "--work");
+  const auto is_finished = [&](int block) { return file.has_all_of(blocks[block]); };
+  if (!std::ranges::all_of(wanted, is_finished)) require_writable_folder(folder_of(work), "--work");
   try {
     compute_blocks(job, wanted, work, {options.threads, false}, file);
   } catch (const Interrupted&) {
-    say("twinarm: {} of {} blocks of cells are finished, in {}; the same command goes on "
-        "from there\n",
-        std::ranges::count_if(wanted, is_there_already), wanted.size(), work.string());
+    say("twinarm: {} of {} blocks of cells are finished, in {}; the same command resumes\n",
+        std::ranges::count_if(wanted, is_finished), wanted.size(), work.string());
     throw;
   }
   if (!is_part(options)) {
-    put_out(options, job, file);
+    write_results(options, job, file);
   } else if (options.json) {
     fmt::print("{}\n", json_text({{"tile", options.tile},
                                   {"tiles", options.tiles},
@@ -254,18 +246,21 @@ int run_map(const MapOptions& given) {
   check_modes(given, faults);
   check_outputs(given, faults);
   faults.check();
-  const MapOptions options = as_merged(given);
+  const MapOptions options = with_merged(given);
   const MapJob job = read_map_job(options);
-  return options.cell.empty() ? compute(options, job) : open_it(options, job);
+  return options.cell.empty() ? compute(options, job) : record_one_cell(options, job);
 }
 
 }  // namespace
 
 Command map_command() {
   return {130, "map",
-          "A plane of two numbers of a scene: stable or not, errors, energy; each cell is a run\n\n"
-          "Example:  twinarm map assets/scenes/tracking_map.toml --x "
-          "coupling.stiffness:1e4:1e6:64:log --y step:1e-3:1e-2:64:log --svg map.svg",
+          "Sweep two parameters of a scene: stability, tracking error and energy of each run\n\n"
+          "Examples:\n"
+          "  twinarm map assets/scenes/tracking_map.toml --x coupling.stiffness:1e4:1e6:64:log "
+          "--y step:1e-3:1e-2:64:log --svg map.svg\n"
+          "  twinarm map assets/scenes/tracking_map.toml --x coupling.stiffness:1e4:1e6:16:log "
+          "--y coupling.damping:10:1e4:16:log --measure max_error --csv map.csv",
           add_options, run_map};
 }
 

@@ -1,4 +1,4 @@
-// `twinarm modes`: small motions about a state, of a robot or of a scene whose parts are held.
+// `twinarm modes`: modes of the linearised system of a robot or a scene.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -16,7 +16,8 @@ struct ModesOptions {
 };
 
 void add_options(CLI::App& command, ModesOptions& options) {
-  add_robot_options(command, options.robot, "the robot's URDF, or a scene in TOML");
+  add_robot_options(command, options.robot, "robot (URDF) or scene (TOML)");
+  begin_group(command, "Output");
   add_json_option(command, options.json);
 }
 
@@ -32,9 +33,8 @@ int run_modes(const ModesOptions& options) {
   SimulateInput& input = prepared->input;
   if (input.scene && input.robot.coordinates.all().empty() && input.scene->constraints.empty())
     throw InputError({{input.scene->description.file.string(), 0, "scene",
-                       "it has neither a robot with a joint nor a constraint, and modes are those "
-                       "of what is held",
-                       "", "scene.nothing-held"}});
+                       "it has neither a robot with a joint nor a constraint, and so no modes", "",
+                       "scene.nothing-held"}});
   const ModesOf found = find_modes(input);
   fmt::print("{}\n", options.json ? modes_json(input, found) : modes_table(input, found));
   return 0;
@@ -44,9 +44,11 @@ int run_modes(const ModesOptions& options) {
 
 Command modes_command() {
   return {40, "modes",
-          "Frequencies, damping and shapes of small motions about a state, couplings of a scene "
-          "included\n\n"
-          "Example:  twinarm modes assets/robots/puma560/puma560.urdf",
+          "Compute natural frequencies, damping ratios and mode shapes of the system linearised "
+          "about a state\n\n"
+          "Examples:\n"
+          "  twinarm modes assets/robots/puma560/puma560.urdf\n"
+          "  twinarm modes assets/scenes/robot_beside_obstacles.toml",
           add_options, run_modes};
 }
 

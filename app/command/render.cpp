@@ -1,4 +1,4 @@
-// twinarm render: a picture or a film of a recording, a scene or a robot.
+// `twinarm render`: pictures and videos of a recording, a scene or a robot.
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -21,60 +21,58 @@ namespace twinarm {
 namespace {
 
 struct RenderOptions {
-  RobotOptions robot;                           // its model: a recording, a scene or a URDF
-  std::filesystem::path png, frames, mp4, gif;  // exactly one is given
+  RobotOptions robot;                           // model: a recording, a scene or a URDF
+  std::filesystem::path png, frames, mp4, gif;  // exactly one of them
   std::optional<double> at, from, to;           // [s]
   std::string size = "1280x720", camera = "auto",
               show = fmt::format("{}", fmt::join(usual_overlays(Overlay::Shown::everywhere), ","));
   std::string plot = "none", quality = "normal", background = "studio", gl = "osmesa";
   std::filesystem::path beside;  // a second recording; empty: none
-  double slow = 1;               // times slower than life
-  std::optional<double> fps;     // left out: 30, of a GIF 25
+  double slow = 1;               // slow-motion factor
+  std::optional<double> fps;     // default: 30, GIF 25
   bool json = false;
 };
 
 void add_options(CLI::App& command, RenderOptions& options) {
-  add_robot_options(command, options.robot, "a recording, a scene in TOML, or a robot's URDF");
+  add_robot_options(command, options.robot, "recording, scene (TOML) or robot (URDF)");
+  begin_group(command, "Output (one of)");
   add_file_option(command, "--png", options.png, "write one picture to this file");
   add_file_option(command, "--frames", options.frames,
-                  "write a film as numbered PNG into this folder");
-  add_file_option(command, "--mp4", options.mp4, "write a film (needs the program ffmpeg)");
-  add_file_option(command, "--gif", options.gif, "likewise, as GIF");
+                  "write a video as numbered PNG files into this folder");
+  add_file_option(command, "--mp4", options.mp4, "write an MP4 video (needs ffmpeg)");
+  add_file_option(command, "--gif", options.gif, "write an animated GIF (needs ffmpeg)");
+  begin_group(command, "Time");
+  command.add_option("--at", options.at,
+                     "time of the picture [s]; default: end of a recording, else the start");
+  command.add_option("--from", options.from, "start of the video [s]; default: the start");
+  command.add_option("--to", options.to, "end of the video [s]; default: the end");
+  command.add_option("--slow", options.slow, "slow-motion factor");
+  command.add_option("--fps", options.fps, "frames per second; default 30, GIF 25");
+  begin_group(command, "Content");
+  command.add_option("--camera", options.camera,
+                     "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] "
+                     "[deg, m]");
   command.add_option(
-      "--at", options.at,
-      "seconds, of the picture; if not given the end of a recording, else the start");
-  command.add_option("--from", options.from, "seconds, where the film begins");
-  command.add_option("--to", options.to, "seconds, where it ends");
-  command.add_option("--slow", options.slow, "times slower than life")->capture_default_str();
-  command.add_option("--fps", options.fps, "pictures per second; 30 if not given, of a GIF 25");
-  command.add_option("--size", options.size, "in pixels")->capture_default_str();
-  command
-      .add_option("--camera", options.camera,
-                  "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] in "
-                  "degrees and metres")
-      ->capture_default_str();
-  std::string overlays;
-  for (const Overlay& overlay : all_overlays()) overlays += std::string(" ") + overlay.name;
-  command.add_option("--show", options.show, "none, all, or some of:" + overlays)
-      ->capture_default_str();
-  command
-      .add_option("--plot", options.plot,
-                  "curves under the picture: none, or some of energy forces couples contacts lag")
-      ->capture_default_str();
+      "--show", options.show,
+      fmt::format("none, all, or some of: {}", fmt::join(names_of(all_overlays()), ", ")));
+  command.add_option(
+      "--plot", options.plot,
+      "curves below the picture: none, or some of: energy, forces, couples, contacts, "
+      "lag");
   add_file_option(command, "--beside", options.beside,
-                  "a second recording, in sync at the right of the first");
-  command.add_option("--quality", options.quality, "draft, normal or studio")
-      ->capture_default_str();
-  command.add_option("--background", options.background, "studio, sky or white")
-      ->capture_default_str();
-  command.add_option("--gl", options.gl, "what paints: osmesa or egl")->capture_default_str();
+                  "second recording, shown to the right of the first in sync");
+  begin_group(command, "Picture");
+  command.add_option("--size", options.size, "size [pixels]");
+  command.add_option("--quality", options.quality, "draft, normal or studio");
+  command.add_option("--background", options.background, "studio, sky or white");
+  command.add_option("--gl", options.gl, "OpenGL back end: osmesa or egl");
   add_json_option(command, options.json);
 }
 
 struct RenderPlan {
   PictureWish picture;
   FilmTimes times;
-  double rate = 30;  // pictures per second of the film
+  double rate = 30;  // frames per second
 };
 
 constexpr int kMaxPixels = 8192;  // along a side
@@ -96,23 +94,18 @@ bool parse_size(const std::string& text, RenderPlan& plan) {
 template <class T>
 void choose_word(const char* option, const std::string& word, const std::vector<std::string>& names,
                  const std::vector<T>& values, T& chosen, DiagnosticList& faults) {
-  const auto found = std::ranges::find(names, word);
-  if (found != names.end())
-    chosen = values[static_cast<std::size_t>(found - names.begin())];
-  else
-    faults.add({"", 0, option, "there is no '" + word + "'", name_remedy(word, names, "possible"),
-                "option.choice"});
+  if (const auto found = choose(option, word, names, "possible", faults)) chosen = values[*found];
 }
 
-// A film under the name of a picture, or the other way about, is a slip.
+// Rejects the name of a file of another kind.
 void check_kind(const char* option, const std::filesystem::path& file, const std::string& own,
                 DiagnosticList& faults) {
   static const std::vector<std::string> others{".png", ".jpg", ".jpeg", ".svg", ".pdf",
                                                ".gif", ".mp4", ".webm", ".avi", ".html"};
   const std::string kind = file.extension().string();
   if (kind != own && std::ranges::find(others, kind) != others.end())
-    faults.add({file.string(), 0, option, "is named as a file of another kind",
-                "let its name end in " + own, "file.ending"});
+    faults.add({file.string(), 0, option, "is the name of a file of another kind",
+                "end it in " + own, "file.ending"});
 }
 
 void check_outputs(const RenderOptions& options, RenderPlan& plan, DiagnosticList& faults) {
@@ -120,21 +113,21 @@ void check_outputs(const RenderOptions& options, RenderPlan& plan, DiagnosticLis
   for (const auto* file : {&options.png, &options.frames, &options.mp4, &options.gif})
     outputs += file->empty() ? 0 : 1;
   if (outputs != 1)
-    faults.add({"", 0, "output", outputs == 0 ? "none is named" : "more than one is named",
-                "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE", "option.outputs"});
+    faults.add("output", outputs == 0 ? "is missing" : "more than one is given",
+               "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE", "option.outputs");
   for (const auto* file : {&options.png, &options.mp4, &options.gif})
     if (!file->empty()) check_place(*file, faults);
   check_kind("--png", options.png, ".png", faults);
   check_kind("--mp4", options.mp4, ".mp4", faults);
   check_kind("--gif", options.gif, ".gif", faults);
   if (!options.frames.empty())
-    attempt(faults, [&] { return require_writable_folder(options.frames, "--frames"), true; });
+    attempt(faults, [&] { require_writable_folder(options.frames, "--frames"); });
   plan.times.is_film = outputs == 1 && options.png.empty();
   if (plan.times.is_film && options.at)
-    faults.add(
-        {"", 0, "--at", "is for a still", "give --from and --to, or --png FILE", "option.useless"});
+    faults.add("--at", "applies to a picture only", "give --from and --to, or --png FILE",
+               "option.useless");
   if (!plan.times.is_film && (options.from || options.to))
-    faults.add({"", 0, "--from", "is for a film", "give --at for a still", "option.useless"});
+    faults.add("--from", "applies to a video only", "give --at for a picture", "option.useless");
   for (const auto& [file, option] :
        {std::pair{&options.mp4, "--mp4"}, std::pair{&options.gif, "--gif"}})
     if (!file->empty()) attempt(faults, [&, name = option] { return find_ffmpeg(name); });
@@ -145,9 +138,9 @@ RenderPlan read_render_options(const RenderOptions& options) {
   RenderPlan plan;
   check_outputs(options, plan, faults);
   if (!parse_size(options.size, plan))
-    faults.add({"", 0, "--size", "'" + options.size + "' is no size",
-                fmt::format("give WIDTHxHEIGHT, each from 16 to {} pixels", kMaxPixels),
-                "option.form"});
+    faults.add("--size", "'" + options.size + "' is not a size",
+               fmt::format("give WIDTHxHEIGHT, each from 16 to {} pixels", kMaxPixels),
+               "option.form");
   choose_word<Quality>("--quality", options.quality, {"draft", "normal", "studio"},
                        {Quality::draft, Quality::normal, Quality::studio}, plan.picture.quality,
                        faults);
@@ -161,17 +154,15 @@ RenderPlan read_render_options(const RenderOptions& options) {
   if (auto curves = attempt(faults, [&] { return parse_curves(options.plot); }))
     plan.picture.curves = *curves;
   plan.picture.camera = options.camera;
-  plan.rate = options.fps.value_or(options.gif.empty() ? 30 : 25);  // GIF counts in 1/100 s
-  if (!(options.slow > 0) || !std::isfinite(options.slow))
-    faults.add({"", 0, "--slow", "must be positive", "4 is four times slower than life",
-                "option.not-positive"});
+  plan.rate = options.fps.value_or(options.gif.empty() ? 30 : 25);  // GIF: units of 1/100 s
+  check_positive("--slow", options.slow, faults);
   if (!(plan.rate > 0 && plan.rate <= 1000))
-    faults.add({"", 0, "--fps", "must be from above 0 to 1000", "", "option.range"});
+    faults.add("--fps", "must be above 0 and at most 1000", "", "option.range");
   if (!options.beside.empty() && plan.picture.width < 64)
-    faults.add(
-        {"", 0, "--size", "is too narrow for two runs", "give a width from 64 on", "option.range"});
+    faults.add("--size", "is too narrow for two runs", "give a width of at least 64",
+               "option.range");
   if (options.at && !(*options.at >= 0 && std::isfinite(*options.at)))
-    faults.add({"", 0, "--at", "must be seconds from 0 on", "", "option.negative"});
+    faults.add("--at", "must be 0 s or later", "", "option.negative");
   faults.check();
   plan.times.at = options.at;
   plan.times.from = options.from;
@@ -242,9 +233,11 @@ int run_render(const RenderOptions& options) {
 
 Command render_command() {
   return {110, "render",
-          "A picture or a film of a recording, a scene or a robot, without display or GPU\n\n"
-          "Example:  twinarm render assets/scenes/incline.toml --png incline.png --show "
-          "forces,contacts",
+          "Render pictures and videos of a recording, a scene or a robot, without display or "
+          "GPU\n\n"
+          "Examples:\n"
+          "  twinarm render assets/scenes/incline.toml --png incline.png --show forces,contacts\n"
+          "  twinarm render out/run.twinrec --mp4 run.mp4 --slow 4",
           add_options, run_render};
 }
 

@@ -15,29 +15,31 @@ namespace twinarm {
 namespace {
 
 void add_options(CLI::App& command, SimulateOptions& options) {
-  add_robot_options(command, options.robot, "the robot's URDF, or a scene in TOML");
-  command.add_option("--duration", options.duration,
-                     "seconds; if not given, as long as the scene says");
+  add_robot_options(command, options.robot, "robot (URDF) or scene (TOML)");
+  begin_group(command, "Run");
+  command.add_option("--duration", options.duration, "[s]; default: the scene's");
   command.add_option("--step", options.step,
-                     "seconds; 0.001 or the scene's if not given; of dopri5 the longest");
+                     "step [s]; default: the scene's, or 0.001; of dopri5 the longest step");
   command.add_option("--integrator", options.integrator,
-                     "semi-implicit or the scene's if not given; one of" + integrator_names());
+                     "default: the scene's, or semi-implicit; one of: " + integrator_names());
   command.add_option("--contact", options.contact,
-                     "how bodies of a scene are kept apart; its own word if not given; one of "
-                     "rigid compliant event");
-  command.add_option("--tolerance", options.tolerance, "of dopri5, relative and absolute");
-  command.add_option("--every", options.every, "a sample each so many seconds");
-  command.add_option("--at", options.at, "samples at these times: t1,t2,..");
-  add_file_option(command, "--record", options.record, "write a recording of the run to this file");
-  command.add_option("--record-every", options.record_every,
-                     "seconds between its frames; each step if not given");
-  command.add_option("--energy-bound", options.energy_bound,
-                     "joules of kinetic energy at which the run stops; inf: none");
-  add_file_option(command, "--post-mortem", options.post_mortem,
-                  "where the last steps of a run go that stops by itself; in out/ if not "
-                  "given");
+                     "contact model: rigid, compliant or event; default: the scene's");
+  command.add_option("--tolerance", options.tolerance,
+                     "relative and absolute tolerance of dopri5; default 1e-9");
+  command.add_option(
+      "--energy-bound", options.energy_bound,
+      "stop when the kinetic energy exceeds this [J]; inf: never; default 1e12 times "
+      "the start's");
+  begin_group(command, "Output");
+  command.add_option("--every", options.every, "output interval [s]; default: start and end");
+  command.add_option("--at", options.at, "output times: t1,t2,.. [s]");
   add_json_option(command, options.json);
-  command.add_flag("--csv", options.csv, "print one row a sample on stdout");
+  command.add_flag("--csv", options.csv, "print one CSV row per output time");
+  add_file_option(command, "--record", options.record, "write a recording of the run");
+  command.add_option("--record-every", options.record_every,
+                     "interval between recorded frames [s]; default: each step");
+  add_file_option(command, "--post-mortem", options.post_mortem,
+                  "file for the last 1,000 steps of a diverged run; default: in out/post_mortem");
 }
 
 std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const SimulateInput& input,
@@ -98,7 +100,7 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
   say("twinarm: stopped after t = {} s, in step {}: {}", found.time, found.step, found.reason);
   if (!found.field.empty())
     say("; first in '{}' of link '{}' (joint '{}')", found.field, found.body, found.joint);
-  if (!found.fastest_joint.empty()) say("; the fastest was joint '{}'", found.fastest_joint);
+  if (!found.fastest_joint.empty()) say("; fastest joint '{}'", found.fastest_joint);
   say("\n");
   for (const std::string& words : found.words) say("twinarm:   {}\n", words);
   return kStopped;
@@ -107,10 +109,13 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
 }  // namespace
 
 Command simulate_command() {
-  return {60, "simulate",
-          "Let a robot or a scene move, under gravity, couplings, constant torques and forces\n\n"
-          "Example:  twinarm simulate assets/robots/puma560/puma560.urdf --duration 1 --every 0.1",
-          add_options, run_simulate};
+  return {
+      60, "simulate",
+      "Simulate a robot or a scene\n\n"
+      "Examples:\n"
+      "  twinarm simulate assets/robots/puma560/puma560.urdf --duration 1 --every 0.1\n"
+      "  twinarm simulate assets/scenes/double_pendulum.toml --duration 10 --record run.twinrec",
+      add_options, run_simulate};
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// twinarm study: the paper's experiments from robot to report (docs/use/run_the_study.md).
+// `twinarm study`: runs the paper's experiments and writes a report (docs/use/run_the_study.md).
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
@@ -14,6 +14,7 @@
 #include "app/study/report/report.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 #include "coupling/device/device_motion.h"
 #include "coupling/target/recorded_trace.h"
 #include "coupling/target/synthetic_operator.h"
@@ -25,47 +26,49 @@ namespace {
 
 struct StudyOptions {
   std::filesystem::path out = "out/study";
-  // "synthetic", "trace", or a device (app/device/devices.h); empty: a trace if one is given
+  // "synthetic", "trace", or a device (app/device/devices.h); empty: the trace, if one is given
   std::string device;
-  std::optional<unsigned> seed;  // left out: the settings' seed
+  std::optional<unsigned> seed;  // default: the settings' seed
   std::filesystem::path trace;
   bool recalibrate = false, identify = false, paper_view = false, json = false;
   std::filesystem::path assets;  // empty: found beside the program
-  std::string ask;               // "ROW/LAW/RATE": only this question of Table 2, and no study
+  std::string ask;               // "ROW/LAW/RATE": only this identification, and no study
 };
 
 void add_options(CLI::App& command, StudyOptions& options) {
-  add_file_option(command, "--out", options.out, "folder for report, figures, CSV")
-      ->capture_default_str();
-  command.add_option(
-      "--device", options.device,
-      "hand of E1 and E2: synthetic, trace (the default if one is given), or a device "
-      "as `twinarm hand --device list` has them");
-  command.add_option("--seed", options.seed, "of the synthetic operator");
-  add_input_option(command, "--trace", options.trace, "CSV of a recorded hand, for E1 and E2");
+  begin_group(command, "Operator motion of E1 and E2");
+  command.add_option("--device", options.device,
+                     "synthetic, trace, or a device of `twinarm hand --device list`; default: the "
+                     "trace if one is given, else synthetic");
+  command.add_option("--seed", options.seed,
+                     "random seed of the synthetic motion; default: the settings'");
+  add_input_option(command, "--trace", options.trace, "recorded operator motion (CSV)");
+  begin_group(command, "Calibration");
   command.add_flag("--recalibrate", options.recalibrate,
-                   "search the unpublished gains again and write them to the assets (minutes)");
+                   "re-run the gain calibration and overwrite assets/study/calibration.json "
+                   "(minutes)");
   command.add_flag("--identify", options.identify,
-                   "ask again what the paper's Table 2 leaves open, and write it to the assets "
-                   "(some ten minutes)");
-  command.add_option("--ask", options.ask,
-                     "ROW/LAW/RATE, as E4/linear/60: one question of --identify, answered on "
-                     "stdout as JSON; nothing is written");
+                   "re-run the parameter identification of Table 2 and overwrite "
+                   "assets/study/identification.json (10 min)");
+  command.add_option(
+      "--ask", options.ask,
+      "ROW/LAW/RATE, such as E4/linear/60: print one identification as JSON and stop");
+  begin_group(command, "Output");
+  add_file_option(command, "--out", options.out, "folder for report, figures, CSV");
   command.add_flag("--paper-view", options.paper_view,
-                   "hide the ghost in pictures, as the paper does");
+                   "hide the target robot in pictures, as the paper does");
   add_json_option(command, options.json);
   add_assets_option(command, options.assets);
 }
 
-// What a device does for as long as the synthetic hand would; kept as OUT/hand.csv, which can be
-// given as a trace from then on.
-std::unique_ptr<OperatorMotion> hand_of_device(const StudyOptions& options,
-                                               const StudySettings& settings) {
+// Records a device for the duration of the synthetic motion, as OUT/hand.csv, a valid trace.
+std::unique_ptr<OperatorMotion> record_device(const StudyOptions& options,
+                                              const StudySettings& settings) {
   const std::unique_ptr<HandDevice> device = open_device(options.device);
   const bool real_time = !options.device.starts_with("virtual");
   make_folder(options.out);
   Progress progress(options.json);
-  progress.stage("the hand: " + device->description(), 1);
+  progress.stage("recording " + device->description(), 1);
   auto hand = record_hand(*device, settings.operator_duration, real_time, [&](double t) {
     check_interrupt();
     progress.advance(t / settings.operator_duration);
@@ -79,15 +82,15 @@ bool is_device(const StudyOptions& options) {
   return !options.device.empty() && options.device != "synthetic" && options.device != "trace";
 }
 
-std::unique_ptr<OperatorMotion> make_hand(const StudyOptions& options,
-                                          const StudySettings& settings) {
+std::unique_ptr<OperatorMotion> operator_motion(const StudyOptions& options,
+                                                const StudySettings& settings) {
   if (options.device == "trace" && options.trace.empty())
     throw InputError(
         {{"", 0, "--device trace", "no trace is given", "add --trace FILE.csv", "option.missing"}});
   if (!options.device.empty() && options.device != "trace" && !options.trace.empty())
-    throw InputError({{"", 0, "--trace", "a trace is given, but --device says " + options.device,
+    throw InputError({{"", 0, "--trace", "cannot be combined with --device " + options.device,
                        "leave --device out, or give --device trace", "option.conflict"}});
-  if (is_device(options)) return hand_of_device(options, settings);
+  if (is_device(options)) return record_device(options, settings);
   if (is_hand_log(options.trace)) return read_hand_log(options.trace);
   if (!options.trace.empty()) {
     auto trace = std::make_unique<RecordedTrace>(options.trace);
@@ -149,7 +152,7 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
   progress.stage("findings", 0.15);
   derive_findings(inputs, results, progress);
   results.answer = answer_in_words(results);
-  progress.stage("the obstacle", 0.2);
+  progress.stage("obstacle", 0.2);
   for (const auto type : {CouplingSpec::Type::linear, CouplingSpec::Type::torsional})
     results.obstacle.push_back(run_obstacle(inputs, robot, type));
   progress.stage("recordings", 0.1);
@@ -160,7 +163,7 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
   return results;
 }
 
-void tell_people(const StudyResults& results, const std::filesystem::path& report) {
+void print_summary(const StudyResults& results, const std::filesystem::path& report) {
   fmt::print("\nTable 2, in degrees: measured (published)\n\n");
   fmt::print("{:24}", "");
   for (const RunResult& result : results.reproduction) fmt::print("{:>18}", result.spec.name);
@@ -181,8 +184,8 @@ void tell_people(const StudyResults& results, const std::filesystem::path& repor
         [j](const RunResult& r) { return r.mean_deg[j]; },
         [j](const PaperRow& p) { return p.mean_deg[j]; });
   fmt::print(
-      "\n\n  E3, E4: gains calibrated. E1, E2: the same gains on a hand that is not the "
-      "paper's ({}).\n\n",
+      "\n\n  E3, E4: calibrated gains. E1, E2: the same gains, with another operator motion than "
+      "the paper's ({}).\n\n",
       results.hand_description);
   for (const std::string& sentence : results.answer) fmt::print("{}\n", sentence);
   fmt::print("\nReport: {}  ({:.0f} s)\n", report.string(), results.seconds);
@@ -199,19 +202,13 @@ int run_study(const StudyOptions& options) {
   StudyInputs inputs;
   std::unique_ptr<OperatorMotion> hand;
   Calibration calibration;
-  DiagnosticList faults;  // of all inputs, told together, before anything is made
-  const auto attempt = [&](const auto& load) {
-    try {
-      load();
-    } catch (const InputError& error) {
-      faults.add(error.faults());
-    }
-  };
-  attempt([&] { inputs = load_inputs(assets); });
-  attempt([&] { hand = make_hand(options, inputs.settings); });
-  if (!options.recalibrate) attempt([&] { calibration = read_calibration(calibration_file); });
-  attempt([&] { require_writable_folder(options.out); });
-  attempt(require_gnuplot);
+  DiagnosticList faults;  // of all inputs, reported together before anything is written
+  attempt(faults, [&] { inputs = load_inputs(assets); });
+  attempt(faults, [&] { hand = operator_motion(options, inputs.settings); });
+  if (!options.recalibrate)
+    attempt(faults, [&] { calibration = read_calibration(calibration_file); });
+  attempt(faults, [&] { require_writable_folder(options.out); });
+  attempt(faults, require_gnuplot);
   faults.check();
   if (options.recalibrate) {
     Progress progress(false);
@@ -242,7 +239,7 @@ int run_study(const StudyOptions& options) {
   if (options.json)
     fmt::print("{}\n", as_json);
   else
-    tell_people(results, report);
+    print_summary(results, report);
   return 0;
 }
 
@@ -250,8 +247,10 @@ int run_study(const StudyOptions& options) {
 
 Command study_command() {
   return {140, "study",
-          "The paper's study: E1 to E4, what explains them, and a report\n\n"
-          "Example:  twinarm study --out out/study",
+          "Run the experiments E1 to E4 of the paper, their analysis, and write a report\n\n"
+          "Examples:\n"
+          "  twinarm study --out out/study\n"
+          "  twinarm study --trace hand.csv --out out/my_hand",
           add_options, run_study};
 }
 

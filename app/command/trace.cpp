@@ -17,14 +17,11 @@ struct TraceOptions {
 };
 
 void add_options(CLI::App& command, TraceOptions& options) {
-  command.add_option("--seed", options.seed, "of the synthetic operator")->capture_default_str();
-  command.add_option("--duration", options.duration, "seconds")
-      ->check(above_zero())
-      ->capture_default_str();
-  command.add_option("--rate", options.rate, "samples per second")
-      ->check(above_zero())
-      ->capture_default_str();
-  add_file_option(command, "--out", options.out, "CSV file")->required();
+  begin_group(command, "Motion");
+  command.add_option("--seed", options.seed, "random seed of the motion");
+  command.add_option("--duration", options.duration, "[s]")->check(above_zero());
+  command.add_option("--rate", options.rate, "sampling rate [Hz]")->check(above_zero());
+  add_file_option(command, "--out", options.out, "CSV file to write")->required();
 }
 
 int run_trace(const TraceOptions& options) {
@@ -38,8 +35,10 @@ int run_trace(const TraceOptions& options) {
 
 Command trace_command() {
   return {160, "trace",
-          "Write the synthetic operator's hand as a CSV trace\n\n"
-          "Example:  twinarm trace --seed 1 --rate 200 --out hand.csv",
+          "Generate a synthetic operator motion (CSV)\n\n"
+          "Examples:\n"
+          "  twinarm trace --out hand.csv\n"
+          "  twinarm trace --seed 7 --duration 60 --rate 200 --out hand.csv",
           add_options, run_trace};
 }
 

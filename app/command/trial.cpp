@@ -1,4 +1,4 @@
-// twinarm trial: a protocol with a person (docs/use/user_study.md).
+// `twinarm trial`: runs a user study (docs/use/user_study.md).
 #include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
@@ -16,6 +16,7 @@
 #include "app/study/study_scene.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 #include "app/trial/trial.h"
 #include "solver/support/atomic_file.h"
 
@@ -26,36 +27,37 @@ struct TrialOptions {
   std::string device = "keyboard", mapping = "paper";
   std::string conditions = "torsional,linear,kinematic", tasks = "free,pick-and-place";
   std::string subject;             // empty: the next free code
-  std::optional<unsigned> seed;    // of the order; left out: as given
-  double seconds = 20, most = 60;  // of free motion; of a pick-and-place [s]
-  bool feel = false;               // the force on the hand; the paper has none
+  std::optional<unsigned> seed;    // of the order of conditions; default: as given
+  double seconds = 20, most = 60;  // free motion; limit of pick-and-place [s]
+  bool feel = false;               // force feedback; the paper has none
   bool yes = false, simulated = false, json = false;
   std::filesystem::path out = "out/trial", assets;
 };
 
 void add_options(CLI::App& command, TrialOptions& options) {
-  command.add_option("--device", options.device, "as `twinarm hand --device list` has them")
-      ->capture_default_str();
-  command.add_option("--mapping", options.mapping, "paper (theta1, 4, 6) or arm (theta1, 2, 3)")
-      ->capture_default_str();
-  command.add_option("--conditions", options.conditions, "which robots, in this order")
-      ->capture_default_str();
-  command.add_option("--tasks", options.tasks, "what is done with each")->capture_default_str();
-  command.add_option("--seed", options.seed, "draws the order of the conditions");
-  command.add_option("--subject", options.subject, "a code, not a name; left out: S1, S2, ...");
-  command.add_option("--seconds", options.seconds, "of free motion")
-      ->check(above_zero())
-      ->capture_default_str();
-  command.add_option("--most", options.most, "seconds that a pick-and-place may take")
-      ->check(above_zero())
-      ->capture_default_str();
+  begin_group(command, "Device");
+  command.add_option("--device", options.device,
+                     "input device, as in `twinarm hand --device list`");
+  command.add_option("--mapping", options.mapping,
+                     "device to joints: paper (theta1, 4, 6) or arm (theta1, 2, 3)");
   command.add_flag("--feel", options.feel,
-                   "let the hand feel the springs, on a device with motors (the paper does not)");
-  command.add_flag("--yes", options.yes, "begin without waiting for Enter");
+                   "force feedback, on a device with motors (the paper has none)");
   command.add_flag("--simulated", options.simulated,
-                   "no countdown, no waiting: for a virtual device");
-  add_file_option(command, "--out", options.out, "folder of results.csv and of the logs")
-      ->capture_default_str();
+                   "run without countdown and pacing, for a virtual device");
+  begin_group(command, "Protocol");
+  command.add_option("--conditions", options.conditions, "conditions, in this order");
+  command.add_option("--tasks", options.tasks, "tasks for each condition");
+  command.add_option("--seed", options.seed,
+                     "randomise the order of the conditions with this seed");
+  command.add_option("--subject", options.subject,
+                     "anonymous code of the participant; default: S1, S2, ...");
+  command.add_option("--seconds", options.seconds, "duration of free motion [s]")
+      ->check(above_zero());
+  command.add_option("--most", options.most, "time limit of pick-and-place [s]")
+      ->check(above_zero());
+  command.add_flag("--yes", options.yes, "start without waiting for Enter");
+  begin_group(command, "Output");
+  add_file_option(command, "--out", options.out, "folder of results.csv and of the logs");
   add_json_option(command, options.json);
   add_assets_option(command, options.assets);
 }
@@ -63,32 +65,19 @@ void add_options(CLI::App& command, TrialOptions& options) {
 const std::vector<std::string> kConditions{"torsional", "linear", "kinematic"};
 const std::vector<std::string> kTasks{"free", "pick-and-place"};
 
-std::vector<std::string> chosen(const std::string& text, const std::vector<std::string>& known,
-                                const char* option, DiagnosticList& faults) {
-  std::vector<std::string> all;
-  std::stringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) {
+// The words of a list, each one of `known`.
+std::vector<std::string> read_words(const std::string& text, const std::vector<std::string>& known,
+                                    const char* option, DiagnosticList& faults) {
+  std::vector<std::string> words = split(text);
+  for (const std::string& word : words)
     if (std::ranges::find(known, word) == known.end())
-      faults.add({"", 0, option, "'" + word + "' is none",
-                  fmt::format("give some of {}", fmt::join(known, ",")), "option.choice"});
-    all.push_back(word);
-  }
-  if (all.empty())
-    faults.add({"", 0, option, "it names nothing", fmt::format("give {}", fmt::join(known, ",")),
-                "option.empty"});
-  return all;
+      faults.add(option, "'" + word + "' is not known",
+                 fmt::format("give some of {}", fmt::join(known, ",")), "option.choice");
+  return words;
 }
 
-MappingKind mapping_kind(const std::string& name, DiagnosticList& faults) {
-  if (name == "paper") return MappingKind::paper;
-  if (name == "arm") return MappingKind::arm;
-  faults.add({"", 0, "--mapping", "'" + name + "' is none for a trial", "give paper or arm",
-              "option.choice"});
-  return MappingKind::paper;
-}
-
-// The scenes of the paper's experiments by a user, with the device in place of the hand. The
-// kinematic robot alone is that of the first, whose springs nobody looks at.
+// Scenes of the paper's experiments with the device as input. The kinematic condition shows the
+// target robot of the torsional one.
 std::vector<TrialCondition> write_conditions(const std::vector<std::string>& names,
                                              const std::filesystem::path& assets,
                                              const std::filesystem::path& folder) {
@@ -103,9 +92,9 @@ std::vector<TrialCondition> write_conditions(const std::vector<std::string>& nam
     TrialCondition condition;
     condition.name = name;
     condition.is_kinematic = name == "kinematic";
-    condition.title = condition.is_kinematic ? "the robot is where your hand is"
-                      : name == "linear"     ? "linear springs pull the robot after your hand"
-                                             : "torsional springs pull the robot after your hand";
+    condition.title = condition.is_kinematic ? "the robot follows your hand exactly"
+                      : name == "linear"     ? "linear springs pull the robot to your hand"
+                                             : "torsional springs pull the robot to your hand";
     condition.scene = folder / (name + ".toml");
     write_whole_file(condition.scene,
                      scene_text({&inputs.settings, &robot, spec, device_hand(), false}));
@@ -114,7 +103,8 @@ std::vector<TrialCondition> write_conditions(const std::vector<std::string>& nam
   return conditions;
 }
 
-// Who comes first is drawn anew for each seed, so that practice does not favour one condition.
+// A random order for each seed, so that practice does not favour one condition. (std::shuffle
+// differs between standard libraries.)
 template <class T>
 void shuffle(std::vector<T>& items, unsigned seed) {
   std::mt19937 engine(seed);
@@ -122,13 +112,13 @@ void shuffle(std::vector<T>& items, unsigned seed) {
 }
 
 const char* instructions(bool pick) {
-  return pick ? "Bring the object (o) into the brackets [ ]: go to it, press the button and hold "
-                "it, "
-                "let go at the goal. As fast as you can."
-              : "Move freely, in all directions, slowly and fast.";
+  return pick ? "Move the object (o) into the brackets [ ]: go to it, hold the button, release it "
+                "at "
+                "the goal. As fast as you can."
+              : "Move freely in all directions, slowly and fast.";
 }
 
-// Waits for Enter; false where nobody is there to press it.
+// Returns false at the end of the input.
 bool wait_for_enter() {
   std::string line;
   if (std::getline(std::cin, line)) return true;
@@ -147,7 +137,7 @@ void count_down() {
   say("go!\n");
 }
 
-// A picture on the place of the last one.
+// Draws each picture over the last one.
 class TerminalShow {
  public:
   explicit TerminalShow(double seconds) : seconds_(seconds) {}
@@ -173,18 +163,18 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
   task.is_pick_and_place = step.pick;
   task.seconds = step.pick ? options.most : options.seconds;
   task.real_time = !options.simulated;
-  const bool has_eyes = !options.simulated && isatty(STDERR_FILENO) != 0;
+  const bool is_shown = !options.simulated && isatty(STDERR_FILENO) != 0;
   if (!options.simulated) {
     say("\n{}: {}.\n{}\n", step.condition->name, step.condition->title, instructions(step.pick));
     if (!options.yes) {
       say("Press Enter when you are ready. ");
       if (!wait_for_enter())
-        throw InputError({{"", 0, "trial", "nobody pressed Enter: there is no terminal",
+        throw InputError({{"", 0, "trial", "cannot wait for Enter: there is no terminal",
                            "run it in a terminal, or give --yes", "trial.no-terminal"}});
     }
     count_down();
   }
-  if (has_eyes) task.show = TerminalShow(task.seconds);
+  if (is_shown) task.show = TerminalShow(task.seconds);
   const std::unique_ptr<HandDevice> device = open_device(options.device);
   task.is_stopped = is_interrupted;
   const std::string name = step.condition->name + (step.pick ? "_pick" : "_free");
@@ -193,23 +183,24 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
 
 int run_trial(const TrialOptions& options) {
   DiagnosticList faults;
-  const auto names = chosen(options.conditions, kConditions, "--conditions", faults);
-  const auto tasks = chosen(options.tasks, kTasks, "--tasks", faults);
+  const auto names = read_words(options.conditions, kConditions, "--conditions", faults);
+  const auto tasks = read_words(options.tasks, kTasks, "--tasks", faults);
   MappingSpec mapping;
-  mapping.kind = mapping_kind(options.mapping, faults);
+  if (const auto kind = choose("--mapping", options.mapping, {"paper", "arm"}, "mappings", faults))
+    mapping.kind = static_cast<MappingKind>(*kind);
   mapping.force_scale = options.feel ? 1 : 0;
   if (options.simulated && !options.device.starts_with("virtual"))
-    faults.add({"", 0, "--simulated", "a person has no simulated time",
-                "leave it out, or give --device virtual:HAND", "option.conflict"});
+    faults.add("--simulated", "needs a virtual device",
+               "leave it out, or give --device virtual:HAND", "option.conflict");
   if (!std::ranges::all_of(options.subject, [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '-' || c == '_';
       }))
-    faults.add({"", 0, "--subject",
-                "'" + options.subject + "' has characters other than letters, digits, - and _",
-                "it names a folder below --out: give a code such as S7", "option.form"});
+    faults.add("--subject",
+               "'" + options.subject + "' has characters other than letters, digits, - and _",
+               "give a code such as S7: it names a folder in --out", "option.form");
   faults.check();
 
-  open_device(options.device);  // what is wrong with it is said before anyone waits
+  open_device(options.device);  // its errors are reported before the participant waits
   TrialReport report;
   report.csv = (options.out / "results.csv").string();
   const std::string next = next_subject(report.csv);
@@ -230,7 +221,7 @@ int run_trial(const TrialOptions& options) {
   }
   for (const Step& step : steps) {
     report.results.push_back(run_step(options, mapping, step, folder));
-    add_last_to_csv(report, report.csv);  // it stays, whatever happens to the next task
+    add_last_to_csv(report, report.csv);  // kept if a later task fails
     if (is_interrupted()) break;
   }
   fmt::print("{}", options.json
@@ -243,12 +234,12 @@ int run_trial(const TrialOptions& options) {
 }  // namespace
 
 Command trial_command() {
-  return {
-      80, "trial",
-      "A protocol with a person: free motion and pick-and-place under torsional springs, linear "
-      "springs, and the kinematic robot alone; a table at the end, and an anonymous CSV\n\n"
-      "Example:  twinarm trial --device gamepad --seed 7",
-      add_options, run_trial};
+  return {80, "trial",
+          "Run a user study: free motion and pick-and-place under three couplings\n\n"
+          "Examples:\n"
+          "  twinarm trial --device gamepad --seed 7\n"
+          "  twinarm trial --device virtual:synthetic --simulated --yes",
+          add_options, run_trial};
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// `twinarm zwidth`: checks its options, measures, writes (docs/understand/haptic_rendering.md).
+// `twinarm zwidth`: measures the Z-width of a device (docs/understand/haptic_rendering.md).
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <cmath>
@@ -26,24 +26,20 @@ struct ZwidthOptions {
 };
 
 void add_options(CLI::App& command, ZwidthOptions& options) {
-  command.add_option("--mass", options.mass, "of the device at the hand [kg]")
-      ->capture_default_str();
-  command.add_option("--damping", options.damping, "of the device [N s/m]")->capture_default_str();
-  command.add_option("--friction", options.friction, "of the device, Coulomb [N]")
-      ->capture_default_str();
-  command.add_option("--resolution", options.resolution, "steps of its encoder [m]")
-      ->capture_default_str();
-  command.add_option("--rate", options.rate, "of its loop [Hz]")->capture_default_str();
-  command.add_option("--delay", options.delay, "from sensor to motor [ticks]")
-      ->capture_default_str();
-  command
-      .add_option("--wall-damping", options.wall_damping,
-                  "of the wall whose largest stable stiffness is told [N s/m]")
-      ->capture_default_str();
-  command.add_option("--seed", options.seed, "of the network and the synthetic hand")
-      ->capture_default_str();
-  add_file_option(command, "--svg", options.svg, "write the plane of K and B, and energies");
-  add_file_option(command, "--png", options.png, "likewise, in pixels");
+  begin_group(command, "Device");
+  command.add_option("--mass", options.mass, "effective mass at the handle [kg]");
+  command.add_option("--damping", options.damping, "viscous friction [N s/m]");
+  command.add_option("--friction", options.friction, "Coulomb friction [N]");
+  command.add_option("--resolution", options.resolution, "resolution of the encoder [m]");
+  command.add_option("--rate", options.rate, "rate of the haptic loop [Hz]");
+  command.add_option("--delay", options.delay, "delay from sensor to motor [ticks]");
+  begin_group(command, "Measurement");
+  command.add_option("--wall-damping", options.wall_damping,
+                     "wall damping B for which the maximum stiffness is measured [N s/m]");
+  command.add_option("--seed", options.seed, "random seed of network and operator motion");
+  begin_group(command, "Output");
+  add_file_option(command, "--svg", options.svg, "write the K-B plane and the energies as SVG");
+  add_file_option(command, "--png", options.png, "write the K-B plane and the energies as PNG");
   command.add_flag("--csv", options.csv, "print the walls as CSV on stdout");
   add_json_option(command, options.json);
 }
@@ -51,10 +47,8 @@ void add_options(CLI::App& command, ZwidthOptions& options) {
 void check(const ZwidthOptions& options, DiagnosticList& faults) {
   const auto number = [&](const char* name, double value, bool positive) {
     if (std::isfinite(value) && (positive ? value > 0 : value >= 0)) return;
-    faults.add({"", 0, name,
-                fmt::format("is {}, must be {}", value, positive ? "positive" : "0 or positive"),
-                positive ? "give a positive number" : "give a number of at least 0",
-                "option.range"});
+    faults.add(name, fmt::format("is {}, must be {}", value, positive ? "positive" : "0 or more"),
+               "", "option.range");
   };
   number("--mass", options.mass, true);
   number("--damping", options.damping, false);
@@ -63,20 +57,20 @@ void check(const ZwidthOptions& options, DiagnosticList& faults) {
   number("--rate", options.rate, true);
   number("--wall-damping", options.wall_damping, false);
   if (options.delay < 0 || options.delay > 1000)
-    faults.add({"", 0, "--delay", fmt::format("is {} ticks", options.delay),
-                "give a number from 0 to 1000", "option.range"});
+    faults.add("--delay", fmt::format("is {} ticks", options.delay), "give a number from 0 to 1000",
+               "option.range");
   for (const auto* file : {&options.svg, &options.png})
     if (!file->empty()) check_place(*file, faults);
   const auto ends = [&](const char* option, const std::filesystem::path& file, const char* with) {
     if (!file.empty() && file.extension() != with)
-      faults.add({file.string(), 0, option, std::string("writes a file that ends in ") + with,
-                  "give it that name", "file.ending"});
+      faults.add({file.string(), 0, option, std::string("writes a ") + with + " file",
+                  std::string("end the name in ") + with, "file.ending"});
   };
   ends("--svg", options.svg, ".svg");
   ends("--png", options.png, ".png");
   if (options.json && options.csv)
-    faults.add(
-        {"", 0, "--csv", "goes not with --json", "leave one of them out", "option.conflict"});
+    faults.add("--csv", "cannot be combined with --json", "leave one of them out",
+               "option.conflict");
 }
 
 int run_zwidth(const ZwidthOptions& options) {
@@ -93,21 +87,21 @@ int run_zwidth(const ZwidthOptions& options) {
   device.delay = options.delay;
   const std::filesystem::path assets = find_assets();
   Progress progress(false, Progress::kPatience);
-  const Tell tell = [&](double part) {
+  const Tell advance = [&](double part) {
     check_interrupt();
     progress.advance(part);
   };
   ZwidthResult result;
   progress.stage("walls", 0.5);
-  result.walls = measure_walls(device, options.wall_damping, tell);
-  progress.stage("plane of K and B", 0.2);
-  result.plane = measure_plane(device, tell);
+  result.walls = measure_walls(device, options.wall_damping, advance);
+  progress.stage("K-B plane", 0.2);
+  result.plane = measure_plane(device, advance);
   progress.stage("walls through a coupling", 0.05);
-  result.series = measure_series(tell);
+  result.series = measure_series(advance);
   progress.stage("delays", 0.15);
-  result.delays = measure_delays(device, options.seed, tell);
-  progress.stage("robots under the hand", 0.1);
-  result.follows = measure_follows(assets, options.seed, tell);
+  result.delays = measure_delays(device, options.seed, advance);
+  progress.stage("tracking", 0.1);
+  result.follows = measure_follows(assets, options.seed, advance);
   if (!options.svg.empty()) write_whole_file(options.svg, zwidth_svg(result));
   if (!options.png.empty()) write_whole_file(options.png, zwidth_png(result));
   fmt::print("{}", options.json  ? zwidth_json(result)
@@ -120,8 +114,11 @@ int run_zwidth(const ZwidthOptions& options) {
 
 Command zwidth_command() {
   return {170, "zwidth",
-          "Walls that a hand device can render, alone, through a coupling and behind a delay\n\n"
-          "Example:  twinarm zwidth --rate 1000 --damping 0.1 --svg zwidth.svg",
+          "Measure the Z-width of a haptic device: passive virtual-wall stiffness, also with "
+          "coupling and delay\n\n"
+          "Examples:\n"
+          "  twinarm zwidth --rate 1000 --damping 0.1 --svg zwidth.svg\n"
+          "  twinarm zwidth --mass 0.1 --delay 2 --json",
           add_options, run_zwidth};
 }
 

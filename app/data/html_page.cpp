@@ -6,7 +6,7 @@
 namespace twinarm {
 namespace {
 
-// The style sheet of the report: on screen and on paper. No fonts, scripts or images from outside.
+// Style sheet for screen and print, without external fonts, scripts or images.
 constexpr const char* kReportStyle = R"css(
 :root { color-scheme: light; --ink: #1c2126; --soft: #5d6770; --line: #d9dde1; --pale: #f5f6f7;
   --kvr: #5d7f9e; --dvr: #b9520a; --good: #1e6b3c; --bad: #a03020; }

@@ -11,7 +11,7 @@
 namespace twinarm {
 namespace {
 
-// Counts the lines that the parser has passed.
+// Counts lines.
 struct CountingIterator {
   using iterator_category = std::input_iterator_tag;
   using value_type = char;
@@ -28,7 +28,7 @@ struct CountingIterator {
   bool operator==(const CountingIterator& other) const { return at == other.at; }
 };
 
-// What the parser meets, put into a tree.
+// Builds a tree from the parser's events.
 class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
  public:
   TreeBuilder(const std::filesystem::path& file, const int& line)
@@ -48,7 +48,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
   bool key(std::string& name) override {
     value_line_ = line_;
     if (!open_.back().seen.insert(name).second)
-      faults.add({file_, line_, name, "stands here twice", "leave one of them out", "json.twice"});
+      faults.add({file_, line_, name, "is given twice", "leave one of them out", "json.twice"});
     open_.back().key = name;
     return true;
   }
@@ -56,7 +56,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
     // "[json.exception.parse_error.101] parse error at line 3, column 7: syntax error ..."
     std::string what = e.what();
     if (const auto colon = what.find(": "); colon != std::string::npos) what.erase(0, colon + 2);
-    faults.add({file_, line_, "", "is not JSON: " + what, "mend it; python3 -m json.tool helps",
+    faults.add({file_, line_, "", "is not JSON: " + what, "correct it; python3 -m json.tool helps",
                 "json.form"});
     return false;
   }
@@ -84,9 +84,9 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
     return true;
   }
   bool open(Value::Kind kind) {
-    constexpr std::size_t kDeepest = 64;
-    if (open_.size() > kDeepest) {
-      faults.add({file_, line_, "", "is nested too deeply", "a state has four levels at most",
+    constexpr std::size_t kMaxDepth = 64;
+    if (open_.size() > kMaxDepth) {
+      faults.add({file_, line_, "", "is nested too deeply", "a state file has at most four levels",
                   "json.too-deep"});
       return false;
     }
@@ -104,17 +104,17 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
 
   struct Open {
     Value value;
-    std::string key;                       // after which its next value comes
-    std::unordered_set<std::string> seen;  // all its keys
+    std::string key;                       // of the next value
+    std::unordered_set<std::string> seen;  // all keys
   };
   std::string file_;
   const int& line_;
   int value_line_ = 1;
-  std::vector<Open> open_;  // the brackets around here
+  std::vector<Open> open_;  // open objects and lists
 };
 
-// Programs write NaN and Infinity into JSON that has neither: null in their place, so that all of
-// them can be told at once, and other faults too.
+// Replaces NaN and Infinity, which some programs write, by null, so that parsing continues and all
+// errors are reported.
 std::string without_nan(const std::string& text) {
   std::string out;
   bool quoted = false;

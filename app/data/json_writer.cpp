@@ -8,7 +8,7 @@
 namespace twinarm {
 namespace {
 
-// Quoted and escaped; bytes that are no UTF-8 are replaced.
+// Quoted and escaped; invalid UTF-8 is replaced.
 std::string quoted(std::string_view text) {
   const nlohmann::ordered_json json = std::string(text);
   return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -18,7 +18,7 @@ std::string quoted(std::string_view text) {
 
 JsonWriter& JsonWriter::key(std::string_view name) {
   separate();
-  if (depth_ == 1) {  // a line of its own
+  if (depth_ == 1) {  // on a new line
     if (text_.back() == ' ') text_.pop_back();
     text_ += '\n';
   }

@@ -1,7 +1,7 @@
-// Writes one JSON object as text, key by key, in the order in which it is told.
+// Writes one JSON object as text, in the order of the calls.
 //
-// Numbers have the fewest digits (17 at most) that read back as the same double, and a point or an
-// exponent, so that readers take them for floating-point numbers; what is not finite is null.
+// Numbers have the fewest digits (at most 17) that read back as the same double, and a point or an
+// exponent; non-finite numbers become null.
 //
 //   json.object({{"name", row.name}, {"work", row.work}});          {"name": "a", "work": 0.5}
 //   json.list(rows, [&](const Row& row) { json.vector(row.p); });   [[1.0, 2.0], [..]]
@@ -20,8 +20,7 @@ namespace twinarm {
 
 class JsonWriter {
  public:
-  // A key and what to write as its value: see value(). Refers to it: for the arguments of object()
-  // and members() alone.
+  // A key and a reference to its value; only for arguments of object() and members().
   struct Member {
     template <class T>
     Member(std::string_view name, const T& value)
@@ -52,7 +51,7 @@ class JsonWriter {
     write();
     end_object();
   }
-  // Of the object that is open.
+  // Of the open object.
   void members(Members all) {
     for (const Member& member : all) member.write(key(member.key), member.what);
   }
@@ -68,8 +67,8 @@ class JsonWriter {
     end_array();
   }
 
-  // A number, count, truth or text; null for an empty optional; a list of a range; numbers of a
-  // vector, rows of a matrix; a function writes its one value itself.
+  // A number, boolean or text; null for an empty optional; a list for a range or vector, a list of
+  // rows for a matrix; a function writes one value itself.
   template <class T>
   void value(const T& what) {
     if constexpr (std::is_same_v<T, bool>)
@@ -94,7 +93,6 @@ class JsonWriter {
   void boolean(bool value) { write(value ? "true" : "false"); }
   void null() { write("null"); }
 
-  // A matrix is a list of its rows, a vector a list of numbers.
   template <class Derived>
   void matrix(const Eigen::MatrixBase<Derived>& values) {
     begin_array();
@@ -109,10 +107,10 @@ class JsonWriter {
   }
   void numbers(const std::vector<double>& values) { value(values); }
   void texts(const std::vector<std::string>& values) { value(values); }
-  // As the command line has joint values: a number where there is one, else a list.
+  // A number if there is one, else a list.
   void number_or_list(const std::vector<double>& values);
 
-  // `write` writes the one value of what is there; else null.
+  // `write` writes the value if there is one; else null.
   template <class T, class Write>
   void or_null(const std::optional<T>& what, const Write& write) {
     what ? static_cast<void>(write(*what)) : null();
@@ -139,16 +137,16 @@ class JsonWriter {
 
   void open(char bracket);
   void close(char bracket);
-  void separate();  // the comma before an item that is not the first
+  void separate();  // comma before all but the first item
   void write(std::string_view item);
 
   std::string text_;
   int depth_ = 0;
-  bool first_ = true;  // nothing stands between the last opening bracket and here
+  bool first_ = true;  // directly after an opening bracket
   bool keyed_ = false;
 };
 
-// A text that is one object, by its members, or by a function that writes them.
+// One object as text, from its members or from a function that writes them.
 inline std::string json_text(JsonWriter::Members members) {
   JsonWriter json;
   json.object(members);

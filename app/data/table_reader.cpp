@@ -9,8 +9,7 @@
 namespace twinarm {
 namespace {
 
-// Lengths that were typed with few digits are mended in silence.
-constexpr double kFewDigits = 1e-6;
+constexpr double kFewDigits = 1e-6;  // tolerance for unit lengths given with few digits
 
 bool is_finite_number(const Value& value) {
   return value.is_number() && std::isfinite(value.number);
@@ -19,7 +18,7 @@ bool is_finite_number(const Value& value) {
 }  // namespace
 
 const Value* TableReader::find(const std::string& key) {
-  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
+  if (std::ranges::find(known_, key) == known_.end()) known_.push_back(key);
   return table_.find(key);
 }
 
@@ -72,9 +71,9 @@ std::optional<std::vector<double>> TableReader::numbers(const std::string& key, 
   const Value* value = find(key);
   if (!value) return std::nullopt;
   const bool good = value->kind == Value::Kind::list && value->items.size() == count &&
-                    std::all_of(value->items.begin(), value->items.end(), is_finite_number);
+                    std::ranges::all_of(value->items, is_finite_number);
   if (!good) {
-    const auto bad = std::find_if_not(value->items.begin(), value->items.end(), is_finite_number);
+    const auto bad = std::ranges::find_if_not(value->items, is_finite_number);
     fault(key,
           "must be a list of " + std::to_string(count) + " finite numbers, is " + describe(*value) +
               (bad != value->items.end() ? " with " + describe(*bad) : ""),
@@ -121,9 +120,9 @@ std::optional<std::size_t> TableReader::choice(const std::string& key,
                                                const std::vector<std::string>& names) {
   const auto name = text(key);
   if (!name) return std::nullopt;
-  const auto found = std::find(names.begin(), names.end(), *name);
+  const auto found = std::ranges::find(names, *name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-  fault(key, "'" + *name + "' is not known", name_remedy(*name, names, "possible"), "scene.choice");
+  fault(key, "there is no '" + *name + "'", name_remedy(*name, names, "possible"), "scene.choice");
   return std::nullopt;
 }
 
@@ -131,7 +130,7 @@ std::vector<const Value*> TableReader::tables(const std::string& key) {
   const Value* value = find(key);
   std::vector<const Value*> found;
   if (!value) return found;
-  constexpr std::size_t kMaxTables = 10000;  // each is compared with all others by name
+  constexpr std::size_t kMaxTables = 10000;  // names are compared pairwise
   if (value->items.size() > kMaxTables) {
     fault(key, "has " + std::to_string(value->items.size()) + " tables", "give at most 10000",
           "scene.too-many");
@@ -167,8 +166,8 @@ void TableReader::missing(const std::string& key, std::string fix) {
 
 void TableReader::done() {
   for (const Value& member : table_.members)
-    if (!faults_.is_full() && std::find(asked_.begin(), asked_.end(), member.key) == asked_.end())
-      fault(member.key, "this key is not known here", name_remedy(member.key, asked_, "keys"),
+    if (!faults_.is_full() && std::ranges::find(known_, member.key) == known_.end())
+      fault(member.key, "unknown key", name_remedy(member.key, known_, "keys"),
             "scene.unknown-key");
 }
 

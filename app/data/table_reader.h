@@ -1,7 +1,5 @@
-// One table of a scene or of a state file, read key by key, with a fault for each bad value.
-//
-// A faulty value is told and comes back as nothing, so that reading goes on and all faults are told
-// at once. The keys that were asked for are the keys that there are: done() tells the others.
+// Reads a table of a scene or state file key by key. Invalid values add a diagnostic and return
+// nothing, so that all errors are reported. done() reports keys that were not read as unknown.
 #pragma once
 
 #include <optional>
@@ -18,11 +16,11 @@ namespace twinarm {
 
 class TableReader {
  public:
-  // All arguments must outlive it. `where` as faults name the table: "body 'ball'".
+  // Keeps references to its arguments. `where`: the table in diagnostics, "body 'ball'".
   TableReader(const Value& table, std::string where, const std::string& file,
               DiagnosticList& faults)
       : table_(table), where_(std::move(where)), file_(file), faults_(faults) {}
-  // An object of JSON: faults name `where` alone, or BEFORE KEY AFTER: "wrenches[0].link",
+  // A JSON object: diagnostics name `where`, or BEFORE KEY AFTER: "wrenches[0].link",
   // "q of joint 'elbow'".
   struct Place {
     std::string where, before, after;
@@ -34,7 +32,7 @@ class TableReader {
         file_(file),
         faults_(faults) {}
 
-  const Value* find(const std::string& key);  // nullptr where it is left out
+  const Value* find(const std::string& key);  // nullptr if not given
   bool has(const std::string& key) { return find(key) != nullptr; }
   int line() const { return table_.line; }
   const std::string& where() const { return where_; }
@@ -49,9 +47,9 @@ class TableReader {
   std::optional<Vector3> vector(const std::string& key);
   std::optional<Vector3> unit_vector(const std::string& key);
   std::optional<Matrix3> orientation(const std::string& key);  // of a unit quaternion w, x, y, z
-  // Of a quaternion: 1 to the digits that were typed, or a fault.
+  // Length of a quaternion if it is 1 to 1e-6, or a diagnostic.
   std::optional<double> unit_length(const std::string& key, std::span<const double, 4> q);
-  // Which of the names: its index.
+  // Index of the name in `names`.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& names);
   // The tables of [[key]].
   std::vector<const Value*> tables(const std::string& key);
@@ -61,10 +59,10 @@ class TableReader {
   const std::string& file() const { return file_; }
   std::string where(const std::string& key) const;
 
-  // At the key where it stands, else at the table.
+  // At the line of the key if it is given, else of the table.
   void fault(const std::string& key, std::string problem, std::string fix, std::string_view code);
   void missing(const std::string& key, std::string fix);
-  bool is_full() const { return faults_.is_full(); }  // more faults are not kept
+  bool is_full() const { return faults_.is_full(); }  // more diagnostics are dropped
   void done();
 
  private:
@@ -75,7 +73,7 @@ class TableReader {
   std::optional<Place> place_;
   const std::string& file_;
   DiagnosticList& faults_;
-  std::vector<std::string> asked_;
+  std::vector<std::string> known_;  // keys read
 };
 
 }  // namespace twinarm

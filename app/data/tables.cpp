@@ -8,7 +8,7 @@
 namespace twinarm {
 namespace {
 
-// On the screen: bytes that continue a UTF-8 character take no column.
+// Columns on the screen: continuation bytes of UTF-8 have none.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
       std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
@@ -55,7 +55,7 @@ std::string short_number(double value, double scale) {
   if (std::isnan(value)) return "nan";
   if (std::abs(value) <= kRounding * scale) return "0";
   std::string text = fmt::format("{:.5g}", value);
-  const std::size_t length = text.size() - (value < 0 ? 1 : 0);  // a sign costs no digit
+  const std::size_t length = text.size() - (value < 0 ? 1 : 0);  // without sign
   if (text.find('e') != std::string::npos || length > 9) text = fmt::format("{:.4g}", value);
   return text;
 }
@@ -99,13 +99,13 @@ void Sheet::heading(std::string_view equation, std::string_view meaning, std::st
 }
 
 void Sheet::row(std::string_view label, const Vector6& six, const Vector6& size) {
-  const double turn = scale_of(size.head<3>()), shift = scale_of(size.tail<3>());
-  // A name that is too long has a line of its own.
+  const double angular = scale_of(size.head<3>()), linear = scale_of(size.tail<3>());
+  // A long name has its own line.
   std::string text = fmt::format("      {:<{}}", label, kLabel);
   if (label.size() > kLabel) text += "\n" + std::string(6 + kLabel, ' ');
   for (Eigen::Index k = 0; k < 6; ++k) {
     if (k == 3) text += "  |";
-    text += fmt::format("{:>{}}", short_number(six[k], k < 3 ? turn : shift), kColumn);
+    text += fmt::format("{:>{}}", short_number(six[k], k < 3 ? angular : linear), kColumn);
   }
   line(text);
 }
@@ -114,11 +114,11 @@ void Sheet::sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::
                 const Vector6& total, const Vector6& made_of) {
   Vector6 size = total.cwiseAbs();
   for (const auto& term : terms) size = size.cwiseMax(term.second.cwiseAbs());
-  const bool told = terms.size() > 1 && !size.isZero(0);
+  const bool has_terms = terms.size() > 1 && !size.isZero(0);
   size = size.cwiseMax(made_of);
   for (const auto& [label, value] : terms)
-    if (told) row(label, value, size);
-  if (told) line(std::string(6 + kLabel, ' ') + std::string(6 * kColumn + 3, '-'));
+    if (has_terms) row(label, value, size);
+  if (has_terms) line(std::string(6 + kLabel, ' ') + std::string(6 * kColumn + 3, '-'));
   row(name, total, size);
 }
 

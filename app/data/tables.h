@@ -1,4 +1,4 @@
-// Tables for a terminal: columns as wide as they need, numbers to the right.
+// Tables for a terminal.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,37 +13,37 @@ class TextTable {
  public:
   explicit TextTable(std::vector<std::string> headings) : rows_{std::move(headings)} {}
   void add(std::vector<std::string> row) { rows_.push_back(std::move(row)); }
-  std::string str() const;  // the first column to the left; ends with a newline
+  std::string str() const;  // first column left-aligned, others right-aligned
 
  private:
   std::vector<std::vector<std::string>> rows_;
 };
 
-// Six digits; "0" for what is zero but for rounding (1e-14).
+// Six digits; "0" below 1e-14.
 std::string cell(double value);
 
-// Lines of numbers for people: spatial vectors as rows, inertias as matrices, sums term by term.
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-// Five digits, four where there is an exponent; what is below 1e-13 of `scale` is 0.
+// Five digits, four with an exponent; "0" below 1e-13 * scale.
 std::string short_number(double value, double scale = 1);
 
-// Broken at blanks, to lines that fit; those after the first are indented.
+// Wrapped to the width of a terminal; lines after the first are indented.
 std::string wrapped(std::string_view text, std::size_t indent = 2);
 
+// Text with equations, spatial vectors as rows, matrices, and sums term by term.
 class Sheet {
  public:
   void line(std::string_view text) { text_ += std::string(text) + "\n"; }
-  // Between two rules; the note to the right, where it fits in the line, else below.
+  // Between two rules; the note right-aligned.
   void title(std::string_view text, std::string_view note);
-  // An equation to the left, what it is and its unit to the right.
+  // Equation, and right-aligned meaning and unit.
   void heading(std::string_view equation, std::string_view meaning, std::string_view unit);
   // label   a  b  c | d  e  f
   void row(std::string_view label, const Vector6& six) { row(label, six, six); }
-  // What is rounding beside `size` is 0; turning and shifting parts have sizes of their own.
+  // Rounding errors relative to `size` are 0; angular and linear parts have separate sizes.
   void row(std::string_view label, const Vector6& six, const Vector6& size);
-  // Terms, a line, and what they add up to. What is one term alone, or zero, is not repeated.
-  // `made_of`: sizes of what the terms are differences of, beside which rounding is 0.
+  // Terms and their sum; a single term is not repeated. `made_of`: sizes relative to which rounding
+  // errors are 0, if the terms are differences.
   void sum(const std::vector<std::pair<std::string, Vector6>>& terms, std::string_view name,
            const Vector6& total, const Vector6& made_of = Vector6::Zero());
   void matrix(const Eigen::MatrixXd& m);

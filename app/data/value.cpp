@@ -90,7 +90,7 @@ Value value_of_node(const toml::node& node) {
       value.members.push_back(value_of_node(member));
       value.members.back().key = std::string(key.str());
     }
-    // toml++ sorts keys by name; faults are told in the order of the file.
+    // toml++ sorts keys by name; diagnostics are in the order of the file.
     std::stable_sort(value.members.begin(), value.members.end(),
                      [](const Value& a, const Value& b) { return a.line < b.line; });
   } else if (const toml::array* array = node.as_array()) {
@@ -138,7 +138,7 @@ std::string inline_toml(const Value& value) {
     case Value::Kind::boolean:
       return value.number != 0 ? "true" : "false";
     case Value::Kind::number: {
-      std::string digits = number_text(value.number);  // "1e+20" is TOML too
+      std::string digits = number_text(value.number);  // "1e+20" is valid TOML
       const bool whole = digits.find_first_of(".einf") == std::string::npos;
       return whole ? digits + ".0" : digits;
     }
@@ -191,7 +191,7 @@ Value read_toml(const std::filesystem::path& file) {
   } catch (const toml::parse_error& error) {
     throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
                        "not well-formed TOML: " + std::string(error.description()),
-                       "mend this line", "file.toml"}});
+                       "correct this line", "file.toml"}});
   }
 }
 

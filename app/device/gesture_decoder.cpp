@@ -17,6 +17,16 @@ std::size_t axis_index(HandAxis axis) {
   return static_cast<std::size_t>(axis);
 }
 
+// Last byte of an arrow's escape sequence.
+constexpr KeyDecoder::Key kArrows[] = {{'A', HandAxis::up, true},
+                                       {'B', HandAxis::up, false},
+                                       {'C', HandAxis::right, true},
+                                       {'D', HandAxis::right, false}};
+constexpr KeyDecoder::Key kLetters[] = {
+    {'w', HandAxis::toward, false}, {'s', HandAxis::toward, true}, {'a', HandAxis::yaw, false},
+    {'d', HandAxis::yaw, true},     {'r', HandAxis::pitch, true},  {'f', HandAxis::pitch, false},
+    {'q', HandAxis::roll, true},    {'e', HandAxis::roll, false}};
+
 // Calls `take` for each complete packet, in order.
 template <std::size_t size, class Take>
 void take_packets(std::vector<std::uint8_t>& pending, const std::uint8_t* bytes, std::size_t count,
@@ -40,7 +50,7 @@ void KeyDecoder::feed(const std::uint8_t* bytes, std::size_t count, double now,
     } else if (escape_ == Escape::sequence) {
       if (byte < 0x40) continue;  // a parameter (modifier keys)
       escape_ = Escape::none;
-      arrow(byte, now, input);
+      press_key(kArrows, static_cast<char>(byte), now, input);
     } else {
       letter(byte, now, input);
     }
@@ -48,43 +58,19 @@ void KeyDecoder::feed(const std::uint8_t* bytes, std::size_t count, double now,
   pass(now, input);
 }
 
-void KeyDecoder::arrow(std::uint8_t final_byte, double now, DesktopInput& input) {
-  switch (final_byte) {
-    case 'A':
-      return press(HandAxis::up, true, now, input);
-    case 'B':
-      return press(HandAxis::up, false, now, input);
-    case 'C':
-      return press(HandAxis::right, true, now, input);
-    case 'D':
-      return press(HandAxis::right, false, now, input);
-    default:
-      return;
-  }
-}
-
 void KeyDecoder::letter(std::uint8_t byte, double now, DesktopInput& input) {
-  struct Key {
-    char letter;
-    HandAxis axis;
-    bool positive;
-  };
-  constexpr std::array<Key, 8> keys{{{'w', HandAxis::toward, false},
-                                     {'s', HandAxis::toward, true},
-                                     {'a', HandAxis::yaw, false},
-                                     {'d', HandAxis::yaw, true},
-                                     {'r', HandAxis::pitch, true},
-                                     {'f', HandAxis::pitch, false},
-                                     {'q', HandAxis::roll, true},
-                                     {'e', HandAxis::roll, false}}};
   const auto lower = static_cast<char>(byte >= 'A' && byte <= 'Z' ? byte + 0x20 : byte);
-  for (const Key& key : keys)
-    if (key.letter == lower) press(key.axis, key.positive, now, input);
+  press_key(kLetters, lower, now, input);
   if (lower == ' ') input.button(0, buttons_[0] = !buttons_[0]);
   if (lower == 'c') input.button(1, buttons_[1] = !buttons_[1]);
   if (lower == 'x')
     for (std::size_t axis = 0; axis < 6; ++axis)
       for (std::size_t direction = 0; direction < 2; ++direction) stop(axis, direction, input);
+}
+
+void KeyDecoder::press_key(std::span<const Key> keys, char code, double now, DesktopInput& input) {
+  for (const Key& key : keys)
+    if (key.code == code) press(key.axis, key.positive, now, input);
 }
 
 void KeyDecoder::press(HandAxis axis, bool positive, double now, DesktopInput& input) {

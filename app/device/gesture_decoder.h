@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "coupling/device/desktop_input.h"
@@ -27,6 +28,11 @@ class GestureDecoder {
 //   space   gripper on/off              c    clutch on/off        x    stop
 class KeyDecoder final : public GestureDecoder {
  public:
+  struct Key {
+    char code;
+    HandAxis axis;
+    bool positive;
+  };
   explicit KeyDecoder(double hold = 0.2) : hold_(hold) {}
   void feed(const std::uint8_t* bytes, std::size_t count, double now, DesktopInput& input) override;
   void pass(double now, DesktopInput& input) override;
@@ -34,7 +40,7 @@ class KeyDecoder final : public GestureDecoder {
 
  private:
   void letter(std::uint8_t byte, double now, DesktopInput& input);
-  void arrow(std::uint8_t final_byte, double now, DesktopInput& input);
+  void press_key(std::span<const Key> keys, char code, double now, DesktopInput& input);
   void press(HandAxis axis, bool positive, double now, DesktopInput& input);
   void stop(std::size_t axis, std::size_t direction, DesktopInput& input);
 

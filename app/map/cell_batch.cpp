@@ -32,9 +32,9 @@ bool is_plain(const SimulatePlan& plan) {
          });
 }
 
-std::unique_ptr<OperatorMotion> hand_of(const SceneCoupling& coupling) {
+std::unique_ptr<OperatorMotion> motion_of(const SceneCoupling& coupling) {
   if (coupling.target == CouplingTarget::Kind::trace) return read_hand_file(coupling.trace);
-  return std::make_unique<AutomaticMotion>(HandMapping{});  // of a twin at rest it turns nothing
+  return std::make_unique<AutomaticMotion>(HandMapping{});  // of a target at rest it moves nothing
 }
 
 double number_or(const Value& table, const char* key, double otherwise) {
@@ -60,7 +60,7 @@ struct CellBatch::Parts {
   bool find_limits();
   void add_target(const SceneCoupling& coupling);
   std::optional<BatchCell> cell_at(const Place& place) const;
-  double twin_energy(const Place& place, const BatchCell& cell);
+  double target_energy(const Place& place, const BatchCell& cell);
   double spring_energy(const BatchCell& cell);
   std::optional<CellValues> values_of(const Place& place, const BatchCell& cell,
                                       const BatchResult& result);
@@ -72,12 +72,12 @@ struct CellBatch::Parts {
   std::vector<std::unique_ptr<OperatorMotion>> hands;
   BatchSetup setup;
   std::unique_ptr<BatchRun> runs;
-  std::map<std::pair<double, double>, double> twin_energies;  // by speed and delay
+  std::map<std::pair<double, double>, double> target_energies;  // by speed and delay
 };
 
-// The measured coupling's twin comes first.
+// The target of the measured coupling is the first.
 void CellBatch::Parts::add_target(const SceneCoupling& coupling) {
-  hands.push_back(hand_of(coupling));
+  hands.push_back(motion_of(coupling));
   setup.targets.push_back({hands.back().get(), HandMapping{}, coupling.driven, coupling.rest});
 }
 
@@ -110,7 +110,7 @@ bool CellBatch::Parts::can_run() {
   return true;
 }
 
-// False where a joint has limits that act, and is not measured.
+// False if a joint with active limits is not measured.
 bool CellBatch::Parts::find_limits() {
   const SceneModel& scene = *base.input.scene;
   limits.assign(joints.names.size(), {});
@@ -127,11 +127,11 @@ bool CellBatch::Parts::find_limits() {
   return true;
 }
 
-// Nothing where couplings see one motion each in its own time.
+// Nothing if couplings have different speeds or delays.
 std::optional<BatchCell> CellBatch::Parts::cell_at(const Place& place) const {
   Value scene = job.scene;
   DiagnosticList faults;
-  put_in(job, place.x, place.y, scene, faults);
+  set_parameters(job, place.x, place.y, scene, faults);
   BatchCell cell;
   cell.h = job.run.step.value_or(number_or(scene, "step", base.run.step));
   const Value* couplings = scene.find("coupling");
@@ -154,14 +154,14 @@ std::optional<BatchCell> CellBatch::Parts::cell_at(const Place& place) const {
   return cell;
 }
 
-// A of cell_measure.h without the springs [J]: the motion may be played faster and seen later.
-double CellBatch::Parts::twin_energy(const Place& place, const BatchCell& cell) {
-  const auto [found, is_new] = twin_energies.try_emplace({cell.speed, cell.delay});
-  if (is_new) found->second = energy_by_right(prepare_cell(job, place.x, place.y), false);
+// A of cell_measure.h without the springs [J], for this speed and delay.
+double CellBatch::Parts::target_energy(const Place& place, const BatchCell& cell) {
+  const auto [found, is_new] = target_energies.try_emplace({cell.speed, cell.delay});
+  if (is_new) found->second = reference_energy(prepare_cell(job, place.x, place.y), false);
   return found->second;
 }
 
-// At the start.
+// In the springs at the start [J].
 double CellBatch::Parts::spring_energy(const BatchCell& cell) {
   const State<double>& start = base.input.robot.state.x;
   SceneCouplings& couplings = *base.input.couplings;
@@ -183,12 +183,12 @@ double CellBatch::Parts::spring_energy(const BatchCell& cell) {
 std::optional<CellValues> CellBatch::Parts::values_of(const Place& place, const BatchCell& cell,
                                                       const BatchResult& result) {
   if (!result.finished ||
-      !within_reach(result.energy_created, twin_energy(place, cell) + spring_energy(cell)))
+      !is_bounded(result.energy_created, target_energy(place, cell) + spring_energy(cell)))
     return unstable_cell();
   CellValues values{1, 0, 0, result.energy_created, result.hand_work_least};
   for (std::size_t j = 0; j < joints.iq.size(); ++j) {
     const double error = result.max_error[j];
-    if (!(result.twin_low[j] - error > limits[j].lower)) return std::nullopt;  // or met a limit
+    if (!(result.twin_low[j] - error > limits[j].lower)) return std::nullopt;  // may reach a limit
     if (!(result.twin_high[j] + error < limits[j].upper)) return std::nullopt;
     values[1] = std::max(values[1], result.max_error[j]);
     values[2] = std::max(values[2], result.mean_error[j]);

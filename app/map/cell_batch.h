@@ -1,10 +1,9 @@
-// Cells of a map side by side in the lanes of the processor (coupling/batch/batch_run.h): a fast
-// way for scenes that it can do. The numbers are those of run_cell() to rounding.
+// Computes cells of a map in SIMD lanes (coupling/batch/batch_run.h), with the results of
+// run_cell() to rounding.
 //
-// It takes one robot on its base with couplings alone: nothing that touches, no constraints, no
-// Coulomb friction, no held forces; integrator `semi-implicit`; axes that are the step, or the
-// stiffness, damping, point, delay or speed of couplings. Joint limits do not act in it: a cell
-// that could have met one is left to run_cell().
+// For one robot on its base with couplings only: no contacts, constraints, Coulomb friction or held
+// forces; integrator `semi-implicit`; axes: the step, or stiffness, damping, point, delay or speed
+// of couplings. Joint limits are not simulated: cells that could reach one are left to run_cell().
 #pragma once
 
 #include <memory>
@@ -19,14 +18,14 @@ namespace twinarm {
 
 class CellBatch {
  public:
-  // Null where the scene, or an axis, is not for it. The job must outlive it.
+  // Null if the scene or an axis is not supported. Keeps a reference to the job.
   static std::unique_ptr<CellBatch> of(const MapJob& job);
   ~CellBatch();
 
   struct Place {
     double x = 0, y = 0;
   };
-  // Nothing for a cell that must be run alone. One thread at a time.
+  // Nothing for cells that are left to run_cell(). Not thread-safe.
   std::vector<std::optional<CellValues>> run(std::span<const Place> places);
 
  private:

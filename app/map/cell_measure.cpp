@@ -17,27 +17,27 @@
 namespace twinarm {
 namespace {
 
-constexpr double kMaxCreated = 100, kTurns = 25, kHair = 1e-3;  // the last one in metres
-constexpr int kLooksAtTwin = 64;
+constexpr double kMaxCreated = 100, kReversals = 25,
+                 kFallHeight = 1e-3;  // cell_measure.h; the last [m]
+constexpr int kTargetSamples = 64;
 
 bool is_moved(const SceneCoupling& coupling) {
   return coupling.target != CouplingTarget::Kind::start &&
          coupling.target != CouplingTarget::Kind::state;
 }
 
-// Of the twin on its way; a twin at rest has none.
-double max_twin_energy(const SimulatePlan& plan, std::size_t c) {
+// Largest energy of the target during its motion; 0 at rest [J].
+double max_target_energy(const SimulatePlan& plan, std::size_t c) {
   SceneCouplings& couplings = *plan.input.couplings;
   if (!is_moved(couplings.spec(c))) return 0;
   const Model<double>& model = plan.input.robot.model;
   const double height = potential_energy(model, couplings.target(c, 0).x);
-  double largest = 0;
-  for (int i = 0; i <= kLooksAtTwin; ++i) {
-    const State<double>& x = couplings.target(c, plan.run.duration * i / kLooksAtTwin).x;
-    largest =
-        std::max(largest, kinetic_energy(model, x) + std::abs(potential_energy(model, x) - height));
+  double max = 0;
+  for (int i = 0; i <= kTargetSamples; ++i) {
+    const State<double>& x = couplings.target(c, plan.run.duration * i / kTargetSamples).x;
+    max = std::max(max, kinetic_energy(model, x) + std::abs(potential_energy(model, x) - height));
   }
-  return largest;
+  return max;
 }
 
 double created(const std::vector<EnergyRow>& ledger) {
@@ -70,10 +70,10 @@ MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling) {
   return joints;
 }
 
-double energy_by_right(const SimulatePlan& plan, bool with_springs) {
+double reference_energy(const SimulatePlan& plan, bool with_springs) {
   const Model<double>& model = plan.input.robot.model;
   const State<double>& start = plan.input.robot.state.x;
-  double sum = kinetic_energy(model, start) + kHair * weight_of(model), twin = 0;
+  double sum = kinetic_energy(model, start) + kFallHeight * weight_of(model), target = 0;
   if (!plan.input.couplings) return sum;
   SceneCouplings& couplings = *plan.input.couplings;
   Kinematics k(model);
@@ -81,13 +81,13 @@ double energy_by_right(const SimulatePlan& plan, bool with_springs) {
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (with_springs)
       sum += 0.5 * couplings.spec(c).spring.k * couplings.ends(c, start, k).offset.squaredNorm();
-    twin = std::max(twin, max_twin_energy(plan, c));
+    target = std::max(target, max_target_energy(plan, c));
   }
-  return sum + kTurns * twin;
+  return sum + kReversals * target;
 }
 
-bool within_reach(double created, double by_right) {
-  return created <= kMaxCreated * by_right;
+bool is_bounded(double created, double reference) {
+  return created <= kMaxCreated * reference;
 }
 
 CellMeasure::CellMeasure(const SimulatePlan& plan, MeasuredJoints joints)
@@ -99,36 +99,36 @@ CellMeasure::CellMeasure(const SimulatePlan& plan, MeasuredJoints joints)
 void CellMeasure::look(RunView& run) {
   const State<double>& x = run.simulation().state();
   if (joints_.iq.empty()) return;
-  const State<double>& twin = plan_.input.couplings->target(joints_.coupling, x.t).x;
+  const State<double>& target = plan_.input.couplings->target(joints_.coupling, x.t).x;
   for (std::size_t j = 0; j < joints_.iq.size(); ++j) {
-    const double e = std::abs(twin.q[joints_.iq[j]] - x.q[joints_.iq[j]]);
+    const double e = std::abs(target.q[joints_.iq[j]] - x.q[joints_.iq[j]]);
     max_ = std::max(max_, e);
     integral_[j] += 0.5 * (x.t - t_before_) * (before_[j] + e);
     before_[j] = e;
   }
   t_before_ = x.t;
-  double put_in = 0;
-  for (const EnergyRow& row : run.hand()) put_in += row.work;
-  min_put_in_ = std::min(min_put_in_, put_in);
+  double input = 0;
+  for (const EnergyRow& row : run.hand()) input += row.work;
+  min_input_work_ = std::min(min_input_work_, input);
 }
 
 CellValues CellMeasure::values(const SimulateResult& result) const {
   const double energy = created(result.ledger);
-  if (result.post_mortem || !within_reach(energy, energy_by_right(plan_))) return unstable_cell();
+  if (result.post_mortem || !is_bounded(energy, reference_energy(plan_))) return unstable_cell();
   double mean = 0;
   for (const double sum : integral_) mean = std::max(mean, sum / plan_.run.duration);
   const double none = std::numeric_limits<double>::quiet_NaN();
   return {1, joints_.iq.empty() ? none : max_, joints_.iq.empty() ? none : mean, energy,
-          min_put_in_};
+          min_input_work_};
 }
 
 namespace {
 
-// The scene of the cell, with what the command line said in its place.
+// The scene of the cell with the options of the command line.
 Value scene_of_cell(const MapJob& job, double x, double y) {
   Value scene = job.scene;
   DiagnosticList faults;
-  put_in(job, x, y, scene, faults);
+  set_parameters(job, x, y, scene, faults);
   faults.check();
   if (job.run.step) scene.put("step", Value::of(*job.run.step));
   if (job.run.duration) scene.put("duration", Value::of(*job.run.duration));
@@ -181,7 +181,7 @@ std::pair<int, int> parse_cell(const std::string& text, const MapJob& job) {
     if (ix >= 0 && iy >= 0) return {ix, iy};
   }
   throw InputError(
-      {{"", 0, "--cell", "'" + text + "' is no cell of this map",
+      {{"", 0, "--cell", "'" + text + "' is not a cell of this map",
         fmt::format("write IX,IY, from 0,0 to {},{}", job.nx() - 1, job.ny() - 1), "map.cell"}});
 }
 

@@ -1,14 +1,16 @@
-// What a map measures of a run (docs/use/parameter_maps.md). All but the errors are sums of the run's own ledger.
+// Measures of a cell (docs/use/parameter_maps.md). Energies are from the run's energy balance.
 //
-//   max_error   max over the steps of e(t_n), e the largest |q_K - q_D| of a measured joint;
+//   max_error   max over the steps of e(t_n), e the largest |q_K - q_D| of a measured joint
 //   mean_error  (1/T) integral of e of one joint, trapezoidal; the largest of them
-//   energy      the ledger's rows `numerical` and `coupling/*/implicit`: what no law of nature does
-//   passivity   the least that the work of the hands, summed from the start, ever was; at most 0
-//   stable      1 where the run came to its end and energy <= 100 A; else 0, and the others have no
-//               value.  A = KE(0) + energy in the springs at the start + weight times 1 mm
-//                         + 25 max over the twin's way of (KE_K + |PE_K - PE_K(0)|)
-// A is what the run has by right; 25: the motion that follows a start and two reversals has five
-// times the speed that one start gives.
+//   energy      rows `numerical` and `coupling/*/implicit`: energy that the method creates
+//   passivity   minimum over time of the input work since the start; at most 0
+//   stable      1 if the run reached its end and energy <= 100 A; else 0, and the other measures
+//   have
+//               no value.  A = KE(0) + energy of the springs at the start + weight times 1 mm
+//                            + 25 max over the target's motion of (KE_K + |PE_K - PE_K(0)|)
+//
+// A is a reference for the energy of the run. 25: a motion after a start and two reversals has up
+// to five times the speed of one start.
 #pragma once
 
 #include <array>
@@ -20,7 +22,6 @@
 
 namespace twinarm {
 
-// docs/use/parameter_maps.md defines them.
 enum class MapMeasure { stable, max_error, mean_error, energy, passivity };
 inline constexpr std::array<const char*, 5> kMapMeasures{"stable", "max_error", "mean_error",
                                                          "energy", "passivity"};
@@ -30,7 +31,7 @@ constexpr const char* name_of(MapMeasure measure) {
 
 // All measures of a cell, in the order of kMapMeasures.
 using CellValues = std::array<double, kMapMeasures.size()>;
-// Of a run that is not stable.
+// Of an unstable run.
 constexpr CellValues unstable_cell() {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   return {0, kNone, kNone, kNone, kNone};
@@ -38,20 +39,20 @@ constexpr CellValues unstable_cell() {
 
 // The joints whose error is measured.
 struct MeasuredJoints {
-  std::size_t coupling = 0;        // whose twin they are compared with
+  std::size_t coupling = 0;        // index of the coupling, with its target
   std::vector<std::size_t> iq;     // coordinates
   std::vector<std::string> names;  // as in the model
-  bool slide = false;              // all of them: the error is in metres
-  bool turn = false;               // any of them: in radians
+  bool slide = false;              // some are prismatic (error in m)
+  bool turn = false;               // some are revolute (error in rad)
 };
-// Of a coupling that moves: those that its hand turns. Else those of one degree of freedom that
-// carry its link.
+// With a moving target the joints that the operator motion moves; else all joints with one degree
+// of freedom between link and base.
 MeasuredJoints measured_joints(const SceneModel& scene, std::size_t coupling);
 
-// A above [J], or what it is without the springs.
-double energy_by_right(const SimulatePlan& plan, bool with_springs = true);
-// Whether a run that created so much energy is stable. What is not a number is not.
-bool within_reach(double created, double by_right);
+// A above [J], or without its spring energy.
+double reference_energy(const SimulatePlan& plan, bool with_springs = true);
+// Whether the created energy is at most 100 A; false for NaN.
+bool is_bounded(double created, double reference);
 
 class CellMeasure {
  public:
@@ -64,7 +65,7 @@ class CellMeasure {
   MeasuredJoints joints_;
   double t_before_ = 0;
   std::vector<double> before_, integral_;  // by joint
-  double max_ = 0, min_put_in_ = 0;
+  double max_ = 0, min_input_work_ = 0;
 };
 
 }  // namespace twinarm

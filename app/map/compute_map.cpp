@@ -23,12 +23,11 @@ struct MapCell {
   std::pair<int, int> place;  // (iy, ix)
   CellBatch::Place at;
 };
-// What a thread takes at once: rows of a block where cells run alone; where they run side by side,
-// blocks whose cells share steps of one length, and with them the table of the twin's motion.
+// Work of a thread: a row of a block; with SIMD batches blocks whose cells have the same steps, and
+// so share the table of the target's motion.
 using MapTask = std::vector<MapCell>;
 
-// A run of the cell's scene as `twinarm simulate` makes it. Throws Interrupted. All of its state is
-// its own: cells run beside one another.
+// Runs the cell as `twinarm simulate` does. Thread-safe. Throws Interrupted.
 CellValues run_cell(const MapJob& job, const SimulatePlan& plan) {
   CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
   RunWatch watch;
@@ -41,10 +40,10 @@ CellValues run_cell(const MapJob& job, const SimulatePlan& plan) {
 
 class MapWork {
  public:
-  // Those cells of the blocks that the file does not have.
+  // The cells of the blocks that the file does not have.
   MapWork(const MapJob& job, const std::vector<int>& numbers, const TileFile& file) : job_(job) {
     const MapBlocks blocks = blocks_of(job);
-    std::map<std::pair<int, int>, MapTask> groups;  // by group, and by row where cells run alone
+    std::map<std::pair<int, int>, MapTask> groups;  // by group, or by block and row
     for (const int b : numbers) {
       const MapBlocks::Block block = blocks[b];
       for (int y = block.y0; y < block.y1; ++y)
@@ -64,7 +63,6 @@ class MapWork {
 
   std::size_t tasks() const { return tasks_.size(); }
 
-  // In a thread of its own.
   void work(std::size_t number) {
     const MapTask& task = tasks_[number];
     std::unique_ptr<CellBatch> batch = job_.side_by_side ? free_batch() : nullptr;
@@ -74,7 +72,7 @@ class MapWork {
     for (std::size_t i = 0; i < task.size(); ++i) finished_.emplace_back(task[i].place, values[i]);
   }
 
-  // Takes over what is finished since the last call.
+  // Moves the cells finished since the last call to the file.
   void collect(TileFile& file) {
     const std::lock_guard held(lock_);
     file.cells.insert(finished_.begin(), finished_.end());
@@ -82,7 +80,7 @@ class MapWork {
   }
 
  private:
-  // As many are made as threads work at once.
+  // At most one per thread is made.
   std::unique_ptr<CellBatch> free_batch() {
     {
       const std::lock_guard held(lock_);
@@ -101,7 +99,7 @@ class MapWork {
   }
 
   std::vector<CellValues> compute(const MapTask& task, CellBatch* batch) const {
-    constexpr std::size_t kAtOnce = 512;  // between two looks for Ctrl-C
+    constexpr std::size_t kAtOnce = 512;  // cells between checks for Ctrl-C
     std::vector<CellValues> values;
     for (std::size_t first = 0; first < task.size(); first += kAtOnce) {
       const std::size_t count = std::min(kAtOnce, task.size() - first);
@@ -120,22 +118,21 @@ class MapWork {
 
   const MapJob& job_;
   std::vector<MapTask> tasks_;
-  std::mutex lock_{};  // of what follows
+  std::mutex lock_{};  // of the members below
   std::vector<std::pair<std::pair<int, int>, CellValues>> finished_;
   std::vector<std::unique_ptr<CellBatch>> free_;
 };
 
-// Writes the file where something came in, every second or, of a large file, more seldom; and at
-// the end.
-class Keeper {
+// Writes the file if it has new cells: every second, less often if it is large, and at the end.
+class FileUpdater {
  public:
-  Keeper(const TileFile& file, const std::filesystem::path& path)
-      : file_(file), path_(path), kept_(file.cells.size()) {}
-  void keep(bool at_once) {
+  FileUpdater(const TileFile& file, const std::filesystem::path& path)
+      : file_(file), path_(path), written_(file.cells.size()) {}
+  void update(bool at_once) {
     const Clock::time_point begin = Clock::now();
-    if (file_.cells.size() == kept_ || (!at_once && begin < next_)) return;
+    if (file_.cells.size() == written_ || (!at_once && begin < next_)) return;
     write_whole_file(path_, to_text(file_));
-    kept_ = file_.cells.size();
+    written_ = file_.cells.size();
     const Clock::time_point end = Clock::now();
     next_ = end + std::max<Clock::duration>(std::chrono::seconds(1), 10 * (end - begin));
   }
@@ -143,7 +140,7 @@ class Keeper {
  private:
   const TileFile& file_;
   const std::filesystem::path& path_;
-  std::size_t kept_;
+  std::size_t written_;
   Clock::time_point next_{};
 };
 
@@ -157,7 +154,7 @@ void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
   std::erase_if(missing, [&](int b) { return file.has_all_of(blocks[b]); });
   if (missing.empty()) return;
   MapWork cells(job, missing, file);
-  Keeper keeper(file, work);
+  FileUpdater updater(file, work);
   Progress progress(options.quiet);
   progress.stage(
       missing.size() == wanted.size()
@@ -172,15 +169,15 @@ void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
           check_interrupt();
           cells.collect(file);
           progress.advance(static_cast<double>(done) / static_cast<double>(cells.tasks()));
-          keeper.keep(false);
+          updater.update(false);
         },
         options.threads);
-  } catch (...) {  // what is finished is kept all the same
+  } catch (...) {  // finished cells are written first
     failure = std::current_exception();
   }
   cells.collect(file);
   progress.finish();
-  keeper.keep(true);
+  updater.update(true);
   if (failure) std::rethrow_exception(failure);
 }
 

@@ -13,7 +13,7 @@ namespace {
 using Eigen::MatrixXd;
 
 constexpr double kRound = 1e-9;  // of the unit circle
-constexpr int kPoses = 24;       // along the twin's way
+constexpr int kPoses = 24;       // along the target's motion
 constexpr int kMaxColumns = 96, kRows = 48;
 constexpr int kHalvings = 12;  // of a row
 
@@ -21,13 +21,12 @@ bool is_semi_implicit(Integrator integrator) {
   return integrator == Integrator::semi_implicit || integrator == Integrator::semi_implicit_xv;
 }
 
-// Those whose step of a linear system is a polynomial of its matrix.
+// Whether a step of a linear system is a polynomial of its matrix.
 bool is_polynomial(Integrator integrator) {
   return integrator == Integrator::euler || integrator == Integrator::midpoint ||
          integrator == Integrator::heun || integrator == Integrator::rk4;
 }
 
-// About a pose.
 bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
   const Model<double>& model = plan.input.robot.model;
   const SceneCouplings& couplings = *plan.input.couplings;
@@ -52,7 +51,7 @@ bool is_implicit_point(const SceneCoupling& coupling) {
          coupling.treatment == Discretization::implicit;
 }
 
-bool is_stable_on_the_way(const SimulatePlan& plan) {
+bool is_stable_along_motion(const SimulatePlan& plan) {
   SceneCouplings& couplings = *plan.input.couplings;
   for (std::size_t c = 0; c < couplings.size(); ++c)
     for (int i = 0; i <= kPoses && !couplings.spec(c).driven.turned.empty(); ++i)
@@ -60,8 +59,8 @@ bool is_stable_on_the_way(const SimulatePlan& plan) {
   return true;
 }
 
-// For each hinge that turns the link of an implicit point spring: how far its axis is from the
-// link's point and from the target.
+// Geometric limit of implicit linear couplings, for each revolute joint between link and base: from
+// the distances of its axis from the link's point and from the target.
 bool is_within_geometry(const SimulatePlan& plan) {
   SceneCouplings& couplings = *plan.input.couplings;
   const Model<double>& model = plan.input.robot.model;
@@ -89,7 +88,7 @@ bool is_within_geometry(const SimulatePlan& plan) {
   return true;
 }
 
-// Where `good` changes, along columns of the map. A branch that a column has no more is ended.
+// Finds where `good` changes along columns of the map.
 class BoundarySearch {
  public:
   using Good = std::function<bool(const SimulatePlan&)>;
@@ -169,7 +168,7 @@ std::string scheme_words(const SimulatePlan& plan) {
   if (is_all(Discretization::explicit_)) return name_of(SteppingScheme::semi_implicit);
   if (is_all(Discretization::semi_implicit)) return name_of(SteppingScheme::implicit_damper);
   if (is_all(Discretization::implicit)) return name_of(SteppingScheme::implicit);
-  return "semi-implicit Euler, each coupling in its treatment";
+  return "semi-implicit Euler, mixed discretizations";
 }
 
 }  // namespace
@@ -187,9 +186,9 @@ std::vector<MapCurve> theory_curves(const MapJob& job) {
   add(scheme_words(corner) + ", start pose", is_stable_at_start);
   if (std::any_of(couplings.begin(), couplings.end(),
                   [](const SceneCoupling& c) { return !c.driven.turned.empty(); }))
-    add("the same, worst pose of the twin", is_stable_on_the_way);
+    add("the same, worst pose of the target", is_stable_along_motion);
   if (std::any_of(couplings.begin(), couplings.end(), is_implicit_point))
-    add("geometric limit of an implicit point spring", is_within_geometry);
+    add("geometric limit of implicit linear couplings", is_within_geometry);
   return curves;
 }
 

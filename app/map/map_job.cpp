@@ -16,39 +16,32 @@ namespace twinarm {
 
 namespace {
 
-// No file has such lines: faults in what an axis wrote are known by them.
+// Negative line numbers mark values from an axis.
 constexpr int kLineOfX = -1, kLineOfY = -2;
 constexpr double kMaxMapCells = 4.2e6, kMaxSteps = 1e8;  // of a map, of a cell
 
 MapMeasure parse_measure(const std::string& name, DiagnosticList& faults) {
-  const auto found = std::find(kMapMeasures.begin(), kMapMeasures.end(), name);
-  if (found != kMapMeasures.end()) return static_cast<MapMeasure>(found - kMapMeasures.begin());
   const std::vector<std::string> names(kMapMeasures.begin(), kMapMeasures.end());
-  faults.add({"", 0, "--measure", name.empty() ? "is missing" : "'" + name + "' is not known",
-              name_remedy(name, names, "measures"), "map.measure"});
-  return MapMeasure::stable;
+  return static_cast<MapMeasure>(
+      choose("--measure", name, names, "measures", faults, "map.measure").value_or(0));
 }
 
-InputError told_by_axis(const InputError& error, const MapJob& job, double x, double y) {
+InputError attributed_to_axes(const InputError& error, const MapJob& job, double x, double y) {
   std::vector<Diagnostic> faults = error.faults();
-  const auto by = [](const char* option, const MapAxis& axis, double value,
-                     const Diagnostic& fault) {
-    return Diagnostic{"",
-                      0,
-                      option + (" " + axis.path + " = " + number_text(value)),
-                      fault.where + ": " + fault.problem,
-                      fault.fix,
-                      fault.code};
-  };
-  for (Diagnostic& fault : faults)
-    if (fault.line == kLineOfX)
-      fault = by("--x", job.x, x, fault);
-    else if (fault.line == kLineOfY)
-      fault = by("--y", job.y, y, fault);
+  for (Diagnostic& fault : faults) {
+    if (fault.line != kLineOfX && fault.line != kLineOfY) continue;
+    const bool is_x = fault.line == kLineOfX;
+    fault = {"",
+             0,
+             (is_x ? "--x " + job.x.path : "--y " + job.y.path) + " = " + number_text(is_x ? x : y),
+             fault.where + ": " + fault.problem,
+             fault.fix,
+             fault.code};
+  }
   return InputError(std::move(faults));
 }
 
-// Whose joints are measured, and in which unit.
+// The measured coupling, and units.
 void check_couplings(const SceneModel& scene, const std::string& of, MapJob& job,
                      DiagnosticList& faults) {
   const bool is_error =
@@ -62,21 +55,21 @@ void check_couplings(const SceneModel& scene, const std::string& of, MapJob& job
                        "measure stable or energy, or add a [[coupling]]", "map.no-coupling"});
   std::vector<std::string> names;
   for (const SceneCoupling& coupling : scene.couplings) names.push_back(coupling.coupling);
-  const auto found = std::find(names.begin(), names.end(), of);
-  if (!of.empty() && found == names.end())
-    return faults.add({"", 0, "--of", "there is no coupling '" + of + "'",
-                       name_remedy(of, names, "couplings"), "map.coupling-unknown"});
-  if (!of.empty()) job.measured_coupling = static_cast<std::size_t>(found - names.begin());
+  if (!of.empty()) {
+    const auto found = choose("--of", of, names, "couplings", faults, "map.coupling-unknown");
+    if (!found) return;
+    job.measured_coupling = *found;
+  }
   const MeasuredJoints joints = measured_joints(scene, job.measured_coupling);
   if (joints.slide && !joints.turn) job.error_unit = "m";
   if (!is_error) return;
   job.unit = job.error_unit;
   if (joints.iq.empty() || (joints.slide && joints.turn))
-    faults.add({"", 0, option,
-                joints.iq.empty() ? "no joint of one degree of freedom carries what is pulled"
-                                  : "some of the measured joints turn and some slide",
-                "name another coupling with --of; " + name_remedy("", names, "couplings"),
-                "map.mixed-joints"});
+    faults.add(option,
+               joints.iq.empty() ? "the coupling has no joint with one degree of freedom"
+                                 : "the joints of the coupling are both revolute and prismatic",
+               "name another coupling with --of; " + name_remedy("", names, "couplings"),
+               "map.mixed-joints");
 }
 
 std::string content_hash(const MapJob& job, const SimulatePlan& base) {
@@ -95,21 +88,18 @@ void check_plan(const MapJob& job, const SimulatePlan& plan, double x, double y)
                     number_text(y)),
         fmt::format("a run of {} s in steps of {} s {}", short_number_text(plan.run.duration),
                     short_number_text(plan.run.step),
-                    steps < 1 ? "has no whole step" : "has more than 1e8 of them"),
+                    steps < 1 ? "has no whole step" : "has more than 1e8 steps"),
         "choose other steps, or --duration", "map.steps"}});
 }
 
-// Faults of the scene itself hide those of the axes.
+// Diagnostics of the scene itself hide those of the axes.
 void check_scene(MapJob& job, const std::string& of, DiagnosticList& faults) {
   const SimulatePlan base = prepare_simulation(job.run);
   check_couplings(*base.input.scene, of, job, faults);
   job.identity.push_back("content " + content_hash(job, base));
   for (const double y : {job.y.from, job.y.to})
     for (const double x : {job.x.from, job.x.to})
-      attempt(faults, [&] {
-        check_plan(job, prepare_cell(job, x, y), x, y);
-        return true;
-      });
+      attempt(faults, [&] { check_plan(job, prepare_cell(job, x, y), x, y); });
 }
 
 std::string or_scene(const std::optional<double>& value) {
@@ -118,31 +108,29 @@ std::string or_scene(const std::optional<double>& value) {
 
 void check_axes(const MapJob& job, const MapOptions& options, DiagnosticList& faults) {
   if (job.x.path == job.y.path)
-    faults.add({"", 0, "--y", "is the same number as --x", "give two numbers of the scene",
-                "map.same-axes"});
+    faults.add("--y", "is the same parameter as --x", "give two parameters of the scene",
+               "map.same-axes");
   for (const auto& [name, axis] : {std::pair{"--x", &job.x}, std::pair{"--y", &job.y}}) {
-    if (axis->path == "step" && options.step)
-      faults.add({"", 0, "--step", std::string(name) + " varies it", "leave one of them out",
-                  "map.option-and-axis"});
-    if (axis->path == "duration" && options.duration)
-      faults.add({"", 0, "--duration", std::string(name) + " varies it", "leave one of them out",
-                  "map.option-and-axis"});
+    for (const auto& [path, given] :
+         {std::pair{"step", &options.step}, std::pair{"duration", &options.duration}})
+      if (axis->path == path && *given)
+        faults.add(std::string("--") + path, std::string(name) + " varies it",
+                   "leave one of them out", "map.option-and-axis");
   }
   if (static_cast<double>(job.nx()) * job.ny() > kMaxMapCells)
-    faults.add({"", 0, "--x, --y", fmt::format("{} x {} cells are too many", job.nx(), job.ny()),
-                "give at most four million", "map.too-many-cells"});
+    faults.add("--x, --y", fmt::format("{} x {} cells are too many", job.nx(), job.ny()),
+               "give at most four million", "map.too-many-cells");
 }
 
-// Of faults at the corners of a map each is told once.
+// Throws the diagnostics without repetitions (from several corners of the map).
 void check_once(const DiagnosticList& faults) {
   try {
     faults.check();
   } catch (const InputError& error) {
     std::vector<Diagnostic> once;
     for (const Diagnostic& fault : error.faults())
-      if (std::none_of(once.begin(), once.end(), [&](const Diagnostic& other) {
-            return to_string(other) == to_string(fault);
-          }))
+      if (std::ranges::none_of(
+              once, [&](const Diagnostic& other) { return to_string(other) == to_string(fault); }))
         once.push_back(fault);
     throw InputError(std::move(once));
   }
@@ -150,11 +138,11 @@ void check_once(const DiagnosticList& faults) {
 
 constexpr double kMaxCells = 4096;  // along an axis
 const char* const kAxisForm =
-    "write PATH:FROM:TO:N[:log], as in coupling[0].stiffness:100:1e5:64:log";
+    "write PATH:MIN:MAX:N[:log], as in coupling[0].stiffness:100:1e5:64:log";
 
 }  // namespace
 
-void put_in(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults) {
+void set_parameters(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults) {
   set_number(scene, job.x.path, x, kLineOfX, "--x", faults);
   set_number(scene, job.y.path, y, kLineOfY, "--y", faults);
 }
@@ -163,13 +151,13 @@ SimulatePlan prepare_cell(const MapJob& job, double x, double y) {
   SimulateOptions options = job.run;
   options.change_scene = [&](Value& scene, DiagnosticList&) {
     DiagnosticList faults;
-    put_in(job, x, y, scene, faults);
+    set_parameters(job, x, y, scene, faults);
     faults.check();
   };
   try {
     return prepare_simulation(options);
   } catch (const InputError& error) {
-    throw told_by_axis(error, job, x, y);
+    throw attributed_to_axes(error, job, x, y);
   }
 }
 
@@ -177,14 +165,14 @@ MapJob read_map_job(const MapOptions& options) {
   DiagnosticList faults;
   MapJob job;
   if (options.scene.empty())
-    faults.add({"", 0, "command line", "no scene is given", "twinarm map SCENE.toml --x .. --y ..",
-                "map.no-scene"});
+    faults.add("command line", "no scene is given", "twinarm map SCENE.toml --x .. --y ..",
+               "map.no-scene");
   else if (options.scene.extension() != ".toml")
-    faults.add({options.scene.string(), 0, "", "is no scene",
-                "give a scene in TOML, with the robot in it", "map.no-scene"});
+    faults.add({options.scene.string(), 0, "", "is not a scene",
+                "give a scene (TOML) that contains the robot", "map.no-scene"});
   const auto axis = [&](const char* name, const std::string& text, MapAxis& into) {
     if (text.empty())
-      return faults.add({"", 0, name, "is missing", "give PATH:FROM:TO:N[:log]", "axis.missing"});
+      return faults.add(name, "is missing", "give PATH:MIN:MAX:N[:log]", "axis.missing");
     if (const auto found = parse_axis(name, text, faults)) into = *found;
   };
   axis("--x", options.x, job.x);
@@ -242,7 +230,7 @@ std::optional<MapAxis> parse_axis(const std::string& option, const std::string& 
   };
   const std::vector<std::string> parts = split(text, ':');
   if (parts.size() < 4 || parts.size() > 5 || parts[0].empty()) {
-    fault("'" + text + "' is no axis", kAxisForm, "axis.form");
+    fault("'" + text + "' is not an axis", kAxisForm, "axis.form");
     return std::nullopt;
   }
   MapAxis axis;
@@ -254,21 +242,21 @@ std::optional<MapAxis> parse_axis(const std::string& option, const std::string& 
             "axis.number");
     return value.value_or(0);
   };
-  axis.from = number(1, "FROM");
-  axis.to = number(2, "TO");
+  axis.from = number(1, "MIN");
+  axis.to = number(2, "MAX");
   const double count = number(3, "N");
   if (good && !(axis.from < axis.to))
-    fault("goes from " + parts[1] + " to " + parts[2], "give the smaller value first",
+    fault("MIN " + parts[1] + " is not below MAX " + parts[2], "give the smaller value first",
           "axis.order");
   if (good && (count < 2 || count > kMaxCells || count != std::floor(count)))
     fault("has " + parts[3] + " cells", "give a whole number of them, from 2 to 4096",
           "axis.count");
   axis.log = parts.size() == 5;
   if (axis.log && parts[4] != "log")
-    fault("'" + parts[4] + "' is not known", "write log, or leave it out: then it is linear",
+    fault("'" + parts[4] + "' is not known", "write log, or leave it out for a linear axis",
           "axis.scale");
   if (good && axis.log && !(axis.from > 0))
-    fault("a logarithmic axis begins at " + parts[1], "begin above 0, or leave ':log' out",
+    fault("a logarithmic axis starts at " + parts[1], "start above 0, or leave ':log' out",
           "axis.log-from-zero");
   axis.count = static_cast<int>(good ? count : 0);
   if (!good) return std::nullopt;

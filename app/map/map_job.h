@@ -1,4 +1,4 @@
-// What a map is of: a scene, two of its numbers, a measure. The same job gives the same bytes.
+// A parameter map: a scene, two of its parameters, a measure. The same job gives the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -17,41 +17,37 @@ namespace twinarm {
 struct MapOptions {
   std::filesystem::path scene;
   std::string x, y;                      // PATH:FROM:TO:N[:log]
-  std::string measure = "stable", of;    // `of`: a coupling's name; empty: the first
-  std::optional<double> duration, step;  // [s]; left out: as the scene says
+  std::string measure = "stable", of;    // `of`: name of a coupling; empty: the first
+  std::optional<double> duration, step;  // [s]; default: the scene's
   std::string integrator;
   std::filesystem::path svg, png, csv;  // empty: none
-  std::filesystem::path work;           // where finished cells are kept; empty: below out/map
-  int tiles = 0, tile = -1;             // one part of many
+  std::filesystem::path work;           // checkpoint file; empty: in out/map
+  int tiles = 0, tile = -1;             // number of jobs, index of this one
   std::vector<std::filesystem::path> merge;
-  std::string cell;              // "IX,IY", opened
-  std::filesystem::path record;  // its recording
+  std::string cell;              // "IX,IY"
+  std::filesystem::path record;  // recording of that cell
   unsigned threads = 0;          // 0: all processors
-  bool alone = false;            // each cell by itself, as `simulate` runs it
+  bool alone = false;            // no SIMD batches
   bool force = false, json = false;
 };
 
-// One axis of a map: a number of the scene, and the values that it takes.
+// One axis of a map: a parameter of the scene and its values.
 struct MapAxis {
-  std::string path;  // of the number in the scene file (app/scene/read/change_scene.h)
+  std::string path;  // of the parameter (app/scene/read/change_scene.h)
   double from = 0, to = 0;
   int count = 0;  // cells, both ends included
   bool log = false;
 
-  // At a cell, or between two of them: u in [0, count - 1]. The ends are `from` and `to` to the
-  // bit.
-  double at(double u) const;
-  // Where a value lies between the cells.
-  double place_of(double value) const;
-  std::string text() const;  // PATH:FROM:TO:N[:log], each number in the fewest digits
+  double at(double u) const;            // u in [0, count - 1]; exact at both ends
+  double place_of(double value) const;  // inverse of at()
+  std::string text() const;             // PATH:MIN:MAX:N[:log] in the fewest digits
 };
 
-// PATH:FROM:TO:N[:log]; adds all its faults, which name the option, and returns nothing then.
+// PATH:MIN:MAX:N[:log], or nothing and diagnostics of the option.
 std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
                                   DiagnosticList& faults);
 
-// What lines of MapJob::identity say besides names and numbers. They are part of the form of tile
-// files, of which older ones must fit: no word of them changes.
+// Values of MapJob::identity. They are part of the file format: do not change them.
 namespace identity {
 inline constexpr const char* kAsScene = "as the scene says";
 inline constexpr const char* kFirstCoupling = "the first coupling";
@@ -62,26 +58,26 @@ inline constexpr const char* kOneByOne = "one by one";
 struct MapJob {
   MapAxis x, y;
   MapMeasure measure = MapMeasure::stable;
-  std::size_t measured_coupling = 0;  // whose twin errors refer to
-  SimulateOptions run;                // of the scene as it stands in its file
+  std::size_t measured_coupling = 0;  // index of the coupling whose tracking error is measured
+  SimulateOptions run;                // of the scene file
   Value scene;
   std::string x_unit, y_unit, unit, error_unit;  // `unit` is the measure's
-  bool side_by_side = false;  // cells share the lanes of the processor (app/map/cell_batch.h)
-  // By lines, what must be the same in files that belong together (app/map/tile_file.h). All
-  // measures are computed at once: which one is shown is not among them.
+  bool side_by_side = false;                     // SIMD batches (app/map/cell_batch.h)
+  // Lines that must agree in files of the same map (app/map/tile_file.h); not the measure, as all
+  // of them are computed.
   std::vector<std::string> identity;
 
   int nx() const { return x.count; }
   int ny() const { return y.count; }
 };
 
-// Reads the scene, and runs nothing. Throws InputError with all faults: of the options, the axes,
-// and of the scene at the corners of the map.
+// Reads the scene. Throws InputError with all diagnostics of options, axes, and of the scene at the
+// corners of the map.
 MapJob read_map_job(const MapOptions& options);
 
-// The scene with the two numbers put in; u as in MapAxis::at().
-void put_in(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults);
-// Ready to run. Throws InputError, which tells what an axis brought in by that axis.
+// Sets both parameters in the scene.
+void set_parameters(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults);
+// Throws InputError; diagnostics caused by a parameter name its axis.
 SimulatePlan prepare_cell(const MapJob& job, double x, double y);
 
 }  // namespace twinarm

@@ -82,22 +82,22 @@ std::string map_words(const MapJob& job, const TileFile& file) {
   std::string words =
       fmt::format("{} x {} cells, {} of {} stable\n", job.nx(), job.ny(), steady, stable.size());
   if (job.measure == MapMeasure::stable) return words;
-  double least = HUGE_VAL, most = -HUGE_VAL;
+  double min = HUGE_VAL, max = -HUGE_VAL;
   for (const double value : values_of(job, file, job.measure))
-    if (std::isfinite(value)) least = std::min(least, value), most = std::max(most, value);
-  if (least <= most)
-    words += fmt::format("{}: {} to {} {}\n", name_of(job.measure), short_number_text(least),
-                         short_number_text(most), job.unit);
+    if (std::isfinite(value)) min = std::min(min, value), max = std::max(max, value);
+  if (min <= max)
+    words += fmt::format("{}: {} to {} {}\n", name_of(job.measure), short_number_text(min),
+                         short_number_text(max), job.unit);
   return words;
 }
 
-// A map as a picture: cells in colours that differ in lightness, curves of theory on top. The axes
-// of the drawing count cells, so that linear and logarithmic ones are drawn alike.
+// A map as a picture: coloured cells with predicted limits on top. The axes of the drawing count
+// cells, for linear and logarithmic axes alike.
 namespace {
 
 constexpr int kWidth = 980, kHeight = 700;
-constexpr const char* kGrows = "#5A5A5A";
-// Of lightness that rises evenly (after viridis), and of two signs about a white middle.
+constexpr const char* kUnstable = "#5A5A5A";
+// Even lightness (after viridis); two signs with white at zero.
 constexpr const char* kRising =
     "set palette defined (0 '#440154', 0.25 '#3B528B', 0.5 '#21918C', 0.75 '#5EC962', 1 "
     "'#FDE725')\n";
@@ -141,10 +141,10 @@ std::string tics(const MapAxis& axis) {
 struct ColourRange {
   double low = 0, high = 1;
   bool log = false, with_sign = false;
-  double put(double v) const { return log ? std::log10(v) : v; }
+  double scaled(double v) const { return log ? std::log10(v) : v; }
 };
 
-// What 2 % of the cells lie beyond at either end is drawn in the last colour.
+// From the 2nd to the 98th percentile.
 ColourRange range_of(const std::vector<double>& values, MapMeasure measure) {
   std::vector<double> finite;
   for (const double v : values)
@@ -163,13 +163,13 @@ ColourRange range_of(const std::vector<double>& values, MapMeasure measure) {
     range.high = std::max({std::abs(range.low), std::abs(range.high), 1e-300});
     range.low = -range.high;
   }
-  range.low = range.put(range.low);
-  range.high = range.put(range.high);
+  range.low = range.scaled(range.low);
+  range.high = range.scaled(range.high);
   if (!(range.high > range.low)) range.high = range.low + std::max(std::abs(range.low), 1e-12);
   return range;
 }
 
-// x, y, value, of cells with a value; the others show what lies below.
+// Data rows x, y, value; cells without a value are transparent.
 std::string cells(Gnuplot& gnuplot, const MapJob& job, const std::vector<double>& values,
                   const ColourRange& range) {
   std::vector<double> x, y, v;
@@ -180,7 +180,7 @@ std::string cells(Gnuplot& gnuplot, const MapJob& job, const std::vector<double>
                  static_cast<std::size_t>(ix)];
       x.push_back(ix);
       y.push_back(iy);
-      v.push_back(std::isfinite(value) ? std::clamp(range.put(value), range.low, range.high)
+      v.push_back(std::isfinite(value) ? std::clamp(range.scaled(value), range.low, range.high)
                                        : value);
     }
   return gnuplot.data({x, y, v});
@@ -210,8 +210,8 @@ std::string colour_box(const MapJob& job, const ColourRange& range) {
   if (range.log)
     for (int p = static_cast<int>(std::floor(range.low)); p <= range.high; ++p)
       for (const int digit : {1, 2, 5})
-        if (const double v = digit * std::pow(10, p); range.put(v) >= range.low)
-          list += fmt::format("{}'{:.3g}' {:.8g}", list.empty() ? "" : ", ", v, range.put(v));
+        if (const double v = digit * std::pow(10, p); range.scaled(v) >= range.low)
+          list += fmt::format("{}'{:.3g}' {:.8g}", list.empty() ? "" : ", ", v, range.scaled(v));
   return fmt::format(
       "set colorbox user origin screen 0.9,0.2 size screen 0.022,0.6\n"
       "set cblabel {} offset 0.5,0\nset cbrange [{:.8g}:{:.8g}]\n{}",
@@ -239,11 +239,11 @@ std::string script(Gnuplot& gnuplot, const MapJob& job, const TileFile& file,
   text += fmt::format(
       "set object 1 rectangle from graph 0,0 to graph 1,1 behind fillcolor rgb "
       "'{}' fillstyle solid noborder\n",
-      kGrows);
+      kUnstable);
   text += palette + colour_box(job, range);
   if (is_stable) text += "set cbrange [0:1]\n";
   text += "plot " + cells(gnuplot, job, values, range) + " using 1:2:3 with image notitle" +
-          fmt::format(", NaN with points pt 5 ps 1.6 lc '{}' title 'grows: no steady run'", kGrows);
+          fmt::format(", NaN with points pt 5 ps 1.6 lc '{}' title 'unstable'", kUnstable);
   if (is_stable) text += ", NaN with points pt 5 ps 1.6 lc '#CFE3F2' title 'stable'";
   return text + curve_plots(gnuplot, job, curves) + "\n";
 }
@@ -258,7 +258,7 @@ std::string map_svg(const MapJob& job, const TileFile& file, const std::vector<M
   Gnuplot gnuplot;
   std::string drawn =
       gnuplot.svg("map", title_of(job), kWidth, kHeight, script(gnuplot, job, file, curves));
-  // A cell is a pixel of an image in it: not to be smoothed where it is drawn larger.
+  // A cell is one pixel of an image: no smoothing when it is enlarged.
   const std::string image = "<image ";
   if (const std::size_t at = drawn.find(image); at != std::string::npos)
     drawn.insert(at + image.size(), "style='image-rendering:pixelated' ");

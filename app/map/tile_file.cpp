@@ -19,8 +19,7 @@ constexpr const char* kFirstLine = "# twinarm map 2\n";
 constexpr std::string_view kHeadMark = "# ";  // before each line of the head
 constexpr const char* kFirstLineOfOld = "twinarm map 1\n";
 constexpr std::uintmax_t kMaxTileBytes = 512u << 20;  // four million cells
-constexpr const char* kOtherFile =
-    "give a file that `twinarm map` has written with --work or --tile";
+constexpr const char* kOtherFile = "give a file of `twinarm map --work` or `--tile`";
 
 std::string table_heading() {
   std::string line = "ix,iy";
@@ -37,7 +36,7 @@ std::string key_of(const std::string& line) {
   return line.substr(0, line.find(' '));
 }
 
-// A line of the table into `file`; false where it is none.
+// Adds a line of the table to `file`; false if it is invalid or repeated.
 bool read_cell(const std::string& line, TileFile& file) {
   const std::vector<std::string> fields = split(line);
   if (fields.size() != 2 + kMapMeasures.size()) return false;
@@ -112,14 +111,13 @@ std::string to_text(const TileFile& file) {
 TileFile read_tile_file(const std::filesystem::path& path) {
   std::error_code unknown;
   if (std::filesystem::file_size(path, unknown) > kMaxTileBytes && !unknown)
-    throw not_readable(path, 0, "has more than 512 MiB: no map is as large", kOtherFile,
-                       "file.too-large");
+    throw not_readable(path, 0, "has more than 512 MiB", kOtherFile, "file.too-large");
   const std::string text = read_whole_file(path);
   if (text.starts_with(kFirstLineOfOld))
-    throw not_readable(path, 0, "an earlier version of twinarm has written it",
-                       "delete it, and compute its part again", "map.old-file");
+    throw not_readable(path, 0, "has the format of an earlier version of twinarm",
+                       "delete it and compute its tile again", "map.old-file");
   if (!text.starts_with(kFirstLine))
-    throw not_readable(path, 0, "is no file of a map", kOtherFile, "map.file-form");
+    throw not_readable(path, 0, "is not a map file", kOtherFile, "map.file-form");
   TileFile file;
   bool is_table = false;
   int number = 1;
@@ -127,20 +125,19 @@ TileFile read_tile_file(const std::filesystem::path& path) {
     end = text.find('\n', at);
     ++number;
     const auto damaged = [&](const std::string& how, std::string_view code) {
-      return not_readable(path, number, "the file of a map is damaged: " + how,
-                          "delete it, and compute its part again", code);
+      return not_readable(path, number, "the map file is damaged: " + how,
+                          "delete it and compute its tile again", code);
     };
-    if (end == text.npos) throw damaged("its end is cut off", "map.cut-short");
+    if (end == text.npos) throw damaged("it is truncated", "map.cut-short");
     const std::string line = text.substr(at, end - at);
     if (!is_table && line.starts_with(kHeadMark))
       file.head.push_back(line.substr(kHeadMark.size()));
     else if (!is_table && line == table_heading())
       is_table = true;
     else if (!is_table || !read_cell(line, file))
-      throw damaged(is_table ? "no cell, or one that is there twice" : "no line of its head",
-                    "map.row");
+      throw damaged(is_table ? "invalid or repeated cell" : "invalid header line", "map.row");
   }
-  if (!is_table) throw not_readable(path, 0, "is no file of a map", kOtherFile, "map.file-form");
+  if (!is_table) throw not_readable(path, 0, "is not a map file", kOtherFile, "map.file-form");
   return file;
 }
 
@@ -149,13 +146,12 @@ void add_cells(const TileFile& from, const MapBlocks& blocks, const std::filesys
   DiagnosticList faults;
   for (const std::string& line : into.head) {
     const std::string key = key_of(line);
-    if (key == "scene") continue;  // its content is compared; where it lies may differ
+    if (key == "scene") continue;  // the content is compared, not the path
     const std::string here = from.value_of(key), there = into.value_of(key);
     if (here == there) continue;
-    const std::string what = key == "content"
-                                 ? "the scene, or a file that it names, is not the same"
-                             : key == "of" ? "it measures " + here + ", not " + there
-                                           : key + " is " + here + ", not " + there;
+    const std::string what = key == "content" ? "the scene, or a file that it names, differs"
+                             : key == "of"    ? "it measures " + here + ", not " + there
+                                              : key + " is " + here + ", not " + there;
     faults.add({path.string(), 0, "", "the file is of another map: " + what, fix, "map.other-map"});
   }
   faults.check();
@@ -163,12 +159,12 @@ void add_cells(const TileFile& from, const MapBlocks& blocks, const std::filesys
     const auto [iy, ix] = place;
     const auto fault = [&, x = ix, y = iy](const char* problem) {
       faults.add({path.string(), 0, fmt::format("cell {},{}", x, y), problem,
-                  "delete the file, and compute its part again", "map.blocks"});
+                  "delete the file and compute its tile again", "map.blocks"});
     };
     if (ix >= blocks.nx || iy >= blocks.ny)
-      fault("the map has no such cell");
+      fault("is outside the map");
     else if (!is_same(into.cells.emplace(place, values).first->second, values))
-      fault("another file has other values for it");
+      fault("has other values in another file");
   }
   faults.check();
 }
@@ -190,20 +186,18 @@ TileFile merge_tile_files(const std::vector<std::filesystem::path>& parts, const
   TileFile file = empty;
   DiagnosticList faults;
   for (const std::filesystem::path& path : parts)
-    attempt(faults, [&] {
-      add_cells(read_tile_file(path), blocks, path, "merge files of one map", file);
-      return true;
-    });
+    attempt(faults,
+            [&] { add_cells(read_tile_file(path), blocks, path, "merge files of one map", file); });
   std::string missing;
   int count = 0;
   for (int b = 0; b < blocks.count(); ++b)
     if (!file.has_all_of(blocks[b]) && ++count <= 10) missing += " " + std::to_string(b);
   if (count > 0)
-    faults.add({"", 0, "--merge",
-                fmt::format("{} of {} blocks are missing:{}{}", count, blocks.count(), missing,
-                            count > 10 ? " .." : ""),
-                "give the files of all parts; compute those that failed with --tile again",
-                "map.blocks-missing"});
+    faults.add("--merge",
+               fmt::format("{} of {} blocks are missing:{}{}", count, blocks.count(), missing,
+                           count > 10 ? " .." : ""),
+               "give the files of all tiles; repeat --tile for those that failed",
+               "map.blocks-missing");
   faults.check();
   return file;
 }

@@ -1,11 +1,10 @@
-// The file in which a map grows: lines that say what the map is of, then a CSV table of its
-// finished cells. The work file of one machine, the tile of a job array and the joined map are all
-// of this form. The bytes depend on which cells are there, and not on who computed them, when and
-// in which order.
+// Checkpoint file of a map: lines with its identity, then a CSV table of finished cells. Work file,
+// tile of a job array and merged map have the same format. The bytes depend only on which cells are
+// present.
 //
 //   # twinarm map 2
-//   # KEY VALUE                                            any number of such lines
-//   ix,iy,stable,max_error,mean_error,energy,passivity     kMapMeasures; empty: has no value
+//   # KEY VALUE                                            any number
+//   ix,iy,stable,max_error,mean_error,energy,passivity     kMapMeasures; empty: no value
 //   0,0,1,0.5,..                                           row by row, y upward
 #pragma once
 
@@ -19,8 +18,7 @@
 
 namespace twinarm {
 
-// A map is cut into blocks of 16 x 16 cells (fewer at its far edges), numbered row by row: what
-// parts of a map are made of.
+// Blocks of 16 x 16 cells (fewer at the upper edges), numbered row by row.
 struct MapBlocks {
   static constexpr int kSide = 16;
   int nx = 0, ny = 0;  // cells of the map
@@ -37,7 +35,7 @@ struct TileFile {
   std::vector<std::string> head;                    // "KEY VALUE"
   std::map<std::pair<int, int>, CellValues> cells;  // by (iy, ix)
 
-  std::string value_of(const std::string& key) const;  // empty where there is no such line
+  std::string value_of(const std::string& key) const;  // empty if missing
   bool has_all_of(const MapBlocks::Block& block) const;
 };
 
@@ -46,17 +44,17 @@ TileFile empty_tile_file(const MapJob& job);
 MapBlocks blocks_of(const MapJob& job);
 
 std::string to_text(const TileFile& file);
-// Throws InputError for what is no such file, or damaged.
+// Throws InputError if it is another kind of file, or damaged.
 TileFile read_tile_file(const std::filesystem::path& path);
 
-// Takes over the cells of the file read from `path`. Throws InputError with all lines in which it
-// is of another map than `into`, with cells that `blocks` does not have, or that differ.
+// Adds the cells of the file read from `path`. Throws InputError with all lines of the identity
+// that differ from `into`, with cells outside the map, and with cells that have other values.
 void add_cells(const TileFile& from, const MapBlocks& blocks, const std::filesystem::path& path,
                const std::string& fix, TileFile& into);
-// What an earlier call has left in `work`. `force`: nothing, where that is no file of this map.
+// The cells in `work`; with `force` none if it is not a file of this map.
 TileFile resume_tile_file(const std::filesystem::path& work, const TileFile& empty,
                           const MapBlocks& blocks, bool force);
-// All cells of a map, of the files of its parts. Throws InputError where some are missing.
+// All cells of a map from its tiles. Throws InputError if some are missing.
 TileFile merge_tile_files(const std::vector<std::filesystem::path>& parts, const TileFile& empty,
                           const MapBlocks& blocks);
 

@@ -1,4 +1,4 @@
-// Spring-dampers: what types there are, and what theory says of them before anything is run.
+// Coupling types and predicted stability limits.
 #include <pybind11/stl.h>
 
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "app/coupling/prediction.h"
 #include "app/python/arrays.h"
-#include "app/python/scene_change.h"
+#include "app/python/robots.h"
 #include "coupling/analysis/gains.h"
 #include "coupling/laws/coupling_spec.h"
 #include "solver/support/number_text.h"
@@ -39,7 +39,7 @@ SteppingScheme scheme_of(const std::string& name) {
     if (name == name_of(scheme)) return scheme;
     names += (names.empty() ? "'" : ", '") + std::string(name_of(scheme)) + "'";
   }
-  throw py::value_error("there is no scheme '" + name + "'; there are " + names);
+  throw py::value_error("there is no scheme '" + name + "'; schemes: " + names);
 }
 
 double positive(const char* name, double value) {
@@ -53,15 +53,16 @@ py::object predict(const py::object& scene, const py::object& state,
   SimulateOptions options;
   options.robot.model = path_of(scene);
   if (!state.is_none()) options.robot.state = path_of(state);
-  options.duration = 1;  // of a run that is not made
+  options.duration = 1;  // not used
   options.step = step;
   options.integrator = integrator;
   change_scene(set, options);
   const PredictTask task{positive("turn", turn), positive("time", time), {}, {}};
   SimulatePlan prepared = prepare_simulation(options);
   if (!prepared.input.couplings || prepared.input.couplings->size() == 0)
-    throw InputError({{options.robot.model.string(), 0, "", "it has no coupling",
-                       "give a scene with a [[coupling]] (docs/reference/scene_file.md)", "scene.no-coupling"}});
+    throw InputError(
+        {{options.robot.model.string(), 0, "", "it has no coupling",
+          "give a scene with a [[coupling]] (docs/reference/scene_file.md)", "scene.no-coupling"}});
   const std::string json = predicted_json(predict_couplings(prepared, task), task);
   return py::module_::import("json").attr("loads")(json);
 }
@@ -84,11 +85,11 @@ Eigen::MatrixXd square(const char* name, const py::object& given, Eigen::Index s
 }  // namespace
 
 void add_couplings(py::module_& m) {
-  m.def(
-      "coupling_types", coupling_types,
-      "A row for each type of [[coupling]] in a scene: name; treatments that it can have (of its\n"
-      "own: none); at_point, whether it pulls at a point; can_hold, whether its force can be held\n"
-      "at a rate. docs/understand/coupling_laws.md has the laws.");
+  m.def("coupling_types", coupling_types,
+        "A row for each type of [[coupling]] in a scene: name; treatments, its discretizations "
+        "(none\n"
+        "for its own); at_point, whether it acts at a point; can_hold, whether its force can be\n"
+        "evaluated at a rate. Laws: docs/understand/coupling_laws.md.");
   m.def(
       "schemes",
       [] {
@@ -96,7 +97,7 @@ void add_couplings(py::module_& m) {
         for (const SteppingScheme scheme : all_schemes) names.emplace_back(name_of(scheme));
         return names;
       },
-      "Names of the ways to step a spring-damper of which limits are known.");
+      "Names of the discretizations of a spring-damper with known stability limits.");
   m.def(
       "largest_omega_h",
       [](const std::string& scheme, double zeta) {
@@ -105,10 +106,9 @@ void add_couplings(py::module_& m) {
         return max_omega_h(scheme_of(scheme), zeta);
       },
       py::arg("scheme"), py::arg("zeta"),
-      "Of one spring-damper M e'' + b e' + k e = 0: the largest stable product of its frequency\n"
-      "sqrt(k/M) [rad/s] and the step [s], at the damping ratio zeta; inf where there is no "
-      "limit,\n"
-      "0 where no step is stable.");
+      "Stability limit of omega h for a spring-damper M e'' + b e' + k e = 0 with\n"
+      "omega = sqrt(k/M) [rad/s], step h [s] and damping ratio zeta; inf without limit, 0 if no\n"
+      "step is stable.");
   m.def(
       "largest_stable_step",
       [](const py::object& M, const py::object& K, const py::object& B, const std::string& scheme) {
@@ -117,21 +117,21 @@ void add_couplings(py::module_& m) {
                                square("B", B, inertia.rows()), scheme_of(scheme));
       },
       py::arg("M"), py::arg("K"), py::arg("B"), py::arg("scheme"),
-      "Of M e'' + B e' + K e = 0 with symmetric (n, n) matrices [kg m^2, N m/rad, N m s/rad; of\n"
-      "lengths kg, N/m, N s/m]: the largest step [s] of which every smaller one is stable as "
-      "well.");
+      "Largest step [s] below which all steps are stable, for M e'' + B e' + K e = 0 with "
+      "symmetric\n"
+      "(n, n) matrices [kg m^2, N m/rad, N m s/rad; of lengths kg, N/m, N s/m].");
   m.def(
       "predict_couplings", predict, py::arg("scene"), py::kw_only(), py::arg("state") = py::none(),
       py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("turn") = std::numbers::pi,
       py::arg("time") = 1.0, py::arg("set") = py::none(),
-      "What theory says of a scene's couplings before it is run: what `twinarm coupling predict\n"
-      "--json` prints, as a dict (docs/reference/output_formats.md): K, B, mass_matrix, modes, limits of each\n"
-      "scheme, sag, and under 'scene' the largest_step [s] of the scene as it is stepped.\n\n"
-      "  state       a state file in JSON\n"
-      "  step        [s]; as the scene says if left out\n"
-      "  integrator  one of integrators(); as the scene says if left out\n"
-      "  turn, time  a target's move whose following error is told [rad], [s]\n"
-      "  set         {path: value}, what is changed in the scene first, as simulate() has it");
+      "Predicts stability limits, modes and tracking errors of a scene's couplings: the output of\n"
+      "`twinarm coupling predict --json` as a dict (docs/reference/output_formats.md): K, B,\n"
+      "mass_matrix, modes, limits of each scheme, sag, and in 'scene' the largest_step [s].\n\n"
+      "  state       a state file (JSON)\n"
+      "  step        [s]; default: the scene's\n"
+      "  integrator  one of integrators(); default: the scene's\n"
+      "  turn, time  move of the target for the tracking error [rad], [s]\n"
+      "  set         {path: value}, changes of the scene as in simulate()");
 }
 
 }  // namespace twinarm::python

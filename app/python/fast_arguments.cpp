@@ -9,7 +9,7 @@ namespace {
 
 using py::detail::npy_api;
 
-// The one object of numpy for doubles.
+// numpy's descriptor of float64.
 PyObject* doubles() {
   static PyObject* const type = npy_api::get().PyArray_DescrFromType_(npy_api::NPY_DOUBLE_);
   return type;
@@ -20,7 +20,7 @@ bool is_plain(PyObject* given, int flags) {
   return array->descr == doubles() && (array->flags & flags) == flags;
 }
 
-// All bits of the exponent are set in what is not finite.
+// Non-finite numbers have all exponent bits set.
 bool all_finite(const double* numbers, std::size_t count) {
   constexpr std::uint64_t kExponent = 0x7FF0000000000000;
   bool finite = true;
@@ -41,7 +41,8 @@ Robot& robot_of(const char* function, PyObject* given) {
                          Py_TYPE(given)->tp_name);
   auto* instance = reinterpret_cast<py::detail::instance*>(given);
   auto* robot = static_cast<Robot*>(instance->get_value_and_holder().value_ptr());
-  if (!robot) throw py::type_error(std::string(function) + "(): make the model by twinarm.load()");
+  if (!robot)
+    throw py::type_error(std::string(function) + "(): create the model with twinarm.load()");
   return *robot;
 }
 
@@ -88,7 +89,8 @@ Calls::Calls(const char* function, std::initializer_list<const Rows*> all) {
     if (!is_one && rows->count() != count)
       throw py::value_error(std::string(function) + "(): one argument has " +
                             std::to_string(count) + " rows, another " +
-                            std::to_string(rows->count()) + "; give as many of all, or one vector");
+                            std::to_string(rows->count()) +
+                            "; give the same number, or one vector");
     is_one = false;
     count = rows->count();
   }
@@ -106,7 +108,7 @@ Output::Output(const char* function, PyObject* given, const Calls& calls,
   }
   const npy_api& api = npy_api::get();
   if (!given) {
-    Py_INCREF(doubles());  // which the next call takes
+    Py_INCREF(doubles());  // stolen by the next call
     kept_ = py::reinterpret_steal<py::object>(api.PyArray_NewFromDescr_(
         api.PyArray_Type_, doubles(), n, dimensions.data(), nullptr, nullptr, 0, nullptr));
     if (!kept_) throw py::error_already_set();
@@ -122,7 +124,7 @@ Output::Output(const char* function, PyObject* given, const Calls& calls,
         wanted += (i > 0 ? ", " : "") + std::to_string(dimensions[static_cast<std::size_t>(i)]);
       throw py::value_error(std::string(function) + "(): out must be a writeable array of shape (" +
                             wanted + (n == 1 ? ",)" : ")") +
-                            ", float64, its rows one after the other; numpy.empty makes one");
+                            ", float64, C-contiguous, as from numpy.empty");
     }
     kept_ = py::reinterpret_borrow<py::object>(given);
   }

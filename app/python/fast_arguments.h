@@ -1,5 +1,5 @@
-// Arguments of functions that are called a million times: taken apart by hand, because an
-// empty function of pybind11 with a model and three arrays takes as long as aba() of six joints.
+// Fast parsing of arguments: an empty pybind11 function with a model and three arrays takes as long
+// as aba() of six joints.
 #pragma once
 
 #include <array>
@@ -10,12 +10,12 @@
 
 namespace twinarm::python {
 
-// Positional and named arguments by their places; null where one is left out.
+// Positional and keyword arguments by index; null if not given.
 template <std::size_t n>
 struct Arguments {
   std::array<PyObject*, n> at{};
 
-  // `names` as in the stub; the first `required` of them must be given.
+  // `names` as in the stub; the first `required` are mandatory.
   Arguments(const char* function, const std::array<const char*, n>& names, std::size_t required,
             PyObject* const* given, Py_ssize_t positional, PyObject* keywords) {
     if (static_cast<std::size_t>(positional) > n)
@@ -29,7 +29,7 @@ struct Arguments {
       while (i < n && PyUnicode_CompareWithASCIIString(name, names[i]) != 0) ++i;
       if (i == n || at[i])
         throw py::type_error(std::string(function) + "(): '" + std::string(py::str(name)) +
-                             (i == n ? "' is no argument of it" : "' is given twice"));
+                             (i == n ? "' is not an argument" : "' is given twice"));
       at[i] = given[positional + k];
     }
     for (std::size_t i = 0; i < required; ++i)
@@ -42,7 +42,7 @@ struct Arguments {
 // The robot in the first argument.
 Robot& robot_of(const char* function, PyObject* given);
 
-// One vector of `size` numbers, or a row of them for each call.
+// A vector of `size` numbers, or one row per call.
 class Rows {
  public:
   Rows(const char* function, const char* name, PyObject* given, std::size_t size,
@@ -54,7 +54,6 @@ class Rows {
 
  private:
   void check_shape(int dimensions, const py::ssize_t* shape, const Robot& robot);
-  std::string what(std::size_t row) const;
 
   const char *function_, *name_;
   py::object kept_;
@@ -63,15 +62,14 @@ class Rows {
   bool is_one_ = true;
 };
 
-// How many calls; ValueError where arguments do not agree. A single vector goes with all rows.
+// Number of calls; ValueError if rows do not agree. A single vector applies to all rows.
 struct Calls {
   std::size_t count = 1;
   bool is_one = true;
   Calls(const char* function, std::initializer_list<const Rows*> all);
 };
 
-// A new array, or `given` where it has that very shape. `rows` comes before `shape` unless the call
-// is one.
+// A new array, or `given` if it has this shape: (rows, shape), or `shape` for a single call.
 class Output {
  public:
   Output(const char* function, PyObject* given, const Calls& calls,
@@ -85,7 +83,7 @@ class Output {
   std::size_t size_ = 1;
 };
 
-// Runs f; what it throws becomes Python's exception, and the answer null.
+// Runs f; C++ exceptions become Python exceptions, with result null.
 template <class F>
 PyObject* guarded(F&& f) {
   try {

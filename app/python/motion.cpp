@@ -1,4 +1,4 @@
-// Where bodies are and how they move, in world axes; forward dynamics with all that joints do.
+// Kinematics in world axes; forward dynamics with friction and mimic joints.
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
 #include "solver/dynamics/dynamics.h"
@@ -9,8 +9,8 @@
 namespace twinarm::python {
 namespace {
 
-// The robot in that state, its kinematics in robot.w.
-void stand(Robot& robot, const py::object& q, const py::object& qd, const char* function) {
+// Sets the state; the kinematics are in robot.w.
+void set_state(Robot& robot, const py::object& q, const py::object& qd, const char* function) {
   const std::string name = std::string(function) + "(): ";
   robot.q_python = vector_of(q, robot.nq(), name + "q", robot.size_of_q());
   robot.check_quaternions(robot.q_python, function);
@@ -24,7 +24,7 @@ void stand(Robot& robot, const py::object& q, const py::object& qd, const char* 
 
 // Of each body, R_WL = R_WB R_BL.
 Array poses(Robot& robot, const py::object& q) {
-  stand(robot, q, py::none(), "poses");
+  set_state(robot, q, py::none(), "poses");
   const auto n = static_cast<py::ssize_t>(robot.model.parent.size());
   Array all = zeros({n, 4, 4});
   for (py::ssize_t i = 0; i < n; ++i) {
@@ -45,7 +45,7 @@ Array poses(Robot& robot, const py::object& q) {
 }
 
 Array velocities(Robot& robot, const py::object& q, const py::object& qd) {
-  stand(robot, q, qd, "velocities");
+  set_state(robot, q, qd, "velocities");
   const auto n = static_cast<py::ssize_t>(robot.model.parent.size());
   Array all = zeros({n, 6});
   for (py::ssize_t i = 1; i < n; ++i) {
@@ -57,7 +57,7 @@ Array velocities(Robot& robot, const py::object& q, const py::object& qd) {
 
 Array body_jacobian(Robot& robot, const py::object& q, const std::string& body,
                     const py::object& point) {
-  stand(robot, q, py::none(), "jacobian");
+  set_state(robot, q, py::none(), "jacobian");
   const std::size_t i = robot.body(body);
   Vec3<double> p_B;
   if (!point.is_none()) {
@@ -77,13 +77,13 @@ Array body_jacobian(Robot& robot, const py::object& q, const std::string& body,
 }
 
 py::tuple energy(Robot& robot, const py::object& q, const py::object& qd) {
-  stand(robot, q, qd, "energy");
+  set_state(robot, q, qd, "energy");
   return py::make_tuple(kinetic_energy(robot.model, robot.x, robot.w),
                         potential_energy(robot.model, robot.w));
 }
 
 Array momentum_of(Robot& robot, const py::object& q, const py::object& qd) {
-  stand(robot, q, qd, "momentum");
+  set_state(robot, q, qd, "momentum");
   const Force<double> sum = momentum(robot.model, robot.w);
   Array six = zeros({6});
   store(sum.n, six.mutable_data(0));
@@ -92,14 +92,14 @@ Array momentum_of(Robot& robot, const py::object& q, const py::object& qd) {
 }
 
 py::tuple mass_and_com(Robot& robot, const py::object& q) {
-  stand(robot, q, py::none(), "mass_and_com");
+  set_state(robot, q, py::none(), "mass_and_com");
   const MassAndCom<double> all = mass_and_com(robot.model, robot.w);
   return py::make_tuple(all.mass, array_of({all.com.x, all.com.y, all.com.z}));
 }
 
 Array all_forward_dynamics(Robot& robot, const py::object& q, const py::object& qd,
                            const py::object& tau) {
-  stand(robot, q, qd, "forward_dynamics");
+  set_state(robot, q, qd, "forward_dynamics");
   Forces<double> forces(robot.model);
   forces.tau = vector_of(tau, robot.model.nv, "forward_dynamics(): tau", robot.size_of_qd());
   apply_mimics(robot.model, robot.x);
@@ -133,11 +133,10 @@ void add_motion(py::module_& m) {
         "[N m s, N s]; of bodies, rotors have none. q (nq,) [rad, m], qd (nv,) [rad/s, m/s].");
   m.def("mass_and_com", mass_and_com, model, q,
         "(mass, p): [kg], and where its centre is (3,), world axes [m]. q (nq,) [rad, m].");
-  m.def(
-      "forward_dynamics", all_forward_dynamics, model, q, py::arg("qd"), py::arg("tau"),
-      "qdd (nv,) [rad/s^2, m/s^2] as `twinarm dynamics` finds it: aba() with the joints' damping,\n"
-      "Coulomb friction and mimics, whose followers are placed first. q (nq,) [rad, m], qd (nv,)\n"
-      "[rad/s, m/s], tau (nv,) [N m, N].");
+  m.def("forward_dynamics", all_forward_dynamics, model, q, py::arg("qd"), py::arg("tau"),
+        "qdd (nv,) [rad/s^2, m/s^2] as of `twinarm dynamics`: aba() with joint damping, Coulomb\n"
+        "friction and mimic joints, whose positions are set first. q (nq,) [rad, m], qd (nv,)\n"
+        "[rad/s, m/s], tau (nv,) [N m, N].");
 }
 
 }  // namespace twinarm::python

@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kCallsBetweenSignals = 4096;
 
 // Ctrl-C ends a long call.
-void look_for_signals(std::size_t call) {
+void check_signals_at(std::size_t call) {
   if (call % kCallsBetweenSignals == kCallsBetweenSignals - 1 && PyErr_CheckSignals() != 0)
     throw py::error_already_set();
 }
@@ -21,7 +21,7 @@ void take_q(const char* function, const Rows& q, std::size_t call, Robot& robot)
   set_q_with_prescribed(robot.model, robot.q_python, robot.x);
 }
 
-// Wrenches in link axes into the passes' body axes; zero where none are given.
+// Wrenches from link axes to body axes; zero if none are given.
 void take_wrenches(const char* function, PyObject* given, const Robot& robot,
                    std::vector<Force<double>>& f_ext) {
   std::ranges::fill(f_ext, Force<double>{});
@@ -32,7 +32,7 @@ void take_wrenches(const char* function, PyObject* given, const Robot& robot,
       numbers.shape(1) != 6)
     throw py::value_error(what + " has shape " + shape_text(numbers) + ", must have (" +
                           std::to_string(f_ext.size()) +
-                          ", 6): a couple and a force on each body, the base first");
+                          ", 6): torque and force on each body, the base first");
   check_finite(numbers.data(), static_cast<std::size_t>(numbers.size()), what);
   for (std::size_t i = 1; i < f_ext.size(); ++i) {
     const double* of = numbers.data() + 6 * i;
@@ -59,7 +59,7 @@ PyObject* call_aba(PyObject*, PyObject* const* given, Py_ssize_t count, PyObject
       aba(robot.model, robot.x, robot.forces, robot.of_aba);
       std::copy_n(robot.of_aba.qdd.data(), nv, out.row(i));
       robot.has_run_aba = true;
-      look_for_signals(i);
+      check_signals_at(i);
     }
     return out.release();
   });
@@ -82,7 +82,7 @@ PyObject* call_rnea(PyObject*, PyObject* const* given, Py_ssize_t count, PyObjec
       qdd.copy(i, robot.qdd);
       rnea(robot.model, robot.x, robot.qdd, robot.f_ext, robot.w);
       std::copy_n(robot.w.tau.data(), nv, out.row(i));
-      look_for_signals(i);
+      check_signals_at(i);
     }
     return out.release();
   });
@@ -102,7 +102,7 @@ PyObject* call_by_q(const char* function, PyObject* const* given, Py_ssize_t cou
     for (std::size_t i = 0; i < calls.count; ++i) {
       take_q(function, q, i, robot);
       f(robot, out.row(i));
-      look_for_signals(i);
+      check_signals_at(i);
     }
     return out.release();
   });
@@ -117,7 +117,7 @@ PyObject* call_minv(PyObject*, PyObject* const* given, Py_ssize_t count, PyObjec
     const std::size_t nv = robot.model.nv;
     std::ranges::fill(robot.x.qd, 0.0);
     const Forces<double> none(robot.model);
-    aba(robot.model, robot.x, none, robot.w);  // minv_times() takes the inertias that it leaves
+    aba(robot.model, robot.x, none, robot.w);  // leaves the inertias that minv_times() uses
     std::vector<double>& unit = robot.qdd;
     for (std::size_t k = 0; k < nv; ++k) {
       std::ranges::fill(unit, 0.0);
@@ -141,13 +141,11 @@ PyMethodDef methods[] = {
      "  q      (nq,)  joint coordinates [rad, m]; or (N, nq): N states in one call\n"
      "  qd     (nv,) or (N, nv)  joint velocities [rad/s, m/s]\n"
      "  tau    (nv,) or (N, nv)  joint forces [N m, N]\n"
-     "  f_ext  (bodies, 6)  couple and force [N m, N] on each body from outside, the base first, "
-     "in\n"
-     "         link axes about the link's origin; of every state alike\n"
-     "  out    (nv,) or (N, nv)  where the answer goes; a new array if left out\n\n"
-     "Returns qdd (nv,) or (N, nv) [rad/s^2, m/s^2]. Without the joints' damping, friction and\n"
-     "mimics: those are in forward_dynamics(). What it leaves of the last state is in\n"
-     "model.workspace()."},
+     "  f_ext  (bodies, 6)  external torque and force [N m, N] on each body, the base first, in\n"
+     "         link axes about the link's origin; the same for all states\n"
+     "  out    (nv,) or (N, nv)  array for the result; default: a new one\n\n"
+     "Returns qdd (nv,) or (N, nv) [rad/s^2, m/s^2], without joint damping, friction and mimic\n"
+     "joints (see forward_dynamics()). Quantities of the last state: model.workspace()."},
     {"rnea", as_method(call_rnea), kFast,
      "rnea(model, q, qd, qdd, f_ext=None, out=None)\n--\n\n"
      "Inverse dynamics by the recursive Newton-Euler algorithm, RBDA table 5.1, in O(n).\n\n"
@@ -155,19 +153,19 @@ PyMethodDef methods[] = {
      "  qd     (nv,) or (N, nv)  joint velocities [rad/s, m/s]\n"
      "  qdd    (nv,) or (N, nv)  joint accelerations [rad/s^2, m/s^2]\n"
      "  f_ext  (bodies, 6)  as of aba() [N m, N]\n"
-     "  out    (nv,) or (N, nv)  where the answer goes; a new array if left out\n\n"
+     "  out    (nv,) or (N, nv)  array for the result; default: a new one\n\n"
      "Returns tau (nv,) or (N, nv) [N m, N], gravity and rotors included, friction not."},
     {"crba", as_method(call_crba), kFast,
      "crba(model, q, out=None)\n--\n\n"
      "The mass matrix by the composite-rigid-body algorithm, RBDA table 6.2.\n\n"
      "  q    (nq,) or (N, nq)  joint coordinates [rad, m]\n"
-     "  out  (nv, nv) or (N, nv, nv)  where the answer goes; a new array if left out\n\n"
+     "  out  (nv, nv) or (N, nv, nv)  array for the result; default: a new one\n\n"
      "Returns M (nv, nv) or (N, nv, nv) [kg m^2, kg m, kg], rotors on the diagonal included."},
     {"minv", as_method(call_minv), kFast,
      "minv(model, q, out=None)\n--\n\n"
      "The inverse of the mass matrix, column by column from the articulated inertias, O(n^2).\n\n"
      "  q    (nq,) or (N, nq)  joint coordinates [rad, m]\n"
-     "  out  (nv, nv) or (N, nv, nv)  where the answer goes; a new array if left out\n\n"
+     "  out  (nv, nv) or (N, nv, nv)  array for the result; default: a new one\n\n"
      "Returns M^-1 (nv, nv) or (N, nv, nv) [1/(kg m^2), 1/(kg m), 1/kg]."},
     {nullptr, nullptr, 0, nullptr}};
 

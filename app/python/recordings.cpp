@@ -1,4 +1,4 @@
-// A recording opened as arrays.
+// A recording as arrays.
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace twinarm::python {
 namespace {
 
-// Frames in rows; a column that came late (a contact that began) is zero before.
+// One row per frame; rows of the balance are zero before they appear.
 struct Opened {
   Recording recording;
   std::vector<double> t;
@@ -41,7 +41,7 @@ struct Opened {
   std::size_t columns() const { return recording.header().columns.size(); }
 };
 
-// Some of the columns of a table.
+// One column of a table.
 Array column(const std::vector<double>& table, std::size_t frames, std::size_t columns,
              std::size_t first) {
   Array one = zeros({static_cast<py::ssize_t>(frames)});
@@ -66,7 +66,7 @@ Array channel(const Opened& opened, const std::string& name) {
                 static_cast<std::size_t>(found - names.begin()));
 }
 
-// Columns whose names begin alike stand side by side.
+// The columns whose names begin with `with`; they are adjacent.
 Array beginning(const Opened& opened, const std::string& with) {
   const std::vector<std::string> names = channel_names(opened);
   const auto fits = [&](const std::string& name) { return name.starts_with(with); };
@@ -109,8 +109,8 @@ py::dict pulls(const Opened& opened) {
 }  // namespace
 
 void add_recordings(py::module_& m) {
-  py::class_<Opened> recording(m, "Recording",
-                               "A recording as arrays: N frames in rows (docs/use/record_and_resume.md).");
+  py::class_<Opened> recording(
+      m, "Recording", "A recording as arrays: N frames in rows (docs/use/record_and_resume.md).");
   recording.def_property_readonly(
       "t", [](const Opened& o) { return array_of(o.t); }, "(N,) times of the frames [s]");
   recording.def_property_readonly(
@@ -118,44 +118,43 @@ void add_recordings(py::module_& m) {
       [](const Opened& o) {
         return py::array_t<long>(static_cast<py::ssize_t>(o.step.size()), o.step.data());
       },
-      "(N,) numbers of the steps, of integers");
+      "(N,) numbers of the steps (integers)");
   recording.def_property_readonly(
       "q", [](const Opened& o) { return beginning(o, "q/"); },
-      "(N, columns 'q/..') coordinates by their names [rad, m]; followers have none");
+      "(N, columns 'q/..') coordinates [rad, m], without mimic joints");
   recording.def_property_readonly(
       "qd", [](const Opened& o) { return beginning(o, "qd/"); },
-      "(N, columns 'qd/..') velocities by their names [rad/s, m/s]");
+      "(N, columns 'qd/..') velocities [rad/s, m/s]");
   recording.def("keys", channel_names, "names of the channels, in their order");
   recording.def("__getitem__", channel, py::arg("name"),
                 "(N,): one channel, such as rec['q/j1'] or rec['kinetic_energy']; its unit is in\n"
                 "units. Raises KeyError for another name.");
   recording.def_property_readonly("units", units, "{channel: unit}");
   recording.def_property_readonly("ledger", ledger,
-                                  "{row: (N,) work since the start [J]}; 0 before a row came");
+                                  "{row: (N,) work since the start [J]}; 0 before a row appears");
   recording.def_property_readonly(
-      "pulls", pulls, "{coupling: (N, 3)}: its pull on the link, world axes [N or N m]");
+      "pulls", pulls, "{coupling: (N, 3)}: coupling force on the link, world axes [N or N m]");
   const auto header = [&](const char* name, auto member, const char* doc) {
     recording.def_property_readonly(
         name, [member](const Opened& o) { return o.recording.header().*member; }, doc);
   };
   header("integrator", &RecordingHeader::integrator, "its name");
   header("h", &RecordingHeader::step, "the step [s]");
-  header("command", &RecordingHeader::command, "the command that made it, word by word");
+  header("command", &RecordingHeader::command, "the command that made it, as a list of words");
   recording.def_property_readonly(
       "alarms", [](const Opened& o) { return o.recording.alarms(); },
-      "what the watch over the ledger said");
+      "alarms of the energy balance");
   recording.def_property_readonly(
-      "notes", [](const Opened& o) { return o.recording.notes(); },
-      "what was found missing or damaged");
+      "notes", [](const Opened& o) { return o.recording.notes(); }, "missing or damaged parts");
   recording.def_property_readonly(
-      "end", [](const Opened& o) { return o.recording.end(); },
-      "how the run ended; '' where that is not known");
+      "end", [](const Opened& o) { return o.recording.end(); }, "how the run ended; '' if unknown");
   m.def(
       "open_recording",
       [](const py::object& file) { return std::make_unique<Opened>(path_of(file)); },
       py::arg("file"),
-      "Opens what `twinarm simulate --record FILE` wrote, as much of it as is whole. Raises\n"
-      "InputError for what is no recording.");
+      "Opens a recording of `twinarm simulate --record FILE`, or its valid part. Raises "
+      "InputError\n"
+      "for other files.");
 }
 
 }  // namespace twinarm::python

@@ -1,11 +1,10 @@
-// load(), and what a Model says of itself.
+// load() and the class Model.
 
 #include "app/python/robots.h"
 
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -25,11 +24,11 @@ std::shared_ptr<Robot> load(const py::object& file, bool floating, bool friction
   options.robot.floating = floating;
   options.robot.friction = friction;
   options.robot.armature = armature;
-  options.duration = 1;  // of a run that is not made
+  options.duration = 1;  // not used
   return std::make_shared<Robot>(prepare_simulation(options).input.robot);
 }
 
-// By coordinate; of joints without limits -inf and inf.
+// By coordinate; `none` for joints without limits.
 Array limits(const Robot& robot, double JointDescription::*limit, double none) {
   std::vector<double> all(robot.nq(), none);
   for (const JointDescription& joint : robot.input.robot.joints) {
@@ -39,8 +38,8 @@ Array limits(const Robot& robot, double JointDescription::*limit, double none) {
   }
   return frozen(all);
 }
-// By velocity, of joints of one degree of freedom; inf where the file says none.
-Array largest(const Robot& robot, double JointDescription::*limit) {
+// By velocity, for joints with one degree of freedom; inf if the file has none.
+Array max_of(const Robot& robot, double JointDescription::*limit) {
   std::vector<double> all(robot.model.nv, std::numeric_limits<double>::infinity());
   for (const JointDescription& joint : robot.input.robot.joints) {
     const int body = robot.model.find_joint(joint.name);
@@ -88,52 +87,52 @@ void add_names_and_places(ModelClass& model) {
       "name", [](const Robot& r) { return r.input.robot.name; }, "of the robot in its file");
   model.def_property_readonly(
       "bodies", [](const Robot& r) { return r.model.body_name; },
-      "names of the links by body, the base first");
+      "names of the links, the base first");
   model.def_property_readonly(
       "joints", [](const Robot& r) { return r.model.joint_name; },
-      "names of the joints by body; of the base ''");
+      "names of the joints, by body; '' for the base");
   model.def_property_readonly("joint_types", joint_types,
-                              "by body: 'fixed', 'revolute', 'prismatic', ...; of the base ''");
+                              "by body: 'fixed', 'revolute', 'prismatic', ...; '' for the base");
   model.def_property_readonly(
       "parent", [](const Robot& r) { return r.model.parent; },
-      "by body: the number of its parent; of the base -1");
+      "by body: index of its parent; -1 for the base");
   model.def_property_readonly(
-      "nq", [](const Robot& r) { return r.nq(); }, "how many coordinates q has");
+      "nq", [](const Robot& r) { return r.nq(); }, "number of coordinates q");
   model.def_property_readonly(
-      "nv", [](const Robot& r) { return r.model.nv; }, "how many velocities qd has");
+      "nv", [](const Robot& r) { return r.model.nv; }, "number of velocities qd");
   model.def_property_readonly(
       "q_of", [](const Robot& r) { return places(r, true); },
-      "{joint: slice}: where in q its coordinates stand; of joints that have any");
+      "{joint: slice}: its coordinates in q");
   model.def_property_readonly(
       "qd_of", [](const Robot& r) { return places(r, false); },
-      "{joint: slice}: where in qd its velocities stand; of joints that move");
+      "{joint: slice}: its velocities in qd");
 }
 
 void add_numbers(ModelClass& model) {
   model.def_property_readonly(
       "q", [](const Robot& r) { return frozen(q_with_prescribed(r.model, r.input.state.x)); },
-      "(nq,) where the file starts: joints at zero, or as the scene says [rad, m]");
+      "(nq,) start position: zero, or the scene's [rad, m]");
   model.def_property_readonly(
       "qd", [](const Robot& r) { return frozen(r.input.state.x.qd); },
-      "(nv,) its velocity there [rad/s, m/s]");
+      "(nv,) start velocity [rad/s, m/s]");
   model.def_property_readonly(
       "lower",
       [](const Robot& r) {
         return limits(r, &JointDescription::lower, -std::numeric_limits<double>::infinity());
       },
-      "(nq,) lower limits of q [rad, m]; -inf where there is none");
+      "(nq,) lower limits of q [rad, m]; -inf if none");
   model.def_property_readonly(
       "upper",
       [](const Robot& r) {
         return limits(r, &JointDescription::upper, std::numeric_limits<double>::infinity());
       },
-      "(nq,) upper limits of q [rad, m]; inf where there is none");
+      "(nq,) upper limits of q [rad, m]; inf if none");
   model.def_property_readonly(
-      "largest_speed", [](const Robot& r) { return largest(r, &JointDescription::velocity); },
-      "(nv,) as the file says [rad/s, m/s]; inf where it says none; nothing holds it");
+      "largest_speed", [](const Robot& r) { return max_of(r, &JointDescription::velocity); },
+      "(nv,) velocity limits of the file [rad/s, m/s]; inf if none; not enforced");
   model.def_property_readonly(
-      "largest_effort", [](const Robot& r) { return largest(r, &JointDescription::effort); },
-      "(nv,) as the file says [N m, N]; inf where it says none; nothing holds it");
+      "largest_effort", [](const Robot& r) { return max_of(r, &JointDescription::effort); },
+      "(nv,) effort limits of the file [N m, N]; inf if none; not enforced");
   model.def_property(
       "gravity",
       [](const Robot& r) {
@@ -142,8 +141,7 @@ void add_numbers(ModelClass& model) {
       },
       set_gravity, "(3,) in world axes [m/s^2]; can be set");
   model.def_property_readonly(
-      "warnings", [](const Robot& r) { return r.input.warnings; },
-      "what was read but is suspicious, or has no effect");
+      "warnings", [](const Robot& r) { return r.input.warnings; }, "warnings of the file");
   model.def("__repr__", [](const Robot& r) {
     return "<twinarm.Model '" + r.input.robot.name +
            "': " + std::to_string(r.model.parent.size() - 1) + " bodies, " + r.size_of_q() + ", " +
@@ -155,19 +153,19 @@ void add_numbers(ModelClass& model) {
 
 void add_robots(py::module_& m) {
   ModelClass model(m, "Model", py::is_final(),
-                   "A mechanism: bodies, joints, inertias. Made by load(). Body 0 is the "
-                   "base;\nbody i is carried by joint i, and its parent has a lower number.");
+                   "A mechanism: bodies, joints, inertias. Made by load(). Body 0 is the base;\n"
+                   "body i is the child of joint i, and its parent has a lower index.");
   add_names_and_places(model);
   add_numbers(model);
 
   m.def("load", load, py::arg("file"), py::kw_only(), py::arg("floating") = false,
         py::arg("friction") = true, py::arg("armature") = true,
-        "Reads a robot's URDF; or of a scene in TOML the bodies, without contacts, couplings and\n"
-        "constraints: those act in simulate().\n\n"
-        "  floating  the root link is free, and not fixed to the world (of a URDF)\n"
-        "  friction  False: as if no joint had damping or friction\n"
-        "  armature  False: as if no joint had a rotor's inertia\n\n"
-        "Raises InputError, which tells all faults with their lines.");
+        "Reads a robot (URDF), or the bodies of a scene (TOML) without contacts, couplings and\n"
+        "constraints (see simulate()).\n\n"
+        "  floating  floating base (URDF)\n"
+        "  friction  False: ignore joint damping and friction\n"
+        "  armature  False: ignore rotor inertia\n\n"
+        "Raises InputError with all errors and their lines.");
 }
 
 Robot::Robot(RobotInput read)
@@ -193,8 +191,8 @@ void Robot::check_quaternions(const std::vector<double>& q, const char* function
     if (std::abs(std::sqrt(square) - 1) <= kUnitTolerance) continue;
     const std::string place = "q[" + std::to_string(at) + ":" + std::to_string(at + 4) + "]";
     throw pybind11::value_error(std::string(function) + "(): " + place +
-                                " is a unit quaternion (w, x, y, z), and has length " +
-                                short_number_text(std::sqrt(square)) + "; divide it by that");
+                                " must be a unit quaternion (w, x, y, z), has length " +
+                                short_number_text(std::sqrt(square)) + "; normalise it");
   }
 }
 

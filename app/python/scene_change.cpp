@@ -1,4 +1,4 @@
-#include "app/python/scene_change.h"
+#include "app/python/robots.h"
 
 #include <utility>
 #include <vector>
@@ -14,7 +14,7 @@ std::string name_of(const std::string& path) {
   return "set['" + path + "']";
 }
 
-// As `twinarm replay --set PATH=VALUE` is given it.
+// VALUE as for `twinarm replay --set PATH=VALUE`.
 std::string setting_text(const std::string& path, const py::handle& value) {
   if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
   if (py::isinstance<py::bool_>(value)) return py::cast<bool>(value) ? "true" : "false";
@@ -34,8 +34,8 @@ std::string setting_text(const std::string& path, const py::handle& value) {
 void change_scene(const py::object& set, SimulateOptions& options) {
   if (set.is_none()) return;
   if (options.robot.model.extension() != ".toml")
-    throw py::value_error("set= changes a scene, and '" + options.robot.model.string() +
-                          "' is none; write a scene with the robot in it");
+    throw py::value_error("set= changes a scene; '" + options.robot.model.string() +
+                          "' is not a scene: write one that contains the robot");
   std::vector<Change> changes;
   for (const auto& [path, value] : py::cast<py::dict>(set)) {
     const std::string name = py::cast<std::string>(path);
@@ -43,7 +43,7 @@ void change_scene(const py::object& set, SimulateOptions& options) {
   }
   options.change_scene = [changes](Value& scene, DiagnosticList& faults) {
     for (const Change& change : changes) {
-      DiagnosticList of_change;  // by the option of the command line
+      DiagnosticList of_change;  // names the command line option
       apply(change, 0, scene, of_change);
       for (Diagnostic fault : of_change.faults()) {
         fault.where = name_of(change.path);

@@ -1,4 +1,4 @@
-// A scene, or a robot, run as `twinarm simulate` runs it.
+// simulate(): runs a scene or a robot as `twinarm simulate` does.
 #include <pybind11/stl.h>
 
 #include <map>
@@ -7,14 +7,13 @@
 
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
-#include "app/python/scene_change.h"
 #include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm::python {
 namespace {
 
-// One run: samples in rows.
+// One run; one row per sample.
 struct Run {
   std::shared_ptr<Robot> robot;
   std::vector<double> t, q, qd, kinetic, potential;
@@ -32,7 +31,7 @@ void check_signals(double) {
   if (PyErr_Occurred() || PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 bool is_signalled() {
-  return PyErr_CheckSignals() != 0;  // the exception stays set: the tick that follows throws it
+  return PyErr_CheckSignals() != 0;  // the next tick throws the exception
 }
 
 Run simulate(const py::object& file, const std::optional<double>& duration,
@@ -43,7 +42,7 @@ Run simulate(const py::object& file, const std::optional<double>& duration,
   SimulateOptions options;
   options.robot.model = path_of(file);
   if (!duration && options.robot.model.extension() != ".toml")
-    throw py::value_error("simulate(): of a robot the duration is missing; give duration=SECONDS");
+    throw py::value_error("simulate(): a robot needs duration=SECONDS");
   if (!state.is_none()) options.robot.state = path_of(state);
   options.robot.friction = friction;
   options.robot.armature = armature;
@@ -129,36 +128,36 @@ void add_samples(py::class_<Run>& run) {
           all[py::str(name)] = by_rows(q, r.t.size(), r.robot->nq());
         return all;
       },
-      "{coupling: (N, nq)}: coordinates of its kinematic robot, laid out as q [rad, m]; joints of\n"
-      "other robots stand in it as they started");
+      "{coupling: (N, nq)}: coordinates of its target robot, as q [rad, m]; joints of other "
+      "robots\n"
+      "are at their start");
   array("kinetic_energy", &Run::kinetic, "(N,) [J]");
   array("potential_energy", &Run::potential, "(N,) in the field of gravity [J]");
 }
 
-void add_books(py::class_<Run>& run) {
+void add_balances(py::class_<Run>& run) {
   run.def_property_readonly(
       "model", [](const Run& r) { return r.robot; }, "all bodies of the scene, as one Model");
   run.def_property_readonly(
-      "steps", [](const Run& r) { return r.result.steps; }, "how many were taken");
+      "steps", [](const Run& r) { return r.result.steps; }, "number of steps");
   run.def_property_readonly(
       "end", [](const Run& r) { return r.result.end; },
-      "when it ended; of a run that stopped by itself the last good time [s]");
-  run.def_property_readonly(
-      "stopped", stopped,
-      "None, or why it stopped by itself: time [s], step, reason, body, joint, field");
+      "end of the run; if it diverged the last valid time [s]");
+  run.def_property_readonly("stopped", stopped,
+                            "None, or why it diverged: time [s], step, reason, body, joint, field");
   run.def_property_readonly(
       "ledger", [](const Run& r) { return ledger_of(r.result.ledger); },
-      "{row: work [J]}: where the energy came from; 'numerical' is the integrator's");
+      "{row: work [J]}: energy balance; 'numerical' is the residual of the integrator");
   run.def_property_readonly(
       "momentum", [](const Run& r) { return momentum_ledger_of(r.result.momentum); },
-      "{row: (6,)}: where angular momentum (about the world's origin) and linear momentum came\n"
-      "from, world axes [N m s, N s]");
+      "{row: (6,)}: balance of angular momentum (about the world's origin) and linear momentum,\n"
+      "world axes [N m s, N s]");
   run.def_property_readonly(
       "hand", [](const Run& r) { return ledger_of(r.result.hand); },
-      "{coupling: work of its kinematic side [J]}");
+      "{coupling: work of its target [J]}");
   run.def_property_readonly(
       "contacts", [](const Run& r) { return r.result.contacts; },
-      "how many points pressed in the last step");
+      "number of active contact points in the last step");
   run.def_property_readonly(
       "warnings",
       [](const Run& r) {
@@ -166,33 +165,32 @@ void add_books(py::class_<Run>& run) {
         all.insert(all.end(), r.result.warnings.begin(), r.result.warnings.end());
         return all;
       },
-      "of the files, and of the run");
+      "warnings of the files and of the run");
 }
 
 }  // namespace
 
 void add_scenes(py::module_& m) {
-  py::class_<Run> run(m, "Run",
-                      "What simulate() gives: N samples in rows, and the books of the whole run.");
+  py::class_<Run> run(
+      m, "Run", "Result of simulate(): N samples in rows, energy and momentum balance of the run.");
   add_samples(run);
-  add_books(run);
+  add_balances(run);
 
-  m.def(
-      "simulate", simulate, py::arg("file"), py::kw_only(), py::arg("duration") = py::none(),
-      py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("every") = py::none(),
-      py::arg("state") = py::none(), py::arg("contact") = "", py::arg("tolerance") = py::none(),
-      py::arg("friction") = true, py::arg("armature") = true, py::arg("set") = py::none(),
-      "Runs a scene in TOML, or a robot's URDF, as `twinarm simulate` does, with the same bits:\n"
-      "contacts, couplings, constraints, limits. What is left out is as the scene says.\n\n"
-      "  duration, step  [s]\n"
-      "  integrator      one of integrators()\n"
-      "  every           a sample each so many seconds; the start and the end if left out\n"
-      "  state           a state file in JSON\n"
-      "  contact         'rigid', 'compliant' or 'event'\n"
-      "  tolerance       of dopri5, relative and absolute\n"
-      "  set             {path: value}: what is changed in the scene first, as by `twinarm replay\n"
-      "                  --set`: {'coupling.pull.stiffness': 800, 'gravity': [0, 0, -1.62]}\n\n"
-      "Returns a Run. A run that explodes ends there, and says so in Run.stopped.");
+  m.def("simulate", simulate, py::arg("file"), py::kw_only(), py::arg("duration") = py::none(),
+        py::arg("step") = py::none(), py::arg("integrator") = "", py::arg("every") = py::none(),
+        py::arg("state") = py::none(), py::arg("contact") = "", py::arg("tolerance") = py::none(),
+        py::arg("friction") = true, py::arg("armature") = true, py::arg("set") = py::none(),
+        "Runs a scene (TOML) or a robot (URDF) as `twinarm simulate` does, with bitwise the same\n"
+        "results: contacts, couplings, constraints, limits. Defaults are the scene's.\n\n"
+        "  duration, step  [s]\n"
+        "  integrator      one of integrators()\n"
+        "  every           output interval [s]; default: start and end\n"
+        "  state           a state file (JSON)\n"
+        "  contact         'rigid', 'compliant' or 'event'\n"
+        "  tolerance       of dopri5, relative and absolute\n"
+        "  set             {path: value}: changes of the scene, as by `twinarm replay\n"
+        "                  --set`: {'coupling.pull.stiffness': 800, 'gravity': [0, 0, -1.62]}\n\n"
+        "Returns a Run. If the run diverges it ends, with the reason in Run.stopped.");
 }
 
 }  // namespace twinarm::python

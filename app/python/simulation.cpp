@@ -1,4 +1,4 @@
-// A robot alone in motion, step by step.
+// Simulation: a robot step by step.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -13,7 +13,7 @@
 namespace twinarm::python {
 namespace {
 
-// What the user sets, constant until the next time.
+// Constant until set again.
 class JointForces : public ForceSource {
  public:
   explicit JointForces(std::size_t nv) : tau(nv) {}
@@ -54,10 +54,8 @@ State<double> state_of(const Robot& robot, const py::object& q, const py::object
 
 Integrator integrator_of(const std::string& name) {
   if (const auto found = find_integrator(name)) return *found;
-  std::vector<std::string> names;
-  for (const IntegratorFacts& facts : all_integrators) names.emplace_back(facts.name);
   throw py::value_error("there is no integrator '" + name + "'; " +
-                        name_remedy(name, names, "integrators"));
+                        name_remedy(name, names_of(all_integrators), "integrators"));
 }
 
 std::unique_ptr<RobotInMotion> start(Robot& robot, const py::object& q, const py::object& qd,
@@ -85,12 +83,12 @@ void one_step(RobotInMotion& moving) {
   const std::string where =
       "step " + std::to_string(moving.steps) + ", from t = " + short_number_text(t) + " s: ";
   if (report.finite)
-    throw std::runtime_error(where +
-                             "no substep however short meets the tolerance; give a larger one");
+    throw std::runtime_error(
+        where + "step-size underflow: no substep meets the tolerance; give a larger one");
   const std::string what =
       where + "'" + (report.nonfinite_field ? report.nonfinite_field : "q") + "' of body '" +
       moving.robot.model.body_name[static_cast<std::size_t>(report.nonfinite_body)] +
-      "' is the first that is not finite; take a shorter h or another integrator";
+      "' is not finite; use a shorter h or another integrator";
   PyErr_SetString(PyExc_FloatingPointError, what.c_str());
   throw py::error_already_set();
 }
@@ -105,7 +103,7 @@ void step(RobotInMotion& moving, long count) {
   }
 }
 
-// The states at the start and after every so many steps.
+// The states at the start and after every `every` steps.
 py::tuple run(RobotInMotion& moving, long count, long every) {
   if (every < 1) throw py::value_error("every must be 1 step or more");
   if (count < 0 || count % every != 0)
@@ -138,22 +136,22 @@ py::list integrators() {
 }
 
 void add_motion(py::class_<RobotInMotion>& simulation) {
-  simulation.def(
-      py::init(&start), py::arg("model"), py::arg("q") = py::none(), py::arg("qd") = py::none(),
-      py::kw_only(), py::arg("integrator") = "semi-implicit", py::arg("h") = 0.001,
-      py::arg("tolerance") = 1e-9, py::arg("friction") = true, py::keep_alive<1, 2>(),
-      "  q (nq,), qd (nv,)  the start [rad, m; rad/s, m/s]; the model's own if left out\n"
-      "  integrator         one of integrators()\n"
-      "  h                  the step [s]\n"
-      "  tolerance          of dopri5, relative and absolute\n"
-      "  friction           False: as if no joint had damping or friction");
+  simulation.def(py::init(&start), py::arg("model"), py::arg("q") = py::none(),
+                 py::arg("qd") = py::none(), py::kw_only(), py::arg("integrator") = "semi-implicit",
+                 py::arg("h") = 0.001, py::arg("tolerance") = 1e-9, py::arg("friction") = true,
+                 py::keep_alive<1, 2>(),
+                 "  q (nq,), qd (nv,)  the start [rad, m; rad/s, m/s]; default: the model's\n"
+                 "  integrator         one of integrators()\n"
+                 "  h                  the step [s]\n"
+                 "  tolerance          of dopri5, relative and absolute\n"
+                 "  friction           False: ignore joint damping and friction");
   simulation.def(
       "step", step, py::arg("count") = 1,
-      "Goes on by so many steps of h. Raises FloatingPointError with the first quantity\n"
-      "that is not finite; the state is then of no use, and set_state() begins anew.");
+      "Takes `count` steps of h. Raises FloatingPointError with the first quantity that is not\n"
+      "finite; the state is then invalid until set_state().");
   simulation.def(
       "run", run, py::arg("count"), py::arg("every") = 1,
-      "Goes on by count steps. Returns (t, q, qd) of the start and of every so many steps:\n"
+      "Takes `count` steps. Returns (t, q, qd) at the start and after every `every` steps:\n"
       "(N,) [s], (N, nq) [rad, m], (N, nv) [rad/s, m/s]. Raises as step().");
   simulation.def(
       "set_state",
@@ -161,8 +159,8 @@ void add_motion(py::class_<RobotInMotion>& simulation) {
         moving.simulation.set_state(state_of(moving.robot, q, qd, t, moving.simulation.state()));
       },
       py::arg("q") = py::none(), py::arg("qd") = py::none(), py::arg("t") = 0.0,
-      "Stands at q (nq,) [rad, m] with velocity qd (nv,) [rad/s, m/s] at time t [s]; what is left\n"
-      "out stays. Joints that follow others are placed by their leaders.");
+      "Sets q (nq,) [rad, m], qd (nv,) [rad/s, m/s] and the time t [s]; default of q and qd:\n"
+      "unchanged. Mimic joints are set from the joints that they mimic.");
 }
 
 void add_readings(py::class_<RobotInMotion>& simulation) {
@@ -188,10 +186,9 @@ void add_readings(py::class_<RobotInMotion>& simulation) {
       "integrator",
       [](const RobotInMotion& moving) { return integrator_name(moving.simulation.integrator()); },
       "its name");
-  simulation.def_readonly("steps", &RobotInMotion::steps, "how many were taken");
-  simulation.def_readonly(
-      "unsolved", &RobotInMotion::unsolved,
-      "in how many of them the equation of the step was not solved to rounding");
+  simulation.def_readonly("steps", &RobotInMotion::steps, "number of steps taken");
+  simulation.def_readonly("unsolved", &RobotInMotion::unsolved,
+                          "number of steps whose implicit equation did not converge to rounding");
   simulation.def(
       "energy",
       [](const RobotInMotion& moving) {
@@ -206,16 +203,15 @@ void add_readings(py::class_<RobotInMotion>& simulation) {
 
 void add_simulation(py::module_& m) {
   py::class_<RobotInMotion> simulation(m, "Simulation",
-                                       "A robot alone in motion under gravity, its joints' "
-                                       "friction, and joint forces that you set.\n"
-                                       "Nothing touches, and position limits do not act: for those "
-                                       "write a scene, and simulate() it.");
+                                       "A robot with gravity, joint friction, and joint forces.\n"
+                                       "Without contacts and position limits: for those simulate() "
+                                       "a scene.");
   add_motion(simulation);
   add_readings(simulation);
 
   m.def("integrators", integrators,
-        "A row for each: name; order, with which the error at a fixed time falls; solves, whether\n"
-        "an equation is solved in each step.");
+        "A row for each: name; order of accuracy; solves, whether an equation is solved in each\n"
+        "step.");
 }
 
 }  // namespace twinarm::python

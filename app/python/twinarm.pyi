@@ -1,4 +1,4 @@
-"""twinarm: a glass-box multibody laboratory. SI units and radians. docs/use/python.md."""
+"""twinarm: rigid-body dynamics solver with inspectable algorithms. SI units and radians. docs/use/python.md."""
 import os
 from typing import Any, Iterator, Mapping, Optional, Union
 

@@ -1,4 +1,4 @@
-// What the last aba() of a model left, by name, in link axes.
+// Quantities of the last aba() of a model, by name, in link axes.
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -14,31 +14,31 @@
 namespace twinarm::python {
 namespace {
 
-// A copy: later calls do not change it.
-struct Left {
+// A copy of one quantity.
+struct SavedQuantity {
   Quantity quantity;
   const char* frame;
   Array value;
 };
-struct LeftByAba {
-  std::vector<Left> all;
+struct AbaQuantities {
+  std::vector<SavedQuantity> all;
 };
-std::vector<std::string> names_of(const LeftByAba& left) {
+std::vector<std::string> names_of(const AbaQuantities& saved) {
   std::vector<std::string> names;
-  for (const Left& one : left.all) names.emplace_back(one.quantity.name);
+  for (const SavedQuantity& one : saved.all) names.emplace_back(one.quantity.name);
   return names;
 }
-Array value_of(const LeftByAba& left, const std::string& name) {
-  for (const Left& one : left.all)
+Array value_of(const AbaQuantities& saved, const std::string& name) {
+  for (const SavedQuantity& one : saved.all)
     if (one.quantity.name == name) return one.value;
   throw py::key_error("there is no quantity '" + name + "'; " +
-                      name_remedy(name, names_of(left), "quantities"));
+                      name_remedy(name, names_of(saved), "quantities"));
 }
 
 class Collector {
  public:
-  Collector(const Robot& robot, LeftByAba& left)
-      : robot_(robot), model_(robot.model), left_(left) {}
+  Collector(const Robot& robot, AbaQuantities& saved)
+      : robot_(robot), model_(robot.model), saved_(saved) {}
 
   void operator()(const Quantity& quantity, const std::vector<double>& field) {
     if (quantity.by == Quantity::By::square) return add(quantity, kJointFrame, square(field));
@@ -54,7 +54,7 @@ class Collector {
     const std::size_t size = kIsVector ? 6 : 36;
     for (std::size_t i = 0; i < model_.parent.size(); ++i) {
       if (quantity.by == Quantity::By::body) {
-        // The base has no quantities but its acceleration, by which gravity comes in.
+        // The base has only its acceleration, -g.
         if (i > 0 || quantity.pass == 3) write_of(i, field[i], at + i * size);
       } else if (i > 0) {
         for (std::size_t k = model_.iv[i]; k < model_.iv[i] + model_.dofs(i); ++k)
@@ -86,29 +86,27 @@ class Collector {
   }
   void add(const Quantity& quantity, const char* frame, Array value) {
     value.attr("flags").attr("writeable") = false;
-    left_.all.push_back({quantity, frame, std::move(value)});
+    saved_.all.push_back({quantity, frame, std::move(value)});
   }
 
   const Robot& robot_;
   const Model<double>& model_;
-  LeftByAba& left_;
+  AbaQuantities& saved_;
 };
 
-LeftByAba left_by_aba(const Robot& robot) {
+AbaQuantities aba_quantities(const Robot& robot) {
   if (!robot.has_run_aba)
-    throw std::runtime_error(
-        "model.workspace(): nothing has been computed with this model; call twinarm.aba(model, q, "
-        "qd, tau) first");
-  LeftByAba left;
-  Collector collect(robot, left);
+    throw std::runtime_error("model.workspace(): call twinarm.aba(model, q, qd, tau) first");
+  AbaQuantities saved;
+  Collector collect(robot, saved);
   robot.forces.describe(collect);
   robot.of_aba.describe(collect);
-  return left;
+  return saved;
 }
 
-py::list described(const LeftByAba& left) {
+py::list described(const AbaQuantities& saved) {
   py::list table;
-  for (const auto& [quantity, frame, value] : left.all) {
+  for (const auto& [quantity, frame, value] : saved.all) {
     py::dict row;
     row["name"] = quantity.name;
     row["pass"] = quantity.pass;
@@ -122,9 +120,9 @@ py::list described(const LeftByAba& left) {
   return table;
 }
 
-std::string text_of(const LeftByAba& left) {
+std::string text_of(const AbaQuantities& saved) {
   std::string text = "name       pass   shape        unit                      equation\n";
-  for (const auto& [quantity, frame, value] : left.all) {
+  for (const auto& [quantity, frame, value] : saved.all) {
     char line[256];
     const std::string pass = quantity.pass == 0 ? "input" : std::to_string(quantity.pass);
     std::snprintf(line, sizeof line, "%-10s %-6s %-12s %-25s %s\n", quantity.name, pass.c_str(),
@@ -137,38 +135,37 @@ std::string text_of(const LeftByAba& left) {
 }  // namespace
 
 void add_workspace(py::module_& m) {
-  py::class_<LeftByAba> workspace(
+  py::class_<AbaQuantities> workspace(
       m, "Workspace",
-      "What the last aba() of a model left, by the names of RBDA table 7.1: ws['IA'], ws['pA'], "
-      "...\n"
-      "A copy, in link axes; describe() says what each is. Rows are bodies, the base first, or\n"
-      "joint velocities. Of the base there is only its acceleration a = -g.");
+      "Quantities of the last aba(), by the names of RBDA table 7.1: ws['IA'], ws['pA'], ...\n"
+      "A copy, in link axes; describe() lists them. Rows are bodies, the base first, or joint\n"
+      "velocities. The base has only its acceleration a = -g.");
   workspace.def(
       "__getitem__", value_of, py::arg("name"),
       "By body: vectors (bodies, 6), inertias and transforms (bodies, 6, 6). By velocity: (nv,),\n"
       "(nv, 6). D is (nv, nv). Units as in describe(). Raises KeyError for another name.");
   workspace.def(
       "__contains__",
-      [](const LeftByAba& left, const std::string& name) {
-        return std::ranges::any_of(left.all,
-                                   [&](const Left& one) { return one.quantity.name == name; });
+      [](const AbaQuantities& saved, const std::string& name) {
+        return std::ranges::any_of(
+            saved.all, [&](const SavedQuantity& one) { return one.quantity.name == name; });
       },
-      py::arg("name"), "whether there is a quantity of that name");
+      py::arg("name"), "whether the quantity exists");
   workspace.def(
-      "__len__", [](const LeftByAba& left) { return left.all.size(); }, "how many quantities");
-  workspace.def("keys", names_of, "names, in the order in which aba() needs and finds them");
+      "__len__", [](const AbaQuantities& saved) { return saved.all.size(); },
+      "number of quantities");
+  workspace.def("keys", names_of, "names, in the order of aba()");
   workspace.def(
-      "__iter__", [](const LeftByAba& left) { return py::iter(py::cast(names_of(left))); },
+      "__iter__", [](const AbaQuantities& saved) { return py::iter(py::cast(names_of(saved))); },
       "over the names");
   workspace.def("describe", described,
                 "A row for each quantity: name, pass (0: input), shape, unit (angular; linear),\n"
-                "frame, meaning, equation. As the solver itself states them.");
+                "frame, meaning, equation, from the solver.");
   workspace.def("__repr__", text_of);
 
   py::reinterpret_borrow<py::class_<Robot, std::shared_ptr<Robot>>>(m.attr("Model"))
-      .def(
-          "workspace", left_by_aba,
-          "What the last aba() with this model left: a Workspace, whose describe() has the units.");
+      .def("workspace", aba_quantities,
+           "Quantities of the last aba() with this model; units: describe().");
 }
 
 }  // namespace twinarm::python

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 
 #include "app/accounting/energy_balance.h"
@@ -19,83 +20,84 @@ namespace {
 
 constexpr std::size_t kTableRows = 20, kTableWidth = 98, kCurves = 4;
 
-// What moves as one: the numbers of a quaternion, and the three of a place.
-std::string motion_of(const RecordedColumn& column, const Replay& fork) {
+// The motion that a column belongs to: a coordinate, a quaternion, or the position of a free body.
+std::string motion_of(const RecordedColumn& column, const Replay& branch) {
   const std::string before_last = column.name.substr(0, column.name.rfind('/'));
   if (column.name.starts_with("q/")) return column.unit == "1" ? before_last : column.name;
-  for (const std::string& body : fork.bodies)
+  for (const std::string& body : branch.bodies)
     if (before_last == "links/" + body) return before_last;
-  return "";  // links follow from coordinates, velocities and energies from them too
+  return "";  // follows from the coordinates
 }
 
-struct Parted {
+struct ValueDifference {
   std::size_t column;
-  double by;
+  double size;
 };
 
-// Of each motion the value that parts most; the most first.
-std::vector<Parted> parted(const Recording& recording, const Replay& fork) {
-  std::vector<double> most(recording.header().columns.size());
-  for (std::size_t n = 0; n < fork.frames.size(); ++n) {
-    const RecordedFrame recorded = recording.frame(fork.first + n);
-    for (std::size_t c = 0; c < most.size(); ++c)
-      most[c] = std::max(most[c], std::abs(fork.frames[n].values[c] - recorded.values[c]));
+// The column with the largest difference of each motion, in descending order.
+std::vector<ValueDifference> differences(const Recording& recording, const Replay& branch) {
+  std::vector<double> max(recording.header().columns.size());
+  for (std::size_t n = 0; n < branch.frames.size(); ++n) {
+    const RecordedFrame recorded = recording.frame(branch.first + n);
+    for (std::size_t c = 0; c < max.size(); ++c)
+      max[c] = std::max(max[c], std::abs(branch.frames[n].values[c] - recorded.values[c]));
   }
-  std::map<std::string, Parted> by_motion;
-  for (std::size_t c = 0; c < most.size(); ++c) {
-    const std::string motion = motion_of(recording.header().columns[c], fork);
+  std::map<std::string, ValueDifference> by_motion;
+  for (std::size_t c = 0; c < max.size(); ++c) {
+    const std::string motion = motion_of(recording.header().columns[c], branch);
     if (motion.empty()) continue;
-    Parted& found = by_motion.try_emplace(motion, Parted{c, most[c]}).first->second;
-    if (most[c] > found.by) found = {c, most[c]};
+    ValueDifference& found =
+        by_motion.try_emplace(motion, ValueDifference{c, max[c]}).first->second;
+    if (max[c] > found.size) found = {c, max[c]};
   }
-  std::vector<Parted> order;
+  std::vector<ValueDifference> order;
   for (const auto& [motion, found] : by_motion) order.push_back(found);
-  std::ranges::stable_sort(order, [](const Parted& a, const Parted& b) { return a.by > b.by; });
+  std::ranges::stable_sort(order, std::greater(), &ValueDifference::size);
   return order;
 }
 
-void print_values(const Recording& recording, const Replay& fork) {
+void print_values(const Recording& recording, const Replay& branch) {
   constexpr std::size_t max_number = 12, between = 2;
   std::vector<std::size_t> columns;
   std::vector<std::string> headings{"t [s]"};
   std::size_t width = max_number;
-  const std::vector<Parted> all = parted(recording, fork);
-  for (const auto& [c, by] : all) {
-    if (by == 0) break;
+  const std::vector<ValueDifference> all = differences(recording, branch);
+  for (const auto& [c, size] : all) {
+    if (size == 0) break;
     const RecordedColumn& column = recording.header().columns[c];
     const std::string heading = column.name + " [" + column.unit + "]";
     width += std::max(heading.size(), max_number) + max_number + 2 * between;
     if (!columns.empty() && width > kTableWidth) break;
     columns.push_back(c);
-    headings.insert(headings.end(), {heading, "fork"});
+    headings.insert(headings.end(), {heading, "branch"});
   }
   if (columns.empty()) {
-    fmt::print("no value of the fork differs from the recording\n");
+    fmt::print("no value of the branch differs from the recording\n");
     return;
   }
   fmt::print("\n");
   TextTable table(std::move(headings));
-  const std::size_t count = fork.frames.size();
+  const std::size_t count = branch.frames.size();
   const std::size_t stride = std::max<std::size_t>(1, (count + kTableRows - 1) / kTableRows);
   for (std::size_t n = 0; n < count; n = n + 1 == count ? count : std::min(n + stride, count - 1)) {
-    const RecordedFrame recorded = recording.frame(fork.first + n);
+    const RecordedFrame recorded = recording.frame(branch.first + n);
     std::vector<std::string> row{cell(recorded.t)};
     for (const std::size_t c : columns) {
       row.push_back(cell(recorded.values[c]));
-      row.push_back(cell(fork.frames[n].values[c]));
+      row.push_back(cell(branch.frames[n].values[c]));
     }
     table.add(std::move(row));
   }
   fmt::print("{}", table.str());
 }
 
-std::size_t place_of(const std::vector<std::string>& names, const std::string& name) {
+std::size_t index_of(const std::vector<std::string>& names, const std::string& name) {
   return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
 }
 
-// Of all frames, since the first; a row comes in when it first does something.
+// Work of a row since the first frame; 0 before the row appears.
 std::vector<double> works_since(const Replay& branch, const std::string& name) {
-  const std::size_t number = place_of(branch.rows, name);
+  const std::size_t number = index_of(branch.rows, name);
   std::vector<double> works;
   for (const RecordedFrame& frame : branch.frames) {
     double work = 0;
@@ -111,7 +113,7 @@ std::vector<double> works_since(const Replay& branch, const std::string& name) {
 Eigen::Matrix<double, 6, 1> momentum_in(const Replay& branch, std::size_t frame,
                                         const std::string& name) {
   Eigen::Matrix<double, 6, 1> found = Eigen::Matrix<double, 6, 1>::Zero();
-  const std::size_t number = place_of(branch.momentum_rows, name);
+  const std::size_t number = index_of(branch.momentum_rows, name);
   const RecordedFrame& at = branch.frames[frame];
   for (std::size_t i = 0; i < at.momentum_rows.size(); ++i)
     if (at.momentum_rows[i] == number) found << at.momenta[2 * i], at.momenta[2 * i + 1];
@@ -122,49 +124,45 @@ Eigen::Matrix<double, 6, 1> momentum_in(const Replay& branch, std::size_t frame,
 std::vector<std::string> names_of_both(std::vector<std::string> names,
                                        const std::vector<std::string>& others) {
   for (const std::string& name : others)
-    if (place_of(names, name) == names.size()) names.push_back(name);
+    if (index_of(names, name) == names.size()) names.push_back(name);
   std::stable_partition(names.begin(), names.end(),
                         [](const std::string& name) { return name != kNumericalRow; });
   return names;
 }
 
-void print_ledgers(const ComparedBalances& ledgers, double from, double to) {
+void print_balances(const ComparedBalances& balances, double from, double to) {
   const std::string span = fmt::format("{} to {} s", cell(from), cell(to));
-  TextTable works({"work on the bodies, " + span, "recorded [J]", "fork [J]", "difference [J]"});
-  double recorded = 0, fork = 0;
-  for (const ComparedWork& row : ledgers.works) {
-    if (row.recorded != 0 || row.fork != 0)
-      works.add({row.name, cell(row.recorded), cell(row.fork), cell(row.fork - row.recorded)});
-    recorded += row.recorded, fork += row.fork;
+  TextTable works({"energy balance, " + span, "recorded [J]", "branch [J]", "difference [J]"});
+  double recorded = 0, branch = 0;
+  for (const ComparedWork& row : balances.works) {
+    if (row.recorded != 0 || row.branch != 0)
+      works.add({row.name, cell(row.recorded), cell(row.branch), cell(row.branch - row.recorded)});
+    recorded += row.recorded, branch += row.branch;
   }
-  works.add({"change of kinetic energy", cell(recorded), cell(fork), cell(fork - recorded)});
-  TextTable momenta({"momentum, " + span, "recorded", "fork", "difference"});
+  works.add({"change of kinetic energy", cell(recorded), cell(branch), cell(branch - recorded)});
+  TextTable momenta({"momentum, " + span, "recorded", "branch", "difference"});
   static const char* const kParts[] = {", x [N s]",         ", y [N s]",
                                        ", z [N s]",         ", about x [N m s]",
                                        ", about y [N m s]", ", about z [N m s]"};
-  for (const ComparedMomentum& row : ledgers.momenta)
-    for (int i = 0; i < 6; ++i) {  // components that stay zero but for rounding are left out
-      const double a = row.recorded[i], b = row.fork[i];
+  for (const ComparedMomentum& row : balances.momenta)
+    for (int i = 0; i < 6; ++i) {  // without components that are zero to rounding
+      const double a = row.recorded[i], b = row.branch[i];
       if (cell(a) != "0" || cell(b) != "0")
         momenta.add({row.name + kParts[i], cell(a), cell(b), cell(b - a)});
     }
   fmt::print("\n{}\n{}", works.str(), momenta.str());
 }
 
-// The rows that part most.
-std::vector<std::string> parted_rows(const ComparedBalances& ledgers) {
-  std::vector<ComparedWork> rows = ledgers.works;
+// The rows with the largest differences.
+std::vector<std::string> differing_rows(const ComparedBalances& balances) {
+  std::vector<ComparedWork> rows = balances.works;
   std::ranges::stable_sort(rows, [](const ComparedWork& a, const ComparedWork& b) {
-    return std::abs(a.fork - a.recorded) > std::abs(b.fork - b.recorded);
+    return std::abs(a.branch - a.recorded) > std::abs(b.branch - b.recorded);
   });
   std::vector<std::string> names;
   for (const ComparedWork& row : rows)
-    if (names.size() < kCurves && row.fork != row.recorded) names.push_back(row.name);
+    if (names.size() < kCurves && row.branch != row.recorded) names.push_back(row.name);
   return names;
-}
-
-std::filesystem::path folder_of(const std::filesystem::path& file) {
-  return file.parent_path().empty() ? "." : file.parent_path();
 }
 
 std::string panel_at(double bottom, double top, const std::string& label) {
@@ -179,45 +177,45 @@ std::string panel_at(double bottom, double top, const std::string& label) {
 void check_plot(const std::filesystem::path& file) {
   std::error_code ignored;
   if (file.extension() != ".svg" || std::filesystem::is_directory(file, ignored))
-    throw InputError({{file.string(), 0, "--plot", "is drawn as SVG, a file",
-                       "give a name that ends in .svg", "file.ending"}});
+    throw InputError({{file.string(), 0, "--plot", "must be an SVG file", "end its name in .svg",
+                       "file.ending"}});
   require_gnuplot();
   make_folder(folder_of(file), "--plot");
 }
 
-ComparedBalances compared_ledgers(const Replay& recorded, const Replay& fork) {
+ComparedBalances compared_balances(const Replay& recorded, const Replay& branch) {
   ComparedBalances found;
-  if (recorded.frames.empty() || fork.frames.empty()) return found;
-  for (const std::string& name : names_of_both(recorded.rows, fork.rows))
+  if (recorded.frames.empty() || branch.frames.empty()) return found;
+  for (const std::string& name : names_of_both(recorded.rows, branch.rows))
     found.works.push_back(
-        {name, works_since(recorded, name).back(), works_since(fork, name).back()});
-  const auto gained = [](const Replay& branch, const std::string& name) {
-    return Eigen::Matrix<double, 6, 1>(momentum_in(branch, branch.frames.size() - 1, name) -
-                                       momentum_in(branch, 0, name));
+        {name, works_since(recorded, name).back(), works_since(branch, name).back()});
+  const auto gained = [](const Replay& run, const std::string& name) {
+    return Eigen::Matrix<double, 6, 1>(momentum_in(run, run.frames.size() - 1, name) -
+                                       momentum_in(run, 0, name));
   };
-  for (const std::string& name : names_of_both(recorded.momentum_rows, fork.momentum_rows))
-    found.momenta.push_back({name, gained(recorded, name), gained(fork, name)});
+  for (const std::string& name : names_of_both(recorded.momentum_rows, branch.momentum_rows))
+    found.momenta.push_back({name, gained(recorded, name), gained(branch, name)});
   return found;
 }
 
-void print_fork(const Recording& recording, const Replay& recorded, const Replay& fork) {
-  print_values(recording, fork);
-  print_ledgers(compared_ledgers(recorded, fork), fork.from, fork.to);
+void print_branch(const Recording& recording, const Replay& recorded, const Replay& branch) {
+  print_values(recording, branch);
+  print_balances(compared_balances(recorded, branch), branch.from, branch.to);
 }
 
-void draw_fork(const Recording& recording, const Replay& recorded, const Replay& fork,
-               const std::vector<std::string>& changes, const std::filesystem::path& file) {
-  const std::vector<Parted> found = parted(recording, fork);
+void draw_branch(const Recording& recording, const Replay& recorded, const Replay& branch,
+                 const std::vector<std::string>& changes, const std::filesystem::path& file) {
+  const std::vector<ValueDifference> found = differences(recording, branch);
   if (found.empty())
-    throw InputError({{file.string(), 0, "--plot", "nothing moves that could be drawn", "",
-                       "plot.nothing-moves"}});
+    throw InputError(
+        {{file.string(), 0, "--plot", "there is no motion to draw", "", "plot.nothing-moves"}});
   const std::size_t shown = found.front().column;
   const RecordedColumn& column = recording.header().columns[shown];
   std::vector<double> t, first, second;
-  for (std::size_t n = 0; n < fork.frames.size(); ++n) {
-    t.push_back(fork.frames[n].t);
-    first.push_back(recording.frame(fork.first + n).values[shown]);
-    second.push_back(fork.frames[n].values[shown]);
+  for (std::size_t n = 0; n < branch.frames.size(); ++n) {
+    t.push_back(branch.frames[n].t);
+    first.push_back(recording.frame(branch.first + n).values[shown]);
+    second.push_back(branch.frames[n].values[shown]);
   }
   std::string change;
   for (const std::string& text : changes) change += (change.empty() ? "" : ", ") + text;
@@ -226,26 +224,26 @@ void draw_fork(const Recording& recording, const Replay& recorded, const Replay&
       "set multiplot\nset xrange [{}:{}]\nset key at screen 0.735,0.93 left top Left reverse\n{}"
       "set format x ''\nset label 1 {} at screen 0.095,0.965 textcolor '#333333'\n"
       "plot {} with lines lw 4 lc '{}' title 'recorded', {} with lines lw 1.5 lc '{}' title "
-      "'fork'\nunset label 1\n",
-      fork.from, fork.to, panel_at(0.58, 0.925, column.name + " [" + column.unit + "]"),
-      in_quotes("fork at " + cell(fork.from) + " s: " + change), gnuplot.curve(t, first),
+      "'branch'\nunset label 1\n",
+      branch.from, branch.to, panel_at(0.58, 0.925, column.name + " [" + column.unit + "]"),
+      in_quotes("branch at " + cell(branch.from) + " s: " + change), gnuplot.curve(t, first),
       palette::kvr, gnuplot.curve(t, second), palette::dvr);
   script +=
       "set key at screen 0.735,0.52 left top Left reverse\nset format x '%g'\n"
       "set xlabel 'time [s]' offset 0,0.3 textcolor '#333333'\n" +
-      panel_at(0.12, 0.51, "work, fork - recorded [J]") + "plot 0 lc '#9A9A9A' lw 1 notitle";
+      panel_at(0.12, 0.51, "work, branch - recorded [J]") + "plot 0 lc '#9A9A9A' lw 1 notitle";
   static const char* const kColours[] = {palette::torsional, palette::linear, palette::dvr,
                                          palette::ink};
   std::size_t curve = 0;
-  for (const std::string& name : parted_rows(compared_ledgers(recorded, fork))) {
-    std::vector<double> parts = works_since(fork, name);
+  for (const std::string& name : differing_rows(compared_balances(recorded, branch))) {
+    std::vector<double> parts = works_since(branch, name);
     const std::vector<double> there = works_since(recorded, name);
     for (std::size_t n = 0; n < parts.size() && n < there.size(); ++n) parts[n] -= there[n];
     script += fmt::format(", {} with lines lw {} lc '{}' title {}", gnuplot.curve(t, parts),
                           3.2 - 0.6 * static_cast<double>(curve), kColours[curve], in_quotes(name));
     ++curve;
   }
-  write_whole_file(file, gnuplot.svg("fork", "Recorded run and fork: " + column.name, 1000, 620,
+  write_whole_file(file, gnuplot.svg("branch", "Recording and branch: " + column.name, 1000, 620,
                                      script + "\nunset multiplot\n"));
 }
 

@@ -1,4 +1,4 @@
-// A fork beside its recording: tables and a figure.
+// A branch and its recording: tables and a figure.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,28 +10,27 @@
 
 namespace twinarm {
 
-// Of both branches since the fork: there the springs of the fork may hold another energy, but what
-// rows have gained since then can be compared.
+// Changes of the balances since the branch began.
 struct ComparedWork {
   std::string name;
-  double recorded = 0, fork = 0;  // [J]
+  double recorded = 0, branch = 0;  // [J]
 };
 struct ComparedMomentum {
   std::string name;
-  Eigen::Matrix<double, 6, 1> recorded, fork;  // linear [N s], angular [N m s]
+  Eigen::Matrix<double, 6, 1> recorded, branch;  // linear [N s], angular [N m s]
 };
 struct ComparedBalances {
   std::vector<ComparedWork> works;
   std::vector<ComparedMomentum> momenta;
 };
-ComparedBalances compared_ledgers(const Replay& recorded, const Replay& fork);
+ComparedBalances compared_balances(const Replay& recorded, const Replay& branch);
 
-// The values that part most, then both ledgers, with the differences.
-void print_fork(const Recording& recording, const Replay& recorded, const Replay& fork);
-// Before a long run: makes the folder. Throws InputError where the figure could not be drawn.
+// The values that differ most, then both balances with their differences.
+void print_branch(const Recording& recording, const Replay& recorded, const Replay& branch);
+// Before a long run: makes the folder. Throws InputError if the figure cannot be drawn.
 void check_plot(const std::filesystem::path& file);
-// The value that parts most over the rows of the ledger that do. Throws InputError.
-void draw_fork(const Recording& recording, const Replay& recorded, const Replay& fork,
-               const std::vector<std::string>& changes, const std::filesystem::path& file);
+// The value that differs most, and the rows of the energy balance that do. Throws InputError.
+void draw_branch(const Recording& recording, const Replay& recorded, const Replay& branch,
+                 const std::vector<std::string>& changes, const std::filesystem::path& file);
 
 }  // namespace twinarm

@@ -23,7 +23,7 @@ void add_file(std::vector<RecordedFile>& files, const std::filesystem::path& fil
   if (std::ranges::none_of(files, is_same)) files.push_back({path, read_whole_file(file)});
 }
 
-// The program's own files need no check, which costs milliseconds each.
+// Files in the assets are trusted.
 bool is_asset(const std::filesystem::path& file) {
   try {
     return may_name(std::vector{find_assets()}, file);
@@ -42,8 +42,8 @@ bool is_decodable(const Decode& decode, const std::filesystem::path& file) {
   }
 }
 
-// A file that a scene calls a picture or a mesh may be any file of this machine. Of one that no
-// decoder accepts nothing but the name is recorded.
+// A scene may name any file of this machine as a picture or mesh: the contents are recorded only if
+// they can be decoded.
 template <class Decode>
 void add_decoded(std::vector<RecordedFile>& files, const std::filesystem::path& file,
                  const Decode& decode) {
@@ -57,9 +57,9 @@ void add_picture(std::vector<RecordedFile>& files, const std::filesystem::path& 
   add_decoded(files, file, read_image);
 }
 
-// Files beside a mesh that it names: materials, and their textures; buffers of glTF.
+// Files that a mesh file refers to: materials with their textures, glTF buffers.
 void add_companions(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
-  constexpr int kMax = 1000;  // files of a folder that are looked at
+  constexpr int kMaxFiles = 1000;  // searched in the folder
   static const std::vector<std::string> naming{".obj", ".mtl", ".dae", ".gltf"};
   if (std::ranges::find(naming, file.extension().string()) == naming.end()) return;
   const std::string text = files.back().bytes;
@@ -67,7 +67,7 @@ void add_companions(std::vector<RecordedFile>& files, const std::filesystem::pat
   int looked_at = 0;
   for (const auto& other :
        std::filesystem::recursive_directory_iterator(file.parent_path(), error)) {
-    if (++looked_at > kMax) return;
+    if (++looked_at > kMaxFiles) return;
     const std::size_t before = files.size();
     const std::filesystem::path end = other.path().extension();
     if (text.find(other.path().filename().string()) != std::string::npos &&
@@ -97,8 +97,7 @@ void add_meshes_of(const RobotDescription& robot, std::vector<RecordedFile>& fil
   }
 }
 
-// All that the scene needs again: robots with their meshes and textures, those of bodies, traces of
-// hands.
+// Files of the scene: robots, meshes, textures, traces.
 void add_files_of(const SceneDescription& scene, std::vector<RecordedFile>& files) {
   for (const RobotInScene& robot : scene.robots) {
     add_file(files, robot.description.file);
@@ -127,7 +126,7 @@ std::uint32_t number_in(std::vector<std::string>& names, const std::string& name
   return static_cast<std::uint32_t>(place);
 }
 
-// Rows of the ledgers, by the numbers that their names have.
+// Rows of the balances, by the indices of their names.
 template <class NumberOf, class MomentumNumberOf>
 void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_of,
               const MomentumNumberOf& momentum_number_of) {
@@ -259,7 +258,7 @@ Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan&
 Replay replay(const Recording& recording, std::size_t first, const std::vector<Change>& changes) {
   const UnpackedRun files(recording.header());
   SimulateOptions options = files.options(changes);
-  options.energy_bound = HUGE_VAL;  // the recording says where to stop
+  options.energy_bound = HUGE_VAL;  // runs to the last recorded frame
   try {
     SimulatePlan prepared = prepare_simulation(options);
     prepared.run.times.clear();

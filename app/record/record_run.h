@@ -1,4 +1,4 @@
-// From a run to its recording.
+// Records a run, and replays a recorded one.
 #pragma once
 
 #include <filesystem>
@@ -16,17 +16,17 @@ namespace twinarm {
 RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& prepared,
                           std::vector<std::string> command);
 
-// What the frames of such a run hold: integrator, step, columns, couplings, geometries.
+// Fills in the contents of frames: integrator, step, columns, couplings, geometries.
 void describe_frames(const SimulatePlan& prepared, RecordingHeader& header);
 
-// Without the numbers of the ledger's rows, which a file gives them.
+// Without the rows of the balances.
 RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared);
 
-// Those rows, by the places of their names, to which new ones are added.
+// Adds those rows, by index of their names; new names are appended.
 void add_ledgers(const RunView& run, std::vector<std::string>& names,
                  std::vector<std::string>& momentum_names, RecordedFrame& frame);
 
-// RunWatch::look of a run that is recorded.
+// RunWatch::look of a recorded run.
 class RunRecorder {
  public:
   // `every` 0: each step.
@@ -43,21 +43,21 @@ class RunRecorder {
   double every_, next_ = 0;
 };
 
-// A run taken up again at a recorded step.
+// A run resumed at a recorded step.
 struct Replay {
-  long step = 0;            // where it began
+  long step = 0;            // first step
   double from = 0, to = 0;  // [s]
   std::size_t first = 0;    // frame of the recording
-  std::uint64_t hash = 0;   // of that frame, and of the run that was built again from it
+  std::uint64_t hash = 0;   // of that frame, and of the state restored from it
   std::uint64_t hash_again = 0;
-  std::size_t compared = 0, equal = 0;           // frames after it, by hash
+  std::size_t compared = 0, equal = 0;           // later frames, and those with equal state
   double first_different = -1;                   // [s]; negative: none
-  std::vector<std::string> bodies;               // free ones of a scene, which no coordinate tells
-  std::vector<RecordedFrame> frames;             // of the branch, at the steps that are recorded
-  std::vector<std::string> rows, momentum_rows;  // names of the numbers in the frames' ledgers
+  std::vector<std::string> bodies;               // free bodies of a scene (no coordinates)
+  std::vector<RecordedFrame> frames;             // of the branch, at the recorded steps
+  std::vector<std::string> rows, momentum_rows;  // names of the rows of the frames' balances
 };
 
-// The run itself where there are no changes, else a fork. Throws InputError.
+// The same run, or with changes a branch. Throws InputError.
 Replay replay(const Recording& recording, std::size_t first, const std::vector<Change>& changes);
 
 }  // namespace twinarm

@@ -8,14 +8,15 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <type_traits>
 
 namespace twinarm {
 namespace {
 
-// Of items that take so many bytes at least: a file cannot ask for more of them than it can hold.
+// `min_bytes` per item limits the number of items to what the file can contain.
 template <class T, class F>
-void visit_all(StateArchive& memory, std::vector<T>& items, std::size_t least, F f) {
-  memory.resize(items, least);
+void visit_all(StateArchive& memory, std::vector<T>& items, std::size_t min_bytes, F f) {
+  memory.resize(items, min_bytes);
   for (T& item : items) f(item);
 }
 constexpr std::size_t kMinText = 8, kVector = 24, kMinContact = 16 + 4 * kVector;  // [bytes]
@@ -31,21 +32,36 @@ void visit_number(StateArchive& memory, std::optional<double>& number) {
   double value = number.value_or(0);
   memory.visit(given);
   memory.visit(value);
-  if (given)
-    number = value;
-  else
-    number.reset();
+  number = given ? std::optional(value) : std::nullopt;
+}
+
+// Calls f(name, member) for all options of a run, in the order of the file.
+template <class Run, class F>
+void for_each_option(Run& run, const F& f) {
+  f("model", run.model);
+  f("state", run.state);
+  f("gravity", run.gravity);
+  f("floating", run.floating);
+  f("friction", run.friction);
+  f("armature", run.armature);
+  f("strict", run.strict);
+  f("duration", run.duration);
+  f("step", run.step);
+  f("tolerance", run.tolerance);
+  f("energy_bound", run.energy_bound);
+  f("integrator", run.integrator);
+  f("contact", run.contact);
 }
 
 void visit_run(StateArchive& memory, RecordedRun& run) {
-  visit_path(memory, run.model);
-  visit_path(memory, run.state);
-  memory.visit(run.gravity);
-  for (bool* flag : {&run.floating, &run.friction, &run.armature, &run.strict}) memory.visit(*flag);
-  for (auto* number : {&run.duration, &run.step, &run.tolerance, &run.energy_bound})
-    visit_number(memory, *number);
-  memory.visit(run.integrator);
-  memory.visit(run.contact);
+  for_each_option(run, [&]<class T>(const char*, T& option) {
+    if constexpr (std::is_same_v<T, std::filesystem::path>)
+      visit_path(memory, option);
+    else if constexpr (std::is_same_v<T, std::optional<double>>)
+      visit_number(memory, option);
+    else
+      memory.visit(option);
+  });
 }
 
 }  // namespace
@@ -110,7 +126,7 @@ void visit(StateArchive& memory, RecordedFrame& frame) {
   memory.visit(frame.t);
   memory.visit(frame.hash);
   memory.visit(frame.values);
-  visit_all(memory, frame.pulls, kVector, [&](Vector3& pull) { memory.visit(pull); });
+  visit_all(memory, frame.pulls, kVector, [&](Vector3& force) { memory.visit(force); });
   visit_all(memory, frame.contacts, kMinContact, [&](RecordedContact& contact) {
     memory.visit(contact.a);
     memory.visit(contact.b);
@@ -125,12 +141,11 @@ void visit(StateArchive& memory, RecordedFrame& frame) {
   memory.visit(frame.memory);
 }
 
-// The header of a recording as JSON.
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Of frames, in their order: name and type, [] with a count of 8 bytes before it.
+// Fields of a frame: name, type, unit; [] after a count of 8 bytes.
 constexpr std::array kFrameLayout{
     "step int64",
     "t float64 s",
@@ -145,7 +160,7 @@ constexpr std::array kFrameLayout{
     "momenta float64[][3]",
     "memory uint8[]"};
 
-// Paths and command lines may be bytes that are no UTF-8: then a list of them.
+// Text that is not UTF-8 (paths, command lines) becomes a list of bytes.
 Json text_json(const std::string& text) {
   try {
     (void)Json(text).dump();
@@ -161,7 +176,7 @@ std::string text_of(const Json& value) {
   return {bytes.begin(), bytes.end()};
 }
 
-// JSON has no number for infinity.
+// Infinity becomes "inf".
 Json number_json(const std::optional<double>& number) {
   if (!number) return nullptr;
   return std::isfinite(*number) ? Json(*number) : Json("inf");
@@ -181,41 +196,40 @@ Json list_json(const std::vector<T>& items, F to_json) {
 
 template <class T, class F>
 void read_list(const Json& list, std::vector<T>& items, F from_json) {
-  if (!list.is_array()) throw std::runtime_error("its header has no list where one must be");
+  if (!list.is_array()) throw std::runtime_error("a list of its header has another type");
   for (const Json& item : list) items.push_back(from_json(item));
 }
 
+Json option_json(bool flag) {
+  return flag;
+}
+Json option_json(const std::optional<double>& number) {
+  return number_json(number);
+}
+Json option_json(const std::string& text) {
+  return text_json(text);
+}
+Json option_json(const std::filesystem::path& path) {
+  return text_json(path.string());
+}
+
 Json run_json(const RecordedRun& run) {
-  return {{"model", text_json(run.model.string())},
-          {"state", text_json(run.state.string())},
-          {"gravity", text_json(run.gravity)},
-          {"floating", run.floating},
-          {"friction", run.friction},
-          {"armature", run.armature},
-          {"strict", run.strict},
-          {"duration", number_json(run.duration)},
-          {"step", number_json(run.step)},
-          {"tolerance", number_json(run.tolerance)},
-          {"energy_bound", number_json(run.energy_bound)},
-          {"integrator", text_json(run.integrator)},
-          {"contact", text_json(run.contact)}};
+  Json json = Json::object();
+  for_each_option(run,
+                  [&](const char* name, const auto& option) { json[name] = option_json(option); });
+  return json;
 }
 
 RecordedRun run_of(const Json& json) {
   RecordedRun run;
-  run.model = text_of(json.at("model"));
-  run.state = text_of(json.at("state"));
-  run.gravity = text_of(json.at("gravity"));
-  json.at("floating").get_to(run.floating);
-  json.at("friction").get_to(run.friction);
-  json.at("armature").get_to(run.armature);
-  json.at("strict").get_to(run.strict);
-  run.duration = number_of(json.at("duration"));
-  run.step = number_of(json.at("step"));
-  run.tolerance = number_of(json.at("tolerance"));
-  run.energy_bound = number_of(json.at("energy_bound"));
-  run.integrator = text_of(json.at("integrator"));
-  run.contact = text_of(json.at("contact"));
+  for_each_option(run, [&]<class T>(const char* name, T& option) {
+    if constexpr (std::is_same_v<T, bool>)
+      json.at(name).get_to(option);
+    else if constexpr (std::is_same_v<T, std::optional<double>>)
+      option = number_of(json.at(name));
+    else
+      option = text_of(json.at(name));
+  });
   return run;
 }
 
@@ -265,7 +279,7 @@ std::string header_text(const RecordingHeader& header) {
   return json.dump(1);
 }
 
-// What no run writes is refused before it is given the memory.
+// Rejects headers that no run writes, before memory is allocated for them.
 RecordingHeader parse_header(std::string_view text) try {
   constexpr std::size_t kMaxBytes = 32u << 20;
   constexpr int kMaxDepth = 8;
@@ -276,8 +290,8 @@ RecordingHeader parse_header(std::string_view text) try {
     if (opens && depth >= kMaxDepth) throw std::runtime_error("its header is nested too deeply");
     return true;
   }));
-} catch (const Json::parse_error& error) {  // whose text quotes what may be no text
-  throw std::runtime_error(fmt::format("its header is no JSON from its byte {} on", error.byte));
+} catch (const Json::parse_error& error) {
+  throw std::runtime_error(fmt::format("its header is not JSON: error at byte {}", error.byte));
 } catch (const Json::exception& error) {
   throw std::runtime_error(std::string("its header cannot be read: ") + error.what());
 }

@@ -1,21 +1,20 @@
-// A recording of a run (docs/use/record_and_resume.md): what it was of, then frame by frame what it did.
+// Contents of a recording (docs/use/record_and_resume.md): header and frames.
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "app/run/simulate_input.h"
 #include "solver/spatial/pose.h"
 #include "solver/support/state_archive.h"
 
 namespace twinarm {
 
-// A file that the run read, so that the recording stands alone.
+// A copy of a file that the run read.
 struct RecordedFile {
-  std::string path, bytes;  // absolute
+  std::string path, bytes;  // absolute path
 };
 
 struct RecordedColumn {
@@ -24,14 +23,8 @@ struct RecordedColumn {
   std::string with_unit() const { return name + "[" + unit + "]"; }
 };
 
-// What the run depends on besides its files, as it was given.
-struct RecordedRun {
-  std::filesystem::path model, state;  // absolute; state may be empty
-  std::string gravity;                 // "x,y,z"; empty: the model's
-  bool floating = false, friction = true, armature = true, strict = false;
-  std::optional<double> duration, step, tolerance, energy_bound;  // [s], [s], 1, [J]
-  std::string integrator, contact;                                // empty: the scene's
-};
+// Options of the run, as given, with absolute paths.
+struct RecordedRun : RobotOptions, RunSettings {};
 
 struct RecordingHeader {
   std::string program;  // its version
@@ -40,10 +33,10 @@ struct RecordingHeader {
   RecordedRun run;
   std::string integrator;
   double step = 0, duration = 0;        // [s]
-  long seed = 0;                        // of what is random; a run has nothing of that kind
+  long seed = 0;                        // runs have no randomness
   std::vector<RecordedColumn> columns;  // of RecordedFrame::values
   std::vector<std::string> couplings;
-  std::vector<std::string> geometries;  // that contacts name by number
+  std::vector<std::string> geometries;  // indexed by RecordedContact
 };
 
 struct RecordedContact {  // on b, world axes
@@ -58,39 +51,36 @@ struct RecordedFrame {
   double t = 0;                // [s]
   std::uint64_t hash = 0;      // of memory
   std::vector<double> values;  // coordinates, velocities, positions, energies
-  std::vector<Vector3> pulls;  // of the couplings, on the link [N or N m]
+  std::vector<Vector3> pulls;  // coupling forces on the link [N or N m]
   std::vector<RecordedContact> contacts;
-  std::vector<std::uint32_t> rows;  // of the ledger: numbers of names
-  std::vector<double> works;        // [J]
-  // Of the ledger of momentum: numbers of names, linear and angular by turns [N s], [N m s].
-  std::vector<std::uint32_t> momentum_rows;
-  std::vector<Vector3> momenta;
-  std::string memory;  // state, and what the next step reads besides
+  std::vector<std::uint32_t> rows;           // of the energy balance: indices of names
+  std::vector<double> works;                 // [J]
+  std::vector<std::uint32_t> momentum_rows;  // of the momentum balance: indices of names
+  std::vector<Vector3> momenta;              // linear, angular of each row [N s], [N m s]
+  std::string memory;                        // serialized state of the run
 };
 
-// "A-B", of geometries that touch.
+// "A-B" of a contact.
 std::string name_of_pair(const std::vector<std::string>& geometries, int a, int b);
-// By the numbers of rows in the frame; of those that it does not have, zero. Six numbers of each
-// row of the momentum.
+// Values by row, zero for rows that the frame does not have; six numbers for each row of momentum.
 std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows);
 std::vector<double> momenta_by_row(const RecordedFrame& frame, std::size_t rows);
 
 std::uint64_t hash_of(const std::string& bytes);  // FNV-1a, 64 bits
 
-// The header as JSON, which names all that it holds and the layout of frames; the bytes of its
-// files follow in blocks of their own. Parsing ignores keys that it does not know, and throws
-// std::runtime_error where one is missing or of another kind, or frames have another layout.
+// The header as JSON, with the layout of frames; the contents of files follow in their own blocks.
+// Parsing ignores unknown keys and throws std::runtime_error if a key is missing or invalid, or
+// frames have another layout.
 std::string header_text(const RecordingHeader& header);
 RecordingHeader parse_header(std::string_view text);
-void visit_version_2(StateArchive& memory,
-                     RecordingHeader& header);  // what files of version 2 have
-// Both ways, as solver/support/state_archive.h.
+// Serialize (solver/support/state_archive.h): the header of format version 2, a frame.
+void visit_version_2(StateArchive& memory, RecordingHeader& header);
 void visit(StateArchive& memory, RecordedFrame& frame);
 
-// The blocks of the file: kind, length, payload, CRC-32 of all three. Little-endian.
+// Blocks of the file: kind, length, payload, CRC-32 of all three. Little-endian.
 namespace recording_format {
 inline constexpr char kMagic[9] = "TWINREC\n";
-inline constexpr std::uint32_t kVersion = 3;  // 2 is read
+inline constexpr std::uint32_t kVersion = 3;  // version 2 can be read
 inline constexpr char kHeader = 'H', kFile = 'D', kName = 'N', kMomentumName = 'M', kAlarm = 'A',
                       kFrame = 'F', kEnd = 'E';
 inline constexpr std::size_t kStart = 12;              // magic and version

@@ -14,7 +14,7 @@
 namespace twinarm {
 namespace {
 
-// What no run writes: a file that asks for more is refused before it is given the memory.
+// Limits beyond what runs write, checked before memory is allocated.
 constexpr std::size_t kMaxBlock = 256u << 20, kMaxText = 64u << 20;  // [bytes]
 constexpr std::size_t kMaxFrames = 1u << 24;
 
@@ -30,16 +30,16 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored)) {
     file_ = part_of(file).string();
-    notes_.push_back("the run that wrote it did not come to its end: read from " + file_);
+    notes_.push_back("the recording is incomplete (the run was interrupted): read from " + file_);
   } else if (file.extension() != ".part" && std::filesystem::exists(part_of(file), ignored)) {
     notes_.push_back("it is of an earlier run than " + part_of(file).string() +
-                     ", which did not come to its end, or still goes on");
+                     ", which was interrupted or is still running");
   }
   stream_ = open_file(file_);
   std::error_code unknown;
   size_ = std::filesystem::file_size(file_, unknown);
   if (unknown) size_ = 0;
-  const auto refuse = [&](const std::string& problem, const std::string& fix,
+  const auto reject = [&](const std::string& problem, const std::string& fix,
                           std::string_view code) {
     throw InputError({{file_, 0, "", problem, fix, code}});
   };
@@ -47,27 +47,27 @@ Recording::Recording(const std::filesystem::path& file) : file_(file.string()) {
   std::string start(std::min(size_, kStart), '\0');
   stream_.read(start.data(), static_cast<std::streamsize>(start.size()));
   if (start.empty())
-    refuse("it is empty: the run that was to write it did not begin, or the disk was full",
-           "record it again", "recording.empty");
+    reject("it is empty: the run did not begin, or the disk was full", "record it again",
+           "recording.empty");
   if (!std::string(kMagic, 8).starts_with(start.substr(0, 8)))
-    refuse("it is no recording", "give a file that `twinarm simulate --record FILE` wrote",
+    reject("not a twinarm recording", "give a file of `twinarm simulate --record FILE`",
            "recording.form");
   if (start.size() < kStart)
-    refuse("it is cut short within its first bytes", "record it again", "recording.cut-short");
+    reject("it is truncated within its first bytes", "record it again", "recording.cut-short");
   version_ = number_at(start, 8);
   if (version_ != 2 && version_ != kVersion)
-    refuse(fmt::format("its format is version {}; this program reads versions 2 and {}", version_,
+    reject(fmt::format("its format is version {}; this program reads versions 2 and {}", version_,
                        kVersion),
            version_ > kVersion ? "read it with the newer twinarm that wrote it" : "record it again",
            "recording.version");
   try {
     read_blocks();
-  } catch (const std::runtime_error& error) {  // whole by its checksum, yet not to be understood
-    if (!has_header_) refuse(error.what(), "record it again", "recording.header");
+  } catch (const std::runtime_error& error) {  // valid checksum, invalid contents
+    if (!has_header_) reject(error.what(), "record it again", "recording.header");
     notes_.push_back(std::string("reading stopped: ") + error.what());
   }
   if (!has_header_ || files_ != header_.files.size() || places_.empty())
-    refuse("nothing of it is whole: it is cut short or damaged within its first frame",
+    reject("it has no valid frame: it is truncated or damaged within the first one",
            "record it again", "recording.cut-short");
 }
 
@@ -77,8 +77,7 @@ void Recording::read_blocks() {
   std::string what, block;
   while (at < size_) {
     if (!end_.empty()) {
-      notes_.push_back(fmt::format(
-          "{} bytes after the mark of its end do not belong to it: left out", size_ - at));
+      notes_.push_back(fmt::format("{} bytes after the end block are ignored", size_ - at));
       return;
     }
     const auto read_up_to = [&](std::size_t end) {
@@ -90,7 +89,7 @@ void Recording::read_blocks() {
     const bool has_head = size_ - at >= kBefore + kAfter && read_up_to(kBefore);
     const std::size_t size = has_head ? number_at(block, 1) : 0;
     if (!has_head || size > size_ - at - kBefore - kAfter) {
-      what = "is cut short";
+      what = "is truncated";
       break;
     }
     if (size > kMaxBlock) {
@@ -99,15 +98,15 @@ void Recording::read_blocks() {
     }
     if (!read_up_to(kBefore + size + kAfter) ||
         checksum(block.data(), kBefore + size) != number_at(block, kBefore + size)) {
-      what = "is damaged (its checksum differs)";
+      what = "is damaged (checksum mismatch)";
       break;
     }
     take(block[0], at + kBefore, std::string_view(block).substr(kBefore, size));
     at += kBefore + size + kAfter;
   }
-  if (what.empty() && end_.empty()) what = "ends without the mark of its end";
+  if (what.empty() && end_.empty()) what = "ends without an end block";
   if (what.empty() || places_.empty()) return;
-  notes_.push_back(fmt::format("the file {} at byte {} of {}; kept: {} frames, up to t = {} s",
+  notes_.push_back(fmt::format("the file {} at byte {} of {}; read: {} frames, up to t = {} s",
                                what, at, size_, places_.size(),
                                short_number_text(places_.back().t)));
 }
@@ -118,7 +117,7 @@ void Recording::take(char kind, std::size_t begin, std::string_view payload) {
     if (has_header_) throw std::runtime_error("there is a second header");
     take_header(payload);
   } else if (kind == kFile) {
-    if (files_ == header_.files.size()) throw std::runtime_error("there is a file without a name");
+    if (files_ == header_.files.size()) throw std::runtime_error("there is a file without a path");
     header_.files[files_++].bytes = payload;
   } else if (kind == kName) {
     take_text(payload, names_);
@@ -159,11 +158,10 @@ void Recording::take_frame(std::size_t begin, std::string_view payload) {
   if (places_.size() == kMaxFrames)
     throw std::runtime_error("there are more than 16 million frames");
   if (!(t >= (places_.empty() ? -HUGE_VAL : places_.back().t)))
-    throw std::runtime_error("the time of a frame lies before that of the last");
+    throw std::runtime_error("the time of a frame is before that of the previous one");
   places_.push_back({begin, payload.size(), t});
 }
 
-// A right checksum says that the bytes are as they were written, not that they make sense.
 RecordedFrame Recording::frame(std::size_t n) const {
   RecordedFrame frame;
   bool fits = true;
@@ -182,8 +180,7 @@ RecordedFrame Recording::frame(std::size_t n) const {
   const auto all_below = [](const std::vector<std::uint32_t>& numbers, std::size_t count) {
     return std::ranges::all_of(numbers, [&](std::uint32_t i) { return i < count; });
   };
-  if (version_ == 2 &&
-      frame.pulls.size() < header_.couplings.size())  // of a lab whose coupling was changed
+  if (version_ == 2 && frame.pulls.size() < header_.couplings.size())  // the lab changed a coupling
     frame.pulls.resize(header_.couplings.size(), Vector3::Zero());
   fits = fits && frame.values.size() == header_.columns.size() &&
          frame.pulls.size() == header_.couplings.size() &&
@@ -192,8 +189,7 @@ RecordedFrame Recording::frame(std::size_t n) const {
          all_below(frame.momentum_rows, momentum_names_.size());
   if (!fits)
     throw InputError({{file_, 0, fmt::format("frame {}, at byte {}", n, places_[n].begin),
-                       "its checksum is right, but its numbers do not fit the header",
-                       "record it again", "recording.numbers"}});
+                       "it does not match the header", "record it again", "recording.numbers"}});
   return frame;
 }
 
@@ -202,9 +198,9 @@ std::size_t Recording::at(double t, const std::string& option) const {
   const double first = places_.front().t, last = places_.back().t;
   if (!(t >= first - slack && t <= last + slack))
     throw InputError({{file_, 0, option,
-                       short_number_text(t) + " s is not in the recording, which goes from " +
+                       short_number_text(t) + " s is outside the recording, from " +
                            short_number_text(first) + " to " + short_number_text(last) + " s",
-                       "give a time within", "recording.time"}});
+                       "give a time in this range", "recording.time"}});
   const auto after = std::upper_bound(places_.begin() + 1, places_.end(), t + slack,
                                       [](double end, const Place& place) { return end < place.t; });
   return static_cast<std::size_t>(after - places_.begin()) - 1;

@@ -1,5 +1,5 @@
-// Reads a recording: as much of it as is whole. The file is gone through once, block by block; a
-// frame is read again when it is asked for, so that memory does not grow with the file.
+// Reads the valid part of a recording. The file is scanned once, block by block; frames are read on
+// demand.
 #pragma once
 
 #include <filesystem>
@@ -14,22 +14,22 @@ namespace twinarm {
 
 class Recording {
  public:
-  // FILE, or FILE.part where there is no FILE. Throws InputError for what is no recording, is of a
-  // newer format, or has nothing whole; what else is missing stands in notes().
+  // FILE, or FILE.part if FILE does not exist. Throws InputError if it is not a recording, of a
+  // newer format, or without a valid frame; notes() lists other damage.
   explicit Recording(const std::filesystem::path& file);
 
   std::uint32_t version() const { return version_; }  // of its format
   const RecordingHeader& header() const { return header_; }
-  const std::vector<std::string>& rows() const { return names_; }  // of the ledger
+  const std::vector<std::string>& rows() const { return names_; }  // of the energy balance
   const std::vector<std::string>& momentum_rows() const { return momentum_names_; }
   const std::vector<std::string>& alarms() const { return alarms_; }
   const std::vector<std::string>& notes() const { return notes_; }
-  const std::string& end() const { return end_; }  // how the run ended; empty: not known
+  const std::string& end() const { return end_; }  // how the run ended; empty: unknown
 
   std::size_t size() const { return places_.size(); }
   RecordedFrame frame(std::size_t n) const;
-  // The last frame at or before t (a millionth of a step after it counts too). Throws InputError
-  // where t lies outside of what is recorded, naming `option`.
+  // The last frame at or before t (up to a millionth of a step after it). Throws InputError that
+  // names `option` if t is outside the recording.
   std::size_t at(double t, const std::string& option) const;
 
  private:
@@ -49,7 +49,7 @@ class Recording {
   std::size_t text_ = 0;  // bytes of names and alarms
   std::uint32_t version_ = 0;
   RecordingHeader header_;
-  std::size_t files_ = 0;  // of the header, that have come
+  std::size_t files_ = 0;  // of the header, read so far
   bool has_header_ = false;
   std::vector<std::string> names_, momentum_names_, alarms_, notes_;
   std::vector<Place> places_;

@@ -9,7 +9,7 @@ namespace twinarm {
 namespace {
 
 constexpr std::size_t kMaxWaiting = 1 << 18;  // bytes
-constexpr std::chrono::milliseconds kLongestWait{250};
+constexpr std::chrono::milliseconds kMaxWait{250};
 
 std::string bytes_of(std::uint32_t number) {
   StateArchive memory;
@@ -64,7 +64,7 @@ void RecordingWriter::write(RecordedFrame& frame) {
   StateArchive memory;
   visit(memory, frame);
   block(recording_format::kFrame, memory.bytes());
-  if (waiting_.size() > kMaxWaiting || std::chrono::steady_clock::now() - flushed_ > kLongestWait)
+  if (waiting_.size() > kMaxWaiting || std::chrono::steady_clock::now() - flushed_ > kMaxWait)
     flush();
 }
 
@@ -95,7 +95,7 @@ void RecordingWriter::flush() {
 
 void RecordingWriter::fail() const {
   throw InputError({{file_.string(), 0, "--record", "the recording cannot be written",
-                     "choose a folder that can be written, and has room", "file.unwritable"}});
+                     "choose a writable folder with free space", "file.unwritable"}});
 }
 
 }  // namespace twinarm

@@ -1,6 +1,5 @@
-// Writes a recording while a run goes on: into FILE.part, which becomes FILE when the run has
-// ended. What was handed over to the system (at least every quarter of a second) is there however
-// the program ends; readers take a .part too.
+// Writes a recording during a run: into FILE.part, renamed to FILE at the end. Data are flushed
+// every 0.25 s at the latest, and readers accept a .part: a crash loses no more.
 #pragma once
 
 #include <chrono>
@@ -15,14 +14,14 @@ namespace twinarm {
 
 class RecordingWriter {
  public:
-  // Throws InputError where the file cannot be written.
+  // Throws InputError if the file cannot be written.
   RecordingWriter(std::filesystem::path file, RecordingHeader header);
-  // Numbers of the ledger's rows by name: a new name is written down first.
+  // Indices of rows of the balances; writes new names.
   std::uint32_t number_of(const std::string& row);
   std::uint32_t momentum_number_of(const std::string& row);
   void alarm(const std::string& words);
   void write(RecordedFrame& frame);
-  // The end of the run in a word, then the file's own name. Throws InputError.
+  // Writes how the run ended and renames the file. Throws InputError.
   void finish(const std::string& how);
 
  private:

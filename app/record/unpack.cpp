@@ -18,7 +18,7 @@ namespace twinarm {
 
 namespace {
 
-// No file has such a line: faults in what a change wrote are known by it.
+// Negative line numbers mark values from a change.
 int line_of_change(std::size_t change) {
   return -1 - static_cast<int>(change);
 }
@@ -27,31 +27,19 @@ int line_of_change(std::size_t change) {
 
 SimulateOptions options_of(const RecordedRun& run) {
   SimulateOptions options;
-  options.robot.model = run.model;
-  options.robot.state = run.state;
-  options.robot.gravity = run.gravity;
-  options.robot.floating = run.floating;
-  options.robot.friction = run.friction;
-  options.robot.armature = run.armature;
-  options.robot.strict = run.strict;
-  options.duration = run.duration;
-  options.step = run.step;
-  options.tolerance = run.tolerance;
-  options.energy_bound = run.energy_bound;
-  options.integrator = run.integrator;
-  options.contact = run.contact;
+  options.robot = run;
+  static_cast<RunSettings&>(options) = run;
   return options;
 }
 
 RecordedRun recorded_run(const SimulateOptions& options) {
-  const auto absolute = [](const std::filesystem::path& path) {
-    return path.empty() ? path : std::filesystem::absolute(path).lexically_normal();
-  };
-  const RobotOptions& robot = options.robot;
-  return {absolute(robot.model), absolute(robot.state), robot.gravity,        robot.floating,
-          robot.friction,        robot.armature,        robot.strict,         options.duration,
-          options.step,          options.tolerance,     options.energy_bound, options.integrator,
-          options.contact};
+  RecordedRun run;
+  static_cast<RobotOptions&>(run) = options.robot;
+  static_cast<RunSettings&>(run) = options;
+  run.roots = {};
+  for (std::filesystem::path* path : {&run.model, &run.state})
+    if (!path->empty()) *path = std::filesystem::absolute(*path).lexically_normal();
+  return run;
 }
 
 UnpackedRun::Folder::Folder() : path(make_temporary_folder("twinarm-replay")) {}
@@ -65,10 +53,10 @@ UnpackedRun::UnpackedRun(RecordingHeader header) : header_(std::move(header)) {
   write_missing();
 }
 
-// Cleaners of temporary folders remove what is old, also while it is in use.
+// Cleaners of temporary folders may remove copies while they are in use.
 void UnpackedRun::write_missing() const {
   const std::lock_guard lock(writing_);
-  mkdir(folder_.path.c_str(), S_IRWXU);  // as it was made: for nobody else
+  mkdir(folder_.path.c_str(), S_IRWXU);  // for this user only
   for (const RecordedFile& file : header_.files) {
     const std::filesystem::path copy = copy_of(file.path);
     std::error_code ignored;
@@ -78,8 +66,7 @@ void UnpackedRun::write_missing() const {
   }
 }
 
-// Below the folder as it lay below the root, so that files find one another as they did. Of an
-// absolute path nothing is left that leads upwards.
+// The original path below the folder, so that relative references work. Normalisation removes "..".
 std::filesystem::path UnpackedRun::copy_of(const std::filesystem::path& original) const {
   if (!original.is_absolute())
     throw InputError(
@@ -88,16 +75,16 @@ std::filesystem::path UnpackedRun::copy_of(const std::filesystem::path& original
   return folder_.path / original.lexically_normal().relative_path();
 }
 
-// A text of the scene that names one of the files: it may have lain below assets/.
-void UnpackedRun::lead_to_copies(Value& value) const {
+// Replaces texts that name one of the files (absolute, or below assets/) by the path of its copy.
+void UnpackedRun::redirect_paths(Value& value) const {
   if (value.kind == Value::Kind::text && !value.text.empty()) {
     const std::string name = std::filesystem::path(value.text).lexically_normal().string();
     for (const RecordedFile& file : header_.files)
       if (file.path == name || file.path.ends_with("/" + name))
         value.text = copy_of(file.path).string();
   }
-  for (Value& item : value.items) lead_to_copies(item);
-  for (Value& member : value.members) lead_to_copies(member);
+  for (Value& item : value.items) redirect_paths(item);
+  for (Value& member : value.members) redirect_paths(member);
 }
 
 SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
@@ -114,17 +101,16 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
       options.robot.gravity = changes[i].value;
     else if (std::ranges::find(kept, changes[i].path) != kept.end())
       faults.add({"", 0, "--set " + changes[i].path,
-                  "a fork keeps the grid and the method of its recording",
+                  "a branch keeps step, integrator, duration and contact model of its recording",
                   "run `twinarm simulate` with another " + changes[i].path, "change.method"});
     else if (is_scene)
       of_scene.emplace_back(changes[i], line_of_change(i));
     else
-      faults.add({"", 0, "--set " + changes[i].path,
-                  "a robot alone has gravity to be changed, no more",
+      faults.add({"", 0, "--set " + changes[i].path, "only gravity can be changed for a URDF",
                   "write --set gravity=x,y,z, or record a scene", "change.robot"});
   faults.check();
   options.change_scene = [this, of_scene](Value& tree, DiagnosticList& found) {
-    lead_to_copies(tree);
+    redirect_paths(tree);
     for (std::size_t i = 0; i < of_scene.size(); ++i)
       apply(of_scene[i].first, of_scene[i].second, tree, found);
   };
@@ -134,14 +120,14 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
 InputError UnpackedRun::as_typed(const InputError& error,
                                  const std::vector<Change>& changes) const {
   const std::string folder = folder_.path.string();
-  const auto by_original = [&](std::string& text) {
+  const auto remove_folder = [&](std::string& text) {
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;)
       text.erase(at, folder.size());
   };
   std::vector<Diagnostic> faults = error.faults();
   for (Diagnostic& fault : faults) {
     for (std::string* text : {&fault.file, &fault.where, &fault.problem, &fault.fix})
-      by_original(*text);
+      remove_folder(*text);
     for (std::size_t i = 0; i < changes.size(); ++i) {
       const std::string typed = "--set " + changes[i].path + "=" + changes[i].value;
       if (fault.line == line_of_change(i))
@@ -158,7 +144,7 @@ bool is_recording(const std::filesystem::path& file) {
   std::string start(8, '\0');
   stream.read(start.data(), 8);
   if (stream && start == std::string(recording_format::kMagic, 8)) return true;
-  if (file.extension() == ".twinrec") return true;  // one that is not there is told by its reader
+  if (file.extension() == ".twinrec") return true;  // the reader reports a missing file
   std::error_code ignored;
   return !std::filesystem::exists(file, ignored) && std::filesystem::exists(part_of(file), ignored);
 }

@@ -1,5 +1,4 @@
-// A recorded run made again, from the files that the recording holds: those on the disk may have
-// changed, or be gone.
+// Restores a recorded run from the files in the recording.
 #pragma once
 
 #include <filesystem>
@@ -16,32 +15,30 @@
 
 namespace twinarm {
 
-// A recorded run as options of a new one, and the other way round. The paths of the latter are made
-// absolute.
+// Conversion between recorded and new options; recorded paths are absolute.
 SimulateOptions options_of(const RecordedRun& run);
 RecordedRun recorded_run(const SimulateOptions& options);
 
-// The recording's files in a temporary folder, which goes with it.
+// The recording's files in a temporary folder, which the destructor removes.
 class UnpackedRun {
  public:
-  // Throws InputError where a file cannot be written, or would not lie in the folder.
+  // Throws InputError if a file cannot be written, or would be outside the folder.
   explicit UnpackedRun(RecordingHeader header);
   UnpackedRun(const UnpackedRun&) = delete;
   UnpackedRun& operator=(const UnpackedRun&) = delete;
 
   const RecordingHeader& header() const { return header_; }
   const std::filesystem::path& folder() const { return folder_.path; }
-  // What the run was given, its paths those of the copies. Copies that something else has removed
-  // are written again; the recorded run must outlive what is read with these options.
+  // Options of the run with the paths of the copies; missing copies are written again. *this must
+  // outlive what is read with these options.
   SimulateOptions options(const std::vector<Change>& changes = {}) const;
-  // Faults of such a run: copies by the names of their originals, and what a change brought in by
-  // that change.
+  // Diagnostics of such a run with the original paths; those caused by a change name that change.
   InputError as_typed(const InputError& error, const std::vector<Change>& changes = {}) const;
 
  private:
   void write_missing() const;
   std::filesystem::path copy_of(const std::filesystem::path& original) const;
-  void lead_to_copies(Value& value) const;
+  void redirect_paths(Value& value) const;
   struct Folder {  // made, and removed with all that is in it
     Folder();
     ~Folder();
@@ -52,23 +49,22 @@ class UnpackedRun {
   mutable std::mutex writing_;
 };
 
-// Whether the file begins as a recording, is named like one, or there is only its .part.
+// Whether the file is a recording by its contents or name, or only its .part exists.
 bool is_recording(const std::filesystem::path& file);
 
-// Adds a fault where options were given that change a model or its state: a recording has both.
+// Rejects options that change model or state: a recording has both.
 void check_recorded(const RobotOptions& given, DiagnosticList& faults);
 
-// Opened again, for inspection.
+// State of a recorded run, for inspection.
 struct RecordedInstant {
-  SimulatePlan prepared;          // its state is that of the instant; so are the points of wrenches
-  StateArchive memory;            // for Simulation::serialize of a simulation that is built alike
-  double t = 0;                   // of the frame [s]
-  std::vector<EnergyRow> ledger;  // up to it [J]
-  // The files that it was made from: meshes are read when contacts are set up, which is later.
-  std::shared_ptr<const UnpackedRun> files;
+  SimulatePlan prepared;                     // with the state and wrenches of the instant
+  StateArchive memory;                       // for Simulation::serialize of the same simulation
+  double t = 0;                              // of the frame [s]
+  std::vector<EnergyRow> ledger;             // up to t [J]
+  std::shared_ptr<const UnpackedRun> files;  // for meshes, which contacts read later
 };
 
-// The last frame at or before `at`; left out: the last of all. Prepared for semi-implicit steps;
+// The last frame at or before `at` (default: the last). Prepared for semi-implicit steps;
 // `prepared.run.integrator` is that of the run. Throws InputError.
 RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at);
 

@@ -15,14 +15,14 @@ bool is_six_dof(const NamedJoint& joint) {
   return joint.type == JointType::free;
 }
 
-// R_CP of a joint of six degrees of freedom.
-Mat3<double> turn_of(const NamedJoint& joint, const State<double>& x) {
+// R_CP of a joint with six degrees of freedom.
+Mat3<double> rotation_of(const NamedJoint& joint, const State<double>& x) {
   return quaternion_E(x.q.data() + joint.iq + 3);
 }
 
 }  // namespace
 
-// In the order of here: what a quaternion leads, its x, y, z have the velocities after it.
+// A quaternion's x, y, z are paired with the angular velocity; its w with none.
 std::vector<JointComponent> NamedJoint::components() const {
   const JointFacts facts = facts_of(type);
   std::vector<JointComponent> components;
@@ -40,9 +40,9 @@ Coordinates::Coordinates(const Model<double>& model, bool floating, int last)
   std::size_t row = 0;
   for (std::size_t i = 1; i <= static_cast<std::size_t>(last); ++i) {
     const std::size_t nv = model.dofs(i), iv = model.iv[i];
-    const bool follows = std::ranges::any_of(
+    const bool is_mimic = std::ranges::any_of(
         model.mimics, [&](const Mimic& m) { return nv == 1 && m.follower == iv; });
-    if (nv == 0 || follows) continue;
+    if (nv == 0 || is_mimic) continue;
     const std::size_t nq = facts_of(model.joint[i]).nq;
     all_.push_back({model.joint_name[i], i, model.joint[i], nq, nv, model.iq[i], iv, row});
     row += nv;
@@ -88,7 +88,7 @@ std::vector<double> from_solver(const NamedJoint& joint, const State<double>& x,
                                 const std::vector<double>& by_velocity) {
   const double* y = by_velocity.data() + joint.iv;
   if (!is_six_dof(joint)) return {y, y + joint.nv};
-  const Vec3<double> w = transpose_times(turn_of(joint, x), Vec3<double>{y[0], y[1], y[2]});
+  const Vec3<double> w = transpose_times(rotation_of(joint, x), Vec3<double>{y[0], y[1], y[2]});
   return {y[3], y[4], y[5], w.x, w.y, w.z};
 }
 
@@ -99,7 +99,7 @@ void to_solver(const NamedJoint& joint, const State<double>& x, const double* va
     std::copy_n(values, joint.nv, y);
     return;
   }
-  const Vec3<double> w = turn_of(joint, x) * Vec3<double>{values[3], values[4], values[5]};
+  const Vec3<double> w = rotation_of(joint, x) * Vec3<double>{values[3], values[4], values[5]};
   y[0] = w.x, y[1] = w.y, y[2] = w.z;
   std::copy_n(values, 3, y + 3);
 }
@@ -123,26 +123,25 @@ void normalise(TableReader& table, const std::string& key, std::span<double, 4> 
   if (std::abs(*length - 1) > kRounding)
     for (double& c : q) c /= *length;
   if (warnings && std::abs(*length - 1) > kSilent)
-    warnings->push_back(
-        fmt::format("{}:{}: {}: the quaternion's length is off by {:.1e}; it was normalised",
-                    table.file(), table.find(key)->line, table.where(key), *length - 1));
+    warnings->push_back(fmt::format(
+        "{}:{}: {}: the quaternion's length differs from 1 by {:.1e}; it was normalised",
+        table.file(), table.find(key)->line, table.where(key), *length - 1));
 }
 
 JointValueMap read_joint_values(TableReader& joints, const RobotDescription& robot, JointRows rows,
                                 std::vector<std::string>* warnings) {
   JointValueMap found;
   for (const Value& value : joints.value().members) {
-    if (joints.is_full()) break;  // each takes a search
+    if (joints.is_full()) break;  // each needs a search
     const std::string& name = value.key;
-    const auto joint = std::find_if(robot.joints.begin(), robot.joints.end(),
-                                    [&](const JointDescription& j) { return j.name == name; });
+    const auto joint = std::ranges::find(robot.joints, name, &JointDescription::name);
     if (joint == robot.joints.end()) {
       joints.fault(name, "there is no such joint",
                    name_remedy(name, moving_joints(robot), "joints"), "scene.unknown-name");
     } else if (joint->mimic || joint->dofs() == 0) {
       joints.fault(name,
-                   joint->mimic ? "it follows joint '" + joint->mimic->joint + "'"
-                                : "it is fixed, and has no coordinate",
+                   joint->mimic ? "it mimics joint '" + joint->mimic->joint + "'"
+                                : "it is fixed: it has no coordinate",
                    "leave it out", "scene.no-coordinate");
     } else {
       const bool velocities = rows == JointRows::velocities;

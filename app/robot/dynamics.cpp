@@ -15,9 +15,8 @@ std::vector<double> as_list(const Eigen::VectorXd& values) {
   return {values.data(), values.data() + values.size()};
 }
 
-// What joints need besides, to move against their friction. At rest friction takes any value
-// within its limits: none is asked for.
-std::vector<double> friction_to_overcome(const Model<double>& model, const State<double>& x) {
+// Joint forces that balance damping and Coulomb friction; zero at rest.
+std::vector<double> friction_forces(const Model<double>& model, const State<double>& x) {
   std::vector<double> tau(model.nv);
   for (std::size_t i = 0; i < model.nv; ++i) {
     const double qd = x.qd[i];
@@ -28,7 +27,7 @@ std::vector<double> friction_to_overcome(const Model<double>& model, const State
   return tau;
 }
 
-// The solver's velocities of what is given by rows.
+// A vector of the solver by rows of the mass matrix.
 Eigen::VectorXd by_rows(const Coordinates& coordinates, const State<double>& x,
                         const std::vector<double>& by_velocity) {
   Eigen::VectorXd rows(coordinates.rows());
@@ -61,7 +60,7 @@ void inverse(const RobotInput& input, const std::vector<Force<double>>& f_ext, c
   const State<double>& x = input.state.x;
   Workspace<double> w(model);
   rnea(model, x, as_list(P * input.state.qdd), f_ext, w);
-  const std::vector<double> friction = friction_to_overcome(model, x);
+  const std::vector<double> friction = friction_forces(model, x);
   d.tau_inverse = P.transpose() * (as_vector(w.tau) + as_vector(friction));
   d.base_force = k.R_WB[1] * to_eigen(w.f[1].f);
   d.base_torque = k.R_WB[1] * to_eigen(w.f[1].n);
@@ -80,10 +79,10 @@ void inverse(const RobotInput& input, const std::vector<Force<double>>& f_ext, c
 
 Force<double> in_body_axes(const Wrench& wrench, const Kinematics& k) {
   const Pose& X_WL = k.X_WL[wrench.body];
-  const bool turn = wrench.in_link_axes;
-  const Vector3 f_W = turn ? X_WL.R * wrench.force : wrench.force;
-  const Vector3 n_W = turn ? X_WL.R * wrench.torque : wrench.torque;
-  const Vector3 r_W = turn ? X_WL.R * wrench.point : Vector3(wrench.point - X_WL.p);
+  const bool rotate = wrench.in_link_axes;
+  const Vector3 f_W = rotate ? X_WL.R * wrench.force : wrench.force;
+  const Vector3 n_W = rotate ? X_WL.R * wrench.torque : wrench.torque;
+  const Vector3 r_W = rotate ? X_WL.R * wrench.point : Vector3(wrench.point - X_WL.p);
   const Matrix3 R_BW = k.R_WB[wrench.body].transpose();
   return {from_eigen(R_BW * (n_W + r_W.cross(f_W))), from_eigen(R_BW * f_W)};
 }
@@ -105,7 +104,7 @@ Dynamics compute_dynamics(const RobotInput& input) {
   const auto nv = of_tree.rows();
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const Eigen::MatrixXd M = P.transpose() * Eigen::Map<const RowMajor>(of_tree.data(), nv, nv) * P;
-  d.mass_matrix = 0.5 * (M + M.transpose());  // products round; both triangles have the same digits
+  d.mass_matrix = 0.5 * (M + M.transpose());  // symmetric to the last digit
 
   Workspace<double> w(model);
   kinematics(model, x, w);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "app/data/value.h"
@@ -20,23 +21,20 @@ namespace {
 std::optional<RobotDescription> read_model_file(const RobotOptions& options,
                                                 DiagnosticList& faults) {
   const std::filesystem::path& file = options.model;
-  if (file.extension() == ".toml") {
-    faults.add({file.string(), 0, "model", "a scene has no one state of one robot",
-                "give a robot's URDF, or run the scene with `twinarm simulate`", "file.is-scene"});
+  const auto fault = [&](const char* problem, const char* fix, std::string_view code) {
+    faults.add({file.string(), 0, "model", problem, fix, code});
     return std::nullopt;
-  }
-  if (file.extension() == ".twinrec") {
-    faults.add({file.string(), 0, "model", "is a recording",
-                "give a robot's URDF; `twinarm inspect` and `twinarm replay` open recordings",
-                "file.is-recording"});
-    return std::nullopt;
-  }
+  };
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
-    faults.add({file.string(), 0, "model", "is a folder", "name the robot's URDF in it",
-                "file.is-folder"});
-    return std::nullopt;
-  }
+  if (file.extension() == ".toml")
+    return fault("is a scene", "give a robot's URDF, or run the scene with `twinarm simulate`",
+                 "file.is-scene");
+  if (file.extension() == ".twinrec")
+    return fault("is a recording",
+                 "give a robot's URDF; `twinarm inspect` and `twinarm replay` open recordings",
+                 "file.is-recording");
+  if (std::filesystem::is_directory(file, ignored))
+    return fault("is a folder", "name the robot's URDF in it", "file.is-folder");
   return attempt(faults, [&] {
     return read_robot_file(file, {.geometry = RobotFileOptions::Geometry::optional,
                                   .strict = options.strict,
@@ -51,25 +49,32 @@ std::vector<double> parse_list(const std::string& option, const std::string& tex
   std::vector<double> values;
   for (std::string item : split(text)) {
     item.erase(0, item.find_first_not_of(' '));
-    if (const auto space = item.find_last_not_of(' '); space != std::string::npos)
-      item.erase(space + 1);
+    item.erase(item.find_last_not_of(' ') + 1);
     if (const auto value = parse_number(item)) {
       values.push_back(*value);
     } else {
-      faults.add({"", 0, option, "'" + item + "' is not a finite number",
-                  "write numbers separated by commas", "option.number"});
+      faults.add(option, "'" + item + "' is not a finite number",
+                 "write numbers separated by commas", "option.number");
       return {};
     }
   }
   return values;
 }
 
+bool check_positive(const std::string& option, double value, DiagnosticList& faults,
+                    const char* unit) {
+  if (value > 0 && std::isfinite(value)) return true;
+  faults.add(option, fmt::format("must be positive{}, is {}", unit, number_text(value)), "",
+             "option.not-positive");
+  return false;
+}
+
 std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults) {
   const std::vector<double> numbers = parse_list("--gravity", text, faults);
   if (numbers.size() == 3) return Vector3(numbers.data());
   if (!numbers.empty())
-    faults.add({"", 0, "--gravity", "has " + std::to_string(numbers.size()) + " numbers",
-                "give three: --gravity 0,0,-9.81", "option.count"});
+    faults.add("--gravity", "has " + std::to_string(numbers.size()) + " numbers",
+               "give three: --gravity 0,0,-9.81", "option.count");
   return std::nullopt;
 }
 
@@ -120,7 +125,7 @@ class StateReader {
       return state_;
     }
     TableReader state(json, {"the state", "", ""}, file_, faults_);
-    // Orientations first: velocities and forces of a floating joint are turned by them.
+    // Orientations first: they rotate velocities and forces of a floating joint.
     each_joint(state, "q", JointRows::coordinates, [&](const NamedJoint& joint, const Numbers& q) {
       std::copy(q.begin(), q.end(), state_.x.q.data() + joint.iq);
     });
@@ -143,7 +148,7 @@ class StateReader {
  private:
   using Numbers = std::vector<double>;
 
-  // Calls take(joint, numbers) for every good entry of the object under `key`.
+  // Calls take(joint, numbers) for every valid entry of the object under `key`.
   template <class Take>
   void each_joint(TableReader& state, const std::string& key, JointRows rows, Take take) {
     const Value* object = state.table(key);
@@ -161,13 +166,13 @@ class StateReader {
     const Value* object = state.table("base");
     if (!object) return;
     if (!coordinates_.floating())
-      return state.fault("base", "the root link stands on the world",
-                         "give --floating, or leave 'base' out", "scene.key-useless");
+      return state.fault("base", "the base is fixed", "give --floating, or leave 'base' out",
+                         "scene.key-useless");
     TableReader base(*object, {"base", "base.", ""}, file_, faults_);
     double* q = state_.x.q.data() + coordinates_.base().iq;
     if (const auto p = base.vector("position")) std::copy(p->begin(), p->end(), q);
-    if (const auto turn = base.numbers("orientation", 4)) {
-      std::copy(turn->begin(), turn->end(), q + 3);
+    if (const auto orientation = base.numbers("orientation", 4)) {
+      std::ranges::copy(*orientation, q + 3);
       normalise(base, "orientation", std::span<double, 4>(q + 3, 4), &state_.warnings);
     }
     const auto motion = [&](const char* linear, const char* angular) {
@@ -198,8 +203,7 @@ class StateReader {
     Wrench wrench;
     const Value* link = given.find("link");
     if (!link || !link->is_text())
-      given.fault("link", "the name of the link that it acts on is missing",
-                  "give \"link\": \"NAME\"", "scene.missing");
+      given.fault("link", "is missing", "give \"link\": \"NAME\"", "scene.missing");
     else if (const auto body = find_link(link->text))
       wrench.body = *body;
     else
@@ -212,11 +216,11 @@ class StateReader {
     given.done();
     state_.wrenches.push_back(wrench);
   }
-  // Not find_body: that knows the world too, under its name.
+  // Unlike find_body() without the world.
   std::optional<std::size_t> find_link(const std::string& name) const {
-    for (std::size_t i = 1; i < model_.body_name.size(); ++i)
-      if (model_.body_name[i] == name) return i;
-    return std::nullopt;
+    const auto found = std::find(model_.body_name.begin() + 1, model_.body_name.end(), name);
+    if (found == model_.body_name.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - model_.body_name.begin());
   }
   std::vector<std::string> link_names() const {
     return {model_.body_name.begin() + 1, model_.body_name.end()};

@@ -1,4 +1,4 @@
-// What `dynamics` and `simulate` are both given: a URDF, a state, gravity, and what to leave out.
+// Input of `dynamics` and `simulate`: a URDF, a state, gravity, and effects to ignore.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,47 +9,46 @@
 
 #include "app/data/value.h"
 #include "app/robot/coordinates.h"
+#include "app/support/text.h"
 #include "collision/import/robot/file_search.h"
 #include "collision/import/robot/robot_description.h"
 #include "solver/model/model.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
-// The state file: where a robot is, how it moves, what acts on it (docs/reference/state_file.md).
-
-// A force at a point and a torque about that point, on a link.
+// A force at a point of a link and a torque about that point.
 struct Wrench {
   std::size_t body = 0;
-  bool in_link_axes = false;  // else in world axes and coordinates
+  bool in_link_axes = false;  // else world axes and coordinates
   Vector3 point = Vector3::Zero(), force = Vector3::Zero(), torque = Vector3::Zero();
 };
 
+// Contents of a state file (docs/reference/state_file.md).
 struct GivenState {
-  State<double> x;            // followers placed by their leaders
-  Eigen::VectorXd tau, qdd;   // by rows of the mass matrix; of qdd the base's come first
-  std::vector<bool> has_tau;  // by Coordinates::all(): whether the file names one
+  State<double> x;            // mimic joints included
+  Eigen::VectorXd tau, qdd;   // by rows of the mass matrix; in qdd the base first
+  std::vector<bool> has_tau;  // by Coordinates::all(): given in the file
   std::vector<Wrench> wrenches;
   std::vector<std::string> warnings;
 };
 
-// Everything at rest at its identity.
+// At rest, with zero coordinates.
 GivenState default_state(const Model<double>& model, const Coordinates& coordinates);
 
-// Adds all faults of the file to the list; what it returns is of use only if there are none. What
-// the file leaves out is as in `start`.
+// Values that the file does not give are taken from `start`. The result is valid only if no
+// diagnostic was added.
 GivenState read_state(const Value& json, const std::filesystem::path& file,
                       const RobotDescription& robot, const Model<double>& model,
                       const Coordinates& coordinates, const GivenState& start,
                       DiagnosticList& faults);
 
 struct RobotOptions {
-  std::filesystem::path model, state;  // state may be empty: at rest at the identity
+  std::filesystem::path model, state;  // state may be empty
   std::string gravity;                 // "x,y,z"; empty: 0,0,-9.81
   bool floating = false;
   bool friction = true, armature = true;
-  bool strict = false;  // inertias that no body has are faults
-  FileRoots roots;      // of the files that the model names
+  bool strict = false;  // physically inconsistent inertias are errors
+  FileRoots roots;      // folders that may contain the model's files
 };
 
 struct RobotInput {
@@ -60,24 +59,17 @@ struct RobotInput {
   std::vector<std::string> warnings;
 };
 
-// Throws InputError with all faults: those given, and those of the options, the URDF and the state.
+// Throws InputError with all diagnostics: given ones, and those of options, URDF and state.
 RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults = {});
 
-// What f returns; nothing where it finds faults, which are added to the others.
-template <class F>
-auto attempt(DiagnosticList& faults, F f) -> std::optional<decltype(f())> {
-  try {
-    return f();
-  } catch (const InputError& error) {
-    faults.add(error.faults());
-    return std::nullopt;
-  }
-}
-
-// --gravity; nothing, told, where it is not three numbers.
+// --gravity: three numbers, or a diagnostic.
 std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults);
 
-// Numbers separated by commas, as options have them; adds a fault and returns nothing else.
+// Adds a diagnostic and returns false if the value is not positive and finite; `unit`: " [s]".
+bool check_positive(const std::string& option, double value, DiagnosticList& faults,
+                    const char* unit = "");
+
+// Numbers separated by commas; empty, with a diagnostic, if one is not a number.
 std::vector<double> parse_list(const std::string& option, const std::string& text,
                                DiagnosticList& faults);
 

@@ -52,9 +52,9 @@ void write_links(JsonWriter& json, const Model<double>& model, const Kinematics&
 }
 
 Eigen::Vector4d quaternion_of(const Matrix3& R) {
-  const Eigen::Quaterniond turn(R);
-  const double sign = turn.w() < 0 ? -1 : 1;
-  return sign * Eigen::Vector4d(turn.w(), turn.x(), turn.y(), turn.z());
+  const Eigen::Quaterniond q(R);
+  const double sign = q.w() < 0 ? -1 : 1;
+  return sign * Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
 }
 
 JointUnits::JointUnits(const Coordinates& coordinates) {

@@ -19,10 +19,6 @@ namespace {
 
 constexpr double kMaxSteps = 1e10, kMaxSamples = 1e7;
 
-bool is_positive(double value) {
-  return value > 0 && std::isfinite(value);
-}
-
 std::vector<double> every(double interval, double duration) {
   std::vector<double> times;
   for (double n = 0; n * interval < duration * (1 - 1e-12); ++n) times.push_back(n * interval);
@@ -34,33 +30,27 @@ void check_times(const std::vector<double>& times, double duration, DiagnosticLi
   for (std::size_t i = 0; i < times.size(); ++i) {
     const std::string t = number_text(times[i]);
     if (times[i] < 0 || times[i] > duration)
-      faults.add({"", 0, "--at",
-                  t + " s is not within the run, from 0 to " + number_text(duration) + " s",
-                  "give a longer --duration", "run.time"});
+      faults.add("--at", t + " s is outside the run, from 0 to " + number_text(duration) + " s",
+                 "give a longer --duration", "run.time");
     else if (i > 0 && times[i] <= times[i - 1])
-      faults.add({"", 0, "--at", t + " s comes after " + number_text(times[i - 1]) + " s",
-                  "give each time once, in ascending order", "run.time-order"});
+      faults.add("--at", t + " s follows " + number_text(times[i - 1]) + " s",
+                 "give each time once, in ascending order", "run.time-order");
   }
 }
 
 void choose_integrator(const SimulateOptions& options, RunPlan& plan, DiagnosticList& faults) {
-  std::vector<std::string> names;
-  for (const IntegratorFacts& facts : all_integrators) names.emplace_back(facts.name);
   if (const auto found = find_integrator(options.integrator))
     plan.integrator = *found;
   else if (!options.integrator.empty())
-    faults.add({"", 0, "--integrator", "there is no '" + options.integrator + "'",
-                name_remedy(options.integrator, names, "integrators"), "run.integrator"});
+    choose("--integrator", options.integrator, names_of(all_integrators), "integrators", faults,
+           "run.integrator");
   if (!options.tolerance) return;
   plan.tolerance = *options.tolerance;
-  if (!is_positive(plan.tolerance))
-    faults.add({"", 0, "--tolerance", "must be positive, is " + number_text(plan.tolerance), "",
-                "option.not-positive"});
+  check_positive("--tolerance", plan.tolerance, faults);
   if (!plan.is_adaptive())
-    faults.add({"", 0, "--tolerance",
-                "'" + std::string(integrator_name(plan.integrator)) +
-                    "' has steps of fixed size, and no tolerance",
-                "give --step, or --integrator dopri5", "run.tolerance"});
+    faults.add("--tolerance",
+               std::string("integrator ") + integrator_name(plan.integrator) + " has a fixed step",
+               "give --step, or --integrator dopri5", "run.tolerance");
 }
 
 }  // namespace
@@ -73,39 +63,34 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults,
   choose_integrator(options, plan, faults);
   const std::optional<double> duration = options.duration ? options.duration : defaults.duration;
   if (!duration)
-    faults.add({"", 0, "--duration", "is missing", "give --duration SECONDS", "option.missing"});
+    faults.add("--duration", "is missing", "give --duration SECONDS", "option.missing");
   plan.duration = duration.value_or(1);
   plan.step_is_given = options.step.has_value();
   plan.step = options.step.value_or(plan.is_adaptive() ? plan.duration : defaults.step);
   const auto positive = [&](const char* option, double value) {
-    if (!is_positive(value))
-      faults.add({"", 0, option, "must be a positive number of seconds, is " + number_text(value),
-                  "", "option.not-positive"});
-    return is_positive(value);
+    return check_positive(option, value, faults, " [s]");
   };
   const bool good_duration = positive("--duration", plan.duration);
   const bool good_step = !options.step || positive("--step", *options.step);
   if (good_step && good_duration && plan.duration / plan.step > kMaxSteps)
-    faults.add({"", 0, options.step ? "--step" : "step", "the run would have more than 1e10 steps",
-                "give a longer step or a shorter duration", "run.too-many-steps"});
+    faults.add(options.step ? "--step" : "step", "the run would have more than 1e10 steps",
+               "give a longer step or a shorter duration", "run.too-many-steps");
   if (options.record_every) positive("--record-every", *options.record_every);
   if (options.record_every && options.record.empty())
-    faults.add(
-        {"", 0, "--record-every", "nothing is recorded", "give --record FILE", "option.useless"});
+    faults.add("--record-every", "needs --record", "give --record FILE", "option.useless");
   if (options.energy_bound) {
     plan.energy_bound = *options.energy_bound;
     if (!(plan.energy_bound > 0))
-      faults.add(
-          {"", 0, "--energy-bound",
-           "must be a positive number of joules, or inf, is " + number_text(plan.energy_bound), "",
-           "option.not-positive"});
+      faults.add("--energy-bound",
+                 "must be positive [J], or inf, is " + number_text(plan.energy_bound), "",
+                 "option.not-positive");
   }
   if (options.json && options.csv)
-    faults.add(
-        {"", 0, "--csv", "stdout is taken by --json", "leave one of them out", "option.conflict"});
+    faults.add("--csv", "cannot be combined with --json", "leave one of them out",
+               "option.conflict");
   if (options.every && !options.at.empty())
-    faults.add({"", 0, "--every", "samples are asked for by --at already", "leave one of them out",
-                "option.conflict"});
+    faults.add("--every", "cannot be combined with --at", "leave one of them out",
+               "option.conflict");
 
   plan.times = {0, plan.duration};
   if (!options.at.empty()) {
@@ -113,8 +98,8 @@ RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults,
     if (good_duration) check_times(plan.times, plan.duration, faults);
   } else if (options.every && positive("--every", *options.every) && good_duration) {
     if (plan.duration / *options.every > kMaxSamples)
-      faults.add({"", 0, "--every", "there would be more than 1e7 samples", "give a longer time",
-                  "run.too-many-samples"});
+      faults.add("--every", "there would be more than 1e7 samples", "give a longer interval",
+                 "run.too-many-samples");
     else
       plan.times = every(*options.every, plan.duration);
   }
@@ -193,8 +178,8 @@ PostMortem examine_end(const StepReport& report, const Simulation& simulation,
     found.pass =
         first_bad_quantity(model, simulation.mechanism().forces, simulation.mechanism().w).pass;
   }
-  found.reason = report.finite ? "no substep however short meets the tolerance"
-                               : "a number is not finite: the run diverged";
+  found.reason = report.finite ? "step-size underflow: no substep meets the tolerance"
+                               : "the run diverged: a number is not finite";
   return found;
 }
 
@@ -202,7 +187,7 @@ namespace {
 
 constexpr double kDeepStart = 1e-4;  // penetration at the start that is reported [m]
 
-// The first floating base that carries a joint; 0: there is none.
+// The first floating base with joints; 0: none.
 std::size_t floating_base(const Model<double>& model) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (model.dofs(i) == 0 || model.parent[i] == 0) continue;
@@ -235,25 +220,25 @@ std::string drift_warning(const Simulation& simulation, const RunPlan& plan) {
 std::string deep_start_warning(const SceneContacts& contacts, ContactMode mode) {
   if (!(contacts.deepest_at_start() > kDeepStart)) return "";
   return fmt::format(
-      "{} stand {} m deep in one another at the start, deeper than any others: {}",
-      contacts.deepest_pair(), short_number_text(contacts.deepest_at_start()),
+      "initial penetration of {}: {} m (the deepest pair); {}", contacts.deepest_pair(),
+      short_number_text(contacts.deepest_at_start()),
       mode == ContactMode::compliant
-          ? "their springs throw them apart; place them apart, or give --contact rigid"
-          : "what overlaps is moved apart, no faster than 0.5 m/s");
+          ? "contact springs accelerate them; move them apart, or give --contact rigid"
+          : "bodies that overlap are separated at 0.5 m/s or less");
 }
 
 std::string unsolved_warning(long unsolved, long steps) {
   if (unsolved == 0) return "";
-  return fmt::format("in {} of {} steps the equation of the step was not solved to rounding",
+  return fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
                      unsolved, steps);
 }
 
 std::string unlocated_warning(long unlocated, long steps) {
   if (unlocated == 0) return "";
   return fmt::format(
-      "in {} of {} steps there were too many events to locate them all (bound: {} laws solved): "
-      "what was left of these steps was taken as one step of fixed size, of first order; give "
-      "--contact rigid, or a shorter --step",
+      "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
+      "step "
+      "is first-order accurate; give --contact rigid, or a shorter --step",
       unlocated, steps, EventStep::kMaxLaws);
 }
 

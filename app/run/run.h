@@ -1,4 +1,4 @@
-// A run of `twinarm simulate`: steps on a grid, samples at any time, the ledger.
+// A run of `twinarm simulate`: steps on a time grid, samples at any time, energy accounting.
 #pragma once
 
 #include <cmath>
@@ -19,98 +19,94 @@
 
 namespace twinarm {
 
-// A run between two steps, as a recording sees it.
+// A run between two steps, for recordings.
 class RunView {
  public:
   virtual ~RunView() = default;
-  virtual long step() const = 0;  // that was taken last; 0 at the start
+  virtual long step() const = 0;  // number of steps taken
   virtual const Simulation& simulation() const = 0;
-  virtual const SceneContacts* contacts() const = 0;      // null for a URDF
-  virtual std::vector<EnergyRow> ledger() const = 0;      // `numerical` last
-  virtual std::vector<EnergyRow> hand() const = 0;        // work of the kinematic sides so far
-  virtual std::vector<MomentumRow> momentum() const = 0;  // likewise
-  virtual std::string memory() = 0;                       // all that the run goes on from
+  virtual const SceneContacts* contacts() const = 0;  // null for a URDF
+  virtual std::vector<EnergyRow> ledger() const = 0;  // `numerical` last
+  virtual std::vector<EnergyRow> hand() const = 0;    // work of the targets since the start
+  virtual std::vector<MomentumRow> momentum() const = 0;
+  virtual std::string memory() = 0;  // serialized state, from which the run can be resumed
 };
 
-// Fault::code where a run cannot take over the memory of an earlier one.
+// Diagnostic::code if a run cannot be resumed from the state of another one.
 inline constexpr std::string_view kOtherMemory = "run.other-memory";
 
-// A step of an earlier run to begin at, and the last one to take.
+// Where to resume an earlier run, and its last step.
 struct RunStart {
   std::string memory;
   long last_step = std::numeric_limits<long>::max();
-  // Without memory: anew, in the state of the input, counted from so many steps and that time.
+  // true: start in the state of the input instead of `memory`, at this step and time.
   bool anew = false;
   long step = 0;
   double time = 0;  // [s]
 };
 
-// A spring or damper against the limit that the method sets to it, by linear theory.
+// A spring or damper beyond its stability limit, by linear theory.
 struct StabilityViolation {
   enum class Kind { coupling, joint_damper };
   Kind kind = Kind::coupling;
   std::size_t index = 0;  // in SceneDescription::couplings; of a damper the body of the joint
   std::string name, scheme;
-  double step = 0, max_step = 0;  // of a held force: between two evaluations [s]
-  double product = 0, limit = 0;  // w h, and the largest that holds
-  std::string gain, fix;          // which one; of what is beyond its limit, what would hold
-  double max_gain = 0;  // that holds at this step (of a time constant the least); 0: none, or
-                        // not asked for
+  double step = 0, max_step = 0;  // held force: interval of evaluations [s]
+  double product = 0, limit = 0;  // omega h and its stability limit
+  std::string gain, fix;          // name of the gain; suggested fix
+  double max_gain = 0;  // stable at this step (of a time constant the minimum); 0: none, or unknown
 };
 
-// Why a run stopped by itself.
+// Why a run diverged.
 struct PostMortem {
-  double time = 0;  // of the last good state [s]
-  long step = 0;    // the number of the bad one, from 1
-  // The first bad quantity in the order of the passes, and the body in whose row it stands.
-  std::string body, joint, field, reason;
-  int pass = 0;  // of the field; 0: an input of the passes, or coordinates and velocities
+  double time = 0;                         // of the last valid state [s]
+  long step = 0;                           // number of the failed step, from 1
+  std::string body, joint, field, reason;  // the first quantity of ABA that is not finite, its body
+  int pass = 0;  // of the field; 0: an input of ABA, or coordinates and velocities
   bool by_energy = false;
-  double kinetic_energy = 0, energy_bound = 0;  // [J]; of the last good state
-  // What app/diagnose/post_mortem.h adds.
+  double kinetic_energy = 0, energy_bound = 0;  // [J]; of the last valid state
+  // Added by app/diagnose/post_mortem.h:
   std::vector<std::string> words;
   std::vector<StabilityViolation> suspects;
   std::string recording;      // of the last steps
-  std::string row;            // of the ledger: it grew most in them
+  std::string row;            // of the energy balance, with the largest growth in them
   double row_growth = 0;      // [J]
-  std::string fastest_joint;  // in the last good state: mostly the one that ran away
+  std::string fastest_joint;  // in the last valid state
 };
 
 struct SimulateResult {
   long steps = 0;
-  double end = 0;  // [s]; where the run stopped by itself: the last good time
+  double end = 0;  // [s]; of a diverged run the last valid time
   std::vector<EnergyRow> ledger;
   std::vector<MomentumRow> momentum;
-  std::vector<EnergyRow> hand;  // of the kinematic sides of couplings; outside the sum
+  std::vector<EnergyRow> hand;  // work of the targets of couplings; not part of the sum
   std::vector<std::string> warnings;
-  int contacts = 0;  // points that press, at the last step
+  int contacts = 0;  // active contact points at the last step
   std::optional<PostMortem> post_mortem;
   std::optional<Alarm> alarm;
-  std::string alarm_words;  // by whoever watched
-  std::string checkpoint;   // where a run stopped: the memory of some 1,000 to 2,000 steps before
+  std::string alarm_words;  // text of the alarm
+  std::string checkpoint;   // of a diverged run: its state 1,000 to 2,000 steps before
 };
 
 struct RunWatch {
-  std::function<void(const std::string&)> warn;  // of the start, before the run; also in the result
+  std::function<void(const std::string&)> warn;                // before the run; also in the result
   std::function<void(double t, const State<double>&)> sample;  // times of the plan, in their order
   std::function<void(RunView&)> look;                          // at the start and after each step
-  std::function<std::string(const Alarm&)> alarm;              // says it; once at most
+  std::function<std::string(const Alarm&)> alarm;              // at most once; returns its text
   std::function<void(double t)> tick;                          // after each step; may throw
-  // Asked within long steps; true ends the step, and tick() follows, which is to throw.
+  // Called within long steps; true ends the step, and tick(), which must throw, is called.
   bool (*interrupted)() = nullptr;
 };
 
-// Of RunView::memory() the part that Simulation::serialize reads.
+// The part of RunView::memory() that Simulation::serialize reads.
 StateArchive simulation_memory(const std::string& memory);
 
-// Samples between two points of the grid are reached by a side step from the earlier one; the run
-// is the same, whatever is sampled.
-// `start`: goes on from there, with the same bits. Throws InputError where it is of another scene.
+// Samples between two grid times are computed by a side step from the earlier one and do not change
+// the run. `start`: resumes there, bit by bit. Throws InputError if it is of another scene.
 SimulateResult run_plan(const SimulateInput& input, const RunPlan& plan, const RunWatch& watch,
                         const RunStart* start = nullptr);
 
-// The numbers of a run at one time: what `simulate` prints, a recording keeps in each frame, and
-// pages plot. A new one is a column here.
+// Columns of a run: output of `simulate`, frames of recordings, plots of pages.
 struct RunColumn {
   std::string name, unit;  // "q/arm1" [rad], "links/hand/x" [m], "kinetic_energy" [J]
   std::string kind, of;    // "coordinate" of "arm1"; as in app/web/src/protocol/run.ts
@@ -120,40 +116,35 @@ struct RunColumn {
 
 // Coordinates, velocities, positions of the links' origins; kinetic and potential energy last.
 std::vector<RunColumn> run_columns(const RobotInput& input);
-// In their order; k belongs to x.
+// Their values; k: kinematics of x.
 std::vector<double> run_values(const RobotInput& input, const State<double>& x,
                                const Kinematics& k);
 
-// How a run ends that stops by itself.
 double weight_of(const Model<double>& model);  // [N]
-// RunPlan::energy_bound where none is given [J].
+// Default of RunPlan::energy_bound [J].
 double default_energy_bound(const Model<double>& model, const State<double>& start);
 
-// After a bad step from t, `last` the last good state: what is bad first, and which joint is
-// fastest.
+// Post-mortem of a failed step from t; `last`: the last valid state.
 PostMortem examine_end(const StepReport& report, const Simulation& simulation,
                        const State<double>& last, double t, long step);
 
-// What a run warns of besides its result; each is empty where there is nothing to warn of.
+// Warnings; empty if there is nothing to warn of.
 
-// Floating-base robots under semi-implicit Euler, whose steps in joint coordinates do not conserve
-// the momentum of a tree with joints: the drift is of first order in the step. Not with events
-// located in time, nor with contacts or limits under gravity, which set the momentum themselves.
+// Floating-base robots with semi-implicit Euler, whose steps in joint coordinates conserve momentum
+// only to first order in the step. Not with event-driven steps, nor with contacts or limits under
+// gravity, which determine the momentum.
 std::string drift_warning(const Simulation& simulation, const RunPlan& plan);
 
-// Bodies that penetrate one another deeply at the start.
 std::string deep_start_warning(const SceneContacts& contacts, ContactMode mode);
 
-// Steps whose equation was not solved, and steps in which not all events were located.
+// Steps whose implicit equation did not converge, and steps with events that were not located.
 std::string unsolved_warning(long unsolved, long steps);
 std::string unlocated_warning(long unlocated, long steps);
 
-// The times of a run of fixed steps.
-
-// Two times within this part of a step are the same one.
+// Times that differ by less than this fraction of a step are equal.
 inline constexpr double kSameTime = 1e-9;
 
-// t = n step, the last one `duration`, which may be infinite; both [s].
+// Times n * step of a run with fixed steps; the last is `duration`, which may be infinite [s].
 class TimeGrid {
  public:
   TimeGrid(double step, double duration) : step_(step), duration_(duration) {
@@ -164,10 +155,9 @@ class TimeGrid {
   }
   long steps() const { return steps_; }
   double time(long n) const { return n >= steps_ ? duration_ : static_cast<double>(n) * step_; }
-  // Whether a run that stands at t after n steps stands on the grid.
+  // Whether t after n steps is a time of the grid.
   bool holds(long n, double t) const { return std::abs(t - time(n)) <= kSameTime * step_; }
-  // Of the step from t, which need not lie on the grid: the last one is shorter where the duration
-  // is no multiple of the step.
+  // Length of the step from t, which need not be on the grid: the last step may be shorter.
   double length(double t) const {
     const double rest = duration_ - t;
     return rest < step_ * (1 - kSameTime) ? rest : step_;

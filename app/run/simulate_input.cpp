@@ -16,24 +16,19 @@ RunDefaults defaults_of(const SceneDescription& scene) {
           scene.contact == ContactMode::event};
 }
 
-void refuse_robot_options(const RobotOptions& options, DiagnosticList& faults) {
+void reject_robot_options(const RobotOptions& options, DiagnosticList& faults) {
   if (options.floating)
-    faults.add({"", 0, "--floating", "the scene says which of its robots float",
-                "write base = \"floating\" in [[robot]]", "option.useless"});
+    faults.add("--floating", "applies to a URDF only", "write base = \"floating\" in [[robot]]",
+               "option.useless");
   if (options.strict)
-    faults.add(
-        {"", 0, "--strict", "is for a robot's URDF alone", "leave it out", "option.useless"});
+    faults.add("--strict", "applies to a URDF only", "leave it out", "option.useless");
 }
 
-// What the command line says in place of the scene; null where that could not be read.
+// `scene` is null if it could not be read.
 void choose_contact(const std::string& name, SceneDescription* scene, DiagnosticList& faults) {
   if (name.empty()) return;
-  const auto found = std::ranges::find(kContactModes, name);
-  if (found == kContactModes.end())
-    faults.add({"", 0, "--contact", "'" + name + "' is not known",
-                name_remedy(name, kContactModes, "possible"), "option.choice"});
-  else if (scene)
-    scene->contact = static_cast<ContactMode>(found - kContactModes.begin());
+  const auto mode = choose("--contact", name, kContactModes, "possible", faults);
+  if (mode && scene) scene->contact = static_cast<ContactMode>(*mode);
 }
 
 void check_treatments(const SceneModel& scene, const RunPlan& plan, DiagnosticList& faults) {
@@ -45,7 +40,7 @@ void check_treatments(const SceneModel& scene, const RunPlan& plan, DiagnosticLi
                   "run.integrator"});
     };
     if (coupling.needs_semi_implicit() && !facts_of(plan.integrator).implicit_force)
-      fault(std::string("its treatment goes with the semi-implicit integrators only, not with ") +
+      fault(std::string("an implicit coupling needs a semi-implicit integrator, not ") +
                 integrator_name(plan.integrator),
             std::string(facts_of(coupling.law, coupling.printed).treatments ==
                                     CouplingFacts::Discretizations::all &&
@@ -54,11 +49,11 @@ void check_treatments(const SceneModel& scene, const RunPlan& plan, DiagnosticLi
                             : "give ") +
                 "--integrator semi-implicit");
     if (coupling.rate > 0 && plan.is_adaptive())
-      fault("a held force goes with steps of one size", "leave 'rate' out, or change --integrator");
+      fault("'rate' needs a fixed step", "leave it out, or change --integrator");
   }
 }
 
-// All joints of all robots, named as in the scene.
+// All joints of all robots, with their names in the scene.
 RobotDescription all_robots(const SceneDescription& scene) {
   RobotDescription all;
   all.name = scene.file.stem().string();
@@ -102,8 +97,8 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
         return c.target == CouplingTarget::Kind::device;
       }))
     warnings.push_back(
-        "no hand device moves the targets of couplings here: they stand still; `twinarm hand` runs "
-        "the scene with one");
+        "couplings with target = \"device\" stay at rest in this command; `twinarm hand` runs the "
+        "scene with a device");
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
   return {{robots, made.model, coordinates, std::move(state), std::move(warnings)},
           std::move(*scene),
@@ -117,11 +112,10 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
   if (options.robot.model.extension() != ".toml" && !options.scene) {
     const RunPlan plan = plan_run(options, {}, faults);
     if (!options.contact.empty())
-      faults.add(
-          {"", 0, "--contact", "a robot alone touches nothing", "give a scene", "option.useless"});
+      faults.add("--contact", "applies to a scene only", "give a scene", "option.useless");
     return {{read_robot_input(options.robot, faults), nullptr, nullptr}, plan};
   }
-  refuse_robot_options(options.robot, faults);
+  reject_robot_options(options.robot, faults);
   auto description = attempt(faults, [&] {
     Value tree = options.scene ? *options.scene : read_toml(options.robot.model);
     if (options.change_scene) options.change_scene(tree, faults);

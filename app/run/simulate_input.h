@@ -1,4 +1,4 @@
-// What is simulated: a robot from a URDF, or a scene.
+// Options and plan of a simulation of a robot (URDF) or a scene.
 #pragma once
 
 #include <filesystem>
@@ -17,25 +17,27 @@
 
 namespace twinarm {
 
-// What `twinarm simulate` is told, and the run that this asks for.
-struct SimulateOptions {
-  RobotOptions robot;
-  // Left out: as the scene says, else 0.001 s and semi-implicit; there is no other duration.
+// Options on which the results of a run depend. Defaults: the scene's; else 0.001 s, semi-implicit.
+struct RunSettings {
   std::optional<double> duration, step;  // [s]
-  std::string integrator;           // by its name in solver/integration/integrator.h; may be empty
-  std::string contact;              // "rigid" ..; may be empty
-  std::optional<double> tolerance;  // of dopri5, relative and absolute
-  std::optional<double> every;      // a sample each so many seconds
-  std::string at;                   // samples at these times, "t1,t2,.."
+  std::optional<double> tolerance;       // of dopri5, relative and absolute
+  std::optional<double> energy_bound;    // of kinetic energy [J]; default: RunPlan::energy_bound
+  std::string integrator;                // as in solver/integration/integrator.h; may be empty
+  std::string contact;                   // "rigid" ..; may be empty
+};
+
+// Options of `twinarm simulate`.
+struct SimulateOptions : RunSettings {
+  RobotOptions robot;
+  std::optional<double> every;  // output interval [s]
+  std::string at;               // output times "t1,t2,.." [s]
   bool json = false, csv = false;
-  std::filesystem::path record;        // a recording; empty: none is written
-  std::optional<double> record_every;  // [s]; left out: each step
-  std::optional<double> energy_bound;  // of kinetic energy [J]; left out: kGrowth times the start's
-  std::filesystem::path post_mortem;   // of a run that stops; empty: beside others in out/
-  // What a fork changes in a scene before it is read; may be empty.
-  std::function<void(Value&, DiagnosticList&)> change_scene;
-  std::optional<Value> scene;  // in place of the file that robot.model names
-  bool has_hand = false;       // one is at hand for couplings that follow a device
+  std::filesystem::path record;        // recording; may be empty
+  std::optional<double> record_every;  // [s]; default: each step
+  std::filesystem::path post_mortem;   // recording of a diverged run; empty: in out/
+  std::function<void(Value&, DiagnosticList&)> change_scene;  // before it is read; may be empty
+  std::optional<Value> scene;                                 // instead of the file robot.model
+  bool has_hand = false;                                      // an input device is connected
 };
 
 struct RunDefaults {
@@ -48,27 +50,25 @@ struct RunDefaults {
 struct RunPlan {
   Integrator integrator = Integrator::semi_implicit;
   double duration = 0;
-  double step = 0;  // of dopri5 the longest substep
+  double step = 0;  // dopri5: the longest substep
   bool step_is_given = false;
   double tolerance = 1e-9;
-  bool locates_events = false;  // in each step
-  std::vector<double> times;    // of samples, ascending
-  // A run stops where its kinetic energy passes this. Negative: kGrowth times the largest of 1 J,
-  // its kinetic energy at the start, and its weight over 1 m.
+  bool locates_events = false;
+  std::vector<double> times;  // of samples, ascending
+  // The run stops if its kinetic energy exceeds this. Negative: kGrowth times the maximum of 1 J,
+  // the kinetic energy at the start, and the weight times 1 m.
   double energy_bound = -1;  // [J]
   static constexpr double kGrowth = 1e12;
   bool is_adaptive() const { return integrator == Integrator::dopri5; }
 };
 
-// Adds all faults of the options to the list.
 RunPlan plan_run(const SimulateOptions& options, const RunDefaults& defaults,
                  DiagnosticList& faults);
 
 struct SimulateInput {
-  // Of a scene: the joints of all its robots, and the start that the state file has changed.
-  RobotInput robot;
+  RobotInput robot;                           // of a scene: joints of all robots, start state
   std::unique_ptr<SceneModel> scene;          // null for a URDF
-  std::unique_ptr<SceneCouplings> couplings;  // likewise
+  std::unique_ptr<SceneCouplings> couplings;  // null for a URDF
 };
 
 struct SimulatePlan {
@@ -76,7 +76,7 @@ struct SimulatePlan {
   RunPlan run;
 };
 
-// Reads the robot or the scene and makes a plan of the options. Throws InputError with all faults.
+// Reads the robot or the scene and plans the run. Throws InputError with all diagnostics.
 SimulatePlan prepare_simulation(const SimulateOptions& options);
 
 }  // namespace twinarm

@@ -12,9 +12,8 @@
 namespace twinarm {
 namespace {
 
-// Between two checkpoints, from the earlier of which a post-mortem is computed again.
-constexpr long kCheckpoint = 1000;
-constexpr long kEnergyEvery = 8;  // steps: the check costs a pass
+constexpr long kCheckpoint = 1000;  // steps between checkpoints, for post-mortems
+constexpr long kEnergyEvery = 8;    // steps between checks of the energy, which cost a pass
 
 void visit_head(StateArchive& memory, long& steps, double& end, long& unsolved, long& unlocated) {
   memory.visit(steps);
@@ -23,7 +22,7 @@ void visit_head(StateArchive& memory, long& steps, double& end, long& unsolved, 
   memory.visit(unlocated);
 }
 
-// A new one stands before the last, `numerical`.
+// The row of this name; a new one is inserted before the last, `numerical`.
 EnergyRow& row_like(const EnergyRow& wanted, std::vector<EnergyRow>& rows) {
   const auto is_it = [&](const EnergyRow& row) { return row.name == wanted.name; };
   const auto found = std::ranges::find_if(rows, is_it);
@@ -94,7 +93,7 @@ void SteppedRun::begin() {
 std::vector<EnergyRow> SteppedRun::ledger() const {
   std::vector<EnergyRow> all = ledger_->rows();
   const auto add = [&](const std::vector<EnergyRow>& rows) {
-    // Before the last row, `numerical`, which is what is left.
+    // Before the last row, `numerical`, which is the residual.
     for (const EnergyRow& row : rows) all.back().work -= row.work;
     all.insert(all.end() - 1, rows.begin(), rows.end());
   };
@@ -106,9 +105,9 @@ std::vector<EnergyRow> SteppedRun::ledger() const {
   return all;
 }
 
-void SteppedRun::keep_books(const std::vector<EnergyRow>& told) {
+void SteppedRun::keep_books(const std::vector<EnergyRow>& earlier) {
   carried_.clear();
-  std::vector<EnergyRow> carried = told;
+  std::vector<EnergyRow> carried = earlier;
   for (const EnergyRow& row : ledger()) row_like(row, carried).work -= row.work;
   carried_ = std::move(carried);
 }
@@ -120,7 +119,7 @@ std::string SteppedRun::memory() {
 }
 
 SimulateResult SteppedRun::finish() {
-  if (!result_.post_mortem && result_.steps < last_step_)  // what is left is the end
+  if (!result_.post_mortem && result_.steps < last_step_)  // samples at the end
     for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
   for (const std::string& text :
        {unsolved_warning(unsolved_, result_.steps), unlocated_warning(unlocated_, result_.steps)})
@@ -152,11 +151,10 @@ void SteppedRun::take_back(const std::string& bytes) {
   StateArchive memory(bytes);
   try {
     serialize(memory);
-    if (!memory.at_end()) throw std::runtime_error("it holds more than this scene remembers");
+    if (!memory.at_end()) throw std::runtime_error("it has more data than this scene");
   } catch (const std::runtime_error& error) {
-    throw InputError(
-        {{"", 0, "restart", error.what(),
-          "change nothing that alters joints, contacts, couplings or integrator", kOtherMemory}});
+    throw InputError({{"", 0, "restart", error.what(),
+                       "do not change joints, contacts, couplings or integrator", kOtherMemory}});
   }
 }
 
@@ -187,19 +185,19 @@ double SteppedRun::time_after(double t, double h) const {
   return plan_.duration - t - h <= kSameTime * h ? plan_.duration : t + h;
 }
 
-bool SteppedRun::one_step(double t, double h_most) {
+bool SteppedRun::one_step(double t, double h_max) {
   before_.reset();
   const bool has_sample_within =
-      next_ < plan_.times.size() && plan_.times[next_] < t + h_most * (1 - kSameTime);
+      next_ < plan_.times.size() && plan_.times[next_] < t + h_max * (1 - kSameTime);
   if (has_sample_within || !ledger_->inner_nodes().empty()) before_.emplace(sim_);
-  const StepReport report = sim_.step(h_most, plan_.is_adaptive());
+  const StepReport report = sim_.step(h_max, plan_.is_adaptive());
   if (report.interrupted) return stop_for_interrupt(t);
   ++result_.steps;
   const bool by_limits = contacts_ && contacts_->only_limits_were_passed();
   if (!report.finite || !report.reached) {
-    // Of the samples of this step only those at its start are good.
+    // Of the samples of this step only those at its start are valid.
     for (; has_sample_within && next_ < plan_.times.size() &&
-           plan_.times[next_] - t <= kSameTime * h_most;
+           plan_.times[next_] - t <= kSameTime * h_max;
          ++next_)
       watch_.sample(plan_.times[next_], before_->state());
     result_.post_mortem = examine_end(report, sim_, ledger_->now(), t, result_.steps);
@@ -216,11 +214,11 @@ bool SteppedRun::one_step(double t, double h_most) {
     earlier_ = std::move(later_);
     later_ = memory();
   }
-  if (watch_.alarm && result_.steps % EnergyAlarm::kWindow == 0) look_at_ledger();
+  if (watch_.alarm && result_.steps % EnergyAlarm::kWindow == 0) check_energy_balance();
   return result_.steps % kEnergyEvery != 0 || stays_bounded(report);
 }
 
-// Into all ledgers what the step from t did.
+// Accounts for the step from t in the energy and momentum balances.
 void SteppedRun::book(const StepReport& report, double t, bool by_limits) {
   unsolved_ += report.converged ? 0 : 1;
   unlocated_ += report.located ? 0 : 1;
@@ -232,7 +230,7 @@ void SteppedRun::book(const StepReport& report, double t, bool by_limits) {
   momentum_->add_step(report.h, ledger_->weights(), inner_, sim_, by_limits);
 }
 
-void SteppedRun::look_at_ledger() {
+void SteppedRun::check_energy_balance() {
   const double kinetic = kinetic_energy(input_.model, sim_.state());
   auto found = alarm_->look(result_.end, kinetic, ledger());
   if (!found) return;
@@ -247,7 +245,7 @@ bool SteppedRun::stays_bounded(const StepReport& report) {
   found.by_energy = true;
   found.energy_bound = bound_;
   found.field = "qd";
-  found.reason = fmt::format("the kinetic energy, {} J, has passed its bound of {} J",
+  found.reason = fmt::format("the kinetic energy of {} J exceeds its bound of {} J",
                              short_number_text(energy), short_number_text(bound_));
   result_.post_mortem = std::move(found);
   return false;

@@ -1,8 +1,8 @@
-// A run taken step by step: simulation, ledgers, samples, checkpoints. run_plan() drives it to its
-// end, the lab for as long as somebody watches.
+// A run step by step: simulation, energy and momentum accounting, samples, checkpoints. run_plan()
+// runs it to its end, the lab for as long as a client watches.
 //
-// Times are those of the grid n h where the run stands on it, which a run from its start does; a
-// run that was taken up elsewhere (another step length before) goes on from there by h at a time.
+// Times are those of the grid n h for a run from its start; a run that was resumed with another
+// step length continues from there by h at a time.
 #pragma once
 
 #include <limits>
@@ -19,24 +19,21 @@ namespace twinarm {
 
 class SteppedRun final : public RunView {
  public:
-  // All must outlive it; `outside` may be null. `from`: goes on there, with the same bits where
-  // nothing has changed. Throws InputError where its memory is of another scene.
+  // Keeps references to its arguments; `outside` may be null. `from`: resumes there, bit by bit if
+  // nothing has changed. Throws InputError if its state is of another scene.
   SteppedRun(const SimulateInput& simulated, const RunPlan& plan, const RunWatch& watch,
              const RunStart* from = nullptr, OutsideForce* outside = nullptr);
 
-  // The rows of the ledger go on from these, whatever the change of a gain has made of the energy
-  // in its spring: of a run that was taken up with other numbers.
-  void keep_books(const std::vector<EnergyRow>& told);
-  // What watchers see before the first step.
+  // Continues the energy balance from these rows, after a change of parameters.
+  void keep_books(const std::vector<EnergyRow>& earlier);
+  // Calls RunWatch::look before the first step.
   void begin();
-  // One step, or substep of an adaptive integrator. False where the run goes on no more: at its
-  // end, and where it has stopped by itself (result().post_mortem) or was interrupted.
+  // One step, or substep of an adaptive integrator. False at the end, after a divergence
+  // (result().post_mortem) and after an interrupt.
   bool advance();
-  double time() const { return result_.end; }  // of the last good state [s]
-  // So far; without ledgers.
-  const SimulateResult& result() const { return result_; }
-  // With all that a run leaves behind. Once, at the end.
-  SimulateResult finish();
+  double time() const { return result_.end; }               // of the last valid state [s]
+  const SimulateResult& result() const { return result_; }  // so far, without balances
+  SimulateResult finish();                                  // once, at the end
 
   long step() const override { return result_.steps; }
   const Simulation& simulation() const override { return sim_; }
@@ -55,12 +52,12 @@ class SteppedRun final : public RunView {
   void take_back(const std::string& bytes);
   void go_on_from(const RunStart& start);
   double time_after(double t, double h) const;
-  // One step from t by at most h_most. False where the run stops.
-  bool one_step(double t, double h_most);
+  // One step from t by at most h_max. False if the run stops.
+  bool one_step(double t, double h_max);
   void book(const StepReport& report, double t, bool by_limits);
-  void look_at_ledger();
+  void check_energy_balance();
   bool stays_bounded(const StepReport& report);
-  // Samples before t_end, by side steps from `from`, which stands at t.
+  // Samples before t_end, by side steps from `from`, which is at t.
   void sample_up_to(double t_end, double t, const Simulation& from);
   State<double> step_aside(const Simulation& from, double h, double t);
   bool stop_for_interrupt(double t) const;
@@ -80,7 +77,7 @@ class SteppedRun final : public RunView {
   std::optional<SceneContacts> contacts_;
   std::optional<Simulation> before_;  // the run at the start of the step
   std::vector<State<double>> inner_;
-  std::vector<EnergyRow> carried_;  // added to the rows of these names; together nothing
+  std::vector<EnergyRow> carried_;  // added to the rows of these names; their sum is zero
   std::size_t next_ = 0;            // sample
   long unsolved_ = 0, unlocated_ = 0, last_step_ = std::numeric_limits<long>::max();
   bool on_grid_ = true;

@@ -15,7 +15,7 @@
 namespace twinarm {
 namespace {
 
-// Of the Python module, whose program is Python's. Of the program itself: what it was called.
+// Path of the Python module, or of the program itself.
 std::filesystem::path library_of_this_code() {
   Dl_info found;
   const bool is_known = dladdr(reinterpret_cast<const void*>(&find_assets), &found) != 0;
@@ -44,7 +44,7 @@ std::filesystem::path find_assets(const std::filesystem::path& given) {
   for (const fs::path& place : places)
     if (fs::is_directory(place / "robots", error)) return fs::weakly_canonical(place);
   throw InputError(
-      {{places.front().string(), 0, "assets", "the folder with the robots is not there",
+      {{places.front().string(), 0, "assets", "the folder with the robots does not exist",
         "run from the project's folder, or give --assets", "file.no-assets"}});
 }
 
@@ -55,7 +55,7 @@ std::filesystem::path find_input(const std::filesystem::path& name) {
   try {
     const fs::path found = find_assets() / name.lexically_relative("assets");
     return fs::exists(found, error) ? found : name;
-  } catch (const InputError&) {  // no assets: the name is told as it was typed
+  } catch (const InputError&) {  // no assets
     return name;
   }
 }
@@ -64,9 +64,8 @@ namespace {
 
 InputError cannot_write(const std::filesystem::path& path, const std::string& why,
                         const char* option) {
-  return InputError(
-      {{path.string(), 0, "", "cannot be written" + why,
-        std::string("choose a folder that can be written, with ") + option, "file.unwritable"}});
+  return InputError({{path.string(), 0, "", "cannot be written" + why,
+                      std::string("choose a writable folder with ") + option, "file.unwritable"}});
 }
 
 }  // namespace
@@ -91,20 +90,23 @@ void make_folder(const std::filesystem::path& folder, const char* option) {
 std::filesystem::path make_temporary_folder(const std::string& name) {
   std::error_code error;
   std::filesystem::path folder = std::filesystem::temp_directory_path(error);
-  if (error)  // it says that it is none, not which
+  if (error)  // the message does not name the folder
     if (const char* given = std::getenv("TMPDIR")) folder = given;
   std::string made = (folder / (name + "-XXXXXX")).string();
   if (!error && mkdtemp(made.data())) return made;
   throw InputError(
       {{folder.string(), 0, "temporary files",
-        "no folder can be made there: " +
-            (error ? error.message() : std::string(std::strerror(errno))),
-        "let TMPDIR name a folder that can be written and has room", "file.unwritable"}});
+        "cannot make a folder: " + (error ? error.message() : std::string(std::strerror(errno))),
+        "set TMPDIR to a writable folder with free space", "file.unwritable"}});
+}
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : ".";
 }
 
 void check_place(const std::filesystem::path& file, DiagnosticList& faults) {
   std::error_code error;
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::filesystem::path folder = folder_of(file);
   if (std::filesystem::is_directory(file, error))
     faults.add({file.string(), 0, "", "is a folder", "name a file in it", "file.is-folder"});
   else if (!std::filesystem::is_directory(folder, error))
@@ -112,14 +114,14 @@ void check_place(const std::filesystem::path& file, DiagnosticList& faults) {
                 "make it: mkdir -p " + folder.string(), "file.no-folder"});
   else if (access(folder.c_str(), W_OK | X_OK) != 0)
     faults.add({file.string(), 0, "", "the file cannot be written: no permission in its folder",
-                "choose a folder that can be written", "file.unwritable"});
+                "choose a writable folder", "file.unwritable"});
 }
 
 std::ifstream open_file(const std::filesystem::path& file) {
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     throw InputError({{file.string(), 0, "", "the file does not exist",
-                       "check the name, and the folder that you are in", "file.missing"}});
+                       "check the name and the current folder", "file.missing"}});
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(
         {{file.string(), 0, "", "is a folder", "name a file in it", "file.is-folder"}});
@@ -137,8 +139,8 @@ std::string read_whole_file(const std::filesystem::path& file) {
 }
 
 void fill_closed_streams() {
-  // What is opened gets the lowest number that is free. Not for writing on stdout: what is printed
-  // there would be lost without a word.
+  // open() returns the lowest free descriptor. stdout is opened for reading, so that printing
+  // fails.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) == -1 && errno == EBADF)
       open("/dev/null", stream == STDERR_FILENO ? O_WRONLY : O_RDONLY);
@@ -149,9 +151,8 @@ void check_stdout() {
   errno = 0;
   if (std::fflush(stdout) == 0 && !was_bad) return;
   const std::string why = errno != 0 ? std::string(": ") + std::strerror(errno) : "";
-  throw InputError(
-      {{"", 0, "stdout", "what was printed did not all get out" + why,
-        "is it closed, or the disk full? Let it go to a file that has room", "file.stdout"}});
+  throw InputError({{"", 0, "stdout", "cannot be written" + why,
+                     "check whether it is closed or the disk is full", "file.stdout"}});
 }
 
 }  // namespace twinarm

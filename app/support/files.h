@@ -1,4 +1,4 @@
-// Where robots, scenes and settings lie: assets, and what was typed.
+// Assets, input and output files, standard streams.
 #pragma once
 
 #include <fmt/format.h>
@@ -13,41 +13,37 @@
 
 namespace twinarm {
 
-// The assets folder: beside the program's build tree, installed with it, or below the current
-// folder. Throws InputError where it is not there.
+// The assets folder: `given`, or that of the build tree, of the installation, or of the current
+// folder. Throws InputError if there is none.
 std::filesystem::path find_assets(const std::filesystem::path& given = {});
 
-// A file that was typed, and may be one of the program's own.
-// What begins with assets/ and is not there lies below find_assets(), so that the examples hold
-// wherever the program runs. All else stays as it is.
+// A name that begins with assets/ and does not exist is looked up in find_assets(): the examples
+// work in any folder. Other names are returned unchanged.
 std::filesystem::path find_input(const std::filesystem::path& name);
 
-// The output folder, and files read whole. Files are written by solver/support/atomic_file.h.
+// Files are written by solver/support/atomic_file.h.
 
-// Whether the folder is there and can be written, or could be made; makes nothing. Throws
-// InputError; its remedy names the option.
+// Throws InputError if the folder cannot be written or created; creates nothing. The message names
+// the option.
 void require_writable_folder(const std::filesystem::path& folder, const char* option = "--out");
-// With all that is above it. Throws likewise.
+// Creates it with its parents. Throws InputError.
 void make_folder(const std::filesystem::path& folder, const char* option = "--out");
-// A fresh one, NAME-XXXXXX where temporary files go; who asks for it removes it. Throws likewise.
+// A new folder NAME-XXXXXX for temporary files; the caller removes it. Throws InputError.
 std::filesystem::path make_temporary_folder(const std::string& name);
-// Adds a fault where a file cannot be written: to be told before the work, and not after it.
+std::filesystem::path folder_of(const std::filesystem::path& file);  // "." if it names none
+// Adds a diagnostic if the file cannot be written; called before a long computation.
 void check_place(const std::filesystem::path& file, DiagnosticList& faults);
-// Both throw InputError where there is no such file, or it cannot be read.
+// Both throw InputError if the file does not exist or cannot be read.
 std::ifstream open_file(const std::filesystem::path& file);
 std::string read_whole_file(const std::filesystem::path& file);
 
-// Standard streams that may be closed, full, or of a terminal that is gone.
-
-// First of all: takes the place of those that are closed. Else the next file that is opened would
-// get the number of, say, stdout, and what is printed would go into it.
+// Opens /dev/null for closed standard streams, so that no other file gets their descriptors.
 void fill_closed_streams();
 
-// Throws InputError where something that was printed on stdout did not get out.
+// Throws InputError if stdout could not be written completely.
 void check_stdout();
 
-// Words for people, on stderr. That nobody is there to read them is no fault: fmt::print would
-// throw.
+// Prints a message on stderr; unlike fmt::print it does not throw if that fails.
 template <class... Values>
 void say(fmt::format_string<Values...> words, Values&&... values) {
   std::fputs(fmt::format(words, std::forward<Values>(values)...).c_str(), stderr);

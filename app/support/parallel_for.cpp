@@ -11,13 +11,13 @@
 namespace twinarm {
 namespace {
 
-// What the threads share, under one lock.
+// Shared by the threads, under one lock.
 struct SharedWork {
   std::mutex lock{};
   std::condition_variable news{};
   std::size_t next = 0, done = 0;
   unsigned running = 0;
-  std::exception_ptr failure{};  // no further piece begins
+  std::exception_ptr failure{};  // stops the loop
 };
 
 void work_off(std::size_t count, const std::function<void(std::size_t)>& one, SharedWork& work) {

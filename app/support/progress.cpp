@@ -64,7 +64,7 @@ void Progress::draw() {
   const double done = std::clamp(done_ + weight_ * fraction_, 0.0, 1.0);
   constexpr int width = 28;
   const int full = static_cast<int>(done * width);
-  std::string left = "";
+  std::string left;
   if (done > 0.03) left = fmt::format("  {:.0f} s left", elapsed * (1 - done) / done);
   say("\r\033[K[{}{}] {:3.0f} %  {}{}", std::string(full, '#'), std::string(width - full, '.'),
       100 * done, name_, left);
@@ -79,9 +79,8 @@ void catch_interrupts() {
   const auto note = [](int) { interrupted = 1; };
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
-  if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup wants it
-  std::signal(SIGXFSZ,
-              SIG_IGN);  // a file beyond the user's limit is told by write(), as a full disk is
+  if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
+  std::signal(SIGXFSZ, SIG_IGN);  // write() reports the size limit
 }
 
 bool is_interrupted() {

@@ -1,7 +1,5 @@
-// A progress bar with the time left, on stderr. Silent where stderr is no terminal, but for one
-// line as a stage begins.
-//
-// With `after`: for those who have waited for so long; before, and without a terminal, silent.
+// A progress bar with remaining time on stderr. If stderr is not a terminal, one line per stage.
+// With `after` > 0 it appears after that time [s], and only on a terminal.
 #pragma once
 
 #include <chrono>
@@ -15,12 +13,12 @@ class Progress {
   static constexpr double kPatience = 2;  // [s]
   explicit Progress(bool quiet, double after = 0);
   ~Progress();
-  // `weight` is the share of the whole that this stage is expected to take.
+  // `weight`: expected share of the total duration.
   void stage(const std::string& name, double weight);
-  void advance(double fraction_of_stage);          // in [0, 1], of the current stage
-  void at(const std::string& name, double share);  // in place of stages: of the whole
+  void advance(double fraction_of_stage);          // in [0, 1]
+  void at(const std::string& name, double share);  // instead of stages: share of the total
   void finish();
-  double seconds() const;  // since it was made
+  double seconds() const;  // since construction
 
  private:
   void draw();
@@ -31,18 +29,17 @@ class Progress {
   std::chrono::steady_clock::time_point start_, drawn_;
 };
 
-// Ctrl-C, or a terminal that is closed: asked for once, noticed at the next safe point, so that no
-// half file stays behind.
+// Ctrl-C or a closed terminal sets a flag, which is checked where no partial file is left.
 struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };
 
-void catch_interrupts();  // from now on SIGINT, SIGTERM and SIGHUP only set a flag
-bool is_interrupted();    // whether it is set
-void forget_interrupt();  // it has been obeyed: what is still to be done has a Ctrl-C of its own
-void check_interrupt();   // throws Interrupted once the flag is set
+void catch_interrupts();  // SIGINT, SIGTERM and SIGHUP set the flag
+bool is_interrupted();
+void forget_interrupt();  // clears the flag
+void check_interrupt();   // throws Interrupted if the flag is set
 
-// Times of the clock that never jumps, in seconds.
+// Monotonic time in seconds.
 inline double as_seconds(std::chrono::steady_clock::duration time) noexcept {
   return std::chrono::duration<double>(time).count();
 }

@@ -8,7 +8,7 @@
 namespace twinarm {
 namespace {
 
-// Levenshtein's distance, with neighbours that may be swapped (optimal string alignment).
+// Optimal string alignment distance (Levenshtein with swaps of neighbours).
 std::size_t distance(std::string_view a, std::string_view b) {
   const auto letter = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   std::vector<std::size_t> before2, before(b.size() + 1), now(b.size() + 1);
@@ -31,15 +31,15 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string nearest_name(std::string_view misspelt, const std::vector<std::string>& names) {
-  constexpr std::size_t kLongest = 200;  // longer ones are no slip of the finger
-  if (misspelt.size() > kLongest) return "";
+  constexpr std::size_t kMaxLength = 200;  // longer words are not misspellings
+  if (misspelt.size() > kMaxLength) return "";
   std::string nearest;
-  std::size_t least = std::max<std::size_t>(2, (misspelt.size() + 1) / 2);
+  std::size_t min = std::max<std::size_t>(2, (misspelt.size() + 1) / 2);
   for (const std::string& name : names) {
-    if (name.size() > kLongest) continue;
+    if (name.size() > kMaxLength) continue;
     const std::size_t d = distance(misspelt, name);
-    if (d > least || (d == least && !nearest.empty())) continue;
-    least = d;
+    if (d > min || (d == min && !nearest.empty())) continue;
+    min = d;
     nearest = name;
   }
   return nearest;
@@ -58,6 +58,15 @@ std::string name_remedy(std::string_view misspelt, const std::vector<std::string
   for (std::size_t i = 0; i < std::min(names.size(), kMany); ++i) fix += " " + names[i];
   if (names.size() > kMany) fix += " and " + std::to_string(names.size() - kMany) + " more";
   return fix;
+}
+
+std::optional<std::size_t> choose(const std::string& where, const std::string& name,
+                                  const std::vector<std::string>& names, std::string_view kind,
+                                  DiagnosticList& faults, std::string_view code) {
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  faults.add(where, "there is no '" + name + "'", name_remedy(name, names, kind), code);
+  return std::nullopt;
 }
 
 std::string csv_field(const std::string& text) {

@@ -1,19 +1,46 @@
-// "Did you mean": the name that a misspelt one is closest to.
+// Names and their misspellings, lists in one text, CSV; errors collected from several calls.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 #include <vector>
+
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
-// The name with the fewest letters to insert, delete, change or swap, case left aside; empty where
-// all of them are further away than half of the letters.
+// The name with the smallest edit distance (insert, delete, change, swap), ignoring case; empty if
+// all distances exceed half of the letters.
 std::string nearest_name(std::string_view misspelt, const std::vector<std::string>& names);
 
-// "did you mean 'elbow'?" and, where there are few, all of the names; `kind` as in "joints".
+// "did you mean 'elbow'?" and up to 12 of the names; `kind`: "joints".
 std::string name_remedy(std::string_view misspelt, const std::vector<std::string>& names,
                         std::string_view kind);
+
+// Index of `name`, or a diagnostic of the option `where` with the nearest name.
+std::optional<std::size_t> choose(const std::string& where, const std::string& name,
+                                  const std::vector<std::string>& names, std::string_view kind,
+                                  DiagnosticList& faults, std::string_view code = "option.choice");
+
+// The result of f (monostate if void); nothing if it throws InputError, whose diagnostics are
+// added.
+template <class F>
+auto attempt(DiagnosticList& faults, F f) {
+  using Result = std::invoke_result_t<F>;
+  std::optional<std::conditional_t<std::is_void_v<Result>, std::monostate, Result>> found;
+  try {
+    if constexpr (std::is_void_v<Result>)
+      f(), found.emplace();
+    else
+      found.emplace(f());
+  } catch (const InputError& error) {
+    faults.add(error.faults());
+  }
+  return found;
+}
 
 template <class Items>
 std::vector<std::string> names_of(const Items& items) {
@@ -22,9 +49,7 @@ std::vector<std::string> names_of(const Items& items) {
   return names;
 }
 
-// Lists in one text, and cells of CSV.
-
-// "a,b" parted at each separator; of an empty text one empty field.
+// "a,b" split at each separator; an empty text gives one empty field.
 inline std::vector<std::string> split(const std::string& text, char separator = ',') {
   std::vector<std::string> fields(1);
   for (const char c : text)
@@ -35,9 +60,8 @@ inline std::vector<std::string> split(const std::string& text, char separator = 
   return fields;
 }
 
-// In quotes where a comma, a quote or a line's end needs them.
-std::string csv_field(const std::string& text);
-std::string csv_line(const std::vector<std::string>& fields);  // without its end
+std::string csv_field(const std::string& text);                // quoted if necessary
+std::string csv_line(const std::vector<std::string>& fields);  // without line end
 std::string csv_line(const std::vector<double>& numbers);
 
 }  // namespace twinarm

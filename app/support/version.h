@@ -1,4 +1,4 @@
-// The version of the program, as CMakeLists.txt has it.
+// Version of the program, from CMakeLists.txt.
 #pragma once
 
 namespace twinarm {

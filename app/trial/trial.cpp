@@ -47,7 +47,7 @@ class TaskWatch {
       pose(tick, false);
       draw(table, '#');
     }
-    if (task) table.point(task->object(), task->is_carried() ? '@' : 'o');
+    if (task) table.point(task->progress().object, task->progress().is_carried ? '@' : 'o');
     return table.text();
   }
   void finish(TrialResult& result) const {
@@ -101,6 +101,7 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
   TaskWatch watch(scene, scene.couplings[run.leader()].driven, condition.is_kinematic);
   PickAndPlace places{{}};
   PickAndPlace* const pick = task.is_pick_and_place ? &places : nullptr;
+  const PickAndPlace::Progress& progress = places.progress();
   LiveLog log(log_file);
   ServoPlan plan;
   plan.duration = task.seconds;
@@ -111,7 +112,7 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
   const ServoResult servo = run_servo(run, plan, done, [&](SpscRing<TickResult>& ring) {
     TickResult tick, newest;
     bool any = false;
-    while (!places.is_placed() && ring.pop(tick)) {
+    while (!progress.is_placed && ring.pop(tick)) {
       watch.look(tick, pick);
       log.write(tick.hand);
       newest = tick;
@@ -121,19 +122,19 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
     log.flush();
     if (any && task.show) task.show(watch.picture(newest, pick), reached);
     stopped = stopped || (task.is_stopped && task.is_stopped());
-    if (stopped || places.is_placed()) done = true;
+    if (stopped || progress.is_placed) done = true;
   });
   log.finish();
 
   TrialResult result;
   result.condition = condition.name;
   result.task = pick ? "pick-and-place" : "free";
-  result.seconds = pick && pick->is_placed() ? pick->placed_at() : reached;
-  result.is_done = servo.finite && !stopped && (!pick || pick->is_placed());
+  result.seconds = progress.is_placed ? progress.placed_at : reached;
+  result.is_done = servo.finite && !stopped && (!pick || progress.is_placed);
   if (pick) {
-    result.picks = pick->picks();
-    result.drops = pick->drops();
-    result.picked_at = pick->picked_at();
+    result.picks = progress.picks;
+    result.drops = progress.drops;
+    result.picked_at = progress.picked_at;
     result.off_mm = 1e3 * pick->off();
   }
   result.log = log_file.string();
@@ -152,24 +153,25 @@ double horizontal_distance(const Vector3& a, const Vector3& b) {
 void PickAndPlace::tick(double t, const Vector3& gripper, bool closed) {
   const bool closes = closed && !closed_, opens = !closed && closed_;
   closed_ = closed;
-  if (placed_) return;
-  if (closes && horizontal_distance(gripper, object_) <= places_.reach) {
-    carried_ = true;
-    ++picks_;
-    if (picked_ < 0) picked_ = t;
+  Progress& p = progress_;
+  if (p.is_placed) return;
+  if (closes && horizontal_distance(gripper, p.object) <= places_.reach) {
+    p.is_carried = true;
+    ++p.picks;
+    if (p.picked_at < 0) p.picked_at = t;
   }
-  if (carried_) object_.head<2>() = gripper.head<2>();
-  if (!carried_ || !opens) return;
-  carried_ = false;
-  placed_ = off() <= places_.reach;
-  if (placed_)
-    done_ = t;
+  if (p.is_carried) p.object.head<2>() = gripper.head<2>();
+  if (!p.is_carried || !opens) return;
+  p.is_carried = false;
+  p.is_placed = off() <= places_.reach;
+  if (p.is_placed)
+    p.placed_at = t;
   else
-    ++drops_;
+    ++p.drops;
 }
 
 double PickAndPlace::off() const {
-  return horizontal_distance(object_, places_.goal);
+  return horizontal_distance(progress_.object, places_.goal);
 }
 
 }  // namespace twinarm

@@ -68,27 +68,25 @@ class PickAndPlace {
     Vector3 object{0.42, 0.28, 0}, goal{0.42, -0.28, 0};  // world [m]; z is ignored
     double reach = 0.03;                                  // [m]
   };
-  explicit PickAndPlace(const Places& places) : places_(places), object_(places.object) {}
+  struct Progress {
+    Vector3 object;
+    bool is_carried = false, is_placed = false;
+    int picks = 0, drops = 0;               // drop: outside the goal
+    double picked_at = -1, placed_at = -1;  // first time [s]; negative: never
+  };
+  explicit PickAndPlace(const Places& places) : places_(places), progress_{places.object} {}
 
   // Once a tick, at its time [s].
   void tick(double t, const Vector3& gripper, bool closed);
 
-  const Vector3& object() const { return object_; }
   const Places& places() const { return places_; }
-  bool is_carried() const { return carried_; }
-  bool is_placed() const { return placed_; }
-  int picks() const { return picks_; }
-  int drops() const { return drops_; }          // outside the goal
-  double picked_at() const { return picked_; }  // first time [s]; negative: never
-  double placed_at() const { return done_; }    // likewise
-  double off() const;                           // distance of the object from the goal [m]
+  const Progress& progress() const { return progress_; }
+  double off() const;  // distance of the object from the goal [m]
 
  private:
   Places places_;
-  Vector3 object_;
-  bool carried_ = false, placed_ = false, closed_ = false;
-  int picks_ = 0, drops_ = 0;
-  double picked_ = -1, done_ = -1;
+  Progress progress_;
+  bool closed_ = false;
 };
 
 }  // namespace twinarm

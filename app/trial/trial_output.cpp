@@ -102,13 +102,10 @@ std::string next_subject(const std::filesystem::path& file) {
 }
 
 TopView::TopView(double half, int columns)
-    : half_(half), columns_(columns), rows_(std::max(1, columns / 2)) {
-  clear();
-}
-
-void TopView::clear() {
-  lines_.assign(static_cast<std::size_t>(rows_),
-                std::string(static_cast<std::size_t>(columns_), ' '));
+    : half_(half),
+      columns_(columns),
+      rows_(std::max(1, columns / 2)),
+      lines_(static_cast<std::size_t>(rows_), std::string(static_cast<std::size_t>(columns), ' ')) {
 }
 
 int TopView::column(double x) const {

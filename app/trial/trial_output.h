@@ -13,7 +13,6 @@ class TopView {
   // `half` [m]: from the middle to each side. A character is twice as high as wide.
   explicit TopView(double half = 0.66, int columns = 66);
 
-  void clear();
   // World coordinates; later marks cover earlier ones.
   void line(const Vector3& a, const Vector3& b, char mark);
   void point(const Vector3& p, char mark);

@@ -44,6 +44,8 @@ class ContactMeasure {
     const Scene& scene = timed_.scene;
     State<double> x(model_);
     x.q = q;
+    if (!scene.obstacle)  // free bodies; some engines return quaternions in single precision
+      for (std::size_t i = 3; i < q.size(); i += 7) Eigen::Vector4d::Map(&x.q[i]).normalize();
     Kinematics k(model_);
     forward_kinematics(model_, x, k);
     std::size_t shape = 1;

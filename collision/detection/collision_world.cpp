@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdint>
-#include <numeric>
 #include <tuple>
 
 #include "collision/narrow_phase/narrow_phase.h"
@@ -45,27 +44,6 @@ void check_group(const std::string& where, int group, DiagnosticList& faults) {
                "give a group from 0 to " + std::to_string(kCount - 1), "contact.group");
 }
 
-// Broad phase: all pairs of overlapping boxes, by sort and sweep along the axis with the largest
-// variance of the box centres. `order` avoids allocation.
-void find_overlaps(std::span<const Aabb> boxes, std::vector<int>& order,
-                   std::vector<std::pair<int, int>>& pairs) {
-  Vector3 sum = Vector3::Zero(), squares = Vector3::Zero();
-  for (const Aabb& box : boxes) {
-    sum += box.center();
-    squares += box.center().cwiseAbs2();
-  }
-  int axis = 0;
-  (squares * static_cast<double>(boxes.size()) - sum.cwiseAbs2()).maxCoeff(&axis);
-  order.resize(boxes.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(),
-            [&](int i, int j) { return boxes[i].min()[axis] < boxes[j].min()[axis]; });
-  pairs.clear();
-  for (auto a = order.begin(); a != order.end(); ++a)
-    for (auto b = a + 1; b != order.end() && boxes[*b].min()[axis] <= boxes[*a].max()[axis]; ++b)
-      if (boxes[*a].intersects(boxes[*b])) pairs.emplace_back(std::min(*a, *b), std::max(*a, *b));
-}
-
 }  // namespace
 
 int CollisionWorld::add(Geometry geometry) {
@@ -87,7 +65,12 @@ int CollisionWorld::add(Geometry geometry) {
     geometries_.pop_back();
     throw;
   }
-  (is_half_space(geometries_.back().shape) ? half_spaces_ : bounded_).push_back(id);
+  if (is_half_space(geometries_.back().shape)) {
+    half_spaces_.push_back(id);
+  } else {
+    bounded_.push_back(id);
+    broad_phase_.add();
+  }
   return id;
 }
 
@@ -136,10 +119,12 @@ bool CollisionWorld::may_collide(int a, int b) const {
 // Fills pairs_ with the collision pairs, ascending.
 void CollisionWorld::find_pairs(std::span<const Pose> X_WG, std::span<const double> margins) {
   boxes_.clear();
+  // Poses that are not finite: far away, since NaN would corrupt the tree.
+  const Aabb nowhere(Vector3::Constant(1e30), Vector3::Constant(1e30));
   for (int id : bounded_)
     boxes_.push_back(is_finite(X_WG[id]) ? broad_phase_box({solids_[id], X_WG[id]}, margins[id])
-                                         : Aabb());
-  find_overlaps(boxes_, sweep_, pairs_);
+                                         : nowhere);
+  broad_phase_.overlaps(boxes_, pairs_);
   for (auto& [a, b] : pairs_) {
     a = bounded_[a];
     b = bounded_[b];

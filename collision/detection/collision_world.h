@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "collision/detection/broad_phase.h"
 #include "collision/detection/mesh_contact.h"
 #include "collision/narrow_phase/gjk.h"
 #include "collision/narrow_phase/narrow_phase.h"
@@ -79,11 +80,11 @@ class CollisionWorld {
   std::array<std::uint32_t, kGroupCount> mask_;      // bit j of mask i: groups i and j collide
   std::vector<std::pair<int, int>> disabled_pairs_;  // sorted
   std::vector<double> margins_;                      // of detect() with one margin
+  BroadPhase broad_phase_;
   NarrowPhase narrow_phase_;
   MeshContact mesh_contact_;
   std::vector<int> bounded_, half_spaces_;  // ids with and without a bounding box
   std::vector<Aabb> boxes_;                 // of bounded_
-  std::vector<int> sweep_;                  // indices of boxes_
   std::vector<std::pair<int, int>> pairs_;
   std::vector<ManifoldPoint> points_;
 };

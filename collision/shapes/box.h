@@ -1,4 +1,4 @@
-// A box.
+// A box, centred, with edges along the axes.
 #pragma once
 
 #include <cmath>

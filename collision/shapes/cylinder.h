@@ -1,4 +1,4 @@
-// A cylinder.
+// A cylinder about the z axis, centred.
 #pragma once
 
 #include <cmath>

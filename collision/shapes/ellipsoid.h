@@ -1,4 +1,4 @@
-// An ellipsoid.
+// An ellipsoid, centred, with semi-axes along the axes.
 #pragma once
 
 #include <numbers>

@@ -1,4 +1,4 @@
-// A half-space.
+// A half-space: solid on one side of a plane.
 #pragma once
 
 #include <cmath>

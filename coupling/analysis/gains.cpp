@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 
 namespace {
 
-// By Scheme: its name, the integrator, and how its part enters a step.
+// By SteppingScheme: name, integrator and term of the step matrix.
 struct SchemeFacts {
   const char* name;
   Integrator integrator = Integrator::semi_implicit;
@@ -46,8 +46,8 @@ const SchemeFacts& facts_of(SteppingScheme scheme) {
   return kSchemes[static_cast<std::size_t>(scheme)];
 }
 
-// With M = 1: alpha = h^2 K, beta = h B, the step is the unit of time.
-bool contracts(const MatrixXd& alpha, const MatrixXd& beta, SteppingScheme scheme) {
+// With M = 1, alpha = h^2 K, beta = h B; the step is the unit of time.
+bool is_stable_step(const MatrixXd& alpha, const MatrixXd& beta, SteppingScheme scheme) {
   constexpr double kRounding = 1e-9;
   const SchemeFacts& facts = facts_of(scheme);
   const CoupledTerm part{alpha,     alpha,      beta, facts.treatment, facts.hold_steps,
@@ -66,9 +66,10 @@ double max_stable_step(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
   const SpringModes modes = spring_modes(M, K, B);
   if (modes.size() == 0) return kNoLimit;
   const MatrixXd squares = modes.squares.asDiagonal();
-  const double rate = modes.fastest_rate();
-  return max_stable([&](double h) { return contracts(h * h * squares, h * modes.damping, scheme); },
-                    1e-4 / rate, 1e4 / rate);
+  const double rate = modes.max_rate();
+  return max_stable(
+      [&](double h) { return is_stable_step(h * h * squares, h * modes.damping, scheme); },
+      1e-4 / rate, 1e4 / rate);
 }
 
 double max_stiffness_factor(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
@@ -79,16 +80,16 @@ double max_stiffness_factor(const MatrixXd& M, const MatrixXd& K, const MatrixXd
   const MatrixXd squares = modes.squares.asDiagonal();
   const auto stable = [&](double factor) {
     const double of_b = keep == HoldConstant::damping_ratio ? std::sqrt(factor) : factor;
-    return contracts(factor * h * h * squares, of_b * h * modes.damping, scheme);
+    return is_stable_step(factor * h * h * squares, of_b * h * modes.damping, scheme);
   };
-  const double product = std::max(modes.fastest_rate() * h, 1e-12);
+  const double product = std::max(modes.max_rate() * h, 1e-12);
   return max_stable(stable, 1e-6 / (product * product), 1e8);
 }
 
 double max_omega_h(SteppingScheme scheme, double zeta) {
   const auto stable = [&](double wh) {
-    return contracts(MatrixXd::Constant(1, 1, wh * wh), MatrixXd::Constant(1, 1, 2 * zeta * wh),
-                     scheme);
+    return is_stable_step(MatrixXd::Constant(1, 1, wh * wh),
+                          MatrixXd::Constant(1, 1, 2 * zeta * wh), scheme);
   };
   return max_stable(stable, 1e-4, 1e4);
 }

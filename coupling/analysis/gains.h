@@ -1,7 +1,7 @@
-// The largest stable step, or stiffness, of a spring-damper under each way to step it.
+// Stability limits of a spring-damper for each stepping scheme, and conversions of gains.
 //
-// A scheme is an integrator and one part of coupling/analysis/step_matrix.h. Stable: the spectral
-// radius of the step matrix is at most 1 (to 1e-9). All in O(n^3) for each step that is tried.
+// A scheme is an integrator with one term of coupling/analysis/step_matrix.h. Stable: spectral
+// radius of the step matrix at most 1 (within 1e-9). O(n^3) for each step size that is tried.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,56 +10,49 @@
 
 namespace twinarm {
 
-// How a spring-damper is stepped. One degree of freedom, alpha = k h^2/I, beta = b h/I; stable iff
+// With the stability condition of one degree of freedom, alpha = k h^2/I, beta = b h/I.
 enum class SteppingScheme {
   euler,             // alpha < beta < 2 + alpha/2
   semi_implicit,     // alpha < 4 - 2 beta
   euler_difference,  // explicit Euler, velocity by backward difference: alpha < beta(1-beta)
-  semi_implicit_difference,  // the difference IS the velocity: alpha < 4 - 2 beta
+  semi_implicit_difference,  // the difference equals the velocity: alpha < 4 - 2 beta
   semi_implicit_older,       // difference one frame older: alpha < 1 - beta
-  hold,                      // exact motion under a force held for h: alpha < 2 beta, beta < 2
-  hold_difference,           // the same, difference velocity: alpha < 2 beta (2-beta)/(2+beta)
+  hold,                      // exact motion under a held force: alpha < 2 beta, beta < 2
+  hold_difference,           // with difference velocity: alpha < 2 beta (2-beta)/(2+beta)
   rk4,                       // |1 + l + l^2/2 + l^3/6 + l^4/24| < 1 for both l: l^2 + beta l +
                              // alpha = 0
   implicit_damper,           // semi-implicit, m* = h b: alpha < 4 + 2 beta
   implicit                   // m* = h b + h^2 k: always
 };
-inline constexpr std::array<SteppingScheme, 10> all_schemes{
-    SteppingScheme::euler,
-    SteppingScheme::semi_implicit,
-    SteppingScheme::euler_difference,
-    SteppingScheme::semi_implicit_difference,
-    SteppingScheme::semi_implicit_older,
-    SteppingScheme::hold,
-    SteppingScheme::hold_difference,
-    SteppingScheme::rk4,
-    SteppingScheme::implicit_damper,
-    SteppingScheme::implicit};
+inline constexpr auto all_schemes = [] {
+  std::array<SteppingScheme, 10> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<SteppingScheme>(i);
+  return all;
+}();
 const char* name_of(SteppingScheme scheme);
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-// The largest h of which every smaller one is stable as well; 0 where none is (w h < 1e-4),
-// kNoLimit where all are (to w h = 1e4). K and B symmetric; coordinates that neither holds do not
-// count.
+// The largest h below which all are stable; 0 if none is (w h < 1e-4), kNoLimit if all are (to w h
+// = 1e4). K and B symmetric; coordinates without stiffness and damping are ignored.
 double max_stable_step(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& B,
                        SteppingScheme scheme);
 
-// What stays as it is when the stiffness grows.
+// What is constant when the stiffness is scaled.
 enum class HoldConstant {
-  damping_per_stiffness,  // b/k: B grows as K
-  damping_ratio           // z: B grows as the root of K
+  damping_per_stiffness,  // b/k: B proportional to K
+  damping_ratio           // z: B proportional to the root of K
 };
-// How many times stiffer all springs may be at this step; 0 and kNoLimit as above (to 1e8 times).
+// Largest stable factor on all stiffnesses at this step; 0 and kNoLimit as above (to 1e8).
 double max_stiffness_factor(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
                             const Eigen::MatrixXd& B, SteppingScheme scheme, double h,
                             HoldConstant keep);
 
-// On one degree of freedom: the largest w h at a damping ratio.
+// Largest stable w h of one degree of freedom with damping ratio zeta.
 double max_omega_h(SteppingScheme scheme, double zeta);
 
-// The largest x in [from, to] that is stable, with all below it as far as steps of a tenth show: a
-// narrower window of instability is passed over.
+// The largest stable x in [from, to]: a search in steps of 10 % (a narrower unstable window is
+// missed), then bisection.
 template <class Stable>
 double max_stable(Stable&& stable, double from, double to) {
   if (!stable(from)) return 0;
@@ -74,11 +67,8 @@ double max_stable(Stable&& stable, double from, double to) {
   return inside;
 }
 
-// Gains that mean the same: from a frequency and a damping ratio, from one coupling to another, and
-// to and from the words of other engines.
-//
-// A spring-damper k, b on the inertia I that it feels swings with w = sqrt(k/I), z = b/(2 I w).
-// Linear couplings: I is a mass [kg], k [N/m], b [N s/m]; torsional: [kg m^2, N m/rad, N m s/rad].
+// Equivalent gains. A spring-damper k, b on an apparent inertia I has w = sqrt(k/I), z = b/(2 I w).
+// Linear: I [kg], k [N/m], b [N s/m]; torsional: [kg m^2, N m/rad, N m s/rad].
 struct SpringGains {
   double k = 0, b = 0;
 };
@@ -88,26 +78,25 @@ struct SpringResponse {
 SpringGains gains_of(const SpringResponse& response, double inertia);
 SpringResponse response_of(const SpringGains& gains, double inertia);  // k > 0
 
-// One link, small errors, the spring's point at distance r from the axis: k_T = k_L r^2 and b
-// likewise. For a chain this is no match: the outer spring holds the inner joint too. There the
-// full matrices K_q and B_q must be the same (coupling/laws/equivalent_torsional_coupling.cpp).
+// One link, small errors, spring at distance r from the axis: k_T = k_L r^2, b likewise. Not
+// equivalent for a chain, where the matrices K_q and B_q must be equal
+// (coupling/laws/equivalent_torsional_coupling.cpp).
 SpringGains torsional_of_linear(const SpringGains& linear, double r);
 
-// What a single spring feels, all else free to move (the operational-space inertia): of a joint's
-// coordinate 1/(M^-1)_jj; of a point or a link's orientation the principal values of
-// (J M^-1 J^T)^-1, ascending, infinite in directions in which it cannot move. The smallest is that
-// of the highest frequency.
+// Apparent inertia (operational-space inertia): of a joint coordinate 1/(M^-1)_jj; of a point or
+// link orientation the principal values of (J M^-1 J^T)^-1, ascending, infinite in directions
+// without motion.
 double joint_inertia(const Eigen::MatrixXd& M, Eigen::Index velocity);
 Eigen::Vector3d principal_inertias(const Eigen::MatrixXd& M, const Eigen::Matrix3Xd& J);
 
-// MuJoCo's constraints (its chapter Computation, solver parameters): the reference acceleration is
-// -b_ref v - k_ref r, and the constraint moves as  a + d (b_ref v + k_ref r) = (1 - d) a_0, with
-// the impedance d between solimp's dmin and dmax = d_max, and a_0 the acceleration without it. So
-// k = I d k_ref, b = I d b_ref, and a load is felt only by its part 1 - d.
+// MuJoCo's constraints (its documentation, "Computation", "Solver parameters"): reference
+// acceleration -b_ref v - k_ref r, and motion  a + d (b_ref v + k_ref r) = (1 - d) a_0,  with the
+// impedance d between solimp's dmin and dmax = d_max, and a_0 the unconstrained acceleration. So k
+// = I d k_ref, b = I d b_ref, and loads act with the factor 1 - d.
 struct MujocoImpedance {
-  double d = 0.95, d_max = 0.95;  // MuJoCo's dmax; d is less within solimp's width of zero error
+  double d = 0.95, d_max = 0.95;  // d < dmax within solimp's width of zero error
 };
-// As written in a model: (timeconst, dampratio), both positive, for
+// As in a model: (timeconst, dampratio), both positive, for
 //   b_ref = 2/(d_max timeconst),  k_ref = d/(d_max^2 timeconst^2 dampratio^2),
 // or (-stiffness, -damping), for  b_ref = damping/d_max,  k_ref = stiffness d/d_max^2.
 struct Solref {
@@ -120,15 +109,15 @@ Solref solref_of(const SpringGains& gains, double inertia, const MujocoImpedance
 // (-stiffness, -damping).
 Solref direct_solref_of(const SpringGains& gains, double inertia,
                         const MujocoImpedance& impedance = {});
-// Against a steady load such a constraint is stiffer than it swings: k / (1 - d).
+// Static stiffness of such a constraint: k / (1 - d).
 double mujoco_static_stiffness(double k, const MujocoImpedance& impedance = {});
-// MuJoCo's own floor of timeconst (refsafe): shorter ones are taken as this.
+// MuJoCo's minimum of timeconst (refsafe).
 inline double min_timeconst(double h) {
   return 2 * h;
 }
 
-// A drive as PhysX has it: stiffness and damping of a force, or of an acceleration, which the
-// engine multiplies by the inertia that it feels.
+// A drive of PhysX: stiffness and damping of a force, or of an acceleration (multiplied by the
+// apparent inertia).
 struct Drive {
   enum class Mode { force, acceleration };
   double stiffness = 0, damping = 0;

@@ -22,15 +22,15 @@ double max_target_radius(double I, double r, double k, double b, double h) {
 }
 
 VectorXd chain_sag(const MatrixXd& K, const VectorXd& G) {
-  constexpr double kNothing = 1e-12;
-  const double largest = K.cwiseAbs().maxCoeff();
+  constexpr double kZero = 1e-12;
+  const double max_K = K.cwiseAbs().maxCoeff();
   std::vector<Index> held;
   for (Index i = 0; i < K.rows(); ++i)
-    if (K.row(i).cwiseAbs().maxCoeff() > kNothing * largest) held.push_back(i);
+    if (K.row(i).cwiseAbs().maxCoeff() > kZero * max_K) held.push_back(i);
   VectorXd sag = VectorXd::Constant(G.size(), std::numeric_limits<double>::quiet_NaN());
   if (held.empty()) return sag;
-  const VectorXd e = min_solution(K(held, held), G(held), kNothing);
-  constexpr double kUnheld = 1e-6;  // a part of G that no spring can carry at this pose
+  const VectorXd e = min_solution(K(held, held), G(held), kZero);
+  constexpr double kUnheld = 1e-6;  // relative part of G that no spring can balance
   if ((K(held, held) * e - G(held)).norm() > kUnheld * G.norm()) return sag;
   for (std::size_t i = 0; i < held.size(); ++i) sag[held[i]] = e[static_cast<Index>(i)];
   return sag;
@@ -62,30 +62,26 @@ TargetRadius nearest_target_radius(const Model<double>& model, const State<doubl
   return nearest;
 }
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
-// Inverse dynamics at qdd = 0 gives bias - J^T f_ext: twice, for its difference.
+// Difference of two inverse dynamics at qdd = 0, which give C - J^T f_ext.
 VectorXd generalised_force(const Model<double>& model, const State<double>& x,
                            const Forces<double>& forces) {
   Workspace<double> w(model);
   const auto n = static_cast<Index>(model.nv);
-  const std::vector<double> still(model.nv, 0.0);
-  rnea(model, x, still, std::vector<Force<double>>(model.parent.size()), w);
+  const std::vector<double> zero(model.nv, 0.0);
+  rnea(model, x, zero, std::vector<Force<double>>(model.parent.size()), w);
   VectorXd tau = Eigen::Map<const VectorXd>(w.tau.data(), n);
-  rnea(model, x, still, forces.f_ext, w);
+  rnea(model, x, zero, forces.f_ext, w);
   tau -= Eigen::Map<const VectorXd>(w.tau.data(), n);
   return tau + Eigen::Map<const VectorXd>(forces.tau.data(), n);
 }
 
 namespace {
 
-// -(tau(x + s along dof) - tau(x - s)) / 2s, at steps that halve, extrapolated to order 6.
-class TauRates {
+// -d tau/dx by central differences with steps s, s/2, s/4, extrapolated to order 6.
+class TauDerivative {
  public:
-  TauRates(const Model<double>& model, const State<double>& x, const AppliedForces& push)
-      : model_(model), x_(x), push_(push), k_(model) {}
+  TauDerivative(const Model<double>& model, const State<double>& x, const AppliedForces& applied)
+      : model_(model), x_(x), applied_(applied), k_(model) {}
 
   VectorXd along(std::size_t dof, bool of_velocity) {
     std::array<VectorXd, 3> rate{difference(dof, of_velocity, 4e-2),
@@ -104,32 +100,32 @@ class TauRates {
     if (of_velocity) {
       x.qd[dof] += s;
     } else {
-      std::vector<double> shift(model_.nv);
-      shift[dof] = s;
-      integrate_coordinates(model_, x_.q, shift, x.q);
+      std::vector<double> increment(model_.nv);
+      increment[dof] = s;
+      integrate_coordinates(model_, x_.q, increment, x.q);
     }
     forward_kinematics(model_, x, k_);
     Forces<double> forces(model_);
-    push_(x, k_, forces);
+    applied_(x, k_, forces);
     return generalised_force(model_, x, forces);
   }
 
   const Model<double>& model_;
   const State<double>& x_;
-  const AppliedForces& push_;
+  const AppliedForces& applied_;
   Kinematics k_;
 };
 
 }  // namespace
 
 TangentStiffness tangent_stiffness(const Model<double>& model, const State<double>& x,
-                                   const AppliedForces& push, std::size_t count) {
+                                   const AppliedForces& applied, std::size_t count) {
   const auto n = static_cast<Index>(model.nv);
   TangentStiffness found{MatrixXd::Zero(n, n), MatrixXd::Zero(n, n)};
-  TauRates rates(model, x, push);
+  TauDerivative derivative(model, x, applied);
   for (std::size_t dof = 0; dof < count; ++dof) {
-    found.K.col(static_cast<Index>(dof)) = rates.along(dof, false);
-    found.B.col(static_cast<Index>(dof)) = rates.along(dof, true);
+    found.K.col(static_cast<Index>(dof)) = derivative.along(dof, false);
+    found.B.col(static_cast<Index>(dof)) = derivative.along(dof, true);
   }
   return found;
 }
@@ -138,7 +134,7 @@ VectorXd squared_frequencies(const MatrixXd& M, const MatrixXd& K) {
   return generalized_eigenvalues(K, M);
 }
 
-double SpringModes::fastest_rate() const {
+double SpringModes::max_rate() const {
   return std::max(std::sqrt(squares.cwiseAbs().maxCoeff()), damping.cwiseAbs().maxCoeff());
 }
 double SpringModes::omega(Index i) const {
@@ -148,25 +144,25 @@ double SpringModes::zeta(Index i) const {
   return squares[i] > 0 ? damping(i, i) / (2 * omega(i)) : 0;
 }
 
-// The directions that are held: of |K| and B, each brought to size 1, those that are not null.
+// Keeps the modes with non-zero stiffness or damping.
 SpringModes spring_modes(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B) {
-  constexpr double kNothing = 1e-10;
+  constexpr double kZero = 1e-10;
   const SymmetricEigensystem all = generalized_eigensystem((K + K.transpose()) / 2, M);
   const SymmetricEigensystem damped = generalized_eigensystem((B + B.transpose()) / 2, M);
-  const double stiffest = all.values.cwiseAbs().maxCoeff();
-  const double max_damped = damped.values.cwiseAbs().maxCoeff();
+  const double max_square = all.values.cwiseAbs().maxCoeff();
+  const double max_damping = damped.values.cwiseAbs().maxCoeff();
   std::vector<Index> kept;
   for (Index i = 0; i < all.values.size(); ++i) {
     const double b = all.vectors.col(i).dot(B * all.vectors.col(i));
-    if ((stiffest > 0 && std::abs(all.values[i]) > kNothing * stiffest) ||
-        (max_damped > 0 && std::abs(b) > kNothing * max_damped))
+    if ((max_square > 0 && std::abs(all.values[i]) > kZero * max_square) ||
+        (max_damping > 0 && std::abs(b) > kZero * max_damping))
       kept.push_back(i);
   }
   SpringModes modes{VectorXd(kept.size()), MatrixXd(M.rows(), kept.size()), {}};
   for (std::size_t c = 0; c < kept.size(); ++c) {
     const auto column = static_cast<Index>(c);
     const double square = all.values[kept[c]];
-    modes.squares[column] = std::abs(square) > kNothing * stiffest ? square : 0;
+    modes.squares[column] = std::abs(square) > kZero * max_square ? square : 0;
     modes.shapes.col(column) = all.vectors.col(kept[c]);
   }
   modes.damping = modes.shapes.transpose() * B * modes.shapes;

@@ -21,11 +21,11 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // g = (1, s, s^2, s^3, s^4, cos W s, sin W s).
 constexpr Index kPowers = 5, kTerms = 7;
 
-MatrixXd rates_of_terms(double turn) {
+MatrixXd rates_of_terms(double W) {
   MatrixXd N = MatrixXd::Zero(kTerms, kTerms);
   for (Index n = 1; n < kPowers; ++n) N(n, n - 1) = static_cast<double>(n);
-  N(kPowers, kPowers + 1) = -turn;
-  N(kPowers + 1, kPowers) = turn;
+  N(kPowers, kPowers + 1) = -W;
+  N(kPowers + 1, kPowers) = W;
   return N;
 }
 
@@ -38,7 +38,7 @@ Eigen::RowVectorXd coefficients(const ProfileSegment::Series& series) {
   return row;
 }
 
-// exp(A): a Taylor series of a part of A that is small, squared again and again.
+// exp(A) by scaling and squaring of a Taylor series.
 MatrixXd exponential(const MatrixXd& A) {
   constexpr double kSmall = 0.25;
   constexpr int kOrder = 12;
@@ -54,14 +54,14 @@ MatrixXd exponential(const MatrixXd& A) {
 
 }  // namespace
 
-MultiJointTrackingError::MultiJointTrackingError(ChainFollower follower)
-    : follower_(std::move(follower)) {
-  const SpringModes modes = spring_modes(follower_.M, follower_.K, follower_.B);
+MultiJointTrackingError::MultiJointTrackingError(ChainDynamics dynamics)
+    : chain_(std::move(dynamics)) {
+  const SpringModes modes = spring_modes(chain_.M, chain_.K, chain_.B);
   shapes_ = modes.shapes;
   damping_ = modes.damping;
   squares_ = modes.squares;
-  // What the modes that are held span: e_j is theirs alone where that row is the unit row.
-  const MatrixXd spanned = shapes_ * shapes_.transpose() * follower_.M;
+  // e_j is determined by the modes if row j of their projection is a unit row.
+  const MatrixXd spanned = shapes_ * shapes_.transpose() * chain_.M;
   for (Index j = 0; j < spanned.rows(); ++j) {
     VectorXd rest = spanned.row(j);
     rest[j] -= 1;
@@ -83,7 +83,7 @@ VectorXd MultiJointTrackingError::restrict_to_held(VectorXd by_joint, double oth
 VectorXd MultiJointTrackingError::behind(MotionProfile move, const VectorXd& distance,
                                          double time) const {
   const double end = time + (slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
-  return peaks(pieces_of(move, 1, time), distance, VectorXd::Zero(distance.size()), end,
+  return peaks(segments_of(move, 1, time), distance, VectorXd::Zero(distance.size()), end,
                std::numbers::pi / time);
 }
 
@@ -98,34 +98,33 @@ VectorXd MultiJointTrackingError::after_reversal(const VectorXd& v, double time)
 }
 
 VectorXd MultiJointTrackingError::lag(const VectorXd& v) const {
-  const VectorXd pulled = shapes_.transpose() * (follower_.absolute * restrict_to_held(v, 0));
-  VectorXd y = VectorXd::Zero(pulled.size());
-  for (Index i = 0; i < y.size(); ++i) {
-    const bool is_pulled = std::abs(pulled[i]) > 1e-10 * pulled.cwiseAbs().maxCoeff();
-    if (is_pulled) y[i] = squares_[i] > 0 ? pulled[i] / squares_[i] : kNone;
-  }
+  const VectorXd load = shapes_.transpose() * (chain_.absolute * restrict_to_held(v, 0));
+  VectorXd y = VectorXd::Zero(load.size());
+  for (Index i = 0; i < y.size(); ++i)
+    if (std::abs(load[i]) > 1e-10 * load.cwiseAbs().maxCoeff())
+      y[i] = squares_[i] > 0 ? load[i] / squares_[i] : kNone;
   return restrict_to_held(shapes_ * y, kNone);
 }
 
-// Pieces are for a unit move; `along` has the joints' parts of it. e: at the start, at rest.
+// Segments of a unit move; `along`: distances of the joints; e: initial error at rest.
 VectorXd MultiJointTrackingError::peaks(const std::vector<ProfileSegment>& pieces,
                                         const VectorXd& along, const VectorXd& e, double end,
-                                        double turn) const {
+                                        double W) const {
   constexpr double kPerPeriod = 400, kMin = 4000, kMax = 2e5;
   const Index m = squares_.size();
   if (m == 0 || squares_.minCoeff() < 0) return VectorXd::Constant(along.size(), kNone);
   const VectorXd D = restrict_to_held(along, 0);
-  const VectorXd by_a = shapes_.transpose() * (follower_.M * D);
-  const VectorXd by_v = shapes_.transpose() * (follower_.absolute * D);
+  const VectorXd by_a = shapes_.transpose() * (chain_.M * D);
+  const VectorXd by_v = shapes_.transpose() * (chain_.absolute * D);
   const double samples =
       std::clamp(kPerPeriod * end * fastest_ / (2 * std::numbers::pi), kMin, kMax);
   VectorXd z = VectorXd::Zero(2 * m + kTerms), peak = VectorXd::Zero(along.size());
-  z.head(m) = shapes_.transpose() * (follower_.M * restrict_to_held(e, 0));
+  z.head(m) = shapes_.transpose() * (chain_.M * restrict_to_held(e, 0));
   MatrixXd A = MatrixXd::Zero(z.size(), z.size());
   A.block(0, m, m, m).setIdentity();
   A.block(m, 0, m, m).diagonal() = -squares_;
   A.block(m, m, m, m) = -damping_;
-  A.bottomRightCorner(kTerms, kTerms) = rates_of_terms(turn);
+  A.bottomRightCorner(kTerms, kTerms) = rates_of_terms(W);
   for (std::size_t p = 0; p < pieces.size(); ++p) {
     const ProfileSegment& piece = pieces[p];
     A.block(m, 2 * m, m, kTerms) =

@@ -1,14 +1,13 @@
-// How far each joint of a chain stays behind a target that moves: the same as tracking.h
-// for all joints together, which pull at one another.
+// Tracking errors of the coupled joints of a chain behind a moving target (one degree of freedom:
+// tracking.h).
 //
 //   M e'' + B e' + K e = M a_K(t) + A v_K(t),      e = q_K - q_D,
 //
-// A the part of B that brakes the follower's own velocity (absolute dampers, joints' friction). In
-// the modes that are held, e = X y, X^T M X = 1,
+// A: the part of B that acts on the robot's own velocity (absolute dampers, joint damping). In the
+// modes e = X y, X^T M X = 1,
 //   y'' + X^T B X y' + W^2 y = X^T (M a_K + A v_K).
-// The move's polynomials and cosines obey a linear equation of their own, g' = N g: (y, y', g)
-// takes each sampling step by one matrix exponential, exact at the samples. Cost O(samples (2 modes
-// + 7)^2).
+// The profile's polynomials and cosines satisfy a linear equation g' = N g: (y, y', g) is advanced
+// by one matrix exponential, exact at the samples. Cost O(samples (2 modes + 7)^2).
 #pragma once
 
 #include <Eigen/Core>
@@ -17,33 +16,33 @@
 
 namespace twinarm {
 
-struct ChainFollower {
+struct ChainDynamics {
   Eigen::MatrixXd M, K, B;
   Eigen::MatrixXd absolute;  // A
 };
 
-// The largest |e_j| of each joint; not a number for joints that are not held, and for all where
-// springs push away.
+// Maximum |e_j| of each joint; NaN for joints without coupling, and for all if a mode is statically
+// unstable.
 class MultiJointTrackingError {
  public:
-  explicit MultiJointTrackingError(ChainFollower follower);
-  // Whether neither springs nor dampers leave the joint to itself.
+  explicit MultiJointTrackingError(ChainDynamics dynamics);
+  // Whether springs or dampers determine the joint.
   bool is_held(Eigen::Index joint) const { return held_[static_cast<std::size_t>(joint)]; }
-  // Behind a target that goes `distance` in `time` [s], all joints at once, from rest.
+  // For a target that moves by `distance` in `time` [s], all joints simultaneously, from rest.
   Eigen::VectorXd behind(MotionProfile move, const Eigen::VectorXd& distance, double time) const;
-  // After a target starts at the speeds v, and after it turns from v to -v, having gone on for
-  // long; within `time`, or the period of the slowest mode.
+  // After the target's velocity steps from 0 to v, and from v (steady state) to -v; within `time`
+  // or the period of the slowest mode.
   Eigen::VectorXd after_start(const Eigen::VectorXd& v, double time) const;
   Eigen::VectorXd after_reversal(const Eigen::VectorXd& v, double time) const;
-  // e at the speeds v, in the long run: K e = A v. Not a number where it has no bound.
+  // Steady-state error at constant velocity v: K e = A v. NaN if unbounded.
   Eigen::VectorXd lag(const Eigen::VectorXd& v) const;
 
  private:
   Eigen::VectorXd peaks(const std::vector<ProfileSegment>& pieces, const Eigen::VectorXd& along,
-                        const Eigen::VectorXd& e, double end, double turn) const;
+                        const Eigen::VectorXd& e, double end, double W) const;
   Eigen::VectorXd restrict_to_held(Eigen::VectorXd by_joint, double others) const;
 
-  ChainFollower follower_;
+  ChainDynamics chain_;
   Eigen::MatrixXd shapes_, damping_;
   Eigen::VectorXd squares_;
   std::vector<bool> held_;

@@ -15,49 +15,50 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-constexpr int kLongestPeriod = 100000;  // of steps between evaluations, where several are held
+constexpr int kMaxPeriod = 100000;  // steps between common evaluations of held forces
 
-// Rows of the state (e; h v; f_1 ..; e_1 ..) that a step leaves, from the state before it. f: the
-// held forces; e_1 ..: of those that see differences, e at their last evaluation, and where they
-// see an older one that difference.
-class PartsStep {
+// Step matrix of the state (e; h v; f_1 ..; e_1 ..). f: held forces; e_1 ..: for terms with
+// difference velocities, e at the last evaluation, and if the difference is one frame older, that
+// difference.
+class StepMatrix {
  public:
-  PartsStep(const std::vector<CoupledTerm>& parts, double h, Index n) : n_(n) {
+  StepMatrix(const std::vector<CoupledTerm>& terms, double h, Index n) : n_(n) {
     const MatrixXd none = MatrixXd::Zero(n, n);
-    MatrixXd alpha = none, beta = none, ahead = none, felt = MatrixXd::Identity(n, n);
-    for (const CoupledTerm& part : parts) {
-      if (part.law == StepLaw::god_object) {
-        alpha += part.K;
-        beta += part.K;
+    MatrixXd alpha = none, beta = none, lead = none, inertia = MatrixXd::Identity(n, n);
+    for (const CoupledTerm& term : terms) {
+      if (term.law == StepLaw::god_object) {
+        alpha += term.K;
+        beta += term.K;
         continue;
       }
-      const MatrixXd a = h * h * part.K, b = h * part.B;
-      const bool printed = part.law == StepLaw::printed, pd = part.law == StepLaw::stable_pd;
-      if (part.hold_steps > 0 || printed) {
-        held_.push_back({a, b, std::max(1, part.hold_steps), printed ? pasts_ + 1 : 0, part.older});
-        pasts_ += printed + (printed && part.older);
+      const MatrixXd a = h * h * term.K, b = h * term.B;
+      const bool printed = term.law == StepLaw::printed, pd = term.law == StepLaw::stable_pd;
+      if (term.hold_steps > 0 || printed) {
+        held_.push_back(
+            {a, b, std::max(1, term.hold_steps), printed ? history_ + 1 : 0, term.older});
+        history_ += printed + (printed && term.older);
         continue;
       }
       alpha += a;
       beta += b;
-      if (pd || part.treatment != Discretization::explicit_) felt += b;
-      if (pd || part.treatment == Discretization::implicit) ahead += h * h * part.K_zero;
-      if (!pd && part.treatment == Discretization::implicit) felt += h * h * part.K_zero;
+      if (pd || term.treatment != Discretization::explicit_) inertia += b;
+      if (pd || term.treatment == Discretization::implicit) lead += h * h * term.K_zero;
+      if (!pd && term.treatment == Discretization::implicit) inertia += h * h * term.K_zero;
     }
     const auto groups = static_cast<Index>(held_.size());
-    const Index rows = n * (2 + groups + pasts_);
+    const Index rows = n * (2 + groups + history_);
     one_ = MatrixXd::Identity(rows, rows);
     a_ = MatrixXd::Zero(n, rows);
-    a_.leftCols(n * (2 + groups)) << -alpha, -(beta + ahead),
+    a_.leftCols(n * (2 + groups)) << -alpha, -(beta + lead),
         MatrixXd::Identity(n, n).replicate(1, groups);
-    a_ = inverse_of(felt) * a_;
+    a_ = inverse_of(inertia) * a_;
   }
 
-  // From one time at which all held forces are computed to the next, and how many steps that is.
+  // Matrix between two times at which all held forces are computed, and the number of steps.
   MatrixXd period(Integrator integrator, int& steps) const {
     steps = 1;
-    for (const Held& held : held_) steps = std::min(std::lcm(steps, held.steps), kLongestPeriod);
-    // Its sources act at the new coordinates: forces are computed between the drift and the kick.
+    for (const Held& held : held_) steps = std::min(std::lcm(steps, held.steps), kMaxPeriod);
+    // This integrator evaluates forces at the new coordinates, between drift and kick.
     const bool drifts = integrator == Integrator::semi_implicit_xv;
     const MatrixXd e = one_.topRows(n_), v = one_.middleRows(n_, n_);
     const MatrixXd drift = drifts ? with(e + v, v) : one_;
@@ -71,8 +72,8 @@ class PartsStep {
   struct Held {
     MatrixXd alpha, beta;
     int steps;
-    Index past;  // which of the e_1 ..; 0: it sees the true rate
-    bool older;  // it sees the difference that stands behind it
+    Index history;  // index of the e_1 ..; 0: true rate
+    bool older;     // uses the previous difference, stored behind it
   };
 
   MatrixXd with(const MatrixXd& e, const MatrixXd& v) const {
@@ -88,20 +89,20 @@ class PartsStep {
       auto f = y.middleRows(n_ * (2 + static_cast<Index>(g)), n_);
       f.setZero();
       f.leftCols(n_) = -held_[g].alpha;
-      if (held_[g].past == 0) {
+      if (held_[g].history == 0) {
         f.middleCols(n_, n_) = -held_[g].beta;
         continue;
       }
-      const Index past = n_ * (1 + static_cast<Index>(held_.size()) + held_[g].past);
-      const MatrixXd difference = one_.topRows(n_) - one_.middleRows(past, n_);
+      const Index history = n_ * (1 + static_cast<Index>(held_.size()) + held_[g].history);
+      const MatrixXd difference = one_.topRows(n_) - one_.middleRows(history, n_);
       f -= held_[g].beta / held_[g].steps *
-           (held_[g].older ? MatrixXd(one_.middleRows(past + n_, n_)) : difference);
-      if (held_[g].older) y.middleRows(past + n_, n_) = difference;
-      y.middleRows(past, n_) = one_.topRows(n_);
+           (held_[g].older ? MatrixXd(one_.middleRows(history + n_, n_)) : difference);
+      if (held_[g].older) y.middleRows(history + n_, n_) = difference;
+      y.middleRows(history, n_) = one_.topRows(n_);
     }
     return y;
   }
-  // The formulas of solver/integration/integrator.h, of a linear system.
+  // Integrators of solver/integration/integrator.h for a linear system.
   MatrixXd of(Integrator integrator) const {
     const MatrixXd e = one_.topRows(n_), v = one_.middleRows(n_, n_);
     MatrixXd rate = MatrixXd::Zero(one_.rows(), one_.cols());
@@ -135,21 +136,21 @@ class PartsStep {
   Index n_;
   MatrixXd one_, a_;
   std::vector<Held> held_;
-  Index pasts_ = 0;
+  Index history_ = 0;
 };
 
 struct Reduced {
-  std::vector<CoupledTerm> parts;  // with M = 1
+  std::vector<CoupledTerm> terms;  // with M = 1
   Index n = 0;
-  double rate = 0;  // of what is fastest [1/s]
+  double rate = 0;  // maximum rate [1/s]
 };
 
-// To the directions that any part holds.
-Reduced reduced(const MatrixXd& M, const std::vector<CoupledTerm>& parts) {
+// Projection to the modes.
+Reduced reduced(const MatrixXd& M, const std::vector<CoupledTerm>& terms) {
   MatrixXd K = MatrixXd::Zero(M.rows(), M.cols()), B = K;
-  for (const CoupledTerm& part : parts) {
-    K += part.K;
-    B += part.B;
+  for (const CoupledTerm& term : terms) {
+    K += term.K;
+    B += term.B;
   }
   const SpringModes modes = spring_modes(M, K, B);
   Reduced found;
@@ -158,35 +159,35 @@ Reduced reduced(const MatrixXd& M, const std::vector<CoupledTerm>& parts) {
   const auto by_modes = [&](const MatrixXd& A) {
     return MatrixXd(modes.shapes.transpose() * A * modes.shapes);
   };
-  for (const CoupledTerm& part : parts)
-    found.parts.push_back({by_modes(part.K), by_modes(part.K_zero), by_modes(part.B),
-                           part.treatment, part.hold_steps, part.law, part.older});
-  found.rate = modes.fastest_rate();
+  for (const CoupledTerm& term : terms)
+    found.terms.push_back({by_modes(term.K), by_modes(term.K_zero), by_modes(term.B),
+                           term.treatment, term.hold_steps, term.law, term.older});
+  found.rate = modes.max_rate();
   return found;
 }
 
 }  // namespace
 
-double growth_of_modes(const std::vector<CoupledTerm>& parts, Integrator integrator, double h) {
+double growth_of_modes(const std::vector<CoupledTerm>& terms, Integrator integrator, double h) {
   int steps = 1;
-  const MatrixXd all = PartsStep(parts, h, parts.front().K.rows()).period(integrator, steps);
+  const MatrixXd all = StepMatrix(terms, h, terms.front().K.rows()).period(integrator, steps);
   return std::pow(eigenvalues_of(all).cwiseAbs().maxCoeff(), 1.0 / steps);
 }
 
-double spectral_radius(const MatrixXd& M, const std::vector<CoupledTerm>& parts,
+double spectral_radius(const MatrixXd& M, const std::vector<CoupledTerm>& terms,
                        Integrator integrator, double h) {
   check_step_size(h);
-  const Reduced system = reduced(M, parts);
-  return system.n == 0 ? 1 : growth_of_modes(system.parts, integrator, h);
+  const Reduced system = reduced(M, terms);
+  return system.n == 0 ? 1 : growth_of_modes(system.terms, integrator, h);
 }
 
-double max_stable_step(const MatrixXd& M, const std::vector<CoupledTerm>& parts,
+double max_stable_step(const MatrixXd& M, const std::vector<CoupledTerm>& terms,
                        Integrator integrator) {
   constexpr double kRounding = 1e-9;
-  const Reduced system = reduced(M, parts);
+  const Reduced system = reduced(M, terms);
   if (system.n == 0 || integrator == Integrator::dopri5) return kNoLimit;
   return max_stable(
-      [&](double h) { return growth_of_modes(system.parts, integrator, h) <= 1 + kRounding; },
+      [&](double h) { return growth_of_modes(system.terms, integrator, h) <= 1 + kRounding; },
       1e-4 / system.rate, 1e4 / system.rate);
 }
 

@@ -1,20 +1,19 @@
-// Several couplings, each with its own treatment, as an integrator steps them together: the step
-// matrix about a pose and its limit.
+// Step matrix of several couplings, each with its discretization, under an integrator, and the
+// stability limit.
 //
-// In coordinates with M = 1, with e the error, h v its rate and f_g the accelerations by forces
-// that are held, an acceleration is
-//   a = felt^-1 ( - alpha e - (beta + ahead) h v + sum_g f_g ),     times h^2
-//   alpha = h^2 K, beta = h B     of all that is not held
-//   ahead = h^2 K_zero            of what is implicit
-//   felt = 1 + ahead + h B        of what is implicit, with h B of a damper that is
-// K has the geometric stiffness in it, K_zero has not: m* knows only the latter, which is why a
-// point spring has a limit even where it is implicit.
+// With M = 1, e the error, h v its rate and f_g the accelerations by held forces, the acceleration
+// times h^2 is
+//   a = inertia^-1 ( - alpha e - (beta + lead) h v + sum_g f_g )
+//   alpha = h^2 K, beta = h B     of all terms that are not held
+//   lead = h^2 K_zero             of implicit terms
+//   inertia = 1 + lead + h B      of implicit terms, with h B of implicit dampers
+// K includes the geometric stiffness, K_zero does not: the added inertia depends on the latter
+// only, hence the limit of an implicit point spring.
 //
-// Laws that are no such spring-damper (docs/understand/coupling_laws.md): as printed, the rate that
-// a held force sees is (e - e at the evaluation before)/n, n steps between the two; stable PD has
-// `ahead`, and felt = 1 + h B alone; a god object has a_u = -(e + h v)/h^2, so what it adds is
-// -M_r (e + h v), with M_r the rows of M that belong to its robot. As printed with a difference one
-// frame older, it is (e at the evaluation before - e at the one before that)/n.
+// Other laws (docs/understand/coupling_laws.md): as published, the rate of a held force is
+// (e - e at the previous evaluation)/n, n steps apart, or one frame older, (e at the previous
+// evaluation - e at the one before)/n; stable PD has `lead` and inertia = 1 + h B; a god object has
+// a_u = -(e + h v)/h^2 and adds -M_r (e + h v), M_r the rows of M of its robot.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,24 +25,22 @@
 namespace twinarm {
 
 struct CoupledTerm {
-  Eigen::MatrixXd K, K_zero, B;  // as it is about the pose; J^T k J alone; J^T b J
+  Eigen::MatrixXd K, K_zero, B;                          // tangent stiffness; J^T k J; J^T b J
   Discretization treatment = Discretization::explicit_;  // of a spring-damper
-  // The force is computed every so many steps, and held; 0: at each stage (as printed: each step).
+  // Zero-order hold over n steps; 0: evaluated at each stage (as published: each step).
   int hold_steps = 0;
-  StepLaw law = StepLaw::spring_damper;  // a god object has M_r for K, and nothing else
-  bool older = false;                    // as printed: the difference is one frame older
+  StepLaw law = StepLaw::spring_damper;  // god object: K = M_r only
+  bool older = false;                    // as published: difference one frame older
 };
 
-// Of parts in coordinates with M = 1 that all count: the spectral radius of a step of h (of all
-// steps between two evaluations, for held forces, its root).
+// Spectral radius per step of h, of terms in coordinates with M = 1.
 double growth_of_modes(const std::vector<CoupledTerm>& parts, Integrator integrator, double h);
 
-// By how much the error grows in a step of h, in the long run. At most 1: stable. Not for dopri5,
-// which chooses its step.
+// Growth factor of the error per step of h; stable if at most 1. Not for dopri5 (adaptive step).
 double spectral_radius(const Eigen::MatrixXd& M, const std::vector<CoupledTerm>& parts,
                        Integrator integrator, double h);
 
-// The largest stable step of all parts together; kNoLimit where there is none, and for dopri5.
+// The largest stable step of all terms together; kNoLimit if there is none, and for dopri5.
 double max_stable_step(const Eigen::MatrixXd& M, const std::vector<CoupledTerm>& parts,
                        Integrator integrator);
 

@@ -15,14 +15,14 @@ TrackingError tracking_error(const TrackingSeries& series) {
   TrackingError error;
   const std::size_t n = series.t.size();
   for (std::size_t j = 0; j < series.q_K.size(); ++j) {
-    double largest = 0, integral = 0, before = 0;
+    double max_error = 0, integral = 0, before = 0;
     for (std::size_t s = 0; s < n; ++s) {
       const double e = std::abs(series.q_K[j][s] - series.q_D[j][s]);
-      largest = std::max(largest, e);
+      max_error = std::max(max_error, e);
       if (s > 0) integral += 0.5 * (e + before) * (series.t[s] - series.t[s - 1]);
       before = e;
     }
-    error.max.push_back(largest);
+    error.max.push_back(max_error);
     error.mean.push_back(n > 1 ? integral / (series.t.back() - series.t.front()) : 0.0);
   }
   return error;
@@ -33,7 +33,7 @@ TrackingSystem::TrackingSystem(const TrackingSetup& setup) : setup_(setup) {
   kvr_ = std::make_unique<TargetRobot>(*setup.kvr_model, *setup.hand, setup.mapping, setup.joints,
                                        setup.kvr_rates);
   State<double> start(*setup.dvr_model);
-  start.q = kvr_->start().x.q;  // the DVR starts at rest on the KVR's pose
+  start.q = kvr_->start().x.q;  // at rest at the KVR's pose
   simulation_ = std::make_unique<Simulation>(*setup.dvr_model, start);
   for (const CouplingSpec& spec : setup.couplings) {
     couplings_.push_back(make_coupling(spec, *setup.dvr_model, *kvr_));
@@ -56,7 +56,7 @@ void TrackingSystem::record(TrackingSeries& series) {
 }
 
 TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step) {
-  constexpr double kOutOfAllBounds = 1e3;  // rad: the run has diverged
+  constexpr double kDiverged = 1e3;  // [rad]
   TrackingSeries series;
   series.q_K.resize(iq_.size());
   series.q_D.resize(iq_.size());
@@ -70,8 +70,8 @@ TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step)
   for (std::size_t n = 0; n < steps; ++n) {
     const StepReport report = simulation_->step(setup_.h);
     const auto& q = simulation_->state().q;
-    const bool bounded = std::all_of(
-        iq_.begin(), iq_.end(), [&](std::size_t iq) { return std::abs(q[iq]) < kOutOfAllBounds; });
+    const bool bounded = std::all_of(iq_.begin(), iq_.end(),
+                                     [&](std::size_t iq) { return std::abs(q[iq]) < kDiverged; });
     if (!report.finite || !bounded) {
       series.finite = false;
       break;
@@ -87,9 +87,9 @@ using Eigen::VectorXd;
 JumpErrors response_to_velocity_steps(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
                                       const std::vector<VelocityStep>& jumps, double duration) {
   const MatrixXd inverse = inverse_of(M), of_e = -inverse * K, of_v = -inverse * B;
-  const double stiffest = std::sqrt(std::max(0.0, squared_frequencies(M, K).maxCoeff()));
-  const double max_damped = squared_frequencies(M, B).maxCoeff();
-  const double longest = std::min(duration / 100, 0.02 / std::max(stiffest, max_damped));
+  const double max_omega = std::sqrt(std::max(0.0, squared_frequencies(M, K).maxCoeff()));
+  const double max_damping = squared_frequencies(M, B).maxCoeff();
+  const double max_step = std::min(duration / 100, 0.02 / std::max(max_omega, max_damping));
   const auto a = [&](const VectorXd& x, const VectorXd& xd) {
     return VectorXd(of_e * x + of_v * xd);
   };
@@ -98,7 +98,7 @@ JumpErrors response_to_velocity_steps(const MatrixXd& M, const MatrixXd& K, cons
   for (std::size_t j = 0; j < jumps.size(); ++j) {
     v += jumps[j].V;
     const double stretch = (j + 1 < jumps.size() ? jumps[j + 1].t : duration) - jumps[j].t;
-    const auto steps = static_cast<long>(std::ceil(stretch / longest));
+    const auto steps = static_cast<long>(std::ceil(stretch / max_step));
     const double dt = stretch / static_cast<double>(steps);
     for (long n = 0; n < steps; ++n) {  // classical Runge-Kutta
       const VectorXd before = e.cwiseAbs(), a1 = a(e, v);
@@ -137,7 +137,7 @@ const char* name_of(MotionProfile move) {
   return names[static_cast<std::size_t>(move)];
 }
 
-std::vector<ProfileSegment> pieces_of(MotionProfile move, double D, double T) {
+std::vector<ProfileSegment> segments_of(MotionProfile move, double D, double T) {
   const double v = D / T, a = v / T, j = a / T, s = j / T, c = s / T;  // by powers of 1/T
   const double W = std::numbers::pi / T;
   std::vector<ProfileSegment> pieces;
@@ -164,8 +164,8 @@ std::vector<ProfileSegment> pieces_of(MotionProfile move, double D, double T) {
 
 FollowingError::FollowingError(MotionProfile move, double D, double T, double omega, double zeta,
                                Damper damper)
-    : time_(T), omega_(omega), zeta_(zeta), turn_(std::numbers::pi / T), damper_(damper) {
-  for (const ProfileSegment& piece : pieces_of(move, D, T)) add_piece(piece);
+    : time_(T), omega_(omega), zeta_(zeta), W_(std::numbers::pi / T), damper_(damper) {
+  for (const ProfileSegment& piece : segments_of(move, D, T)) add_piece(piece);
   solve();
 }
 
@@ -197,7 +197,7 @@ void FollowingError::solve() {
       const auto m = static_cast<double>(n);
       p[n] = (f[n] - b * (m + 1) * p[n + 1] - (m + 1) * (m + 2) * p[n + 2]) / w2;
     }
-    const double stiff = w2 - turn_ * turn_, damp = b * turn_;
+    const double stiff = w2 - W_ * W_, damp = b * W_;
     if (piece.right.c != 0 || piece.right.d != 0) {
       const double all = stiff * stiff + damp * damp;
       piece.particular.c = (stiff * piece.right.c - damp * piece.right.d) / all;
@@ -218,8 +218,8 @@ FollowingError::Motion FollowingError::of_particular(const Piece& piece, double 
     motion.e = motion.e * s + p[n];
   }
   const double C = piece.particular.c, D = piece.particular.d;
-  const double cos = std::cos(turn_ * s), sin = std::sin(turn_ * s);
-  return {motion.e + C * cos + D * sin, motion.e_dot + turn_ * (D * cos - C * sin)};
+  const double cos = std::cos(W_ * s), sin = std::sin(W_ * s);
+  return {motion.e + C * cos + D * sin, motion.e_dot + W_ * (D * cos - C * sin)};
 }
 
 // e'' + 2 z w e' + w^2 e = 0. With r^2 = w^2 |1 - z^2|, c and s of cos, sin or of cosh, sinh:
@@ -258,7 +258,8 @@ double FollowingError::at(double t) const {
   return in_piece(*piece, t - piece->start).e;
 }
 
-// On a fine grid over the move and a period after it, then by a parabola through the best three.
+// Maximum on a fine grid over the move and one period after it, refined by a parabola through three
+// points.
 double FollowingError::peak() const {
   constexpr double kPerPeriod = 400, kMin = 4000, kMax = 4e6;
   const double period = 2 * std::numbers::pi / omega_, end = time_ + period;
@@ -272,8 +273,8 @@ double FollowingError::peak() const {
     }
   if (where < 1) return best;
   const double before = size(where - 1), after = size(where + 1);
-  const double bend = before - 2 * best + after;
-  return bend < 0 ? best - (after - before) * (after - before) / (8 * bend) : best;
+  const double second = before - 2 * best + after;
+  return second < 0 ? best - (after - before) * (after - before) / (8 * second) : best;
 }
 
 }  // namespace twinarm

@@ -12,7 +12,7 @@
 
 namespace twinarm {
 
-// batch_kernel.cpp defines these, one for each level of coupling/CMakeLists.txt.
+// Defined in batch_kernel.cpp for each instruction set.
 namespace generic {
 void run_batch(BatchWork<Batch<2>>& work);
 }
@@ -27,7 +27,7 @@ void run_batch(BatchWork<Batch<8>>& work);
 
 namespace {
 
-// Cells of equal key share a table, and so may share a batch.
+// Cells of equal key share a motion table and can share a batch.
 std::vector<double> key_of(const BatchCell& cell) {
   std::vector<double> key{cell.h, cell.speed, cell.delay};
   for (const BatchCell::Gains& gains : cell.springs)
@@ -54,11 +54,11 @@ class BatchRun::BatchRunnerN final : public Driver {
   BatchRunnerN(const BatchSetup& setup, Kernel kernel)
       : setup_(setup),
         kernel_(kernel),
-        lumped_(*setup.model),
+        merged_(*setup.model),
         motion_(setup),
-        work_(convert<S>(lumped_.model)),
-        loader_(setup_, lumped_, motion_, work_),
-        results_(setup_, lumped_, motion_, work_) {
+        work_(convert<S>(merged_.model)),
+        loader_(setup_, merged_, motion_, work_),
+        results_(setup_, merged_, motion_, work_) {
     work_.owner = this;
     work_.stopped = [](Work& work, std::size_t lane, std::size_t step) {
       static_cast<BatchRunnerN*>(work.owner)->stop(lane, step);
@@ -74,8 +74,8 @@ class BatchRun::BatchRunnerN final : public Driver {
     std::stable_sort(order.begin(), order.end());
     for (std::size_t first = 0; first < order.size();) {
       if (key_ != order[first].first) {
-        key_.clear();  // where memory runs out the table is of no key
-        motion_.fill(setup_, lumped_, cells[order[first].second]);
+        key_.clear();  // in case fill() throws
+        motion_.fill(setup_, merged_, cells[order[first].second]);
         key_ = order[first].first;
       }
       count_ = 0;
@@ -94,7 +94,7 @@ class BatchRun::BatchRunnerN final : public Driver {
     work_.steps = motion_.steps;
     work_.motion = motion_.motion.data();
     work_.energy = motion_.energy.data();
-    work_.is_corner = motion_.is_corner.data();
+    work_.is_velocity_jump = motion_.is_velocity_jump.data();
     work_.q_K = motion_.q_K.data();
     work_.motion_stride = motion_.motion_stride;
     work_.energy_stride = motion_.energy_stride;
@@ -134,14 +134,13 @@ class BatchRun::BatchRunnerN final : public Driver {
 
   BatchSetup setup_;
   Kernel kernel_;
-  ModelWithoutFixedJoints lumped_;
+  ModelWithoutFixedJoints merged_;
   BatchMotion motion_;
   Work work_;
   LaneLoader<N> loader_;
   LaneResults<N> results_;
   std::vector<double> key_;  // of the table in motion_
-
-  std::size_t count_ = 0;  // cells of the batch
+  std::size_t count_ = 0;    // cells of the batch
   std::array<const BatchCell*, N> cell_{};
   std::array<BatchResult*, N> result_{};
   std::array<bool, N> runs_{};
@@ -171,7 +170,9 @@ std::size_t BatchRun::lanes() const {
 
 namespace {
 
-bool goes_in_lanes(JointType type) {
+constexpr const char* kSingleRuns = "run the cells one by one";
+
+bool is_batchable(JointType type) {
   return type == JointType::fixed || type == JointType::revolute || type == JointType::prismatic ||
          type == JointType::screw;
 }
@@ -179,21 +180,22 @@ bool goes_in_lanes(JointType type) {
 void check_model(const Model<double>& model, DiagnosticList& faults) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     const std::string where = "joint '" + model.joint_name[i] + "'";
-    if (!goes_in_lanes(model.joint[i]))
+    if (!is_batchable(model.joint[i]))
       faults.add(where,
-                 std::string("runs side by side have no ") + name_of(model.joint[i]) + " joints",
-                 "run the cells one by one", "batch.joint");
+                 std::string("batched runs support revolute, prismatic, screw and fixed joints, "
+                             "not ") +
+                     name_of(model.joint[i]) + " joints",
+                 kSingleRuns, "batch.joint");
     for (std::size_t d = model.iv[i]; d < model.iv[i] + model.dofs(i); ++d)
       if (model.coulomb_plus[d] != 0 || model.coulomb_minus[d] != 0)
-        faults.add(where, "runs side by side have no Coulomb friction",
-                   "run the cells one by one, or leave the friction out", "batch.friction");
+        faults.add(where, "batched runs do not support Coulomb friction",
+                   "run the cells one by one, or without friction", "batch.friction");
   }
   for (const Mimic& mimic : model.mimics)
     for (std::size_t i = 1; i < model.parent.size(); ++i)
       if (model.iv[i] == mimic.follower && model.dofs(i) > 0)
         faults.add("joint '" + model.joint_name[i] + "'",
-                   "runs side by side have no joints that follow others",
-                   "run the cells one by one", "batch.mimic");
+                   "batched runs do not support mimic joints", kSingleRuns, "batch.mimic");
 }
 
 bool moves(const Model<double>& model, int body) {
@@ -205,10 +207,10 @@ bool moves(const Model<double>& model, int body) {
 void check_driven(const Model<double>& model, const std::string& joint, DiagnosticList& faults) {
   const int body = model.find_joint(joint);
   if (body < 0)
-    faults.add("joint '" + joint + "'", "the robot has no such joint",
-               "name a joint that the hand turns", "batch.unknown-joint");
+    faults.add("joint '" + joint + "'", "the robot has no such joint", "use the name of a joint",
+               "batch.unknown-joint");
   else if (model.dofs(static_cast<std::size_t>(body)) != 1)
-    faults.add("joint '" + joint + "'", "the hand moves it, but it cannot move",
+    faults.add("joint '" + joint + "'", "a driven joint must have one degree of freedom",
                "run the cells one by one, or leave it out", "batch.still-joint");
 }
 
@@ -217,17 +219,17 @@ void check_spring(const BatchSetup& setup, std::size_t s, DiagnosticList& faults
   const Model<double>& model = *setup.model;
   const std::string where = "spring " + std::to_string(s);
   if (spring.target >= setup.targets.size())
-    faults.add(where, "there is no target " + std::to_string(spring.target),
-               "name one of the " + std::to_string(setup.targets.size()) + " targets",
-               "batch.target");
+    faults.add(where, "target " + std::to_string(spring.target) + " does not exist",
+               "give an index below " + std::to_string(setup.targets.size()), "batch.target");
   if (spring.type == CouplingSpec::Type::matched)
-    faults.add(where, "runs side by side have torsional and linear springs only",
-               "run the cells one by one", "batch.spring");
+    faults.add(where, "batched runs support torsional and linear springs only", kSingleRuns,
+               "batch.spring");
   if (spring.body <= 0 || spring.body >= model.body_count() || !moves(model, spring.body))
-    faults.add(where, "it pulls at no link that moves", "name a moving link", "batch.link");
+    faults.add(where, "body index " + std::to_string(spring.body) + " is not a moving link",
+               "give the index of a moving link", "batch.link");
   else if (spring.type == CouplingSpec::Type::torsional && spring.measure == SpringSpace::joint &&
            model.dofs(static_cast<std::size_t>(spring.body)) != 1)
-    faults.add(where, "it acts at a joint that does not move", "name another link", "batch.joint");
+    faults.add(where, "its joint has no degree of freedom", "give another link", "batch.joint");
 }
 
 }  // namespace
@@ -237,7 +239,7 @@ std::vector<Diagnostic> batch_faults(const BatchSetup& setup) {
   const Model<double>& model = *setup.model;
   check_model(model, faults);
   if (setup.targets.empty())
-    faults.add("targets", "there is no kinematic robot", "give at least one", "batch.targets");
+    faults.add("targets", "there is no target robot", "give at least one", "batch.targets");
   for (const BatchTarget& target : setup.targets) {
     for (const std::string& joint : target.joints.turned) check_driven(model, joint, faults);
     if (!target.joints.gripper.empty()) check_driven(model, target.joints.gripper, faults);
@@ -245,8 +247,8 @@ std::vector<Diagnostic> batch_faults(const BatchSetup& setup) {
   for (std::size_t s = 0; s < setup.springs.size(); ++s) check_spring(setup, s, faults);
   for (const std::size_t iq : setup.measured)
     if (iq >= model.nq)
-      faults.add("measured", "there is no coordinate " + std::to_string(iq),
-                 "the robot has " + std::to_string(model.nq), "batch.measured");
+      faults.add("measured", "coordinate " + std::to_string(iq) + " does not exist",
+                 "give an index below " + std::to_string(model.nq), "batch.measured");
   if (!(setup.duration > 0) || !std::isfinite(setup.duration))
     faults.add("duration", "is " + std::to_string(setup.duration) + " s",
                "give a positive number of seconds", "batch.duration");

@@ -1,15 +1,12 @@
-// Many runs of one coupled robot at once: a cell of a map is a run of its own, with gains, masses,
-// a step and a motion of its own, and a register of the processor holds as many of them as it has
-// doubles.
+// Batched runs of one coupled robot, one cell of a parameter map per SIMD lane, each with its own
+// gains, masses, step and motion.
 //
-// A run is that of Simulation with linear and torsional couplings (coupling/laws/spring_damper.h)
-// and the semi-implicit integrator: same forces, same order in time, same sampling of the hand;
-// results differ by rounding. Cells of equal step, motion and levers share the table of the KVR's
-// motion and fill the lanes of a batch together: give many of those in one call. A lane whose cell
-// has left all bounds stands still; a batch ends when all its lanes do.
+// Equivalent to Simulation with linear and torsional couplings (coupling/laws/spring_damper.h) and
+// semi-implicit Euler; results differ by rounding. Cells of equal step, motion and lever arms share
+// a table of the KVR's motion and form batches: pass many of them in one call. The lane of a
+// diverged cell stops; a batch ends when all its lanes have.
 //
-// Units are SI and radians; of a prismatic joint the error is in metres. Cost of a step of the
-// S-103: benchmarks/drivers/bench_map.cpp.
+// SI units. Cost of a step of the S-103: benchmarks/drivers/bench_map.cpp.
 #pragma once
 
 #include <array>
@@ -23,7 +20,7 @@
 
 namespace twinarm {
 
-// What pulls: a KVR, which stands at `rest` but for the joints that the hand turns.
+// A target robot, at `rest` except for the driven joints.
 struct BatchTarget {
   const OperatorMotion* hand = nullptr;
   HandMapping mapping;
@@ -35,20 +32,21 @@ struct BatchSpring {
   CouplingSpec::Type type = CouplingSpec::Type::torsional;  // torsional or linear
   SpringSpace measure = SpringSpace::world;                 // of a torsional one
   Discretization treatment = Discretization::explicit_;
-  bool absolute_damper = false;  // does not see the target's velocity
-  std::size_t target = 0;        // index in BatchSetup::targets
-  int body = 0;                  // whose k, b and lever each cell gives
+  bool absolute_damper = false;
+  std::size_t target = 0;  // index in BatchSetup::targets
+  int body = 0;
 };
 
 struct BatchSetup {
-  const Model<double>* model = nullptr;  // must outlive the run; so must the hands
+  const Model<double>* model = nullptr;  // model and motions must outlive the run
   State<double> start;
   std::vector<BatchTarget> targets;
   std::vector<BatchSpring> springs;
-  std::vector<std::size_t> measured;  // coordinates whose error against the first target is wanted
-  double duration = 0;                // [s]; where it is no multiple of h the last step is shorter
-  double bound = 1e3;   // a cell stops where |q_K - q_D|, summed over them, is not below this
-  bool energy = false;  // compute energy_created and hand_work_least too
+  std::vector<std::size_t>
+      measured;         // coordinates with tracking errors, relative to the first target
+  double duration = 0;  // [s]; the last step may be shorter
+  double bound = 1e3;   // a cell stops if the sum of |q_K - q_D| is not below it
+  bool energy = false;  // compute energy_created and hand_work_least
 };
 
 // One run. Vectors by spring and by body of the model.
@@ -58,33 +56,32 @@ struct BatchCell {
     Vector3 p_L = Vector3::Zero();  // link axes; linear springs only
   };
   double h = 1e-3;              // [s]
-  double speed = 1, delay = 0;  // of all hands: coupling/target/operator_motion.h
+  double speed = 1, delay = 0;  // of all motions: DelayedMotion
   std::vector<Gains> springs;
   std::vector<double> mass_factor;  // on mass, first moment and inertia; empty: 1 for all
 };
 
 struct BatchResult {
   static constexpr std::size_t kWindows = 4;
-  std::size_t steps = 0;  // taken; less than the whole run's where the cell has stopped
-  bool finished = false;  // false: it left all bounds
-  // By measured joint, over t = 0, h, 2h ...; maximum and time average (trapezoidal) as
-  // tracking_error(). All infinite in a cell that has stopped, as are the quarters from then on.
+  std::size_t steps = 0;  // steps taken
+  bool finished = false;  // false: diverged
+  // By measured joint, as tracking_error(); infinite if diverged.
   std::vector<double> max_error, mean_error;
-  // By measured joint, of a cell that has finished: where the first target was at those moments.
+  // By measured joint, of a finished cell: range of the first target.
   std::vector<double> twin_low, twin_high;
-  // The largest error of any measured joint within each quarter of the run: whether it grows.
+  // Maximum error of all measured joints in each quarter of the run (infinite after divergence).
   std::array<double, kWindows> window_error{};
-  // KE + PE + springs' energy at the end less the start, less the work of hand and dampers (of
-  // joints too) by the trapezoidal rule: what came from nowhere. It is the sum of the rows
-  // `numerical` and `coupling/*/implicit` of `twinarm simulate`.
+  // Residual of the energy balance [J]: change of kinetic, potential and spring energy minus the
+  // work of operator, dampers and joint damping (trapezoidal rule); the sum of the rows `numerical`
+  // and `coupling/*/implicit` of `twinarm simulate`.
   double energy_created = 0;
-  // The least that the hand's work on springs and dampers, summed from the start, ever was; below
-  // zero the hand was given energy (passivity observer). At most 0.
+  // Minimum over time of the operator's accumulated work on springs and dampers [J], <= 0
+  // (passivity observer).
   double hand_work_least = 0;
 };
 
-// What a batch cannot run: other joints than revolute, prismatic, screw and fixed, mimics, Coulomb
-// friction, springs on what cannot move. Empty: it can.
+// Errors: joints other than revolute, prismatic, screw and fixed, mimic joints, Coulomb friction,
+// springs on immovable links. Empty if the batch can run.
 std::vector<Diagnostic> batch_faults(const BatchSetup& setup);
 
 class BatchRun {
@@ -95,11 +92,10 @@ class BatchRun {
   BatchRun(BatchRun&&) noexcept;
   BatchRun& operator=(BatchRun&&) noexcept;
 
-  // Any number of cells, in any order; out is as long. Not for several threads at once: each has a
-  // BatchRun of its own. Allocates between batches, never in a step. Throws InputError where the
-  // step of a cell is not positive and finite; then none has run.
+  // Runs all cells; out has the same size. One instance per thread. Allocates between batches, not
+  // in a step. Throws InputError before the first run if a step size is not positive and finite.
   void run(std::span<const BatchCell> cells, std::span<BatchResult> out);
-  std::size_t lanes() const;  // runs at once, by the level of the instruction set
+  std::size_t lanes() const;  // SIMD width of the instruction set
 
  private:
   class Driver;

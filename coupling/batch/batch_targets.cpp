@@ -15,7 +15,7 @@ double* put(const Vector3& v, double* out) {
   return std::copy_n(v.data(), 3, out);
 }
 
-// What the target has alone (RowSizes).
+// Products of the target's own numbers (RowSizes).
 void put_products(const RowSizes& size, const double* pose, const double* velocity, double* out) {
   if (size.products > 1) *out++ = std::inner_product(pose, pose + 3, velocity, 0.0);
   if (size.products > 0) *out = std::inner_product(velocity, velocity + 3, velocity, 0.0);
@@ -23,7 +23,7 @@ void put_products(const RowSizes& size, const double* pose, const double* veloci
 
 }  // namespace
 
-// Reads one spring's numbers off the KVR, and writes them one after another.
+// Writes one spring's numbers of the KVR to a table row.
 struct BatchMotion::Reader {
   SpringKind kind;
   std::size_t iq, iv, body;
@@ -56,9 +56,9 @@ BatchMotion::BatchMotion(const BatchSetup& setup) : joints(setup.measured.size()
   }
 }
 
-void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& lumped,
+void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& merged,
                        const BatchCell& cell) {
-  constexpr double kSameTime = 1e-9;  // parts of a step
+  constexpr double kSameTime = 1e-9;  // [steps]
   const double whole = std::floor(setup.duration / cell.h + kSameTime);
   const double rest = setup.duration - whole * cell.h;
   const bool has_rest = rest > kSameTime * cell.h;
@@ -73,23 +73,23 @@ void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& l
   hands.reserve(setup.targets.size());
   for (const BatchTarget& target : setup.targets) {
     hands.emplace_back(*target.hand, cell.delay, cell.speed);
-    kvrs.emplace_back(lumped.model, hands.back(), target.mapping, target.joints);
+    kvrs.emplace_back(merged.model, hands.back(), target.mapping, target.joints);
     kvrs.back().set_pose(target.rest);
   }
   std::vector<Reader> readers;
   for (std::size_t s = 0; s < setup.springs.size(); ++s) {
     const BatchSpring& spring = setup.springs[s];
     const auto body = static_cast<std::size_t>(spring.body);
-    const Vec3<double> p = lumped.point_of(*setup.model, body, cell.springs[s].p_L);
+    const Vec3<double> p = merged.point_of(*setup.model, body, cell.springs[s].p_L);
     readers.push_back({kind_of(spring), setup.model->iq[body], setup.model->iv[body],
-                       lumped.carrier[body], to_eigen(p), spring.treatment, spring.target});
+                       merged.carrier[body], to_eigen(p), spring.treatment, spring.target});
   }
   double t = setup.start.t;
   for (std::size_t n = 0; n < steps; ++n, t += cell.h) {
     for (TargetRobot& kvr : kvrs) kvr.begin_step(t, n + 1 < steps ? cell.h : last_step);
     fill_step(n, setup, readers, kvrs);
   }
-  if (setup.energy) find_corners(setup, cell.h);
+  if (setup.energy) find_velocity_jumps(setup, cell.h);
   find_range();
 }
 
@@ -102,15 +102,16 @@ void BatchMotion::find_range() {
   }
 }
 
-void BatchMotion::find_corners(const BatchSetup& setup, double h) {
-  is_corner.assign(steps + 1, 0);
-  is_corner.front() = is_corner.back() = 1;
-  if (last_step != h) is_corner[steps - 1] = 1;
+void BatchMotion::find_velocity_jumps(const BatchSetup& setup, double h) {
+  is_velocity_jump.assign(steps + 1, 0);
+  is_velocity_jump.front() = is_velocity_jump.back() = 1;
+  if (last_step != h) is_velocity_jump[steps - 1] = 1;
   for (std::size_t s = 0; s < places.size(); ++s) {
     const RowSizes size = row_sizes(kind_of(setup.springs[s]));
     for (std::size_t n = 1; n < steps; ++n) {
       const double* before = &energy[n * energy_stride + places[s].energy + size.pose];
-      if (!std::equal(before, before + size.velocity, before + size.velocity)) is_corner[n] = 1;
+      if (!std::equal(before, before + size.velocity, before + size.velocity))
+        is_velocity_jump[n] = 1;
     }
   }
 }
@@ -131,7 +132,7 @@ void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup,
     of.pose(start, pose);
     of.velocity(start, after);
     put_products(size, pose, after, after + size.velocity);
-    of.pose(end, pose + energy_stride);  // as the next step's start, but for the last
+    of.pose(end, pose + energy_stride);  // overwritten by the next step's start, except at the end
     of.velocity(end, before + energy_stride);
   }
   for (std::size_t j = 0; j < joints; ++j) {

@@ -1,4 +1,4 @@
-// The KVR's motion over a run as a table, one row for each step: what all lanes of a batch read.
+// Table of the KVR's motion, one row per step, shared by all lanes of a batch.
 #pragma once
 
 #include <cstddef>
@@ -9,30 +9,30 @@
 
 namespace twinarm {
 
-// Rows as LaneSpring in batch_state.h describes them, and the measured joints' coordinates.
+// Row format: LaneSpring in batch_state.h.
 struct BatchMotion {
-  struct Place {
-    std::size_t motion, energy;  // where a spring's numbers begin in a row
+  struct Frame {
+    std::size_t motion, energy;  // offsets of a spring in the rows
   };
-  std::vector<Place> places;  // by spring
+  std::vector<Frame> places;  // by spring
   std::size_t motion_stride = 0, energy_stride = 0, joints = 0;
-  std::size_t steps = 0;          // the last one may be shorter
-  double last_step = 0;           // [s]
-  std::vector<double> motion;     // steps rows
-  std::vector<double> energy;     // steps + 1 rows; none where nobody wants energies
-  std::vector<char> is_corner;    // by row of `energy`: BatchWork
-  std::vector<double> q_K;        // steps + 1 rows
-  std::vector<double> low, high;  // of q_K, by joint
+  std::size_t steps = 0;               // the last one may be shorter
+  double last_step = 0;                // [s]
+  std::vector<double> motion;          // steps rows
+  std::vector<double> energy;          // steps + 1 rows, with BatchSetup::energy
+  std::vector<char> is_velocity_jump;  // by row of `energy`: BatchWork
+  std::vector<double> q_K;             // steps + 1 rows
+  std::vector<double> low, high;       // of q_K, by joint
 
   explicit BatchMotion(const BatchSetup& setup);
-  // Of a cell's step, motion and levers. Looks at the hands as Simulation's couplings do.
-  void fill(const BatchSetup& setup, const ModelWithoutFixedJoints& lumped, const BatchCell& cell);
+  // Table for the step, motion and lever arms of a cell.
+  void fill(const BatchSetup& setup, const ModelWithoutFixedJoints& merged, const BatchCell& cell);
 
  private:
   struct Reader;  // of a spring's numbers
   void fill_step(std::size_t n, const BatchSetup& setup, const std::vector<Reader>& readers,
                  const std::vector<TargetRobot>& kvrs);
-  void find_corners(const BatchSetup& setup, double h);
+  void find_velocity_jumps(const BatchSetup& setup, double h);
   void find_range();
 };
 

@@ -1,4 +1,4 @@
-// What is measured of a batch, from its start to the results of each lane.
+// Loading cells into the lanes of a batch, and storing the results of each lane.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ class LaneResults {
   using S = Batch<N>;
 
   // All must outlive it.
-  LaneResults(const BatchSetup& setup, const ModelWithoutFixedJoints& lumped,
+  LaneResults(const BatchSetup& setup, const ModelWithoutFixedJoints& merged,
               const BatchMotion& motion, BatchWork<S>& work)
-      : setup_(setup), lumped_(lumped), motion_(motion), work_(work), one_lane_(lumped.model) {
+      : setup_(setup), merged_(merged), motion_(motion), work_(work), one_lane_(merged.model) {
     work_.has_energy = setup.energy;
     work_.measured = setup.measured;
     for (auto* by_joint :
@@ -31,7 +31,7 @@ class LaneResults {
   }
 
   void start() {
-    for (S* sum : {&work_.lost_work, &work_.hand_work, &work_.hand_work_least}) *sum = S(0);
+    for (S* sum : {&work_.dissipated_work, &work_.hand_work, &work_.hand_work_least}) *sum = S(0);
     work_.window_error.fill(S(0));
     for (std::size_t j = 0; j < work_.measured.size(); ++j) {
       const double e = std::abs(motion_.q_K[j] - setup_.start.q[work_.measured[j]]);
@@ -42,7 +42,7 @@ class LaneResults {
     }
   }
 
-  // Of a lane that has left all bounds in a step.
+  // Results of a lane that has diverged.
   void stop(std::size_t lane, std::size_t step, BatchResult& result) const {
     constexpr double kInfinite = std::numeric_limits<double>::infinity();
     result.steps = step;
@@ -56,7 +56,7 @@ class LaneResults {
     result.energy_created = kInfinite;
     result.hand_work_least = -kInfinite;
   }
-  // Of a lane at the end.
+  // Results of a finished lane.
   void store(std::size_t lane, const BatchCell& cell, BatchResult& result) {
     result.steps = motion_.steps;
     result.finished = true;
@@ -76,7 +76,7 @@ class LaneResults {
 
  private:
   void store_energies(std::size_t lane, const BatchCell& cell, BatchResult& result) {
-    one_lane_.I = lumped_.inertias(cell.mass_factor);
+    one_lane_.I = merged_.inertias(cell.mass_factor);
     const auto energy = [&](const State<double>& x) {
       return kinetic_energy(one_lane_, x) + potential_energy(one_lane_, x);
     };
@@ -86,32 +86,31 @@ class LaneResults {
     result.energy_created = energy(end) - energy(setup_.start) +
                             lane_of(work_.spring_energy, lane) -
                             lane_of(work_.spring_energy_at_start, lane) -
-                            lane_of(work_.hand_work, lane) + lane_of(work_.lost_work, lane);
+                            lane_of(work_.hand_work, lane) + lane_of(work_.dissipated_work, lane);
     result.hand_work_least = lane_of(work_.hand_work_least, lane);
   }
 
   const BatchSetup& setup_;
-  const ModelWithoutFixedJoints& lumped_;
+  const ModelWithoutFixedJoints& merged_;
   const BatchMotion& motion_;
   BatchWork<S>& work_;
   Model<double> one_lane_;
 };
 
-// What the lanes of a batch run with: the model, its springs, and a cell in each lane.
 template <int N>
 class LaneLoader {
  public:
   using S = Batch<N>;
 
   // All must outlive it.
-  LaneLoader(const BatchSetup& setup, const ModelWithoutFixedJoints& lumped,
+  LaneLoader(const BatchSetup& setup, const ModelWithoutFixedJoints& merged,
              const BatchMotion& motion, BatchWork<S>& work)
-      : setup_(setup), lumped_(lumped), work_(work) {
+      : setup_(setup), merged_(merged), work_(work) {
     prepare_bodies();
-    prepare_pulls(motion);
+    prepare_springs(motion);
   }
 
-  // The cell at the start of its run.
+  // A cell at the start of its run.
   void load(std::size_t lane, const BatchCell& cell) {
     set_lane(work_.bound, lane, setup_.bound);
     set_lane(work_.h_before, lane, 0);
@@ -119,33 +118,35 @@ class LaneLoader {
       set_lane(work_.x.q[i], lane, setup_.start.q[i]);
     for (std::size_t i = 0; i < setup_.start.qd.size(); ++i)
       set_lane(work_.x.qd[i], lane, setup_.start.qd[i]);
-    inertias_[lane] = lumped_.inertias(cell.mass_factor);
+    inertias_[lane] = merged_.inertias(cell.mass_factor);
     for (std::size_t i = 0; i < inertias_[lane].size(); ++i)
       set_lane(work_.model.I_own[i], lane, inertias_[lane][i]);
   }
-  // What depends on the length of the step.
+  // Values that depend on the step size.
   void load_step(std::size_t lane, const BatchCell& cell, double h) {
     set_lane(work_.h, lane, h);
     for (std::size_t i = 0; i < setup_.start.qd.size(); ++i)
-      set_lane(work_.forces.armature[i], lane, h * lumped_.model.damping[i]);
-    std::vector<Inertia<double>> felt = inertias_[lane];
-    for (std::size_t s = 0; s < work_.pulls.size(); ++s)
+      set_lane(work_.forces.armature[i], lane, h * merged_.model.damping[i]);
+    std::vector<Inertia<double>> effective = inertias_[lane];
+    for (std::size_t s = 0; s < work_.springs.size(); ++s)
       load_spring(work_, s, lane, setup_.springs[s], cell.springs[s], h,
-                  lumped_.point_of(*setup_.model, static_cast<std::size_t>(setup_.springs[s].body),
+                  merged_.point_of(*setup_.model, static_cast<std::size_t>(setup_.springs[s].body),
                                    cell.springs[s].p_L),
-                  felt[work_.pulls[s].body]);
-    for (std::size_t i = 0; i < felt.size(); ++i) set_lane(work_.model.I_felt[i], lane, felt[i]);
+                  effective[work_.springs[s].body]);
+    for (std::size_t i = 0; i < effective.size(); ++i)
+      set_lane(work_.model.I_effective[i], lane, effective[i]);
   }
-  // The lane stands still at the start from now on, without springs: their gains may be anything.
+  // Stops the lane at the start state, without springs.
   void park(std::size_t lane) {
-    for (LaneSpring<S>& pull : work_.pulls) {
-      for (S* gain : {&pull.k, &pull.b, &pull.kb, &pull.b_seen, &pull.m_star})
+    for (LaneSpring<S>& lane_spring : work_.springs) {
+      for (S* gain : {&lane_spring.k, &lane_spring.b, &lane_spring.kb, &lane_spring.b_seen,
+                      &lane_spring.m_star})
         set_lane(*gain, lane, 0);
-      set_lane(pull.kp, lane, Vec3<double>{});
+      set_lane(lane_spring.kp, lane, Vec3<double>{});
     }
     for (S& armature : work_.forces.armature) set_lane(armature, lane, 0);
     for (std::size_t i = 0; i < inertias_[lane].size(); ++i)
-      set_lane(work_.model.I_felt[i], lane, inertias_[lane][i]);
+      set_lane(work_.model.I_effective[i], lane, inertias_[lane][i]);
     set_lane(work_.h, lane, 0);
     set_lane(work_.bound, lane, std::numeric_limits<double>::infinity());
     for (std::size_t i = 0; i < setup_.start.q.size(); ++i)
@@ -155,58 +156,59 @@ class LaneLoader {
 
  private:
   void prepare_bodies() {
-    const std::size_t n = lumped_.model.parent.size();
+    const std::size_t n = merged_.model.parent.size();
     work_.model.I_own.resize(n);
-    work_.model.I_felt.resize(n);
+    work_.model.I_effective.resize(n);
     work_.E.resize(n);
     work_.o.resize(n);
     work_.a_bias.resize(n);
     work_.a_bias[0] = {{}, -work_.model.gravity};
-    work_.place.assign(n, Place::none);
-    for (const double b : lumped_.model.damping) work_.has_damping |= b != 0;
+    work_.frames.assign(n, Frame::none);
+    for (const double b : merged_.model.damping) work_.has_damping |= b != 0;
   }
-  void prepare_pulls(const BatchMotion& motion) {
+  void prepare_springs(const BatchMotion& motion) {
     for (std::size_t s = 0; s < setup_.springs.size(); ++s) {
       const BatchSpring& spring = setup_.springs[s];
       const auto body = static_cast<std::size_t>(spring.body);
-      LaneSpring<S> pull;
-      pull.kind = kind_of(spring);
-      pull.body = lumped_.carrier[body];
-      pull.iq = setup_.model->iq[body];
-      pull.iv = setup_.model->iv[body];
-      pull.motion = motion.places[s].motion;
-      pull.energy = motion.places[s].energy;
-      pull.sees = sees_of(spring.treatment);
-      work_.pulls.push_back(pull);
-      const bool at_joint = pull.kind == SpringKind::joint;
-      work_.has_joint_pulls |= at_joint;
-      for (std::size_t i = at_joint ? 0 : pull.body; i > 0; i = parent_of(i)) place(i);
-      const bool turned = work_.place[pull.body] == Place::turned;
-      work_.has_places |= !at_joint;
-      work_.has_points |= pull.kind == SpringKind::linear;
-      work_.has_bias |=
-          spring.treatment != Discretization::explicit_ &&
-          (pull.kind == SpringKind::linear || (pull.kind == SpringKind::world && !turned));
+      LaneSpring<S> lane_spring;
+      lane_spring.kind = kind_of(spring);
+      lane_spring.body = merged_.carrier[body];
+      lane_spring.iq = setup_.model->iq[body];
+      lane_spring.iv = setup_.model->iv[body];
+      lane_spring.motion = motion.places[s].motion;
+      lane_spring.energy = motion.places[s].energy;
+      lane_spring.time = time_of(spring.treatment);
+      work_.springs.push_back(lane_spring);
+      const bool at_joint = lane_spring.kind == SpringKind::joint;
+      work_.has_joint_springs |= at_joint;
+      for (std::size_t i = at_joint ? 0 : lane_spring.body; i > 0; i = parent_of(i))
+        choose_frame(i);
+      const bool planar = work_.frames[lane_spring.body] == Frame::planar;
+      work_.needs_rotations |= !at_joint;
+      work_.needs_origins |= lane_spring.kind == SpringKind::linear;
+      work_.needs_bias |= spring.treatment != Discretization::explicit_ &&
+                          (lane_spring.kind == SpringKind::linear ||
+                           (lane_spring.kind == SpringKind::world && !planar));
     }
   }
   std::size_t parent_of(std::size_t i) const {
-    return static_cast<std::size_t>(lumped_.model.parent[i]);
+    return static_cast<std::size_t>(merged_.model.parent[i]);
   }
-  void place(std::size_t i) {
-    bool in_line = is_in_line(i), turned = in_line;
-    for (std::size_t p = parent_of(i); p > 0; p = parent_of(p)) turned &= is_in_line(p);
-    work_.place[i] = turned ? Place::turned : in_line ? Place::in_line : Place::general;
+  void choose_frame(std::size_t i) {
+    bool aligned = is_aligned(i), planar = aligned;
+    for (std::size_t p = parent_of(i); p > 0; p = parent_of(p)) planar &= is_aligned(p);
+    work_.frames[i] = planar ? Frame::planar : aligned ? Frame::aligned : Frame::general;
     work_.E[i] = Mat3<S>::identity();
   }
-  bool is_in_line(std::size_t i) const {
-    const Matrix3 E = to_eigen(lumped_.model.Xtree[i].E);
-    return lumped_.model.joint[i] == JointType::revolute && E == Matrix3::Identity();
+  bool is_aligned(std::size_t i) const {
+    const Matrix3 E = to_eigen(merged_.model.Xtree[i].E);
+    return merged_.model.joint[i] == JointType::revolute && E == Matrix3::Identity();
   }
 
   const BatchSetup& setup_;
-  const ModelWithoutFixedJoints& lumped_;
+  const ModelWithoutFixedJoints& merged_;
   BatchWork<S>& work_;
-  std::array<std::vector<Inertia<double>>, N> inertias_;  // by lane, of its lumped bodies
+  std::array<std::vector<Inertia<double>>, N> inertias_;  // by lane and merged body
 };
 
 }  // namespace twinarm

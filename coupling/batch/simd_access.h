@@ -1,4 +1,4 @@
-// One lane of what batches are made of, written and read.
+// Access to one SIMD lane of scalars, vectors and inertias.
 #pragma once
 
 #include <cstddef>

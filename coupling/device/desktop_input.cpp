@@ -6,11 +6,11 @@
 
 namespace twinarm {
 
-DesktopInput::DesktopInput(const OmniParameters& omni, const GestureSettings& settings)
+DesktopInput::DesktopInput(const OmniParameters& omni, const DesktopInputSettings& settings)
     : omni_(omni), settings_(settings), newest_(Goal{}) {
   goal_.p = omni_position(omni_, settings_.start);
   std::copy_n(settings_.start.begin() + 3, 3, goal_.gimbal.begin());
-  end();
+  publish();
 }
 
 OmniAngles DesktopInput::angles(const Goal& goal, double t) const noexcept {
@@ -23,7 +23,7 @@ OmniAngles DesktopInput::angles(const Goal& goal, double t) const noexcept {
   return theta;
 }
 
-HandSample DesktopInput::sample(double t, double /*toward: rates change between two calls*/) const {
+HandSample DesktopInput::sample(double t, double /*toward*/) const {
   if (t > asked_.load(std::memory_order_relaxed)) asked_.store(t, std::memory_order_relaxed);
   const Goal& goal = newest_.read();
   HandSample hand;
@@ -31,7 +31,7 @@ HandSample DesktopInput::sample(double t, double /*toward: rates change between 
   hand.button = goal.buttons[0];
   hand.clutch = goal.buttons[1];
   if (goal.rate == std::array<double, 6>{}) return hand;
-  constexpr double kAhead = 1e-6;  // [s]; a difference: along the edge of the reach it slides too
+  constexpr double kAhead = 1e-6;  // [s]; finite difference, also along the workspace boundary
   const OmniAngles next = angles(goal, t + kAhead);
   for (std::size_t j = 0; j < 6; ++j) hand.theta_dot[j] = (next[j] - hand.theta[j]) / kAhead;
   return hand;
@@ -41,18 +41,14 @@ double DesktopInput::duration() const {
   return std::numeric_limits<double>::infinity();
 }
 
-void DesktopInput::begin() noexcept {
-  const double t = asked_.load(std::memory_order_relaxed);
+void DesktopInput::move_goal(double t) noexcept {
   const OmniAngles theta = angles(goal_, t);
   goal_.p = omni_position(omni_, theta);
   std::copy_n(theta.begin() + 3, 3, goal_.gimbal.begin());
-  goal_.t = std::max(t, goal_.t);
 }
 
-void DesktopInput::end() noexcept {
-  const OmniAngles theta = angles(goal_, goal_.t);
-  goal_.p = omni_position(omni_, theta);
-  std::copy_n(theta.begin() + 3, 3, goal_.gimbal.begin());
+void DesktopInput::publish() noexcept {
+  move_goal(goal_.t);
   for (std::size_t j = 0; j < 6; ++j) {
     const double keys = (keys_[j][1] ? 1.0 : 0.0) - (keys_[j][0] ? 1.0 : 0.0);
     const double rate = std::clamp(keys + axes_[j], -1.0, 1.0);
@@ -62,48 +58,36 @@ void DesktopInput::end() noexcept {
 }
 
 void DesktopInput::place(const Vector3& p) noexcept {
-  if (!p.allFinite()) return;
-  begin();
-  goal_.p = p;
-  end();
+  if (p.allFinite()) update([&] { goal_.p = p; });
 }
 
 void DesktopInput::turn_stylus(const Vector3& by) noexcept {
   if (!by.allFinite()) return;
-  begin();
-  for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];
-  end();
+  update([&] {
+    for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];
+  });
 }
 
 void DesktopInput::key(HandAxis axis, bool positive, bool down) noexcept {
-  begin();
-  keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down;
-  end();
+  update([&] { keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down; });
 }
 
 void DesktopInput::axes(const std::array<double, 6>& rates) noexcept {
-  begin();
-  for (std::size_t j = 0; j < 6; ++j) {
-    const double rate = std::isfinite(rates[j]) ? std::clamp(rates[j], -1.0, 1.0) : 0.0;
-    const double beyond = (std::abs(rate) - settings_.dead_zone) / (1 - settings_.dead_zone);
-    axes_[j] = beyond > 0 ? std::copysign(beyond, rate) : 0.0;
-  }
-  end();
+  update([&] {
+    for (std::size_t j = 0; j < 6; ++j) {
+      const double rate = std::isfinite(rates[j]) ? std::clamp(rates[j], -1.0, 1.0) : 0.0;
+      const double beyond = (std::abs(rate) - settings_.dead_zone) / (1 - settings_.dead_zone);
+      axes_[j] = beyond > 0 ? std::copysign(beyond, rate) : 0.0;
+    }
+  });
 }
 
 void DesktopInput::button(std::size_t index, bool down) noexcept {
-  if (index >= goal_.buttons.size()) return;
-  begin();
-  goal_.buttons[index] = down;
-  end();
+  if (index < goal_.buttons.size()) update([&] { goal_.buttons[index] = down; });
 }
 
 void DesktopInput::release() noexcept {
-  begin();
-  keys_ = {};
-  axes_ = {};
-  goal_.buttons = {};
-  end();
+  update([&] { keys_ = {}, axes_ = {}, goal_.buttons = {}; });
 }
 
 }  // namespace twinarm

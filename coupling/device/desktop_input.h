@@ -1,13 +1,13 @@
-// A hand that has no Omni: mouse, keyboard, game controller and space mouse move a place in the
-// device's workspace, and that place is what the person's arm wants of the virtual Omni.
+// Desktop input devices: mouse, keyboard, game controller and space mouse move a point in the
+// workspace of the virtual Omni, which is the operator's goal for it.
 //
-// Events come from one thread, whatever it is fed by; the virtual Omni asks from another. What
-// moves on (a key that is held, a stick that is tilted) moves evenly in the time of the one who
-// asks: neither thread has a clock, none waits for the other. A place out of reach or beyond the
-// joints' ranges becomes the nearest that can be reached, at once: what was pushed too far need not
-// be pulled back. Device axes: x right, y up, z to the user.
+// One thread writes events, the virtual Omni reads in another; neither waits. Motions at a rate (a
+// pressed key, a deflected stick) advance with the reader's time. A point beyond the workspace or
+// the joint limits is replaced by the nearest reachable one. Device axes: x right, y up, z to the
+// user.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 
 #include "coupling/device/omni.h"
@@ -16,36 +16,36 @@
 
 namespace twinarm {
 
-// What keys, sticks and a space mouse move.
+// Axes of keys, sticks and a space mouse.
 enum class HandAxis { right, up, toward, yaw, pitch, roll };
 
-struct GestureSettings {
+struct DesktopInputSettings {
   double speed = 0.1, turn_rate = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
-  double dead_zone = 0.08;              // of axes, which never quite rest
+  double dead_zone = 0.08;              // of axes
   OmniAngles start{0, 0.7, 0.2, 0, 0.6, 0};
 };
 
 class DesktopInput final : public OperatorMotion {
  public:
-  explicit DesktopInput(const OmniParameters& omni, const GestureSettings& settings = {});
+  explicit DesktopInput(const OmniParameters& omni, const DesktopInputSettings& settings = {});
 
-  // For the thread of events, one at a time. What is not finite is not heard.
-  void place(const Vector3& p) noexcept;         // there, device axes [m]
+  // For the event thread. Values that are not finite are ignored.
+  void place(const Vector3& p) noexcept;         // sets the point, device axes [m]
   void turn_stylus(const Vector3& by) noexcept;  // yaw, pitch, roll [rad]
   void key(HandAxis axis, bool positive, bool down) noexcept;
   void axes(const std::array<double, 6>& rates) noexcept;  // in [-1, 1], by HandAxis
   void button(std::size_t index, bool down) noexcept;      // 0: gripper, 1: clutch
-  void release() noexcept;  // keys, axes and buttons: the window has lost its focus, a plug is out
+  void release() noexcept;  // all keys, axes and buttons: focus lost or device unplugged
 
   // For the thread of the virtual Omni.
   HandSample sample(double t, double toward) const override;
-  double duration() const override;  // without end
+  double duration() const override;  // infinite
   std::string description() const override {
-    return "a place moved by mouse, keys or a game controller";
+    return "a point moved by mouse, keys or a game controller";
   }
 
  private:
-  struct Goal {  // at the time t, and how it moves on
+  struct Goal {  // at the time t, and its rates
     double t = 0;
     Vector3 p = Vector3::Zero();
     std::array<double, 3> gimbal{};
@@ -53,16 +53,24 @@ class DesktopInput final : public OperatorMotion {
     std::array<bool, 2> buttons{};
   };
   OmniAngles angles(const Goal& goal, double t) const noexcept;
-  void begin() noexcept;  // goal_ is brought to the newest time that was asked for
-  void end() noexcept;    // and handed over, within reach
+  void move_goal(double t) noexcept;  // to the time t, clamped to the workspace
+  void publish() noexcept;
+  template <class Change>
+  void update(Change change) noexcept {
+    const double t = asked_.load(std::memory_order_relaxed);
+    move_goal(t);
+    goal_.t = std::max(t, goal_.t);
+    change();
+    publish();
+  }
 
   OmniParameters omni_;
-  GestureSettings settings_;
-  Goal goal_;                                  // the events' own
-  std::array<std::array<bool, 2>, 6> keys_{};  // held, by axis and direction
+  DesktopInputSettings settings_;
+  Goal goal_;                                  // of the event thread
+  std::array<std::array<bool, 2>, 6> keys_{};  // pressed, by axis and direction
   std::array<double, 6> axes_{};
   mutable TripleBuffer<Goal> newest_;
-  mutable std::atomic<double> asked_ = 0;  // the newest time that the virtual Omni has come to
+  mutable std::atomic<double> asked_ = 0;  // newest time of a sample
 };
 
 }  // namespace twinarm

@@ -9,13 +9,13 @@
 namespace twinarm {
 namespace {
 
-bool holds(const DeviceState& device) {
-  bool numbers = device.stylus.p.allFinite();
-  for (const double angle : device.theta) numbers = numbers && std::isfinite(angle);
-  return device.alive && numbers && !device.buttons[1];
+bool is_engaged(const DeviceState& device) {
+  bool finite = device.stylus.p.allFinite();
+  for (const double angle : device.theta) finite = finite && std::isfinite(angle);
+  return device.alive && finite && !device.buttons[1];
 }
 
-// What all mappings share: the target, the gripper, the clutch.
+// Common part of all mappings: target, gripper, clutch.
 class ClutchedMapping : public DeviceMapping {
  public:
   explicit ClutchedMapping(const MappedRobot& robot) {
@@ -31,32 +31,32 @@ class ClutchedMapping : public DeviceMapping {
     for (std::size_t j = 0; j < target_.q.size(); ++j) target_.q[j] = q[j];
     std::fill(target_.qd.begin(), target_.qd.end(), 0.0);
     placed_ = true;
-    engaged_ = holds(device);
+    engaged_ = is_engaged(device);
     if (engaged_) engage(device);
   }
 
   const HandTarget& map(const DeviceState& device, double h) noexcept override {
     std::fill(target_.qd.begin(), target_.qd.end(), 0.0);
     if (device.alive) target_.gripper_closed = device.buttons[0];
-    if (!holds(device)) {
-      placed_ = true;  // from where the robot stands
+    if (!is_engaged(device)) {
+      placed_ = true;
       engaged_ = false;
       return target_;
     }
-    const bool went_on = engaged_;
+    const bool was_engaged = engaged_;
     if (!engaged_ && placed_) engage(device);
     if (!engaged_ && !placed_) engage_first(device);
     engaged_ = placed_ = true;
     before_ = target_.q;
     follow(device, h);
-    for (std::size_t j = 0; went_on && h > 0 && j < before_.size(); ++j)
+    for (std::size_t j = 0; was_engaged && h > 0 && j < before_.size(); ++j)
       target_.qd[j] = (target_.q[j] - before_[j]) / h;
     return target_;
   }
 
  protected:
-  virtual void engage(const DeviceState& device) = 0;        // the robot stands at target_.q
-  virtual void engage_first(const DeviceState& device) = 0;  // nobody has said where it stands
+  virtual void engage(const DeviceState& device) = 0;        // without a jump of target_.q
+  virtual void engage_first(const DeviceState& device) = 0;  // no initial target given
   virtual void follow(const DeviceState& device, double h) = 0;
 
   HandTarget target_;
@@ -74,7 +74,7 @@ class JointMapping final : public ClutchedMapping {
     if (spec.kind == MappingKind::arm) spec_.device_joint = {0, 1, 2};
   }
 
-  DeviceForce feel(const DeviceState&, const std::vector<double>& tau) noexcept override {
+  DeviceForce motor_torques(const DeviceState&, const std::vector<double>& tau) noexcept override {
     DeviceForce force;
     for (std::size_t j = 0; engaged_ && j < target_.q.size(); ++j)
       if (spec_.device_joint[j] < 3 && follows_[j])
@@ -83,8 +83,8 @@ class JointMapping final : public ClutchedMapping {
   }
   std::string force_feedback_description() const override {
     return spec_.kind == MappingKind::paper
-               ? "joint 1 alone: theta4 and theta6, which turn joints 2 and 3, have no motors"
-               : "joints 1, 2 and 3, on the motors of theta1, theta2 and theta3";
+               ? "torque of joint 1 only: theta4 and theta6 (joints 2 and 3) have no motors"
+               : "torques of joints 1, 2 and 3, by the motors of theta1, theta2 and theta3";
   }
 
  private:
@@ -103,8 +103,8 @@ class JointMapping final : public ClutchedMapping {
     }
   }
 
-  MappingSpec spec_;               // its offsets are those of the last engage()
-  std::array<bool, 3> follows_{};  // false: at the end of its range
+  MappingSpec spec_;               // with the offsets of the last engage()
+  std::array<bool, 3> follows_{};  // false: at a joint limit
   std::vector<double> lower_, upper_;
 };
 
@@ -114,9 +114,10 @@ class CartesianMapping final : public ClutchedMapping {
       : ClutchedMapping(robot), spec_(spec), omni_(omni), inverse_(robot) {}
 
   // dgoal = scale R J_O dtheta, tau . dq = f . dgoal, so torque = J_O^T R^T scale f.
-  DeviceForce feel(const DeviceState& device, const std::vector<double>& tau) noexcept override {
+  DeviceForce motor_torques(const DeviceState& device,
+                            const std::vector<double>& tau) noexcept override {
     DeviceForce force;
-    if (!engaged_ || !holds(device)) return force;
+    if (!engaged_ || !is_engaged(device)) return force;
     const Vector3 f = spec_.force_scale * spec_.scale * inverse_.force_of(tau);
     const Vector3 torque = omni_jacobian(omni_, device.theta).transpose() * device_from_world(f);
     force.torque = {torque.x(), torque.y(), torque.z()};
@@ -126,8 +127,8 @@ class CartesianMapping final : public ClutchedMapping {
     return Vector3(stylus_start_ + device_from_world((goal_W - start_) / spec_.scale));
   }
   std::string force_feedback_description() const override {
-    return "forces on the robot's point that follows the stylus, in their own directions, as far "
-           "as its driven joints can move it; no torques";
+    return "force on the robot's point that follows the stylus, in the directions in which its "
+           "driven joints can move it; no torques";
   }
 
  private:
@@ -139,13 +140,13 @@ class CartesianMapping final : public ClutchedMapping {
   void engage_first(const DeviceState& device) override { engage(device); }
   void follow(const DeviceState& device, double h) override {
     const Vector3 moved = world_from_device(device.stylus.p - stylus_start_);
-    inverse_.reach(start_ + spec_.scale * moved, spec_.fastest * h);
+    inverse_.move_towards(start_ + spec_.scale * moved, spec_.fastest * h);
     target_.q = inverse_.q();
   }
 
   MappingSpec spec_;
   OmniParameters omni_;
-  PointInverse inverse_;
+  PointInverseKinematics inverse_;
   Vector3 start_ = Vector3::Zero(), stylus_start_ = Vector3::Zero();
 };
 
@@ -177,27 +178,27 @@ void check_robot(MappingKind kind, const MappedRobot& robot, DiagnosticList& fau
   const Model<double>& model = *robot.model;
   const bool in_joints = kind != MappingKind::cartesian;
   if (robot.turned.empty() || (in_joints && robot.turned.size() > 3))
-    faults.add("mapping", "it is given " + std::to_string(robot.turned.size()) + " joints to turn",
-               in_joints ? "name one to three joints" : "name at least one joint",
+    faults.add("mapping", std::to_string(robot.turned.size()) + " driven joints are given",
+               in_joints ? "give one to three joints" : "give at least one joint",
                "mapping.joints");
   for (const int body : robot.turned) {
     if (body <= 0 || body >= model.body_count())
-      faults.add("mapping", "body " + std::to_string(body) + " is none of the robot's",
-                 "name joints of the robot", "mapping.body");
+      faults.add("mapping", "body index " + std::to_string(body) + " does not exist",
+                 "give joints of the robot", "mapping.body");
     else if (model.dofs(static_cast<std::size_t>(body)) != 1)
       faults.add("joint '" + model.joint_name[static_cast<std::size_t>(body)] + "'",
-                 "it has not one degree of freedom, but a hand device turns it",
-                 "name revolute or prismatic joints", "mapping.degrees-of-freedom");
+                 "a driven joint must have one degree of freedom",
+                 "give revolute or prismatic joints", "mapping.degrees-of-freedom");
   }
   for (const auto* range : {&robot.lower, &robot.upper})
     if (!range->empty() && range->size() != robot.turned.size())
-      faults.add("mapping", "ranges are not those of its joints", "give one per joint",
+      faults.add("mapping", "the numbers of ranges and joints differ", "give one range per joint",
                  "mapping.ranges");
   if (!in_joints && !moves(model, robot.turned, robot.body))
     faults.add("mapping",
                "no driven joint moves body " + std::to_string(robot.body) +
-                   ", which should follow the stylus",
-               "name a point beyond a driven joint", "mapping.point");
+                   ", whose point follows the stylus",
+               "give a point on a descendant of a driven joint", "mapping.point");
 }
 
 }  // namespace

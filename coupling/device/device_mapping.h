@@ -1,16 +1,18 @@
-// From a hand device to the kinematic robot, and the force back (docs/understand/haptic_rendering.md).
+// Mapping from an input device to the target robot, and of the force back
+// (docs/understand/haptic_rendering.md).
 //
-//   paper      theta1, theta4, theta6 of the device turn joints 1, 2, 3 of the robot. Only theta1
-//              has a motor: of the robot's torques the hand feels that of joint 1 alone.
-//   arm        theta1, theta2, theta3 turn joints 1, 2, 3: all three can be felt.
-//   cartesian  the stylus' point moves a point of the robot, whose joints follow by inverse
-//              kinematics: forces on that point are felt in their own directions.
+//   paper      theta1, theta4, theta6 of the device move joints 1, 2, 3 of the robot. Only theta1
+//   has
+//              a motor: force feedback of joint 1 only.
+//   arm        theta1, theta2, theta3 move joints 1, 2, 3: force feedback of all three.
+//   cartesian  the stylus' point moves a point of the robot by inverse kinematics: feedback of the
+//              force on that point.
 //
-// Joint mappings: q_j = offset_j + gain_j theta_d(j), so by virtual work the motor d(j) feels
-// gain_j tau_j, whatever the gain: a mapping that magnifies motion magnifies force too.
-// `force_scale` multiplies it. A clutch (second button) lets go: while it is held the robot stands
-// and the device moves freely; when it is let go the robot goes on from where it stood, without a
-// jump. A device that is not alive, or says what is not a number, is one whose clutch is held.
+// Joint mappings: q_j = offset_j + gain_j theta_d(j), so by virtual work the motor torque is gain_j
+// tau_j, times `force_scale`: a mapping that amplifies motion also amplifies force. While the
+// clutch (second button) is pressed, the target stays and the device moves freely; after its
+// release the motion continues without a jump. A device that is not alive or has values that are
+// not finite is treated like a pressed clutch.
 #pragma once
 
 #include <array>
@@ -29,29 +31,29 @@ namespace twinarm {
 enum class MappingKind { paper, arm, cartesian };
 inline constexpr std::array<const char*, 3> kMappingNames{"paper", "arm", "cartesian"};
 
-// The HandMapping is of joint mappings; `arm` has device joints of its own.
+// HandMapping: for joint mappings; `arm` has its own device joints.
 struct MappingSpec : HandMapping {
   MappingKind kind = MappingKind::paper;
-  // Of cartesian: the robot's point follows p_start + scale (stylus - stylus at the start), in
-  // world axes. A workspace of 16 cm against a reach of 60: scale 4.
+  // cartesian: the robot's point follows p_start + scale (stylus - stylus at the start), world
+  // axes. Default: workspace of 16 cm, reach of the robot 60 cm.
   double scale = 4.0;
-  // Likewise: no joint turns faster. Beside a stretched arm, or the first joint's axis, it would
-  // have to jump [rad/s, m/s].
+  // cartesian: maximum joint speed near singularities [rad/s, m/s].
   double fastest = 20;
   double force_scale = 1.0;
 };
 
-// What is moved: joints of the kinematic robot, and the point that follows the stylus.
+// The driven joints of the target robot, and the point that follows the stylus.
 struct MappedRobot {
   const Model<double>* model = nullptr;  // must outlive the mapping
-  State<double> stand;                   // where the joints stand that the hand does not move
-  std::vector<int> turned;               // bodies that the driven joints carry
+  State<double> stand;                   // positions of the other joints
+  std::vector<int> turned;               // bodies of the driven joints
   std::vector<double> lower, upper;      // their ranges [rad, m]; empty: none
-  int body = 0;                          // the point, of cartesian: on this body,
-  Vector3 p_L = Vector3::Zero();         // link axes [m]
+  int body = 0;                          // cartesian: the point's body
+  Vector3 p_L = Vector3::Zero();         // cartesian: the point, link frame [m]
 };
 
-// By velocity of the model: which of the driven joints moves it, or -1, and how fast, as a mimic.
+// By velocity of the model: index of the driven joint that moves it, or -1, and the ratio (mimic
+// joints).
 struct DrivenDofs {
   std::vector<int> joint;
   std::vector<double> ratio;
@@ -67,7 +69,7 @@ struct DrivenDofs {
   }
 };
 
-// Where the hand wants the robot. Joints in the order of MappedRobot::turned.
+// Commanded target, by joint of MappedRobot::turned.
 struct HandTarget {
   std::vector<double> q, qd;  // [rad], [rad/s]
   bool gripper_closed = false;
@@ -76,27 +78,27 @@ struct HandTarget {
 class DeviceMapping {
  public:
   virtual ~DeviceMapping() = default;
-  // The robot stands at q now: from here on the device moves it, without a jump. Never called: the
-  // offsets of the specification hold; cartesian starts from MappedRobot::stand.
+  // Continues from q without a jump. If never called, the specified offsets apply; cartesian starts
+  // from MappedRobot::stand.
   virtual void begin(const DeviceState& device, const std::vector<double>& q) noexcept = 0;
-  // `h` [s] since the last call; velocities are differences of angles that the device has sensed,
-  // zero at first and where the device has let go.
+  // `h`: time since the last call [s]. Velocities are backward differences, zero after an
+  // interruption.
   virtual const HandTarget& map(const DeviceState& device, double h) noexcept = 0;
-  // The motors' torques for generalised forces on the driven joints of the KVR, about the last
-  // map(). Nothing while the clutch is held.
-  virtual DeviceForce feel(const DeviceState& device, const std::vector<double>& tau) noexcept = 0;
-  // Of a mapping of points: where the stylus leads the robot's point to a goal in the world, device
-  // axes [m]; about the last begin() or map().
+  // Motor torques for joint forces tau on the driven joints of the target robot, after map(). Zero
+  // while the clutch is pressed.
+  virtual DeviceForce motor_torques(const DeviceState& device,
+                                    const std::vector<double>& tau) noexcept = 0;
+  // cartesian: stylus position (device axes) that moves the robot's point to goal_W [m], after
+  // begin() or map().
   virtual std::optional<Vector3> stylus_for(const Vector3& /*goal_W*/) const noexcept {
     return std::nullopt;
   }
-  // What can be felt and what cannot, for people.
   virtual std::string force_feedback_description() const = 0;
 };
 
-// Joints beyond a range are put back into it, where it has one. Throws InputError for numbers that
-// are none, and for a robot that the mapping cannot move: joints that have not one degree of
-// freedom, more than three of them for a joint mapping, a point that none of them moves.
+// Joint positions are clamped to the ranges. Throws InputError for values that are not finite,
+// joints of several degrees of freedom, more than three joints in a joint mapping, or a point that
+// no driven joint moves.
 std::unique_ptr<DeviceMapping> make_mapping(const MappingSpec& spec, const OmniParameters& omni,
                                             const MappedRobot& robot);
 

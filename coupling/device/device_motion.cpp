@@ -15,8 +15,8 @@
 
 namespace twinarm {
 
-DeviceMotion::DeviceMotion(std::size_t remembered, const HandMapping& mapping)
-    : mapping_(mapping), steps_(std::max<std::size_t>(1, remembered)) {}
+DeviceMotion::DeviceMotion(std::size_t capacity, const HandMapping& mapping)
+    : mapping_(mapping), steps_(std::max<std::size_t>(1, capacity)) {}
 
 void DeviceMotion::set(const HandTarget& target, double t, double h) noexcept {
   HandStep step{t, h, {}};
@@ -32,9 +32,10 @@ void DeviceMotion::set(const HandStep& step) noexcept {
 
 HandSample DeviceMotion::sample(double t, double toward) const {
   if (count_ == 0) return {};
-  // The step that an instant just inside, seen from `toward`, belongs to: by halving, oldest first.
+  // The step that contains an instant just inside, from the side of `toward`: binary search.
   double inside = t + 1e-9 * (toward - t);
-  if (inside == t) inside = std::nextafter(t, toward);  // late in a run that is less than an ulp
+  if (inside == t)
+    inside = std::nextafter(t, toward);  // 1e-9 of a step is below an ulp of a large t
   const std::size_t oldest = count_ - std::min(count_, steps_.size());
   std::size_t low = oldest, high = count_;
   while (high - low > 1) {
@@ -66,7 +67,7 @@ namespace {
 constexpr std::size_t kMaxLogSteps = std::size_t{1} << 22;  // an hour at 1 kHz
 constexpr std::size_t kLogColumns = 15;                     // t, h, six angles, six rates, button
 
-// All numbers of the line; empty where it is torn or holds something else.
+// All numbers of the line; empty if a cell is not a number.
 std::vector<double> log_numbers(const std::string& line) {
   std::vector<double> values;
   for (const std::string_view cell : csv_cells(line)) {
@@ -97,7 +98,7 @@ std::string hand_log_header() {
 }
 
 std::string hand_log_line(const HandStep& step) {
-  std::string text = fmt::format("{},{}", step.t, step.h);  // as many digits as tell it exactly
+  std::string text = fmt::format("{},{}", step.t, step.h);  // shortest exact digits
   for (const double angle : step.hand.theta) text += fmt::format(",{}", angle);
   for (const double rate : step.hand.theta_dot) text += fmt::format(",{}", rate);
   return text + (step.hand.button ? ",1\n" : ",0\n");
@@ -118,8 +119,8 @@ bool is_hand_log(const std::filesystem::path& file) {
 
 std::unique_ptr<DeviceMotion> read_hand_log(const std::filesystem::path& file) {
   if (!is_hand_log(file))
-    throw InputError({{file.string(), 1, "header", "it is not that of a hand's log",
-                       "give a file that `twinarm hand --log` wrote", "hand.header"}});
+    throw InputError({{file.string(), 1, "header", "the header is not that of a motion log",
+                       "give a file written by `twinarm hand --log`", "hand.header"}});
   std::ifstream stream(file);
   std::string line;
   next_line(stream, line, file.string(), 1);
@@ -131,16 +132,17 @@ std::unique_ptr<DeviceMotion> read_hand_log(const std::filesystem::path& file) {
                   "remove the lines from here on", "hand.too-long"});
       break;
     }
-    const bool torn = stream.eof();  // without its end of line
+    if (stream.eof()) break;  // incomplete last line
     const std::vector<double> values = log_numbers(line);
-    if (torn) break;
     if (values.size() != kLogColumns || !(values[1] > 0)) {
-      faults.add({file.string(), number, "", "it has not 15 finite numbers with a step above 0",
+      faults.add({file.string(), number, "",
+                  "expected 15 finite numbers with h > 0, found " + std::to_string(values.size()),
                   "remove the lines from here on", "hand.row"});
       break;
     }
     if (!steps.empty() && !(values[0] > steps.back().t)) {
-      faults.add({file.string(), number, "t[s]", "time does not go on",
+      faults.add({file.string(), number, "t[s]",
+                  fmt::format("time does not increase: {} s after {} s", values[0], steps.back().t),
                   "remove the lines from here on", "hand.time"});
       break;
     }

@@ -1,10 +1,10 @@
-// What the kinematic robot does where the hand's device falls silent: it holds, then lets go, and
-// when the device is back it goes on from where it stands. At no time does it jump.
+// Watchdog of an input device. Without data the target robot stops, then releases the couplings;
+// when the device is back it continues without a jump.
 //
-//   live      the device moves it
-//   held      silent for less than `patience`: it stands where it was
-//   released  silent for longer: it goes to where the dynamic robot is, and with it, so that the
-//             springs fall slack: d(q_K - q_D)/dt = -(q_K - q_D)/slack
+//   live      the device moves the target robot
+//   held      no data for less than `patience`: the target stays
+//   released  no data for longer: the target relaxes to the robot, d(q_K - q_D)/dt = -(q_K -
+//   q_D)/slack
 #pragma once
 
 #include <cmath>
@@ -21,12 +21,11 @@ class DeviceWatchdog {
   explicit DeviceWatchdog(double patience = 1.0, double slack = 0.2)  // [s]
       : patience_(patience), slack_(slack) {}
 
-  // One tick of h [s]. `target` is what the KVR was told last, and becomes what it is told now; of
-  // the DVR the driven joints are looked at.
+  // One tick of h [s]. Updates `target`; q_D: driven joints of the DVR.
   void tick(const DeviceState& device, DeviceMapping& mapping, const std::vector<double>& q_D,
             double h, HandTarget& target) noexcept {
     if (device.alive) {
-      if (mode_ != Mode::live) mapping.begin(device, target.q);  // from where it stands: no jump
+      if (mode_ != Mode::live) mapping.begin(device, target.q);  // no jump
       mode_ = Mode::live;
       silent_ = 0;
       target = mapping.map(device, h);

@@ -8,7 +8,7 @@
 namespace twinarm {
 namespace {
 
-constexpr double kMinLever = 0.1;  // of the stylus about the motors, for their inertia [m]
+constexpr double kMinLever = 0.1;  // lever arm of the stylus for the motors' inertia [m]
 
 }  // namespace
 
@@ -19,10 +19,11 @@ void CouplingReaction::add(const CouplingSpec& spec, const Coupling& coupling) {
   const CouplingFacts& facts = facts_of(spec.type, spec.printed);
   const Kind kind = facts.acts_at_joint(spec.measure) ? Kind::joint
                     : facts.at_point                  ? Kind::point
-                                                      : Kind::turn;
+                                                      : Kind::orientation;
   const std::size_t n = coupling.springs().size();
-  for (std::size_t r = 0; r < coupling.readings().size(); ++r)  // forces, then couples
-    parts_.push_back({&coupling, r, r % n, r < n ? kind : Kind::turn, Vector3::Zero(), false});
+  for (std::size_t r = 0; r < coupling.readings().size(); ++r)  // forces, then torques
+    parts_.push_back(
+        {&coupling, r, r % n, r < n ? kind : Kind::orientation, Vector3::Zero(), false});
 }
 
 Vector3 CouplingReaction::velocity_of(const Part& part, const State<double>& x,
@@ -32,7 +33,7 @@ Vector3 CouplingReaction::velocity_of(const Part& part, const State<double>& x,
   switch (part.kind) {
     case Kind::point:
       return D.velocity(spring.body, D.position(spring.body, spring.p_L));
-    case Kind::turn:
+    case Kind::orientation:
       return D.w_WL[i];
     case Kind::joint:
       break;
@@ -40,7 +41,7 @@ Vector3 CouplingReaction::velocity_of(const Part& part, const State<double>& x,
   return {x.qd[model_.iv[i]], 0, 0};
 }
 
-void CouplingReaction::add_reaction(const Part& part, const Vector3& pull, double size,
+void CouplingReaction::add_reaction(const Part& part, const Vector3& force, double size,
                                     const Kinematics& K) {
   const Spring& spring = part.coupling->springs()[part.spring];
   if (part.kind == Kind::joint) {
@@ -50,13 +51,13 @@ void CouplingReaction::add_reaction(const Part& part, const Vector3& pull, doubl
     return;
   }
   const Vector3& p = part.coupling->readings()[part.reading].p_K;
-  for_each_dof_below(model_, K, spring.body,
-                     [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
-                       if (driven_.joint[dof] < 0) return;
-                       const Vector3 J = part.kind == Kind::turn ? w : Vector3(v + w.cross(p - o));
-                       tau_[static_cast<std::size_t>(driven_.joint[dof])] -=
-                           driven_.ratio[dof] * J.dot(pull);
-                     });
+  for_each_dof_below(
+      model_, K, spring.body,
+      [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
+        if (driven_.joint[dof] < 0) return;
+        const Vector3 J = part.kind == Kind::orientation ? w : Vector3(v + w.cross(p - o));
+        tau_[static_cast<std::size_t>(driven_.joint[dof])] -= driven_.ratio[dof] * J.dot(force);
+      });
 }
 
 const std::vector<double>& CouplingReaction::after_step(const TargetSample& kvr,
@@ -67,18 +68,16 @@ const std::vector<double>& CouplingReaction::after_step(const TargetSample& kvr,
     const SpringState& reading = part.coupling->readings()[part.reading];
     const Vector3 velocity = velocity_of(part, x, D);
     const double over_h = part.known && h > 0 ? reading.m_star / h : 0.0;
-    const Vector3 less = over_h * (velocity - part.velocity);
+    const Vector3 inertial = over_h * (velocity - part.velocity);
     part.velocity = velocity;
     part.known = true;
-    add_reaction(part, reading.pull - less, reading.size - less.x(), kvr.k);
+    add_reaction(part, reading.pull - inertial, reading.size - inertial.x(), kvr.k);
   }
   return tau_;
 }
 
 double stylus_force(const OmniParameters& omni, const OmniAngles& theta, const Vector3& torque) {
-  // Where the arm is stretched, or above the waist, some torques are no force at all there: they
-  // count as that of a lever of a millimetre.
-  constexpr double kLever = 1e-3;  // [m]
+  constexpr double kLever = 1e-3;  // minimum lever arm, at singularities [m]
   const Matrix3 J = omni_jacobian(omni, theta);
   const Matrix3 A = J.transpose() * J + kLever * kLever * Matrix3::Identity();
   return (J * (A.inverse() * torque)).norm();
@@ -93,17 +92,17 @@ HandForce::HandForce(const HandForceSpec& spec, const OmniParameters& omni, Devi
 
 DeviceForce HandForce::tick(const DeviceState& device, const std::vector<double>& tau,
                             double h) noexcept {
-  const DeviceForce wanted = mapping_.feel(device, tau);
-  const Vector3 felt(wanted.torque[0], wanted.torque[1], wanted.torque[2]);
+  const DeviceForce wanted = mapping_.motor_torques(device, tau);
+  const Vector3 raw(wanted.torque[0], wanted.torque[1], wanted.torque[2]);
   const double part =
       spec_.cutoff > 0 ? -std::expm1(-2 * std::numbers::pi * spec_.cutoff * h) : 1.0;
-  smooth_ += part * (felt - smooth_);
-  passivity_.moved_to({device.theta[0], device.theta[1], device.theta[2]});
-  Vector3 torque = spec_.passive ? passivity_.damped(smooth_) : smooth_;
-  const double most = omni_.peak_force * (spec_.passive ? passivity_.allowance() : 1.0);
-  const double size = stylus_force(omni_, device.theta, torque);
-  if (size > most) torque *= most / size;
-  passivity_.holds(torque);
+  smooth_ += part * (raw - smooth_);
+  passivity_.set_position({device.theta[0], device.theta[1], device.theta[2]});
+  Vector3 torque = spec_.passive ? passivity_.passive_force(smooth_) : smooth_;
+  const double max_force = omni_.peak_force * (spec_.passive ? passivity_.force_fraction() : 1.0);
+  const double force = stylus_force(omni_, device.theta, torque);
+  if (force > max_force) torque *= max_force / force;
+  passivity_.set_held_force(torque);
   return {{torque.x(), torque.y(), torque.z()}};
 }
 

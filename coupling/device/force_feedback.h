@@ -1,10 +1,8 @@
-// What the hand feels: the couplings' reaction on the kinematic robot, brought to the device.
+// Force feedback: the reaction of the couplings on the target robot, mapped to the device
+// (docs/understand/haptic_rendering.md).
 //
-//   pull of each spring on the DVR -> its reaction on the KVR's driven joints, tau = -J_K^T pull
-//   -> the mapping's virtual work -> low-pass -> passivity -> clamp -> the motors' torques
-//
-// So a wall, a box that is pushed and the robot's own inertia are felt through the coupling, and
-// nothing is felt of a robot that follows slowly and freely. docs/understand/haptic_rendering.md
+//   coupling force on the DVR -> reaction on the KVR's driven joints, tau = -J_K^T f
+//   -> virtual work of the mapping -> low-pass -> passivity controller -> clamp -> motor torques
 #pragma once
 
 #include <vector>
@@ -15,26 +13,26 @@
 
 namespace twinarm {
 
-// The generalised forces of couplings on driven joints of their kinematic robot.
+// Joint forces of couplings on the driven joints of the target robot.
 class CouplingReaction {
  public:
-  // `turned`: bodies that the driven joints carry. The model must outlive it.
+  // `turned`: bodies of the driven joints. The model must outlive it.
   CouplingReaction(const Model<double>& model, const std::vector<int>& turned);
-  // Another coupling whose reaction counts. It must outlive this.
+  // Adds a coupling, which must outlive this.
   void add(const CouplingSpec& spec, const Coupling& coupling);
-  // After each step of h [s] that ended in x, with D its kinematics and the KVR at its end. By
-  // driven joint [N m, N]. An implicit pull lessened over the step by m* times the acceleration of
-  // what it measures; so a call must follow each step.
+  // Call after each step of h [s] that ended in x, with its kinematics D and the KVR at its end.
+  // Result by driven joint [N m, N]. The mean force of an implicit spring is reduced by m* times
+  // the acceleration.
   const std::vector<double>& after_step(const TargetSample& kvr, const State<double>& x,
                                         const Kinematics& D, double h) noexcept;
 
  private:
-  enum class Kind { point, turn, joint };
-  struct Part {  // a reading of a coupling
+  enum class Kind { point, orientation, joint };
+  struct Part {  // a spring state of a coupling
     const Coupling* coupling;
     std::size_t reading, spring;
     Kind kind;
-    Vector3 velocity;  // of the DVR's side, before the step; of a joint in the first component
+    Vector3 velocity;  // of the DVR before the step; of a joint: first component
     bool known;
   };
   Vector3 velocity_of(const Part& part, const State<double>& x, const Kinematics& D) const;
@@ -49,20 +47,20 @@ class CouplingReaction {
 struct HandForceSpec {
   double cutoff = 0;  // of the first-order low-pass [Hz]; 0: none
   bool passive = true;
-  double fastest = 1.0;  // the hand goes no faster: what the floor of passivity is made of [m/s]
+  double fastest = 1.0;  // maximum operator speed, for the energy bound [m/s]
 };
 
-// The force that the motors' torques are at the stylus [N]: |J^-T torque|.
+// Force of motor torques at the stylus [N]: |J^-T torque|.
 double stylus_force(const OmniParameters& omni, const OmniAngles& theta, const Vector3& torque);
 
 class HandForce {
  public:
   // The mapping must outlive it.
   HandForce(const HandForceSpec& spec, const OmniParameters& omni, DeviceMapping& mapping);
-  // For the motors, to be held until the next tick: after DeviceMapping::map() and the step. `tau`
-  // by driven joint of the KVR, h [s] the tick.
+  // Motor torques until the next tick, after DeviceMapping::map() and the step. tau: by driven
+  // joint of the KVR; h: tick [s].
   DeviceForce tick(const DeviceState& device, const std::vector<double>& tau, double h) noexcept;
-  double energy() const { return passivity_.energy(); }  // that the hand has put in [J]
+  double energy() const { return passivity_.energy(); }  // observed energy of the operator [J]
 
  private:
   HandForceSpec spec_;

@@ -1,7 +1,7 @@
-// A hand device: what it says of the hand, and what it lets the hand feel.
+// Interface of an input device, with or without force feedback.
 //
-// poll() and render() are called once a tick by one thread, neither waits, throws nor allocates.
-// Whatever has to wait (a socket, an event queue) runs elsewhere and leaves its newest state.
+// poll() and render() are called once a tick by one thread; they do not wait, throw or allocate.
+// Input and output (socket, event queue) run in other threads.
 #pragma once
 
 #include <array>
@@ -12,14 +12,14 @@
 namespace twinarm {
 
 struct DeviceState {
-  double t = 0;                   // when it was sensed, on the clock of now() below [s]
+  double t = 0;                   // time of the measurement, on the clock of poll() [s]
   OmniAngles theta{};             // [rad]; theta3 relative to theta2
   Pose stylus;                    // device axes [m]
-  std::array<bool, 2> buttons{};  // the first closes the gripper, the second is the clutch
-  bool alive = true;              // false: nothing has come for too long; the rest is old
+  std::array<bool, 2> buttons{};  // gripper, clutch
+  bool alive = true;              // false: no data for too long
 };
 
-// Torques of the three motors [N m]: J^T of a force at the stylus, or what the mapping gives.
+// Torques of the three motors [N m].
 struct DeviceForce {
   std::array<double, 3> torque{};
 };
@@ -27,13 +27,13 @@ struct DeviceForce {
 class HandDevice {
  public:
   virtual ~HandDevice() = default;
-  // `now` [s] is the tick's time: of the run where time is simulated, of the clock where it is not.
+  // `now`: time of the tick [s], simulated or of the clock.
   virtual DeviceState poll(double now) noexcept = 0;
-  // Until the next call (a zero-order hold). The device limits it to what its motors can do.
+  // Force until the next call (zero-order hold), limited by the device.
   virtual void render(const DeviceForce& force) noexcept = 0;
   virtual const OmniParameters& figures() const = 0;
-  virtual std::string description() const = 0;  // one line for reports
-  // What of the force can be felt: false for what has no motors (a trace, a keyboard).
+  virtual std::string description() const = 0;  // one line
+  // False for devices without force feedback (trace, keyboard).
   virtual bool has_motors() const = 0;
 };
 

@@ -10,16 +10,15 @@
 namespace twinarm {
 namespace {
 
-constexpr int kRounds = 30;
-constexpr double kNear = 1e-12;   // [m]: there
-constexpr double kFloor = 1e-10;  // of mu, in mean squares of J's columns: what keeps joints still
-                                  // that are not needed
+constexpr int kMaxIterations = 30;
+constexpr double kNear = 1e-12;       // convergence [m]
+constexpr double kFloor = 1e-10;      // minimum of mu, in mean squares of J's columns
 constexpr double kOutOfReach = 1e-9;  // [m]
 constexpr double kStretched = 1e-3;   // [rad]
 
 }  // namespace
 
-PointInverse::PointInverse(const MappedRobot& robot)
+PointInverseKinematics::PointInverseKinematics(const MappedRobot& robot)
     : model_(*robot.model),
       body_(robot.body),
       p_L_(robot.p_L),
@@ -30,9 +29,9 @@ PointInverse::PointInverse(const MappedRobot& robot)
       upper_(robot.upper),
       G_(robot.turned.size()) {
   const std::size_t n = robot.turned.size();
-  constexpr double kNowhere = std::numeric_limits<double>::infinity();
-  if (lower_.empty()) lower_.assign(n, -kNowhere);
-  if (upper_.empty()) upper_.assign(n, kNowhere);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  if (lower_.empty()) lower_.assign(n, -kInfinity);
+  if (upper_.empty()) upper_.assign(n, kInfinity);
   for (std::size_t j = 0; j < n; ++j) {
     const auto b = static_cast<std::size_t>(robot.turned[j]);
     iq_.push_back(model_.iq[b]);
@@ -44,17 +43,17 @@ PointInverse::PointInverse(const MappedRobot& robot)
   set_pose(std::vector<double>(q_));
 }
 
-void PointInverse::set_pose(const std::vector<double>& q) noexcept {
+void PointInverseKinematics::set_pose(const std::vector<double>& q) noexcept {
   for (std::size_t j = 0; j < q_.size(); ++j) {
     q_[j] = std::clamp(q[j], lower_[j], upper_[j]);
     low_[j] = lower_[j];
     high_[j] = upper_[j];
   }
-  look(p_);
-  look(p_);  // a goal where the point stands
+  evaluate(p_);
+  evaluate(p_);  // goal = the new position
 }
 
-void PointInverse::look(const Vector3& goal) {
+void PointInverseKinematics::evaluate(const Vector3& goal) {
   for (std::size_t j = 0; j < q_.size(); ++j) x_.q[iq_[j]] = q_[j];
   apply_mimics(model_, x_);
   forward_kinematics(model_, x_, k_);
@@ -73,13 +72,13 @@ void PointInverse::look(const Vector3& goal) {
     free_[j] = !(q_[j] <= low_[j] && gradient_[j] < 0) && !(q_[j] >= high_[j] && gradient_[j] > 0);
 }
 
-double PointInverse::mean_square() const {
+double PointInverseKinematics::mean_square() const {
   double sum = 0;
   for (const Dof& dof : chain_) sum += dof.ratio * dof.ratio * dof.J.squaredNorm();
   return chain_.empty() ? 1 : sum / static_cast<double>(chain_.size());
 }
 
-bool PointInverse::factorise(double mu, bool curved) {
+bool PointInverseKinematics::factorise(double mu, bool curved) {
   const std::size_t n = q_.size();
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j <= i; ++j) G_(i, j) = i == j ? mu + (free_[i] ? 0 : 1) : 0;
@@ -87,8 +86,8 @@ bool PointInverse::factorise(double mu, bool curved) {
     for (std::size_t a = b; a < chain_.size(); ++a) {
       const Dof &A = chain_[a], &B = chain_[b];
       if (!free_[A.joint] || !free_[B.joint]) continue;
-      const double bend = curved ? e_.dot(A.w.cross(B.J)) : 0;
-      const double g = A.ratio * B.ratio * (A.J.dot(B.J) - bend);
+      const double second = curved ? e_.dot(A.w.cross(B.J)) : 0;
+      const double g = A.ratio * B.ratio * (A.J.dot(B.J) - second);
       const std::size_t row = std::max(A.joint, B.joint), column = std::min(A.joint, B.joint);
       G_(row, column) += a != b && row == column ? 2 * g : g;
     }
@@ -98,14 +97,14 @@ bool PointInverse::factorise(double mu, bool curved) {
   return true;
 }
 
-bool PointInverse::is_at_rest() const {
-  double push = 0;
+bool PointInverseKinematics::is_at_rest() const {
+  double max_gradient = 0;
   for (std::size_t j = 0; j < q_.size(); ++j)
-    if (free_[j]) push = std::max(push, std::abs(gradient_[j]));
-  return push <= 1e-12 * std::sqrt(mean_square()) * e_.norm();
+    if (free_[j]) max_gradient = std::max(max_gradient, std::abs(gradient_[j]));
+  return max_gradient <= 1e-12 * std::sqrt(mean_square()) * e_.norm();
 }
 
-bool PointInverse::step(const Vector3& goal, double mu, bool curved) {
+bool PointInverseKinematics::step(const Vector3& goal, double mu, bool curved) {
   if (!(curved && factorise(mu, true))) factorise(mu, false);
   for (std::size_t j = 0; j < q_.size(); ++j) dq_[j] = free_[j] ? gradient_[j] : 0;
   G_.solve(dq_.data());
@@ -113,32 +112,32 @@ bool PointInverse::step(const Vector3& goal, double mu, bool curved) {
   const double far = e_.squaredNorm();
   for (std::size_t j = 0; j < q_.size(); ++j)
     if (free_[j]) q_[j] = std::clamp(q_[j] + dq_[j], low_[j], high_[j]);
-  look(goal);
+  evaluate(goal);
   if (e_.squaredNorm() < far) return true;
   q_ = before_;
-  look(goal);
+  evaluate(goal);
   return false;
 }
 
-// A stretched arm does not know which way to bend: it is bent by a little, and goes on from there.
-void PointInverse::nudge(const Vector3& goal) {
+// Leaves the saddle point of a stretched arm.
+void PointInverseKinematics::nudge(const Vector3& goal) {
   for (std::size_t j = 0; j < q_.size(); ++j)
     q_[j] = std::clamp(q_[j] + kStretched * static_cast<double>(j), low_[j], high_[j]);
-  look(goal);
+  evaluate(goal);
 }
 
-void PointInverse::reach(const Vector3& goal, double most) noexcept {
+void PointInverseKinematics::move_towards(const Vector3& goal, double max_change) noexcept {
   for (std::size_t j = 0; j < q_.size(); ++j) {
-    low_[j] = std::max(lower_[j], q_[j] - most);
-    high_[j] = std::min(upper_[j], q_[j] + most);
+    low_[j] = std::max(lower_[j], q_[j] - max_change);
+    high_[j] = std::min(upper_[j], q_[j] + max_change);
   }
-  look(goal);
+  evaluate(goal);
   const double size = mean_square(), floor = kFloor * size;
   double mu = floor;
   bool nudged = false, curved = false;
-  for (int round = 0; round < kRounds && e_.norm() > kNear; ++round) {
+  for (int iteration = 0; iteration < kMaxIterations && e_.norm() > kNear; ++iteration) {
     if (is_at_rest()) {
-      if (nudged || factorise(floor, true)) return;  // the nearest place that there is
+      if (nudged || factorise(floor, true)) return;  // a minimum
       nudged = true;
       nudge(goal);
     }
@@ -147,15 +146,15 @@ void PointInverse::reach(const Vector3& goal, double most) noexcept {
       mu = std::max(floor, mu / 16);
       curved = curved || e_.norm() > std::max(kOutOfReach, 0.3 * far);
     } else {
-      if (mu > 1e6 * (size + e_.norm())) return;  // no step comes nearer: rounding
+      if (mu > 1e6 * (size + e_.norm())) return;  // no progress: rounding
       mu = std::max(8 * mu, 1e-4 * size);
     }
   }
 }
 
-Vector3 PointInverse::force_of(const std::vector<double>& tau) noexcept {
+Vector3 PointInverseKinematics::force_of(const std::vector<double>& tau) noexcept {
   const double floor = kFloor * mean_square();
-  if (!factorise(floor, e_.norm() > kOutOfReach)) return Vector3::Zero();  // where should it go?
+  if (!factorise(floor, e_.norm() > kOutOfReach)) return Vector3::Zero();
   for (std::size_t j = 0; j < q_.size(); ++j) dq_[j] = free_[j] ? tau[j] : 0;
   G_.solve(dq_.data());
   Vector3 force = Vector3::Zero();

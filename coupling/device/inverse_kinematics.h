@@ -1,16 +1,15 @@
-// Inverse kinematics of a point of any robot: the driven joints, within their ranges, that bring it
-// nearest to a goal; and how they follow the goal.
+// Inverse kinematics of a point of any robot: positions of the driven joints, within their ranges,
+// that minimise the distance to a goal.
 //
 //   min |e|^2,  e = goal - p(q),   lower <= q <= upper
 //   (G + mu 1) dq = J^T e,         G = J^T J  or  J^T J - sum_k e_k (d^2 p_k / dq^2)
 //
-// damped least squares (Levenberg 1944, Marquardt 1963). Within reach G = J^T J: the least motion
-// of the joints that brings the point there. Out of reach the point's second derivatives come in,
-// which a chain of hinges has for nothing (d^2 p / dq_a dq_b = w_a x J_b, a between the base and
-// b): so it converges there too, and G^-1 J^T is how the joints really follow the goal. mu grows
-// where a step does not come nearer. Joints at a bound that are pushed beyond it stand still. Cost:
-// one forward kinematics and n^3 / 6 a round, one to three rounds where the goal moves little.
-// World axes; nothing is allocated after the constructor.
+// damped least squares (Levenberg 1944, Marquardt 1963). Within reach G = J^T J gives the minimum
+// joint motion. Out of reach, G includes the second derivatives of the point (d^2 p / dq_a dq_b =
+// w_a x J_b for revolute joints, a between the base and b): it converges there too, and G^-1 J^T is
+// the Jacobian from the goal to the joints. mu increases after a step without progress. Joints
+// pushed beyond a bound stay. Cost: one forward kinematics and n^3 / 6 per iteration, one to three
+// iterations if the goal moves little. World axes; no allocation after the constructor.
 #pragma once
 
 #include <vector>
@@ -20,31 +19,30 @@
 
 namespace twinarm {
 
-class PointInverse {
+class PointInverseKinematics {
  public:
   // The driven joints have one degree of freedom each.
-  explicit PointInverse(const MappedRobot& robot);
+  explicit PointInverseKinematics(const MappedRobot& robot);
 
-  // From now on from here.
+  // Sets the joint positions.
   void set_pose(const std::vector<double>& q) noexcept;
-  // Brings the point as near to the goal as it gets while no joint goes further than `most` from
-  // where it stood before this call [rad, m].
-  void reach(const Vector3& goal, double most) noexcept;
+  // Minimises the distance to the goal; no joint moves more than `max_change` [rad, m].
+  void move_towards(const Vector3& goal, double max_change) noexcept;
 
   const std::vector<double>& q() const { return q_; }  // in the order of MappedRobot::turned
   const Vector3& position() const { return p_; }       // of the point [m]
-  // The force on the goal that does the same work as tau on the joints: tau . dq = f . dgoal, at
-  // the last goal; joints at a bound do not follow.
+  // Force on the goal with the work of tau on the joints, tau . dq = f . dgoal; joints at a bound
+  // do not move.
   Vector3 force_of(const std::vector<double>& tau) noexcept;
 
  private:
-  struct Dof {  // of the chain between the point and the base, from the point on
+  struct Dof {  // of the chain from the point to the base
     Vector3 w, J;
     double ratio;
     std::size_t joint;
   };
-  void look(const Vector3& goal);  // kinematics, residual, gradient, free joints
-  // False: G + mu 1 is not positive definite. `curved`: with the second derivatives.
+  void evaluate(const Vector3& goal);  // kinematics, residual, gradient, free joints
+  // False if G + mu 1 is not positive definite. `curved`: with second derivatives.
   bool factorise(double mu, bool curved);
   bool step(const Vector3& goal, double mu, bool curved);
   bool is_at_rest() const;

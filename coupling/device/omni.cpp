@@ -1,10 +1,11 @@
-// The Omni's kinematics in closed form: a waist that turns the plane of a two-link arm.
+// Closed-form kinematics of the Omni: a two-link arm in a plane that rotates about the waist's
+// axis. Device axes.
 //
 // In that plane (out from the waist's axis, up from the shoulder) the elbow is at L1 (cos theta2,
-// sin theta2) and the forearm is L2 (sin t3, -cos t3), t3 = theta2 + theta3. Signs and lengths are
-// those of the published kinematics (docs/understand/phantom_omni.md); angles of the triangle shoulder, elbow, point
-// are taken from half-angle products of its sides, which keep their digits where the arm is
-// stretched and an arc cosine would lose half of them. Device axes.
+// sin theta2), and the forearm is L2 (sin t3, -cos t3), t3 = theta2 + theta3. Signs and lengths:
+// published kinematics (docs/understand/phantom_omni.md). Angles of the triangle shoulder, elbow,
+// point are computed by half-angle formulas, which are accurate for a stretched arm, where an arc
+// cosine is not.
 #include "coupling/device/omni.h"
 
 #include <algorithm>
@@ -15,12 +16,12 @@
 namespace twinarm {
 namespace {
 
-constexpr double kNoHold = 1e-6;  // of a lever [m], of cos theta3
+constexpr double kSingular = 1e-6;  // minimum lever arm [m], minimum cos theta3
 
 struct OmniArm {
   double s1, c1, s2, c2, s3, c3;  // of theta1, theta2, theta2 + theta3
-  double R;                       // from the waist's axis, signed [m]
-  Vector3 side, out;              // the waist's axes: x and z, turned by theta1
+  double R;                       // signed distance from the waist's axis [m]
+  Vector3 side, out;              // x and z axes rotated by theta1
 };
 
 OmniArm omni_arm(const OmniParameters& omni, const OmniAngles& theta) {
@@ -40,14 +41,14 @@ OmniArm omni_arm(const OmniParameters& omni, const OmniAngles& theta) {
   return a;
 }
 
-// J^-1: rates of the angles for a velocity of the point. Rows of motors without a hold are zero.
+// J^-1; rows of motors at a singularity are zero.
 Matrix3 omni_jacobian_inverse(const OmniParameters& omni, const OmniAngles& theta) {
   const OmniArm a = omni_arm(omni, theta);
   Matrix3 inverse = Matrix3::Zero();
-  if (std::abs(a.R) > kNoHold) inverse.row(0) = -a.side.transpose() / a.R;
+  if (std::abs(a.R) > kSingular) inverse.row(0) = -a.side.transpose() / a.R;
   // In the plane the columns are l1 + l2 and l2, with l1 = L1 (-s2, c2) and l2 = L2 (c3, s3).
   const double straight = -(a.c2 * a.c3 + a.s2 * a.s3);  // -cos theta3
-  if (std::abs(straight) < kNoHold) return inverse;
+  if (std::abs(straight) < kSingular) return inverse;
   const Vector3 up = Vector3::UnitY();
   const Vector3 to_2 = (a.s3 * a.out - a.c3 * up) / (omni.L1 * straight);
   const Vector3 to_3 = (a.c2 * a.out + a.s2 * up) / (omni.L2 * straight);
@@ -56,17 +57,17 @@ Matrix3 omni_jacobian_inverse(const OmniParameters& omni, const OmniAngles& thet
   return inverse;
 }
 
-Matrix3 turn_x(double angle) {
+Matrix3 rotation_x(double angle) {
   return Eigen::AngleAxisd(angle, Vector3::UnitX()).toRotationMatrix();
 }
-Matrix3 turn_y(double angle) {
+Matrix3 rotation_y(double angle) {
   return Eigen::AngleAxisd(angle, Vector3::UnitY()).toRotationMatrix();
 }
-Matrix3 forearm_turn(const std::array<double, 3>& theta) {
-  return turn_y(-theta[0]) * turn_x(-(theta[1] + theta[2]));
+Matrix3 forearm_rotation(const std::array<double, 3>& theta) {
+  return rotation_y(-theta[0]) * rotation_x(-(theta[1] + theta[2]));
 }
 
-// theta2, theta3 for a point of the arm's plane.
+// theta2, theta3 of a point in the arm's plane.
 std::optional<std::array<double, 2>> reach_in_plane(const OmniParameters& omni, double out,
                                                     double up) {
   const double L1 = omni.L1, L2 = omni.L2, r = std::hypot(out, up);
@@ -82,15 +83,15 @@ std::optional<std::array<double, 2>> reach_in_plane(const OmniParameters& omni, 
   return std::array<double, 2>{shoulder + std::atan2(up, out), elbow - std::numbers::pi / 2};
 }
 
-// The angle of an arc [low, high] that is nearest on the circle.
-double clamp_turn(double angle, double low, double high) {
+// Nearest angle in [low, high] on the circle.
+double clamp_angle(double angle, double low, double high) {
   const double middle = 0.5 * (low + high);
   const double from = std::remainder(angle - middle, 2 * std::numbers::pi);
   return std::clamp(middle + from, low, high);
 }
 
-// theta2, theta3 within their ranges whose point is nearest: the point itself, else one of the four
-// arcs that bound what is reached, each with one joint at an end of its range.
+// theta2, theta3 of the nearest point within their ranges: the point itself, else on one of the
+// four arcs that bound the workspace, each with one joint at a limit.
 std::array<double, 2> nearest_in_plane(const OmniParameters& omni, double out, double up) {
   const double low2 = omni.lower[1], high2 = omni.upper[1];
   const double low3 = omni.lower[2], high3 = omni.upper[2];
@@ -99,7 +100,7 @@ std::array<double, 2> nearest_in_plane(const OmniParameters& omni, double out, d
 
   std::array<double, 2> best{};
   double nearest = std::numeric_limits<double>::infinity();
-  const auto offer = [&](double theta2, double theta3) {
+  const auto try_angles = [&](double theta2, double theta3) {
     const double d_out = omni.L1 * std::cos(theta2) + omni.L2 * std::sin(theta2 + theta3) - out;
     const double d_up = omni.L1 * std::sin(theta2) - omni.L2 * std::cos(theta2 + theta3) - up;
     const double distance = std::hypot(d_out, d_up);
@@ -110,12 +111,12 @@ std::array<double, 2> nearest_in_plane(const OmniParameters& omni, double out, d
   for (const double theta2 : {low2, high2}) {
     const double from_out = out - omni.L1 * std::cos(theta2);
     const double from_up = up - omni.L1 * std::sin(theta2);
-    offer(theta2, clamp_turn(std::atan2(from_out, -from_up) - theta2, low3, high3));
+    try_angles(theta2, clamp_angle(std::atan2(from_out, -from_up) - theta2, low3, high3));
   }
   for (const double theta3 : {low3, high3}) {
     const double at_zero =
         std::atan2(-omni.L2 * std::cos(theta3), omni.L1 + omni.L2 * std::sin(theta3));
-    offer(clamp_turn(std::atan2(up, out) - at_zero, low2, high2), theta3);
+    try_angles(clamp_angle(std::atan2(up, out) - at_zero, low2, high2), theta3);
   }
   return best;
 }
@@ -138,7 +139,7 @@ Matrix3 omni_jacobian(const OmniParameters& omni, const OmniAngles& theta) {
   const Vector3 by_arm = omni.L1 * (-a.s2 * a.out + a.c2 * up);
   const Vector3 by_forearm = omni.L2 * (a.c3 * a.out + a.s3 * up);
   Matrix3 J;
-  // theta2 turns the forearm along: theta3 is measured from the upper arm.
+  // theta2 also rotates the forearm: theta3 is relative to the upper arm.
   J << -a.R * a.side, by_arm + by_forearm, by_forearm;
   return J;
 }
@@ -158,9 +159,9 @@ std::array<double, 3> omni_limit(const OmniParameters& omni, const OmniAngles& t
 }
 
 Pose omni_stylus(const OmniParameters& omni, const OmniAngles& theta) {
-  const Matrix3 gimbal = turn_y(-theta[3]) * turn_x(theta[4] - omni.gimbal_pitch) *
+  const Matrix3 gimbal = rotation_y(-theta[3]) * rotation_x(theta[4] - omni.gimbal_pitch) *
                          Eigen::AngleAxisd(theta[5], Vector3::UnitZ());
-  return {forearm_turn({theta[0], theta[1], theta[2]}) * gimbal, omni_position(omni, theta)};
+  return {forearm_rotation({theta[0], theta[1], theta[2]}) * gimbal, omni_position(omni, theta)};
 }
 
 std::optional<std::array<double, 3>> omni_inverse(const OmniParameters& omni,
@@ -175,11 +176,11 @@ std::optional<OmniAngles> omni_inverse(const OmniParameters& omni, const Pose& s
   const auto arm = omni_inverse(omni, stylus.p);
   if (!arm) return std::nullopt;
   // Ry(a) Rx(b) Rz(c): its last column is (sin a cos b, -sin b, cos a cos b).
-  const Matrix3 M = forearm_turn(*arm).transpose() * stylus.R;
+  const Matrix3 M = forearm_rotation(*arm).transpose() * stylus.R;
   const double cos_b = std::hypot(M(0, 2), M(2, 2));
   const double a = cos_b > 1e-12 ? std::atan2(M(0, 2), M(2, 2)) : 0.0;
   const double b = std::atan2(-M(1, 2), cos_b);
-  const Matrix3 rest = turn_y(-a) * M;  // Rx(b) Rz(c)
+  const Matrix3 rest = rotation_y(-a) * M;  // Rx(b) Rz(c)
   const double c = std::atan2(-rest(0, 1), rest(0, 0));
   return OmniAngles{(*arm)[0], (*arm)[1], (*arm)[2], -a, b + omni.gimbal_pitch, c};
 }
@@ -189,9 +190,9 @@ std::array<double, 3> omni_nearest(const OmniParameters& omni, const Vector3& po
   const double towards = -std::atan2(x, z);
   std::array<double, 3> best{};
   double nearest = std::numeric_limits<double>::infinity();
-  // The waist turns towards the place, or away from it: a corner of the ranges has R < 0.
-  for (const double turn : {towards, towards + std::numbers::pi}) {
-    const double theta1 = clamp_turn(turn, omni.lower[0], omni.upper[0]);
+  // The arm's plane through the position, with either sign of R.
+  for (const double waist : {towards, towards + std::numbers::pi}) {
+    const double theta1 = clamp_angle(waist, omni.lower[0], omni.upper[0]);
     const double out = -std::sin(theta1) * x + std::cos(theta1) * z;
     const auto q = nearest_in_plane(omni, out, up);
     const OmniAngles theta{theta1, q[0], q[1]};

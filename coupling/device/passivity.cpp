@@ -9,11 +9,11 @@
 namespace twinarm {
 namespace {
 
-constexpr double kMinPart = 1e-9;  // part of the peak: in 10^9 ticks one tick's work
+constexpr double kMinFraction = 1e-9;  // of the peak force
 
 }  // namespace
 
-void PassivityControl::moved_to(const Vector3& x) noexcept {
+void PassivityControl::set_position(const Vector3& x) noexcept {
   if (placed_ && x != x_) {
     d_ = x - x_;
     E_ -= held_.dot(d_);
@@ -23,31 +23,31 @@ void PassivityControl::moved_to(const Vector3& x) noexcept {
   placed_ = true;
 }
 
-Vector3 PassivityControl::damped(const Vector3& wanted) const noexcept {
-  const double way = d_.squaredNorm();
-  if (!(way > 0)) return wanted;
-  const double along = wanted.dot(d_);
-  if (E_ < 0) return -std::min(-2 * E_ / way, stiffest_) * d_;
-  return along > E_ ? Vector3(wanted - (along - E_) / way * d_) : wanted;
+Vector3 PassivityControl::passive_force(const Vector3& wanted) const noexcept {
+  const double square = d_.squaredNorm();
+  if (!(square > 0)) return wanted;
+  const double work = wanted.dot(d_);
+  if (E_ < 0) return -std::min(-2 * E_ / square, max_damping_) * d_;
+  return work > E_ ? Vector3(wanted - (work - E_) / square * d_) : wanted;
 }
 
-double PassivityControl::allowance() const noexcept {
-  // Not quite none at the lowest: from nothing there is no way back.
-  return max_ > 0 ? std::clamp(kMinPart + (E_ - lowest_) / max_, kMinPart, 1.0) : 1.0;
+double PassivityControl::force_fraction() const noexcept {
+  // Above zero also at the lowest energy, to allow recovery.
+  return max_ > 0 ? std::clamp(kMinFraction + (E_ - lowest_) / max_, kMinFraction, 1.0) : 1.0;
 }
 
 Vector3 PassivityControl::tick(const Vector3& x, const Vector3& wanted, double peak) noexcept {
-  moved_to(x);
-  Vector3 force = damped(wanted);
-  const double most = peak * allowance(), size = force.norm();
-  if (size > most) force *= most / size;
-  holds(force);
+  set_position(x);
+  Vector3 force = passive_force(wanted);
+  const double max_force = peak * force_fraction(), size = force.norm();
+  if (size > max_force) force *= max_force / size;
+  set_held_force(force);
   return force;
 }
 
 namespace {
 
-// x and v after a tick under a held force: exact for m x'' + b x' = F.
+// State transition over a tick with constant force, exact for m x'' + b x' = F.
 struct HeldTick {
   double x_v, x_F, v_v, v_F;
   explicit HeldTick(const SampledDevice& d) {
@@ -66,24 +66,24 @@ struct HeldTick {
   }
 };
 
-// The largest value for which `holds`, from 0 on; 0 where it does not hold at all.
-template <class Holds>
-double bisect(Holds&& holds) {
+// Bisection for the largest value from 0 on at which is_true; 0 if there is none.
+template <class Predicate>
+double bisect(Predicate&& is_true) {
   double low = 0, high = 1e-3;
-  while (holds(high)) {
+  while (is_true(high)) {
     low = high;
     high *= 2;
     if (high > 1e9) return high;
   }
-  if (low == 0 && !holds(1e-6)) return 0;
+  if (low == 0 && !is_true(1e-6)) return 0;
   while (high - low > 1e-5 * high) {
     const double middle = 0.5 * (low + high);
-    (holds(middle) ? low : high) = middle;
+    (is_true(middle) ? low : high) = middle;
   }
   return 0.5 * (low + high);
 }
 
-// Of the hand, over one cycle of m periods in N ticks; and what passes to and fro.
+// Work of the operator over a cycle of m periods in kCycle ticks; gross: sum of absolute values.
 struct CycleWork {
   double net = 0, gross = 0;
 };
@@ -92,18 +92,18 @@ constexpr int kCycle = 512;  // [ticks]
 CycleWork work_of_cycle(const SampledDevice& device, double K, double B, int m, double A,
                         const std::array<double, kCycle>& cosine) {
   const double T = device.tick(), q = device.resolution;
-  const auto place = [&](int n) {
+  const auto position = [&](int n) {
     return A * cosine[static_cast<std::size_t>((n + 4 * kCycle) * m % kCycle)];
   };
-  const auto sensed = [&](int n) { return q > 0 ? q * std::floor(place(n) / q) : place(n); };
+  const auto sensed = [&](int n) { return q > 0 ? q * std::floor(position(n) / q) : position(n); };
   CycleWork work;
-  double before = sensed(-device.delay - 1), at = place(0);
+  double before = sensed(-device.delay - 1), at = position(0);
   for (int n = 0; n < kCycle; ++n) {
-    const double y = sensed(n - device.delay), next = place(n + 1), way = next - at;
-    const double wall = (K * y + B * (y - before) / T) * way;
-    const double lost = device.damping * way * way / T + device.friction * std::abs(way);
-    work.net += wall + lost;
-    work.gross += std::abs(wall) + lost;
+    const double y = sensed(n - device.delay), next = position(n + 1), dx = next - at;
+    const double wall = (K * y + B * (y - before) / T) * dx;
+    const double dissipated = device.damping * dx * dx / T + device.friction * std::abs(dx);
+    work.net += wall + dissipated;
+    work.gross += std::abs(wall) + dissipated;
     before = y;
     at = next;
   }

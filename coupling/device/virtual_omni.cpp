@@ -10,43 +10,35 @@
 namespace twinarm {
 namespace {
 
-constexpr int kSubsteps = 4;        // a tick
-constexpr long kMaxTicks = 250;     // that one poll catches up with
-constexpr double kSameTick = 1e-6;  // of a tick: instants that a sum of steps meets to rounding
+constexpr int kSubsteps = 4;        // per tick
+constexpr long kMaxTicks = 250;     // simulated in one poll
+constexpr double kSameTick = 1e-6;  // rounding of a sum of steps [ticks]
 
 void check_settings(const VirtualOmniSettings& s) {
   DiagnosticList faults;
   const OmniParameters& o = s.figures;
-  const auto demand = [&](bool holds, const char* where, double value, const char* rule) {
-    if (!holds)
-      faults.add(where, "is " + std::to_string(value) + ", must be " + rule,
-                 std::string("the device's own figure is in docs/understand/phantom_omni.md"), "device.figure");
+  const auto demand = [&](bool valid, const char* where, double value, const char* allowed) {
+    if (!valid)
+      faults.add(where, "is " + std::to_string(value) + ", must be " + allowed,
+                 "the device's own value is in docs/understand/phantom_omni.md", "device.figure");
   };
-  const auto at_least_zero = [&](const char* where, double value) {
-    demand(std::isfinite(value) && value >= 0, where, value, "zero or more");
-  };
-  const auto positive = [&](const char* where, double value) {
+  using Entry = std::pair<const char*, double>;
+  for (const auto& [where, value] :
+       {Entry{"L1", o.L1}, Entry{"L2", o.L2}, Entry{"rate", o.rate},
+        Entry{"peak_force", o.peak_force},
+        Entry{"apparent_mass + arm.mass", o.apparent_mass + s.arm.mass}})
     demand(std::isfinite(value) && value > 0, where, value, "more than zero");
-  };
-  positive("L1", o.L1);
-  positive("L2", o.L2);
-  positive("rate", o.rate);
-  positive("peak_force", o.peak_force);
-  at_least_zero("resolution", o.resolution);
-  at_least_zero("friction", o.friction);
-  at_least_zero("apparent_mass", o.apparent_mass);
-  at_least_zero("arm.mass", s.arm.mass);
-  at_least_zero("arm.stiffness", s.arm.stiffness);
-  at_least_zero("arm.damping", s.arm.damping);
-  at_least_zero("device_damping", s.device_damping);
-  positive("apparent_mass + arm.mass", o.apparent_mass + s.arm.mass);
-  const auto delay = [&](const char* where, double value) {
+  for (const auto& [where, value] :
+       {Entry{"resolution", o.resolution}, Entry{"friction", o.friction},
+        Entry{"apparent_mass", o.apparent_mass}, Entry{"arm.mass", s.arm.mass},
+        Entry{"arm.stiffness", s.arm.stiffness}, Entry{"arm.damping", s.arm.damping},
+        Entry{"device_damping", s.device_damping}})
+    demand(std::isfinite(value) && value >= 0, where, value, "zero or more");
+  for (const auto& [where, value] :
+       {Entry{"delay_to_host", s.delay_to_host}, Entry{"delay_to_motors", s.delay_to_motors}})
     demand(value >= 0 && value <= 10, where, value, "from 0 to 10 s");
-  };
-  delay("delay_to_host", s.delay_to_host);
-  delay("delay_to_motors", s.delay_to_motors);
   for (std::size_t j = 0; j < 6; ++j)
-    demand(o.lower[j] < o.upper[j], "upper", o.upper[j], "above the joint's lower end");
+    demand(o.lower[j] < o.upper[j], "upper", o.upper[j], "above the joint's lower limit");
   faults.check();
 }
 
@@ -105,10 +97,10 @@ DeviceState VirtualOmni::poll(double now) noexcept {
     origin_ = now_ = now;
   }
   if (now > now_ && std::isfinite(now)) now_ = now;
-  const double most = static_cast<double>(tick_ + kMaxTicks);
+  const double max_tick = static_cast<double>(tick_ + kMaxTicks);
   const double due = std::floor((now_ - origin_) / period_ + kSameTick);
-  if (due > most) origin_ += (due - most) * period_;  // after a pause the device goes on from there
-  for (const auto last = static_cast<long>(std::min(due, most)); tick_ < last;) tick();
+  if (due > max_tick) origin_ += (due - max_tick) * period_;  // skip a long pause
+  for (const auto last = static_cast<long>(std::min(due, max_tick)); tick_ < last;) tick();
   const double seen = std::floor((now_ - origin_ - delay_to_host_) / period_ + kSameTick);
   const auto n = static_cast<std::size_t>(std::max(seen, 0.0));
   DeviceState state = sensed_[n % sensed_.size()];
@@ -143,18 +135,18 @@ void VirtualOmni::substep(const Vector3& goal, const Vector3& goal_velocity) noe
   Vector3 &x = truth_.position, &v = truth_.velocity;
   const bool at_rest = v.isZero(0);
   truth_.motors = omni_force(figures_, truth_.theta, held_);
-  const double force = truth_.motors.norm();  // held torques: the arm turns under them
+  const double force = truth_.motors.norm();  // changes with the pose although torques are held
   if (force > figures_.peak_force) truth_.motors *= figures_.peak_force / force;
 
-  // Without friction, seen from a goal that moves evenly: u = x - g.
+  // Without friction, relative to a goal of constant velocity: u = x - g.
   const Response& r = response_;
   const Vector3 u = x - goal, u_dot = v - goal_velocity;
-  const Vector3 push = truth_.motors - viscous_ * goal_velocity;
+  const Vector3 input = truth_.motors - viscous_ * goal_velocity;
   const Vector3 x_free =
-      goal + period_ / kSubsteps * goal_velocity + r.xx * u + r.xv * u_dot + r.xf * push;
-  const Vector3 v_free = goal_velocity + r.vx * u + r.vv * u_dot + r.vf * push;
+      goal + period_ / kSubsteps * goal_velocity + r.xx * u + r.xv * u_dot + r.xf * input;
+  const Vector3 v_free = goal_velocity + r.vx * u + r.vv * u_dot + r.vf * input;
 
-  // The constant force that stops the point within the substep, or as much of it as there is.
+  // Constant friction force that stops the point within the substep, at most Coulomb's limit.
   const double speed = v_free.norm(), to_stop = speed / r.vf;
   truth_.sticks = to_stop <= figures_.friction;
   if (truth_.sticks) {
@@ -169,11 +161,11 @@ void VirtualOmni::substep(const Vector3& goal, const Vector3& goal_velocity) noe
 }
 
 void VirtualOmni::stop_at_ranges() noexcept {
-  constexpr double kOnTheEdge = 1e-9;  // [rad]; a stop's place is met to rounding
+  constexpr double kRounding = 1e-9;  // [rad]
   const auto q = omni_inverse(figures_, truth_.position);
   bool within = q.has_value();
   for (std::size_t j = 0; within && j < 3; ++j)
-    within = (*q)[j] >= figures_.lower[j] - kOnTheEdge && (*q)[j] <= figures_.upper[j] + kOnTheEdge;
+    within = (*q)[j] >= figures_.lower[j] - kRounding && (*q)[j] <= figures_.upper[j] + kRounding;
   if (within) {
     std::copy(q->begin(), q->end(), truth_.theta.begin());
     return;
@@ -193,7 +185,7 @@ void VirtualOmni::look_at_hand() noexcept {
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(now.theta.begin(), now.theta.end(), finite) ||
       !std::all_of(now.theta_dot.begin(), now.theta_dot.end(), finite)) {
-    wanted_.theta_dot = {};  // a hand that says nothing stays where it was
+    wanted_.theta_dot = {};  // not finite: keep the last goal
   } else {
     wanted_ = now;
   }

@@ -1,14 +1,14 @@
-// The two couplings exactly as the paper prints them (sections Torsional spring-damper and Linear
-// spring-damper), with the variants that show what each choice costs.
+// The two couplings as published (sections Torsional spring-damper and Linear spring-damper of the
+// paper), and variants of single choices.
 //
-// Both compute velocities as one-step backward differences between evaluations, zero at the first,
-// are evaluated once a step (or every hold_steps steps) and held in between.
+// Velocities are one-step backward differences between evaluations, zero at the first. Forces are
+// evaluated once a step (or every hold_steps steps) and held.
 //
-// Torsional, per link: R_DK = R_D^-1 R_K; restoring couple k Ang(R_DK) about Axis(R_DK). The step
-// rotation of each robot, divided by the interval, is made a rotation again, R_Dw and R_Kw; damping
-// couple b Ang(R_Dw R_Kw^-1), an angle in [0, pi] (so relative speeds fold modulo 2 pi rad/s),
-// about the axis of the KVR's own step rotation, opposed to the restoring couple: no axis, no
-// damping.
+// Torsional, per link: R_DK = R_D^-1 R_K; restoring torque k Ang(R_DK) about Axis(R_DK). The step
+// rotation of each robot, divided by the interval, is interpreted as a rotation again, R_Dw and
+// R_Kw; damping torque b Ang(R_Dw R_Kw^-1), an angle in [0, pi] (relative speeds are folded modulo
+// 2 pi rad/s), about the axis of the KVR's step rotation, opposed to the restoring torque; zero
+// without that axis.
 //
 // Linear, per added mass: F = k (T_K - T_D) - b (T'_D - T'_K).
 #pragma once
@@ -20,33 +20,33 @@
 namespace twinarm {
 
 enum class Damper {
-  folded,     // as printed
-  unsigned_,  // |w_K - w_D| about the KVR's axis, without the fold
-  vector_     // b (w_K - w_D): what the paper must have meant
+  folded,     // as published
+  unsigned_,  // |w_K - w_D| about the KVR's axis, not folded
+  vector_     // b (w_K - w_D), presumably intended
 };
 enum class Difference {
   per_second,  // (x_n - x_n-1) / h
   per_frame,   // not divided by h
-  older        // (x_n-1 - x_n-2) / h: one frame of lag
+  older        // (x_n-1 - x_n-2) / h: delayed by one frame
 };
 
 struct AsPublishedOptions {
   SpringSpace measure = SpringSpace::world;  // torsional only
   Damper damper = Damper::folded;            // torsional only
-  // Torsional folded and unsigned: -1 puts the damping couple against the KVR's motion (as printed:
-  // opposed to the restoring couple of a DVR that lags), +1 along it.
+  // Torsional folded and unsigned: -1: damping torque against the KVR's motion (as published), +1:
+  // along it.
   double damping_sign = -1;
   Difference difference = Difference::per_second;
   int hold_steps = 1;  // 0: as 1, at every step
 };
 
-// What both share. A pose is what the springs measure of each robot: a position, or an orientation.
-// The law has, without virtual calls,
+// Common base. Pose: what the springs measure of each robot, a position or an orientation. The law
+// (CRTP) has
 //   Pose pose(spring, k) const
 //   static Vector3 step_between(before, now)   of two poses
 //   void evaluate(s, k, K, D, step_K, step_D, interval)
-// where the last one fills the spring's reading from the poses and their steps, an interval [s]
-// apart.
+// The last one computes the spring's state from the poses and their differences over an interval
+// [s].
 template <class Law, class Pose>
 class AsPublished : public Coupling {
  public:
@@ -89,7 +89,7 @@ class AsPublished : public Coupling {
   AsPublishedOptions options_;
 
  private:
-  struct Past {  // of one spring: poses at the last evaluation, and their last steps
+  struct Past {  // of one spring: poses at the last evaluation, and their last differences
     Pose K, D;
     Vector3 step_K = Vector3::Zero(), step_D = Vector3::Zero();
   };

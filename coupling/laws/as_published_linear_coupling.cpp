@@ -1,4 +1,4 @@
-// The linear coupling as the paper prints it (coupling/laws/as_published.h).
+// The linear coupling as published (coupling/laws/as_published.h).
 #include "coupling/laws/spring_damper.h"
 #include "solver/forces/spring.h"
 

@@ -1,4 +1,4 @@
-// The torsional coupling as the paper prints it (coupling/laws/as_published.h).
+// The torsional coupling as published (coupling/laws/as_published.h).
 #include <Eigen/Geometry>
 
 #include "coupling/laws/coupling_spec.h"
@@ -7,10 +7,10 @@
 namespace twinarm {
 namespace {
 
-Matrix3 rotation(const Vector3& turn) {
-  const double angle = turn.norm();
+Matrix3 rotation(const Vector3& rotation_vector) {
+  const double angle = rotation_vector.norm();
   if (angle == 0) return Matrix3::Identity();
-  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  return Eigen::AngleAxisd(angle, rotation_vector / angle).toRotationMatrix();
 }
 
 class AsPublishedTorsional final : public AsPublished<AsPublishedTorsional, Matrix3> {
@@ -19,10 +19,10 @@ class AsPublishedTorsional final : public AsPublished<AsPublishedTorsional, Matr
       : AsPublished(spec, model, kvr, spec.options, Matrix3::Identity()) {}
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
-  // Of the vector damper. The folded and the unsigned one have no linear part: B_q = 0.
+  // B_q = 0 for the folded and the unsigned damper, which have no linear part.
   JointSpace joint_space(const Kinematics& k) const override;
 
-  // Of the link in the world, or relative to its parent link.
+  // Orientation of the link in the world, or relative to its parent link.
   Matrix3 pose(const Spring& spring, const Kinematics& k) const {
     const auto i = static_cast<std::size_t>(spring.body);
     if (options_.measure == SpringSpace::world) return k.X_WL[i].R;
@@ -46,7 +46,7 @@ Vector3 AsPublishedTorsional::damping(const Spring& spring, const Vector3& step_
   const Vector3 w_K = step_K * per_time, w_D = step_D * per_time;
   if (options_.damper == Damper::vector_) return spring.b * (w_K - w_D);
   const double angle_K = step_K.norm();
-  if (angle_K < 1e-14) return Vector3::Zero();  // the KVR rests: the printed law has no axis
+  if (angle_K < 1e-14) return Vector3::Zero();  // the KVR is at rest: no axis
   const double relative = options_.damper == Damper::folded
                               ? rotation_vector(rotation(w_D) * rotation(w_K).transpose()).norm()
                               : (w_K - w_D).norm();
@@ -61,7 +61,7 @@ void AsPublishedTorsional::evaluate(std::size_t s, const Kinematics& k, const Ma
   const Vector3 restoring = spring.k * (R_D * rotation_vector(R_D.transpose() * R_K));
   const Vector3 pull = restoring + damping(spring, step_K, step_D, interval);
   SpringState& reading = readings_[s];
-  // A joint's orientation stands in its parent's axes.
+  // In joint space the torque is in the parent's axes.
   reading.pull =
       options_.measure == SpringSpace::world ? pull : Vector3(k.X_WL[parent_of(i)].R * pull);
   reading.size = pull.norm();

@@ -1,4 +1,4 @@
-// A spring-damper in six dimensions, at a frame fixed to each link (coupling/laws/spring_damper.h).
+// Bushing: a linear and a torsional spring-damper at each link (coupling/laws/spring_damper.h).
 #include "coupling/laws/spring_damper.h"
 
 namespace twinarm {

@@ -14,7 +14,9 @@ Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, TargetR
   for (const Spring& spring : springs_) {
     const std::string where = "coupling '" + name_ + "', spring '" + spring.name + "'";
     if (spring.body <= 0 || spring.body >= model.body_count())
-      faults.add(where, "it names no moving link", "name a link of the robot", "coupling.link");
+      faults.add(where, "body index " + std::to_string(spring.body) + " is not a link",
+                 "give an index from 1 to " + std::to_string(model.body_count() - 1),
+                 "coupling.link");
     const auto check = [&](double gain, const std::string& what) {
       if (gain >= 0) return;
       faults.add(where, what + " is " + std::to_string(gain) + ", must not be negative",
@@ -22,8 +24,8 @@ Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, TargetR
     };
     check(spring.k, "stiffness");
     check(spring.b, "damping");
-    check(spring.k_turn, "stiffness of the turn");
-    check(spring.b_turn, "damping of the turn");
+    check(spring.k_turn, "torsional stiffness");
+    check(spring.b_turn, "torsional damping");
   }
   faults.check();
 }
@@ -44,9 +46,10 @@ void Coupling::check_one_dof() const {
   for (const Spring& spring : springs_) {
     const auto i = static_cast<std::size_t>(spring.body);
     if (model_.dofs(i) == 1) continue;
-    faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
-               "the joint has " + std::to_string(model_.dofs(i)) + " degrees of freedom, not one",
-               "name links on revolute, prismatic or screw joints", "coupling.degrees-of-freedom");
+    faults.add(
+        "coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
+        "the joint has " + std::to_string(model_.dofs(i)) + " degrees of freedom, must have one",
+        "use links on revolute, prismatic or screw joints", "coupling.degrees-of-freedom");
   }
   faults.check();
 }
@@ -63,7 +66,7 @@ void Coupling::JointSpace::add(double k, double b, const Eigen::Ref<const Eigen:
 
 Vector3 rotation_vector(const Matrix3& R) {
   const Eigen::Quaterniond quaternion(R);
-  const double sign = quaternion.w() < 0 ? -1.0 : 1.0;  // the shorter way round
+  const double sign = quaternion.w() < 0 ? -1.0 : 1.0;  // angle <= pi
   const double s = quaternion.vec().norm();
   if (s < 1e-12) return 2 * sign * quaternion.vec();  // sin(x) = x to rounding
   return 2 * std::atan2(s, sign * quaternion.w()) / s * sign * quaternion.vec();

@@ -1,7 +1,6 @@
-// What every coupling has: springs that pull links of the DVR after the KVR, readings of their
-// forces, and the joint-space stiffness and damping that its predictions are made of. The kinematic
-// robot is a function of time, unless its rates are differences: what a coupling remembers leaves
-// it out.
+// Base of all couplings: springs between links of the target robot (KVR) and of the robot (DVR),
+// their states, and joint-space stiffness and damping. The target robot's state is a function of
+// time (unless its velocities are differences), so it is not serialised.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,46 +12,45 @@
 
 namespace twinarm {
 
-// One spring-damper. Torsional: between the orientations (or joint angles) of the link in the KVR
-// and in the DVR, k [N m/rad], b [N m s/rad]. Linear: between the points p_L of the link in both,
-// k [N/m], b [N s/m]. On a prismatic joint, `joint` measure: k [N/m], b [N s/m]. In six dimensions:
-// k, b at the point, k_turn, b_turn between the orientations.
+// One spring-damper between a link of the KVR and of the DVR. Torsional: orientations or joint
+// angles, k [N m/rad], b [N m s/rad] (prismatic joint: k [N/m], b [N s/m]). Linear: points p_L, k
+// [N/m], b [N s/m]. Bushing: k, b linear and k_turn, b_turn torsional.
 struct Spring {
   std::string name;
   int body = 0;
-  Vector3 p_L = Vector3::Zero();  // link axes, from the link's origin; of couplings at a point
+  Vector3 p_L = Vector3::Zero();  // link frame; of couplings at a point [m]
   double k = 0, b = 0;
-  double k_turn = 0, b_turn = 0;  // of couplings in six dimensions
+  double k_turn = 0, b_turn = 0;  // of bushings and welds
 };
 
 enum class SpringSpace {
-  world,  // orientation of the link in the world (the paper's): an external couple on the link
-  joint   // coordinate of the joint that carries the link: acts between the link and its parent
+  world,  // orientation of the link in the world (as in the paper): external torque on the link
+  joint   // coordinate of the link's joint: acts between the link and its parent
 };
 
 struct CouplingSpec;
 
 class Coupling : public SpringSource {
  public:
-  // Throws InputError with all springs that name no moving link or have a gain below zero.
+  // Throws InputError with all springs that have an invalid link or a negative gain.
   Coupling(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
 
   void begin_step(const Kinematics& k, double t, double h) noexcept override;
   const std::string& name() const { return name_; }
   const std::vector<Spring>& springs() const { return springs_; }
-  // K_q and B_q about zero offset at a pose: tau = K_q (q_K - q_D) + B_q (qd_K - qd_D).
+  // K_q and B_q at zero tracking error: tau = K_q (q_K - q_D) + B_q (qd_K - qd_D).
   struct JointSpace {
     Eigen::MatrixXd K, B;
     explicit JointSpace(std::size_t nv);  // zero
-    // J^T k J and J^T b J.
+    // Adds J^T k J and J^T b J.
     void add(double k, double b, const Eigen::Ref<const Eigen::MatrixXd>& J);
   };
   virtual JointSpace joint_space(const Kinematics& k) const = 0;
 
  protected:
-  // d(coordinate of the joint that carries the body)/dq, 1 x nv.
+  // d(coordinate of the body's joint)/dq, 1 x nv.
   Eigen::MatrixXd joint_row(int body) const;
-  // Faults of springs on joints that have not one degree of freedom. Throws InputError.
+  // Throws InputError for springs on joints with more or less than one degree of freedom.
   void check_one_dof() const;
 
   std::string name_;
@@ -62,7 +60,7 @@ class Coupling : public SpringSource {
   double h_ = 0;  // step [s]
 };
 
-// Rotation vector [rad] of a rotation matrix, angle in [0, pi]; at pi either axis.
+// Rotation vector [rad] of a rotation matrix, angle in [0, pi].
 Vector3 rotation_vector(const Matrix3& R);
 
 }  // namespace twinarm

@@ -1,8 +1,8 @@
-// A coupling as plain data, and the list of all that there are.
+// A coupling as plain data, and the registry of coupling types.
 //
-// A coupling is one file NAME_coupling.cpp of this folder: its class, and `CouplingFacts
-// NAME_coupling()`, which is registered by being there (coupling/laws/CMakeLists.txt). Scenes, the
-// lab, maps, predictions and the tests of all couplings find it there.
+// A coupling type is one file NAME_coupling.cpp of this folder: its class, and `CouplingFacts
+// NAME_coupling()`, which CMake registers (coupling/laws/CMakeLists.txt) for scenes, the lab, maps,
+// predictions and tests.
 #pragma once
 
 #include <memory>
@@ -18,22 +18,21 @@
 
 namespace twinarm {
 
-// What a calibration file, a report and a scene can hold.
+// Parameters of a coupling in a scene, calibration file or report.
 struct CouplingSpec {
-  struct Type {  // its name; couplings that other code asks for have a constant
+  struct Type {  // the registered name, with constants for types used in code
     std::string_view name;
     friend constexpr bool operator==(const Type&, const Type&) = default;
     static const Type torsional, linear, matched, bushing, weld_like, stable_pd, god_object;
   };
   std::string name;
   Type type = Type::torsional;
-  bool printed = false;  // the paper's own equations (AsPublishedOptions), or the consistent form
+  bool printed = false;  // as published (AsPublishedOptions), or the consistent form
   AsPublishedOptions options;
-  SpringSpace measure = SpringSpace::world;  // consistent torsional
-  Discretization treatment =
-      Discretization::explicit_;  // consistent, where its facts say that it has any
-  int hold_steps = 0;             // consistent linear, torsional, bushing; 0: every step and stage
-  SolrefParameters reference;     // weld-like
+  SpringSpace measure = SpringSpace::world;              // consistent torsional
+  Discretization treatment = Discretization::explicit_;  // of types with several discretizations
+  int hold_steps = 0;          // zero-order hold of linear, torsional, bushing; 0: none
+  SolrefParameters reference;  // weld-like
   std::vector<Spring> springs;
 };
 inline constexpr CouplingSpec::Type CouplingSpec::Type::torsional{"torsional"},
@@ -41,28 +40,26 @@ inline constexpr CouplingSpec::Type CouplingSpec::Type::torsional{"torsional"},
     CouplingSpec::Type::bushing{"bushing"}, CouplingSpec::Type::weld_like{"weld"},
     CouplingSpec::Type::stable_pd{"stable-pd"}, CouplingSpec::Type::god_object{"god-object"};
 
-// How linear theory steps it (coupling/analysis/step_matrix.h).
+// Step law in linear theory (coupling/analysis/step_matrix.h).
 enum class StepLaw { spring_damper, printed, stable_pd, god_object };
 
 struct CouplingFacts {
   enum class Discretizations { all, explicit_only, own };
-  // What a scene states of it: stiffness and damping; and those of a turn; a SolrefParameters;
-  // nothing, for it drives all joints of a robot.
+  // Gains in a scene: stiffness and damping; linear and torsional; SolrefParameters; none (god
+  // object).
   enum class Gains { spring, two_springs, reference, none };
   const char* name;           // in scenes and tables
-  CouplingSpec::Type type{};  // left out: as its name
+  CouplingSpec::Type type{};  // default: name
   bool printed = false;
-  int order = 100;  // among all, where they are listed
-  Discretizations treatments =
-      Discretizations::explicit_only;  // own: it is a treatment itself, and goes
-                                       // with semi-implicit Euler only
+  int order = 100;  // in lists
+  // own: fixed by the law, for semi-implicit Euler only.
+  Discretizations treatments = Discretizations::explicit_only;
   Gains gains = Gains::spring;
-  // What it acts on: a point (Spring::p_L counts), a joint's coordinate, or what
-  // CouplingSpec::measure says; none of these: the orientation of a link.
+  // Acts on a point (Spring::p_L), a joint coordinate, or as CouplingSpec::measure; none of these:
+  // link orientation.
   bool at_point = false, at_joint = false, has_measure = false;
   bool can_hold = false;  // CouplingSpec::hold_steps, or AsPublishedOptions::hold_steps
-  // Its force is k e + b e' of its springs, at some moments of the step. False: the ledger of a
-  // scene books what it does besides as `drive`.
+  // Its force is k e + b e' of its springs. False: the energy balance lists its work as `drive`.
   bool is_spring_damper = true;
   StepLaw step_law = StepLaw::spring_damper;
   std::unique_ptr<Coupling> (*make)(const CouplingSpec& spec, const Model<double>& model,
@@ -72,42 +69,41 @@ struct CouplingFacts {
     return at_joint || (has_measure && measure == SpringSpace::joint);
   }
 };
-// As CouplingFacts::make, of a class that is made of a CouplingSpec.
+// CouplingFacts::make for a class with such a constructor.
 template <class Law>
 std::unique_ptr<Coupling> make_law(const CouplingSpec& spec, const Model<double>& model,
                                    TargetRobot& kvr) {
   return std::make_unique<Law>(spec, model, kvr);
 }
 
-const std::vector<CouplingFacts>& registered_couplings();  // by the names of their files
+const std::vector<CouplingFacts>& registered_couplings();  // in the order of file names
 const std::vector<CouplingFacts>& couplings_in_order();
 inline const std::vector<CouplingFacts>& all_couplings = couplings_in_order();
 const CouplingFacts& facts_of(CouplingSpec::Type type, bool printed);
-const CouplingFacts* find_coupling(const std::string& name);  // nullptr where there is none
+const CouplingFacts* find_coupling(const std::string& name);  // nullptr if unknown
 
 inline std::unique_ptr<Coupling> make_coupling(const CouplingSpec& spec, const Model<double>& model,
                                                TargetRobot& kvr) {
   return facts_of(spec.type, spec.printed).make(spec, model, kvr);
 }
 
-// What a god object drives: a spring without gains for each joint with degrees of freedom among the
-// bodies, which are all of a robot.
+// Springs of a god object: one without gains for each joint with degrees of freedom of a robot's
+// bodies.
 std::vector<Spring> god_object_joints(const Model<double>& model, int first_body, int last_body);
 
-// What a treatment is called, which target it looks at, and the m* that it adds
-// (solver/forces/spring.h).
 inline const char* name_of(Discretization treatment) {
   constexpr const char* kNames[] = {"explicit", "semi-implicit", "implicit"};
   return kNames[static_cast<std::size_t>(treatment)];
 }
 
+// Evaluation of a spring-damper in a step, and its added inertia m* (solver/forces/spring.h).
 struct DiscretizationTerms {
-  const TargetSample* spring_target;  // pose of the KVR that the spring pulls to
-  const TargetSample* damper_target;  // velocity of the KVR that the damper pulls to
-  double position_lead;               // [s]: the spring sees the DVR at x + position_lead v
-  double m_star(double k, double b) const { return weight_b * b + weight_k * k; }
-  double weight_b, weight_k;       // [s], [s^2]
-  bool is_relative_damper = true;  // false: an absolute damper, against the link's own velocity
+  const TargetSample* spring_target;  // sample of the KVR for the spring
+  const TargetSample* damper_target;  // sample of the KVR for the damper
+  double position_lead;               // the spring uses the DVR's position x + position_lead v [s]
+  double m_star(double k, double b) const { return h_b * b + h2_k * k; }
+  double h_b, h2_k;                // [s], [s^2]
+  bool is_relative_damper = true;  // false: absolute damper, on the link's own velocity
 };
 
 inline DiscretizationTerms discretization_terms(Discretization treatment, TargetRobot& kvr,

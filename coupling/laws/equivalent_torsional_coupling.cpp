@@ -1,23 +1,22 @@
-// The fair match of a torsional to a linear coupling: a joint-space torsional coupling with the
-// FULL stiffness and damping of the linear one, taken at the KVR's pose,
+// The torsional coupling equivalent to a linear one: joint-space torques with the full stiffness
+// and damping matrices of the linear coupling at the KVR's pose,
 //   tau = K_q(q_K) (q_K - q_D) + B_q(q_K) (qd_K - qd_D).
-// Matching k_T = k_L r^2 joint by joint is not fair for a chain: the outer spring also holds the
+// Gains k_T = k_L r^2 by joint are not equivalent for a chain: the outer spring also acts on the
 // inner joint.
 //
-// Explicit only: the weightless thing that would stand for h B_q + h^2 K_q is a full matrix over
-// all joints, at the KVR's pose; no inertia of a link is, and ABA would no longer be O(n). Joints
-// of one degree of freedom only.
+// Explicit only: the added inertia h B_q + h^2 K_q is a full matrix, not an inertia of links, so
+// ABA would not be O(n). Joints of one degree of freedom only.
 #include "coupling/laws/spring_damper.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
 
-class MatchedTorsional final : public Coupling {
+class EquivalentTorsional final : public Coupling {
  public:
-  // The springs are those of the linear coupling that is matched. Throws InputError for joints
-  // between base and links that have not one degree of freedom.
-  MatchedTorsional(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
+  // The springs are those of the linear coupling. Throws InputError if a joint between the base and
+  // the links has more than one degree of freedom.
+  EquivalentTorsional(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   JointSpace joint_space(const Kinematics& k) const override {
@@ -25,11 +24,11 @@ class MatchedTorsional final : public Coupling {
   }
 
  private:
-  std::vector<std::size_t> iq_;  // by velocity: the joint's coordinate
+  std::vector<std::size_t> iq_;  // by velocity: index of the coordinate
 };
 
-MatchedTorsional::MatchedTorsional(const CouplingSpec& spec, const Model<double>& model,
-                                   TargetRobot& kvr)
+EquivalentTorsional::EquivalentTorsional(const CouplingSpec& spec, const Model<double>& model,
+                                         TargetRobot& kvr)
     : Coupling(spec, model, kvr), iq_(model.nv) {
   DiagnosticList faults;
   for (std::size_t i = 1; i < model.parent.size(); ++i)
@@ -40,15 +39,15 @@ MatchedTorsional::MatchedTorsional(const CouplingSpec& spec, const Model<double>
       if (model.dofs(i) > 1)
         faults.add("coupling '" + name_ + "', joint '" + model.joint_name[i] + "'",
                    "the joint has " + std::to_string(model.dofs(i)) + " degrees of freedom",
-                   "the matched law takes joints of one; choose a linear coupling",
+                   "use joints of one degree of freedom, or a linear coupling",
                    "coupling.degrees-of-freedom");
     }
   faults.check();
 }
 
-// tau = sum_p J_p^T (k J_p e + b J_p e'), point by point: no matrix, nothing allocated.
-void MatchedTorsional::add_forces(const State<double>& x, const Kinematics&,
-                                  Forces<double>& forces) noexcept {
+// tau = sum_p J_p^T (k J_p e + b J_p e'), without matrices.
+void EquivalentTorsional::add_forces(const State<double>& x, const Kinematics&,
+                                     Forces<double>& forces) noexcept {
   const TargetSample& target = kvr_.at(x.t);
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     const Spring& spring = springs_[s];
@@ -58,20 +57,20 @@ void MatchedTorsional::add_forces(const State<double>& x, const Kinematics&,
                          [&](std::size_t dof, const Vector3& w, const Vector3& v,
                              const Vector3& o) { f(dof, Vector3(v + w.cross(p_K - o))); });
     };
-    Vector3 pull = Vector3::Zero();
+    Vector3 force = Vector3::Zero();
     for_each_column([&](std::size_t dof, const Vector3& J) {
       const double e = target.x.q[iq_[dof]] - x.q[iq_[dof]];
-      pull += (spring.k * e + spring.b * (target.x.qd[dof] - x.qd[dof])) * J;
+      force += (spring.k * e + spring.b * (target.x.qd[dof] - x.qd[dof])) * J;
     });
-    for_each_column([&](std::size_t dof, const Vector3& J) { forces.tau[dof] += J.dot(pull); });
-    readings_[s] = {p_K, p_K, pull, pull.norm()};
+    for_each_column([&](std::size_t dof, const Vector3& J) { forces.tau[dof] += J.dot(force); });
+    readings_[s] = {p_K, p_K, force, force.norm()};
   }
 }
 
 }  // namespace
 
 CouplingFacts equivalent_torsional_coupling() {
-  return {.name = "matched", .order = 5, .at_point = true, .make = make_law<MatchedTorsional>};
+  return {.name = "matched", .order = 5, .at_point = true, .make = make_law<EquivalentTorsional>};
 }
 
 }  // namespace twinarm

@@ -1,18 +1,18 @@
-// God object: the DVR has the acceleration that brings it onto the KVR at the end of the step, and
-// where it touches something, the nearest one that the contact allows (Zilles and Salisbury 1995
-// for a point; Ortega, Redon, Coquillart 2007 in six dimensions, after Gauss's principle):
+// God object: the DVR has the acceleration that moves it to the KVR by the end of the step,
+// projected by the contacts (Zilles and Salisbury 1995 for a point; Ortega, Redon, Coquillart 2007
+// in six dimensions, after Gauss's principle):
 //
-//   a_u = ((q_K' - q)/h - qd)/h                 lands on q_K' : qd' = qd + h a_u, q' = q + h qd'
-//   min (a - a_u)^T M (a - a_u)  with  J a >= what the contacts ask for
+//   a_u = ((q_K' - q)/h - qd)/h                 reaches q_K' : qd' = qd + h a_u, q' = q + h qd'
+//   min (a - a_u)^T M (a - a_u)  with the contact constraints J a >= ...
 //
-// tau = ID(q, qd, a_u), inverse dynamics in O(n), makes a_u the acceleration without contact; the
-// rigid contacts' impulses then change it by M^-1 J^T p, p >= 0: that is the projection in the
-// metric of M. Gravity, damping and dry friction of the joints are in tau, so that nothing but
-// contacts and limits keeps the DVR off the KVR. There is no spring, no gain, no limit of the step;
-// against an obstacle the torque is whatever the way that is lacking asks for: M times it over h^2.
+// tau = ID(q, qd, a_u), O(n), makes a_u the acceleration without contact; the impulses of the rigid
+// contacts then change it by M^-1 J^T p, p >= 0: the projection in the metric of M. tau contains
+// gravity, damping and joint friction, so only contacts and limits cause a tracking error. There
+// are no gains and no stability limit; against an obstacle the torque is M times the remaining
+// distance over h^2.
 //
-// All joints of a robot at once: those that were left out would be thrown about by the others.
-// Joints of one degree of freedom only. It belongs to the semi-implicit step: no other treatment.
+// Acts on all joints of a robot (undriven joints would be accelerated by the others), each of one
+// degree of freedom, and with semi-implicit Euler only.
 
 #include "coupling/laws/coupling_spec.h"
 #include "solver/dynamics/dynamics.h"
@@ -23,8 +23,8 @@ namespace {
 
 class GodObject final : public Coupling {
  public:
-  // One spring for each joint, named by the body that it carries; their gains must be 0. Throws
-  // InputError for joints that have not one degree of freedom, or whose neighbours are left out.
+  // One spring with zero gains for each joint. Throws InputError for joints of several degrees of
+  // freedom, and if a joint of the tree is not driven.
   GodObject(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
 
   void add_forces(const State<double>& x, const Kinematics& k,
@@ -49,14 +49,14 @@ GodObject::GodObject(const CouplingSpec& spec, const Model<double>& model, Targe
   check_joints();
 }
 
-// A joint of the same tree that is not driven.
+// Reports joints between or beyond driven ones that are not driven.
 void GodObject::check_joints() const {
   std::vector<char> driven(model_.parent.size(), 0), above(driven);  // above: in a driven branch
   for (const Spring& joint : springs_) driven[static_cast<std::size_t>(joint.body)] = 1;
   DiagnosticList faults;
   const auto fault = [&](std::size_t i) {
     faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
-               "it is left out, but its neighbours are driven", "drive all joints of the robot",
+               "the joint is not driven, but its neighbours are", "drive all joints of the robot",
                "coupling.joints");
   };
   for (std::size_t i = 1; i < driven.size(); ++i) {
@@ -73,8 +73,8 @@ void GodObject::check_joints() const {
   faults.check();
 }
 
-// Against damping and dry friction, which the step takes at its end. At rest nothing rubs: friction
-// finds what it holds by itself.
+// Viscous and Coulomb friction at the end of the step; no Coulomb friction at rest, where the
+// solver finds it.
 double GodObject::friction(std::size_t dof, double qd_end) const {
   const double dry = qd_end > 0   ? model_.coulomb_plus[dof]
                      : qd_end < 0 ? -model_.coulomb_minus[dof]

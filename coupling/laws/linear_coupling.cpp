@@ -1,4 +1,4 @@
-// A spring-damper at a point of each link (coupling/laws/spring_damper.h).
+// Linear spring-dampers at points of links (coupling/laws/spring_damper.h).
 #include "coupling/laws/spring_damper.h"
 
 namespace twinarm {

@@ -11,34 +11,35 @@
 namespace twinarm {
 namespace {
 
-// 3/trace(J M^-1 J^T); 0 where the link cannot move so.
+// 3/trace(J M^-1 J^T); 0 if the link cannot move.
 double effective_mass(const Eigen::MatrixXd& inverse_M, const Eigen::Matrix3Xd& J) {
   const double trace = (J * inverse_M * J.transpose()).trace();
   return trace > 0 ? 3 / trace : 0;
 }
 
-// Accelerations at qdd = 0: of the link's orientation, and of its point at p_W. a_bias is spatial
-// and has gravity in it as an upward acceleration of the base; both are taken out.
+// Angular acceleration of the link and acceleration of its point p_W at qdd = 0, from the spatial
+// a_bias, which includes gravity as an upward acceleration of the base.
 struct BiasAcceleration {
-  Vector3 turn, point;
+  Vector3 angular, point;
 };
 BiasAcceleration bias_acceleration(const Model<double>& model, const Kinematics& k, int body,
                                    const Vector3& p_W) {
   const auto i = static_cast<std::size_t>(body);
-  const Vector3 turn = k.R_WB[i] * to_eigen(k.a_bias[i].w);
+  const Vector3 angular = k.R_WB[i] * to_eigen(k.a_bias[i].w);
   const Vector3 origin = k.R_WB[i] * to_eigen(k.a_bias[i].v) + to_eigen(model.gravity);
-  return {turn, origin + turn.cross(p_W - k.X_WL[i].p) + k.w_WL[i].cross(k.velocity(body, p_W))};
+  return {angular,
+          origin + angular.cross(p_W - k.X_WL[i].p) + k.w_WL[i].cross(k.velocity(body, p_W))};
 }
 
 class MujocoWeld final : public Coupling {
  public:
-  // Of the springs, m_R = b/b_ref. Throws InputError for a reference out of bounds.
+  // m_R = b/b_ref of each spring. Throws InputError for invalid SolrefParameters.
   MujocoWeld(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
 
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   bool needs_semi_implicit() const override { return true; }
-  // Of spring and damper. With e = q_K - q_D: (M + m_R J^T J) e'' + B e' + K e = ...
+  // With e = q_K - q_D: (M + m_R J^T J) e'' + B e' + K e = ... ...
   JointSpace joint_space(const Kinematics& k) const override {
     return joint_space_of_frames(model_, k, springs_);
   }
@@ -61,9 +62,9 @@ Spring weld_spring(std::string name, const Model<double>& model, const State<dou
   const Vector3 com_W = k.X_WL[i].p + k.R_WB[i] * com;
   const double part = reference.impedance / (1 - reference.impedance);
   const double mass = part * effective_mass(inverse_M, point_jacobian(model, k, body, com_W));
-  const double turn = part * effective_mass(inverse_M, rotation_jacobian(model, k, body));
+  const double inertia = part * effective_mass(inverse_M, rotation_jacobian(model, k, body));
   const double k_ref = reference.stiffness(), b_ref = reference.damping();
-  return {std::move(name), body, p_L, mass * k_ref, mass * b_ref, turn * k_ref, turn * b_ref};
+  return {std::move(name), body, p_L, mass * k_ref, mass * b_ref, inertia * k_ref, inertia * b_ref};
 }
 
 MujocoWeld::MujocoWeld(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
@@ -71,35 +72,40 @@ MujocoWeld::MujocoWeld(const CouplingSpec& spec, const Model<double>& model, Tar
   const SolrefParameters& reference = spec.reference;
   const auto good = [](double x) { return x > 0 && std::isfinite(x); };
   DiagnosticList faults;
-  const auto check = [&](bool holds, const char* what, const char* rule) {
-    if (!holds) faults.add("coupling '" + name_ + "', " + what, rule, "", "coupling.weld");
+  const auto check = [&](bool valid, const char* what, double value, const char* allowed) {
+    if (!valid)
+      faults.add("coupling '" + name_ + "', " + what,
+                 std::to_string(value) + " is not allowed, " + allowed, "give another value",
+                 "coupling.weld");
   };
-  check(good(reference.time_constant), "time constant", "must be positive");
-  check(good(reference.damping_ratio), "damping ratio", "must be positive");
-  check(reference.impedance > 0 && reference.impedance < 1, "impedance",
+  check(good(reference.time_constant), "time constant", reference.time_constant,
+        "must be positive");
+  check(good(reference.damping_ratio), "damping ratio", reference.damping_ratio,
+        "must be positive");
+  check(reference.impedance > 0 && reference.impedance < 1, "impedance", reference.impedance,
         "must lie between 0 and 1");
   faults.check();
-  readings_.resize(2 * springs_.size());  // forces, then couples
+  readings_.resize(2 * springs_.size());  // forces, then torques
 }
 
-// The pulls are those at qdd = 0: m_R times the bias acceleration goes off them.
+// Forces at qdd = 0: minus m_R times the bias acceleration.
 void MujocoWeld::add_forces(const State<double>& x, const Kinematics& k,
                             Forces<double>& forces) noexcept {
   DiscretizationTerms terms = discretization_terms(treatment_, kvr_, x.t, h_);
-  terms.weight_b += 1 / damping_;  // m* = m_R + h b + h^2 k
+  terms.h_b += 1 / damping_;  // m* = m_R + h b + h^2 k
   terms.is_relative_damper = false;
   for (std::size_t s = 0; s < springs_.size(); ++s) {
     const Spring& spring = springs_[s];
-    SpringState &force = readings_[s], &couple = readings_[springs_.size() + s];
-    pull_point(spring, terms, k, force, forces);
-    apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, couple, forces);
+    SpringState &force = readings_[s], &torque = readings_[springs_.size() + s];
+    apply_point_spring(spring, terms, k, force, forces);
+    apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, torque, forces);
     const BiasAcceleration bias = bias_acceleration(model_, k, spring.body, force.p_D);
     force.pull -= spring.b / damping_ * bias.point;
-    couple.pull -= spring.b_turn / damping_ * bias.turn;
+    torque.pull -= spring.b_turn / damping_ * bias.angular;
     force.size = force.pull.norm();
-    couple.size = couple.pull.norm();
+    torque.size = torque.pull.norm();
     add_point_force(k, spring.body, force.p_D, force.pull, forces);
-    add_couple(k, spring.body, couple.pull, forces);
+    add_couple(k, spring.body, torque.pull, forces);
   }
 }
 

@@ -11,7 +11,7 @@ SpringDamperCoupling::SpringDamperCoupling(const CouplingSpec& spec, const Model
       treatment_(spec.treatment),
       hold_(spec.hold_steps, spec.treatment) {
   if (space == Space::joint) check_one_dof();
-  if (space == Space::frame) readings_.resize(2 * springs_.size());  // forces, then couples
+  if (space == Space::frame) readings_.resize(2 * springs_.size());  // forces, then torques
 }
 
 void SpringDamperCoupling::begin_step(const Kinematics& k, double t, double h) noexcept {
@@ -23,29 +23,29 @@ void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& 
                                       Forces<double>& forces) noexcept {
   const DiscretizationTerms terms = discretization_terms(treatment_, kvr_, x.t, h_);
   const bool at_point = space_ == Space::point || space_ == Space::frame;
-  const bool turns = space_ == Space::orientation || space_ == Space::frame;
+  const bool torsional = space_ == Space::orientation || space_ == Space::frame;
   for (std::size_t s = 0; s < springs_.size(); ++s) {
-    if (space_ == Space::joint) pull_joint(s, terms, x, k, forces);
+    if (space_ == Space::joint) apply_joint_spring(s, terms, x, k, forces);
     const Spring& spring = springs_[s];
     SpringState &force = readings_[s],
-                &couple = readings_[at_point && turns ? springs_.size() + s : s];
+                &torque = readings_[at_point && torsional ? springs_.size() + s : s];
     if (hold_.is_fresh()) {
-      if (at_point) pull_point(spring, terms, k, force, forces);
-      if (turns && at_point)
-        apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, couple, forces);
-      else if (turns)
-        apply_torsional_spring(spring.body, spring.k, spring.b, terms, k, couple, forces);
+      if (at_point) apply_point_spring(spring, terms, k, force, forces);
+      if (torsional && at_point)
+        apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, torque, forces);
+      else if (torsional)
+        apply_torsional_spring(spring.body, spring.k, spring.b, terms, k, torque, forces);
     }
     if (at_point)
       add_point_force(k, spring.body, k.position(spring.body, spring.p_L), force.pull, forces);
-    if (turns) add_couple(k, spring.body, couple.pull, forces);
+    if (torsional) add_couple(k, spring.body, torque.pull, forces);
   }
   hold_.computed();
 }
 
-void SpringDamperCoupling::pull_joint(std::size_t s, const DiscretizationTerms& terms,
-                                      const State<double>& x, const Kinematics& k,
-                                      Forces<double>& forces) {
+void SpringDamperCoupling::apply_joint_spring(std::size_t s, const DiscretizationTerms& terms,
+                                              const State<double>& x, const Kinematics& k,
+                                              Forces<double>& forces) {
   const Spring& spring = springs_[s];
   const auto i = static_cast<std::size_t>(spring.body);
   const std::size_t iq = model_.iq[i], iv = model_.iv[i];
@@ -78,8 +78,8 @@ void SpringDamperCoupling::serialize(StateArchive& memory) {
   hold_.serialize(memory);
 }
 
-void pull_point(const Spring& spring, const DiscretizationTerms& terms, const Kinematics& D,
-                SpringState& reading, Forces<double>& forces) {
+void apply_point_spring(const Spring& spring, const DiscretizationTerms& terms, const Kinematics& D,
+                        SpringState& reading, Forces<double>& forces) {
   const Kinematics &K = terms.spring_target->k, &K_damper = terms.damper_target->k;
   reading.p_K = K.position(spring.body, spring.p_L);
   reading.p_D = D.position(spring.body, spring.p_L);
@@ -121,11 +121,11 @@ Coupling::JointSpace joint_space_of_points(const Model<double>& model, const Kin
 
 Coupling::JointSpace joint_space_of_frames(const Model<double>& model, const Kinematics& k,
                                            const std::vector<Spring>& springs) {
-  Coupling::JointSpace sum = joint_space_of_points(model, k, springs), turns(model.nv);
+  Coupling::JointSpace sum = joint_space_of_points(model, k, springs), torsional(model.nv);
   for (const Spring& spring : springs)
-    turns.add(spring.k_turn, spring.b_turn, rotation_jacobian(model, k, spring.body));
-  sum.K += turns.K;
-  sum.B += turns.B;
+    torsional.add(spring.k_turn, spring.b_turn, rotation_jacobian(model, k, spring.body));
+  sum.K += torsional.K;
+  sum.B += torsional.B;
   return sum;
 }
 

@@ -1,20 +1,16 @@
-// Spring-dampers in consistent form: signed vectors, true velocities, any treatment.
+// Spring-dampers in consistent form: signed vectors, true velocities, any discretization.
 //
-//   point        F = k (p_K - p_D) + b (v_K - v_D) at a point of a link (the added mass of the
-//   paper's
-//                Figure 5)
-//   orientation  T = k log(R_K R_D^T) + b (w_K - w_D), an external couple on the link
-//   frame        both, with gains of their own; isotropic, so the axes of the frame do not matter
+//   point        F = k (p_K - p_D) + b (v_K - v_D) at a point of a link
+//   orientation  T = k log(R_K R_D^T) + b (w_K - w_D), an external torque on the link
+//   frame        both, with separate gains; isotropic, so independent of the frame's axes
 //   joint        tau = k (q_K - q_D) + b (qd_K - qd_D), at the joint
 //
-// Implicit (solver/forces/spring.h): the target at the end of the step, the DVR's velocity times h
-// taken off the offset, and a weightless particle (point), flywheel (orientation) or armature
-// (joint) of m* = h b + h^2 k. What stays explicit: of a point the geometric stiffness, the turning
-// of the lever arm, so that a point at radius r whose target lies at radius R_K is stable only if
-//   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b)    (docs/understand/stability_of_spring_dampers.md;
-//   coupling/analysis/prediction.h)
-// and of an orientation the change of the axis of phi with it, which vanishes where the axes of all
-// joints are parallel.
+// Implicit (solver/forces/spring.h): target at the end of the step, position error reduced by h
+// times the DVR's velocity, and an added inertia m* = h b + h^2 k (particle, flywheel or armature).
+// Explicit remains, for a point, the geometric stiffness (rotation of the lever arm): a point at
+// radius r with a target at radius R_K is stable only if
+//   h^2 k r R_K < 4 I + 2 r^2 (h^2 k + h b)    (docs/understand/stability_of_spring_dampers.md)
+// and for an orientation the change of the axis of phi, which vanishes for parallel joint axes.
 #pragma once
 
 #include <limits>
@@ -25,13 +21,13 @@
 
 namespace twinarm {
 
-// When a force is computed: at every step and stage, or once in so many steps and held between.
+// Zero-order hold: a force is computed every n steps; without hold at every step and stage.
 class Hold {
  public:
-  // 0 steps: none is held. Throws std::invalid_argument for an implicit force that is to be held.
+  // 0 steps: no hold. Throws std::invalid_argument for a held force that is not explicit.
   Hold(int steps, Discretization treatment) : every_(steps) {
     if (steps > 0 && treatment != Discretization::explicit_)
-      throw std::invalid_argument("a held force is explicit: it cannot see the end of the step");
+      throw std::invalid_argument("a held force must be explicit");
   }
   void begin_step() {
     fresh_ = every_ == 0 || steps_ % every_ == 0;
@@ -53,9 +49,7 @@ class Hold {
 class SpringDamperCoupling final : public Coupling {
  public:
   enum class Space { point, orientation, frame, joint };
-  // CouplingSpec::hold_steps > 0: the force is computed every so many steps and held between
-  // (explicit only); 0: at every step and stage. Throws InputError for springs on joints that have
-  // not one dof where they act at the joint.
+  // Throws InputError for springs at joints of several degrees of freedom.
   SpringDamperCoupling(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr,
                        Space space);
 
@@ -67,33 +61,32 @@ class SpringDamperCoupling final : public Coupling {
   void serialize(StateArchive& memory) override;
 
  private:
-  void pull_joint(std::size_t s, const DiscretizationTerms& terms, const State<double>& x,
-                  const Kinematics& k, Forces<double>& forces);
+  void apply_joint_spring(std::size_t s, const DiscretizationTerms& terms, const State<double>& x,
+                          const Kinematics& k, Forces<double>& forces);
 
   Space space_;
   Discretization treatment_;
   Hold hold_;
 };
 
-// As CouplingFacts::make.
+// For CouplingFacts::make.
 template <SpringDamperCoupling::Space space>
 std::unique_ptr<Coupling> make_spring_damper(const CouplingSpec& spec, const Model<double>& model,
                                              TargetRobot& kvr) {
   return std::make_unique<SpringDamperCoupling>(spec, model, kvr, space);
 }
 
-// Each fills the reading and adds its weightless inertia (solver/forces/spring.h); the force itself
-// is added by the caller, who may hold it.
-//
+// Each computes the spring's state and adds its added inertia (solver/forces/spring.h); the caller
+// adds the force.
 // F = k (p_K - p_D - position_lead v_D) + b (v_K - v_D), and a particle of m*.
-void pull_point(const Spring& spring, const DiscretizationTerms& terms, const Kinematics& D,
-                SpringState& reading, Forces<double>& forces);
+void apply_point_spring(const Spring& spring, const DiscretizationTerms& terms, const Kinematics& D,
+                        SpringState& reading, Forces<double>& forces);
 // T = k (log(R_K R_D^T) - position_lead w_D) + b (w_K - w_D), and a flywheel of m*.
 void apply_torsional_spring(int body, double k, double b, const DiscretizationTerms& terms,
                             const Kinematics& D, SpringState& reading, Forces<double>& forces);
 
-// sum of J^T k J and of J^T b J: of springs at points, with J the point's Jacobian; of frames, with
-// k_turn, b_turn and the rotation's besides.
+// Sums of J^T k J and J^T b J with the Jacobians of the points; of frames also with k_turn, b_turn
+// and the rotation Jacobians.
 Coupling::JointSpace joint_space_of_points(const Model<double>& model, const Kinematics& k,
                                            const std::vector<Spring>& springs);
 Coupling::JointSpace joint_space_of_frames(const Model<double>& model, const Kinematics& k,

@@ -1,19 +1,15 @@
-// Stable PD (Tan, Liu, Turk 2011, "Stable proportional-derivative controllers"), as printed, at the
-// joints of one degree of freedom that carry the springs' links:
+// Stable PD as published (Tan, Liu, Turk 2011, "Stable proportional-derivative controllers"), at
+// joints of one degree of freedom:
 //
 //   tau = -k (q + h qd - q_K') - b (qd + h qdd - qd_K')        ' the end of the step of h
 //
-// The unknown qdd stands on the left: (M + h b) qdd = ..., an armature h b. The spring looks ahead
-// by h qd alone, without the h^2 qdd that the implicit treatment (coupling/laws/spring_damper.h)
-// has besides; so it is not stable at every gain. On an inertia I, with alpha = k h^2/I and beta =
-// b h/I:
+// The unknown qdd gives an armature h b: (M + h b) qdd = ... The spring's position lead is h qd,
+// without h^2 qdd of the implicit discretization (coupling/laws/spring_damper.h), so there is a
+// stability limit. With an inertia I, alpha = k h^2/I and beta = b h/I
+// (docs/understand/stability_of_spring_dampers.md):
 //
-//   x' = x + h v'  (semi-implicit Euler, the one that this program steps it with)
-//        alpha < (4 + 2 beta)/3
+//   x' = x + h v'  (semi-implicit Euler, used here):  alpha < (4 + 2 beta)/3
 //   x' = x + h v   (explicit Euler):  alpha < 4 + 2 beta
-//
-// The derivation is in docs/understand/stability_of_spring_dampers.md. It is a treatment of its
-// own: there is no other.
 #include "coupling/laws/coupling_spec.h"
 
 namespace twinarm {
@@ -21,7 +17,7 @@ namespace {
 
 class StablePd final : public Coupling {
  public:
-  // Throws InputError for joints that have not one degree of freedom.
+  // Throws InputError for joints of several degrees of freedom.
   StablePd(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
       : Coupling(spec, model, kvr) {
     check_one_dof();

@@ -1,4 +1,4 @@
-// A spring-damper on the orientation of each link, or on the coordinate of its joint
+// Torsional spring-dampers on link orientations or joint coordinates
 // (coupling/laws/spring_damper.h).
 #include "coupling/laws/spring_damper.h"
 

@@ -12,15 +12,15 @@ AutomaticMotion::AutomaticMotion(const HandMapping& mapping, double sweep_time, 
 HandSample AutomaticMotion::sample(double t, double toward) const {
   constexpr double pi = std::numbers::pi;
   const double s = t / sweep_time_;
-  // The sweep that a step between t and toward belongs to; a corner met to rounding is the corner.
+  // The sweep of a step between t and toward; an end of a sweep is met within rounding.
   const double middle = 0.5 * (t + toward) / sweep_time_;
   const double nearest = std::round(s);
   const double inside = std::abs(s - nearest) < 1e-9 ? middle : s;
-  // In this order also of a time that is no number, which a broken recording may tell.
+  // This order also handles NaN.
   const auto sweep = static_cast<int>(std::min(std::max(0.0, std::floor(inside)), sweeps_ - 1.0));
   const double direction = sweep % 2 == 0 ? 1.0 : -1.0;
   const double fraction = std::clamp(s - sweep, 0.0, 1.0);
-  const double along = direction * (fraction - 0.5);  // -0.5 at the paper's start, 0.5 at its end
+  const double along = direction * (fraction - 0.5);  // -0.5 at the start, 0.5 at the end
   const bool moving = inside >= 0 && inside < sweeps_;
   const double rate = moving ? direction / sweep_time_ : 0.0;
 

@@ -1,7 +1,7 @@
-// The hand: six joint angles of a Phantom Omni and its stylus buttons, as functions of time.
+// Operator motion: six joint angles of a Phantom Omni and its stylus buttons as functions of time.
 //
-// A source is asked for the angle AND its rate at a time t, seen from the side of another time
-// `toward`: motions with corners have two rates at a corner, and a step belongs to one side of it.
+// sample(t, toward) gives angles and rates at t as one-sided limits from the side of `toward`: at a
+// velocity jump a step uses the rate of its side.
 #pragma once
 
 #include <algorithm>
@@ -15,15 +15,13 @@ namespace twinarm {
 struct HandSample {
   std::array<double, 6> theta{};      // device joints theta1..theta6 [rad]
   std::array<double, 6> theta_dot{};  // [rad/s]
-  bool button = false;                // the first: closes the gripper
-  bool clutch = false;                // the second: lets go of the robot
+  bool button = false;                // first button: closes the gripper
+  bool clutch = false;                // second button: disconnects the device from the target robot
 };
 
-// The paper's mapping from device to robot: theta1, theta4, theta6 of the Phantom Omni turn joints
-// 1, 2, 3 of the robot (its Figures 2, 3); the stylus button moves the gripper.
-//
-// The paper gives no gain. theta1 of the device reaches +-0.98 rad (56 degrees), the robot's joint
-// 1 sweeps +-90 degrees, so joint 1 has gain 2; joints 2 and 3 have gain 1. Assumed.
+// The paper's mapping: theta1, theta4, theta6 of the Phantom Omni move joints 1, 2, 3 of the robot
+// (Figures 2, 3); the stylus button moves the gripper. Gains are not published. Assumed: 2 for
+// joint 1 (theta1 reaches +-0.98 rad, the joint +-90 degrees), else 1.
 struct HandMapping {
   std::array<std::size_t, 3> device_joint{0, 3, 5};  // theta1, theta4, theta6
   std::array<double, 3> gain{2.0, 1.0, 1.0};
@@ -46,12 +44,12 @@ class OperatorMotion {
   virtual ~OperatorMotion() = default;
   virtual HandSample sample(double t, double toward) const = 0;
   virtual double duration() const = 0;          // [s]
-  virtual std::string description() const = 0;  // one line for the report
+  virtual std::string description() const = 0;  // one line
 };
 
 // The paper's automatic motion (section Experiments): robot joint 1 from 90 to -90 degrees and
-// joint 2 from -45 to 45 degrees, at once, linearly in time; back; and the first sweep again. The
-// speed jumps at every end. Expressed as device angles, so that it takes the same way as a hand.
+// joint 2 from -45 to 45 degrees, simultaneously and linearly in time; back; and the first sweep
+// again. The velocity jumps at every end. Expressed as device angles.
 class AutomaticMotion final : public OperatorMotion {
  public:
   // sweep_time [s] of one sweep, 1 s in the paper.
@@ -66,32 +64,28 @@ class AutomaticMotion final : public OperatorMotion {
   int sweeps_;
 };
 
-// Another hand, seen late and played faster: sample(t) is that of s = speed (t - delay); before the
-// delay has passed it is the start of the motion, at rest. A real delay: no number of steps.
-//
-// The velocity is the other hand's own at s, times the speed (d/dt of what is seen), and zero
-// before the delay has passed. Whether a step at that instant is before or after it is said by
-// `toward`, as at any other corner.
+// Another motion with delay and speed factor: sample(t) is that of s = speed (t - delay) with rates
+// times `speed`; for t < delay its start at rest. The delay is a time, not a number of steps.
 class DelayedMotion final : public OperatorMotion {
  public:
-  // delay >= 0 [s], speed > 0. A hand that is lent must outlive it.
+  // delay >= 0 [s], speed > 0. A motion passed by reference must outlive it.
   DelayedMotion(std::unique_ptr<OperatorMotion> hand, double delay, double speed)
       : owned_(std::move(hand)), hand_(*owned_), delay_(delay), speed_(speed) {}
   DelayedMotion(const OperatorMotion& hand, double delay, double speed)
       : hand_(hand), delay_(delay), speed_(speed) {}
 
   HandSample sample(double t, double toward) const override {
-    constexpr double kSame = 1e-9;  // [s]; an instant that a sum of steps meets to rounding
-    const double late = t - delay_, late_toward = toward - delay_;
-    const bool waits = late < -kSame || (late < kSame && late + late_toward < 0);
-    HandSample seen = waits ? hand_.sample(0, 1)
-                            : hand_.sample(speed_ * std::max(late, 0.0), speed_ * late_toward);
-    for (double& rate : seen.theta_dot) rate *= waits ? 0 : speed_;
-    return seen;
+    constexpr double kSame = 1e-9;  // rounding of a sum of steps [s]
+    const double s = t - delay_, s_toward = toward - delay_;
+    const bool waits = s < -kSame || (s < kSame && s + s_toward < 0);
+    HandSample delayed =
+        waits ? hand_.sample(0, 1) : hand_.sample(speed_ * std::max(s, 0.0), speed_ * s_toward);
+    for (double& rate : delayed.theta_dot) rate *= waits ? 0 : speed_;
+    return delayed;
   }
   double duration() const override { return delay_ + hand_.duration() / speed_; }
   std::string description() const override {
-    return hand_.description() + "; " + std::to_string(delay_) + " s late, " +
+    return hand_.description() + "; " + std::to_string(delay_) + " s delay, " +
            std::to_string(speed_) + " times as fast";
   }
 

@@ -19,16 +19,16 @@ namespace {
 constexpr std::array<const char*, 7> kColumns{"t[s]",        "theta1[rad]", "theta2[rad]",
                                               "theta3[rad]", "theta4[rad]", "theta5[rad]",
                                               "theta6[rad]"};
-constexpr std::size_t kMaxTraceFaults = 20;  // of one file; a wrong unit would name every line
+constexpr std::size_t kMaxTraceFaults = 20;                // reported errors of one file
 constexpr std::size_t kMaxSamples = std::size_t{1} << 23;  // two hours at 1 kHz
 
-// The ends of the Omni's joints, theta3 told relative to theta2 or to the world [rad]. A trace may
-// come from another hand: what lies beyond them is asked, not refused.
+// Limits of the Omni's joints, theta3 relative to theta2 or to the world [rad]. A trace may be of
+// another device: values beyond kBeyond times a limit give a warning, beyond a revolution an error.
 constexpr std::array<double, 6> kJointEnd{0.98, 1.75, 3.0, 2.45, 1.75, 2.58};
-constexpr double kBeyond = 1.5;                     // this many times an end is not believed
-constexpr double kFullTurn = 2 * std::numbers::pi;  // no joint of a hand device turns that far
-constexpr double kFewRadians = 3.5;                 // degrees that small are more likely radians
-constexpr double kGapIntervals = 3, kJitterShare = 0.25;  // of the median interval: said beyond it
+constexpr double kBeyond = 1.5;
+constexpr double kRevolution = 2 * std::numbers::pi;
+constexpr double kFewRadians = 3.5;  // smaller values in degrees are probably radians
+constexpr double kGapIntervals = 3, kJitterShare = 0.25;  // warning thresholds, in median intervals
 
 std::string degree_column(std::size_t joint) {
   return fmt::format("theta{}[deg]", joint + 1);
@@ -36,7 +36,7 @@ std::string degree_column(std::size_t joint) {
 
 }  // namespace
 
-// Reads a file line by line into a trace; all faults come together.
+// Reads a file into a trace; collects all errors.
 class TraceReader {
  public:
   explicit TraceReader(RecordedTrace& trace) : trace_(trace) {}
@@ -44,9 +44,9 @@ class TraceReader {
 
  private:
   using Cells = std::vector<std::string_view>;
-  void add(int line, const std::string& where, const std::string& rule, const std::string& fix) {
+  void add(int line, const std::string& where, const std::string& problem, const std::string& fix) {
     if (++fault_count_ <= kMaxTraceFaults)
-      faults_.add({trace_.file_, line, where, rule, fix, "trace.value"});
+      faults_.add({trace_.file_, line, where, problem, fix, "trace.value"});
   }
   std::string column_name(std::size_t joint) const {
     return in_degrees_[joint] ? degree_column(joint) : kColumns[joint + 1];
@@ -82,7 +82,7 @@ void TraceReader::read(std::istream& stream) {
     add(0, "", "the trace has fewer than two samples", "give a header line and at least two lines");
   check_angles();
   if (const auto more = fault_count_ - std::min(fault_count_, kMaxTraceFaults))
-    faults_.add({trace_.file_, 0, "", fmt::format("and {} more faults", more), "", "trace.more"});
+    faults_.add({trace_.file_, 0, "", fmt::format("and {} more errors", more), "", "trace.more"});
   faults_.check();
   measure();
   const double start = trace_.samples_.front().t;
@@ -126,52 +126,54 @@ void TraceReader::read_sample(int line, const Cells& cells) {
         c == 7   ? "button"
         : c == 0 ? kColumns[0]
                  : column_name(c - 1),
-        fmt::format("'{}' is not a finite number", cell), "mend or remove the line");
+        fmt::format("'{}' is not a finite number", cell), "correct or remove the line");
   }
   if (!good) return;
   sample.button = button != 0;
   auto& samples = trace_.samples_;
   if (!samples.empty() && !(sample.t > samples.back().t)) {
-    add(line, "t[s]", fmt::format("time runs back from {} to {} s", samples.back().t, sample.t),
-        "sort the lines by time, one line for each instant");
+    add(line, "t[s]",
+        fmt::format("time does not increase: {} s after {} s", sample.t, samples.back().t),
+        "sort the lines by time, one line per instant");
     return;
   }
   if (samples.size() == kMaxSamples)
     throw InputError({{trace_.file_, line, "", "the trace has more than 8 million samples",
-                       "cut it, or sample it more slowly", "trace.too-long"}});
+                       "shorten it, or use a lower sampling rate", "trace.too-long"}});
   samples.push_back(sample);
 }
 
-// Degrees in a column of radians. Beyond a whole turn there is no doubt that something is wrong;
-// beyond the Omni's own joints there is, and it is said.
+// Detects degrees in columns of radians: an error beyond a revolution, a warning beyond the Omni's
+// joint limits.
 void TraceReader::check_angles() {
-  std::array<double, 6> farthest{};
+  std::array<double, 6> max_angle{};
   for (const RecordedTrace::Sample& sample : trace_.samples_)
     for (std::size_t j = 0; j < 6; ++j)
-      farthest[j] = std::max(farthest[j], std::abs(sample.theta[j]));
+      max_angle[j] = std::max(max_angle[j], std::abs(sample.theta[j]));
   bool fits_as_degrees = true;
   for (std::size_t j = 0; j < 6; ++j)
-    if (!in_degrees_[j] && farthest[j] * kDegree > kBeyond * kJointEnd[j]) fits_as_degrees = false;
+    if (!in_degrees_[j] && max_angle[j] * kDegree > kBeyond * kJointEnd[j]) fits_as_degrees = false;
   double max_degrees = 0;
   for (std::size_t j = 0; j < 6; ++j) {
     const std::string name = fmt::format("theta{}", j + 1);
-    if (farthest[j] > kFullTurn && (in_degrees_[j] || !fits_as_degrees)) {
+    if (max_angle[j] > kRevolution && (in_degrees_[j] || !fits_as_degrees)) {
       add(header_line_, column_name(j),
-          fmt::format("reaches {:.4g} rad, more than a whole turn; no joint of a hand device can",
-                      farthest[j]),
+          fmt::format(
+              "reaches {:.4g} rad, more than one revolution, impossible for an input device",
+              max_angle[j]),
           "give radians, or degrees in columns theta1[deg] and so on");
     } else if (in_degrees_[j]) {
-      max_degrees = std::max(max_degrees, farthest[j] / kDegree);
-    } else if (farthest[j] > kFullTurn) {
+      max_degrees = std::max(max_degrees, max_angle[j] / kDegree);
+    } else if (max_angle[j] > kRevolution) {
       add(header_line_, kColumns[j + 1],
-          fmt::format("reaches {:.4g} rad, more than a whole turn, which looks like degrees",
-                      farthest[j]),
-          "are these degrees? then name each column of degrees so: theta1[deg], theta2[deg], ...");
-    } else if (farthest[j] > kBeyond * kJointEnd[j]) {
+          fmt::format("reaches {:.4g} rad, more than one revolution: probably degrees",
+                      max_angle[j]),
+          "name columns in degrees theta1[deg], theta2[deg], ...");
+    } else if (max_angle[j] > kBeyond * kJointEnd[j]) {
       trace_.quality_.warnings.push_back(fmt::format(
-          "{} reaches {:.3g} rad, where a Phantom Omni's joint ends near {:.3g}; if these are "
+          "{} reaches {:.3g} rad, the joint limit of a Phantom Omni is about {:.3g}; if these are "
           "degrees, name the column {}",
-          name, farthest[j], kJointEnd[j], degree_column(j)));
+          name, max_angle[j], kJointEnd[j], degree_column(j)));
     }
   }
   if (max_degrees > 0 && max_degrees < kFewRadians)
@@ -203,38 +205,36 @@ void TraceReader::measure_intervals(std::vector<double> intervals) {
   double sum = 0, count = 0;
   long gaps = 0;
   for (double interval : intervals) {
-    const double off = interval - quality.interval;
-    if (interval > kGapIntervals * quality.interval) {
+    const double deviation = interval - quality.interval;
+    if (interval > kGapIntervals * quality.interval)
       ++gaps;
-    } else {
-      sum += off * off;
-      ++count;
-    }
+    else
+      sum += deviation * deviation, ++count;
   }
   quality.jitter = std::sqrt(sum / count);
   if (gaps > 0)
-    quality.warnings.push_back(fmt::format(
-        "{} gap{} longer than {:g} samples' time, the largest {:.3g} s at t = {:.6g} s; the hand "
-        "is "
-        "taken to go straight through, at one speed",
-        gaps, gaps == 1 ? "" : "s", kGapIntervals, quality.max_gap, quality.gap_start));
-  if (quality.jitter > kJitterShare * quality.interval)
     quality.warnings.push_back(
-        fmt::format("the time between samples jitters by {:.2g} s about {:.3g} s; the hand's speed "
-                    "jitters with it",
-                    quality.jitter, quality.interval));
+        fmt::format("{} gap{} longer than {:g} sampling intervals, the longest {:.3g} s at t = "
+                    "{:.6g} s; the motion "
+                    "is interpolated linearly",
+                    gaps, gaps == 1 ? "" : "s", kGapIntervals, quality.max_gap, quality.gap_start));
+  if (quality.jitter > kJitterShare * quality.interval)
+    quality.warnings.push_back(fmt::format(
+        "the sampling interval has a jitter of {:.2g} s about {:.3g} s, and so have the "
+        "velocities",
+        quality.jitter, quality.interval));
 }
 
 RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.string()) {
   std::ifstream stream(file);
   if (!stream)
-    throw InputError({{file_, 0, "", "the trace cannot be opened", "name a CSV file that exists",
+    throw InputError({{file_, 0, "", "the trace cannot be opened", "give an existing CSV file",
                        "file.missing"}});
   TraceReader(*this).read(stream);
 }
 
 HandSample RecordedTrace::sample(double t, double toward) const {
-  // The interval that a step between t and toward belongs to.
+  // The interval of a step between t and toward.
   const double inside = t + 1e-9 * (toward - t);
   auto after = std::upper_bound(samples_.begin(), samples_.end(), inside,
                                 [](double time, const Sample& s) { return time < s.t; });
@@ -277,8 +277,8 @@ bool next_line(std::istream& stream, std::string& line, const std::string& file,
   stream.getline(buffer.data(), buffer.size());
   const auto count = static_cast<std::size_t>(stream.gcount());
   if (stream.fail() && count + 1 == buffer.size())
-    throw InputError({{file, number, "", "the line has more than 64 KiB",
-                       "name a file of lines of numbers, separated by commas", "file.long-line"}});
+    throw InputError({{file, number, "", "the line is longer than 64 KiB",
+                       "give a CSV file of numbers", "file.long-line"}});
   const bool has_end = !stream.eof();
   line.assign(buffer.data(), count - (has_end && count > 0 ? 1 : 0));
   return !stream.fail();

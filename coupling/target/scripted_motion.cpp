@@ -7,10 +7,9 @@
 namespace twinarm {
 namespace {
 
-// Is a step that begins at t and goes on towards `toward` after the corner? A corner that a sum of
-// steps meets to rounding is the corner.
-bool is_after(double t, double toward, double corner) {
-  return std::abs(t - corner) < 1e-9 ? 0.5 * (t + toward) > corner : t > corner;
+// Whether a step from t towards `toward` is after the event, which may be met within rounding.
+bool is_after(double t, double toward, double event) {
+  return std::abs(t - event) < 1e-9 ? 0.5 * (t + toward) > event : t > event;
 }
 
 std::string seconds_text(double t) {
@@ -21,7 +20,7 @@ std::string seconds_text(double t) {
 
 }  // namespace
 
-StepMotion::StepMotion(const HandAngles& from, const HandAngles& to, double at, double duration)
+StepMotion::StepMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double duration)
     : from_(from), to_(to), at_(at), duration_(duration) {}
 
 HandSample StepMotion::sample(double t, double toward) const {
@@ -34,7 +33,7 @@ std::string StepMotion::description() const {
   return "scripted: a step after " + seconds_text(at_);
 }
 
-ChirpMotion::ChirpMotion(const HandAngles& middle, const HandAngles& amplitude, double f0,
+ChirpMotion::ChirpMotion(const DeviceAngles& middle, const DeviceAngles& amplitude, double f0,
                          double f1, double T)
     : middle_(middle), amplitude_(amplitude), f0_(f0), f1_(f1), duration_(T) {}
 
@@ -56,18 +55,22 @@ std::string ChirpMotion::description() const {
          " Hz in " + seconds_text(duration_);
 }
 
-ReachMotion::ReachMotion(const HandAngles& from, const HandAngles& to, double at, double T)
+ReachMotion::ReachMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double T)
     : from_(from), to_(to), at_(at), T_(T) {}
 
-HandSample ReachMotion::sample(double t, double /*toward: the motion has no corners*/) const {
-  const double s = std::clamp((t - at_) / T_, 0.0, 1.0);
+HandSample ReachMotion::sample(double t, double /*toward*/) const {
   HandSample hand;
-  for (std::size_t j = 0; j < 6; ++j) {
-    const double D = to_[j] - from_[j];
-    hand.theta[j] = from_[j] + D * s * s * s * (10 - 15 * s + 6 * s * s);
-    hand.theta_dot[j] = D / T_ * 30 * s * s * (1 - s) * (1 - s);
-  }
+  add_minimum_jerk(from_, to_, std::clamp((t - at_) / T_, 0.0, 1.0), T_, hand);
   return hand;
+}
+
+void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s, double T,
+                      HandSample& hand) {
+  for (std::size_t j = 0; j < 6; ++j) {
+    const double D = to[j] - from[j];
+    hand.theta[j] = from[j] + D * s * s * s * (10 - 15 * s + 6 * s * s);
+    hand.theta_dot[j] = D / T * 30 * s * s * (1 - s) * (1 - s);
+  }
 }
 
 std::string ReachMotion::description() const {

@@ -1,54 +1,54 @@
-// Scripted hands for experiments, beside the paper's automatic motion: a step, a chirp, a
-// minimum-jerk reach. Each moves the device's angles about a posture; t = 0 is their beginning.
+// Scripted motions of the device angles: step, chirp, minimum-jerk reach; t = 0 is the start.
 #pragma once
 
 #include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 
-using HandAngles = std::array<double, 6>;  // theta1..theta6 of the device [rad]
+using DeviceAngles = std::array<double, 6>;  // theta1..theta6 of the device [rad]
 
-// Rests at `from`, jumps to `to` at the time `at`, rests there. The rate is zero throughout: a
-// jump has none. At the instant itself the angles are those of the side that is asked for.
+// Minimum-jerk motion (Flash and Hogan 1985), s^3 (10 - 15 s + 6 s^2) with s = t/T in [0, 1].
+void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s, double T,
+                      HandSample& hand);
+
+// `from` before the time `at`, then `to`; the rates are zero.
 class StepMotion final : public OperatorMotion {
  public:
-  StepMotion(const HandAngles& from, const HandAngles& to, double at, double duration);
+  StepMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double duration);
   HandSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override;
 
  private:
-  HandAngles from_, to_;
+  DeviceAngles from_, to_;
   double at_, duration_;
 };
 
-// theta_j = middle_j + amplitude_j sin(phi), phi = 2 pi (f0 t + (f1 - f0) t^2 / (2 T)): from f0 to
-// f1 [Hz] in T [s], linearly in time. Begins with a corner (the rate jumps) and rests after T where
-// it was.
+// theta_j = middle_j + amplitude_j sin(phi), phi = 2 pi (f0 t + (f1 - f0) t^2 / (2 T)): frequency
+// f0 to f1 [Hz] in T [s], linear in time. Starts with a velocity jump; at rest after T.
 class ChirpMotion final : public OperatorMotion {
  public:
-  ChirpMotion(const HandAngles& middle, const HandAngles& amplitude, double f0, double f1,
+  ChirpMotion(const DeviceAngles& middle, const DeviceAngles& amplitude, double f0, double f1,
               double T);
   HandSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override;
 
  private:
-  HandAngles middle_, amplitude_;
+  DeviceAngles middle_, amplitude_;
   double f0_, f1_, duration_;
 };
 
-// From one posture to another on the path of least jerk (Flash and Hogan 1985),
-// s^3 (10 - 15 s + 6 s^2): it begins at `at`, takes T [s], and rests before and after.
+// Minimum-jerk motion from `at`, of duration T [s]; at rest before and after.
 class ReachMotion final : public OperatorMotion {
  public:
-  ReachMotion(const HandAngles& from, const HandAngles& to, double at, double T);
+  ReachMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double T);
   HandSample sample(double t, double toward) const override;
   double duration() const override { return at_ + T_; }
   std::string description() const override;
 
  private:
-  HandAngles from_, to_;
+  DeviceAngles from_, to_;
   double at_, T_;
 };
 

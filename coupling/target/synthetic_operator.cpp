@@ -1,5 +1,7 @@
 #include "coupling/target/synthetic_operator.h"
 
+#include "coupling/target/scripted_motion.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,12 +10,12 @@
 namespace twinarm {
 namespace {
 
-// Ranges that the reaches stay in, well inside the Phantom Omni's own [rad].
+// Ranges of the targets, inside the Phantom Omni's joint limits [rad].
 constexpr std::array<double, 6> kLow{-0.75, 0.4, -0.4, -1.2, -0.3, -1.2};
 constexpr std::array<double, 6> kHigh{0.75, 1.3, 0.8, 1.2, 1.2, 1.2};
-constexpr double kTremor = 0.004;  // amplitude of each of three lines [rad], 0.2 degrees
+constexpr double kTremor = 0.004;  // amplitude of each of three sines [rad]
 
-// The engine's bits are the standard's; how a distribution uses them is not, so it is written here.
+// Uniform numbers, portable unlike the standard's distributions.
 class Draw {
  public:
   explicit Draw(unsigned seed) : engine_(seed) {}
@@ -35,13 +37,13 @@ SyntheticOperator::SyntheticOperator(unsigned seed, double duration)
   bool button = false;
   for (double t = draw(0.2, 0.5); t < duration;) {
     Reach reach{t, 0, at, at, button};
-    double farthest = 0;
+    double distance = 0;
     for (std::size_t j = 0; j < 6; ++j) {
       reach.to[j] = draw(kLow[j], kHigh[j]);
-      farthest = std::max(farthest, std::abs(reach.to[j] - at[j]));
+      distance = std::max(distance, std::abs(reach.to[j] - at[j]));
     }
-    // Longer reaches take longer: a peak speed (15/8 of the mean) of 1.5 to 4 rad/s.
-    reach.end = t + std::max(0.25, 15.0 / 8.0 * farthest / draw(1.5, 4.0));
+    // Peak speed (15/8 of the mean) of 1.5 to 4 rad/s.
+    reach.end = t + std::max(0.25, 15.0 / 8.0 * distance / draw(1.5, 4.0));
     if (draw(0, 1) < 0.2) button = !button;
     reach.button = button;
     reaches_.push_back(reach);
@@ -54,20 +56,19 @@ SyntheticOperator::SyntheticOperator(unsigned seed, double duration)
               draw(0, 2 * std::numbers::pi)};
 }
 
-HandSample SyntheticOperator::sample(double t, double /*toward: the motion has no corners*/) const {
+HandSample SyntheticOperator::sample(double t, double /*toward*/) const {
   HandSample hand;
   const auto after = std::upper_bound(reaches_.begin(), reaches_.end(), t,
                                       [](double time, const Reach& r) { return time < r.start; });
+  if (after != reaches_.begin()) {
+    const Reach& reach = *std::prev(after);
+    const double T = reach.end - reach.start;
+    add_minimum_jerk(reach.from, reach.to, std::min((t - reach.start) / T, 1.0), T, hand);
+    hand.button = reach.button;
+  } else if (!reaches_.empty()) {
+    hand.theta = reaches_.front().from;
+  }
   for (std::size_t j = 0; j < 6; ++j) {
-    hand.theta[j] = reaches_.empty() ? 0.0 : reaches_.front().from[j];
-    if (after != reaches_.begin()) {
-      const Reach& reach = *std::prev(after);
-      const double T = reach.end - reach.start;
-      const double s = std::min((t - reach.start) / T, 1.0), D = reach.to[j] - reach.from[j];
-      hand.theta[j] = reach.from[j] + D * s * s * s * (10 - 15 * s + 6 * s * s);
-      hand.theta_dot[j] = D / T * 30 * s * s * (1 - s) * (1 - s);
-      hand.button = reach.button;
-    }
     for (const Tremor& line : tremor_[j]) {
       hand.theta[j] += line.amplitude * std::sin(line.omega * t + line.phase);
       hand.theta_dot[j] += line.amplitude * line.omega * std::cos(line.omega * t + line.phase);

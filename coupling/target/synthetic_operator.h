@@ -1,6 +1,6 @@
-// A synthetic hand: not a recording of a person. Minimum-jerk reaches (Flash and Hogan 1985)
-// between random targets with rests in between, and an 8 to 12 Hz tremor on every joint. Seeded:
-// the same seed gives the same hand, on every machine.
+// Synthetic operator motion, not a recording of a person: minimum-jerk reaches (Flash and Hogan
+// 1985) between random targets with pauses, and an 8 to 12 Hz tremor on every joint. The seed
+// determines the motion, on every machine.
 #pragma once
 
 #include <vector>
@@ -18,7 +18,7 @@ class SyntheticOperator final : public OperatorMotion {
 
  private:
   struct Reach {
-    double start, end;  // [s]; the hand rests from here to the next reach
+    double start, end;  // [s]
     std::array<double, 6> from, to;
     bool button;
   };

@@ -24,14 +24,12 @@ TargetRobot::TargetRobot(const Model<double>& model, const OperatorMotion& hand,
   const auto find = [&](const std::string& name) {
     const int body = model.find_joint(name);
     if (body < 0)
-      faults.add("joint '" + name + "'", "the robot has no such joint, but the hand moves it",
-                 "name the robot's joints joint1, joint2, joint3, gripper_lift",
-                 "target.unknown-joint");
+      faults.add("joint '" + name + "'", "the robot has no such joint",
+                 "use the name of a joint of the robot", "target.unknown-joint");
     else if (const std::size_t dofs = model.dofs(static_cast<std::size_t>(body)); dofs != 1)
       faults.add("joint '" + name + "'",
-                 "it has " + std::to_string(dofs) +
-                     " degrees of freedom, but the hand moves it by one angle",
-                 "name a revolute, prismatic or screw joint", "target.degrees-of-freedom");
+                 "it has " + std::to_string(dofs) + " degrees of freedom, must have one",
+                 "use a revolute, prismatic or screw joint", "target.degrees-of-freedom");
     return static_cast<std::size_t>(body < 0 ? 0 : body);
   };
   for (const std::string& name : joints.turned) {
@@ -60,10 +58,9 @@ void TargetRobot::set_pose(const State<double>& x) {
 
 void TargetRobot::begin_step(double t, double h) {
   if (started_ && start_.x.t == t && end_.x.t == t + h) return;
-  if (started_ && end_.x.t == t) std::swap(start_, end_);  // its pose is known already
-  // Kinematics are the dear part: once a step, for the start was the end of the step before.
-  const bool start_moved = look(start_, t, t + h);
-  bool end_moved = look(end_, t + h, t);
+  if (started_ && end_.x.t == t) std::swap(start_, end_);  // reuse the kinematics
+  const bool start_moved = update(start_, t, t + h);
+  bool end_moved = update(end_, t + h, t);
   middle_.x.t = std::numeric_limits<double>::quiet_NaN();
   if (rates_ == TargetRates::backward_difference) {
     for (std::size_t j = 0; j < iq_.size(); ++j) {
@@ -85,15 +82,15 @@ const TargetSample& TargetRobot::at(double t) {
 }
 
 void TargetRobot::set(TargetSample& sample, double t, double toward) const {
-  if (look(sample, t, toward)) pose(sample);
+  if (update(sample, t, toward)) pose(sample);
 }
 
-bool TargetRobot::look(TargetSample& sample, double t, double toward) const {
+bool TargetRobot::update(TargetSample& sample, double t, double toward) const {
   const HandSample hand = hand_.sample(t, toward);
   bool changed = std::isnan(sample.x.t);
-  const auto put = [&](double& place, double value) {
-    changed = changed || place != value;
-    place = value;
+  const auto put = [&](double& variable, double value) {
+    changed = changed || variable != value;
+    variable = value;
   };
   sample.x.t = t;
   for (std::size_t j = 0; j < iq_.size(); ++j) {

@@ -1,5 +1,5 @@
-// The KVR: the kinematic virtual robot, moved by the hand. It has no mass and passes through
-// everything; couplings pull the dynamic robot (DVR) after it.
+// The target robot (KVR, kinematic virtual robot): moved by the operator motion, without mass or
+// contacts. Couplings connect the simulated robot (DVR) to it.
 #pragma once
 
 #include <vector>
@@ -16,57 +16,57 @@ struct TargetSample {
   explicit TargetSample(const Model<double>& model) : x(model), k(model) {}
 };
 
-// Which joints of a robot the hand moves, by name.
+// Joints that the operator motion drives, by name.
 struct DrivenJoints {
   std::vector<std::string> turned;  // by theta1, theta4, theta6, in this order; at most three
-  std::string gripper;              // by the button, between open and closed; may be empty
+  std::string gripper;              // by the button, open or closed; may be empty
   double gripper_open = 0, gripper_closed = 0;
   bool operator==(const DrivenJoints&) const = default;
 };
 
-// Where the KVR's velocity comes from.
+// Source of the KVR's velocity.
 enum class TargetRates {
-  from_hand,            // the hand's own rate, one-sided at a corner
-  backward_difference,  // (q_n - q_n-1) / h of its angles, zero at first: all that a device gives
-  none                  // zero: dampers then brake the link's own motion
+  from_hand,            // the motion's rate, one-sided at a velocity jump
+  backward_difference,  // (q_n - q_n-1) / h, zero at first
+  none                  // zero: absolute dampers
 };
 
 class TargetRobot {
  public:
-  // The model and the hand must outlive the robot. Throws InputError for joints that are not there
-  // or have not one degree of freedom.
+  // The model and the motion must outlive the robot. Throws InputError for joints that do not exist
+  // or have several degrees of freedom.
   TargetRobot(const Model<double>& model, const OperatorMotion& hand, const HandMapping& mapping,
               const DrivenJoints& joints, TargetRates rates = TargetRates::from_hand);
 
-  // Where the joints stand that the hand does not move; zero at first. Before the first step.
+  // Sets the positions of the joints that are not driven (default: zero), before the first step.
   void set_pose(const State<double>& x);
-  // Looks at the hand for the step [t, t + h]. Asking again for the same step costs nothing.
+  // Samples the motion for the step [t, t + h]; a repeated call costs nothing.
   void begin_step(double t, double h);
-  // The hand has another past now: a step that was looked at is looked at again.
+  // Discards the samples, after a change of the motion.
   void forget() { started_ = false; }
   const TargetSample& start() const { return start_; }
   const TargetSample& end() const { return end_; }
-  // At a stage within the step, with the velocity of the sweep that the step belongs to.
+  // At a stage within the step, with one-sided velocities.
   const TargetSample& at(double t);
 
   const OperatorMotion& hand() const { return hand_; }
 
  private:
   void set(TargetSample& sample, double t, double toward) const;
-  // The hand's angles and rates into the sample; false: nothing has changed.
-  bool look(TargetSample& sample, double t, double toward) const;
+  // Writes the motion's angles and rates to the sample; false: unchanged.
+  bool update(TargetSample& sample, double t, double toward) const;
   void pose(TargetSample& sample) const;
 
   const Model<double>& model_;
   const OperatorMotion& hand_;
   HandMapping mapping_;
   TargetRates rates_;
-  std::vector<std::size_t> iq_, iv_;  // of the turned joints
-  int gripper_ = -1;                  // body that the gripper joint carries
+  std::vector<std::size_t> iq_, iv_;  // of the driven joints
+  int gripper_ = -1;                  // body of the gripper joint
   double gripper_open_, gripper_closed_;
   TargetSample start_, middle_, end_;
   bool started_ = false;
-  std::vector<double> difference_;  // of the last step, by turned joint [rad/s]
+  std::vector<double> difference_;  // of the last step, by driven joint [rad/s]
 };
 
 }  // namespace twinarm

@@ -33,5 +33,5 @@ collision shapes and contacts, robots from URDF files, and spring-dampers
 between a kinematic and a dynamic robot. For find_package(twinarm) of CMake.")
 # zlib: the CMake files of libassimp-dev name its library, the package does not depend on it.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
-  "libeigen3-dev, libassimp-dev, zlib1g-dev, libqhull-dev, libtinyxml2-dev, libtomlplusplus-dev, libfmt-dev")
+  "libeigen3-dev, libfcl-dev, libassimp-dev, zlib1g-dev, libqhull-dev, libtinyxml2-dev, libtomlplusplus-dev, libfmt-dev")
 include(CPack)

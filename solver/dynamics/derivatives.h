@@ -1,4 +1,4 @@
-// Derivatives of forward dynamics by Dual<8>: eight directions at a time through aba().
+// Derivatives of forward dynamics by automatic differentiation of aba(), Dual<8>.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,13 +7,12 @@
 
 namespace twinarm {
 
-// nv x nv each. d/dq is along the joints' groups: column k is the rate of qdd when q moves to
-// q exp(s e_k), s = 0 (for vector joints the usual partial derivative). External wrenches stay
-// fixed to their bodies.
+// nv x nv each. Column k of dq is d qdd / ds for q exp(s e_k) at s = 0 (for vector joints the
+// partial derivative). External wrenches are fixed in body axes.
 struct ForwardDynamicsDerivatives {
   Eigen::MatrixXd dq, dqd, dtau;
 };
-// Allocates; forces.armature and forces.impedance enter as constants.
+// Allocates. forces.armature and forces.impedance are constants.
 ForwardDynamicsDerivatives forward_dynamics_derivatives(const Model<double>& model,
                                                         const State<double>& x,
                                                         const Forces<double>& forces);

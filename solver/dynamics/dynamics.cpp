@@ -8,7 +8,7 @@
 
 namespace twinarm {
 
-// passes.cpp defines these, one for each scalar and level of solver/CMakeLists.txt.
+// Defined by solver/passes/compiled/passes.cpp, per scalar and level.
 #define TWINARM_TABLE(isa, ...)       \
   namespace isa {                     \
   template <class S>                  \
@@ -31,8 +31,8 @@ TWINARM_TABLE(v4, Batch<8>)
 #endif
 #undef TWINARM_TABLE
 
-// Duals are asked for derivatives about one state, never in a step: one level serves them. v3
-// serves the others whose numbers do not fill a register of eight doubles.
+// Dual numbers are not used within steps: generic level only. v4 is built for scalars that fill
+// vectors of eight doubles.
 template <class S>
 [[maybe_unused]] constexpr bool kHasLevels = !std::is_same_v<S, Dual<8>>;
 template <class S>
@@ -110,7 +110,7 @@ Eigen::MatrixXd mass_matrix(const Model<double>& model, const State<double>& x) 
   Workspace<double> w(model);
   const auto n = static_cast<Eigen::Index>(model.nv);
   Eigen::MatrixXd M(n, n);
-  crba(model, x, w, {M.data(), model.nv * model.nv});  // symmetric: by rows is by columns
+  crba(model, x, w, {M.data(), model.nv * model.nv});  // symmetric: row-major = column-major
   return M;
 }
 

@@ -1,12 +1,11 @@
-// The passes, for every scalar: double, float, Dual<8>, Batch<4>, Batch<8>.
+// Interface of the algorithms, for the scalars double, float, Dual<8>, Batch<4>, Batch<8>.
 //
-// Their text is in the headers named beside them. Each is compiled for plain x86-64 (`generic`) and
-// for newer levels of the instruction set; the best that the processor has is chosen when the
-// program starts. TWINARM_ISA=generic|v3|v4 in the environment caps the choice: results of two
-// levels differ by rounding (fused multiply-add), at one level they are the same to the bit.
-// All quantities in body axes (Workspace). None of them throws or fails: where bodies have no
-// inertia about a joint, numbers become non-finite (ModelBuilder refuses such models). Only
-// mass_matrix() allocates.
+// Implemented in solver/passes/ and compiled for plain x86-64 (`generic`) and for newer
+// instruction-set levels; the highest level of the processor is selected at program start. The
+// environment variable TWINARM_ISA=generic|v3|v4 limits it. Results of different levels differ by
+// rounding (fused multiply-add); at one level they are bit-identical.
+// All quantities are in body axes (Workspace). No function throws; zero inertia about a joint gives
+// non-finite numbers (ModelBuilder rejects such models). Only mass_matrix() allocates.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,34 +24,33 @@ enum class Isa { generic, v3, v4 };  // x86-64, and its levels 3 (AVX2, FMA) and
 const char* name_of(Isa isa);
 Isa best_isa();  // of this processor and build, capped by TWINARM_ISA
 
-// The passes at a level, or at the highest one below it that they were built for and that this
-// processor has.
+// The algorithms at `isa`, or at the highest lower level that is built and supported.
 template <class S>
 const Passes<S>& passes(Isa isa);
 template <class S>
 const Passes<S>& passes();  // at best_isa()
 
-// Forward dynamics, solver/passes/aba.h: w.qdd and all of the fields of its passes.
+// Forward dynamics, solver/passes/aba.h: w.qdd and all variables of its passes.
 template <class S>
 void aba(const Model<S>& model, const State<S>& x, const Forces<S>& forces, Workspace<S>& w) {
   passes<S>().aba(model, x, forces, w);
 }
-// The same text, with what lives only while a body is handed on (generic level).
+// The same, and records Ia and pa (generic level).
 void aba(const Model<double>& model, const State<double>& x, const Forces<double>& forces,
          Workspace<double>& w, FullTrace<double>& trace);
-// Inverse dynamics, solver/passes/rnea.h: w.tau for given qdd, w.f.
+// Inverse dynamics, solver/passes/rnea.h: w.tau and w.f for given qdd.
 template <class S>
 void rnea(const Model<S>& model, const State<S>& x, const std::vector<S>& qdd,
           const std::vector<Force<S>>& f_ext, Workspace<S>& w) {
   passes<S>().rnea(model, x, qdd, f_ext, w);
 }
-// The mass matrix, solver/passes/crba.h: M, nv x nv row by row.
+// Mass matrix, solver/passes/crba.h: M, nv x nv, row-major.
 template <class S>
 void crba(const Model<S>& model, const State<S>& x, Workspace<S>& w,
           std::type_identity_t<std::span<S>> M) {
   passes<S>().crba(model, x, w, M);
 }
-// The same as an Eigen matrix, for analyses: allocates.
+// The same as an Eigen matrix. Allocates.
 Eigen::MatrixXd mass_matrix(const Model<double>& model, const State<double>& x);
 // M^-1 (b + J^T f), solver/passes/minv.h: w.y, after aba() at the same q.
 template <class S>

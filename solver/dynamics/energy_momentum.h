@@ -1,10 +1,9 @@
-// Energy of a mechanism, and what something does to all bodies together: joules, and momentum about
-// the world's origin. The rows of the ledgers are made of it.
+// Work, impulse and angular impulse: a row of the energy and momentum balance.
 //
-// energy_and_momentum_of() is what the bodies have: kinetic energy and potential of gravity, and
-// the linear and angular momentum of all that forces can move (a body of prescribed motion has any
-// momentum that its law says). Between two states its difference is the sum of all exchanges but
-// gravity's work, which is in it already. O(n), allocates nothing.
+// energy_and_momentum_of(): kinetic energy, potential energy of gravity, and linear and angular
+// momentum of the bodies that forces can move (the momentum of prescribed bodies is given). Its
+// difference between two states is the sum of all rows except the work of gravity, which is
+// contained in the potential energy. O(n), allocates nothing.
 #pragma once
 
 #include <vector>
@@ -27,34 +26,32 @@ struct EnergyMomentum {
     moment += other.moment;
     return *this;
   }
-  // A force (or an impulse) at p, and a couple, for `part` (a time, or 1).
-  void add_wrench(double part, const Vector3& p, const Vector3& force, const Vector3& couple) {
-    impulse += part * force;
-    moment += part * (p.cross(force) + couple);
+  // A force at p and a couple during `duration` [s]; of impulses, duration = 1.
+  void add_wrench(double duration, const Vector3& p, const Vector3& force, const Vector3& couple) {
+    impulse += duration * force;
+    moment += duration * (p.cross(force) + couple);
   }
-  void serialize(StateArchive& memory) {
-    memory.visit(work);
-    memory.visit(impulse);
-    memory.visit(moment);
+  void serialize(StateArchive& archive) {
+    archive.visit(work), archive.visit(impulse), archive.visit(moment);
   }
 };
-inline EnergyMomentum operator*(double part, const EnergyMomentum& e) {
-  return {part * e.work, part * e.impulse, part * e.moment};
+inline EnergyMomentum operator*(double s, const EnergyMomentum& e) {
+  return {s * e.work, s * e.impulse, s * e.moment};
 }
 inline EnergyMomentum operator-(EnergyMomentum a, const EnergyMomentum& b) {
   return a += -1.0 * b;
 }
 
-// By body: whether forces can move it.
+// By body: whether it or an ancestor has a degree of freedom.
 std::vector<char> bodies_with_dofs(const Model<double>& model);
 
-// `of` as bodies_with_dofs(), or of a part of them; w is written.
+// Of the bodies with of[i] != 0, e.g. bodies_with_dofs(); writes w.
 EnergyMomentum energy_and_momentum_of(const Model<double>& model, const std::vector<char>& of,
                                       const State<double>& x, Workspace<double>& w);
 
-// Of those who have no workspace at hand (world_kinematics.h): allocates, in O(n).
+// Without a workspace (see world_kinematics.h). Allocate, O(n).
 double kinetic_energy(const Model<double>& model, const State<double>& x);  // with rotors [J]
-// In the field of gravity, 0 at the world's origin [J].
+// Potential energy of gravity, 0 at the world's origin [J].
 double potential_energy(const Model<double>& model, const State<double>& x);
 
 }  // namespace twinarm

@@ -1,5 +1,5 @@
-// Forward kinematics, and the one bridge between the passes' Pluecker transforms in body axes and
-// the poses, velocities and Jacobians in world axes that everything outside solver/ works with.
+// Forward kinematics: converts the algorithms' Pluecker transforms in body axes to poses,
+// velocities and Jacobians in world axes, which are used outside solver/.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,19 +10,19 @@
 
 namespace twinarm {
 
-// Of every body, base included. W: world, L: link frame, B: body frame (Model::turn).
+// Indexed by body, including the base. W: world, L: link frame, B: body frame (Model::turn).
 struct Kinematics {
-  std::vector<Pose> X_WL;              // link frame in the world
+  std::vector<Pose> X_WL;              // pose of the link frame
   std::vector<Vector3> w_WL;           // angular velocity of the link, world axes [rad/s]
   std::vector<Vector3> v_WLo;          // velocity of the link's origin, world axes [m/s]
-  std::vector<Matrix3> R_WB;           // body axes in the world
+  std::vector<Matrix3> R_WB;           // orientation of the body frame
   std::vector<Motion<double>> a_bias;  // spatial acceleration at qdd = 0, with gravity as
-                                       // a_0 = -g, in body axes: what implicit terms hand back
+                                       // a_0 = -a_g, body axes (spring.h)
   explicit Kinematics(const Model<double>& model);
 
   // Position and velocity of a point fixed to the link, p_L from the link's origin in link axes.
   Vector3 position(int body, const Vector3& p_L) const;
-  Vector3 velocity(int body, const Vector3& p_W) const;  // of the link's point now at p_W
+  Vector3 velocity(int body, const Vector3& p_W) const;  // of the link's point currently at p_W
 
  private:
   friend void forward_kinematics(const Model<double>&, const State<double>&, Kinematics&);
@@ -32,13 +32,13 @@ struct Kinematics {
   struct Column {
     Vector3 w, v;
   };
-  std::vector<Column> columns_;  // the same in world axes: contacts ask for them many times
+  std::vector<Column> columns_;  // columns of the motion subspaces in world axes, by velocity
 };
 
-// Fills all of k, in O(n).
+// Computes all fields of k, O(n).
 void forward_kinematics(const Model<double>& model, const State<double>& x, Kinematics& k);
 
-// d(velocity of the link's point now at p_W) / d qd, world axes, 3 x nv.
+// d(velocity of the link's point currently at p_W) / d qd, world axes, 3 x nv.
 Eigen::Matrix3Xd point_jacobian(const Model<double>& model, const Kinematics& k, int body,
                                 const Vector3& p_W);
 // d(angular velocity of the link) / d qd, world axes, 3 x nv.
@@ -55,8 +55,8 @@ inline Matrix3 to_eigen(const Mat3<double>& A) {
       .finished();
 }
 
-// Calls f(velocity index, angular part, linear part at the joint's origin, that origin) for every
-// degree of freedom between the base and the body; all in world axes. Allocates nothing.
+// Calls f(velocity index, angular part, linear part at the joint's origin, joint's origin) for each
+// degree of freedom between the base and the body; world axes. Allocates nothing.
 template <class F>
 void for_each_dof_below(const Model<double>& model, const Kinematics& k, int body, F&& f) {
   for (int b = body; b > 0; b = model.parent[static_cast<std::size_t>(b)]) {

@@ -17,7 +17,7 @@ Vec3<double> to_vec3(const Vector3& v) {
 Mat3<double> to_mat3(const Matrix3& R) {
   return {to_vec3(R.row(0)), to_vec3(R.row(1)), to_vec3(R.row(2))};
 }
-// Pluecker transform of the coordinates in A into those in B, from the pose of B in A.
+// Pluecker transform B_X_A from the pose of B in A.
 Transform<double> to_transform(const Pose& X_AB) {
   return {to_mat3(X_AB.R.transpose()), to_vec3(X_AB.p)};
 }
@@ -35,7 +35,7 @@ void check_inertia(const std::string& where, const BodyInertia& body, Diagnostic
                "model.not-finite");
   else if (body.mass < 0)
     faults.add(where, "mass is " + short_number_text(body.mass) + " kg, must not be negative",
-               "give the link its mass", "model.negative");
+               "give a mass of at least 0 kg", "model.negative");
 }
 void check_properties(const std::string& joint, const JointProperties& p, DiagnosticList& faults) {
   for (const auto& [what, value] : {std::pair{"armature", p.armature},
@@ -47,7 +47,7 @@ void check_properties(const std::string& joint, const JointProperties& p, Diagno
                  std::string(what) + " is " + short_number_text(value) + ", must not be negative",
                  "give zero or a positive number", "model.negative");
   if (!std::isfinite(p.pitch))
-    faults.add(joint_called(joint), "its pitch is not a finite number", "", "model.not-finite");
+    faults.add(joint_called(joint), "pitch is not a finite number", "", "model.not-finite");
 }
 
 Inertia<double> about_origin(const BodyInertia& body, const Matrix3& R_BL) {
@@ -57,24 +57,24 @@ Inertia<double> about_origin(const BodyInertia& body, const Matrix3& R_BL) {
   return {body.mass, to_vec3(body.mass * c), symmetric_part_of(to_mat3(I))};
 }
 
-// The inertia that each dof feels (of D: ancestors locked, descendants free), the largest of three
-// postures, so that one that is singular by chance does not count; 0 where it is nothing but
-// rounding.
-std::vector<double> felt_inertia_by_dof(const Model<double>& model) {
+// By velocity: joint-space articulated inertia D (its L D L^T pivots), maximum over three
+// configurations to exclude accidental singularity; 0 if it is only rounding of the composite
+// inertia.
+std::vector<double> articulated_inertia_by_dof(const Model<double>& model) {
   Workspace<double> w(model);
   const Forces<double> none(model);
   State<double> x(model);
   std::vector<double> largest(model.nv, 0);
-  for (int posture = 0; posture < 3; ++posture) {
+  for (int configuration = 0; configuration < 3; ++configuration) {
     for (std::size_t i = 1; i < model.parent.size(); ++i)
       visit_joint(model, i, [&](auto joint) {
-        std::vector<double> shift(joint.nv);
+        std::vector<double> delta(joint.nv);
         for (std::size_t k = 0; k < joint.nv; ++k)
-          shift[k] = std::sin(1.0 + static_cast<double>(3 * i + k) + posture);
-        if (joint.nv > 0) joint.integrate(&x.q[model.iq[i]], shift.data(), &x.q[model.iq[i]]);
+          delta[k] = std::sin(1.0 + static_cast<double>(3 * i + k) + configuration);
+        if (joint.nv > 0) joint.integrate(&x.q[model.iq[i]], delta.data(), &x.q[model.iq[i]]);
       });
     aba(model, x, none, w);
-    w.Ic = model.I;  // becomes what crba() makes of it, without all of M
+    w.Ic = model.I;  // composite inertias as in crba()
     for (std::size_t i = model.parent.size(); i-- > 1;) {
       for (std::size_t k = 0; k < model.dofs(i); ++k) {
         const std::size_t dof = model.iv[i] + k;
@@ -88,30 +88,28 @@ std::vector<double> felt_inertia_by_dof(const Model<double>& model) {
   return largest;
 }
 
-// Every dof must feel some. One that does not spoils the numbers of its ancestors: from the tips
-// on, what is found is told, and mended in a copy, until nothing is found.
-void check_felt_inertia(const Model<double>& model, DiagnosticList& faults) {
-  Model<double> mended = model;
-  std::vector<bool> told(model.parent.size());
+// D must be positive. A zero D makes the numbers of all ancestors invalid: errors are reported from
+// the tips, armature is added there in a copy of the model, and the check is repeated.
+void check_articulated_inertia(const Model<double>& model, DiagnosticList& faults) {
+  Model<double> repaired = model;
+  std::vector<bool> reported(model.parent.size());
   for (bool found = true; found && !faults.is_full();) {
     found = false;
-    const std::vector<double> felt = felt_inertia_by_dof(mended);
-    std::vector<bool> spoilt(model.parent.size());
+    const std::vector<double> inertia = articulated_inertia_by_dof(repaired);
+    std::vector<bool> invalid(model.parent.size());
     for (std::size_t i = model.parent.size(); i-- > 1;) {
-      const auto first = felt.begin() + static_cast<std::ptrdiff_t>(model.iv[i]),
+      const auto first = inertia.begin() + static_cast<std::ptrdiff_t>(model.iv[i]),
                  last = first + static_cast<std::ptrdiff_t>(model.dofs(i));
-      const bool lacks = std::any_of(first, last, [](double inertia) { return !(inertia > 0); });
-      if (lacks && !spoilt[i] && !told[i]) {
-        faults.add(joint_called(model.joint_name[i]),
-                   "what it moves has no inertia in its direction, so that no acceleration can be "
-                   "computed",
-                   "give link '" + model.body_name[i] +
-                       "' or a link beyond it mass and inertia, or the joint an armature",
+      const bool zero = std::any_of(first, last, [](double d) { return !(d > 0); });
+      if (zero && !invalid[i] && !reported[i]) {
+        faults.add(joint_called(model.joint_name[i]), "articulated inertia along the joint is zero",
+                   "add mass and inertia to link '" + model.body_name[i] +
+                       "' or a descendant, or armature to the joint",
                    "model.no-inertia");
-        for (std::size_t k = 0; k < model.dofs(i); ++k) mended.armature[model.iv[i] + k] = 1;
-        told[i] = found = true;
+        for (std::size_t k = 0; k < model.dofs(i); ++k) repaired.armature[model.iv[i] + k] = 1;
+        reported[i] = found = true;
       }
-      if (lacks || spoilt[i]) spoilt[static_cast<std::size_t>(model.parent[i])] = true;
+      if (zero || invalid[i]) invalid[static_cast<std::size_t>(model.parent[i])] = true;
     }
   }
 }
@@ -137,24 +135,26 @@ void ModelBuilder::add_mimic(const std::string& follower, const std::string& lea
   mimics_.push_back({follower, leader, ratio, offset});
 }
 
-void ModelBuilder::check(const Body& body, int index, Names& taken, DiagnosticList& faults) {
+void ModelBuilder::check(const Body& body, int index, Names& names, DiagnosticList& faults) {
   const std::string where = link_called(body.name);
   if (body.parent < 0 || body.parent >= index)
-    faults.add(where, "its parent is not a body that was added before it", "", "model.parent");
-  if (!taken.links.insert(body.name).second)
-    faults.add(where, "the name is taken already", "give each link its own name",
-               "model.name-taken");
-  if (!taken.joints.insert(body.joint_name).second)
-    faults.add(joint_called(body.joint_name), "the name is taken already",
+    faults.add(where,
+               "parent index is " + std::to_string(body.parent) + ", must be 0 to " +
+                   std::to_string(index - 1),
+               "add the parent first", "model.parent");
+  if (!names.links.insert(body.name).second)
+    faults.add(where, "duplicate link name", "give each link its own name", "model.name-taken");
+  if (!names.joints.insert(body.joint_name).second)
+    faults.add(joint_called(body.joint_name), "duplicate joint name",
                "give each joint its own name", "model.name-taken");
   if (has_axis(body.type) && !is_direction(body.axis))
-    faults.add(joint_called(body.joint_name), "its axis has no direction",
-               "give an axis that is not zero", "model.axis-zero");
+    faults.add(joint_called(body.joint_name), "axis is zero or not finite",
+               "give a finite axis that is not zero", "model.axis-zero");
   check_inertia(where, body.inertia, faults);
   check_properties(body.joint_name, body.properties, faults);
 }
 
-// Of a body with faults, too, so that the indices of those after it are right.
+// Also appends bodies with errors, so that the indices of later bodies are correct.
 void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Matrix3>& R_LB) {
   const bool known_parent = body.parent >= 0 && body.parent < model.body_count();
   const Matrix3 R_PlPb = R_LB[static_cast<std::size_t>(known_parent ? body.parent : 0)];
@@ -200,9 +200,9 @@ Model<double> ModelBuilder::build() const {
   model.turn = {Mat3<double>::identity()};
   std::vector<Matrix3> R_LB = {Matrix3::Identity()};
 
-  Names taken;
+  Names names;
   for (const Body& body : bodies_) {
-    check(body, model.body_count(), taken, faults);
+    check(body, model.body_count(), names, faults);
     append(body, model, R_LB);
   }
   faults.check();
@@ -210,7 +210,7 @@ Model<double> ModelBuilder::build() const {
   for (int i = 1; i < model.body_count(); ++i)
     model.last_child[static_cast<std::size_t>(model.parent[static_cast<std::size_t>(i)])] = i;
   add_mimics_to(model, faults);
-  check_felt_inertia(model, faults);
+  check_articulated_inertia(model, faults);
   faults.check();
   return model;
 }
@@ -228,15 +228,16 @@ void ModelBuilder::add_mimics_to(Model<double>& model, DiagnosticList& faults) c
   };
   for (MimicByName mimic : mimics_) {
     std::size_t hops = 0;
-    while (hops <= mimics_.size() && leader_of(mimic)) ++hops;  // to the leader that follows nobody
+    while (hops <= mimics_.size() && leader_of(mimic)) ++hops;  // to the independent joint
     if (hops > mimics_.size())
-      return faults.add(joint_called(mimic.follower), "it follows itself", "break the circle",
-                        "model.mimic-loop");
+      return faults.add(joint_called(mimic.follower), "its chain of mimic joints is cyclic",
+                        "remove one mimic of the cycle", "model.mimic-loop");
     const int f = model.find_joint(mimic.follower), l = model.find_joint(mimic.leader);
     const auto fi = static_cast<std::size_t>(f), li = static_cast<std::size_t>(l);
     if (f < 0 || l < 0 || model.dofs(fi) != 1 || model.dofs(li) != 1)
       faults.add(joint_called(mimic.follower),
-                 "it follows joint '" + mimic.leader + "', and both must exist and have one dof",
+                 "mimics joint '" + mimic.leader +
+                     "'; both joints must exist and have one degree of freedom",
                  "name a revolute, prismatic or screw joint", "model.mimic");
     else
       model.mimics.push_back(

@@ -1,4 +1,4 @@
-// Makes a Model: adds bodies one by one, a parent before its children, and checks everything.
+// Builds and checks a Model: bodies are added one by one, parents before children.
 #pragma once
 
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace twinarm {
 
-// Mass, centre of mass and rotational inertia about it, in link axes, SI. Taken as it is: an
-// inertia that no body has (A + B < C) is the importer's to warn of.
+// Mass, centre of mass and rotational inertia about it, link axes, SI units. The importer, not the
+// builder, warns of inertias that violate the triangle inequality.
 struct BodyInertia {
   double mass = 0;
   Vector3 com = Vector3::Zero();
   Matrix3 inertia = Matrix3::Zero();
 };
 
-// Of every dof of a joint.
+// The same values for every degree of freedom of a joint.
 struct JointProperties {
   double pitch = 0;                            // of a screw [m/rad]
   double armature = 0;                         // [kg m^2, kg]
@@ -27,28 +27,27 @@ struct JointProperties {
   double coulomb_plus = 0, coulomb_minus = 0;  // [N m, N]
 };
 
-// Fault::where of what build() finds: who knows files and lines looks for it by these.
+// Diagnostic::where of the errors of build(); readers map it to file and line.
 std::string link_called(const std::string& name);
 std::string joint_called(const std::string& name);
 
 class ModelBuilder {
  public:
-  // Places joint `joint_name` at X_PJ in the parent's link frame; at the joint's identity the new
-  // link's frame coincides with it. `axis` in link axes, any length but zero: of revolute,
-  // prismatic, screw and cylindrical joints; the normal of a planar joint, whose x is the link's x
-  // turned by the shortest rotation that takes z to the axis; the first axis of a universal joint,
-  // whose second is y turned likewise. Unused by the others. Returns the body's index.
+  // X_PJ: pose of the joint frame in the parent's link frame; at the joint's identity the new link
+  // frame coincides with it. `axis`, link axes, nonzero: axis of a revolute, prismatic, screw or
+  // cylindrical joint; normal of a planar joint, whose x is the link's x under the shortest
+  // rotation from z to the axis; first axis of a universal joint, whose second is y under that
+  // rotation. Other joints ignore it. Returns the body's index.
   int add_body(const std::string& body_name, int parent, const std::string& joint_name,
                JointType type, const Pose& X_PJ, const Vector3& axis, const BodyInertia& inertia,
                const JointProperties& properties = {});
-  // The follower's joint keeps q = ratio * (leader's q) + offset; both have one dof. The leader may
-  // itself follow: what the model gets is resolved to the first leader.
+  // q of `follower` = ratio * (q of `leader`) + offset; both joints have one degree of freedom.
+  // Chains of mimic joints are resolved: the model refers to the independent joint.
   void add_mimic(const std::string& follower, const std::string& leader, double ratio,
                  double offset);
   void set_gravity(const Vector3& g_W) { gravity_ = g_W; }
 
-  // Throws ONE InputError that lists all faults; among them joints about which the bodies that they
-  // move have no inertia, for which there is no acceleration.
+  // Throws one InputError with all errors, including joints with zero articulated inertia.
   Model<double> build() const;
 
  private:
@@ -68,7 +67,7 @@ class ModelBuilder {
   struct Names {
     std::unordered_set<std::string> links, joints;
   };
-  static void check(const Body& body, int index, Names& taken, DiagnosticList& faults);
+  static void check(const Body& body, int index, Names& names, DiagnosticList& faults);
   static void append(const Body& body, Model<double>& model, std::vector<Matrix3>& R_LB);
   void add_mimics_to(Model<double>& model, DiagnosticList& faults) const;
 

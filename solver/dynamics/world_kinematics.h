@@ -1,10 +1,9 @@
-// What an observer in the world sees of the bodies: points, velocities, classical accelerations,
-// Jacobians, momentum, energy. Any scalar.
+// Kinematics in world axes: points, velocities, classical accelerations, Jacobians, momentum,
+// energy. Any scalar.
 //
 // All functions read a workspace after kinematics() at the same state (X0, Xup, v, c, S_); those of
 // accelerations also after aba() or rnea() (a). Points are given in body axes from the body's
-// origin; results stand in world axes. Spatial quantities at the world's origin are (angular;
-// linear).
+// origin; results are in world axes. Spatial quantities are (angular; linear).
 #pragma once
 
 #include <vector>
@@ -30,8 +29,8 @@ Vec3<S> point_velocity(const Workspace<S>& w, std::size_t body, const Vec3<S>& r
   return to_world(w, body, plus_cross(w.v[body].v, w.v[body].w, r_B));
 }
 
-// d^2 p/dt^2 of a point whose body has spatial velocity v and spatial acceleration a (without the
-// fictitious -g), RBDA section 2.10:  a_v + w x (v + w x r) + alpha x r.
+// d^2 p/dt^2 of a point, from spatial velocity v and spatial acceleration a of its body (without
+// the fictitious -a_g), RBDA section 2.10:  a_v + w x (v + w x r) + alpha x r.
 template <class S>
 Vec3<S> classical_acceleration(const Motion<S>& v, const Motion<S>& a, const Vec3<S>& r) {
   const Vec3<S> rate = plus_cross(v.v, v.w, r);
@@ -53,8 +52,7 @@ Vec3<S> angular_acceleration(const Workspace<S>& w, std::size_t body) {
   return to_world(w, body, w.a[body].w);
 }
 
-// Writes columns J[0 .. nv): (angular velocity of the body; velocity of its point) per unit of each
-// velocity. Velocities that do not move the body get zero.
+// Columns J[0 .. nv): d(angular velocity of the body; velocity of its point) / d qd.
 template <class S>
 void jacobian(const Model<S>& model, const Workspace<S>& w, std::size_t body, const Vec3<S>& r_B,
               std::vector<Motion<S>>& J) {
@@ -62,21 +60,9 @@ void jacobian(const Model<S>& model, const Workspace<S>& w, std::size_t body, co
   for (Motion<S>& column : J) column = {};
   for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i]))
     for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof) {
-      const Vec3<S> turn = to_world(w, i, w.S_[dof].w), shift = to_world(w, i, w.S_[dof].v);
-      J[dof] = {turn, plus_cross(shift, turn, p - w.X0[i].r)};
+      const Vec3<S> angular = to_world(w, i, w.S_[dof].w), linear = to_world(w, i, w.S_[dof].v);
+      J[dof] = {angular, plus_cross(linear, angular, p - w.X0[i].r)};
     }
-}
-// J-dot qd: (angular; classical linear) acceleration of the body's point at qdd = 0.
-template <class S>
-Motion<S> jacobian_rate_times_qd(const Model<S>& model, const Workspace<S>& w, std::size_t body,
-                                 const Vec3<S>& r_B) {
-  Motion<S> a;  // sum of the c of the bodies below, each brought to this body
-  Transform<S> X;
-  for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i])) {
-    a += X * w.c[i];
-    X = X * w.Xup[i];
-  }
-  return {to_world(w, body, a.w), to_world(w, body, classical_acceleration(w.v[body], a, r_B))};
 }
 
 // ---- the whole mechanism ----
@@ -84,7 +70,7 @@ Motion<S> jacobian_rate_times_qd(const Model<S>& model, const Workspace<S>& w, s
 template <class S>
 struct MassAndCom {
   S mass{};
-  Vec3<S> com;  // world axes [m]; zero for a mechanism without mass
+  Vec3<S> com;  // world axes [m]; zero if the total mass is zero
 };
 template <class S>
 MassAndCom<S> mass_and_com(const Model<S>& model, const Workspace<S>& w) {
@@ -97,8 +83,8 @@ MassAndCom<S> mass_and_com(const Model<S>& model, const Workspace<S>& w) {
   if (is_nonzero(all.mass)) all.com = (S(1) / all.mass) * first_moment;
   return all;
 }
-// (angular momentum about the world's origin; linear momentum). Rotors (armature) have none: their
-// axes are not in the model.
+// (angular momentum about the world's origin; linear momentum), without rotors (armature): the
+// model does not contain their axes.
 template <class S>
 Force<S> momentum(const Model<S>& model, const Workspace<S>& w) {
   Force<S> sum;
@@ -106,7 +92,7 @@ Force<S> momentum(const Model<S>& model, const Workspace<S>& w) {
     sum += transpose_times(w.X0[i], model.I[i] * w.v[i]);
   return sum;
 }
-// Of the bodies and of the rotors [J].
+// Kinetic energy of bodies and rotors [J].
 template <class S>
 S kinetic_energy(const Model<S>& model, const State<S>& x, const Workspace<S>& w) {
   S twice(0);
@@ -115,7 +101,7 @@ S kinetic_energy(const Model<S>& model, const State<S>& x, const Workspace<S>& w
   for (std::size_t k = 0; k < model.nv; ++k) twice = twice + model.armature[k] * x.qd[k] * x.qd[k];
   return S(0.5) * twice;
 }
-// In the field of gravity, 0 at the world's origin [J].
+// Potential energy of gravity, 0 at the world's origin [J].
 template <class S>
 S potential_energy(const Model<S>& model, const Workspace<S>& w) {
   S sum(0);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace twinarm {
 
@@ -16,7 +17,7 @@ double BoxLcp::result(std::size_t i, double& size) const {
   return v;
 }
 
-// f of the rows inside so that their v' is zero, the others at their bounds.
+// Solves for f of the inside rows with v' = 0; f of the others is at its bound.
 void BoxLcp::solve_inside() {
   inside_.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -52,9 +53,9 @@ bool BoxLcp::contradicts(std::size_t i, At& better) const {
 bool BoxLcp::solve() noexcept {
   for (Row& row : rows) row.at = At::inside;
   std::size_t fewest = rows.size() + 1;
-  int patience = 3;
-  const std::size_t most = 20 + 10 * rows.size();
-  for (std::size_t pivot = 0; pivot < most; ++pivot) {
+  int block_pivots_left = 3;
+  const std::size_t max_pivots = 20 + 10 * rows.size();
+  for (std::size_t pivot = 0; pivot < max_pivots; ++pivot) {
     solve_inside();
     std::size_t count = 0, last = 0;
     At better;
@@ -64,10 +65,10 @@ bool BoxLcp::solve() noexcept {
       for (Row& row : rows) row.f = std::clamp(row.f, row.low, row.high);
       return true;
     }
-    patience = count < fewest ? 3 : patience - 1;
+    block_pivots_left = count < fewest ? 3 : block_pivots_left - 1;
     fewest = std::min(fewest, count);
-    const bool block = patience > 0;
-    // Whether a row contradicts depends on f alone, which an exchange leaves as it is.
+    const bool block = block_pivots_left > 0;
+    // contradicts() depends on f, which an exchange of `at` does not change.
     for (std::size_t i = block ? 0 : last; i <= last; ++i)
       if (contradicts(i, better)) rows[i].at = better;
   }
@@ -96,32 +97,32 @@ bool BoxLcp::solve_by_gauss_seidel() noexcept {
 CoulombFriction::CoulombFriction(const Model<double>& model) {
   std::vector<std::size_t> leader(model.nv);
   std::vector<double> ratio(model.nv, 1);
-  for (std::size_t d = 0; d < model.nv; ++d) leader[d] = d;
+  std::iota(leader.begin(), leader.end(), 0);
   for (const Mimic& m : model.mimics) {
     leader[m.follower] = m.leader;
     ratio[m.follower] = m.ratio;
   }
   for (std::size_t l = 0; l < model.nv; ++l) {
-    MimicGroup family{l, 0, 0, members_.size(), 0};
+    MimicGroup group{l, 0, 0, members_.size(), 0};
     for (std::size_t d = 0; d < model.nv; ++d) {
       if (leader[d] != l || ratio[d] == 0) continue;
       const double r = ratio[d];
       const double against_plus = r > 0 ? -model.coulomb_plus[d] : model.coulomb_minus[d];
       const double against_minus = r > 0 ? model.coulomb_minus[d] : -model.coulomb_plus[d];
       members_.push_back({d, against_plus, against_minus});
-      family.plus -= r * against_plus;
-      family.minus += r * against_minus;
+      group.plus -= r * against_plus;
+      group.minus += r * against_minus;
     }
-    family.count = members_.size() - family.first;
-    if (family.plus > 0 || family.minus > 0)
-      families_.push_back(family);
+    group.count = members_.size() - group.first;
+    if (group.plus > 0 || group.minus > 0)
+      groups_.push_back(group);
     else
-      members_.resize(family.first);
+      members_.resize(group.first);
   }
 }
 
-void CoulombFriction::distribute(std::size_t family, double f, std::vector<double>& tau) const {
-  const MimicGroup& of = families_[family];
+void CoulombFriction::distribute(std::size_t group, double f, std::vector<double>& tau) const {
+  const MimicGroup& of = groups_[group];
   const double limit = f < 0 ? of.plus : of.minus;
   if (f == 0 || limit == 0) return;
   const double part = std::abs(f) / limit;

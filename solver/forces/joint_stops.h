@@ -1,5 +1,5 @@
-// End stops of one-dof joints: where a joint passes a limit, a stiff spring-damper on its
-// coordinate pushes it back. Implicit (an armature), so it is stable at any stiffness.
+// Compliant end stops of joints with one degree of freedom: a spring-damper on the coordinate acts
+// beyond the limit. Implicit (h b + h^2 k added to the armature): stable at any stiffness.
 #pragma once
 
 #include <string>
@@ -8,20 +8,21 @@
 
 #include "solver/forces/spring_source.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 
 class JointStops final : public SpringSource {
  public:
   struct Stop {
-    int body = 0;  // that the joint carries
+    int body = 0;  // child of the joint
     double lower = 0, upper = 0;
-    double k = 0, b = 0;  // at the stop [N m/rad, N m s/rad], or [N/m, N s/m] for a prismatic joint
+    double k = 0, b = 0;  // [N m/rad, N m s/rad; N/m, N s/m]
 
-    // How far the limit lies from a coordinate that has passed it; 0 between the limits.
+    // Limit minus q beyond the limit; 0 between the limits.
     double way_back(double q) const { return q < lower ? lower - q : q > upper ? upper - q : 0; }
   };
-  // Throws InputError for gains below zero and joints that have not one degree of freedom.
+  // Throws InputError for negative gains and joints without exactly one degree of freedom.
   JointStops(const std::string& name, const Model<double>& model, std::vector<Stop> stops)
       : model_(model), stops_(std::move(stops)) {
     readings_.resize(stops_.size());
@@ -29,11 +30,16 @@ class JointStops final : public SpringSource {
     for (const Stop& stop : stops_) {
       const std::string where = "coupling '" + name + "'";
       if (!(stop.k >= 0 && stop.b >= 0))
-        faults.add(where, "a gain of a stop is negative", "give gains of at least 0",
-                   "coupling.gain");
+        faults.add(where,
+                   "stop has k = " + short_number_text(stop.k) +
+                       ", b = " + short_number_text(stop.b) + ", must not be negative",
+                   "give gains of at least 0", "coupling.gain");
       const auto i = static_cast<std::size_t>(stop.body);
       if (stop.body <= 0 || stop.body >= model.body_count())
-        faults.add(where, "it names no moving link", "name a link of the robot", "coupling.link");
+        faults.add(where,
+                   "link index of a stop is " + std::to_string(stop.body) + ", of 1 to " +
+                       std::to_string(model.body_count() - 1),
+                   "name a link of the robot", "coupling.link");
       else if (model.dofs(i) != 1)
         faults.add(
             where + ", joint '" + model.joint_name[i] + "'",

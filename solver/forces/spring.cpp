@@ -10,14 +10,14 @@ std::size_t at(int body) {
 Vec3<double> in_body_axes(const Kinematics& k, int body, const Vector3& x_W) {
   return from_eigen(k.R_WB[at(body)].transpose() * x_W);
 }
-// From the body's origin to p_W, in body axes.
+// p_W from the body's origin, body axes.
 Vec3<double> arm(const Kinematics& k, int body, const Vector3& p_W) {
   return in_body_axes(k, body, p_W - k.X_WL[at(body)].p);
 }
-void add_weightless(const Kinematics& k, int body, const ArticulatedInertia<double>& inertia,
-                    Forces<double>& forces) {
+void add_inertia(const Kinematics& k, int body, const ArticulatedInertia<double>& inertia,
+                 Forces<double>& forces) {
   forces.add_impedance(at(body), inertia);
-  forces.f_ext[at(body)] += inertia * k.a_bias[at(body)];  // hand back what acts at qdd = 0
+  forces.f_ext[at(body)] += inertia * k.a_bias[at(body)];  // cancels inertia * a_bias
 }
 
 }  // namespace
@@ -34,19 +34,19 @@ void add_couple(const Kinematics& k, int body, const Vector3& n_W, Forces<double
 
 void add_particle(const Kinematics& k, int body, const Vector3& p_W, double mass,
                   Forces<double>& forces) {
-  add_weightless(k, body, ArticulatedInertia<double>(particle_inertia(mass, arm(k, body, p_W))),
-                 forces);
+  add_inertia(k, body, ArticulatedInertia<double>(particle_inertia(mass, arm(k, body, p_W))),
+              forces);
 }
 
 void add_particle_along(const Kinematics& k, int body, const Vector3& p_W, const Vector3& n_W,
                         double mass, Forces<double>& forces) {
   const Vec3<double> n = in_body_axes(k, body, n_W);
   const Force<double> line{cross(arm(k, body, p_W), n), n};
-  add_weightless(k, body, outer(mass * line, line), forces);
+  add_inertia(k, body, outer(mass * line, line), forces);
 }
 
 void add_flywheel(const Kinematics& k, int body, double inertia, Forces<double>& forces) {
-  add_weightless(k, body, {Sym3<double>::scaled_identity(inertia), {}, {}}, forces);
+  add_inertia(k, body, {Sym3<double>::scaled_identity(inertia), {}, {}}, forces);
 }
 
 Vector3 point_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body,

@@ -1,20 +1,20 @@
-// Forces at points of links, and the weightless inertias that make a spring-damper implicit.
+// Forces at points of links, and the added inertia of implicit spring-dampers.
 //
 // A spring-damper at a point p of a link, target x_K', v_K' at the END of the step. With
 //   v' = J(q) (qd + h qdd)   and   x' = x + h v'
 // the force at the end of the step is
 //   F = k (x_K' - x') + b (v_K' - v')
 //     = k (x_K' - x - h v) + b (v_K' - v)  -  m* J qdd,      m* = h b + h^2 k.
-// So an implicit spring-damper is an explicit force plus a weightless particle of mass m* bolted on
-// at p: its inertia is added to IA of that link and to nothing else. ABA multiplies that inertia by
-// the whole acceleration a = a_bias + J qdd, so the part that it would feel at qdd = 0 (a_bias:
-// velocity products, and gravity as a_0 = -g) is handed back as an explicit force; only -m* J qdd
-// remains. No matrix is assembled, ABA stays O(n).
+// An implicit spring-damper is therefore an explicit force plus a particle of added mass m* at p,
+// whose inertia is added to IA of the link only. ABA multiplies this inertia by the whole
+// acceleration a = a_bias + J qdd; its product with a_bias (velocity products, and gravity as
+// a_0 = -a_g) is added to f_ext, so that only -m* J qdd remains. No matrix is assembled, ABA stays
+// O(n).
 //
-// The same for a couple on a link's orientation: m* 1 on the rotational block, a flywheel. For a
-// couple on a joint angle: m* is an armature of that joint (Forces::armature).
+// A couple on a link's orientation adds m* 1 to the rotational block (flywheel), a couple on a
+// joint angle adds m* to Forces::armature.
 //
-// Points and forces are in world coordinates and axes.
+// Points and forces are in world axes.
 #pragma once
 
 #include "solver/dynamics/kinematics.h"
@@ -22,7 +22,7 @@
 
 namespace twinarm {
 
-// Of a particle at r from the body's origin, body axes.
+// Inertia of a particle at r from the body's origin, body axes.
 inline Inertia<double> particle_inertia(double mass, const Vec3<double>& r) {
   return {
       mass,
@@ -35,16 +35,16 @@ void add_point_force(const Kinematics& k, int body, const Vector3& p_W, const Ve
                      Forces<double>& forces);
 void add_couple(const Kinematics& k, int body, const Vector3& n_W, Forces<double>& forces);
 
-// The weightless particle m* [kg] at p, in all directions, or along the unit vector n_W only.
+// Added mass m* [kg] at p, in all directions or along the unit vector n_W only.
 void add_particle(const Kinematics& k, int body, const Vector3& p_W, double mass,
                   Forces<double>& forces);
 void add_particle_along(const Kinematics& k, int body, const Vector3& p_W, const Vector3& n_W,
                         double mass, Forces<double>& forces);
-// The weightless isotropic flywheel m* [kg m^2].
+// Added isotropic rotational inertia m* [kg m^2].
 void add_flywheel(const Kinematics& k, int body, double inertia, Forces<double>& forces);
 
-// J qdd of the link's point at p_W, from the accelerations that ABA left in the workspace [m/s^2]:
-// h times it is how the velocity changes over the step.
+// J qdd of the link's point at p_W, from w.a of aba() [m/s^2]; h J qdd is the point's change of
+// velocity in the step.
 Vector3 point_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body,
                                   const Vector3& p_W);
 

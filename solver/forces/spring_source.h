@@ -1,5 +1,5 @@
-// A source of spring forces: couplings of two robots, and stops. What its springs pulled with at
-// the last evaluation can be read, put aside and written down.
+// Base of force sources made of springs: couplings and joint stops. Provides the forces of the last
+// evaluation, and their serialization.
 #pragma once
 
 #include <vector>
@@ -10,26 +10,23 @@
 
 namespace twinarm {
 
-// A spring's pull on the robot D that moves, towards its target K, at the last evaluation: for
-// plots and pictures.
+// Force of a spring on the robot (D) towards its target (K) at the last evaluation.
 struct SpringState {
-  Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();  // ends in the KVR and the DVR, world [m]
-  Vector3 pull = Vector3::Zero();  // force [N] or couple [N m] on the DVR, world axes
-  double size = 0;                 // |pull|; of a joint spring the torque, or force, with its sign
-  double m_star = 0;  // over a step the pull lessens by m* times the acceleration of the measured
-                      // quantity: the weightless inertia [kg, kg m^2]
+  Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();  // ends at target and robot, world [m]
+  Vector3 pull = Vector3::Zero();  // force [N] or couple [N m] on the robot, world axes
+  double size = 0;                 // |pull|; of a joint spring the signed joint force
+  double m_star = 0;               // added inertia [kg, kg m^2]
 };
 
 class SpringSource : public ForceSource, public Checkpointable {
  public:
-  // By spring. In six dimensions the forces of all springs, and then the couples of all.
+  // By spring. In six dimensions the forces of all springs, then the couples of all.
   const std::vector<SpringState>& readings() const { return readings_; }
-  // The pulls, which may be held over many steps; more where a law overrides it.
-  void serialize(StateArchive& memory) override {
+  // Spring forces may be held over several steps. Overridden by laws with more state.
+  void serialize(StateArchive& archive) override {
     for (SpringState& reading : readings_) {
-      for (Vector3* v : {&reading.p_K, &reading.p_D, &reading.pull}) memory.visit(*v);
-      memory.visit(reading.size);
-      memory.visit(reading.m_star);
+      for (Vector3* v : {&reading.p_K, &reading.p_D, &reading.pull}) archive.visit(*v);
+      archive.visit(reading.size), archive.visit(reading.m_star);
     }
   }
 

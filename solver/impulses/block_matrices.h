@@ -1,7 +1,6 @@
-// Products with the blocks of impulse_problem.h. A contact has three rows and a free body six
-// velocities; where the compiler knows both numbers, it unrolls the loops and needs half the time
-// or less, and of a contact of a robot at least the rows. All other shapes run through the same
-// text with numbers that are known at run time; sums are taken in the same order.
+// Products with the blocks of impulse_problem.h. Compile-time sizes (3 rows of a contact, 6
+// velocities of a free body) let the compiler unroll loops, which halves the time. Other shapes use
+// run-time sizes with the same order of summation.
 #pragma once
 
 #include <cmath>
@@ -9,7 +8,7 @@
 
 namespace twinarm {
 
-// f(n), with n a constant where it is that of a free body.
+// f(n), n a compile-time constant for a free body.
 template <class F>
 void with_size(int n, F&& f) {
   if (n == 6)
@@ -18,7 +17,7 @@ void with_size(int n, F&& f) {
     f(n);
 }
 
-// f(rows, n), constants: the rows of a contact, and the velocities of a free body.
+// f(rows, n), with compile-time constants for a contact and a free body.
 template <class F>
 void with_shape(int rows, int n, F&& f) {
   constexpr std::integral_constant<int, 3> three;
@@ -30,7 +29,7 @@ void with_shape(int rows, int n, F&& f) {
     f(rows, n);
 }
 
-// f(rows, m, n): likewise, where both are free bodies.
+// f(rows, m, n), likewise for two free bodies.
 template <class F>
 void with_shapes(int rows, int m, int n, F&& f) {
   constexpr std::integral_constant<int, 3> three;
@@ -42,7 +41,7 @@ void with_shapes(int rows, int m, int n, F&& f) {
     f(rows, m, n);
 }
 
-// D J, where D is the upper left of a 3 x 3 matrix, of `left` rows.
+// out = D J, D the leading left x rows block of a 3 x 3 matrix.
 template <class Left, class Rows, class N>
 inline void product(const double* __restrict D, Left left, const double* __restrict J, Rows rows,
                     N n, double* __restrict out) {
@@ -54,8 +53,7 @@ inline void product(const double* __restrict D, Left left, const double* __restr
     }
 }
 
-// The first width(r) entries of row r of A^T B, of each r < m, are added to what is at to(r).
-// A is rows x m, B is rows x n.
+// to(r)[0 .. width(r)) += row r of A^T B for r < m; A is rows x m, B is rows x n.
 template <class Rows, class M, class N, class To, class Width>
 inline void add_product_rows(const double* __restrict A, M m, const double* __restrict B, N n,
                              Rows rows, To&& to, Width&& width) {
@@ -90,7 +88,7 @@ inline void add_transposed_product(const double* __restrict J, Rows rows, N n, c
   }
 }
 
-// b to (L L^T)^-1 b, with 1 / l_rr on the diagonal.
+// b := (L L^T)^-1 b, with 1 / l_rr on the diagonal of L.
 template <class N>
 inline void solve_cholesky(const double* __restrict L, N n, double* __restrict b) {
   for (int r = 0; r < n; ++r) {
@@ -103,7 +101,7 @@ inline void solve_cholesky(const double* __restrict L, N n, double* __restrict b
   }
 }
 
-// L of the symmetric A, with 1 / l_rr on the diagonal.
+// Cholesky factor L of A, with 1 / l_rr on the diagonal.
 template <class N>
 inline void cholesky(const double* __restrict A, N n, double* __restrict L) {
   for (int r = 0; r < n; ++r)

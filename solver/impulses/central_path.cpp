@@ -1,22 +1,20 @@
-// The last resort of impulse_solver.h: the central path of interior_point.cpp is followed from a
-// problem that has one solution to the exact law, round all of its turns.
+// Last stage of impulse_solver.h: homotopy along the central path of interior_point.cpp, from a
+// convex problem with a unique solution to the exact law, with path following around turning
+// points.
 //
 //   x o z = s e,    z = T (u + l mu |u_t|_s e_n),    p = T x,    l = max(0, 1 - s/s0),
 //   |u_t|_s^2 = |u_t|^2 + (r s/s0)^2
 //
-// with r the velocities at stake: the corner that |u_t| has at rest is rounded, the less the
-// smaller s.
-// At s = s0 nothing is lifted: that is a convex problem. From there the solutions form a curve that
-// leads to s = 0, where l = 1, if contacts can part at all (Jv + b within K* for some v; then all
-// on it is bounded, which is also what Acary, Cadoux, Lemarechal and Malick 2011 ask for). On its
-// way s may have to grow again, where Newton's method with falling s has nowhere to go. So s is an
-// unknown too (Allgower and Georg 2003, chapters 2 and 6):
-//   predictor  along the tangent dw/ds, towards sign(ds) = -sign(det), which is the same all along
-//              the curve, by a length of at most 1 as a part of x and z;
-//   corrector  Newton's method on the plane across the tangent; if it does not come near soon,
-//   back,
-//              and less far.
-// Lengths are measured in Nesterov and Todd's scaling. Twenty to three hundred factorisations.
+// r: a velocity scale that smooths the kink of |u_t| at u_t = 0; vanishes with s.
+// At s = s0 the de Saxce shift is zero: a convex problem. From there the solutions form a curve to
+// s = 0, where l = 1, if the contacts can separate (J v + b in K* for some v; the curve is then
+// bounded; the same condition as in Acary, Cadoux, Lemarechal and Malick 2011). s can increase
+// along the curve, so it is an unknown too (Allgower and Georg 2003, chapters 2 and 6):
+//   predictor  along the tangent dw/ds with sign(ds) = -sign(det), constant along the curve; length
+//              at most 1 relative to x and z
+//   corrector  Newton's method in the plane normal to the tangent; without fast convergence back to
+//              the last point with a shorter predictor
+// Lengths are measured in the Nesterov-Todd scaling. Cost: 20 to 300 factorisations.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -27,10 +25,11 @@
 namespace twinarm {
 namespace {
 
-constexpr int max_steps = 1500, max_corrections = 5, max_starting = 60;
-constexpr double near = 0.1, slow = 0.7, shorter = 0.3, longest = 0.95, shortest = 1e-6;
-constexpr double sharp = 1e-3;  // a turn by more than 90 degrees within that length is one
-constexpr double boundary = 0.95;
+constexpr int kMaxSteps = 1500, kMaxCorrections = 5, kMaxStartSteps = 60;
+constexpr double kNear = 0.1, kSlow = 0.7, kShorten = 0.3, kMaxLength = 0.95, kMinLength = 1e-6;
+constexpr double kSharpTurn =
+    1e-3;  // below this length, turns of more than 90 degrees are accepted
+constexpr double kToBoundary = 0.95;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // W^-1 x
@@ -41,14 +40,14 @@ ConeVec divided(const ConeScaling& s, const ConeVec& x) {
 
 }  // namespace
 
-struct ImpulseSolver::Path {
+struct ImpulseSolver::CentralPath {
   ImpulseSolver& of;
   ImpulseProblem& problem;
   const Island& island;
   double s0, s = s0, length = 0.3;
   double size = infinity;  // of the last correction
   int corrections = 0;     // since the last predictor
-  enum class At { start, corrected, predicted, back } at = At::start;
+  enum class At { start, predicted, back } at = At::start;
 
   template <class F>
   void for_each_cone(F&& f) const {
@@ -61,8 +60,8 @@ struct ImpulseSolver::Path {
         f(problem.first(t) + k);
   }
 
-  // Of W dz and W^-1 dx of two directions, over those of z and x.
-  double inner(const Turn& a, const Turn& b) const {
+  // Inner product of W dz and W^-1 dx of two directions, relative to those of z and x.
+  double inner(const Direction& a, const Direction& b) const {
     double sum = a.s * b.s;
     for_each_cone([&](int i) {
       const ConeScaling& w = of.scaling_[i];
@@ -72,18 +71,18 @@ struct ImpulseSolver::Path {
     });
     return sum;
   }
-  double largest(const Turn& a) const {
-    double most = a.s * a.s;
+  double largest(const Direction& a) const {
+    double max = a.s * a.s;
     for_each_cone([&](int i) {
       const ConeScaling& w = of.scaling_[i];
       const ConeVec z = times(w.W, a.z[i]), x = divided(w, a.x[i]);
       const double here = std::max(cone_dot(z, z), cone_dot(x, x)) / cone_dot(w.t, w.t);
-      most = here <= most ? most : here;  // keeps what is not a number
+      max = here <= max ? max : here;  // propagates NaN
     });
-    return std::sqrt(most);
+    return std::sqrt(max);
   }
   // a = f a + g b
-  void mix(Turn& a, double f, double g, const Turn& b) const {
+  void mix(Direction& a, double f, double g, const Direction& b) const {
     for_each_cone([&](int i) {
       for (std::size_t r = 0; r < 3; ++r) {
         a.x[i][r] = f * a.x[i][r] + g * b.x[i][r];
@@ -93,16 +92,16 @@ struct ImpulseSolver::Path {
     for_each_velocity([&](std::size_t k) { a.v[k] = f * a.v[k] + g * b.v[k]; });
     a.s = f * a.s + g * b.s;
   }
-  // How much of a direction, at most all, leaves x, z and s positive.
-  double room(const Turn& a) const {
-    double farthest = a.s < 0 ? -1 / a.s : infinity;
+  // Maximum step, at most 1, with x and z in their cones and s positive.
+  double max_step(const Direction& a) const {
+    double limit = a.s < 0 ? -1 / a.s : infinity;
     for_each_cone([&](int i) {
-      farthest = std::min({farthest, cone_step(of.x_[i], a.x[i]), cone_step(of.z_[i], a.z[i])});
+      limit = std::min({limit, cone_step(of.x_[i], a.x[i]), cone_step(of.z_[i], a.z[i])});
     });
-    return std::min(1.0, boundary * farthest);
+    return std::min(1.0, kToBoundary * limit);
   }
-  void go(const Turn& a) {
-    const double step = room(a);
+  void advance(const Direction& a) {
+    const double step = max_step(a);
     for_each_cone([&](int i) {
       for (std::size_t r = 0; r < 3; ++r)
         of.x_[i][r] += step * a.x[i][r], of.z_[i][r] += step * a.z[i][r];
@@ -112,20 +111,20 @@ struct ImpulseSolver::Path {
   }
 
   void find_directions();
-  void predict(bool again);
+  void predict(bool repeated);
   void restore();
   bool step();
 };
 
-// correction_: to the curve, s held. tangent_: along it, for ds = s.
-void ImpulseSolver::Path::find_directions() {
+// correction_: towards the curve at constant s. tangent_: along the curve, for ds = s.
+void ImpulseSolver::CentralPath::find_directions() {
   of.assemble(problem, island, false);
   of.matrix_.factorise(false);
-  const auto take = [&](Turn& out, double change) {
+  const auto take = [&](Direction& out, double change) {
     std::swap(out.x, of.dx_), std::swap(out.z, of.dz_), std::swap(out.v, of.dv_);
     out.s = change;
   };
-  of.direct_centrally(problem, island, s, false);
+  of.ipm_direction(problem, island, s, false);
   take(of.correction_, 0);
   const double rise = s < s0 ? s / s0 : 0;  // -dl for ds = s
   for_each_cone([&](int i) {
@@ -134,96 +133,97 @@ void ImpulseSolver::Path::find_directions() {
     if (!is_contact(problem.constraints()[i])) return;
     for (int k = i; k >= 0; k = of.next_disc_[k]) {
       const ConeTerms& terms = of.terms_[k];
-      const double corner = of.rounded_ * terms.corner;
-      const double from_s = terms.slip > 0 ? corner * corner / terms.slip : 0;
-      of.d_z_[i][0] += terms.arm * (of.shift_part_ * from_s - rise * terms.slip);
+      const double kink = of.smoothing_ * terms.kink;
+      const double from_s = terms.slip > 0 ? kink * kink / terms.slip : 0;
+      of.d_z_[i][0] += terms.arm * (of.shift_factor_ * from_s - rise * terms.slip);
     }
   });
-  of.solve_centrally(problem, island, of.d_z_, 0);
+  of.ipm_solve_kkt(problem, island, of.d_z_, 0);
   take(of.tangent_, 1);
 }
 
-// From a point of the curve, which is kept, along its tangent; what is left of the correction is
-// done at once.
-void ImpulseSolver::Path::predict(bool again) {
-  const double way = -of.matrix_.determinant_sign() / largest(of.tangent_);
-  if (!again) {
-    if (corrections == 0 && at != At::start) length = std::min(longest, 2 * length);
+// Saves the point, unless repeated, and advances along the tangent, combined with the remaining
+// correction.
+void ImpulseSolver::CentralPath::predict(bool repeated) {
+  const double scale = -of.matrix_.determinant_sign() / largest(of.tangent_);
+  if (!repeated) {
+    if (corrections == 0 && at != At::start) length = std::min(kMaxLength, 2 * length);
     for_each_cone([&](int i) { of.saved_.x[i] = of.x_[i], of.saved_.z[i] = of.z_[i]; });
     for_each_velocity([&](std::size_t k) { of.saved_.v[k] = problem.v(0)[k]; });
     of.saved_.s = s;
   }
-  mix(of.tangent_, way, 0, of.tangent_);
+  mix(of.tangent_, scale, 0, of.tangent_);
   std::swap(of.last_, of.tangent_);
-  mix(of.correction_, 1, length * room(of.last_), of.last_);
-  go(of.correction_);
+  mix(of.correction_, 1, length * max_step(of.last_), of.last_);
+  advance(of.correction_);
   corrections = 0, size = infinity, at = At::predicted;
 }
 
-void ImpulseSolver::Path::restore() {
+void ImpulseSolver::CentralPath::restore() {
   for_each_cone([&](int i) { of.x_[i] = of.saved_.x[i], of.z_[i] = of.saved_.z[i]; });
   for_each_velocity([&](std::size_t k) { problem.v(0)[k] = of.saved_.v[k]; });
   s = of.saved_.s;
-  length *= shorter;
+  length *= kShorten;
   at = At::back;
 }
 
-// One correction, or one prediction where that is small. False if there is nowhere to go.
-bool ImpulseSolver::Path::step() {
+// One corrector step, or a predictor if the correction is small. False if the path cannot be
+// followed.
+bool ImpulseSolver::CentralPath::step() {
   find_directions();
-  Turn &correction = of.correction_, &tangent = of.tangent_;
-  if (at == At::start) {  // to the curve, s held
-    const double left = largest(correction);
-    if (left <= near)
+  Direction &correction = of.correction_, &tangent = of.tangent_;
+  if (at == At::start) {  // towards the curve at constant s
+    const double error = largest(correction);
+    if (error <= kNear)
       predict(false);
     else
-      go(correction);
-    return left < infinity;
+      advance(correction);
+    return error < infinity;
   }
-  const Turn& across = at == At::back ? tangent : of.last_;
-  mix(correction, 1, -inner(correction, across) / inner(tangent, across), tangent);
+  const Direction& normal = at == At::back ? tangent : of.last_;
+  mix(correction, 1, -inner(correction, normal) / inner(tangent, normal), tangent);
   if (at == At::back) {
     predict(true);
-    return length > shortest;
+    return length > kMinLength;
   }
   const double before = size;
   size = largest(correction);
   const int sign = -of.matrix_.determinant_sign();
-  if (size <= near && (length < sharp || sign * inner(tangent, of.last_) > 0))
+  if (size <= kNear && (length < kSharpTurn || sign * inner(tangent, of.last_) > 0))
     predict(false);
-  else if (size > near && size < slow * before && corrections < max_corrections)
-    ++corrections, go(correction);
+  else if (size > kNear && size < kSlow * before && corrections < kMaxCorrections)
+    ++corrections, advance(correction);
   else
     restore();
-  return length > shortest;
+  return length > kMinLength;
 }
 
-// Another curve for each `which`. p of the constraints is the best that was met. Returns the steps.
-int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, int which) {
-  const double s0 = begin_centrally(problem, island, which);
-  for (Turn* turn : {&correction_, &tangent_, &last_, &saved_}) {
-    turn->v.resize(problem.nv());
-    turn->x.resize(x_.size()), turn->z.resize(x_.size());
+// A different curve for each `start`. Sets p to the best point on it. Returns the number of steps.
+int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, int start) {
+  const double s0 = ipm_initialize(problem, island, start);
+  for (Direction* direction : {&correction_, &tangent_, &last_, &saved_}) {
+    direction->v.resize(problem.nv());
+    direction->x.resize(x_.size()), direction->z.resize(x_.size());
   }
   d_z_.resize(x_.size());
-  Path path{*this, problem, island, s0};
+  CentralPath path{*this, problem, island, s0};
   double best = infinity;
   int steps = 0;
-  for (; s0 > 0 && steps < max_steps; ++steps) {
-    shift_part_ = std::max(0.0, 1 - path.s / s0);
-    rounded_ = path.s / s0;
+  for (; s0 > 0 && steps < kMaxSteps; ++steps) {
+    shift_factor_ = std::max(0.0, 1 - path.s / s0);
+    smoothing_ = path.s / s0;
     double residual = 0;
-    const bool inside = measure_centrally(problem, island, residual) > 0 && residual < 1e100;
+    const bool inside = ipm_evaluate(problem, island, residual) > 0 && residual < 1e100;
     if (inside && residual < best) {
       best = residual;
       for (const int i : island.constraints) kept_[i] = p_[i];
     }
-    if (path.at == Path::At::start && steps > max_starting) break;
+    if (path.at == CentralPath::At::start && steps > kMaxStartSteps) break;
     if (residual <= 0.5 * accepted || path.s > 2 * s0) break;
     if (inside) {
       if (!path.step()) break;
     } else {
-      if (path.at == Path::At::start) break;
+      if (path.at == CentralPath::At::start) break;
       path.restore();
     }
   }

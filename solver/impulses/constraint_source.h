@@ -1,13 +1,13 @@
-// The plug for everything that constrains velocities by impulses: contacts, joint limits, locks.
+// Interface of sources of velocity constraints that act by impulses: contacts, joint limits, locks.
 //
-// A step of h asks each source, in this order (constrained_step.h):
-//   begin_step      once, with the kinematics at its start: find contacts, measure gaps
-//   closes          before impacts: does anything hit within this step, at these velocities?
-//   extend_detection    when velocities have jumped
-//   add, take       Phase::impact, as often as something closes; Phase::step once;
-//                   Phase::separate if one of them needs_position_correction
-// A step that locates its events in time asks its events() for more: event_source.h.
-// None of them may throw or allocate once warm.
+// A step calls, in this order (constrained_step.h):
+//   begin_step           once, with the kinematics at its start: contact detection, gaps
+//   has_closing_contact  before each impact, with the current velocities
+//   extend_detection     after a velocity jump
+//   add, take            Phase::impact, while contacts close; Phase::step once;
+//                        Phase::separate if any source needs_position_correction()
+// Event-driven steps also use events(): event_source.h.
+// None of them may throw, or allocate after the first steps.
 #pragma once
 
 #include "solver/dynamics/kinematics.h"
@@ -17,24 +17,24 @@
 namespace twinarm {
 
 enum class Phase {
-  impact,    // velocities jump: v0 are those before
-  step,      // v0 are those at the end of the step without the impulses
-  separate,  // v0 = 0, and v is a small motion [m, rad]: what penetrates is pushed apart
-  // of event_driven_step.h alone:
-  hit,  // as impact, of what touches now
-  flow  // as step, of what is held; no gap may close
+  impact,    // velocity jump; v0: velocities before
+  step,      // v0: velocities at the end of the step without impulses
+  separate,  // position correction: v0 = 0, v is a small displacement [m, rad]
+  // event_driven_step.h only:
+  hit,  // as impact, for closed gaps only
+  flow  // as step, for the active set only
 };
 
 struct ConstraintFrame {
   const Kinematics& k;  // at the start of the step
   const KinematicTrees& trees;
-  const State<double>& x;  // q at the start, qd before this phase
+  const State<double>& x;  // q at the start of the step, qd before this phase
   Phase phase;
   double h;  // [s]
-  // impact, by tree: as if every restitution of what touches it were 0
+  // impact, by tree: restitution 0 for all contacts of the tree
   const std::vector<char>* plastic = nullptr;
   const double* v = nullptr;  // velocities of x, in the order of the trees
-  // impact: accelerations that go on until the gap is closed, in the order of the trees
+  // impact: accelerations until the gap is closed, in the order of the trees
   const double* acceleration = nullptr;
 
   bool is_plastic(const ImpulseConstraint& c) const {
@@ -52,16 +52,16 @@ class ConstraintSource {
   virtual ~ConstraintSource() = default;
   virtual void begin_step(const Kinematics&, const State<double>&, double /*h*/) noexcept {}
   virtual bool has_closing_contact(const ConstraintFrame&) noexcept { return false; }
-  // Velocities have jumped to those of k: what is met now and was not before comes in, with a gap.
-  // True where there is something new.
+  // After a velocity jump to the velocities of k: adds contacts that can now be reached. True if
+  // there are new ones.
   virtual bool extend_detection(const Kinematics&, double /*h*/) noexcept { return false; }
   virtual bool needs_position_correction() const noexcept { return false; }
-  // Adds its constraints, with the last impulses as a guess.
+  // Adds constraints, with the last impulses as initial guess.
   virtual void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept = 0;
-  // The solution for them: the same constraints, from index `first` on.
+  // Reads the solution of the same constraints, from index `first` on.
   virtual void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
                     std::size_t first) noexcept = 0;
-  virtual EventSource* events() { return nullptr; }  // null: they cannot be located in time
+  virtual EventSource* events() { return nullptr; }  // null: no event location
 };
 
 }  // namespace twinarm

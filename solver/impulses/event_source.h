@@ -1,9 +1,9 @@
-// What the event-located steps (event_driven_step.h) ask of contacts and limits, beyond
-// constraint_source.h.
+// Interface of constraint sources whose events are located in time (event_driven_step.h), in
+// addition to constraint_source.h.
 //
-// A piece of the motion begins where something has hit, opened, begun to slide or come to rest.
-// What touches at its start is *held*: it may not close, and what slides or sticks does so
-// throughout. Everything else is free, until the first gap closes.
+// The *active set* (`held`) of a smooth segment are the contacts and limits that are closed at its
+// start: they may not close further, and keep sliding or sticking. All others are inactive until
+// the first gap closes.
 #pragma once
 
 #include <algorithm>
@@ -18,47 +18,45 @@ namespace twinarm {
 class EventSource {
  public:
   virtual ~EventSource() = default;
-  // Gaps up to this are closed, so that rest does not chase rounding [m]; what opens or closes
-  // slower than this rests [m/s]. Angles of joints likewise.
+  // Gaps up to kClosed [m, rad] count as closed; velocities up to kRest [m/s, rad/s] as rest.
   static constexpr double kClosed = 1e-9, kRest = 1e-7;
-  // Slower than this what is held neither slides nor opens [m/s].
+  // Active constraints below this velocity neither slide nor separate [m/s].
   static constexpr double kMoves = 1e-8;
-  // Gaps of what is held go by this rate, so that what integration leaves does not add up [1/s].
+  // Rate at which gaps of the active set decay (Baumgarte), against integration drift [1/s].
   static constexpr double kGapRate = 100;
 
-  // After begin_step at the start of a piece: holds what touches, and what was held before and did
-  // not open, unless something has hit meanwhile.
-  virtual void hold(const ConstraintFrame& frame, bool struck) noexcept = 0;
-  // Back to the start of the piece, as hold() left it; the next begin_step follows from there.
+  // After begin_step at the start of a segment: the active set are closed gaps, and without an
+  // `impact` also the previous active set except separating members.
+  virtual void hold(const ConstraintFrame& frame, bool impact) noexcept = 0;
+  // Restores the active set of the start of the segment.
   virtual void restore_active_set() noexcept = 0;
 
-  // Of what is not held.
+  // Over the inactive gaps.
   struct NextEvent {
-    double gap = std::numeric_limits<double>::infinity();   // the least [m], negative: beyond
-    double time = std::numeric_limits<double>::infinity();  // the least, at the present speeds [s]
-    bool has_closing_contact = true;  // the one with the least gap comes nearer
+    double gap = std::numeric_limits<double>::infinity();   // minimum [m]; negative: penetration
+    double time = std::numeric_limits<double>::infinity();  // minimum at current velocities [s]
+    bool has_closing_contact = true;                        // the minimum gap is closing
 
-    // One more gap [m], which opens at `rate` [m/s].
+    // Includes a gap [m] with d gap/dt = rate [m/s].
     void see(double gap_now, double rate) {
-      const bool comes = rate < -kRest;
-      if (comes) time = std::min(time, std::max(0.0, gap_now) / -rate);
-      if ((comes || gap_now < -10 * kClosed) && gap_now < gap)
-        gap = gap_now, has_closing_contact = comes;
+      const bool closing = rate < -kRest;
+      if (closing) time = std::min(time, std::max(0.0, gap_now) / -rate);
+      if ((closing || gap_now < -10 * kClosed) && gap_now < gap)
+        gap = gap_now, has_closing_contact = closing;
     }
   };
   virtual void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept = 0;
 
-  // After a solution in Phase::flow: what each held one does, appended. They agree all through a
-  // smooth piece. What slides at its start, but then stands or slides the other way, turns: that is
-  // never smooth.
+  // After a solution in Phase::flow: appends the mode of each active constraint: sticking, sliding,
+  // separating, or reversing (sliding at the start, then stopped or reversed). Constant in a smooth
+  // segment; reversing is never smooth.
   enum Mode : char { rests, slides, opens, turns };
   virtual void modes(std::vector<char>& modes) const noexcept = 0;
 
-  // Work since restore_active_set() of each held one, some numbers each, for the stepper to
-  // extrapolate [J].
+  // Work integrals of the active constraints since restore_active_set(), extrapolated by the
+  // stepper [J].
   virtual std::span<double> works() noexcept = 0;
-  // The piece is done: works() are right now.
-  virtual void commit_work() noexcept = 0;
+  virtual void commit_work() noexcept = 0;  // adds works() at the end of the segment
 };
 
 }  // namespace twinarm

@@ -1,12 +1,12 @@
-// The laws of impulse_problem.h as maps from velocities to impulses, for Newton's method.
+// Constraint laws of impulse_problem.h as projections, for the semismooth Newton method.
 //
-// For a set K of impulses (a half-line, an interval, a disc, Coulomb's cone) the law says
-//   p = P_K(p - rho ut)   for any rho > 0,    ut = u + (mu |u_t|, 0, 0) for the cone, u otherwise:
-// P_K is the projection, and mu |u_t| makes the law Coulomb's own (de Saxce and Feng 1998): without
-// it a sliding contact would lift. With the multiplier l and the shift s = mu |u_t| of the round
-// before, the response is
-//   p(u) = P_K(l - rho (u + s e_n)),       -dp/du = rho P_K'   (symmetric, not negative),
-// the gradient of a convex function of u; at a fixed point in l and s, p obeys the law.
+// For a convex set K of impulses (half-line, interval, disc, friction cone) the law is
+//   p = P_K(p - rho ut)   for any rho > 0,   ut = u + (mu |u_t|, 0, 0) for the cone, else u.
+// P_K is the projection on K, mu |u_t| the de Saxce shift (de Saxce and Feng 1998), which makes the
+// law exact Coulomb friction; without it sliding contacts would separate. With multiplier l and
+// shift s of the last augmented-Lagrangian iteration,
+//   p(u) = P_K(l - rho (u + s e_n)),       -dp/du = rho P_K'   (symmetric positive semidefinite),
+// the gradient of a convex function of u. At a fixed point in l and s, p satisfies the law.
 #pragma once
 
 #include <array>
@@ -16,38 +16,38 @@
 
 namespace twinarm {
 
-// What the rounds before have left for one constraint.
+// Augmented-Lagrangian state of one constraint.
 struct MultiplierState {
-  double rho = 0;             // [kg], or [kg m^2]
+  double rho = 0;             // penalty [kg, kg m^2]
   std::array<double, 3> l{};  // multiplier [N s]
-  double shift = 0;           // s of a cone, where it is held [m/s]
-  double radius = 0;          // of a disc, or of a compliant contact's friction [N s]
+  double shift = 0;           // de Saxce shift s, if frozen [m/s]
+  double radius = 0;          // friction bound of a disc or of a compliant contact [N s]
 };
 
 using Vec = std::array<double, 3>;
-using Mat = std::array<double, 9>;  // row by row
+using Mat = std::array<double, 9>;  // row-major
 
-// p(u), u with b, and D = -dp/du. Shift held: the gradient of a convex function, D symmetric.
-// Followed: s = mu |u_t| at this u, and in D.
+// p(u), u including b, and D = -dp/du. Frozen shift: gradient of a convex function, D symmetric.
+// Differentiated: s = mu |u_t| at this u, with its derivative in D.
 enum class DeSaxceShift { frozen, differentiated };
-void respond(const ImpulseConstraint& c, const MultiplierState& memory, DeSaxceShift shift,
-             const Vec& u, Vec& p, Mat& D);
-// Shift held: p(u) alone.
-Vec answer(const ImpulseConstraint& c, const MultiplierState& memory, const Vec& u);
+void project_impulse(const ImpulseConstraint& c, const MultiplierState& state, DeSaxceShift shift,
+                     const Vec& u, Vec& p, Mat& D);
+// Frozen shift: p(u) only.
+Vec project_impulse(const ImpulseConstraint& c, const MultiplierState& state, const Vec& u);
 
-// Where p(u) of a disc is at its edge, the direction of p there; 0 within.
-Vec sliding_direction(const ImpulseConstraint& c, const MultiplierState& memory, const Vec& u);
+// Direction of p(u) of a disc if it is on the boundary; 0 in the interior.
+Vec sliding_direction(const ImpulseConstraint& c, const MultiplierState& state, const Vec& u);
 
-// How far p is from obeying the law at u, with the same for rho = 1/g: |p - P_K(p - rho ut)| / rho
-// [m/s]; of a compliant contact p less what its springs and bristles give, over rho and stiffness.
-double law_residual(const ImpulseConstraint& c, const MultiplierState& memory, double rho,
+// Residual of the law at u: |p - P_K(p - rho ut)| / rho [m/s]. Compliant contact: difference of p
+// to the force law, over rho plus stiffness.
+double law_residual(const ImpulseConstraint& c, const MultiplierState& state, double rho,
                     const Vec& u, const Vec& p);
 
-// mu |u_t| of a cone, 0 of others.
-double shift_of(const ImpulseConstraint& c, const Vec& u);
+// mu |u_t| of a cone, else 0.
+double de_saxce_shift(const ImpulseConstraint& c, const Vec& u);
 
-// Sets l and the bounds to those of p and u.
-void remember(const ImpulseConstraint& c, const std::vector<ImpulseConstraint>& all, const Vec& u,
-              const Vec& p, MultiplierState& memory);
+// Multiplier update: l = p, shift and friction bound from p and u.
+void update_multiplier(const ImpulseConstraint& c, const std::vector<ImpulseConstraint>& all,
+                       const Vec& u, const Vec& p, MultiplierState& state);
 
 }  // namespace twinarm

@@ -1,20 +1,22 @@
-// Solves impulse_problem.h: exact laws, whatever the number of redundant contacts.
+// Solver of impulse_problem.h: exact constraint laws, any number of redundant contacts.
 //
-// Outer rounds: the method of multipliers (Rockafellar 1976) with de Saxce's shift, which makes
-// every inner problem convex. Inner: with multipliers and shifts held,
+// Augmented Lagrangian (method of multipliers, Rockafellar 1976): with frozen multipliers and de
+// Saxce shifts, the inner problem
 //   M (v - v0) = J^T p(u(v))
-// are the conditions of min 1/2 |v - v0|_M^2 + sum_i phi_i(u_i), phi_i' = -p, which is smooth and
-// strictly convex: Newton's method with an exact line search, on matrices
+// is the optimality condition of min 1/2 |v - v0|_M^2 + sum_i phi_i(u_i), phi_i' = -p, smooth and
+// strictly convex: semismooth Newton with an exact line search on the matrices
 //   M + J^T D J,    D = -dp/du,
-// whose blocks follow the contacts between trees (as in Castro, Permenter and Han 2022, where a
-// compliance stands in place of the rounds). Redundant contacts do no harm, since M alone makes the
-// matrix positive. A round ends with Newton steps whose shift follows u, as long as they come
-// nearer. First of all the guess is tried: what has come to rest costs one check. A solution that
-// had to stop a motion is no good guess for the step after, so that one is solved too. A small
-// island that has one is first tried by newton_warm_start.cpp, and gets one more Newton step or two
-// at the end, down to rounding. Where the rounds do not end soon, interior_point.cpp finds a start
-// for them, and where that fails too, central_path.cpp; the best p of all that is tried counts.
-// Islands (trees joined by constraints) are solved one by one. Deterministic.
+// whose block pattern follows the contacts between trees (as in Castro, Permenter and Han 2022,
+// with compliance instead of multipliers). M makes them positive definite for redundant contacts
+// too. Each inner problem ends with Newton steps that differentiate the shift, while they converge.
+//
+// Per island (trees joined by constraints), in this order; the best p is kept:
+//   initial guess accepted (bodies at rest), unless the previous step had to stop a motion
+//   newton_warm_start.cpp, of small islands with a guess
+//   augmented-Lagrangian iterations from the guess
+//   interior_point.cpp as start of further iterations
+//   central_path.cpp, path following from several starts
+// Small islands are refined to rounding by Newton steps. Deterministic.
 #pragma once
 
 #include <vector>
@@ -28,29 +30,29 @@
 namespace twinarm {
 
 struct ImpulseReport {
-  int islands = 0, solved = 0;  // solved: those whose guess did not do
-  int rounds = 0, newton = 0;   // the most of any island
-  int interior = 0;             // iterations of interior_point.cpp, the most of any island
-  int path = 0;                 // steps of central_path.cpp on one path, the most of any island
-  double residual = 0;          // largest of any constraint, law_residual() [m/s, rad/s]
+  int islands = 0, solved = 0;  // solved: islands whose initial guess was not accepted
+  // Maximum over the islands:
+  int rounds = 0, newton = 0;  // augmented-Lagrangian iterations, Newton steps
+  int interior = 0;            // iterations of interior_point.cpp
+  int path = 0;                // steps of central_path.cpp on one path
+  double residual = 0;         // maximum law_residual() over the constraints [m/s, rad/s]
   bool converged = true;
 };
 
 class ImpulseSolver {
  public:
-  double good_guess = 5e-9;   // residual of a guess that will do [m/s]
-  double accepted = 5e-9;     // residual of a solution that will do [m/s]
-  double tolerance = 1e-10;   // residual that a solution aims at [m/s]
-  int quick_newton = 12;      // steps before the start of interior_point.cpp is asked for,
-  int quick_newton_few = 28;  // and of a small island, where a start costs as much as these
-  int max_newton = 400;       // steps in all
+  double good_guess = 5e-9;     // residual of an accepted initial guess [m/s]
+  double accepted = 5e-9;       // residual of an accepted solution [m/s]
+  double tolerance = 1e-10;     // target residual of the iterations [m/s]
+  int quick_newton = 12;        // Newton steps before interior_point.cpp is tried,
+  int quick_newton_small = 28;  // and of a small island
+  int max_newton = 400;         // Newton steps of further iterations
 
   // Writes v of the problem, and p and u of its constraints.
   ImpulseReport solve(ImpulseProblem& problem);
-  // Of the last solution: what is left of the laws that this tree is under [m/s].
+  // Residual of the last solution in the island of this tree [m/s].
   double residual_of(int tree) const { return residual_[static_cast<std::size_t>(tree)]; }
-  // Which guesses are not to be trusted.
-  void serialize(StateArchive& memory) { memory.visit(solve_again_); }
+  void serialize(StateArchive& archive) { archive.visit(solve_again_); }
 
  private:
   struct Island {
@@ -60,32 +62,35 @@ class ImpulseSolver {
   void factorise_trees(const ImpulseProblem& problem);
   void solve_tree(const ImpulseProblem& problem, int tree, double* f) const;
   void find_islands(const ImpulseProblem& problem);
-  double relax(ImpulseProblem& problem, const Island& island);
-  double settle(ImpulseProblem& problem, const Island& island);
+  double projected_gradient_step(ImpulseProblem& problem, const Island& island);
+  double apply_impulses(ImpulseProblem& problem, const Island& island);
   double solve_island(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
-  void run_rounds(ImpulseProblem& problem, const Island& island, int most, bool yields,
-                  ImpulseReport& report);
-  static bool is_warm(const ImpulseProblem& problem, const Island& island);
+  void run_augmented_lagrangian(ImpulseProblem& problem, const Island& island, int max_steps,
+                                bool damped, ImpulseReport& report);
+  void update_multipliers(const ImpulseProblem& problem, const Island& island);
+  void zero_forces(const ImpulseProblem& problem, const Island& island);
+  static bool has_warm_start(const ImpulseProblem& problem, const Island& island);
   double warm_start_newton(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
   double semismooth_newton_step(ImpulseProblem& problem, const Island& island, double residual);
-  double polish(ImpulseProblem& problem, const Island& island, double residual);
+  double refine_solution(ImpulseProblem& problem, const Island& island, double residual);
   void order(const ImpulseProblem& problem, const Island& island);
-  void lay_out(const ImpulseProblem& problem, const Island& island);
+  void set_envelope(const ImpulseProblem& problem, const Island& island);
   struct Gradient {
     double largest = 0, squared = 0;  // as velocities [m/s]; squared in the norm of diag(M)^-1
-    double rounding = 0, noise = 0;   // what Newton's steps end at; of this what is no error
-    double left() const { return largest <= noise ? 0 : largest; }
+    double tolerance = 0;             // ends the Newton iteration
+    double noise = 0;                 // rounding error
+    double error() const { return largest <= noise ? 0 : largest; }
   };
-  struct Round {
+  struct InnerResult {
     int steps = 0;
-    double left = 0;       // of M (v - v0) = J^T p, as a velocity [m/s]
-    bool strayed = false;  // shifts that followed did not come nearer
+    double error = 0;       // of M (v - v0) = J^T p, as a velocity [m/s]
+    bool diverged = false;  // Newton steps with differentiated shift
   };
-  Round solve_round(ImpulseProblem& problem, const Island& island, int most);
-  double noise(const ImpulseProblem& problem, const Island& island);
+  InnerResult solve_inner_problem(ImpulseProblem& problem, const Island& island, int max_steps);
+  double rounding_error(const ImpulseProblem& problem, const Island& island);
   Gradient gradient(ImpulseProblem& problem, const Island& island, DeSaxceShift shift);
-  void respond_disc(const ImpulseConstraint& c, int i);
-  Gradient balance(const ImpulseProblem& problem, const Island& island);
+  void project_disc(const ImpulseConstraint& c, int i);
+  Gradient momentum_balance(const ImpulseProblem& problem, const Island& island);
   void find_direction(const ImpulseProblem& problem, const Island& island, bool symmetric);
   void assemble(const ImpulseProblem& problem, const Island& island, bool symmetric);
   void add_products(const ImpulseProblem& problem, const ImpulseConstraint& left,
@@ -95,64 +100,64 @@ class ImpulseSolver {
   void move(ImpulseProblem& problem, const Island& island, double step);
   int interior_point_start(ImpulseProblem& problem, const Island& island);
   bool has_cone(const ImpulseProblem& problem, const ImpulseConstraint& c) const;
-  double begin_centrally(ImpulseProblem& problem, const Island& island, int which);
-  double measure_centrally(ImpulseProblem& problem, const Island& island, double& residual);
-  void measure_cone(ImpulseConstraint& c, int i);
-  void join_discs(const ImpulseProblem& problem, int contact);
-  double direct_centrally(ImpulseProblem& problem, const Island& island, double s, bool correct);
-  void solve_centrally(const ImpulseProblem& problem, const Island& island,
-                       const std::vector<ConeVec>& r, double part);
-  void hand_out_centrally(const ImpulseProblem& problem, const std::vector<ConeVec>& r);
-  std::array<double, 2> change_across(int i, double dp_n, const std::array<double, 2>& dz) const;
-  void move_centrally(ImpulseProblem& problem, const Island& island, double step);
+  double ipm_initialize(ImpulseProblem& problem, const Island& island, int start);
+  double ipm_evaluate(ImpulseProblem& problem, const Island& island, double& residual);
+  void ipm_evaluate_cone(ImpulseConstraint& c, int i);
+  void ipm_couple_discs(const ImpulseProblem& problem, int contact);
+  double ipm_direction(ImpulseProblem& problem, const Island& island, double s, bool correct);
+  void ipm_solve_kkt(const ImpulseProblem& problem, const Island& island,
+                     const std::vector<ConeVec>& r, double factor);
+  void ipm_back_substitute(const ImpulseProblem& problem, const std::vector<ConeVec>& r);
+  std::array<double, 2> tangential_dx(int i, double dp_n, const std::array<double, 2>& dz) const;
+  void ipm_update(ImpulseProblem& problem, const Island& island, double step);
   double step_length(const ImpulseProblem& problem, const Island& island);
-  struct Path;
-  int follow_path(ImpulseProblem& problem, const Island& island, int which);
+  struct CentralPath;
+  int follow_path(ImpulseProblem& problem, const Island& island, int start);
 
-  std::vector<double> factors_;          // of the blocks of M: L L^T, 1 / l_ii on the diagonal
-  std::vector<MultiplierState> memory_;  // by constraint
-  std::vector<double> rho0_;             // by constraint: 1 / J diag(M)^-1 J^T
-  std::vector<Mat> D_;                   // by constraint
+  std::vector<double> factors_;               // of the blocks of M: L L^T, 1 / l_ii on the diagonal
+  std::vector<MultiplierState> multipliers_;  // by constraint
+  std::vector<double> rho0_;                  // by constraint: 1 / J diag(M)^-1 J^T
+  std::vector<Mat> D_;                        // by constraint
   std::vector<int> next_disc_;  // by contact and disc: the next disc of this contact, or -1
-  struct Cross {                // -dp of constraint `of` / du of `by`
+  struct CouplingBlock {        // -dp of constraint `of` / du of `by`
     int of, by;
     Mat D;
   };
-  std::vector<Cross> crosses_;
-  std::vector<Vec> u_, du_, p_, guess_p_, best_p_, round_p_;  // by constraint
-  std::vector<double> f_, dv_, delta_, held_v_;               // by velocity
+  std::vector<CouplingBlock> coupling_blocks_;
+  std::vector<Vec> u_, du_, p_, guess_p_, best_p_, iterate_p_;  // by constraint
+  std::vector<double> f_, dv_, delta_, convex_v_;               // by velocity
   std::vector<Island> islands_;
   std::size_t island_count_ = 0;
   std::vector<int> root_, island_of_;  // by tree
-  std::vector<double> residual_;       // by tree, that of its island
-  std::vector<char> solve_again_;      // by tree, that of its island's first tree
-  std::vector<std::size_t> row_;       // by tree: its first row in matrix_
+  std::vector<double> residual_;       // by tree: of its island
+  std::vector<char> solve_again_;      // by first tree of an island: do not accept the next guess
+  std::vector<std::size_t> row_;       // by tree: first row in matrix_
   std::vector<int> neighbour_begin_, neighbours_, order_, lowest_;
   std::vector<double> rhs_, DJ_;
-  double rho_ratio_ = 0;  // rho / rho0 of the island that is being solved
-  double noise_ = 0;      // for rho = rho0 [m/s]
+  double rho_ratio_ = 0;       // rho / rho0 of the current island
+  double rounding_error_ = 0;  // for rho = rho0 [m/s]
   EnvelopeLu matrix_;
-  // of interior_point.cpp, by constraint
+  // interior_point.cpp, by constraint
   std::vector<int> cones_;
-  double shift_part_ = 1;  // of mu |u_t| that counts
-  double rounded_ = 0;     // the corner of |u_t| at rest, which the path rounds: a part of `corner`
+  double shift_factor_ = 1;  // homotopy: factor of the de Saxce shift mu |u_t|
+  double smoothing_ = 0;     // homotopy: smoothing of the kink of |u_t| at 0, relative to `kink`
   std::vector<ConeVec> x_, z_, dx_, dz_, d_, r_z_, right_, kept_;
   struct ConeTerms {    // ipm_equations.h
     double weight = 1;  // x o z = s weight e
-    double arm = 0, corner = 0, slip = 0, A = 0, C = 0, n = 0;
+    double arm = 0, kink = 0, slip = 0, A = 0, C = 0, n = 0;
     std::array<double, 2> h{}, l{};
-    std::array<double, 3> S{};  // its entries aa, ab, bb
+    std::array<double, 3> S{};  // entries aa, ab, bb
   };
   std::vector<ConeTerms> terms_;
   std::vector<ConeScaling> scaling_;
   std::vector<double> step_rhs_;
-  // of central_path.cpp: directions, or a place, in v, x, z and s (of which it is a part)
-  struct Turn {
+  // central_path.cpp: direction or point in v, x, z and s (directions: relative to s)
+  struct Direction {
     std::vector<double> v;
     std::vector<ConeVec> x, z;
     double s = 0;
   };
-  Turn correction_, tangent_, last_, saved_;
+  Direction correction_, tangent_, last_, saved_;
   std::vector<ConeVec> d_z_;
 };
 

@@ -1,10 +1,10 @@
-// The linear algebra of interior_point.cpp and central_path.cpp: the equations of
-// ipm_equations.h, what is left of them, and one system in the velocities,
+// Linear algebra of interior_point.cpp and central_path.cpp: residuals of the equations of
+// ipm_equations.h, and the KKT system reduced to the velocities,
 //   (M + J^T D J) dv = J^T q - (M (v - v0) - J^T p),
-// with D and q of a contact and its discs from what ipm_equations.h leaves for dp_n and dx_t:
-//   D = e (1, l + a h)^T / C + diag(0, S),    e = (1, a h).
-// It is not symmetric. What has no cone (locks, springs) follows its response (impulse_law.h), its
-// multiplier renewed each time.
+// with D and q of a contact and its discs from dp_n and dx_t of ipm_equations.h:
+//   D = e (1, l + a h)^T / C + diag(0, S),    e = (1, a h)   (not symmetric).
+// Constraints without a cone (locks, springs) use impulse_law.h with a multiplier update per
+// iteration.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,20 +15,20 @@
 namespace twinarm {
 namespace {
 
-constexpr double held_rho = 1e4;           // times rho0, of what has no cone
-constexpr double starts[] = {1, 0.1, 10};  // times the velocities that are at stake
+constexpr double kNoConeRho = 1e4;               // rho / rho0 of constraints without a cone
+constexpr double kStartScales[] = {1, 0.1, 10};  // relative to the velocity scale
 
 double dot2(const std::array<double, 2>& a, const std::array<double, 2>& b) {
   return a[0] * b[0] + a[1] * b[1];
 }
-std::array<double, 2> rows_across(const ImpulseConstraint& c, const Vec& u) {
-  const int first = first_across(c), count = across(c);
+std::array<double, 2> tangential_part(const ImpulseConstraint& c, const Vec& u) {
+  const int first = first_tangential(c), count = tangential_rows(c);
   return {count > 0 ? u[first] : 0, count > 1 ? u[first + 1] : 0};
 }
 
-// From 1/3 to 3, spread like random numbers, and the same each time (splitmix64).
-double weight_of(int which, int i) {
-  std::uint64_t bits = static_cast<std::uint64_t>(which) * 0x9e3779b97f4a7c15u +
+// Reproducible pseudorandom weight in [1/3, 3] (splitmix64).
+double weight_of(int start, int i) {
+  std::uint64_t bits = static_cast<std::uint64_t>(start) * 0x9e3779b97f4a7c15u +
                        static_cast<std::uint64_t>(i) * 0xbf58476d1ce4e5b9u;
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
   bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
@@ -36,22 +36,21 @@ double weight_of(int which, int i) {
   return std::pow(9.0, static_cast<double>(bits >> 11) * 0x1p-53 - 0.5);
 }
 
-// S into the rows across, D all else 0.
-void set_across(const ImpulseConstraint& c, const std::array<double, 3>& S, Mat& D) {
+// D: S in the tangential rows, else 0.
+void set_tangential(const ImpulseConstraint& c, const std::array<double, 3>& S, Mat& D) {
   D = {};
-  const int at = 4 * first_across(c);
-  if (across(c) > 0) D[at] = S[0];
-  if (across(c) > 1) D[at + 1] = D[at + 3] = S[1], D[at + 4] = S[2];
+  const int at = 4 * first_tangential(c);
+  if (tangential_rows(c) > 0) D[at] = S[0];
+  if (tangential_rows(c) > 1) D[at + 1] = D[at + 3] = S[1], D[at + 4] = S[2];
 }
 
-// e = (1, a h) or a h, and (1, l + a h) or l + a h, in the rows of the constraint.
+// (normal, t) of a contact, t of a disc.
 Vec in_rows(const ImpulseConstraint& c, double normal, const std::array<double, 2>& t) {
   return is_contact(c) ? Vec{normal, t[0], t[1]} : Vec{t[0], t[1], 0};
 }
 
 }  // namespace
 
-// What has a cone: discs with that of their contact.
 bool ImpulseSolver::has_cone(const ImpulseProblem& problem, const ImpulseConstraint& c) const {
   if (c.law == ConstraintType::friction_disc)
     return c.radius > 0 && is_contact(problem.constraints()[c.of]);
@@ -59,33 +58,33 @@ bool ImpulseSolver::has_cone(const ImpulseProblem& problem, const ImpulseConstra
   return is_contact(c);
 }
 
-// x and z on the axes of their cones, as large as the impulses and velocities that are at stake;
-// from the second start on these are larger or smaller, and x_0 z_0 has a weight of its own for
-// each cone. Returns x_0 z_0 of weight 1; 0 if there is none.
-double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& island, int which) {
+// x and z on the axes of their cones, scaled by impulses and velocities of the problem; later
+// starts use other scales and a weight of x_0 z_0 per cone. Returns x_0 z_0 of weight 1; 0 without
+// cones.
+double ImpulseSolver::ipm_initialize(ImpulseProblem& problem, const Island& island, int start) {
   const std::size_t count = problem.constraints().size();
   x_.resize(count), z_.resize(count), dx_.resize(count), dz_.resize(count), d_.resize(count);
   r_z_.resize(count), right_.resize(count), terms_.resize(count), scaling_.resize(count);
   kept_.resize(count);
-  rho_ratio_ = held_rho;
+  rho_ratio_ = kNoConeRho;
   for (const int t : island.trees) std::copy_n(problem.v0(t), problem.size(t), problem.v(t));
   double speed = 1e-6, impulse = 1e-9;
   cones_.clear();
   for (const int i : island.constraints) {
     ImpulseConstraint& c = problem.constraints()[i];
-    memory_[i].rho = rho_ratio_ * rho0_[i];
-    memory_[i].l = kept_[i] = c.p;
+    multipliers_[i].rho = rho_ratio_ * rho0_[i];
+    multipliers_[i].l = kept_[i] = c.p;
     x_[i] = z_[i] = dx_[i] = dz_[i] = {};
     if (!has_cone(problem, c)) continue;
     cones_.push_back(i);
-    if (c.law == ConstraintType::friction_disc) continue;  // as its contact
+    if (c.law == ConstraintType::friction_disc) continue;  // scaled with its contact
     problem.velocity(c, problem.v(0), c.u);
     for (int r = 0; r < c.rows; ++r) {
       speed = std::max(speed, std::abs(c.u[r] + c.b[r]));
       impulse = std::max(impulse, rho0_[i] * std::abs(c.u[r] + c.b[r]));
     }
   }
-  const double s0 = impulse * speed * starts[which % 3];
+  const double s0 = impulse * speed * kStartScales[start % 3];
   for (const int i : cones_) {
     const ImpulseConstraint& c = problem.constraints()[i];
     terms_[i].arm = arm_of(c);
@@ -93,59 +92,58 @@ double ImpulseSolver::begin_centrally(ImpulseProblem& problem, const Island& isl
       x_[i][0] = terms_[i].arm * x_[c.of][0] / terms_[c.of].arm;
     else
       x_[i][0] = c.law == ConstraintType::box ? 0.5 * (c.high - c.low) : impulse;
-    terms_[i].weight = which == 0 ? 1 : weight_of(which, i);
+    terms_[i].weight = start == 0 ? 1 : weight_of(start, i);
     z_[i][0] = terms_[i].weight * s0 / x_[i][0];
-    terms_[i].corner = z_[i][0];
+    terms_[i].kink = z_[i][0];
   }
   return cones_.empty() ? 0 : s0;
 }
 
-// p, u, what is left of every equation, and D. Returns the mean of x z.
-double ImpulseSolver::measure_centrally(ImpulseProblem& problem, const Island& island,
-                                        double& residual) {
+// p, u, residuals and D. Returns the mean of x . z.
+double ImpulseSolver::ipm_evaluate(ImpulseProblem& problem, const Island& island,
+                                   double& residual) {
   double sum = 0;
   residual = 0;
-  crosses_.clear();
-  for (const int t : island.trees)
-    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+  coupling_blocks_.clear();
+  zero_forces(problem, island);
   for (const int i : island.constraints) {
     ImpulseConstraint& c = problem.constraints()[i];
     problem.velocity(c, problem.v(0), c.u);
     for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
     if (c.law == ConstraintType::friction_disc)
-      memory_[i].radius = c.radius * problem.constraints()[c.of].p[0];
-    if (c.law == ConstraintType::compliant) memory_[i].radius = c.mu * c.p[0];
+      multipliers_[i].radius = c.radius * problem.constraints()[c.of].p[0];
+    if (c.law == ConstraintType::compliant) multipliers_[i].radius = c.mu * c.p[0];
     if (has_cone(problem, c)) {
       sum += cone_dot(x_[i], z_[i]);
-      measure_cone(c, i);
+      ipm_evaluate_cone(c, i);
     } else {
-      respond(c, memory_[i], DeSaxceShift::frozen, c.u, c.p, D_[i]);
-      memory_[i].l = c.p;
+      project_impulse(c, multipliers_[i], DeSaxceShift::frozen, c.u, c.p, D_[i]);
+      multipliers_[i].l = c.p;
     }
     p_[i] = c.p, u_[i] = c.u;
     problem.add_transpose(c, c.p, f_.data());
-    residual = nan_max(residual, law_residual(c, memory_[i], rho0_[i], c.u, c.p));
+    residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
   }
   for (const int i : cones_)
-    if (is_contact(problem.constraints()[i])) join_discs(problem, i);
-  residual = nan_max(residual, balance(problem, island).largest);
+    if (is_contact(problem.constraints()[i])) ipm_couple_discs(problem, i);
+  residual = nan_max(residual, momentum_balance(problem, island).largest);
   return sum / std::max<double>(1, static_cast<double>(cones_.size()));
 }
 
-// p of x, and the terms of one cone.
-void ImpulseSolver::measure_cone(ImpulseConstraint& c, int i) {
+// p from x, and the terms of one cone.
+void ImpulseSolver::ipm_evaluate_cone(ImpulseConstraint& c, int i) {
   ConeTerms& terms = terms_[i];
   const ConeVec &x = x_[i], &z = z_[i];
-  const int first = first_across(c), count = across(c);
+  const int first = first_tangential(c), count = tangential_rows(c);
   if (is_contact(c)) c.p[0] = x[0] / terms.arm;
   for (int k = 0; k < count; ++k) c.p[first + k] = x[1 + k];
   if (c.law == ConstraintType::box) c.p[0] += 0.5 * (c.low + c.high);
 
-  const auto w = rows_across(c, c.u);
-  const double corner = rounded_ * terms.corner;
-  terms.slip = count > 0 ? std::sqrt(w[0] * w[0] + w[1] * w[1] + corner * corner) : 0;
+  const auto w = tangential_part(c, c.u);
+  const double kink = smoothing_ * terms.kink;
+  terms.slip = count > 0 ? std::sqrt(w[0] * w[0] + w[1] * w[1] + kink * kink) : 0;
   terms.l = {0, 0};
-  const double part = shift_part_ * terms.arm;
+  const double part = shift_factor_ * terms.arm;
   if (terms.slip > 0) terms.l = {part * w[0] / terms.slip, part * w[1] / terms.slip};
   r_z_[i] = {0, w[0] - z[1], w[1] - z[2]};
 
@@ -154,23 +152,23 @@ void ImpulseSolver::measure_cone(ImpulseConstraint& c, int i) {
   const double eta2 = scaling.eta2, A = scaling.W2[0];
   terms.A = A;
   terms.h = {scaling.W2[3] / A, scaling.W2[6] / A};
-  // S without the difference of large numbers: eta^2 across w_t, eta^4 / A along it.
+  // S without cancellation: eta^2 normal to w_t, eta^4 / A along w_t.
   const double t2 = scaling.w[1] * scaling.w[1] + scaling.w[2] * scaling.w[2];
   const double along = eta2 * eta2 / A, more = t2 > 0 ? (eta2 - along) / t2 : 0;
   const double a = scaling.w[1], b = scaling.w[2];
   terms.S = t2 > 0 ? std::array{along + more * b * b, -more * a * b, along + more * a * a}
                    : std::array{eta2, 0.0, eta2};
-  set_across(c, terms.S, D_[i]);
+  set_tangential(c, terms.S, D_[i]);
 }
 
-// A contact and its discs: C, r_n, and D between all of them.
-void ImpulseSolver::join_discs(const ImpulseProblem& problem, int contact) {
+// Contact and its discs: C, r_n, and the blocks of D.
+void ImpulseSolver::ipm_couple_discs(const ImpulseProblem& problem, int contact) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
   double C = 0, r_n = all[contact].u[0];
   for (int k = contact; k >= 0; k = next_disc_[k]) {
     const ConeTerms& terms = terms_[k];
     C += terms.arm * terms.arm / terms.A;
-    r_n += terms.arm * (shift_part_ * terms.slip - z_[k][0]);
+    r_n += terms.arm * (shift_factor_ * terms.slip - z_[k][0]);
   }
   terms_[contact].C = C;
   r_z_[contact][0] = r_n;
@@ -179,21 +177,19 @@ void ImpulseSolver::join_discs(const ImpulseProblem& problem, int contact) {
       const ConeTerms &a = terms_[i], &b = terms_[j];
       const Vec e = in_rows(all[i], 1, {a.arm * a.h[0], a.arm * a.h[1]});
       const Vec f = in_rows(all[j], 1, {b.l[0] + b.arm * b.h[0], b.l[1] + b.arm * b.h[1]});
-      if (i != j) crosses_.push_back({i, j, {}});
-      Mat& D = i == j ? D_[i] : crosses_.back().D;
+      if (i != j) coupling_blocks_.push_back({i, j, {}});
+      Mat& D = i == j ? D_[i] : coupling_blocks_.back().D;
       for (int r = 0; r < all[i].rows; ++r)
         for (int k = 0; k < all[j].rows; ++k) D[3 * r + k] += e[r] * f[k] / C;
     }
 }
 
-// dv_, dx_ and dz_ of the linearised equations:  t o (W dz + W^-1 dx) = right_,  M dv = J^T dp -
-// part rhs_, and r for what is left of z, that of w + r = z_t across and r_n. matrix_ is
-// factorised.
-void ImpulseSolver::solve_centrally(const ImpulseProblem& problem, const Island& island,
-                                    const std::vector<ConeVec>& r, double part) {
+// Solves the linearised equations for dv_, dx_, dz_:  t o (W dz + W^-1 dx) = right_,
+// M dv = J^T dp - factor rhs_, with residuals r = (r_n, w - z_t). matrix_ must be factorised.
+void ImpulseSolver::ipm_solve_kkt(const ImpulseProblem& problem, const Island& island,
+                                  const std::vector<ConeVec>& r, double factor) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
-  for (const int t : island.trees)
-    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+  zero_forces(problem, island);
   for (const int i : cones_) {
     d_[i] = times(scaling_[i].W, jordan_solve(scaling_[i].t, right_[i]));
     terms_[i].n = 0;
@@ -206,7 +202,7 @@ void ImpulseSolver::solve_centrally(const ImpulseProblem& problem, const Island&
     for (int k = i; k >= 0; k = next_disc_[k]) terms_[k].n = sum / terms_[i].C;
   }
   for (const int i : cones_) {
-    const auto q = change_across(i, terms_[i].n, {r[i][1], r[i][2]});
+    const auto q = tangential_dx(i, terms_[i].n, {r[i][1], r[i][2]});
     problem.add_transpose(all[i], in_rows(all[i], terms_[i].n, q), f_.data());
   }
   step_rhs_.resize(rhs_.size());
@@ -216,15 +212,15 @@ void ImpulseSolver::solve_centrally(const ImpulseProblem& problem, const Island&
         f(row_[t] + k, problem.first(t) + k);
   };
   for_each_row(
-      [&](std::size_t row, std::size_t at) { step_rhs_[row] = f_[at] - part * rhs_[row]; });
+      [&](std::size_t row, std::size_t at) { step_rhs_[row] = f_[at] - factor * rhs_[row]; });
   matrix_.solve(step_rhs_.data());
   for_each_row([&](std::size_t row, std::size_t at) { dv_[at] = step_rhs_[row]; });
-  hand_out_centrally(problem, r);
+  ipm_back_substitute(problem, r);
 }
 
-// dx and dz of dv.
-void ImpulseSolver::hand_out_centrally(const ImpulseProblem& problem,
-                                       const std::vector<ConeVec>& r) {
+// dx and dz from dv.
+void ImpulseSolver::ipm_back_substitute(const ImpulseProblem& problem,
+                                        const std::vector<ConeVec>& r) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
   for (const int i : cones_) problem.velocity(all[i], dv_.data(), du_[i]);
   for (const int i : cones_) {
@@ -233,28 +229,28 @@ void ImpulseSolver::hand_out_centrally(const ImpulseProblem& problem,
     for (int k = i; k >= 0; k = next_disc_[k]) {
       const ConeTerms& terms = terms_[k];
       sum += dot2({terms.l[0] + terms.arm * terms.h[0], terms.l[1] + terms.arm * terms.h[1]},
-                  rows_across(all[k], du_[k]));
+                  tangential_part(all[k], du_[k]));
     }
     for (int k = i; k >= 0; k = next_disc_[k]) terms_[k].n -= sum / terms_[i].C;
   }
   for (const int i : cones_) {
     const ConeTerms& terms = terms_[i];
-    const auto dw = rows_across(all[i], du_[i]);
+    const auto dw = tangential_part(all[i], du_[i]);
     const std::array<double, 2> dz{dw[0] + r[i][1], dw[1] + r[i][2]};
-    const auto dx = change_across(i, terms.n, dz);
+    const auto dx = tangential_dx(i, terms.n, dz);
     dx_[i] = {terms.arm * terms.n, dx[0], dx[1]};
     dz_[i] = {(d_[i][0] - dx_[i][0]) / terms.A - dot2(terms.h, dz), dz[0], dz[1]};
   }
 }
 
 // dx_t = d_t - h (d_0 - a dp_n) - S dz_t
-std::array<double, 2> ImpulseSolver::change_across(int i, double dp_n,
+std::array<double, 2> ImpulseSolver::tangential_dx(int i, double dp_n,
                                                    const std::array<double, 2>& dz) const {
   const ConeTerms& terms = terms_[i];
   const ConeVec& d = d_[i];
-  const double left = d[0] - terms.arm * dp_n;
-  return {d[1] - terms.h[0] * left - terms.S[0] * dz[0] - terms.S[1] * dz[1],
-          d[2] - terms.h[1] * left - terms.S[1] * dz[0] - terms.S[2] * dz[1]};
+  const double rest = d[0] - terms.arm * dp_n;
+  return {d[1] - terms.h[0] * rest - terms.S[0] * dz[0] - terms.S[1] * dz[1],
+          d[2] - terms.h[1] * rest - terms.S[1] * dz[0] - terms.S[2] * dz[1]};
 }
 
 }  // namespace twinarm

@@ -1,5 +1,5 @@
-// Who touches whom, in impulse_solver.h: islands, the order of their trees in the matrix, and the
-// discs of each contact.
+// Islands of impulse_solver.h, the order of their trees in the matrix, and the discs of each
+// contact.
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -23,7 +23,7 @@ void ImpulseSolver::link_discs(const ImpulseProblem& problem) {
     }
 }
 
-// Union by constraints; islands in the order of their first tree, members ascending.
+// Union-find over the constraints; members of an island are ascending.
 void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
   const auto trees = static_cast<std::size_t>(problem.tree_count());
   root_.resize(trees);
@@ -53,13 +53,12 @@ void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
     if (const int t = c.tree[0] != world ? c.tree[0] : c.tree[1]; t != world)
       island_at(t).constraints.push_back(static_cast<int>(i));
   }
-  for (std::size_t t = 0; t < trees; ++t)  // those without a constraint move as v0
+  for (std::size_t t = 0; t < trees; ++t)  // trees without constraints keep v0
     if (const int island = island_of_[find(static_cast<int>(t))]; island >= 0)
       islands_[island].trees.push_back(static_cast<int>(t));
 }
 
-// Reverse Cuthill-McKee: a breadth-first walk from an outermost tree, back to front; it keeps the
-// rows of the matrix short.
+// Reverse Cuthill-McKee order, for a small matrix envelope.
 void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
   const auto trees = static_cast<std::size_t>(problem.tree_count());
   neighbour_begin_.assign(trees + 1, 0);
@@ -79,7 +78,7 @@ void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
       [&](int a, int b) { neighbours_[lowest_[a]++] = b, neighbours_[lowest_[b]++] = a; });
   const auto degree = [&](int t) { return neighbour_begin_[t + 1] - neighbour_begin_[t]; };
 
-  const auto walk = [&](int start) {
+  const auto breadth_first = [&](int start) {
     for (const int t : island.trees) lowest_[t] = 0;
     order_.assign(1, start), lowest_[start] = 1;
     for (std::size_t done = 0; done < order_.size(); ++done) {
@@ -90,12 +89,12 @@ void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
                 [&](int a, int b) { return std::pair(degree(a), a) < std::pair(degree(b), b); });
     }
   };
-  walk(island.trees.front());
-  walk(order_.back());  // from one end to the other
+  breadth_first(island.trees.front());
+  breadth_first(order_.back());  // from a peripheral tree
   std::reverse(order_.begin(), order_.end());
 }
 
-void ImpulseSolver::lay_out(const ImpulseProblem& problem, const Island& island) {
+void ImpulseSolver::set_envelope(const ImpulseProblem& problem, const Island& island) {
   row_.resize(static_cast<std::size_t>(problem.tree_count()));
   lowest_.resize(row_.size());
   std::size_t row = 0;

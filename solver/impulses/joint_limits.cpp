@@ -7,46 +7,47 @@
 namespace twinarm {
 namespace {
 
-constexpr double kSlop = 1e-9, kMinReach = 1e-3;  // [rad, m]
-constexpr double kSeparationPart = 0.2;           // of the rest beyond the limit, in each step
+constexpr double kTolerance = 1e-9, kMinMargin = 1e-3;  // [rad, m]
+constexpr double kCorrectionFactor = 0.2;               // of the position error, per step
 
 }  // namespace
 
 void JointLimits::add(int body, double lower, double upper) {
   if (body <= 0 || body >= model_->body_count() ||
       model_->dofs(static_cast<std::size_t>(body)) != 1)
-    throw std::invalid_argument("a position limit needs a joint of one dof");
-  if (!(lower <= upper)) throw std::invalid_argument("the lower limit lies above the upper one");
+    throw std::invalid_argument("a position limit requires a joint with one degree of freedom");
+  if (!(lower <= upper)) throw std::invalid_argument("the lower limit is above the upper limit");
   limits_.push_back({body, lower, upper});
   rows_.reserve(2 * limits_.size());
 }
 
-// Those that the joint can reach at twice its speed, or from rest at some 1e4 rad/s^2.
+// Limits within reach at twice the current speed plus an acceleration of 1e4 rad/s^2 or m/s^2.
 void JointLimits::begin_step(const Kinematics&, const State<double>& x, double h) noexcept {
   rows_.clear();
   for (std::size_t i = 0; i < limits_.size(); ++i) {
     const Limit& limit = limits_[i];
     const auto body = static_cast<std::size_t>(limit.body);
     const double q = x.q[model_->iq[body]],
-                 reach = 2 * h * std::abs(x.qd[model_->iv[body]]) + 1e4 * h * h + kMinReach;
-    if (q - limit.lower < reach) rows_.push_back({i, 1, q - limit.lower});
-    if (limit.upper - q < reach) rows_.push_back({i, -1, limit.upper - q});
+                 margin = 2 * h * std::abs(x.qd[model_->iv[body]]) + 1e4 * h * h + kMinMargin;
+    if (q - limit.lower < margin) rows_.push_back({i, 1, q - limit.lower});
+    if (limit.upper - q < margin) rows_.push_back({i, -1, limit.upper - q});
   }
 }
 
 bool JointLimits::needs_position_correction() const noexcept {
-  return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.after < -kSlop; });
+  return std::any_of(rows_.begin(), rows_.end(),
+                     [](const Row& row) { return row.after < -kTolerance; });
 }
 
 void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
   for (const Row& row : rows_) {
-    if (!takes_part(frame, row)) continue;
+    if (!is_included(frame, row)) continue;
     const std::size_t dof = model_->iv[static_cast<std::size_t>(limits_[row.limit].body)];
     ImpulseConstraint& c = problem.add(ConstraintType::unilateral, 1, frame.trees.tree_of_dof(dof),
                                        ImpulseConstraint::no_tree);
-    problem.J(c, 0)[frame.trees.place(dof)] = row.sign;
+    problem.J(c, 0)[frame.trees.index_in_tree(dof)] = row.sign;
     switch (frame.phase) {
-      case Phase::impact:  // a limit that is not reached yet is far away
+      case Phase::impact:  // inactive unless closed
         c.b[0] = row.gap > kClosed ? 1e9 : 0;
         break;
       case Phase::step:
@@ -60,7 +61,8 @@ void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noe
         c.p[0] = std::max(0.0, row.sign * limits_[row.limit].force * frame.h);
         break;
       case Phase::separate:
-        c.b[0] = row.after >= 0 ? row.after : std::min(0.0, kSeparationPart * (row.after + kSlop));
+        c.b[0] = row.after >= 0 ? row.after
+                                : std::min(0.0, kCorrectionFactor * (row.after + kTolerance));
         break;
     }
   }
@@ -73,10 +75,10 @@ void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& probl
   if (!jumps)
     for (Limit& limit : limits_) limit.force = 0;
   for (Row& row : rows_) {
-    if (!takes_part(frame, row)) continue;
+    if (!is_included(frame, row)) continue;
     const ImpulseConstraint& c = problem.constraints()[first++];
     Limit& limit = limits_[row.limit];
-    const double u = c.u[0] - c.b[0];  // away from the limit, at the end
+    const double u = c.u[0] - c.b[0];  // at the end of the step
     const double work = 0.5 * c.p[0] * (u + speed(row, frame.x));
     if (jumps) {
       limit.work += work;
@@ -95,25 +97,23 @@ void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& probl
   }
 }
 
-// ---- steps that locate their events in time (event_source.h) ----
-
-// Away from the limit.
+// Velocity away from the limit.
 double JointLimits::speed(const Row& row, const State<double>& x) const {
   return row.sign * x.qd[model_->iv[static_cast<std::size_t>(limits_[row.limit].body)]];
 }
 
-const JointLimits::Held* JointLimits::held(const Row& row) const {
-  for (const Held& h : held_)
-    if (h.limit == row.limit && h.sign == row.sign) return &h;
+const JointLimits::Active* JointLimits::find_active(const Row& row) const {
+  for (const Active& active : held_)
+    if (active.limit == row.limit && active.sign == row.sign) return &active;
   return nullptr;
 }
 
-bool JointLimits::takes_part(const ConstraintFrame& frame, const Row& row) const {
-  if (frame.phase == Phase::flow) return held(row) != nullptr;
+bool JointLimits::is_included(const ConstraintFrame& frame, const Row& row) const {
+  if (frame.phase == Phase::flow) return find_active(row) != nullptr;
   return frame.phase != Phase::hit || row.gap <= kClosed;
 }
 
-// Limits are plastic: in a step of fixed size they stop what comes in its second phase.
+// Limits are inelastic: in a step of fixed size the velocity phase enforces them.
 bool JointLimits::has_closing_contact(const ConstraintFrame& frame) noexcept {
   if (frame.phase != Phase::hit) return false;
   return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
@@ -121,12 +121,12 @@ bool JointLimits::has_closing_contact(const ConstraintFrame& frame) noexcept {
   });
 }
 
-void JointLimits::hold(const ConstraintFrame& frame, bool struck) noexcept {
+void JointLimits::hold(const ConstraintFrame& frame, bool impact) noexcept {
   held_before_.clear();
   for (const Row& row : rows_) {
-    const Held* before = held(row);
-    const bool goes_on = before && !before->opens && !struck;
-    if (goes_on || (row.gap <= kClosed && speed(row, frame.x) <= kRest))
+    const Active* before = find_active(row);
+    const bool remains = before && !before->opens && !impact;
+    if (remains || (row.gap <= kClosed && speed(row, frame.x) <= kRest))
       held_before_.push_back({row.limit, row.sign});
   }
   std::swap(held_, held_before_);
@@ -139,12 +139,12 @@ void JointLimits::restore_active_set() noexcept {
 
 void JointLimits::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
   for (const Row& row : rows_)
-    if (!held(row)) nearest.see(row.gap, speed(row, frame.x));
+    if (!find_active(row)) nearest.see(row.gap, speed(row, frame.x));
 }
 
 void JointLimits::modes(std::vector<char>& modes) const noexcept {
   for (const Row& row : rows_)
-    if (const Held* h = held(row)) modes.push_back(h->opens ? Mode::opens : Mode::rests);
+    if (const Active* a = find_active(row)) modes.push_back(a->opens ? Mode::opens : Mode::rests);
 }
 
 void JointLimits::commit_work() noexcept {

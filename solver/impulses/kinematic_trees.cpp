@@ -6,7 +6,7 @@ KinematicTrees::KinematicTrees(const Model<double>& model)
     : model_(&model),
       tree_(model.parent.size(), ImpulseConstraint::no_tree),
       tree_of_dof_(model.nv),
-      place_(model.nv),
+      index_(model.nv),
       Ic_(model.parent.size()) {
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     tree_[i] = tree_[static_cast<std::size_t>(model.parent[i])];
@@ -18,12 +18,12 @@ KinematicTrees::KinematicTrees(const Model<double>& model)
     }
     for (std::size_t dof = model.iv[i]; dof < model.iv[i] + dofs; ++dof) {
       tree_of_dof_[dof] = tree_[i];
-      place_[dof] = static_cast<std::size_t>(size_[tree_[i]]++);
+      index_[dof] = static_cast<std::size_t>(size_[tree_[i]]++);
     }
   }
 }
 
-// The composite-rigid-body algorithm, RBDA section 6.2, tree by tree.
+// Composite-rigid-body algorithm, RBDA section 6.2, per tree.
 void KinematicTrees::add_to(ImpulseProblem& problem, const Forces<double>* forces,
                             Workspace<double>& w) {
   const Model<double>& model = *model_;
@@ -43,11 +43,11 @@ void KinematicTrees::add_to(ImpulseProblem& problem, const Forces<double>* force
       Force<double> F = Ic_[i] * w.S_[dof];
       for (std::size_t j = i; j > 0; j = static_cast<std::size_t>(model.parent[j])) {
         for (std::size_t other = model.iv[j]; other < model.iv[j] + model.dofs(j); ++other)
-          M[place_[dof] * size + place_[other]] = M[place_[other] * size + place_[dof]] =
+          M[index_[dof] * size + index_[other]] = M[index_[other] * size + index_[dof]] =
               dot(w.S_[other], F);
         F = transpose_times(w.Xup[j], F);
       }
-      double& diagonal = M[place_[dof] * (size + 1)];
+      double& diagonal = M[index_[dof] * (size + 1)];
       diagonal += model.armature[dof] + (forces ? forces->armature[dof] : 0);
     }
   }
@@ -55,12 +55,12 @@ void KinematicTrees::add_to(ImpulseProblem& problem, const Forces<double>* force
 
 void KinematicTrees::gather(const std::vector<double>& qd, ImpulseProblem& problem) const {
   for (std::size_t dof = 0; dof < qd.size(); ++dof)
-    problem.v0(tree_of_dof_[dof])[place_[dof]] = qd[dof];
+    problem.v0(tree_of_dof_[dof])[index_[dof]] = qd[dof];
 }
 
 void KinematicTrees::scatter(const ImpulseProblem& problem, std::vector<double>& qd) const {
   for (std::size_t dof = 0; dof < qd.size(); ++dof)
-    qd[dof] = problem.v(tree_of_dof_[dof])[place_[dof]];
+    qd[dof] = problem.v(tree_of_dof_[dof])[index_[dof]];
 }
 
 void KinematicTrees::add_point_rows(const Kinematics& k, int body, const Vector3& p_W,
@@ -72,7 +72,7 @@ void KinematicTrees::add_point_rows(const Kinematics& k, int body, const Vector3
       *model_, k, body, [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {
         const Vector3 at_point = v + w.cross(p_W - o);
         for (int r = 0; r < count; ++r)
-          J[static_cast<std::size_t>(r) * n + place_[dof]] += sign * axes.col(r).dot(at_point);
+          J[static_cast<std::size_t>(r) * n + index_[dof]] += sign * axes.col(r).dot(at_point);
       });
 }
 
@@ -84,7 +84,7 @@ void KinematicTrees::add_turn_rows(const Kinematics& k, int body, const Matrix3&
   for_each_dof_below(
       *model_, k, body, [&](std::size_t dof, const Vector3& w, const Vector3&, const Vector3&) {
         for (int r = 0; r < count; ++r)
-          J[static_cast<std::size_t>(r) * n + place_[dof]] += sign * axes.col(r).dot(w);
+          J[static_cast<std::size_t>(r) * n + index_[dof]] += sign * axes.col(r).dot(w);
       });
 }
 

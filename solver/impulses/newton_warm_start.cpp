@@ -1,13 +1,12 @@
-// Rounds of one Newton step: where a solution is near, as from step to step of a sliding contact,
-// three to seven of them find it, and what rounding has left of one goes with one or two.
+// Newton steps with a multiplier update each: 3 to 7 from a guess close to the solution (a sliding
+// contact from step to step), 1 or 2 to refine a solution to rounding.
 //
-// Each begins with l = p of the round before and linearises p(u) of impulse_law.h, its shift
-// following, at a rho that makes it see which laws are active. A contact that pressed in the step
-// before, and whose guess presses too hard, parts: u_n > 0. A large rho would take it for one that
-// has let go,
+// Each step sets l = p and linearises p(u) of impulse_law.h, with differentiated shift, at a rho
+// large enough to identify the active set. A contact whose guess is too large gets u_n > 0; with a
+// large rho it would be projected to zero impulse,
 //   l - rho (u + mu |u_t| e_n) in the polar cone  <=  rho u_n > (1 + mu^2) l_n,
-// and the bodies would fall into one another. So its rho is small enough to leave it half of its
-// impulse; as u_n falls it rises, and from there on each round takes an error to 1/1000 of it.
+// and the bodies would penetrate. rho is therefore limited to keep half of the impulse; as u_n
+// decreases rho rises, and each step then reduces the error to 1/1000.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -17,11 +16,11 @@
 namespace twinarm {
 namespace {
 
-constexpr double near_rho = 1e3, polish_rho = 1e2;  // times rho0
-constexpr int max_near = 8, max_in_vain = 2;
+constexpr double kWarmStartRho = 1e3, kRefinementRho = 1e2;  // rho / rho0
+constexpr int kMaxWarmStartSteps = 8, kMaxFailures = 2;
 
-// The largest rho by which c, if it presses, goes on to press.
-double holding_rho(const ImpulseConstraint& c, double rho) {
+// rho, limited so that an active contact keeps an impulse.
+double limited_rho(const ImpulseConstraint& c, double rho) {
   const bool is_contact =
       c.law == ConstraintType::coulomb_cone || c.law == ConstraintType::unilateral;
   if (!is_contact || !(c.p[0] > 0) || !(c.u[0] > 0)) return rho;
@@ -30,8 +29,7 @@ double holding_rho(const ImpulseConstraint& c, double rho) {
 
 }  // namespace
 
-// With the rho that memory_ has. Returns what is left of the laws; `residual` where there is
-// nothing to do.
+// With rho of multipliers_. Returns the residual of the laws; `residual` if the gradient is zero.
 double ImpulseSolver::semismooth_newton_step(ImpulseProblem& problem, const Island& island,
                                              double residual) {
   const Gradient now = gradient(problem, island, DeSaxceShift::differentiated);
@@ -40,32 +38,31 @@ double ImpulseSolver::semismooth_newton_step(ImpulseProblem& problem, const Isla
   move(problem, island, 1);
   gradient(problem, island, DeSaxceShift::differentiated);
   for (const int i : island.constraints) problem.constraints()[i].p = p_[i];
-  return settle(problem, island);
+  return apply_impulses(problem, island);
 }
 
-// Whether the guess says anything.
-bool ImpulseSolver::is_warm(const ImpulseProblem& problem, const Island& island) {
+// Whether any contact has an impulse in the guess.
+bool ImpulseSolver::has_warm_start(const ImpulseProblem& problem, const Island& island) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
   return std::any_of(island.constraints.begin(), island.constraints.end(), [&](int i) {
     return all[i].law == ConstraintType::coulomb_cone && all[i].p[0] > 0;
   });
 }
 
-// Returns what is left of the laws; infinity where there is nothing to do.
+// Returns the residual of the laws; infinity if no step was taken.
 double ImpulseSolver::warm_start_newton(ImpulseProblem& problem, const Island& island,
                                         ImpulseReport& report) {
   const std::vector<ImpulseConstraint>& all = problem.constraints();
-  rho_ratio_ = near_rho;
+  rho_ratio_ = kWarmStartRho;
   double residual = std::numeric_limits<double>::infinity();
-  int steps = 0, in_vain = 0;
-  while (steps < max_near && in_vain < max_in_vain && residual > tolerance) {
-    for (const int i : island.constraints) {
-      remember(all[i], all, all[i].u, all[i].p, memory_[i]);
-      memory_[i].rho = holding_rho(all[i], rho_ratio_ * rho0_[i]);
-    }
+  int steps = 0, failures = 0;
+  while (steps < kMaxWarmStartSteps && failures < kMaxFailures && residual > tolerance) {
+    update_multipliers(problem, island);
+    for (const int i : island.constraints)
+      multipliers_[i].rho = limited_rho(all[i], rho_ratio_ * rho0_[i]);
     const double before = residual;
     residual = semismooth_newton_step(problem, island, residual);
-    in_vain += !(residual < 0.5 * before);
+    failures += !(residual < 0.5 * before);
     ++steps;
   }
   report.rounds = std::max(report.rounds, steps);
@@ -73,24 +70,24 @@ double ImpulseSolver::warm_start_newton(ImpulseProblem& problem, const Island& i
   return residual;
 }
 
-// From a solution to one whose digits are all right, as long as that comes nearer: with a rho that
-// is small enough for the rounding of u to do no harm.
-double ImpulseSolver::polish(ImpulseProblem& problem, const Island& island, double residual) {
-  constexpr int most = 3;
-  rho_ratio_ = polish_rho;
-  for (int k = 0; k < most && residual > 0.01 * tolerance; ++k) {
+// Refines a solution to rounding while the residual decreases; rho is small, so that rounding of u
+// has little effect.
+double ImpulseSolver::refine_solution(ImpulseProblem& problem, const Island& island,
+                                      double residual) {
+  constexpr int max_steps = 3;
+  rho_ratio_ = kRefinementRho;
+  for (int k = 0; k < max_steps && residual > 0.01 * tolerance; ++k) {
+    update_multipliers(problem, island);
     for (const int i : island.constraints) {
-      const ImpulseConstraint& c = problem.constraints()[i];
-      remember(c, problem.constraints(), c.u, c.p, memory_[i]);
-      memory_[i].rho = rho_ratio_ * rho0_[i];
-      best_p_[i] = c.p;
+      multipliers_[i].rho = rho_ratio_ * rho0_[i];
+      best_p_[i] = problem.constraints()[i].p;
     }
     const double before = residual;
     residual = semismooth_newton_step(problem, island, residual);
     if (residual < 0.5 * before) continue;
     if (residual < before) break;
     for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
-    return settle(problem, island);
+    return apply_impulses(problem, island);
   }
   return residual;
 }

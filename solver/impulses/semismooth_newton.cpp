@@ -1,4 +1,4 @@
-// The inner problem of impulse_solver.h: Newton's method on one island.
+// Inner problem of impulse_solver.h: semismooth Newton method on one island.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -17,50 +17,50 @@ double dot(const Vec& a, const Vec& b) {
 
 }  // namespace
 
-// The convex problem, whose shifts are held; then, from its solution, Newton on the shifts that
-// follow. That has no function to go down on, so it is taken only as long as it comes nearer, in
-// shorter steps where there is time for them; otherwise back to the solution.
-ImpulseSolver::Round ImpulseSolver::solve_round(ImpulseProblem& problem, const Island& island,
-                                                int most) {
-  Round round;
-  int& steps = round.steps;
+// Convex problem with frozen shifts; then Newton steps with differentiated shift from its solution.
+// These have no merit function: they are accepted only while |gradient| decreases, with step
+// halving if the budget permits; otherwise the convex solution is restored.
+ImpulseSolver::InnerResult ImpulseSolver::solve_inner_problem(ImpulseProblem& problem,
+                                                              const Island& island, int max_steps) {
+  InnerResult result;
+  int& steps = result.steps;
   for (Gradient now = gradient(problem, island, DeSaxceShift::frozen);
-       steps < most && now.largest > now.rounding;
+       steps < max_steps && now.largest > now.tolerance;
        now = gradient(problem, island, DeSaxceShift::frozen)) {
     find_direction(problem, island, true);
     const double step = step_length(problem, island);
     move(problem, island, step);
     ++steps;
-    if (step == 1 && now.largest < 1e2 * now.rounding) break;
+    if (step == 1 && now.largest < 1e2 * now.tolerance) break;
   }
   for (const int t : island.trees)
     std::copy_n(problem.v(t), problem.size(t),
-                held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)));
+                convex_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)));
   Gradient now = gradient(problem, island, DeSaxceShift::differentiated);
-  round.left = now.left();
-  while (steps < most && now.largest > now.rounding) {
+  result.error = now.error();
+  while (steps < max_steps && now.largest > now.tolerance) {
     find_direction(problem, island, false);
     move(problem, island, 1);
     ++steps;
     Gradient then = gradient(problem, island, DeSaxceShift::differentiated);
     double step = 1;
-    if (most > quick_newton_few)
+    if (max_steps > quick_newton_small)
       for (; !(then.squared < (1 - 0.5 * step) * now.squared) && step > 0.05; step *= 0.5) {
         move(problem, island, -0.5 * step);
         then = gradient(problem, island, DeSaxceShift::differentiated);
       }
     if (!(then.squared < (step < 1 ? 1 - 0.5 * step : 0.25) * now.squared)) {
       for (const int t : island.trees)
-        std::copy_n(held_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)),
+        std::copy_n(convex_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)),
                     problem.size(t), problem.v(t));
-      round.left = gradient(problem, island, DeSaxceShift::frozen).left();
-      round.strayed = true;
+      result.error = gradient(problem, island, DeSaxceShift::frozen).error();
+      result.diverged = true;
       break;
     }
     now = then;
-    round.left = now.left();
+    result.error = now.error();
   }
-  return round;
+  return result;
 }
 
 void ImpulseSolver::move(ImpulseProblem& problem, const Island& island, double step) {
@@ -72,32 +72,30 @@ void ImpulseSolver::move(ImpulseProblem& problem, const Island& island, double s
 // u, p and D at v; rhs_ = M (v - v0) - J^T p.
 ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const Island& island,
                                                 DeSaxceShift shift) {
-  for (const int t : island.trees)
-    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+  zero_forces(problem, island);
   double fastest = 0;
-  crosses_.clear();
+  coupling_blocks_.clear();
   for (const int i : island.constraints) {
     const ImpulseConstraint& c = problem.constraints()[i];
     problem.velocity(c, problem.v(0), u_[i]);
     for (int r = 0; r < c.rows; ++r) u_[i][r] += c.b[r];
     if (c.law == ConstraintType::friction_disc && shift == DeSaxceShift::differentiated)
-      respond_disc(c, i);
+      project_disc(c, i);
     else
-      respond(c, memory_[i], shift, u_[i], p_[i], D_[i]);
+      project_impulse(c, multipliers_[i], shift, u_[i], p_[i], D_[i]);
     problem.add_transpose(c, p_[i], f_.data());
     fastest = std::max({fastest, std::abs(u_[i][0]), std::abs(u_[i][1]), std::abs(u_[i][2])});
   }
-  Gradient all = balance(problem, island);
-  all.noise = rho_ratio_ * noise_;
-  all.rounding = std::max({0.01 * tolerance, 2e-14 * rho_ratio_ * fastest, all.noise});
+  Gradient all = momentum_balance(problem, island);
+  all.noise = rho_ratio_ * rounding_error_;
+  all.tolerance = std::max({0.01 * tolerance, 2e-14 * rho_ratio_ * fastest, all.noise});
   return all;
 }
 
-// What the rounding of u makes of the balance by way of p = l - rho u, for rho = rho0: u is a sum,
-// and where a body rolls the sum is 0, but its terms are not. As a velocity [m/s, rad/s].
-double ImpulseSolver::noise(const ImpulseProblem& problem, const Island& island) {
-  for (const int t : island.trees)
-    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+// Rounding error of the gradient for rho = rho0, as a velocity [m/s, rad/s]: p = l - rho u, and u
+// is a sum that cancels (rolling contact), with rounding of its terms.
+double ImpulseSolver::rounding_error(const ImpulseProblem& problem, const Island& island) {
+  zero_forces(problem, island);
   const auto for_each_side = [&](const ImpulseConstraint& c, auto&& f) {
     for (int side = 0; side < 2; ++side)
       if (const int t = c.tree[side]; t != no_tree) f(problem.J(c, side), problem.size(t), t);
@@ -124,21 +122,21 @@ double ImpulseSolver::noise(const ImpulseProblem& problem, const Island& island)
   return std::numeric_limits<double>::epsilon() * largest;
 }
 
-// A disc whose radius follows the contact's p_n at this u.
-void ImpulseSolver::respond_disc(const ImpulseConstraint& c, int i) {
-  MultiplierState memory = memory_[i];
-  memory.radius = c.radius * std::max(0.0, p_[c.of][0]);
-  respond(c, memory, DeSaxceShift::differentiated, u_[i], p_[i], D_[i]);
-  const Vec way = sliding_direction(c, memory, u_[i]);
-  if (way == Vec{}) return;
-  Cross& cross = crosses_.emplace_back(Cross{i, c.of, {}});
+// Disc with the radius of the contact's p_n at this u, differentiated.
+void ImpulseSolver::project_disc(const ImpulseConstraint& c, int i) {
+  MultiplierState state = multipliers_[i];
+  state.radius = c.radius * std::max(0.0, p_[c.of][0]);
+  project_impulse(c, state, DeSaxceShift::differentiated, u_[i], p_[i], D_[i]);
+  const Vec direction = sliding_direction(c, state, u_[i]);
+  if (direction == Vec{}) return;
+  CouplingBlock& block = coupling_blocks_.emplace_back(CouplingBlock{i, c.of, {}});
   for (int r = 0; r < c.rows; ++r)
-    for (int k = 0; k < 3; ++k) cross.D[3 * r + k] = c.radius * way[r] * D_[c.of][k];
+    for (int k = 0; k < 3; ++k) block.D[3 * r + k] = c.radius * direction[r] * D_[c.of][k];
 }
 
 // rhs_ = M (v - v0) - f_
-ImpulseSolver::Gradient ImpulseSolver::balance(const ImpulseProblem& problem,
-                                               const Island& island) {
+ImpulseSolver::Gradient ImpulseSolver::momentum_balance(const ImpulseProblem& problem,
+                                                        const Island& island) {
   Gradient all;
   for (const int t : island.trees) {
     const int n = problem.size(t);
@@ -169,7 +167,7 @@ void ImpulseSolver::find_direction(const ImpulseProblem& problem, const Island& 
           -rhs_[row_[t] + static_cast<std::size_t>(k)];
 }
 
-// M + J^T D J; if symmetric, without what is above the diagonal.
+// M + J^T D J; if symmetric, the lower triangle only.
 void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island, bool symmetric) {
   matrix_.set_zero();
   for (const int t : island.trees) {
@@ -186,11 +184,11 @@ void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island
   const std::vector<ImpulseConstraint>& all = problem.constraints();
   for (const int i : island.constraints) add_products(problem, all[i], all[i], D_[i], symmetric);
   if (!symmetric)
-    for (const Cross& cross : crosses_)
-      add_products(problem, all[cross.of], all[cross.by], cross.D, symmetric);
+    for (const CouplingBlock& block : coupling_blocks_)
+      add_products(problem, all[block.of], all[block.by], block.D, symmetric);
 }
 
-// J^T D J of the left, D, and the right, each with both of its sides.
+// J_left^T D J_right, both sides of each.
 void ImpulseSolver::add_products(const ImpulseProblem& problem, const ImpulseConstraint& left,
                                  const ImpulseConstraint& right, const Mat& D, bool symmetric) {
   for (int side = 0; side < 2; ++side) {
@@ -208,7 +206,7 @@ void ImpulseSolver::add_products(const ImpulseProblem& problem, const ImpulseCon
   }
 }
 
-// J_s^T (D J)_t, s and t the trees of two sides; what is above the diagonal lies by columns.
+// J_s^T (D J)_t, s and t the trees of two sides; the upper triangle is column-major.
 void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstraint& left,
                               int side_s, const ImpulseConstraint& right, int side_t,
                               bool symmetric) {
@@ -216,9 +214,10 @@ void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstr
   const std::size_t row = row_[s], column = row_[t];
   if (symmetric && row < column) return;
   const double *J = problem.J(left, side_s), *DJ = DJ_.data();
-  const auto place = [](std::size_t from, int k) { return from + static_cast<std::size_t>(k); };
-  const auto below = [&](int k) { return matrix_.row(place(row, k), column); };
-  const auto above = [&](int k) { return matrix_.column(place(column, k), row); };
+  const auto below = [&](int k) { return matrix_.row(row + static_cast<std::size_t>(k), column); };
+  const auto above = [&](int k) {
+    return matrix_.column(column + static_cast<std::size_t>(k), row);
+  };
   with_shapes(left.rows, problem.size(s), problem.size(t), [&](auto rows, auto m, auto n) {
     if (row > column) {
       add_product_rows(J, m, DJ, n, rows, below, [&](int) { return n; });
@@ -231,7 +230,7 @@ void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstr
   });
 }
 
-// Where the slope along dv is zero, near enough; the slope only rises.
+// Line search: zero of the slope along dv, which is monotone (convex objective).
 double ImpulseSolver::step_length(const ImpulseProblem& problem, const Island& island) {
   double slope0 = 0, curvature = 0;  // of 1/2 |v - v0|_M^2
   for (const int t : island.trees) {
@@ -254,14 +253,14 @@ double ImpulseSolver::step_length(const ImpulseProblem& problem, const Island& i
     for (const int i : island.constraints) {
       Vec u = u_[i];
       for (int r = 0; r < 3; ++r) u[r] += s * du_[i][r];
-      sum -= dot(answer(problem.constraints()[i], memory_[i], u), du_[i]);
+      sum -= dot(project_impulse(problem.constraints()[i], multipliers_[i], u), du_[i]);
     }
     return sum;
   };
   double low = 0, high = 1, at_low = start, at_high = slope(1);
   if (!(at_high > 0.3 * std::abs(start))) return 1;
   double s = 1;
-  for (int k = 0; k < 30; ++k) {  // regula falsi, halving what stays (Illinois)
+  for (int k = 0; k < 30; ++k) {  // regula falsi, Illinois variant
     s = (low * at_high - high * at_low) / (at_high - at_low);
     const double here = slope(s);
     if (std::abs(here) <= 0.1 * std::abs(start)) break;

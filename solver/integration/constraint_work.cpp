@@ -20,13 +20,13 @@ ConstraintWork::ConstraintWork(const Model<double>& model, std::size_t loops, st
       loops_(loops),
       stabilisation_(loops),
       mimics_(model.mimics.size()),
-      flow_(kNumbers * loops + mimics_.size()),
+      segment_(kNumbers * loops + mimics_.size()),
       share_q_(loops, std::vector<double>(model.nv)),
       share_qd_(share_q_),
-      push_(loops),
+      impulse_(loops),
       lambda_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows))) {
-  for (State<double>* x : {&seen_, &before_, &after_, &trial_, &pushes_[0].from, &pushes_[0].to,
-                           &pushes_[1].from, &pushes_[1].to})
+  for (State<double>* x : {&unprojected_, &before_, &after_, &trial_, &pushes_[0].from,
+                           &pushes_[0].to, &pushes_[1].from, &pushes_[1].to})
     *x = State<double>(model);
 }
 
@@ -40,30 +40,31 @@ void ConstraintWork::start_step() {
 }
 
 void ConstraintWork::before_projection(const State<double>& x) {
-  seen_ = x;
+  unprojected_ = x;
 }
 
 void ConstraintWork::after_projection(const State<double>& x, const LoopProjection& projection,
                                       const LoopClosures& at_start) {
-  if (is_same(x, seen_)) {
+  if (is_same(x, unprojected_)) {
     pending_ = pending_ && is_same(x, after_);
     return;
   }
-  std::swap(before_, seen_);
+  std::swap(before_, unprojected_);
   after_ = x;
-  const std::vector<double>& lambda = projection.pushed_qd();
+  const std::vector<double>& lambda = projection.lambda_qd();
   for (std::size_t r = 0; r < lambda.size(); ++r) lambda_[static_cast<Eigen::Index>(r)] = lambda[r];
   for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
-    projection.share_of(l, share_q_[l], share_qd_[l]);
+    projection.correction_of_loop(l, share_q_[l], share_qd_[l]);
     const LoopWrench wrench = at_start.wrench(l, lambda_);
-    push_[l] = {};
-    push_[l].add_wrench(1, at_start.point(l), wrench.force, wrench.couple);
+    impulse_[l] = {};
+    impulse_[l].add_wrench(1, at_start.point(l), wrench.force, wrench.couple);
   }
   pending_ = true;
 }
 
-// E is quadratic in v: over the mean of the velocities before and after, works of all loops add up.
-void ConstraintWork::count_projection() {
+// The kinetic energy is quadratic in v: with the mean of the velocities before and after, the works
+// of the loops add up to its change.
+void ConstraintWork::add_projection() {
   if (!pending_) return;
   pending_ = false;
   if (push_count_ < pushes_.size()) {
@@ -71,52 +72,52 @@ void ConstraintWork::count_projection() {
     push.from = push.to = after_;
     push.from.qd = before_.qd;
   }
-  const EnergyMomentum from = contents(before_);
+  const EnergyMomentum from = energy_momentum(before_);
   for (std::size_t l = 0; l < stabilisation_.size(); ++l) {
     integrate_coordinates(*model_, before_.q, share_q_[l], trial_.q);
     trial_.qd = before_.qd;
     trial_.prescribed = before_.prescribed;
-    stabilisation_[l] += contents(trial_) - from;
+    stabilisation_[l] += energy_momentum(trial_) - from;
     trial_.q = after_.q;
     for (const double side : {1.0, -1.0}) {
       for (std::size_t d = 0; d < model_->nv; ++d)
         trial_.qd[d] = 0.5 * (before_.qd[d] + after_.qd[d] + side * share_qd_[l][d]);
-      push_[l].work += side * contents(trial_).work;
+      impulse_[l].work += side * energy_momentum(trial_).work;
     }
-    loops_[l] += push_[l];
+    loops_[l] += impulse_[l];
   }
 }
 
 void ConstraintWork::add_separation(const State<double>& before, const State<double>& after) {
-  separation_ += contents(after) - contents(before);
+  separation_ += energy_momentum(after) - energy_momentum(before);
 }
 
-void ConstraintWork::add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_flow) {
-  if (!in_flow) {
+void ConstraintWork::add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_segment) {
+  if (!in_segment) {
     loops_[loop] += on_a;
     return;
   }
-  double* sums = &flow_[kNumbers * loop];
+  double* sums = &segment_[kNumbers * loop];
   sums[0] += on_a.work;
   for (int c = 0; c < 3; ++c) sums[1 + c] += on_a.impulse[c], sums[4 + c] += on_a.moment[c];
 }
 
-void ConstraintWork::add_mimic(std::size_t mimic, double work, bool in_flow) {
-  (in_flow ? flow_[kNumbers * loops_.size() + mimic] : mimics_[mimic]) += work;
+void ConstraintWork::add_mimic(std::size_t mimic, double work, bool in_segment) {
+  (in_segment ? segment_[kNumbers * loops_.size() + mimic] : mimics_[mimic]) += work;
 }
 
-void ConstraintWork::start_flow() {
-  std::fill(flow_.begin(), flow_.end(), 0);
+void ConstraintWork::start_segment() {
+  std::fill(segment_.begin(), segment_.end(), 0);
 }
 
-void ConstraintWork::count_flow() {
+void ConstraintWork::add_segment() {
   for (std::size_t l = 0; l < loops_.size(); ++l) {
-    const double* sums = &flow_[kNumbers * l];
+    const double* sums = &segment_[kNumbers * l];
     loops_[l] += EnergyMomentum{sums[0], {sums[1], sums[2], sums[3]}, {sums[4], sums[5], sums[6]}};
   }
   for (std::size_t i = 0; i < mimics_.size(); ++i)
-    mimics_[i] += flow_[kNumbers * loops_.size() + i];
-  start_flow();
+    mimics_[i] += segment_[kNumbers * loops_.size() + i];
+  start_segment();
 }
 
 }  // namespace twinarm

@@ -1,17 +1,15 @@
-// What constraints did in the last step, for the ledgers: kept where somebody asked for it
-// (SimulationOptions::enable_constraint_work), and else not computed at all.
+// Work, impulse and angular impulse of constraints in the last step, for the energy and momentum
+// balance. Computed only if SimulationOptions::enable_constraint_work is set.
 //
-//   forces          of loops and followers in steps by impulses (constrained_step.h): an impulse p
-//                   over rows J works p . J (v + v')/2 on what moves, which is exact where the
-//                   coordinates stand still. What moves by a law is not in J, so a constraint to it
-//                   works. In other steps the accelerations hold the forces (loop_forces.h).
-//                   A projection of velocities is an impulse too, and is among them: in a step by
-//                   impulses it has a part of the force that keeps to a curve.
-//   stabilisation   projections of coordinates back to closed loops: the change of kinetic and
-//                   potential energy and of momentum from before to after; of several loops each by
-//                   its own share alone, so that what is of second order in the shift, an
-//                   integrator's error, is nobody's
-//   separation      of what penetrates, likewise
+//   forces          of loops and mimic joints in constrained steps (constrained_step.h): an impulse
+//                   p with rows J does the work p . J (v + v')/2, exact for constant coordinates.
+//                   Constraints to prescribed bodies do work, as their motion is not in J. Includes
+//                   velocity projections, which are impulses too. In other steps the constraint
+//                   forces act through the accelerations (loop_forces.h).
+//   stabilisation   position projections: change of kinetic and potential energy and of momentum.
+//                   For several loops each by its own correction alone; terms of second order in
+//                   the corrections (integration error) belong to no loop.
+//   separation      position correction of penetrating contacts and limits, likewise
 // Allocates in the constructor.
 #pragma once
 
@@ -30,49 +28,49 @@ class ConstraintWork {
   ConstraintWork(const Model<double>& model, std::size_t loops, std::size_t rows);
 
   void start_step();
-  EnergyMomentum contents(const State<double>& x) {
+  EnergyMomentum energy_momentum(const State<double>& x) {
     return energy_and_momentum_of(*model_, moved_, x, w_);
   }
 
-  // Around every projection. That of a state which is not taken is forgotten with the next; one
-  // that moves nothing, of a state that came out of one, leaves that one pending.
+  // Called around every projection. A later projection replaces the pending one, unless it changes
+  // nothing in the pending one's result.
   void before_projection(const State<double>& x);
-  // `at_start` as evaluate() left it where the step found its forces.
+  // `at_start`: loops as evaluated at the start of the step.
   void after_projection(const State<double>& x, const LoopProjection& projection,
                         const LoopClosures& at_start);
-  void count_projection();  // the last one, of the state that was taken
+  void add_projection();  // adds the pending one
   void add_separation(const State<double>& before, const State<double>& after);
 
-  // On link a of the loop; what it does to link b is in `work` too.
-  void add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_flow);
-  void add_mimic(std::size_t mimic, double work, bool in_flow);
-  // Of the pieces of event_driven_step.h: sums of a column, which are extrapolated, then counted.
-  void start_flow();
-  std::vector<double>& flow() { return flow_; }
-  void count_flow();
+  // Impulse on link a; `work` includes that on link b.
+  void add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_segment);
+  void add_mimic(std::size_t mimic, double work, bool in_segment);
+  // Segments of event_driven_step.h: sums of one column, extrapolated by the caller, then added.
+  void start_segment();
+  std::vector<double>& segment() { return segment_; }
+  void add_segment();
 
   const std::vector<EnergyMomentum>& loops() const { return loops_; }
   const std::vector<double>& mimics() const { return mimics_; }
   const std::vector<EnergyMomentum>& stabilisation() const { return stabilisation_; }  // by loop
   const EnergyMomentum& separation() const { return separation_; }
-  // What projections did to the velocities, at one place each: two in a step of semi-implicit-xv,
-  // else one; of steps that locate events the first two.
+  // Velocity projections at constant q: two in a step of semi-implicit-xv, else one; of
+  // event-driven steps the first two.
   struct Push {
     State<double> from, to;
   };
   std::span<const Push> pushes() const { return {pushes_.data(), push_count_}; }
 
  private:
-  static constexpr std::size_t kNumbers = 7;  // of an Exchange
+  static constexpr std::size_t kNumbers = 7;  // of an EnergyMomentum
   const Model<double>* model_;
   std::vector<char> moved_;
   Workspace<double> w_;
   std::vector<EnergyMomentum> loops_, stabilisation_;
-  std::vector<double> mimics_, flow_;
+  std::vector<double> mimics_, segment_;
   EnergyMomentum separation_;
-  State<double> seen_, before_, after_, trial_;
-  std::vector<std::vector<double>> share_q_, share_qd_;  // by loop
-  std::vector<EnergyMomentum> push_;                     // by loop, without work
+  State<double> unprojected_, before_, after_, trial_;
+  std::vector<std::vector<double>> share_q_, share_qd_;  // corrections by loop
+  std::vector<EnergyMomentum> impulse_;                  // by loop
   Eigen::VectorXd lambda_;
   std::array<Push, 2> pushes_;
   std::size_t push_count_ = 0;

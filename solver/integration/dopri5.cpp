@@ -11,17 +11,17 @@ namespace {
 
 constexpr Tableau::Row<double> kErrorWeights{
     71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
-constexpr int kMaxAttempts = 10'000'000;  // in one step: no run goes on for ever in silence
+constexpr int kMaxAttempts = 10'000'000;  // per step
 
 double largest(double a, double b) {
-  return b <= a ? a : b;  // a NaN b stays
+  return b <= a ? a : b;  // NaN if b is NaN
 }
 
 }  // namespace
 
 Dopri5::Dopri5(const IntegrationState& m)
     : rk_(m.model.nv),
-      margin_(m.dynamics.families().size()),
+      margin_(m.dynamics.groups().size()),
       size_(m.model.nv),
       size_new_(m.model.nv) {}
 
@@ -33,7 +33,7 @@ void Dopri5::step(IntegrationState& m, double h, bool one, StepReport& report) {
   rejected_ = false;
   if (h_next_ == 0) h_next_ = first_substep(m, h);
   while (m.x.t < t_end) {
-    const bool last = m.x.t + 1.001 * h_next_ >= t_end;  // no sliver is left over
+    const bool last = m.x.t + 1.001 * h_next_ >= t_end;  // avoids a tiny remainder step
     const double h_try = last ? t_end - m.x.t : h_next_;
     const bool shortest = m.x.t + 0.1 * h_try == m.x.t;
     if (m.dynamics.has_coulomb()) margin_.start(m);
@@ -50,7 +50,7 @@ void Dopri5::step(IntegrationState& m, double h, bool one, StepReport& report) {
     ++report.rejected;
     if (shortest || report.substeps + report.rejected >= kMaxAttempts) {
       report.reached = false;
-      if (!std::isfinite(err_)) {  // what is not finite in every substep is shown, not kept out
+      if (!std::isfinite(err_)) {  // return the non-finite state, so that it is reported
         std::swap(m.x, m.stage);
         std::swap(m.x.t, m.stage.t);
       }
@@ -65,7 +65,7 @@ void Dopri5::stages(IntegrationState& m, double h) {
   for (int s = 1; s < tableau.stages; ++s) rk_.stage(m, tableau, s, h);
 }
 
-// The part of h after which a joint comes to rest or breaks loose; m.stage is there then.
+// Size of the substep up to the first friction event, at most h; sets m.stage accordingly.
 double Dopri5::up_to_event(IntegrationState& m, double h, StepReport& report) {
   if (!m.dynamics.has_coulomb()) return h;
   const auto margin = [&](double s) {
@@ -74,22 +74,22 @@ double Dopri5::up_to_event(IntegrationState& m, double h, StepReport& report) {
   };
   const double g_end = margin_(m.dynamics, m.stage);
   if (!(g_end < 0 && margin_.at_start() > 0)) return h;
-  const double h_event = step_to_zero(h, margin_.at_start(), g_end, margin);
+  const double h_event = locate_zero(h, margin_.at_start(), g_end, margin);
   if (m.x.t + h_event > m.x.t) {
     ++report.events;
     return h_event;
   }
-  stages(m, h);  // too near to the start to be a substep
+  stages(m, h);  // event too close to the start for a substep
   return h;
 }
 
-// After it m.w holds the acceleration at the new m.x, the first stage of the next substep.
+// Afterwards m.w contains the acceleration at the new m.x, the first stage of the next substep.
 void Dopri5::accept(IntegrationState& m, double t) {
   std::swap(m.x, m.stage);
   m.x.t = t;
   if (m.dynamics.has_coulomb()) {
-    m.dynamics.settle(m.x);
-    m.refresh();
+    m.dynamics.zero_sticking_velocities(m.x);
+    m.project_and_update();
     m.accelerate();
   } else {
     m.start_projection();
@@ -103,13 +103,13 @@ double Dopri5::error(const IntegrationState& m, double h) {
   coordinate_sizes(m.model, m.stage.q, size_new_);
   double err = 0;
   for (std::size_t i = 0; i < size_.size(); ++i) {
-    const double shift = h * rk_.rate_sum(kErrorWeights, stages, i);
-    const double change = h * rk_.qdd_sum(kErrorWeights, stages, i);
-    err = largest(err, scaled(shift, size_[i], size_new_[i]));
-    err = largest(err, scaled(change, m.x.qd[i], m.stage.qd[i]));
-    if (!m.has_loops()) continue;  // else the last stage was moved: that was an error too
-    err = largest(err, scaled(m.projection.moved_q()[i], size_[i], size_new_[i]));
-    err = largest(err, scaled(m.projection.moved_qd()[i], m.x.qd[i], m.stage.qd[i]));
+    const double error_q = h * rk_.rate_sum(kErrorWeights, stages, i);
+    const double error_qd = h * rk_.qdd_sum(kErrorWeights, stages, i);
+    err = largest(err, scaled(error_q, size_[i], size_new_[i]));
+    err = largest(err, scaled(error_qd, m.x.qd[i], m.stage.qd[i]));
+    if (!m.has_loops()) continue;  // the projection of the last stage is part of the error
+    err = largest(err, scaled(m.projection.correction_q()[i], size_[i], size_new_[i]));
+    err = largest(err, scaled(m.projection.correction_qd()[i], m.x.qd[i], m.stage.qd[i]));
   }
   return err;
 }
@@ -118,8 +118,8 @@ double Dopri5::scaled(double error, double y, double y_new) const {
   return std::abs(error) / (tolerance_ * (1 + std::max(std::abs(y), std::abs(y_new))));
 }
 
-// After an attempt with h; `whole`: h was recommended, not what was left of the step.
-void Dopri5::choose_next(double h, bool whole) {
+// Step-size control after an attempt with h; `full`: h was not shortened to the end of the step.
+void Dopri5::choose_next(double h, bool full) {
   if (!(err_ <= 1)) {
     const double factor = std::isfinite(err_) ? std::max(0.2, 0.9 * std::pow(err_, -0.2)) : 0.1;
     h_next_ = h * factor;
@@ -129,13 +129,13 @@ void Dopri5::choose_next(double h, bool whole) {
   const double err = std::max(err_, 1e-8);
   double factor = 0.9 * std::pow(err, -0.17) * std::pow(err_before_, 0.04);
   factor = std::clamp(factor, 0.2, rejected_ ? 1.0 : 10.0);  // no growth after a rejection
-  h_next_ = whole ? h * factor : std::max(h_next_, h * factor);
+  h_next_ = full ? h * factor : std::max(h_next_, h * factor);
   err_before_ = std::max(err, 1e-4);
   rejected_ = false;
 }
 
-// Hairer, Norsett, Wanner, II.4: such that an Euler step would change little, and that the second
-// derivative, by a difference, fits the tolerance.
+// Starting step size, Hairer, Norsett, Wanner, II.4: from the state, its derivative and a
+// difference estimate of the second derivative.
 double Dopri5::first_substep(IntegrationState& m, double h_max) {
   const Tableau& euler = tableau_of(Integrator::euler);
   coordinate_sizes(m.model, m.x.q, size_);

@@ -10,8 +10,8 @@ constexpr Tableau kMidpoint{2, {0, 0.5}, {0, 1}, {{{}, {0.5}}}};
 constexpr Tableau kHeun{2, {0, 1}, {0.5, 0.5}, {{{}, {1}}}};
 constexpr Tableau kRk4{
     4, {0, 0.5, 0.5, 1}, {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6}, {{{}, {0.5}, {0, 0.5}, {0, 0, 1}}}};
-// Dormand and Prince 1980; Hairer, Norsett, Wanner, Solving ODEs I, table II.5.2. The last stage is
-// the first one of the next step.
+// Dormand and Prince 1980; Hairer, Norsett, Wanner, Solving ODEs I, table II.5.2. First same as
+// last.
 constexpr Tableau kDopri5{
     7,
     {0, 1.0 / 5, 3.0 / 10, 4.0 / 5, 8.0 / 9, 1, 1},
@@ -24,8 +24,8 @@ constexpr Tableau kDopri5{
       {9017.0 / 3168, -355.0 / 33, 46732.0 / 5247, 49.0 / 176, -5103.0 / 18656},
       {35.0 / 384, 0, 500.0 / 1113, 125.0 / 192, -2187.0 / 6784, 11.0 / 84}}}};
 
-double weighed(const Tableau::Row<std::vector<double>>& of, const Tableau::Row<double>& weight,
-               int stages, std::size_t i) {
+double weighted_sum(const Tableau::Row<std::vector<double>>& of, const Tableau::Row<double>& weight,
+                    int stages, std::size_t i) {
   double sum = 0;
   for (std::size_t j = 0; j < static_cast<std::size_t>(stages); ++j)
     if (weight[j] != 0) sum += weight[j] * of[j][i];
@@ -55,11 +55,11 @@ RungeKutta::RungeKutta(std::size_t nv) : theta_(nv) {
 }
 
 double RungeKutta::rate_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const {
-  return weighed(rate_, weight, stages, i);
+  return weighted_sum(rate_, weight, stages, i);
 }
 
 double RungeKutta::qdd_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const {
-  return weighed(qdd_, weight, stages, i);
+  return weighted_sum(qdd_, weight, stages, i);
 }
 
 void RungeKutta::first_stage(const IntegrationState& m) {
@@ -76,7 +76,7 @@ void RungeKutta::stage(IntegrationState& m, const Tableau& tableau, int s, doubl
   integrate_coordinates(m.model, m.x.q, theta_, m.stage.q);
   m.stage.t = m.x.t + tableau.c[row] * h;
   m.accelerate_stage();
-  shift_rate(m.model, theta_, m.stage.qd, rate_[row]);
+  tangent_rate(m.model, theta_, m.stage.qd, rate_[row]);
   qdd_[row] = m.w.qdd;
 }
 
@@ -95,19 +95,19 @@ void kick(IntegrationState& m, double h) {
   for (std::size_t i = 0; i < m.model.nv; ++i) m.x.qd[i] += h * m.w.qdd[i];
 }
 
-void drift(IntegrationState& m, std::vector<double>& shift, double h) {
-  for (std::size_t i = 0; i < m.model.nv; ++i) shift[i] = h * m.x.qd[i];
-  integrate_coordinates(m.model, m.x.q, shift, m.x.q);
+void drift(IntegrationState& m, std::vector<double>& delta, double h) {
+  for (std::size_t i = 0; i < m.model.nv; ++i) delta[i] = h * m.x.qd[i];
+  integrate_coordinates(m.model, m.x.q, delta, m.x.q);
 }
 
-void step_verlet(IntegrationState& m, std::vector<double>& shift, double h) {
+void step_verlet(IntegrationState& m, std::vector<double>& delta, double h) {
   m.accelerate();
   kick(m, h / 2);
-  drift(m, shift, h);
+  drift(m, delta, h);
   m.stage.q = m.x.q;
   m.stage.t = m.x.t + h;
   for (std::size_t i = 0; i < m.model.nv; ++i)
-    m.stage.qd[i] = m.x.qd[i] + h / 2 * m.w.qdd[i];  // v + h a: predicted
+    m.stage.qd[i] = m.x.qd[i] + h / 2 * m.w.qdd[i];  // predicted velocity v + h a
   m.accelerate_stage();
   kick(m, h / 2);
 }

@@ -1,4 +1,4 @@
-// Steps of fixed size that solve no equation: the Euler methods, Verlet, Runge-Kutta.
+// Explicit integrators of fixed step size: Euler, velocity Verlet, Runge-Kutta.
 #pragma once
 
 #include <array>
@@ -9,8 +9,8 @@
 
 namespace twinarm {
 
-// Of an explicit Runge-Kutta method: stage s looks at t + c[s] h, where the stages j < s lead by
-// a[s][j]; b weighs them all.
+// Butcher tableau of an explicit Runge-Kutta method: stage s is at t + c[s] h, from the stages j <
+// s with weights a[s][j]; b: weights of the result.
 struct Tableau {
   static constexpr int kMaxStages = 7;
   template <class T>
@@ -21,18 +21,18 @@ struct Tableau {
 };
 const Tableau& tableau_of(Integrator integrator);
 
-// Runge-Kutta on groups. With q(t) = q exp(theta(t)) the stages are those of the method for
+// Runge-Kutta method on Lie groups (Munthe-Kaas 1998): with q(t) = q exp(theta(t)),
 //   d theta/dt = dexpinv(theta, v),   dv/dt = a(q exp(theta), v).
 class RungeKutta {
  public:
   explicit RungeKutta(std::size_t nv);
-  // Moves m.x by h; its time and kinematics are left to the caller.
+  // Advances m.x by h; the caller updates time and kinematics.
   void step(IntegrationState& m, const Tableau& tableau, double h);
 
-  // Stage 0 is at m.x, whose acceleration m.w holds; a later one sets m.stage and asks for it.
+  // Stage 0 is at m.x, with its acceleration in m.w; later stages set m.stage and compute it.
   void first_stage(const IntegrationState& m);
   void stage(IntegrationState& m, const Tableau& tableau, int s, double h);
-  // Sums of the stages' rates of change, weighed: h times it is a shift, or a change of velocity.
+  // Weighted sums of the stages' rates of theta and qd.
   double rate_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const;
   double qdd_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const;
 
@@ -41,9 +41,9 @@ class RungeKutta {
   std::vector<double> theta_;
 };
 
-// Both move m.x by h, but for its time and kinematics; m.w.qdd is the acceleration at m.x.
+// Advance m.x by h; the caller updates time and kinematics. m.w.qdd: acceleration at m.x.
 void kick(IntegrationState& m, double h);                               // v' = v + h a
-void drift(IntegrationState& m, std::vector<double>& shift, double h);  // q' = q exp(h v)
-void step_verlet(IntegrationState& m, std::vector<double>& shift, double h);
+void drift(IntegrationState& m, std::vector<double>& delta, double h);  // q' = q exp(h v)
+void step_verlet(IntegrationState& m, std::vector<double>& delta, double h);
 
 }  // namespace twinarm

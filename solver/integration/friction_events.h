@@ -1,42 +1,57 @@
-// Where Coulomb friction changes its kind within a step: a joint comes to rest, or breaks loose.
+// Stick-slip transitions of joint friction within a step: a joint comes to rest or starts to slide.
 //
-// Integrators other than the semi-implicit ones keep, over a step, the kind of friction that each
-// dof has at its start: it slides one way, or is held (ForwardDynamics::Rule::as_chosen). The step
-// is then smooth and has its full order. It is valid as far as
-//   g(s) = min over dofs of { direction * velocity      of those that slide and do so at the start,
-//                             what is left to the limit of those that are held }
-// is positive at its end. Where it is not, the first s with g = 0 is found by regula falsi
-// (Illinois), each trial a step of s from the start; what has come to rest there gets v = 0
-// exactly, the kinds are chosen anew, and the rest of the step follows. A dof that friction can
-// hold thus stays at rest; one that it cannot hold turns round.
-// Not looked for within a step: velocities that pass through zero an even number of times; and what
-// starts the step at v = 0 and slides against its direction at the end: v = 0 there.
+// Integrators other than the semi-implicit ones keep the friction mode of each dof over a step
+// (ForwardDynamics::FrictionRule::frozen_modes): the step is smooth and has its full order. It is
+// valid while the event function
+//   g(s) = min { direction * velocity  of dofs that slide at the start,
+//                friction margin       of sticking dofs }
+// is positive. If g < 0 at the end, the first zero of g is located by the Illinois variant of
+// regula falsi, each evaluation a step of size s from the start. Dofs at rest there get v = 0
+// exactly, the modes are determined again, and the remainder of the step follows. Not detected: an
+// even number of zero crossings of a velocity within a step, and a dof that starts the step with v
+// = 0 and ends it against its sliding direction (its velocity is set to 0).
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "solver/integration/integration_state.h"
 
 namespace twinarm {
 
-// g of a step: start() at m.x after m.accelerate(), then as a function of where the step led, with
-// the last acceleration `as chosen` there if anything is held.
+// Event function g of a step: start() at m.x after m.accelerate(); then evaluated at the state that
+// the step reached, after an acceleration by frozen_modes there if any dof is sticking.
 class FrictionEventFunction {
  public:
-  explicit FrictionEventFunction(std::size_t families) : slid_(families) {}
-  void start(const IntegrationState& m);
+  explicit FrictionEventFunction(std::size_t groups) : sliding_(groups) {}
+  void start(const IntegrationState& m) {
+    const ForwardDynamics& dynamics = m.dynamics;
+    for (std::size_t k = 0; k < sliding_.size(); ++k)
+      sliding_[k] = m.x.qd[dynamics.groups()[k].dof] * static_cast<double>(dynamics.mode(k)) > 0;
+    at_start_ = (*this)(dynamics, m.x);
+  }
   double at_start() const { return at_start_; }
-  double operator()(const ForwardDynamics& dynamics, const State<double>& x) const;
+  double operator()(const ForwardDynamics& dynamics, const State<double>& x) const {
+    double g = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < sliding_.size(); ++k)
+      if (sliding_[k])
+        g = std::min(g, x.qd[dynamics.groups()[k].dof] * static_cast<double>(dynamics.mode(k)));
+    return dynamics.any_sticking() ? std::min(g, dynamics.friction_margin() + kLimitTolerance) : g;
+  }
 
  private:
-  std::vector<char> slid_;  // by family: at the start, in the direction chosen
+  // A sticking dof starts to slide if its friction exceeds the limit by this fraction: well above
+  // rounding, so that the mode at the new start is sliding.
+  static constexpr double kLimitTolerance = 1e-10;
+  std::vector<char> sliding_;  // by group, at the start of the step
   double at_start_ = 0;
 };
 
-// The s in (0, length] where g comes down to zero, or a hair beyond. g(s) takes the trial of length
-// s; that of the s returned is the last one taken. g(length) = g_end < 0 has been taken already.
+// The s in (0, length] with g(s) = 0, or slightly beyond. g(s) performs a step of size s; the last
+// call is at the s returned. g(length) = g_end < 0 has been evaluated by the caller.
 template <class G>
-double step_to_zero(double length, double g_start, double g_end, G&& g) {
+double locate_zero(double length, double g_start, double g_end, G&& g) {
   double low = 0, high = length, weight_low = g_start, weight_high = g_end, s = length;
   int side = 0;
   for (int n = 0; n < 60 && high - low > 4e-16 * length; ++n) {
@@ -59,15 +74,15 @@ double step_to_zero(double length, double g_start, double g_end, G&& g) {
   return high;
 }
 
-// Of integrators with a fixed step.
+// For integrators of fixed step size.
 class FrictionEventLocator {
  public:
-  static constexpr int kMaxEvents = 20;  // in one step; then its rest is taken as a whole
+  static constexpr int kMaxEvents = 20;  // per step; the remainder is one step
   explicit FrictionEventLocator(const IntegrationState& m)
-      : margin_(m.dynamics.families().size()), start_(m.x) {}
+      : margin_(m.dynamics.groups().size()), start_(m.x) {}
 
-  // Moves m.x by h in pieces, its time too but for the last one. step(s) moves m.x by s, but for
-  // its time and kinematics. Returns the number of events.
+  // Advances m.x by h, divided at the events; the caller updates time and kinematics at the end.
+  // step(s) advances m.x by s without time and kinematics. Returns the number of events.
   template <class Step>
   int advance(IntegrationState& m, double h, Step&& step) {
     const double t = m.x.t;
@@ -79,16 +94,16 @@ class FrictionEventLocator {
       const auto trial = [&](double s) {
         m.x = start_;
         step(s);
-        if (m.dynamics.holds_any()) m.accelerate_end(start_.t + s);
+        if (m.dynamics.any_sticking()) m.accelerate_end(start_.t + s);
         return margin_(m.dynamics, m.x);
       };
       const double rest = h - done, g_end = trial(rest), g_start = margin_.at_start();
       const bool event = g_end < 0 && g_start > 0 && events < kMaxEvents;
-      if (event) done += step_to_zero(rest, g_start, g_end, trial);
-      m.dynamics.settle(m.x);
+      if (event) done += locate_zero(rest, g_start, g_end, trial);
+      m.dynamics.zero_sticking_velocities(m.x);
       if (!event) return events;
       m.x.t = t + done;
-      m.refresh();
+      m.project_and_update();
     }
   }
 

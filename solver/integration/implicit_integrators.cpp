@@ -10,14 +10,14 @@ namespace twinarm {
 namespace {
 
 constexpr int kMaxIterations = 60;
-constexpr double kDifference = 1e-7;  // relative, of a velocity, for the Jacobian
-constexpr double kRounding = 4e-16;   // relative: u cannot come closer
-constexpr double kAtRounding = 1e-9;  // relative: a correction of this size that does not shrink
-                                      // any more is rounding of ABA, not slowness of Newton
+constexpr double kDifference = 1e-7;  // relative velocity difference for the Jacobian
+constexpr double kRounding = 4e-16;   // relative correction that ends the iteration
+constexpr double kAtRounding =
+    1e-9;  // relative: stalled corrections below this are rounding of ABA
 
 double largest(const std::vector<double>& v) {
   double size = 0;
-  for (double x : v) size = std::abs(x) <= size ? size : std::abs(x);  // NaN stays
+  for (double x : v) size = std::abs(x) <= size ? size : std::abs(x);  // propagates NaN
   return size;
 }
 
@@ -50,7 +50,7 @@ void DenseLu::solve(std::vector<double>& b) const {
 }
 
 ImplicitStep::ImplicitStep(std::size_t nv)
-    : u_(nv), r_(nv), known_(nv), shift_(nv), trial_(nv), r_trial_(nv), du_(nv), lu_(nv) {}
+    : u_(nv), r_(nv), known_(nv), delta_(nv), trial_(nv), r_trial_(nv), du_(nv), lu_(nv) {}
 
 void ImplicitStep::step(IntegrationState& m, Integrator integrator, double h, StepReport& report) {
   prepare(m, integrator, h);
@@ -59,8 +59,8 @@ void ImplicitStep::step(IntegrationState& m, Integrator integrator, double h, St
 }
 
 void ImplicitStep::prepare(IntegrationState& m, Integrator integrator, double h) {
-  reach_ = integrator == Integrator::implicit_euler ? h : h / 2;
-  trust_ = integrator == Integrator::trapezoid ? h / 2 : 0;
+  weight_u_ = integrator == Integrator::implicit_euler ? h : h / 2;
+  weight_v_ = integrator == Integrator::trapezoid ? h / 2 : 0;
   t_u_ = m.x.t + (integrator == Integrator::implicit_midpoint ? h / 2 : h);
   u_ = m.x.qd;
   known_ = m.x.qd;
@@ -72,12 +72,12 @@ void ImplicitStep::prepare(IntegrationState& m, Integrator integrator, double h)
 
 double ImplicitStep::residual(IntegrationState& m, const std::vector<double>& u,
                               std::vector<double>& r) {
-  for (std::size_t i = 0; i < u.size(); ++i) shift_[i] = reach_ * u[i] + trust_ * m.x.qd[i];
-  integrate_coordinates(m.model, m.x.q, shift_, m.stage.q);
+  for (std::size_t i = 0; i < u.size(); ++i) delta_[i] = weight_u_ * u[i] + weight_v_ * m.x.qd[i];
+  integrate_coordinates(m.model, m.x.q, delta_, m.stage.q);
   m.stage.qd = u;
   m.stage.t = t_u_;
   m.accelerate_stage();
-  for (std::size_t i = 0; i < u.size(); ++i) r[i] = u[i] - known_[i] - reach_ * m.w.qdd[i];
+  for (std::size_t i = 0; i < u.size(); ++i) r[i] = u[i] - known_[i] - weight_u_ * m.w.qdd[i];
   return largest(r);
 }
 
@@ -93,13 +93,13 @@ void ImplicitStep::form_jacobian(IntegrationState& m) {
   lu_.factorise();
 }
 
-// Newton's method. `before` is the size of the last correction with the same Jacobian: where the
-// next one is not much smaller, rounding is reached or the Jacobian is too old.
+// Simplified Newton iteration. `before`: size of the last correction with the same Jacobian; if the
+// next one is not much smaller, rounding is reached or the Jacobian is outdated.
 bool ImplicitStep::iterate(IntegrationState& m, StepReport& report) {
   double size = residual(m, u_, r_), before = 0;
   for (int n = 0; size != 0; ++n) {
     if (n == kMaxIterations) return false;
-    if (!std::isfinite(size)) {  // to be seen in the state
+    if (!std::isfinite(size)) {  // makes the state non-finite, so that it is reported
       for (std::size_t i = 0; i < u_.size(); ++i) u_[i] -= r_[i];
       return false;
     }
@@ -114,19 +114,19 @@ bool ImplicitStep::iterate(IntegrationState& m, StepReport& report) {
       before = 0;
       continue;
     }
-    size = search(m, size, step, scale);
+    size = line_search(m, size, step, scale);
     if (rounding) return true;
     before = step;
   }
   return true;
 }
 
-// u less the correction, or less of it, where the whole would make r larger.
-double ImplicitStep::search(IntegrationState& m, double size, double step, double scale) {
+// Backtracking until |r| does not increase; updates u_ and r_, returns |r|.
+double ImplicitStep::line_search(IntegrationState& m, double size, double step, double scale) {
   double new_size = size;
-  double part = 1;
-  for (int tries = 0; tries < 10; ++tries, part /= 2) {
-    for (std::size_t i = 0; i < u_.size(); ++i) trial_[i] = u_[i] - part * du_[i];
+  double factor = 1;
+  for (int tries = 0; tries < 10; ++tries, factor /= 2) {
+    for (std::size_t i = 0; i < u_.size(); ++i) trial_[i] = u_[i] - factor * du_[i];
     new_size = residual(m, trial_, r_trial_);
     if (new_size <= size || step <= kAtRounding * scale) break;
   }
@@ -136,12 +136,12 @@ double ImplicitStep::search(IntegrationState& m, double size, double step, doubl
 }
 
 void ImplicitStep::finish(IntegrationState& m, Integrator integrator, double h) {
-  const bool middle = integrator == Integrator::implicit_midpoint;
+  const bool midpoint = integrator == Integrator::implicit_midpoint;
   for (std::size_t i = 0; i < u_.size(); ++i) {
-    shift_[i] = middle ? h * u_[i] : reach_ * u_[i] + trust_ * m.x.qd[i];
-    m.x.qd[i] = middle ? 2 * u_[i] - m.x.qd[i] : u_[i];
+    delta_[i] = midpoint ? h * u_[i] : weight_u_ * u_[i] + weight_v_ * m.x.qd[i];
+    m.x.qd[i] = midpoint ? 2 * u_[i] - m.x.qd[i] : u_[i];
   }
-  integrate_coordinates(m.model, m.x.q, shift_, m.x.q);
+  integrate_coordinates(m.model, m.x.q, delta_, m.x.q);
 }
 
 }  // namespace twinarm

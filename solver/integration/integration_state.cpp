@@ -10,35 +10,33 @@
 
 namespace twinarm {
 
-// In the child's own axes, R = R_JL: w = R^T w_J and v = R^T dp/dt, whose rates of change there are
+// In child axes, R = R_JL: w = R^T w_J and v = R^T dp/dt, with the component derivatives
 //   dw/dt = R^T alpha_J              (w x w = 0)
 //   dv/dt = R^T d^2p/dt^2 - w x v.
 void store_motion(const Model<double>& model, std::size_t body, const PrescribedMotion& motion,
                   State<double>& x) {
   double *q = x.q.data() + model.iq[body], *given = x.prescribed.data() + model.ip[body];
   const Matrix3 R_LJ = motion.X_JL.R.transpose();
-  const Eigen::Quaterniond turn(motion.X_JL.R);
+  const Eigen::Quaterniond rotation(motion.X_JL.R);
   const Vector3 w = R_LJ * motion.angular_velocity, v = R_LJ * motion.velocity;
   const Vector3 w_rate = R_LJ * motion.angular_acceleration;
   const Vector3 v_rate = R_LJ * motion.acceleration - w.cross(v);
   for (int c = 0; c < 3; ++c) {
     q[c] = motion.X_JL.p[c];
-    q[4 + c] = turn.vec()[c];
+    q[4 + c] = rotation.vec()[c];
     given[c] = w[c];
     given[3 + c] = v[c];
     given[6 + c] = w_rate[c];
     given[9 + c] = v_rate[c];
   }
-  q[3] = turn.w();
+  q[3] = rotation.w();
 }
 
-void visit_state(StateArchive& memory, const Model<double>& model, State<double>& x) {
+void visit_state(StateArchive& archive, const Model<double>& model, State<double>& x) {
   std::vector<double> q = q_with_prescribed(model, x);
-  memory.visit(q);
-  memory.visit(x.qd);
-  memory.visit(x.t);
+  archive.visit(q), archive.visit(x.qd), archive.visit(x.t);
   if (q.size() != model.nq + model.np || x.qd.size() != model.nv)
-    throw std::runtime_error("the state is not one of this model");
+    throw std::runtime_error("state size mismatch: the state belongs to another model");
   set_q_with_prescribed(model, q, x);
 }
 
@@ -52,40 +50,41 @@ IntegrationState::IntegrationState(const Model<double>& model_of, State<double> 
       forces(model),
       dynamics(model),
       projection(model) {
-  refresh();
+  project_and_update();
 }
 
-void IntegrationState::place(State<double>& at) const {
-  for (const Drive& drive : drives) store_motion(model, drive.body, drive.law(at.t), at);
+void IntegrationState::set_prescribed_joints(State<double>& at) const {
+  for (const PrescribedJointMotion& joint : prescribed_joints)
+    store_motion(model, joint.body, joint.motion(at.t), at);
 }
 
-void IntegrationState::place_and_look() {
+void IntegrationState::update_kinematics() {
   apply_mimics(model, x);
-  place(x);
+  set_prescribed_joints(x);
   forward_kinematics(model, x, k);
 }
 
-void IntegrationState::refresh() {
-  place_and_look();
-  loop_position_error = close(x, k);
+void IntegrationState::project_and_update() {
+  update_kinematics();
+  loop_position_error = project_loops(x, k);
 }
 
-double IntegrationState::close(State<double>& at, Kinematics& k_at) {
+double IntegrationState::project_loops(State<double>& at, Kinematics& k_at) {
   if (!has_loops()) return 0;
   if (account) account->before_projection(at);
-  const double open = projection(dynamics.at_rest(at), at, k_at, w);
+  const double error = projection(dynamics.sticking_dofs(at), at, k_at, w);
   if (account) account->after_projection(at, projection, dynamics.bilateral().loops());
-  return open;
+  return error;
 }
 
 void IntegrationState::start(State<double> from) {
   apply_mimics(model, from);
-  place(from);
+  set_prescribed_joints(from);
   if (has_loops()) check_loops(model, dynamics.bilateral().loops().loops(), from);
   x = std::move(from);
   forward_kinematics(model, x, k);
   prepare_projection();
-  refresh();
+  project_and_update();
 }
 
 void IntegrationState::resume(State<double> from) {
@@ -98,7 +97,7 @@ void IntegrationState::set_loops(LoopClosures loops) {
   projection.set_loops(loops);
   dynamics.bilateral().set_loops(std::move(loops));
   prepare_projection();
-  refresh();
+  project_and_update();
 }
 
 void IntegrationState::prepare_projection() {
@@ -111,21 +110,21 @@ void IntegrationState::prepare_projection() {
 }
 
 void IntegrationState::accelerate_stage() {
-  stage.prescribed = x.prescribed;  // of joints without a law
-  place(stage);
+  stage.prescribed = x.prescribed;  // of joints without a motion function
+  set_prescribed_joints(stage);
   forward_kinematics(model, stage, k_stage);
-  close(stage, k_stage);
-  accelerate(stage, k_stage, Rule::as_chosen, 0);
+  project_loops(stage, k_stage);
+  accelerate(stage, k_stage, FrictionRule::frozen_modes, 0);
 }
 
 void IntegrationState::accelerate_end(double t) {
   x.t = t;
-  refresh();
-  accelerate(x, k, Rule::as_chosen, 0);
+  project_and_update();
+  accelerate(x, k, FrictionRule::frozen_modes, 0);
 }
 
-void IntegrationState::accelerate(const State<double>& at, const Kinematics& k_at, Rule rule,
-                                  double h) {
+void IntegrationState::accelerate(const State<double>& at, const Kinematics& k_at,
+                                  FrictionRule rule, double h) {
   if (has_loops()) dynamics.bilateral().loops().evaluate(at, k_at);
   forces.clear();
   for (ForceSource* source : sources) source->add_forces(at, k_at, forces);

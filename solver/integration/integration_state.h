@@ -1,5 +1,5 @@
-// A mechanism as the integrators see it: where it is, what pushes and drives it, and the
-// acceleration at any other state. Simulation owns one; the integrators move it.
+// State that the integrators advance, with its force sources, prescribed motions and accelerations.
+// Owned by Simulation.
 #pragma once
 
 #include <functional>
@@ -18,87 +18,85 @@
 
 namespace twinarm {
 
-// The motion of a link on a prescribed joint, relative to the joint's frame in the parent, and in
-// that frame's axes: what one would write down, or measure, standing there.
+// Motion of a link on a prescribed joint, relative to the joint frame J in the parent, axes of J.
 struct PrescribedMotion {
-  Pose X_JL;                               // where the link is
-  Vector3 velocity = Vector3::Zero();      // of its origin: dp/dt [m/s]
-  Vector3 acceleration = Vector3::Zero();  // d^2p/dt^2 [m/s^2]
-  Vector3 angular_velocity = Vector3::Zero();
-  Vector3 angular_acceleration = Vector3::Zero();
+  Pose X_JL;                                       // pose of the link
+  Vector3 velocity = Vector3::Zero();              // of its origin: dp/dt [m/s]
+  Vector3 acceleration = Vector3::Zero();          // d^2p/dt^2 [m/s^2]
+  Vector3 angular_velocity = Vector3::Zero();      // [rad/s]
+  Vector3 angular_acceleration = Vector3::Zero();  // [rad/s^2]
 };
-// The motion at a time. Must not throw; whether a step allocates is then the law's affair.
+// Must not throw. If it allocates, so do steps.
 using MotionFunction = std::function<PrescribedMotion(double t)>;
 
-// Writes pose, velocity and acceleration of the prescribed joint of this body.
+// Writes pose, velocity and acceleration of the prescribed joint of `body` to x.
 void store_motion(const Model<double>& model, std::size_t body, const PrescribedMotion& motion,
                   State<double>& x);
 
-// q with the motion of prescribed joints (q_with_prescribed), qd and t, as recordings have them.
-// Throws std::runtime_error where what is read is not a state of this model.
-void visit_state(StateArchive& memory, const Model<double>& model, State<double>& x);
+// Serializes q with the motion of prescribed joints (q_with_prescribed), qd and t, the layout of
+// recordings. Throws std::runtime_error if the sizes do not match the model.
+void visit_state(StateArchive& archive, const Model<double>& model, State<double>& x);
 
 struct IntegrationState {
   IntegrationState(const Model<double>& model, State<double> start);
 
   const Model<double>& model;
-  State<double> x;      // where the mechanism is
+  State<double> x;
   Kinematics k;         // of x
-  State<double> stage;  // where a stage of a step looks
+  State<double> stage;  // stage of the integrator
   Kinematics k_stage;
   Workspace<double> w;       // of the last acceleration
-  Forces<double> forces;     // likewise
-  ForwardDynamics dynamics;  // likewise: friction, followers' and loops' forces
+  Forces<double> forces;     // of the last acceleration
+  ForwardDynamics dynamics;  // of the last acceleration: forces of friction, mimic joints, loops
   LoopProjection projection;
-  std::optional<ConstraintWork> account;  // where the ledgers ask for it
-  double loop_position_error = 0;         // at x: the largest row of g that refresh() left
+  std::optional<ConstraintWork> account;  // if enabled
+  double loop_position_error = 0;         // max |g| at x after project_and_update()
   std::vector<ForceSource*> sources;
-  struct Drive {
+  struct PrescribedJointMotion {
     std::size_t body;
-    MotionFunction law;
+    MotionFunction motion;
   };
-  std::vector<Drive> drives;
+  std::vector<PrescribedJointMotion> prescribed_joints;
 
   void begin_step(double h) {
     for (ForceSource* source : sources) source->begin_step(k, x.t, h);
   }
-  // w.qdd at x, whose k is up to date; Coulomb friction `now` (constrained_dynamics.h).
+  // w.qdd at x, with k up to date; FrictionRule::current (constrained_dynamics.h).
   void accelerate() {
-    accelerate(x, k, Rule::now, 0);
+    accelerate(x, k, FrictionRule::current, 0);
     start_projection();
   }
-  // The same over a step of h that changes velocities by h qdd: friction at the end of it.
+  // The same for a step v' = v + h qdd, FrictionRule::end_of_step.
   void accelerate_over(double h) {
-    accelerate(x, k, Rule::end_of_step, h);
+    accelerate(x, k, FrictionRule::end_of_step, h);
     start_projection();
   }
-  // At the stage, and at x where a trial of the step ends: friction as chosen by accelerate(). The
-  // drives and kinematics are set first.
+  // w.qdd at the stage, and at x at the end of a trial step; frozen modes of the last accelerate().
+  // Both set prescribed joints and kinematics first.
   void accelerate_stage();
   void accelerate_end(double t);
-  // Followers to their leaders, drives to where their laws say at x.t, loops closed; then k.
-  void refresh();
-  // The same, but loops as they are.
-  void place_and_look();
-  // At another state. Throws InputError where loops are open there by more than a small rest.
+  // Sets mimic joints and prescribed joints at x.t, projects loops, updates k.
+  void project_and_update();
+  void update_kinematics();  // the same without projection of loops
+  // Sets the state. Throws InputError if loops are open by more than kMaxInitialError.
   void start(State<double> from);
-  // Where it stood after refresh(), not placed again: no bit changes.
+  // Restores a state of project_and_update() bit-exactly, without projection.
   void resume(State<double> from);
-  void set_loops(LoopClosures loops);  // closed where the mechanism stands; their rest goes
-  // Loops are projected along the M and J of the last acceleration at x (loop_projection.h). Where
-  // none was asked for, prepare_projection() finds them; where the last stage became x,
-  // start_projection() takes its.
+  void set_loops(LoopClosures loops);  // closed at x up to kMaxInitialError
+  // Loops are projected with M and J of the last acceleration at x (loop_projection.h).
+  // prepare_projection() computes them if there was none; start_projection() uses those of the last
+  // stage if this became x.
   void prepare_projection();
   void start_projection() {
-    if (has_loops()) projection.start(dynamics.bilateral(), dynamics.at_rest(x), x, k, w);
+    if (has_loops()) projection.start(dynamics.bilateral(), dynamics.sticking_dofs(x), x, k, w);
   }
   bool has_loops() const { return dynamics.bilateral().loops().any(); }
 
  private:
-  using Rule = ForwardDynamics::Rule;
-  void accelerate(const State<double>& at, const Kinematics& k_at, Rule rule, double h);
-  void place(State<double>& at) const;
-  double close(State<double>& at, Kinematics& k_at);
+  using FrictionRule = ForwardDynamics::FrictionRule;
+  void accelerate(const State<double>& at, const Kinematics& k_at, FrictionRule rule, double h);
+  void set_prescribed_joints(State<double>& at) const;
+  double project_loops(State<double>& at, Kinematics& k_at);
 };
 
 }  // namespace twinarm

@@ -1,8 +1,7 @@
-// The integrators: names, orders, formulas.
+// List of integrators with names, orders and formulas.
 //
-// A step of size h goes from (q, v) to (q', v'); a(q, v) is the acceleration that ABA gives, and
-// q exp(theta) the configuration moved by theta (solver/model/configuration.h). Runge-Kutta methods
-// work in theta (Munthe-Kaas 1998).
+// A step of size h goes from (q, v) to (q', v'). a(q, v): forward dynamics (ABA); q exp(theta):
+// solver/model/configuration.h. Runge-Kutta methods integrate theta (Munthe-Kaas 1998).
 #pragma once
 
 #include <array>
@@ -17,8 +16,8 @@ enum class Integrator {
   semi_implicit,      // v' = v + h a(q, v),   q' = q exp(h v')
   semi_implicit_xv,   // q' = q exp(h v),   v' = v + h a(q', v)
   verlet,             // velocity Verlet: q' = q exp(h v + h^2/2 a), v' = v + h/2 (a + a'),
-                      //   a' = a(q', v + h a): the predicted velocity keeps the second order where
-                      //   forces depend on velocity
+                      //   a' = a(q', v + h a): with the predicted velocity also second order for
+                      //   velocity-dependent forces
   midpoint,           // Runge-Kutta of order 2
   heun,               // Runge-Kutta of order 2
   rk4,                // the classical Runge-Kutta method
@@ -31,9 +30,9 @@ enum class Integrator {
 struct IntegratorFacts {
   Integrator integrator;
   const char* name;     // on the command line, in files and reports
-  int order;            // the error at a fixed time falls as h^order
-  bool solves;          // an equation in each step: its report says whether that converged
-  bool implicit_force;  // carries sources that are implicit in the step (needs_semi_implicit)
+  int order;            // global error O(h^order)
+  bool solves;          // solves an equation in each step (StepReport::converged)
+  bool implicit_force;  // supports sources that are implicit in the step (needs_semi_implicit)
 };
 inline constexpr std::array<IntegratorFacts, 11> all_integrators{{
     {Integrator::euler, "euler", 1, false, false},

@@ -11,7 +11,7 @@
 namespace twinarm {
 namespace {
 
-// Forces and ABA, in rounds where a source asks for them.
+// Forces and ABA, with fixed-point iterations on request of a source.
 void solve_sources(IntegrationState& m, double h, StepReport& report) {
   bool again = true;
   for (report.rounds = 0; again && report.rounds < ForceSource::kMaxRounds; ++report.rounds) {
@@ -25,47 +25,47 @@ void solve_sources(IntegrationState& m, double h, StepReport& report) {
 }  // namespace
 
 IntegratorStep::IntegratorStep(const IntegrationState& m)
-    : shift_(m.model.nv), rk_(m.model.nv), dopri5_(m), events_(m) {}
+    : delta_(m.model.nv), rk_(m.model.nv), dopri5_(m), events_(m) {}
 
 void IntegratorStep::set_integrator(Integrator integrator, double tolerance) {
   if (!(tolerance > 0) || !std::isfinite(tolerance))
-    throw std::invalid_argument("a tolerance is a positive number");
+    throw std::invalid_argument("tolerance must be positive and finite");
   integrator_ = integrator;
   dopri5_.set_tolerance(tolerance);
-  forget();
-  if (facts_of(integrator).solves && !implicit_) implicit_.emplace(shift_.size());
+  reset_step_size();
+  if (facts_of(integrator).solves && !implicit_) implicit_.emplace(delta_.size());
 }
 
 void IntegratorStep::step(IntegrationState& m, double h, bool one_substep, StepReport& report) {
   const double t = m.x.t;
-  if (integrator_ == Integrator::semi_implicit_xv) {  // its sources act at the new coordinates
+  if (integrator_ == Integrator::semi_implicit_xv) {  // forces at the new coordinates
     m.prepare_projection();
-    drift(m, shift_, h);
+    drift(m, delta_, h);
     m.x.t = t + h;
-    m.refresh();
-    if (m.account) m.account->count_projection();
+    m.project_and_update();
+    if (m.account) m.account->add_projection();
   }
   m.begin_step(h);
   if (integrator_ == Integrator::dopri5) return dopri5_.step(m, h, one_substep, report);
   if (facts_of(integrator_).implicit_force) {
     solve_sources(m, h, report);
     kick(m, h);
-    m.dynamics.settle(m.x);
+    m.dynamics.zero_sticking_velocities(m.x);
     apply_mimics(m.model, m.x);
-    if (integrator_ == Integrator::semi_implicit) drift(m, shift_, h);
+    if (integrator_ == Integrator::semi_implicit) drift(m, delta_, h);
   } else if (m.dynamics.has_coulomb()) {
-    report.events = events_.advance(m, h, [&](double s) { move(m, s, report); });
+    report.events = events_.advance(m, h, [&](double s) { smooth_step(m, s, report); });
   } else {
-    move(m, h, report);
+    smooth_step(m, h, report);
   }
   m.x.t = t + h;
 }
 
-void IntegratorStep::move(IntegrationState& m, double h, StepReport& report) {
+void IntegratorStep::smooth_step(IntegrationState& m, double h, StepReport& report) {
   if (facts_of(integrator_).solves)
     implicit_->step(m, integrator_, h, report);
   else if (integrator_ == Integrator::verlet)
-    step_verlet(m, shift_, h);
+    step_verlet(m, delta_, h);
   else
     rk_.step(m, tableau_of(integrator_), h);
 }

@@ -1,4 +1,4 @@
-// A step without constraints, by any of the integrators (integrator.h).
+// A step without contacts and limits, by any of the integrators (integrator.h).
 #pragma once
 
 #include <optional>
@@ -18,25 +18,26 @@ class IntegratorStep {
   explicit IntegratorStep(const IntegrationState& m);
   Integrator integrator() const { return integrator_; }
   void set_integrator(Integrator integrator, double tolerance);
-  void forget() { dopri5_.forget(); }  // the state is not where the last step led
-  void serialize(StateArchive& memory) { dopri5_.serialize(memory); }
+  void reset_step_size() { dopri5_.reset_step_size(); }  // after a change of the state
+  void serialize(StateArchive& archive) { dopri5_.serialize(archive); }
 
-  // Moves m.x by h, its time too, and begins the step for the sources of forces; m.k is left to the
-  // caller. `one_substep`: dopri5 takes one, of the size that its tolerance asks for.
+  // Advances m.x including time by h and calls begin_step() of the force sources; the caller
+  // updates m.k. `one_substep`: dopri5 takes one substep by its tolerance.
   void step(IntegrationState& m, double h, bool one_substep, StepReport& report);
 
  private:
-  void move(IntegrationState& m, double h, StepReport& report);  // a fixed size, not semi-implicit
+  // By integrators of fixed step size that are not semi-implicit.
+  void smooth_step(IntegrationState& m, double h, StepReport& report);
 
   Integrator integrator_ = Integrator::semi_implicit;
-  std::vector<double> shift_;
+  std::vector<double> delta_;
   RungeKutta rk_;
   Dopri5 dopri5_;
   FrictionEventLocator events_;
-  std::optional<ImplicitStep> implicit_;  // nv x nv numbers: only where the integrator needs it
+  std::optional<ImplicitStep> implicit_;  // allocated on use (nv x nv numbers)
 };
 
-// The first number of the step that is not finite, if there is one, into the report.
+// Reports the first non-finite number of the step, if any.
 void report_non_finite(const IntegrationState& m, StepReport& report);
 
 }  // namespace twinarm

@@ -10,7 +10,7 @@ namespace twinarm {
 class DenseSpd {
  public:
   explicit DenseSpd(std::size_t capacity) : capacity_(capacity), A_(capacity * capacity) {}
-  // Only the lower triangle of the leading n x n is read.
+  // factorise() reads the lower triangle of the leading n x n block.
   double& operator()(std::size_t row, std::size_t column) { return A_[row * capacity_ + column]; }
   double operator()(std::size_t row, std::size_t column) const {
     return A_[row * capacity_ + column];
@@ -24,7 +24,7 @@ class DenseSpd {
         if (i > j) A(i, j) /= A(j, j);
       }
   }
-  void solve(double* b) const {  // b to A^-1 b
+  void solve(double* b) const {  // b := A^-1 b
     const DenseSpd& A = *this;
     for (std::size_t i = 0; i < n_; ++i)
       for (std::size_t k = 0; k < i; ++k) b[i] -= A(i, k) * b[k];

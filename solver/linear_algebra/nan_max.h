@@ -1,4 +1,4 @@
-// The larger of two errors, where what is not a number is larger than any: std::max loses it.
+// Maximum of two numbers that propagates NaN, unlike std::max.
 #pragma once
 
 #include <cmath>

@@ -19,7 +19,7 @@ void PivotedCholesky::factorise(std::size_t n, double tolerance) noexcept {
   chosen_.clear();
   for (std::size_t i = 0; i < n; ++i) {
     const double d = A_[i * capacity_ + i];
-    scale_[i] = d > 0 ? 1 / std::sqrt(d) : d == 0 ? 0 : d;  // NaN stays
+    scale_[i] = d > 0 ? 1 / std::sqrt(d) : d == 0 ? 0 : d;  // propagates NaN
     left_[i] = d == 0 ? 0 : 1;
   }
   while (chosen_.size() < n) {
@@ -27,12 +27,12 @@ void PivotedCholesky::factorise(std::size_t n, double tolerance) noexcept {
     for (std::size_t i = 1; i < n; ++i)
       if (left_[i] > left_[pivot]) pivot = i;
     if (!(left_[pivot] > tolerance)) break;
-    take(pivot);
+    add_column(pivot);
   }
 }
 
-// The next column of L, for all rows; rows that were chosen before get what is never read.
-void PivotedCholesky::take(std::size_t pivot) noexcept {
+// Computes the next column of L.
+void PivotedCholesky::add_column(std::size_t pivot) noexcept {
   const std::size_t k = chosen_.size();
   const double root = std::sqrt(left_[pivot]);
   const double* of_pivot = &L_[pivot * capacity_];
@@ -46,7 +46,7 @@ void PivotedCholesky::take(std::size_t pivot) noexcept {
     if (left_[i] < 0) left_[i] = 0;
   }
   L_[pivot * capacity_ + k] = root;
-  left_[pivot] = -1;  // done with
+  left_[pivot] = -1;  // chosen
   chosen_.push_back(pivot);
 }
 

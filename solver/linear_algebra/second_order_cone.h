@@ -1,5 +1,5 @@
-// Algebra of the second-order cone Q = {x : x_0 >= |(x_1, x_2)|} for interior-point methods:
-// Nesterov and Todd 1997; Alizadeh and Goldfarb 2003, from which the letters are.
+// Algebra of the second-order cone Q = {x : x_0 >= |(x_1, x_2)|} for interior-point methods
+// (Nesterov and Todd 1997; notation of Alizadeh and Goldfarb 2003).
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace twinarm {
 using ConeVec = std::array<double, 3>;
 using ConeMat = std::array<double, 9>;  // row by row
 
-// x_0^2 - |x_1|^2, without the cancellation near the boundary.
+// x_0^2 - x_1^2 - x_2^2, without cancellation near the boundary.
 inline double cone_det(const ConeVec& x) {
   const double t = std::sqrt(x[1] * x[1] + x[2] * x[2]);
   return (x[0] - t) * (x[0] + t);
@@ -24,7 +24,7 @@ inline ConeVec times(const ConeMat& A, const ConeVec& x) {
   return {A[0] * x[0] + A[1] * x[1] + A[2] * x[2], A[3] * x[0] + A[4] * x[1] + A[5] * x[2],
           A[6] * x[0] + A[7] * x[1] + A[8] * x[2]};
 }
-// Jordan's product x o y, and y with x o y = b.
+// Jordan product x o y; jordan_solve: y with x o y = b.
 inline ConeVec jordan(const ConeVec& x, const ConeVec& y) {
   return {cone_dot(x, y), x[0] * y[1] + y[0] * x[1], x[0] * y[2] + y[0] * x[2]};
 }
@@ -33,7 +33,7 @@ inline ConeVec jordan_solve(const ConeVec& x, const ConeVec& b) {
   return {y0, (b[1] - x[1] * y0) / x[0], (b[2] - x[2] * y0) / x[0]};
 }
 
-// Largest s with x + s d in Q, for x within it.
+// Maximum s with x + s d in Q, for x in the interior of Q.
 inline double cone_step(const ConeVec& x, const ConeVec& d) {
   double s = std::numeric_limits<double>::infinity();
   if (d[0] < 0) s = -x[0] / d[0];
@@ -47,7 +47,7 @@ inline double cone_step(const ConeVec& x, const ConeVec& d) {
   return s;
 }
 
-// The symmetric W with W z = W^-1 x =: t.
+// Nesterov-Todd scaling: symmetric W with W z = W^-1 x =: t.
 struct ConeScaling {
   ConeMat W, W2;
   ConeVec t;

@@ -11,13 +11,13 @@ namespace {
 
 using Mode = ForwardDynamics::Mode;
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-// Where a loop couples dofs that both rub, only a sum of their frictions is determined. A part of
-// the diagonal of B this large makes the problem definite, and shares it out by the least squares;
-// what is held then creeps by as little, and is stopped exactly (make_exact, settle).
-constexpr double kSharing = 1e-10;
+// If a loop couples dofs with friction, only a sum of their friction forces is determined. This
+// fraction of the diagonal of B regularizes the problem (least-squares distribution). The resulting
+// creep is removed by remove_rounding() and zero_sticking_velocities().
+constexpr double kRegularization = 1e-10;
 
 Mode mode_of(double v) {
-  return v > 0 ? Mode::slides_plus : v < 0 ? Mode::slides_minus : Mode::held;
+  return v > 0 ? Mode::sliding_plus : v < 0 ? Mode::sliding_minus : Mode::sticking;
 }
 
 }  // namespace
@@ -26,7 +26,7 @@ ForwardDynamics::ForwardDynamics(const Model<double>& model)
     : model_(&model),
       friction_(model),
       bilateral_(model),
-      mode_(friction_.families().size(), Mode::held),
+      mode_(friction_.groups().size(), Mode::sticking),
       f_(mode_.size()),
       f0_(mode_.size()),
       box_(mode_.size()),
@@ -40,7 +40,7 @@ ForwardDynamics::ForwardDynamics(const Model<double>& model)
   torques_.damping = torques_.coulomb = torques_.mimic = torques_.loop = b_;
   for (const double b : model.damping) has_damping_ = has_damping_ || b != 0;
   unknown_.reserve(mode_.size());
-  at_rest_.reserve(mode_.size());
+  sticking_dofs_.reserve(mode_.size());
 }
 
 void ForwardDynamics::set_friction(bool on) {
@@ -49,43 +49,43 @@ void ForwardDynamics::set_friction(bool on) {
   std::fill(torques_.coulomb.begin(), torques_.coulomb.end(), 0);
 }
 
-bool ForwardDynamics::holds_any() const {
-  return has_coulomb() && std::find(mode_.begin(), mode_.end(), Mode::held) != mode_.end();
+bool ForwardDynamics::any_sticking() const {
+  return has_coulomb() && std::find(mode_.begin(), mode_.end(), Mode::sticking) != mode_.end();
 }
 
-double ForwardDynamics::slack() const {
-  double least = 1;
+double ForwardDynamics::friction_margin() const {
+  double margin = 1;
   for (std::size_t k = 0; k < mode_.size(); ++k) {
-    const CoulombFriction::MimicGroup& of = families()[k];
-    if (mode_[k] == Mode::held)
-      least = std::min(least, std::min(f_[k] + of.plus, of.minus - f_[k]) / (of.plus + of.minus));
+    const CoulombFriction::MimicGroup& of = groups()[k];
+    if (mode_[k] == Mode::sticking)
+      margin = std::min(margin, std::min(f_[k] + of.plus, of.minus - f_[k]) / (of.plus + of.minus));
   }
-  return least;
+  return margin;
 }
 
-void ForwardDynamics::settle(State<double>& x) const {
+void ForwardDynamics::zero_sticking_velocities(State<double>& x) const {
   if (!has_coulomb()) return;
   for (std::size_t k = 0; k < mode_.size(); ++k) {
-    double& v = x.qd[families()[k].dof];
-    if (mode_[k] == Mode::held || v * static_cast<double>(mode_[k]) < 0) v = 0;
+    double& v = x.qd[groups()[k].dof];
+    if (mode_[k] == Mode::sticking || v * static_cast<double>(mode_[k]) < 0) v = 0;
   }
 }
 
-const std::vector<std::size_t>& ForwardDynamics::at_rest(const State<double>& x) noexcept {
-  at_rest_.clear();
+const std::vector<std::size_t>& ForwardDynamics::sticking_dofs(const State<double>& x) noexcept {
+  sticking_dofs_.clear();
   if (has_coulomb())
     for (std::size_t k = 0; k < mode_.size(); ++k)
-      if (mode_[k] == Mode::held && x.qd[families()[k].dof] == 0)
-        at_rest_.push_back(families()[k].dof);
-  return at_rest_;
+      if (mode_[k] == Mode::sticking && x.qd[groups()[k].dof] == 0)
+        sticking_dofs_.push_back(groups()[k].dof);
+  return sticking_dofs_;
 }
 
 void ForwardDynamics::operator()(const State<double>& x, Forces<double>& forces,
-                                 Workspace<double>& w, Rule problem, double h) noexcept {
+                                 Workspace<double>& w, FrictionRule rule, double h) noexcept {
   const bool any_friction = friction_on_ && (has_damping_ || has_coulomb());
   if (!any_friction && !bilateral_.any()) return aba(*model_, x, forces, w);
 
-  known_torques(x, h, problem, forces);
+  add_known_friction(x, h, rule, forces);
   std::swap(forces.tau, tau_), std::swap(forces.armature, armature_);
   aba(*model_, x, forces, w);
   std::swap(forces.tau, tau_), std::swap(forces.armature, armature_);
@@ -95,18 +95,17 @@ void ForwardDynamics::operator()(const State<double>& x, Forces<double>& forces,
     bilateral_.prepare(w);
     bilateral_.project_acceleration(a_);
   }
-  if (has_coulomb()) find_unknown(x, h, problem, w);
-  correct(w);
-  make_exact(h, w);
+  if (has_coulomb()) solve_unknown_friction(x, h, rule, w);
+  correct_accelerations(w);
+  remove_rounding(h, w);
   if (h > 0 && has_damping_ && friction_on_)
     for (std::size_t d = 0; d < model_->nv; ++d)
       torques_.damping[d] -= h * model_->damping[d] * w.qdd[d];
 }
 
-// Friction that does not depend on qdd goes into ABA: damping (at the end of a step h b qdd of it
-// as armature), and Coulomb friction of all that slides.
-void ForwardDynamics::known_torques(const State<double>& x, double h, Rule problem,
-                                    const Forces<double>& forces) {
+// Input of ABA: damping (by end_of_step with armature h b), and Coulomb friction of sliding dofs.
+void ForwardDynamics::add_known_friction(const State<double>& x, double h, FrictionRule rule,
+                                         const Forces<double>& forces) {
   tau_ = forces.tau;
   armature_ = forces.armature;
   std::fill(torques_.coulomb.begin(), torques_.coulomb.end(), 0);
@@ -116,21 +115,21 @@ void ForwardDynamics::known_torques(const State<double>& x, double h, Rule probl
     armature_[d] += h * model_->damping[d];
   }
   for (std::size_t k = 0; k < mode_.size(); ++k) {
-    const CoulombFriction::MimicGroup& of = families()[k];
-    if (problem != Rule::as_chosen) mode_[k] = mode_of(x.qd[of.dof]);
-    f_[k] = mode_[k] == Mode::slides_plus    ? -of.plus
-            : mode_[k] == Mode::slides_minus ? of.minus
-                                             : 0;
+    const CoulombFriction::MimicGroup& of = groups()[k];
+    if (rule != FrictionRule::frozen_modes) mode_[k] = mode_of(x.qd[of.dof]);
+    f_[k] = mode_[k] == Mode::sliding_plus    ? -of.plus
+            : mode_[k] == Mode::sliding_minus ? of.minus
+                                              : 0;
     friction_.distribute(k, f_[k], torques_.coulomb);
   }
   f0_ = f_;
   for (std::size_t d = 0; d < model_->nv; ++d) tau_[d] += torques_.damping[d] + torques_.coulomb[d];
 }
 
-// Unknown is the friction of what is at rest; at the end of a step also of what would pass through
-// rest: with those found others may, so it is looked again, each family at most once.
-void ForwardDynamics::find_unknown(const State<double>& x, double h, Rule problem,
-                                   Workspace<double>& w) {
+// Friction is unknown for sticking dofs, and by end_of_step for dofs whose velocity would change
+// sign. Repeated, as a solution may add such dofs; each group is added at most once.
+void ForwardDynamics::solve_unknown_friction(const State<double>& x, double h, FrictionRule rule,
+                                             Workspace<double>& w) {
   unknown_.clear();
   box_.rows.clear();
   std::fill(is_unknown_.begin(), is_unknown_.end(), 0);
@@ -138,15 +137,15 @@ void ForwardDynamics::find_unknown(const State<double>& x, double h, Rule proble
     const std::size_t before = unknown_.size();
     for (std::size_t k = 0; k < mode_.size(); ++k) {
       if (is_unknown_[k]) continue;
-      const std::size_t dof = families()[k].dof;
-      const double v = x.qd[dof] + h * (a_[dof] + sum_of_changes(k));
-      if (mode_[k] == Mode::held ||
-          (problem == Rule::end_of_step && v * static_cast<double>(mode_[k]) < 0))
-        add_unknown(k, problem, w);
+      const std::size_t dof = groups()[k].dof;
+      const double v = x.qd[dof] + h * (a_[dof] + qdd_of_unknown_friction(k));
+      if (mode_[k] == Mode::sticking ||
+          (rule == FrictionRule::end_of_step && v * static_cast<double>(mode_[k]) < 0))
+        add_unknown(k, rule, w);
     }
     if (unknown_.size() == before) break;
     for (std::size_t r = before; r < unknown_.size(); ++r) {
-      const std::size_t dof = families()[unknown_[r]].dof;
+      const std::size_t dof = groups()[unknown_[r]].dof;
       box_.rows[r].a = a_[dof] + (h > 0 ? x.qd[dof] / h : 0);
     }
     box_.solve();
@@ -155,52 +154,53 @@ void ForwardDynamics::find_unknown(const State<double>& x, double h, Rule proble
   for (std::size_t r = 0; r < unknown_.size(); ++r) {
     const std::size_t k = unknown_[r];
     const BoxLcp::Row& row = box_.rows[r];
-    const CoulombFriction::MimicGroup& of = families()[k];
+    const CoulombFriction::MimicGroup& of = groups()[k];
     f_[k] = row.at == At::low ? -of.plus : row.at == At::high ? of.minus : f0_[k] + row.f;
-    mode_[k] = row.at == At::low    ? Mode::slides_plus
-               : row.at == At::high ? Mode::slides_minus
-                                    : Mode::held;
+    mode_[k] = row.at == At::low    ? Mode::sliding_plus
+               : row.at == At::high ? Mode::sliding_minus
+                                    : Mode::sticking;
   }
 }
 
-// qdd of the family's dof due to the friction found so far.
-double ForwardDynamics::sum_of_changes(std::size_t family) const {
+// qdd of the group's dof due to the solution for f - f0.
+double ForwardDynamics::qdd_of_unknown_friction(std::size_t group) const {
   double sum = 0;
   for (std::size_t r = 0; r < unknown_.size(); ++r)
-    sum += B_[family * mode_.size() + r] * box_.rows[r].f;
+    sum += B_[group * mode_.size() + r] * box_.rows[r].f;
   return sum;
 }
 
-void ForwardDynamics::add_unknown(std::size_t family, Rule problem, Workspace<double>& w) {
-  const CoulombFriction::MimicGroup& of = families()[family];
+void ForwardDynamics::add_unknown(std::size_t group, FrictionRule rule, Workspace<double>& w) {
+  const CoulombFriction::MimicGroup& of = groups()[group];
   std::fill(b_.begin(), b_.end(), 0);
   b_[of.dof] = 1;
   minv_times(*model_, b_, no_forces_, w);
   const double alone = w.y[of.dof];
   if (bilateral_.any()) bilateral_.project(w.y);
   const std::size_t r = unknown_.size();
-  unknown_.push_back(family);
-  is_unknown_[family] = 1;
-  for (std::size_t k = 0; k < mode_.size(); ++k) B_[k * mode_.size() + r] = w.y[families()[k].dof];
+  unknown_.push_back(group);
+  is_unknown_[group] = 1;
+  for (std::size_t k = 0; k < mode_.size(); ++k) B_[k * mode_.size() + r] = w.y[groups()[k].dof];
+  const bool unlimited = rule == FrictionRule::frozen_modes;
   BoxLcp::Row row;
-  row.low = problem == Rule::as_chosen ? -kUnlimited : -of.plus - f0_[family];
-  row.high = problem == Rule::as_chosen ? kUnlimited : of.minus - f0_[family];
+  row.low = unlimited ? -kUnlimited : -of.plus - f0_[group];
+  row.high = unlimited ? kUnlimited : of.minus - f0_[group];
   box_.rows.push_back(row);
   for (std::size_t s = 0; s <= r; ++s)
     box_.B(r, s) = box_.B(s, r) = B_[unknown_[s] * mode_.size() + r];
-  if (bilateral_.loops().any()) box_.B(r, r) += kSharing * alone;
+  if (bilateral_.loops().any()) box_.B(r, r) += kRegularization * alone;
 }
 
-// What is zero, or a follower's, but for rounding; so that what is held does not creep.
-void ForwardDynamics::make_exact(double h, Workspace<double>& w) const {
+// Removes rounding from qdd of sticking dofs (exactly 0) and mimic joints.
+void ForwardDynamics::remove_rounding(double h, Workspace<double>& w) const {
   if (h == 0 && has_coulomb())
     for (std::size_t k = 0; k < mode_.size(); ++k)
-      if (mode_[k] == Mode::held) w.qdd[families()[k].dof] = 0;
+      if (mode_[k] == Mode::sticking) w.qdd[groups()[k].dof] = 0;
   for (const Mimic& m : model_->mimics) w.qdd[m.follower] = m.ratio * w.qdd[m.leader];
 }
 
-// Adds what the friction found and the constraints' forces do to what ABA left.
-void ForwardDynamics::correct(Workspace<double>& w) {
+// Adds the effect of f - f0 and of the constraint forces to the accelerations of ABA.
+void ForwardDynamics::correct_accelerations(Workspace<double>& w) {
   for (std::size_t d = 0; d < model_->nv; ++d) b_[d] = -torques_.coulomb[d];
   std::fill(torques_.coulomb.begin(), torques_.coulomb.end(), 0);
   bool changed = bilateral_.any();

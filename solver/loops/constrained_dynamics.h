@@ -1,22 +1,21 @@
-// Forward dynamics of all that a Model says, and of closed loops: ABA, the joints' friction, mimic
-// joints, loop closures.
+// Forward dynamics with joint friction, mimic joints and loop closures:
 //
-//   M qdd = tau - h - b qd + f + A^T lambda,   A qdd = -gamma,
-// f the Coulomb friction (joint_friction.h), lambda what keeps followers to their leaders and loops
-// closed (loop_forces.h). One run of ABA with all friction that is known beforehand, minv_times
-// once for every row of A and every dof whose friction is to be found, and once for the correction;
-// a model with neither friction nor constraints costs ABA alone. No allocation after the
-// constructor and ConstraintForceSolver::set_loops.
+//   M qdd = tau - C - b qd + f + A^T lambda,   A qdd = -gamma,
+// C the joint-space bias force, f Coulomb friction (joint_friction.h), lambda the multipliers of
+// mimic joints and loops (loop_forces.h). Cost: one ABA with all friction that does not depend on
+// qdd, one minv_times per row of A and per sticking dof, one for the correction; ABA alone without
+// friction and constraints. No allocation after the constructor and
+// ConstraintForceSolver::set_loops.
 //
-// Where velocity and time come in, there are three rules for f:
-//   now          by qd; a dof at rest sticks, or slips from rest by a qdd != 0
-//   end of step  of a semi-implicit step, v' = v + h qdd: f goes with v', and so does -b v'. A dof
-//                that friction can stop within the step has v' = 0 to rounding: it comes to rest,
-//                and stays. Damping is stable at every h (h b is added to D).
-//   as chosen    each dof slides in the direction, or is held, as `now` found before: f is smooth
-//                along a step, as Runge-Kutta and Newton need it. Held without limit; slack() tells
-//                when the limit is passed (solver/integration/friction_events.h ends the step
-//                there).
+// Coulomb friction follows one of three rules:
+//   current       direction of qd; a dof at rest sticks, or starts to slide with qdd != 0
+//   end_of_step   direction of v' = v + h qdd of a semi-implicit step; damping is -b v'. A dof that
+//                 friction can stop within the step gets v' = 0 (to rounding) and stays at rest.
+//                 Damping is stable at every h (h b is added to D).
+//   frozen_modes  each dof keeps the mode of the last call by another rule (sliding direction, or
+//                 sticking without limit): qdd is smooth along a step, as Runge-Kutta and Newton's
+//                 method require. friction_margin() < 0: a limit is exceeded
+//                 (solver/integration/friction_events.h ends the step there).
 #pragma once
 
 #include <vector>
@@ -33,18 +32,17 @@ class ForwardDynamics {
  public:
   // The model must outlive it.
   explicit ForwardDynamics(const Model<double>& model);
-  // Off: as if no joint had damping or Coulomb friction.
-  void set_friction(bool on);
+  void set_friction(bool on);  // off: no damping and no Coulomb friction
 
-  enum class Rule { now, end_of_step, as_chosen };  // of f, see above
-  // Where there are loops: bilateral().loops().evaluate() at x comes first.
-  // Afterwards w.qdd and w.a are the true accelerations; w.u and w.pA are those of ABA with the
-  // friction that is known beforehand. `forces` is lent, and given back as it was. h [s] goes
-  // with end_of_step, and is 0 otherwise.
+  enum class FrictionRule { current, end_of_step, frozen_modes };  // see above
+  // With loops: call bilateral().loops().evaluate() at x first.
+  // Writes w.qdd and w.a with all forces; w.u and w.pA contain only the friction that does not
+  // depend on qdd. `forces` is modified during the call and restored. h [s]: step of end_of_step,
+  // else 0.
   void operator()(const State<double>& x, Forces<double>& forces, Workspace<double>& w,
-                  Rule problem = Rule::now, double h = 0) noexcept;
+                  FrictionRule rule = FrictionRule::current, double h = 0) noexcept;
 
-  // Of the last call, by velocity [N m, N]; zero where there is none.
+  // Of the last call, by velocity [N m, N].
   struct Torques {
     std::vector<double> damping, coulomb, mimic, loop;
   };
@@ -52,45 +50,47 @@ class ForwardDynamics {
   const ConstraintForceSolver& bilateral() const { return bilateral_; }
   ConstraintForceSolver& bilateral() { return bilateral_; }
 
-  // What the last call by another rule than as_chosen found.
-  enum class Mode : signed char { slides_minus = -1, held = 0, slides_plus = 1 };
-  bool has_coulomb() const { return friction_on_ && !friction_.families().empty(); }
-  const std::vector<CoulombFriction::MimicGroup>& families() const { return friction_.families(); }
-  Mode mode(std::size_t family) const { return mode_[family]; }
-  bool holds_any() const;
-  // How far the held dofs are from slipping, least of all of them, as a part of the whole width of
-  // their limits; negative where one should slip. 1 where none is held.
-  double slack() const;
-  // The dofs that follow nobody, are at rest, and are held by the last call.
-  const std::vector<std::size_t>& at_rest(const State<double>& x) noexcept;
-  // Stops what the last call holds, and what slides against its mode, exactly.
-  void settle(State<double>& x) const;
-  void serialize(StateArchive& memory) { memory.visit_fixed(mode_); }
+  // Modes of the last call by a rule other than frozen_modes.
+  enum class Mode : signed char { sliding_minus = -1, sticking = 0, sliding_plus = 1 };
+  bool has_coulomb() const { return friction_on_ && !friction_.groups().empty(); }
+  const std::vector<CoulombFriction::MimicGroup>& groups() const { return friction_.groups(); }
+  Mode mode(std::size_t group) const { return mode_[group]; }
+  bool any_sticking() const;
+  // Minimum distance of the sticking dofs' friction to its limits, relative to the width of the
+  // limits; negative: a limit is exceeded. 1 if none is sticking.
+  double friction_margin() const;
+  // Independent dofs with zero velocity that are sticking.
+  const std::vector<std::size_t>& sticking_dofs(const State<double>& x) noexcept;
+  // Sets velocities of sticking dofs, and of dofs that move against their sliding mode, to zero.
+  void zero_sticking_velocities(State<double>& x) const;
+  void serialize(StateArchive& archive) { archive.visit_fixed(mode_); }
 
  private:
-  void known_torques(const State<double>& x, double h, Rule problem, const Forces<double>& forces);
-  void find_unknown(const State<double>& x, double h, Rule problem, Workspace<double>& w);
-  void add_unknown(std::size_t family, Rule problem, Workspace<double>& w);
-  void correct(Workspace<double>& w);
-  void make_exact(double h, Workspace<double>& w) const;
-  double sum_of_changes(std::size_t family) const;
+  void add_known_friction(const State<double>& x, double h, FrictionRule rule,
+                          const Forces<double>& forces);
+  void solve_unknown_friction(const State<double>& x, double h, FrictionRule rule,
+                              Workspace<double>& w);
+  void add_unknown(std::size_t group, FrictionRule rule, Workspace<double>& w);
+  void correct_accelerations(Workspace<double>& w);
+  void remove_rounding(double h, Workspace<double>& w) const;
+  double qdd_of_unknown_friction(std::size_t group) const;
 
   const Model<double>* model_;
   bool has_damping_ = false;
   bool friction_on_ = true;
   CoulombFriction friction_;
   ConstraintForceSolver bilateral_;
-  std::vector<Mode> mode_;      // by family
-  std::vector<double> f_, f0_;  // by family: Coulomb friction, and what ABA was given of it
-  BoxLcp box_;                  // of the families in unknown_, for f - f0
+  std::vector<Mode> mode_;      // by group
+  std::vector<double> f_, f0_;  // by group: Coulomb friction, and its part that ABA got
+  BoxLcp box_;                  // of the groups in unknown_, for f - f0
   std::vector<std::size_t> unknown_;
   std::vector<char> is_unknown_;
-  std::vector<double> B_;  // by family, by unknown: qdd of the one per friction of the other
-  std::vector<double> a_;  // by velocity: qdd with the friction that ABA was given
-  std::vector<double> tau_, armature_;  // by velocity: what ABA gets in place of forces'
+  std::vector<double> B_;               // by group, by unknown: d qdd / d friction
+  std::vector<double> a_;               // by velocity: qdd with friction f0
+  std::vector<double> tau_, armature_;  // by velocity: inputs of ABA with known friction
   Torques torques_;
   std::vector<double> b_;
-  std::vector<std::size_t> at_rest_;
+  std::vector<std::size_t> sticking_dofs_;
   std::vector<Force<double>> no_forces_;
 };
 

@@ -1,4 +1,4 @@
-// A mechanism put together: close_loops() of loop_closure.h.
+// Assembly of a mechanism with loops: close_loops() of loop_closure.h.
 #include <algorithm>
 #include <cmath>
 
@@ -13,8 +13,7 @@ namespace {
 
 constexpr int kMaxSteps = 200;
 constexpr double kAssemblyRounding = 1e-15;
-// The longest step in any velocity's direction: Newton's far away point anywhere [rad, m].
-constexpr double kLongest = 0.5;
+constexpr double kMaxNewtonStep = 0.5;  // per velocity [rad, m]
 
 class Assembly {
  public:
@@ -26,33 +25,33 @@ class Assembly {
         w_(model),
         none_(model),
         forces_(model),
-        shift_(model.nv),
+        delta_(model.nv),
         scaled_(model.nv) {
     forces_.set_loops(LoopClosures(model, loops));
     apply_mimics(model_, x_);
   }
 
   State<double> run() {
-    double open = look(x_);
-    for (int n = 0; n < kMaxSteps && open > kAssemblyRounding; ++n) {
-      // Of rows that are open by some angle, what is below its square is not known.
-      prepare(std::max(PivotedCholesky::kDependent, std::min(1e-4, open * open)));
-      forces_.correction(forces_.loops().g(), shift_);
-      const double then = search(open);
-      if (!(then < open)) break;
+    double error = error_at(x_);
+    for (int n = 0; n < kMaxSteps && error > kAssemblyRounding; ++n) {
+      // An error of `error` rad in the rows is error^2 in G.
+      prepare(std::max(PivotedCholesky::kDependent, std::min(1e-4, error * error)));
+      forces_.correction(forces_.loops().g(), delta_);
+      const double after = line_search(error);
+      if (!(after < error)) break;
       x_ = trial_;
-      open = then;
+      error = after;
     }
-    look(x_);
+    error_at(x_);
     prepare(PivotedCholesky::kDependent);
-    forces_.correction(forces_.loops().rate(), shift_);
-    for (std::size_t d = 0; d < model_.nv; ++d) x_.qd[d] += shift_[d];
+    forces_.correction(forces_.loops().rate(), delta_);
+    for (std::size_t d = 0; d < model_.nv; ++d) x_.qd[d] += delta_[d];
     apply_mimics(model_, x_);
     return x_;
   }
 
  private:
-  double look(const State<double>& x) {
+  double error_at(const State<double>& x) {
     forward_kinematics(model_, x, k_);
     forces_.loops().evaluate(x, k_);
     return forces_.loops().g().norm();
@@ -61,19 +60,19 @@ class Assembly {
     aba(model_, x_, none_, w_);
     forces_.prepare(w_, {}, tolerance);
   }
-  // trial_ along the shift, shorter and shorter until loops are less open; how open there.
-  double search(double open) {
+  // Backtracking along delta_ until the error decreases; sets trial_ and returns its error.
+  double line_search(double error) {
     double longest = 0;
-    for (const double s : shift_) longest = std::max(longest, std::abs(s));
-    double part = longest > kLongest ? kLongest / longest : 1, then = open;
-    for (int tries = 0; tries < 30 && !(then < open); ++tries, part /= 2) {
-      for (std::size_t d = 0; d < model_.nv; ++d) scaled_[d] = part * shift_[d];
+    for (const double s : delta_) longest = std::max(longest, std::abs(s));
+    double step = longest > kMaxNewtonStep ? kMaxNewtonStep / longest : 1, after = error;
+    for (int tries = 0; tries < 30 && !(after < error); ++tries, step /= 2) {
+      for (std::size_t d = 0; d < model_.nv; ++d) scaled_[d] = step * delta_[d];
       integrate_coordinates(model_, x_.q, scaled_, trial_.q);
       trial_.qd = x_.qd;
       apply_mimics(model_, trial_);
-      then = look(trial_);
+      after = error_at(trial_);
     }
-    return then;
+    return after;
   }
 
   const Model<double>& model_;
@@ -82,7 +81,7 @@ class Assembly {
   Workspace<double> w_;
   Forces<double> none_;
   ConstraintForceSolver forces_;
-  std::vector<double> shift_, scaled_;
+  std::vector<double> delta_, scaled_;
 };
 
 }  // namespace

@@ -1,5 +1,4 @@
-// What can be wrong with loop closures, reported before a run.
-
+// Checks of loop closures.
 #include <sstream>
 
 #include "solver/loops/loop_types.h"
@@ -40,7 +39,6 @@ bool moves_between(const Model<double>& model, int a, int b) {
   return dofs > 0;
 }
 
-// Faults of one loop by itself.
 class OneLoop {
  public:
   OneLoop(const Model<double>& model, const LoopClosure& loop, std::vector<Diagnostic>& faults)
@@ -50,14 +48,15 @@ class OneLoop {
     bool bodies = is_body(loop_.body_a, "a");
     if (ends_ != LoopBetween::one_joint) bodies = is_body(loop_.body_b, "b") && bodies;
     if (ends_ == LoopBetween::bodies && (!is_frame(loop_.X_LaC) || !is_frame(loop_.X_LbC)))
-      add("its frames C are not finite, or not turned by rotations",
-          "give R and p of X_LaC, X_LbC");
+      add("frame X_LaC or X_LbC is not finite, or its R is not a rotation matrix",
+          "give a rotation matrix R and a finite p");
     const LoopProblem own = visit_loop(loop_.type, [&](auto type) { return type.problem(loop_); });
     if (!own.problem.empty()) add(own.problem, own.fix);
     if (!bodies) return;
     if (ends_ != LoopBetween::bodies) return check_joints();
     if (!moves_between(model_, loop_.body_a, loop_.body_b))
-      add("no joint lets its ends move against each other", "close the loop between other bodies");
+      add("both ends are on the same rigid body: no joint lies between them",
+          "close the loop between other bodies");
   }
 
  private:
@@ -68,7 +67,7 @@ class OneLoop {
   bool is_body(int body, const char* end) {
     if (body >= 0 && body < model_.body_count()) return true;
     add(text("body ", end, " is ", body, ", of 0 .. ", model_.body_count() - 1),
-        "take the number from Model::find_body");
+        "use an index of Model::find_body");
     return false;
   }
   bool has_one_dof(int body) {
@@ -76,14 +75,14 @@ class OneLoop {
     if (body > 0 && model_.dofs(i) == 1) return true;
     add(text("the joint of body ", body, " (", name_of(model_.joint[i]), ") has ", model_.dofs(i),
              " degrees of freedom, must have one"),
-        "weld the link instead, or take another joint");
+        "use a weld, or another joint");
     return false;
   }
   void check_joints() {
     has_one_dof(loop_.body_a);
     if (ends_ == LoopBetween::one_joint) return;
     has_one_dof(loop_.body_b);
-    if (loop_.body_a == loop_.body_b) add("it gears a joint to itself", "give two joints");
+    if (loop_.body_a == loop_.body_b) add("both ends are the same joint", "give two joints");
   }
 
   const Model<double>& model_;
@@ -92,7 +91,7 @@ class OneLoop {
   std::vector<Diagnostic>& faults_;
 };
 
-// By loop: its faults, alone and beside those before it.
+// By loop: its errors, including duplicates of earlier loops.
 std::vector<std::vector<Diagnostic>> faults_by_loop(const Model<double>& model,
                                                     const std::vector<LoopClosure>& loops) {
   std::vector<std::vector<Diagnostic>> faults(loops.size());
@@ -101,13 +100,13 @@ std::vector<std::vector<Diagnostic>> faults_by_loop(const Model<double>& model,
     for (std::size_t other = 0; other < l; ++other)
       if (same(loops[l], loops[other]))
         faults[l].push_back({"", 0, "loop '" + loops[l].name + "'",
-                             "it is the same as loop '" + loops[other].name + "'", "give it once",
-                             "loop.twice"});
+                             "duplicate of loop '" + loops[other].name + "'",
+                             "remove one of the two", "loop.twice"});
   }
   return faults;
 }
 
-// A hinge or weld is also met where axes point in opposite directions.
+// Hinges and welds: g = 0 also holds for axes in opposite directions.
 bool is_turned_over(const LoopClosure& loop, const Kinematics& k) {
   const Matrix3 R = (k.X_WL[static_cast<std::size_t>(loop.body_a)].R * loop.X_LaC.R).transpose() *
                     k.X_WL[static_cast<std::size_t>(loop.body_b)].R * loop.X_LbC.R;
@@ -120,17 +119,17 @@ void add_open(const Model<double>& model, const LoopClosure& loop, const State<d
   forward_kinematics(model, x, k);
   LoopClosures alone(model, {loop});
   alone.evaluate(x, k);
-  const double open = alone.g().lpNorm<Eigen::Infinity>();
-  const std::string fix = "start where it is closed: close_loops() looks for such a state nearby";
+  const double error = alone.g().lpNorm<Eigen::Infinity>();
+  const std::string fix = "give initial joint positions that close the loop";
   if (is_turned_over(loop, k))
     faults.push_back({"", 0, "loop '" + loop.name + "'",
-                      "its frames are turned over against each other at the start", fix,
-                      "loop.turned-over"});
-  else if (!(open <= kOpenAtStart))
-    faults.push_back(
-        {"", 0, "loop '" + loop.name + "'",
-         text("it is open by ", open, " (m or rad) at the start, may be ", kOpenAtStart), fix,
-         "loop.open"});
+                      "axes of the two frames point in opposite directions in the initial state",
+                      fix, "loop.turned-over"});
+  else if (!(error <= kMaxInitialError))
+    faults.push_back({"", 0, "loop '" + loop.name + "'",
+                      text("position error is ", error,
+                           " (m or rad) in the initial state, allowed ", kMaxInitialError),
+                      fix, "loop.open"});
 }
 
 void throw_all(const std::vector<std::vector<Diagnostic>>& by_loop) {

@@ -20,15 +20,15 @@ ConstraintForceSolver::ConstraintForceSolver(const Model<double>& model)
 void ConstraintForceSolver::set_loops(LoopClosures loops) {
   loops_ = std::move(loops);
   rows_ = model_->mimics.size() + loops_.rows();
-  const std::size_t most = rows_ + (loops_.any() ? model_->nv : 0);
-  factors_ = PivotedCholesky(most);
-  Z_.assign(most * model_->nv, 0);
-  lambda_.assign(most, 0);
+  const std::size_t max_rows = rows_ + (loops_.any() ? model_->nv : 0);
+  factors_ = PivotedCholesky(max_rows);
+  Z_.assign(max_rows * model_->nv, 0);
+  lambda_.assign(max_rows, 0);
   held_.clear();
-  held_.reserve(most);
+  held_.reserve(max_rows);
 }
 
-// Calls f(dof, value) for what is not zero in a row of A.
+// Calls f(dof, value) for the entries of a row of A.
 template <class F>
 void ConstraintForceSolver::for_each_entry(std::size_t row, F&& f) const {
   if (row < model_->mimics.size()) {
@@ -103,7 +103,7 @@ void ConstraintForceSolver::add_forces(std::vector<double>& mimic,
 }
 
 void ConstraintForceSolver::project_acceleration(std::vector<double>& a) noexcept {
-  solve(a, b_);  // b_ is zero between calls
+  solve(a, b_);  // b_ is zero between calls of prepare()
   add_accelerations(a);
 }
 
@@ -123,13 +123,12 @@ void ConstraintForceSolver::correction(const Eigen::VectorXd& residual,
   add_accelerations(out);
 }
 
-void ConstraintForceSolver::add_lambda(double part, std::vector<double>& sum) const {
-  for (std::size_t r = 0; r < loops_.rows(); ++r)
-    sum[r] += part * lambda_[model_->mimics.size() + r];
+void ConstraintForceSolver::add_lambda(double s, std::vector<double>& sum) const {
+  for (std::size_t r = 0; r < loops_.rows(); ++r) sum[r] += s * lambda_[model_->mimics.size() + r];
 }
 
-void ConstraintForceSolver::shift_of(std::size_t loop, const std::vector<double>& lambda,
-                                     std::vector<double>& out) const {
+void ConstraintForceSolver::correction_of_loop(std::size_t loop, const std::vector<double>& lambda,
+                                               std::vector<double>& out) const {
   std::fill(out.begin(), out.end(), 0);
   for (std::size_t r = loops_.first_row(loop); r < loops_.rows() && loops_.loop_of(r) == loop;
        ++r) {
@@ -138,7 +137,7 @@ void ConstraintForceSolver::shift_of(std::size_t loop, const std::vector<double>
   }
 }
 
-void ConstraintForceSolver::take_factors(const ConstraintForceSolver& from) noexcept {
+void ConstraintForceSolver::copy_factors(const ConstraintForceSolver& from) noexcept {
   Z_ = from.Z_;
   factors_ = from.factors_;
   held_ = from.held_;

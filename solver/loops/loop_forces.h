@@ -1,14 +1,11 @@
-// The forces of all bilateral constraints at once: joints that follow others (mimic.h), and loop
-// closures (loop_closure.h).
+// Forces of all bilateral constraints: mimic joints (mimic.h) and loop closures (loop_closure.h).
 //
-// With A the rows of both (RBDA sections 8.2, 8.3):
-//   M qdd = tau - h + A^T lambda,   A qdd = -gamma   (gamma = 0 of mimics),
-// so that with a = M^-1 (tau - h)
+// With A the rows of both (RBDA sections 8.2, 8.3) and C the joint-space bias force:
+//   M qdd = tau - C + A^T lambda,   A qdd = -gamma   (gamma = 0 for mimic joints),
+// and with a = M^-1 (tau - C)
 //   G lambda = -(A a + gamma),   G = A M^-1 A^T.
-// M^-1 A^T comes in O(n) a row from the factors that ABA left (minv_times). G is singular where
-// constraints are redundant: pivoted_cholesky.h. Any lambda that solves it gives the same qdd, for
-// what is free in lambda does not reach A^T lambda. A^T lambda does no work on velocities with A qd
-// = 0.
+// M^-1 A^T costs O(n) per row with the factors of ABA (minv_times). Redundant constraints make G
+// singular (pivoted_cholesky.h); every solution lambda has the same A^T lambda and qdd.
 #pragma once
 
 #include <vector>
@@ -28,32 +25,32 @@ class ConstraintForceSolver {
   const LoopClosures& loops() const { return loops_; }
   LoopClosures& loops() { return loops_; }
 
-  // After aba() at the same coordinates, or near by, with loops().evaluate() where A is wanted.
-  // Uses w.y, w.p, w.dv. `held` are velocities that are to stay as they are: rows of their own.
+  // Factorises G; requires aba() at the same or a nearby q, and loops().evaluate() for A. Writes
+  // w.y, w.p, w.dv. `held`: velocities with zero acceleration, as additional rows.
   void prepare(Workspace<double>& w, const std::vector<std::size_t>& held = {},
                double tolerance = PivotedCholesky::kDependent) noexcept;
   const std::vector<std::size_t>& held() const { return held_; }
-  // What prepare() found there, as if it had been found here.
-  void take_factors(const ConstraintForceSolver& from) noexcept;
+  // Copies the result of prepare() of another solver.
+  void copy_factors(const ConstraintForceSolver& from) noexcept;
 
-  // Sets lambda so that A (a + M^-1 b + M^-1 A^T lambda) = -gamma.
+  // Solves A (a + M^-1 b + M^-1 A^T lambda) = -gamma for lambda.
   void solve(const std::vector<double>& a, const std::vector<double>& b) noexcept;
-  // A^T lambda, the parts of either.
+  // Adds A^T lambda, separately for mimic joints and loops.
   void add_forces(std::vector<double>& mimic, std::vector<double>& loop) const;
-  // An acceleration a, or y = M^-1 b of some b alone, to what it is with the constraints.
+  // Adds the acceleration of the constraint forces to an acceleration a, or to y = M^-1 b.
   void project_acceleration(std::vector<double>& a) noexcept;
   void project(std::vector<double>& y) noexcept;
-  // M^-1 A^T lambda such that the loops' rows of A times it are -residual, all others' 0.
+  // out = M^-1 A^T lambda with J out = -residual for the loops' rows, 0 for the other rows.
   void correction(const Eigen::VectorXd& residual, std::vector<double>& out) noexcept;
 
-  // Adds `part` of lambda of the last solve() or correction(), of the loops' rows.
-  void add_lambda(double part, std::vector<double>& sum) const;
-  // M^-1 A^T lambda, of one loop's rows and as prepare() found them; lambda as add_lambda() has it.
-  void shift_of(std::size_t loop, const std::vector<double>& lambda,
-                std::vector<double>& out) const;
+  // sum += s lambda for the loops' rows of the last solve() or correction().
+  void add_lambda(double s, std::vector<double>& sum) const;
+  // out = M^-1 A^T lambda of one loop's rows, with A of prepare(); lambda as in add_lambda().
+  void correction_of_loop(std::size_t loop, const std::vector<double>& lambda,
+                          std::vector<double>& out) const;
 
   std::size_t rank() const { return factors_.rank(); }  // of all rows of the last prepare()
-  // Of the loops' rows, of the last solve(); where rows are redundant the shortest of all with the
+  // lambda of the loops' rows of the last solve(); for redundant rows that of minimum norm with the
   // same J^T lambda. Allocates.
   Eigen::VectorXd lambda_of_loops() const;
 
@@ -65,10 +62,10 @@ class ConstraintForceSolver {
 
   const Model<double>* model_;
   LoopClosures loops_;
-  std::size_t rows_ = 0;  // of mimics and loops; those of held_ come after them
+  std::size_t rows_ = 0;  // of mimics and loops, followed by those of held_
   std::vector<std::size_t> held_;
   PivotedCholesky factors_;
-  std::vector<double> Z_;  // M^-1 A^T, one row of A after the other
+  std::vector<double> Z_;  // M^-1 A^T, by row of A
   std::vector<double> lambda_, b_;
   std::vector<Force<double>> no_forces_;
 };

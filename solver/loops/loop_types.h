@@ -1,13 +1,13 @@
-// The types of loop closures: a struct for each, with its rows g, g', gamma and J (loop_closure.h).
+// Types of loop closures: one struct per type, with g, g', gamma and J (loop_closure.h).
 //
-// A new type is one struct here and its line in the list of loop_closure.h. Each struct states
-//   rows              of g
+// A new type is one struct here and one line in the list of loop_closure.h. Members of a struct:
+//   rows              number of rows of g
 //   ends              between two bodies, between two joints, or of one joint
-//   evaluate          writes g, g', gamma and J of its rows, and what wrench() reads
-//   wrench            on link a, of the multipliers of its rows
-//   problem           what is wrong with the closure's own numbers; empty where nothing is
-//   is_turned_over    whether g = 0 is met, but by axes that point in opposite directions
-//   g_of_pose         between bodies: g again, from poses alone, for the inspector's check
+//   evaluate          writes g, g', gamma and J, and the data of wrench()
+//   wrench            wrench on link a from the multipliers of its rows
+//   problem           error in the closure's parameters; empty if none
+//   is_turned_over    whether axes point in opposite directions although g = 0
+//   g_of_pose         between bodies: g from poses only (cross-check in the inspector)
 #pragma once
 
 #include <array>
@@ -18,8 +18,8 @@
 
 namespace twinarm {
 
-// Of one end: C, and how it moves at qdd = 0, in world axes. Gravity stands in a_bias as a_0 = -g,
-// at both ends alike, and drops out of every difference.
+// Frame C of one end, its velocity, and its acceleration at qdd = 0, world axes. a_bias contains
+// a_0 = -a_g at both ends, which cancels in every difference.
 struct LoopSide {
   Pose X_WC;
   Vector3 w, v, alpha, a;
@@ -35,7 +35,7 @@ struct LoopSide {
   }
 };
 
-// One loop at a state: what its type reads, and the rows that it writes, from `row` on.
+// One loop at a state: inputs, and outputs from `row` on.
 struct LoopRows {
   using Index = Eigen::Index;
   const Model<double>& model;
@@ -49,8 +49,8 @@ struct LoopRows {
 
   LoopSide side_a() const { return {k, loop.body_a, loop.X_LaC}; }
   LoopSide side_b() const { return {k, loop.body_b, loop.X_LbC}; }
-  // f(sign, dof, angular and linear part of its velocity, its origin): of the dofs below a, with
-  // sign 1, and below b, with sign -1, that the two do not share.
+  // f(sign, dof, angular part, linear part, joint's origin) for the dofs that move only one end:
+  // sign 1 for a, -1 for b.
   template <class F>
   void for_each_dof(F&& f) const {
     for (const double sign : {1.0, -1.0})
@@ -62,9 +62,8 @@ struct LoopRows {
   }
 };
 
-// Entries of J that are smaller than this part of the velocities that they are the difference of
-// are rounding. They are made zero, so that a row that moves nothing (out of the plane of a planar
-// mechanism) is empty, and is not taken for a small but true one.
+// Sets entries of J to zero that are rounding of the velocities they are the difference of. Rows
+// without effect (out of plane in a planar mechanism) are then empty instead of small.
 inline double without_rounding(double entry, double size) {
   constexpr double kEntryRounding = 1e-9;
   return std::abs(entry) <= kEntryRounding * size ? 0 : entry;
@@ -74,7 +73,7 @@ struct LoopProblem {
   std::string problem, fix;
 };
 
-// What every type shares that does not say otherwise.
+// Defaults.
 struct AnyLoop {
   static constexpr LoopBetween ends = LoopBetween::bodies;
   static LoopWrench wrench(const LoopEnds&, const double*) { return {}; }
@@ -85,13 +84,13 @@ struct AnyLoop {
 
 // ---- frames: the origins of C_a and C_b agree, and some of their axes ----
 
-// Which axes of C_a and C_b are to stay at right angles, and with which sign, so that the couples
-// of the rows are about x, y, z of C where the loop is closed.
+// Axes of C_a and C_b that stay perpendicular, and the sign for which the couples of the rows are
+// about x, y, z of C in the closed loop.
 struct AxisRow {
   int of_a, of_b, sign;
 };
 
-// With s = p_b - p_a, seen from a: g = -R^T s, R the axes of C_a, R' = [w_a]x R. Then
+// With s = p_b - p_a and R the axes of C_a, R' = [w_a]x R: g = -R^T s,
 //   g'  = -R^T (s' - w_a x s)  = R^T (velocity of a's point at p_b - that of b's)
 //   g'' = -R^T (s'' - alpha_a x s - 2 w_a x s' + w_a x (w_a x s)).
 inline void evaluate_points(const LoopRows& out, const LoopSide& a, const LoopSide& b) {
@@ -113,7 +112,7 @@ inline void evaluate_points(const LoopRows& out, const LoopSide& a, const LoopSi
       });
 }
 
-// Axes u of C_a and z of C_b at right angles: g = u . z, with n = u x z
+// Perpendicular axes u of C_a and z of C_b: g = u . z, with n = u x z
 //   g' = (w_a x u) . z + u . (w_b x z) = n . (w_a - w_b)
 //   g'' = n . (alpha_a - alpha_b) + n' . (w_a - w_b),   n' = (w_a x u) x z + u x (w_b x z).
 template <std::size_t count>
@@ -132,10 +131,10 @@ void evaluate_axes(const LoopRows& out, const std::array<AxisRow, count>& axes, 
     out.gamma[row] = out.e.n[r].dot(alpha) + n_rate.dot(w);
   }
   out.for_each_dof(
-      [&](double sign, Eigen::Index dof, const Vector3& turn, const Vector3&, const Vector3&) {
+      [&](double sign, Eigen::Index dof, const Vector3& angular, const Vector3&, const Vector3&) {
         for (std::size_t r = 0; r < count; ++r)
           out.J(first + static_cast<Eigen::Index>(r), dof) =
-              without_rounding(sign * out.e.n[r].dot(turn), turn.norm());
+              without_rounding(sign * out.e.n[r].dot(angular), angular.norm());
       });
 }
 
@@ -205,16 +204,16 @@ struct DistanceLoop : AnyLoop {
   }
   static LoopProblem problem(const LoopClosure& loop) {
     if (loop.length > 0 && std::isfinite(loop.length)) return {};
-    return {"its length is " + short_number_text(loop.length) + " m, must be positive",
-            "give the length of the rod, or a ball"};
+    return {"length is " + short_number_text(loop.length) + " m, must be positive and finite",
+            "give the distance of the two points, or use a ball"};
   }
-  // Half of its square over it: no root bends it.
+  // d^2 / (2 length): smooth in the pose, unlike |d|.
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double length) {
     return Eigen::VectorXd::Constant(1, X_CaCb.p.squaredNorm() / (2 * length));
   }
 };
 
-// ---- joints of one dof; the multiplier is the torque on joint a ----
+// ---- joints with one degree of freedom; the multiplier is the joint force on a ----
 
 struct LockedLoop : AnyLoop {
   static constexpr std::size_t rows = 1;
@@ -250,7 +249,7 @@ struct GearLoop : LockedLoop {
   }
 };
 
-// Calls f with the struct of the type: f(WeldLoop{}), and so on.
+// Calls f with the struct of the type, e.g. f(WeldLoop{}).
 template <class F>
 decltype(auto) visit_loop(LoopType type, F&& f) {
   switch (type) {

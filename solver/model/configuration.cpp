@@ -8,16 +8,16 @@
 namespace twinarm {
 
 void integrate_coordinates(const Model<double>& model, const std::vector<double>& q,
-                           const std::vector<double>& shift, std::vector<double>& q_out) {
+                           const std::vector<double>& delta, std::vector<double>& q_out) {
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     visit_joint(model, i, [&](auto joint) {
-      joint.integrate(q.data() + model.iq[i], shift.data() + model.iv[i],
+      joint.integrate(q.data() + model.iq[i], delta.data() + model.iv[i],
                       q_out.data() + model.iq[i]);
     });
 }
 
-void shift_rate(const Model<double>& model, const std::vector<double>& theta,
-                const std::vector<double>& qd, std::vector<double>& rate) {
+void tangent_rate(const Model<double>& model, const std::vector<double>& theta,
+                  const std::vector<double>& qd, std::vector<double>& rate) {
   for (std::size_t i = 1; i < model.parent.size(); ++i)
     visit_joint(model, i, [&](auto joint) {
       const std::size_t iv = model.iv[i];

@@ -1,22 +1,21 @@
-// What a field of the passes is, stated once, where the field is (Workspace::describe and its
-// like): inspection, documentation and the search for the first bad number all read it there.
+// Description of a variable of the algorithms (Workspace::describe, Forces::describe,
+// FullTrace::describe): used by the inspector, the documentation and first_bad_quantity().
 #pragma once
 
 namespace twinarm {
 
 struct Quantity {
-  // How the field is indexed: one entry of a body; one of each velocity of its joint; nv x nv
-  // numbers from Workspace::iD on.
+  // Index of the entries of a body: the body; each velocity of its joint; nv x nv entries from
+  // Workspace::iD.
   enum class By { body, velocity, square };
 
   const char* name;
-  int pass;  // of aba() that leaves it, 1 to 3; 0: an input, or of another algorithm
+  int pass;  // of aba() that writes it, 1 to 3; 0: input
   By by;
   const char* meaning;
-  // Angular and linear part where they differ: "rad/s; m/s". Of what belongs to a joint: where the
-  // joint turns, and where it shifts.
+  // "rad/s; m/s": angular; linear part. Of joint quantities: revolute; prismatic joint.
   const char* unit;
-  const char* equation;  // and where it stands in RBDA
+  const char* equation;  // with the place in RBDA
 };
 
 }  // namespace twinarm

@@ -1,5 +1,4 @@
-// The type of a joint at run time: JointType, the constants of its struct, and the way to the
-// struct.
+// Joint type at run time: JointType, the constants of its struct, and dispatch to the struct.
 #pragma once
 
 #include <array>
@@ -16,7 +15,7 @@ enum class JointType : unsigned char { TWINARM_JOINTS(TWINARM_JOINT_NAME) };
 inline constexpr std::array all_joint_types{TWINARM_JOINTS(TWINARM_TYPE)};
 #undef TWINARM_TYPE
 
-// The constants of a joint's struct, for those who have its type at run time.
+// Constants of a joint's struct (joints.h).
 struct JointFacts {
   const char* name;
   std::size_t nq, nv;
@@ -39,7 +38,7 @@ constexpr JointFacts facts_of(JointType type) {
 constexpr const char* name_of(JointType type) {
   return facts_of(type).name;
 }
-// A joint of one dof that is a length, not an angle.
+// One degree of freedom, which is a length.
 constexpr bool is_translational(JointType type) {
   return facts_of(type).nv == 1 && !facts_of(type).coordinates[0].is_angle;
 }
@@ -52,7 +51,7 @@ Joint joint_of([[maybe_unused]] const S& pitch) {
     return {};
 }
 
-// Calls f with the joint struct of this type: f(RevoluteJoint<S>{}), and so on.
+// Calls f with the joint struct of this type, e.g. f(RevoluteJoint<S>{}).
 template <class S, class F>
 void visit_joint(JointType type, const S& pitch, F&& f) {
   switch (type) {
@@ -64,7 +63,7 @@ void visit_joint(JointType type, const S& pitch, F&& f) {
   }
 }
 
-// vJ = S qd, RBDA (3.34), but for the joint whose motion is given.
+// vJ = S qd, RBDA (3.34); for a prescribed joint the given velocity.
 template <class Joint, class Subspace, class S>
 auto joint_velocity(const Joint& joint, const Subspace& subspace, const S* qd) {
   if constexpr (requires { joint.np; }) {
@@ -76,8 +75,7 @@ auto joint_velocity(const Joint& joint, const Subspace& subspace, const S* qd) {
   }
 }
 
-// XJ(q), with the sine and cosine of q[0] where they were computed ahead
-// (solver/spatial/sincos_batch.h).
+// XJ(q), with the precomputed sine and cosine of q[0] if valid (solver/spatial/sincos_batch.h).
 template <class Joint, class S>
 auto joint_transform(const Joint& joint, const S* q, const S* sin, const S* cos) {
   if constexpr (precomputes_sincos<S> && requires { joint.XJ(SinCos<S>{}); })

@@ -1,4 +1,4 @@
-// Small dense algebra of one joint: vectors and symmetric matrices of its n = nv dofs.
+// Dense algebra of one joint: vectors and symmetric matrices of size n = nv of the joint.
 #pragma once
 
 #include <array>
@@ -30,11 +30,11 @@ VecN<S, n> unit_vector(std::size_t k) {
   return e;
 }
 
-// L D L^T of a symmetric positive definite matrix, without pivoting: here always the inertia that
-// a joint feels, which is positive wherever the bodies outward of it have inertia.
+// L D L^T of a symmetric positive definite matrix without pivoting. Used for D_i = S_i^T IA_i S_i,
+// which is positive definite if body i and its descendants have inertia about the joint.
 template <class S, std::size_t n>
 struct Spd {
-  std::array<S, n*(n - (n > 0 ? 1 : 0)) / 2> L;  // rows below the diagonal, one after the other
+  std::array<S, n*(n - (n > 0 ? 1 : 0)) / 2> L;  // strictly lower triangle, row-major
   VecN<S, n> inverse_d;
 };
 inline constexpr std::size_t row_of_L(std::size_t i) {

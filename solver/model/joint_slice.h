@@ -1,4 +1,4 @@
-// The n numbers (or forces) of one joint, out of and into the arrays of the whole mechanism.
+// Load and store the n entries of one joint in the arrays of the whole model.
 #pragma once
 
 #include <array>
@@ -19,7 +19,7 @@ template <class T, std::size_t n>
 void store(const std::array<T, n>& part, std::vector<T>& all, std::size_t first) {
   for (std::size_t k = 0; k < n; ++k) all[first + k] = part[k];
 }
-// Row by row.
+// Row-major.
 template <class S, std::size_t n>
 void store(const MatN<S, n>& part, std::vector<S>& all, std::size_t first) {
   for (std::size_t k = 0; k < n; ++k) store(part[k], all, first + k * n);
@@ -29,7 +29,7 @@ void add_to_diagonal(MatN<S, n>& A, const std::vector<S>& d1, const std::vector<
                      std::size_t first) {
   for (std::size_t k = 0; k < n; ++k) A[k][k] = A[k][k] + d1[first + k] + d2[first + k];
 }
-// A factorization takes n (n + 1) / 2 numbers: 1/d, then the rows of L.
+// A factorization has n (n + 1) / 2 entries: 1/d, then the rows of L.
 template <class S, std::size_t n>
 void store(const Spd<S, n>& part, std::vector<S>& all, std::size_t first) {
   store(part.inverse_d, all, first);

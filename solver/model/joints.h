@@ -1,22 +1,22 @@
 // Joint models, RBDA table 4.1: transform XJ(q), motion subspace S, integration on the group.
 //
-// The model builder turns every body frame so that the joint's axis is its z axis; S is then made
-// of unit vectors that the compiler knows (solver/model/motion_subspace.h). All quantities are in
-// the axes of the child body, unless a joint says otherwise. A joint of a new type is one struct
-// here and its line in the list at the bottom. Each struct states
-//   nq, nv            numbers in q and in qd
-//   np                numbers in State::prescribed (only if its motion is given)
-//   axis              what the axis given to the builder is for
-//   quaternion        where in q a unit quaternion begins, whose rates come first in qd; -1: none
-//   coordinates       label of each number of q, and whether it is an angle
-//   XJ(q)             from the joint's frame in the parent to the child's frame
-//   XJ(of_q)          the same by sine and cosine of q, where q is one angle (only if it is hot)
-//   S(q)              motion subspace, and S_is_constant
-//   vJ, cJ            where they are not S qd and 0: velocity, and apparent derivative of S qd
-//   identity(q)       writes the q at which the frames coincide
-//   integrate         q exp(shift): shift has nv numbers. `out` may be q
-//   dexpinv           d theta/dt where q(t) = q(0) exp(theta(t)): what a Runge-Kutta method on
-//                     a group needs (Munthe-Kaas 1998)
+// The model builder rotates each body frame so that the joint axis is its z axis; the columns of S
+// are then unit vectors known at compile time (solver/model/motion_subspace.h). All quantities are
+// in child axes unless noted. A new joint type is one struct here and one line in the list at the
+// bottom. Members of a struct:
+//   nq, nv            sizes of q and qd
+//   np                size in State::prescribed (prescribed joint only)
+//   axis              use of the axis given to the builder
+//   quaternion        index in q of a unit quaternion, whose rates come first in qd; -1: none
+//   coordinates       label of each entry of q, and whether it is an angle
+//   XJ(q)             transform from the joint's frame in the parent to the child's frame
+//   XJ(sincos)        the same from sine and cosine of q (revolute joint only)
+//   subspace(q)       motion subspace S, and S_is_constant
+//   vJ, cJ            S qd and its apparent derivative S' qd, if not S qd and 0
+//   identity(q)       writes the q at which the two frames coincide
+//   integrate         out = q exp(delta), delta with nv entries; out may be q
+//   dexpinv           d theta/dt for q(t) = q(0) exp(theta(t)), used by Runge-Kutta methods on Lie
+//                     groups (Munthe-Kaas 1998)
 #pragma once
 
 #include <algorithm>
@@ -28,16 +28,15 @@
 
 namespace twinarm {
 
-// What the builder's axis is for: nothing; the directions of several axes; or the one axis that the
-// joint turns about or slides along.
+// Use of the builder's axis: none; orientation of the joint frame; axis of rotation or translation.
 enum class AxisUse : unsigned char { none, frame, motion };
-// One number of q as people have it; the label is empty where the joint has but one.
+// One entry of q; the label is empty if the joint has one entry only.
 struct Coordinate {
   const char* label;
   bool is_angle;
 };
 
-struct NoBias {};  // cJ of a joint whose S is constant in the child's axes
+struct NoBias {};  // cJ = 0: S is constant in child axes
 template <class S>
 Motion<S> operator+(const Motion<S>& a, NoBias) {
   return a;
@@ -47,14 +46,14 @@ MotionNormalToZ<S> operator+(const MotionNormalToZ<S>& a, NoBias) {
   return a;
 }
 
-// What every joint shares that does not say otherwise: q is a vector, and qd its rate.
+// Base of joints whose q is a vector with rate qd.
 template <class S, std::size_t n>
 struct VectorJoint {
   static constexpr std::size_t nq = n, nv = n;
   static constexpr int quaternion = -1;
   static void identity(S* q) { std::fill_n(q, n, S(0)); }
-  static void integrate(const S* q, const S* shift, S* out) {
-    for (std::size_t k = 0; k < n; ++k) out[k] = q[k] + shift[k];
+  static void integrate(const S* q, const S* delta, S* out) {
+    for (std::size_t k = 0; k < n; ++k) out[k] = q[k] + delta[k];
   }
   static VecN<S, n> dexpinv(const VecN<S, n>&, const VecN<S, n>& qd) { return qd; }
 };
@@ -72,16 +71,16 @@ struct FixedJoint : VectorJoint<S, 0>, ConstantSubspace<S, NoAxes> {
   static Transform<S> XJ(const S*) { return {}; }
 };
 
-// Turns about z.
+// Rotation about z.
 template <class S>
 struct RevoluteJoint : VectorJoint<S, 1>, ConstantSubspace<S, AxisZ> {
   static constexpr AxisUse axis = AxisUse::motion;
   static constexpr std::array<Coordinate, 1> coordinates{{{"", true}}};
   static RotationZ<S> XJ(const S* q) { return RotationZ<S>(q[0]); }
-  static RotationZ<S> XJ(const SinCos<S>& of_q) { return RotationZ<S>(of_q); }
+  static RotationZ<S> XJ(const SinCos<S>& sincos) { return RotationZ<S>(sincos); }
 };
 
-// Shifts along z.
+// Translation along z.
 template <class S>
 struct PrismaticJoint : VectorJoint<S, 1>, ConstantSubspace<S, UnitAxes<5>> {
   static constexpr AxisUse axis = AxisUse::motion;
@@ -89,7 +88,7 @@ struct PrismaticJoint : VectorJoint<S, 1>, ConstantSubspace<S, UnitAxes<5>> {
   static Transform<S> XJ(const S* q) { return {Mat3<S>::identity(), {S(0), S(0), q[0]}}; }
 };
 
-// Turns about z by q and shifts along it by pitch q.
+// Rotation about z by q and translation along z by pitch q.
 template <class S>
 struct ScrewJoint : VectorJoint<S, 1> {
   static constexpr AxisUse axis = AxisUse::motion;
@@ -101,7 +100,7 @@ struct ScrewJoint : VectorJoint<S, 1> {
   Transform<S> XJ(const S* q) const { return {RotationZ<S>(q[0]).E(), {S(0), S(0), pitch * q[0]}}; }
 };
 
-// q = (angle about z, shift along z).
+// q = (angle about z, translation along z).
 template <class S>
 struct CylindricalJoint : VectorJoint<S, 2>, ConstantSubspace<S, UnitAxes<2, 5>> {
   static constexpr AxisUse axis = AxisUse::motion;
@@ -109,7 +108,7 @@ struct CylindricalJoint : VectorJoint<S, 2>, ConstantSubspace<S, UnitAxes<2, 5>>
   static Transform<S> XJ(const S* q) { return {RotationZ<S>(q[0]).E(), {S(0), S(0), q[1]}}; }
 };
 
-// Turns about z, then about the turned y: E = E_y(q2) E_z(q1), S = (E_y z, y).
+// Rotation about z, then about the rotated y: E = E_y(q2) E_z(q1), S = (E_y z, y).
 template <class S>
 struct UniversalJoint : VectorJoint<S, 2> {
   static constexpr AxisUse axis = AxisUse::frame;
@@ -150,8 +149,7 @@ struct PlanarJoint : VectorJoint<S, 3> {
   static Transform<S> XJ(const S* q) { return {RotationZ<S>(q[2]).E(), {q[0], q[1], S(0)}}; }
 };
 
-// q is the unit quaternion (w, x, y, z) that turns the child's coordinates into the parent's; qd
-// the angular velocity.
+// q: unit quaternion (w, x, y, z) of the child's orientation in the parent; qd: angular velocity.
 template <class S>
 struct SphericalJoint : ConstantSubspace<S, UnitAxes<0, 1, 2>> {
   static constexpr std::size_t nq = 4, nv = 3;
@@ -164,7 +162,7 @@ struct SphericalJoint : ConstantSubspace<S, UnitAxes<0, 1, 2>> {
     q[0] = S(1);
     q[1] = q[2] = q[3] = S(0);
   }
-  static void integrate(const S* q, const S* shift, S* out) { integrate_quaternion(q, shift, out); }
+  static void integrate(const S* q, const S* delta, S* out) { integrate_quaternion(q, delta, out); }
   static VecN<S, 3> dexpinv(const VecN<S, 3>& theta, const VecN<S, 3>& qd) {
     const Vec3<S> rate = dexpinv_so3<S>({theta[0], theta[1], theta[2]}, {qd[0], qd[1], qd[2]});
     return {rate.x, rate.y, rate.z};
@@ -172,8 +170,8 @@ struct SphericalJoint : ConstantSubspace<S, UnitAxes<0, 1, 2>> {
 };
 
 // Six degrees of freedom, on R^3 x SO(3). q = (x, y, z; w, x, y, z): origin of the child in the
-// parent, and its quaternion. qd = (angular velocity in the child's axes; velocity of the child's
-// origin in the PARENT's axes), so that a thrown body's momentum has no error of rotation.
+// parent, and its quaternion. qd = (angular velocity in child axes; velocity of the child's origin
+// in PARENT axes): a free body's linear momentum is then integrated without rotation error.
 template <class S>
 struct FreeJoint {
   static constexpr std::size_t nq = 7, nv = 6;
@@ -196,9 +194,9 @@ struct FreeJoint {
     std::fill_n(q, nq, S(0));
     q[3] = S(1);
   }
-  static void integrate(const S* q, const S* shift, S* out) {
-    for (std::size_t k = 0; k < 3; ++k) out[k] = q[k] + shift[3 + k];
-    integrate_quaternion(q + 3, shift, out + 3);
+  static void integrate(const S* q, const S* delta, S* out) {
+    for (std::size_t k = 0; k < 3; ++k) out[k] = q[k] + delta[3 + k];
+    integrate_quaternion(q + 3, delta, out + 3);
   }
   static VecN<S, 6> dexpinv(const VecN<S, 6>& theta, const VecN<S, 6>& qd) {
     const Vec3<S> rate = dexpinv_so3<S>({theta[0], theta[1], theta[2]}, {qd[0], qd[1], qd[2]});
@@ -206,10 +204,10 @@ struct FreeJoint {
   }
 };
 
-// Moved from outside: no degree of freedom. q = (x, y, z; w, x, y, z): pose of the child in the
-// parent. In the place of qd it takes its numbers of State::prescribed, (vJ; aJ): velocity (w; v)
-// relative to the parent and the apparent derivative of that, both in the child's axes.
-// Simulation::prescribe writes pose and motion at every stage; integrate keeps the pose.
+// Prescribed motion, no degree of freedom. q = (x, y, z; w, x, y, z): pose of the child in the
+// parent. Its entries of State::prescribed replace qd: (vJ; aJ), spatial velocity (w; v) relative
+// to the parent and its apparent derivative, both in child axes. IntegrationState writes pose and
+// motion at every stage; integrate() keeps the pose.
 template <class S>
 struct PrescribedJoint {
   static constexpr std::size_t nq = 7, nv = 0, np = 12;
@@ -231,7 +229,7 @@ struct PrescribedJoint {
   static VecN<S, 0> dexpinv(const VecN<S, 0>&, const VecN<S, 0>&) { return {}; }
 };
 
-// The list of the joints. What is listed exists everywhere: builder, passes, files, contract tests.
+// List of joint types, used by the builder, the algorithms, the file formats and the joint tests.
 #define TWINARM_JOINTS(JOINT)          \
   JOINT(fixed, FixedJoint)             \
   JOINT(revolute, RevoluteJoint)       \

@@ -1,7 +1,8 @@
-// Joints that follow others: qd_f = ratio qd_l and q_f = ratio q_l + offset (Model::mimics).
+// Mimic joints: q_f = ratio q_l + offset and qd_f = ratio qd_l, l the mimicked joint
+// (Model::mimics).
 //
-// Each is a constraint on velocities, A qd = 0 with the row a = e_f - ratio e_l; loop_forces.h
-// solves for its force.
+// Each is a velocity constraint A qd = 0 with the row e_f - ratio e_l; loop_forces.h solves for its
+// force.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +12,11 @@
 
 namespace twinarm {
 
-// Places the followers, and sets their velocities, by their leaders.
+// Sets position and velocity of all mimic joints.
 void apply_mimics(const Model<double>& model, State<double>& x);
 
-// qd = G y, y the velocities that follow nobody. The mass matrix in y is G^T M G, a generalised
-// force b becomes G^T b: what acts on a follower counts through its ratio.
+// qd = G y, y the velocities of the independent joints. In y the mass matrix is G^T M G and a
+// generalised force b becomes G^T b.
 Eigen::MatrixXd mimic_projection(const Model<double>& model);           // G, nv x ny
 std::vector<std::size_t> independent_dofs(const Model<double>& model);  // ny indices, ascending
 

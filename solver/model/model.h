@@ -1,11 +1,11 @@
-// The model: what a mechanism is. Immutable once built; structure of arrays by body.
+// System model (RBDA chapter 4): kinematic tree, inertias and joint parameters. Immutable once
+// built; structure of arrays, indexed by body.
 //
-// Bodies are numbered so that parent[i] < i; body 0 is the fixed base (RBDA section 4.1). Body i
-// moves relative to its parent through joint i. Each body has two frames with the same origin, the
-// origin of joint i:
-//   body frame  turned at build time so that the joint's axis is z; the passes work in it;
-//   link frame  the axes of the user's file; everything that leaves solver/ is in it.
-// turn[i] = R_BL takes coordinates in link axes to coordinates in body axes.
+// Bodies are numbered so that parent[i] < i; body 0 is the fixed base (RBDA section 4.1). Joint i
+// connects body i to its parent. Each body has two frames, both with the origin of joint i:
+//   body frame  rotated at build time so that the joint axis is z; used by the algorithms;
+//   link frame  axes of the user's file; used by everything outside solver/.
+// turn[i] = R_BL maps coordinates in link axes to coordinates in body axes.
 #pragma once
 
 #include <string>
@@ -19,21 +19,21 @@
 
 namespace twinarm {
 
-// qd[follower] = ratio qd[leader] and q[follower] = ratio q[leader] + offset: a URDF's mimic joint.
-// The leader of one is never the follower of another.
+// Mimic joint: q[follower] = ratio q[leader] + offset, qd[follower] = ratio qd[leader]. A leader
+// (mimicked joint) is never a mimic joint itself.
 struct Mimic {
   std::size_t follower, leader;      // velocity indices
   std::size_t follower_q, leader_q;  // coordinate indices
   double ratio = 1, offset = 0;
 };
 
-// By body, and the same in all lanes of S: kept once, and spread over the lanes where it is read.
-// That takes no instruction more than to load them, and an Nth of the memory: batches fill caches.
+// Per-body constants that are equal in all lanes of S: stored once and broadcast on access, at no
+// extra instructions and 1/N of the memory.
 template <template <class> class T, class S>
 class Broadcast {
  public:
   Broadcast() = default;
-  Broadcast(std::vector<T<Constant<S>>> once) : once_(std::move(once)) {}  // NOLINT: as a vector
+  Broadcast(std::vector<T<Constant<S>>> once) : once_(std::move(once)) {}  // NOLINT: implicit
   T<S> operator[](std::size_t i) const { return convert<S>(once_[i]); }
 
  private:
@@ -45,29 +45,30 @@ using Constants =
 
 template <class S>
 struct Model {
-  std::vector<std::string> body_name;   // the link's name in the user's file
-  std::vector<std::string> joint_name;  // of the joint that carries the body; empty for the base
+  std::vector<std::string> body_name;   // link name in the user's file
+  std::vector<std::string> joint_name;  // joint of the body; empty for the base
   std::vector<int> parent;
-  std::vector<int> last_child;  // of a body's children that with the highest number; 0: a tip
+  std::vector<int> last_child;  // child of highest number, 0 for a leaf; not in RBDA: IA_p starts
+                                // from its last child's contribution without a copy
   std::vector<JointType> joint;
-  std::vector<S> pitch;                 // of screws [m/rad]; 0 for all others
-  std::vector<std::size_t> iq, iv, ip;  // where joint i begins in q, qd and State::prescribed
-  Constants<Transform, S> Xtree;        // from the parent's body frame to joint i at q_i = identity
-  Constants<Inertia, S> I;              // about the body's origin, body axes [kg, kg m, kg m^2]
-  std::vector<Mat3<S>> turn;            // R_BL
+  std::vector<S> pitch;                   // of screw joints [m/rad]; 0 for all others
+  std::vector<std::size_t> iq, iv, ip;    // first index of joint i in q, qd and State::prescribed
+  Constants<Transform, S> Xtree;          // XT_i: parent's body frame to joint i at q_i = identity
+  Constants<Inertia, S> I;                // about the body's origin, body axes [kg, kg m, kg m^2]
+  std::vector<Mat3<S>> turn;              // R_BL
   Vec3<S> gravity{S(0), S(0), S(-9.81)};  // world axes [m/s^2]
   std::size_t nq = 0, nv = 0, np = 0;
 
   // By velocity.
-  std::vector<S> armature;                     // rotor inertia felt at the joint [kg m^2, kg]
+  std::vector<S> armature;                     // rotor inertia reflected to the joint [kg m^2, kg]
   std::vector<S> damping;                      // viscous [N m s/rad, N s/m]
   std::vector<S> coulomb_plus, coulomb_minus;  // Coulomb friction for qd > 0, qd < 0 [N m, N]
   std::vector<Mimic> mimics;
 
   std::size_t dofs(std::size_t i) const { return (i + 1 < iv.size() ? iv[i + 1] : nv) - iv[i]; }
-  int body_count() const { return static_cast<int>(parent.size()); }  // with the base
-  int find_body(const std::string& name) const;                       // -1 where there is none
-  int find_joint(const std::string& name) const;  // the body that the joint carries, or -1
+  int body_count() const { return static_cast<int>(parent.size()); }  // including the base
+  int find_body(const std::string& name) const;                       // -1: not found
+  int find_joint(const std::string& name) const;  // child body of the joint; -1: not found
 };
 
 // Calls f with the joint struct of body i.
@@ -76,8 +77,8 @@ void visit_joint(const Model<S>& model, std::size_t i, F&& f) {
   visit_joint<S>(model.joint[i], model.pitch[i], std::forward<F>(f));
 }
 
-// The same with how its Ia is formed: a hinge is told apart from a geared one. M: a Model, or what
-// can be asked the same.
+// The same, and passes the sparsity of Ia: RevoluteSparsity for revolute joints without armature.
+// M: Model, or a type with the same members.
 template <class M, class S, class F>
 void visit_joint(const M& model, const std::vector<S>& more_armature, std::size_t i, F&& f) {
   if (model.joint[i] == JointType::revolute &&
@@ -90,7 +91,7 @@ template <class S>
 int Model<S>::find_body(const std::string& name) const {
   for (int i = 1; i < body_count(); ++i)
     if (body_name[static_cast<std::size_t>(i)] == name) return i;
-  return !body_name.empty() && name == body_name[0] ? 0 : -1;  // a link may be called "world" too
+  return !body_name.empty() && name == body_name[0] ? 0 : -1;  // links named "world" come first
 }
 template <class S>
 int Model<S>::find_joint(const std::string& name) const {
@@ -99,24 +100,23 @@ int Model<S>::find_joint(const std::string& name) const {
   return -1;
 }
 
-// Where the mechanism is and how fast it moves: coordinates q and velocities qd of joint i begin at
-// Model::iq[i] and iv[i].
+// Joint positions q and velocities qd; those of joint i begin at Model::iq[i] and iv[i].
 template <class S>
 struct State {
   std::vector<S> q, qd;
-  // An input, as tau is: vJ and aJ of each prescribed joint [rad/s, m/s; rad/s^2, m/s^2].
+  // Input: vJ and aJ of each prescribed joint [rad/s, m/s; rad/s^2, m/s^2].
   std::vector<S> prescribed;
   S t{};  // [s]
 
   State() = default;
-  // Every joint at its identity, at rest.
+  // All joints at identity, zero velocity.
   explicit State(const Model<S>& model)
       : q(model.nq, S(0)), qd(model.nv, S(0)), prescribed(model.np, S(0)) {
     for (std::size_t i = 1; i < model.parent.size(); ++i)
       visit_joint(model, i, [&](auto joint) { joint.identity(q.data() + model.iq[i]); });
   }
 
-  // What joint i takes as its qd: of a prescribed joint the motion that is given.
+  // qd of joint i; for a prescribed joint its given motion.
   template <class Joint, class M>
   const S* rates([[maybe_unused]] const Joint& joint, const M& model, std::size_t i) const {
     if constexpr (requires { joint.np; })

@@ -1,8 +1,7 @@
-// Motion subspaces S of joints, RBDA section 3.5, and their products with what the passes multiply.
+// Motion subspaces S of joints, RBDA section 3.5, and their products in the algorithms.
 //
-// The passes are written with S as a matrix; here the compiler learns which S it is. Where S is
-// made of unit vectors of R^6, IA S is columns of IA, S^T U entries of U, and nothing is multiplied
-// by a known 0 or 1. All quantities are in body axes.
+// The type of S encodes its sparsity: if the columns of S are unit vectors of R^6, IA S are columns
+// of IA, S^T U entries of U, and nothing is multiplied by 0 or 1. All quantities are in body axes.
 #pragma once
 
 #include <array>
@@ -13,52 +12,50 @@
 
 namespace twinarm {
 
-// Columns that are the unit vectors number k...: 0..2 turn about x, y, z, 3..5 shift along them.
+// S with unit vectors e_k as columns: k = 0..2 rotation about x, y, z, 3..5 translation along them.
 template <int... k>
 struct UnitAxes {};
-using AxisZ = UnitAxes<2>;  // the hinge: the one that has to be fast
+using AxisZ = UnitAxes<2>;  // revolute joint
 using NoAxes = UnitAxes<>;
 
-// Any other S.
+// General S.
 template <class S, std::size_t n>
 struct Columns {
   std::array<Motion<S>, n> column;
 };
 
-// (1 0; 0 E): turns in body axes, shifts in the parent's axes; E from parent's to body's.
+// S = (1 0; 0 E): angular velocity in body axes, linear in parent axes; E from parent to body.
 template <class S>
 struct FreeJointSubspace {
   Mat3<S> E;
 };
 
-// Writes the columns of S where the workspace keeps them, and reads them back.
+// Store the columns of S in the workspace and load them.
 template <class S, int... k>
-void remember(UnitAxes<k...>, Motion<S>*) {}  // written once, when the workspace is made
+void store_subspace(UnitAxes<k...>, Motion<S>*) {}  // written once, by the workspace's constructor
 template <class S, std::size_t n>
-void remember(const Columns<S, n>& c, Motion<S>* kept) {
-  for (std::size_t k = 0; k < n; ++k) kept[k] = c.column[k];
+void store_subspace(const Columns<S, n>& c, Motion<S>* columns) {
+  for (std::size_t k = 0; k < n; ++k) columns[k] = c.column[k];
 }
 template <class S>
-void remember(const FreeJointSubspace<S>& a, Motion<S>* kept) {
+void store_subspace(const FreeJointSubspace<S>& a, Motion<S>* columns) {
   const Mat3<S> Et = transpose(a.E);
-  kept[3].v = Et.r0;
-  kept[4].v = Et.r1;
-  kept[5].v = Et.r2;
+  columns[3].v = Et.r0, columns[4].v = Et.r1, columns[5].v = Et.r2;
 }
 template <class S, int... k>
-void recall(const Motion<S>*, UnitAxes<k...>&) {}
+void load_subspace(const Motion<S>*, UnitAxes<k...>&) {}
 template <class S, std::size_t n>
-void recall(const Motion<S>* kept, Columns<S, n>& c) {
-  for (std::size_t k = 0; k < n; ++k) c.column[k] = kept[k];
+void load_subspace(const Motion<S>* columns, Columns<S, n>& c) {
+  for (std::size_t k = 0; k < n; ++k) c.column[k] = columns[k];
 }
 template <class S>
-void recall(const Motion<S>* kept, FreeJointSubspace<S>& a) {
-  a.E = transpose(Mat3<S>{kept[3].v, kept[4].v, kept[5].v});
+void load_subspace(const Motion<S>* columns, FreeJointSubspace<S>& a) {
+  a.E = transpose(Mat3<S>{columns[3].v, columns[4].v, columns[5].v});
 }
 
 // ---- sparse results ----
 
-// rate * (0 0 1 0 0 0): the velocity of a hinge.
+// vJ of a revolute joint: (0 0 rate; 0 0 0).
 template <class S>
 struct MotionAboutZ {
   S rate;
@@ -67,7 +64,7 @@ struct MotionAboutZ {
     return {{a.w.x, a.w.y, a.w.z + b.rate}, a.v};
   }
 };
-// a x vJ of a hinge: no component about or along z.
+// a x vJ of a revolute joint: no component about or along z.
 template <class S>
 struct MotionNormalToZ {
   S wx, wy, vx, vy;
@@ -124,7 +121,7 @@ Motion<S> times(const FreeJointSubspace<S>& a, const VecN<S, 6>& qd) {
 // ---- U = IA S ----
 
 template <class S, std::size_t n>
-using ForceColumns = std::array<Force<S>, n>;  // 6 x n by columns
+using ForceColumns = std::array<Force<S>, n>;  // 6 x n, column-major
 
 template <int k, class S>
 Force<S> column(const ArticulatedInertia<S>& A) {
@@ -147,10 +144,9 @@ ForceColumns<S, n> operator*(const ArticulatedInertia<S>& IA, const Columns<S, n
 }
 template <class S>
 ForceColumns<S, 6> operator*(const ArticulatedInertia<S>& IA, const FreeJointSubspace<S>& a) {
-  const auto shift_along = [&](const Vec3<S>& e) { return Force<S>{IA.H * e, IA.M * e}; };
+  const auto linear = [&](const Vec3<S>& e) { return Force<S>{IA.H * e, IA.M * e}; };
   const Mat3<S> Et = transpose(a.E);
-  return {column<0>(IA),      column<1>(IA),      column<2>(IA),
-          shift_along(Et.r0), shift_along(Et.r1), shift_along(Et.r2)};
+  return {column<0>(IA), column<1>(IA), column<2>(IA), linear(Et.r0), linear(Et.r1), linear(Et.r2)};
 }
 
 // ---- S^T f, and D = S^T U ----
@@ -196,19 +192,19 @@ VecN<S, n> transpose_times(const ForceColumns<S, n>& U, const Motion<S>& a) {
   return y;
 }
 
-// ---- Ia = IA - U D^-1 U^T, the inertia that is felt through the joint ----
+// ---- Ia = IA - U D^-1 U^T, apparent inertia across the joint ----
 
-// Of a hinge without armature: its row and column z are zero. 3 + 6 + 6 numbers.
+// Ia of a revolute joint without armature: row and column z (angular) are zero. 15 numbers.
 template <class S>
-struct HingeInertia {
+struct RevoluteInertia {
   S xx, yy, xy;
   Vec3<S> h0, h1;
   Sym3<S> M;
   explicit operator ArticulatedInertia<S>() const {
     return {{xx, yy, S(0), xy, S(0), S(0)}, {h0, h1, {}}, M};
   }
-  // Ia c for the c of a hinge, whose components about and along z are zero (MotionNormalToZ).
-  friend Force<S> operator*(const HingeInertia& a, const Motion<S>& c) {
+  // Ia c for a c without components about and along z (MotionNormalToZ).
+  friend Force<S> operator*(const RevoluteInertia& a, const Motion<S>& c) {
     return {{a.xx * c.w.x + a.xy * c.w.y + a.h0.x * c.v.x + a.h0.y * c.v.y,
              a.xy * c.w.x + a.yy * c.w.y + a.h1.x * c.v.x + a.h1.y * c.v.y, S(0)},
             {a.h0.x * c.w.x + a.h1.x * c.w.y + a.M.xx * c.v.x + a.M.xy * c.v.y,
@@ -217,13 +213,13 @@ struct HingeInertia {
   }
 };
 template <class S>
-void add_congruence(const Transform<S>& X, const HingeInertia<S>& a,
+void add_congruence(const Transform<S>& X, const RevoluteInertia<S>& a,
                     const ArticulatedInertia<S>& before, ArticulatedInertia<S>& parent) {
   const Vec3<S>&e0 = X.E.r0, &e1 = X.E.r1;
   const Sym3<S> M = rotate_back(X.E, a.M);
   const Vec3<S> h0 = transpose_times(X.E, a.h0), h1 = transpose_times(X.E, a.h1);  // rows of H E
-  add_shifted(X.r, {e0.x * h0 + e1.x * h1, e0.y * h0 + e1.y * h1, e0.z * h0 + e1.z * h1}, M, before,
-              parent);
+  add_translated(X.r, {e0.x * h0 + e1.x * h1, e0.y * h0 + e1.y * h1, e0.z * h0 + e1.z * h1}, M,
+                 before, parent);
   const Vec3<S> i0 = a.xx * e0 + a.xy * e1, i1 = a.xy * e0 + a.yy * e1;  // rows of I E
   Sym3<S>& I = parent.I;
   I.xx = I.xx + e0.x * i0.x + e1.x * i1.x, I.xy = I.xy + e0.x * i0.y + e1.x * i1.y;
@@ -231,12 +227,11 @@ void add_congruence(const Transform<S>& X, const HingeInertia<S>& a,
   I.zz = I.zz + e0.z * i0.z + e1.z * i1.z, I.yz = I.yz + e0.y * i0.z + e1.y * i1.z;
 }
 
-// Dof by dof, as if each had a hinge of its own: with D = L d L^T and W = U L^-T it is the sum of
-// w_k w_k^T / d_k. An explicit D^-1 would lose cond(D) in digits, and a heavy body carried by a
-// light one with them.
+// IA - sum_k w_k w_k^T / d_k, with D = L d L^T and W = U L^-T: n rank-1 updates. An explicit D^-1
+// would lose a factor cond(D) of accuracy (heavy body on a light one).
 template <class S, std::size_t n>
-ArticulatedInertia<S> minus_congruence(ArticulatedInertia<S> IA, ForceColumns<S, n> U,
-                                       const Spd<S, n>& D) {
+ArticulatedInertia<S> subtract_rank_n(ArticulatedInertia<S> IA, ForceColumns<S, n> U,
+                                      const Spd<S, n>& D) {
   for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t j = 0; j < k; ++j) U[k] = U[k] - D.L[row_of_L(k) + j] * U[j];
     IA = IA - outer(D.inverse_d[k] * U[k], U[k]);
@@ -244,18 +239,18 @@ ArticulatedInertia<S> minus_congruence(ArticulatedInertia<S> IA, ForceColumns<S,
   return IA;
 }
 
-// How a joint's Ia is formed: in general, or with the zeros of a hinge without armature.
+// Sparsity of Ia: dense, or that of a revolute joint without armature.
 struct FullInertia {};
 struct RevoluteSparsity {};
 
 template <class S, std::size_t n>
 ArticulatedInertia<S> apparent_inertia(FullInertia, const ArticulatedInertia<S>& IA,
                                        const ForceColumns<S, n>& U, const Spd<S, n>& D) {
-  return minus_congruence(IA, U, D);
+  return subtract_rank_n(IA, U, D);
 }
 template <class S>
-HingeInertia<S> apparent_inertia(RevoluteSparsity, const ArticulatedInertia<S>& IA,
-                                 const ForceColumns<S, 1>& U, const Spd<S, 1>& D) {
+RevoluteInertia<S> apparent_inertia(RevoluteSparsity, const ArticulatedInertia<S>& IA,
+                                    const ForceColumns<S, 1>& U, const Spd<S, 1>& D) {
   const Vec3<S>&n = U[0].n, &l = U[0].f;
   const S nx = D.inverse_d[0] * n.x, ny = D.inverse_d[0] * n.y;
   const Vec3<S> m = D.inverse_d[0] * l;

@@ -1,6 +1,6 @@
-// The first number of aba() that is not finite, in the order in which the passes write: inputs by
-// body, then body by body what pass 1 leaves, from the tips what pass 2 leaves, and again from the
-// base what pass 3 leaves. Where a run breaks, the cause stands there. Allocates nothing.
+// First non-finite variable of aba(), in the order of computation: inputs, pass 1 from base to
+// tips, pass 2 from tips to base, pass 3 from base to tips. Locates the origin of a divergence.
+// Allocates nothing.
 #pragma once
 
 #include "solver/model/workspace.h"
@@ -8,9 +8,9 @@
 namespace twinarm {
 
 struct NonFiniteField {
-  std::size_t body = 0;        // 0: all is finite
-  const char* name = nullptr;  // as in describe()
-  int pass = 0;                // 0: an input
+  std::size_t body = 0;        // 0: all finite
+  const char* name = nullptr;  // Quantity::name
+  int pass = 0;                // 0: input
 };
 
 NonFiniteField first_bad_quantity(const Model<double>& model, const Forces<double>& forces,

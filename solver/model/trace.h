@@ -1,5 +1,5 @@
-// What ABA can be asked to show beyond its workspace: the quantities that live only while a body is
-// handed on to its parent. NoTrace compiles to nothing.
+// Hooks into aba() for temporaries that the workspace does not store: Ia and pa of pass 2. NoTrace
+// compiles to nothing.
 #pragma once
 
 #include <vector>
@@ -10,15 +10,15 @@
 namespace twinarm {
 
 struct NoTrace {
-  void moved() const {}  // between pass 1 and pass 2
+  void moved() const {}  // after pass 1
   template <class... T>
   void felt(const T&...) const {}
 };
 
-// By body; bodies that the base carries hand nothing on, and theirs stay zero.
+// Indexed by body; zero for children of the base, for which aba() does not compute them.
 template <class S>
 struct FullTrace {
-  std::vector<ArticulatedInertia<S>> Ia;  // IA - U D^-1 U^T: felt through the joint
+  std::vector<ArticulatedInertia<S>> Ia;  // IA - U D^-1 U^T
   std::vector<Force<S>> pa;               // pA + Ia c + U D^-1 u
   explicit FullTrace(std::size_t body_count) : Ia(body_count), pa(body_count) {}
   void moved() const {}
@@ -31,10 +31,10 @@ struct FullTrace {
   template <class Visitor>
   void describe(Visitor&& visit) const {
     using By = Quantity::By;
-    visit({"Ia", 2, By::body, "inertia that the parent feels through the joint", "kg m^2, kg m, kg",
+    visit({"Ia", 2, By::body, "apparent inertia across the joint", "kg m^2, kg m, kg",
            "Ia = IA - U D^-1 U^T, table 7.1"},
           Ia);
-    visit({"pa", 2, By::body, "force that the parent feels through the joint", "N m; N",
+    visit({"pa", 2, By::body, "bias force transmitted to the parent", "N m; N",
            "pa = pA + Ia c + U D^-1 u, table 7.1"},
           pa);
   }

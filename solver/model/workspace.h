@@ -1,8 +1,8 @@
-// What the passes read and hand on to one another. Sized once; readable after a call at no cost.
+// Inputs and variables of the algorithms. Allocated once; all remain readable after a call.
 //
-// Everything is indexed by body (base included) unless marked "by velocity", and stands in body
-// axes about the body's origin. Sorted by the pass that writes it. In debug builds each pass fills
-// its fields with NaN first (forget), so that a value read too early shows.
+// Indexed by body (including the base) unless marked "by velocity"; in body axes, about the body's
+// origin. Sorted by the pass that writes the variable. In debug builds each algorithm first fills
+// its variables with NaN (poison_with_nan), which exposes values that are read before written.
 #pragma once
 
 #include <cstring>
@@ -14,14 +14,14 @@
 
 namespace twinarm {
 
-// What acts on the bodies besides gravity: the input of the passes, filled by ForceSources.
+// Forces besides gravity: input of the algorithms, filled by the ForceSources.
 template <class S>
 struct Forces {
   std::vector<S> tau;                            // by velocity [N m, N]
   std::vector<Force<S>> f_ext;                   // by body [N m, N]
   std::vector<S> armature;                       // by velocity, added to D [kg m^2, kg]
-  std::vector<ArticulatedInertia<S>> impedance;  // by body, added to IA and to nothing else
-  bool has_impedance = false;                    // false: all of impedance is zero
+  std::vector<ArticulatedInertia<S>> impedance;  // by body, added to IA only
+  bool has_impedance = false;                    // false: impedance is zero for all bodies
 
   explicit Forces(const Model<S>& model)
       : tau(model.nv),
@@ -44,37 +44,38 @@ struct Forces {
   template <class Visitor>
   void describe(Visitor&& visit) const {
     using By = Quantity::By;
-    visit({"tau", 0, By::velocity, "force at the joint: actuator, friction, springs", "N m; N",
-           "input"},
+    visit({"tau", 0, By::velocity, "joint force: actuator, friction, springs", "N m; N", "input"},
           tau);
-    visit({"f_ext", 0, By::body, "wrench on the body from outside, gravity not counted", "N m; N",
-           "input"},
+    visit({"f_ext", 0, By::body, "external wrench on the body, without gravity", "N m; N", "input"},
           f_ext);
-    visit({"armature", 0, By::velocity, "rotor-like inertia of implicit springs and dampers",
+    visit({"armature", 0, By::velocity, "added inertia of implicit spring-dampers at the joint",
            "kg m^2; kg", "input, added to D"},
           armature);
-    visit({"impedance", 0, By::body, "weightless inertia of implicit springs and dampers",
+    visit({"impedance", 0, By::body, "added inertia of implicit spring-dampers on the body",
            "kg m^2, kg m, kg", "input, added to IA"},
           impedance);
   }
 };
 
-// In debug builds: fills with NaN (all bits set, for float and double alike).
-template <class T>
-void forget([[maybe_unused]] std::vector<T>& field) {
+// In debug builds: fills all fields with NaN (all bits set, for float and double).
+template <class... T>
+void poison_with_nan([[maybe_unused]] std::vector<T>&... fields) {
 #ifndef NDEBUG
-  static_assert(std::is_trivially_destructible_v<T>);
-  if (!field.empty()) std::memset(static_cast<void*>(field.data()), 0xFF, field.size() * sizeof(T));
+  static_assert((std::is_trivially_destructible_v<T> && ...));
+  const auto fill = [](void* first, std::size_t bytes) {
+    if (bytes > 0) std::memset(first, 0xFF, bytes);
+  };
+  (fill(fields.data(), fields.size() * sizeof(T)), ...);
 #endif
 }
 
-// What the velocities of the bodies are made of: the first pass of every algorithm.
+// Variables of velocity kinematics: pass 1 of every algorithm.
 template <class S>
 struct BodyVelocities {
   std::vector<Motion<S>> S_;      // columns of the motion subspaces, by velocity
   std::vector<Transform<S>> Xup;  // XJ Xtree: from the parent's frame to the body's
   std::vector<Motion<S>> v;       // spatial velocity [rad/s, m/s]
-  std::vector<Motion<S>> c;       // velocity-product acceleration cJ + v x vJ
+  std::vector<Motion<S>> c;       // velocity-product acceleration cJ + v x S qd
 
   explicit BodyVelocities(const Model<S>& model)
       : S_(model.nv), Xup(model.parent.size()), v(Xup.size()), c(Xup.size()) {
@@ -90,112 +91,81 @@ struct BodyVelocities {
 
 template <class S>
 struct Workspace : BodyVelocities<S> {
-  // pass 1 (base to tips) leaves BodyVelocities, and before it, in aba() of doubles alone
-  // (solver/spatial/sincos_batch.h)
-  std::vector<S> sin, cos;  // by coordinate
+  // pass 1 (base to tips) of ABA: BodyVelocities
+  std::vector<S> sin, cos;  // by coordinate, of double only (solver/spatial/sincos_batch.h)
   // kinematics
-  std::vector<Transform<S>> X0;  // from the world's frame to the body's
+  std::vector<Transform<S>> X0;  // from the world frame to the body frame
   // pass 2 (tips to base)
   std::vector<ArticulatedInertia<S>> IA;  // articulated-body inertia
-  std::vector<Force<S>> pA;               // articulated bias force [N m, N]
+  std::vector<Force<S>> pA;               // articulated-body bias force [N m, N]
   std::vector<Force<S>> U;                // IA S, by velocity
-  std::vector<S> D;                       // S^T U + armature, nv x nv of body i at iD[i]
-  std::vector<S> D_factors;               // L D L^T of it, at the same place (slice_spd)
+  std::vector<S> D;                       // S^T U + armature, nv x nv of body i from iD[i]
+  std::vector<S> D_factors;               // its L D L^T factors, same index (slice_spd)
   std::vector<S> u;                       // tau - S^T pA, by velocity
   // pass 3 (base to tips)
-  std::vector<Motion<S>> a;  // spatial acceleration, gravity as a_0 = -g
+  std::vector<Motion<S>> a;  // spatial acceleration, with gravity as a_0 = -a_g
   std::vector<S> qdd;        // by velocity
   // inverse dynamics
-  std::vector<Force<S>> f;  // force transmitted through joint i [N m, N]
+  std::vector<Force<S>> f;  // wrench transmitted through joint i [N m, N]
   std::vector<S> tau;       // by velocity
   // mass matrix
   std::vector<Inertia<S>> Ic;  // composite inertia of the subtree
   // M^-1 times a vector
-  std::vector<Force<S>> p;    // bias force of the vector alone
-  std::vector<Motion<S>> dv;  // acceleration that it causes
+  std::vector<Force<S>> p;    // bias force of the right-hand side
+  std::vector<Motion<S>> dv;  // spatial acceleration for qdd = y
   std::vector<S> y;           // the product, by velocity
 
-  std::vector<std::size_t> iD;  // where D of body i begins
+  std::vector<std::size_t> iD;  // first index of D of body i
 
-  explicit Workspace(const Model<S>& model)
-      : BodyVelocities<S>(model),
-        sin(model.nq),
-        cos(model.nq),
-        X0(n(model)),
-        IA(n(model)),
-        pA(n(model)),
-        U(model.nv),
-        u(model.nv),
-        a(n(model)),
-        qdd(model.nv),
-        f(n(model)),
-        tau(model.nv),
-        Ic(n(model)),
-        p(n(model)),
-        dv(n(model)),
-        y(model.nv) {
-    std::size_t size = 0;
-    for (std::size_t i = 0; i < n(model); ++i) {
-      iD.push_back(size);
-      size += model.dofs(i) * model.dofs(i);
+  explicit Workspace(const Model<S>& model) : BodyVelocities<S>(model) {
+    const auto resize = [](std::size_t size, auto&... fields) { (fields.resize(size), ...); };
+    const std::size_t n = model.parent.size();
+    std::size_t entries = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      iD.push_back(entries);
+      entries += model.dofs(i) * model.dofs(i);
     }
-    D.resize(size);
-    D_factors.resize(size);
+    resize(model.nq, sin, cos);
+    resize(n, X0, IA, pA, a, f, Ic, p, dv);
+    resize(model.nv, U, u, qdd, tau, y);
+    resize(entries, D, D_factors);
   }
 
-  // Calls visit(Quantity, field) for what aba() leaves, in the order in which it is written. What
-  // other algorithms leave is theirs; D_factors is D again.
+  // Calls visit(Quantity, field) for the variables of aba(), in the order of computation.
   template <class Visitor>
   void describe(Visitor&& visit) const {
-    describe_motion(visit);
-    describe_inertias(visit);
     using By = Quantity::By;
-    visit({"qdd", 3, By::velocity, "acceleration of the joint", "rad/s^2; m/s^2",
-           "qdd = D^-1 (u - U^T (Xup a_p + c)), table 7.1"},
-          qdd);
-    visit({"a", 3, By::body, "spatial acceleration; gravity as an upward one of the base",
-           "rad/s^2; m/s^2", "a = Xup a_p + c + S qdd, table 7.1"},
-          a);
-  }
-
- private:
-  template <class Visitor>
-  void describe_motion(Visitor& visit) const {
-    using By = Quantity::By;
-    visit({"S", 1, By::velocity, "motion subspace: how the joint lets the body move", "1",
-           "section 3.5, table 4.1"},
-          this->S_);
-    visit({"Xup", 1, By::body, "transform from the parent's axes and origin to the body's", "1; m",
+    visit({"S", 1, By::velocity, "motion subspace", "1", "section 3.5, table 4.1"}, this->S_);
+    visit({"Xup", 1, By::body, "motion transform from parent to body", "1; m",
            "Xup = XJ Xtree, table 7.1; (2.24)"},
           this->Xup);
-    visit({"v", 1, By::body, "spatial velocity: turn, and velocity of the origin", "rad/s; m/s",
-           "v = Xup v_p + S qd, table 7.1"},
+    visit({"v", 1, By::body, "spatial velocity", "rad/s; m/s", "v = Xup v_p + S qd, table 7.1"},
           this->v);
-    visit({"c", 1, By::body, "acceleration that the velocities alone cause", "rad/s^2; m/s^2",
+    visit({"c", 1, By::body, "velocity-product acceleration", "rad/s^2; m/s^2",
            "c = cJ + v x S qd, table 7.1"},
           this->c);
-  }
-  template <class Visitor>
-  void describe_inertias(Visitor& visit) const {
-    using By = Quantity::By;
-    visit({"IA", 2, By::body, "articulated-body inertia: the body with all that hangs on it",
-           "kg m^2, kg m, kg", "IA = I + sum of X^T Ia X, table 7.1; (7.22)"},
+    visit({"IA", 2, By::body, "articulated-body inertia", "kg m^2, kg m, kg",
+           "IA = I + sum of X^T Ia X, table 7.1; (7.22)"},
           IA);
-    visit({"pA", 2, By::body, "force that it takes to give the body no acceleration", "N m; N",
+    visit({"pA", 2, By::body, "articulated-body bias force", "N m; N",
            "pA = v x* I v - f_ext + sum of X^T pa, table 7.1"},
           pA);
-    visit({"U", 2, By::velocity, "force that a unit acceleration of the joint takes",
+    visit({"U", 2, By::velocity, "articulated-body inertia times motion subspace",
            "kg m^2, kg m; kg m, kg", "U = IA S, table 7.1"},
           U);
-    visit({"D", 2, By::square, "inertia felt at the joint: ancestors locked, descendants free",
-           "kg m^2; kg", "D = S^T U + armature, table 7.1"},
+    visit({"D", 2, By::square, "joint-space articulated inertia", "kg m^2; kg",
+           "D = S^T U + armature, table 7.1"},
           D);
-    visit({"u", 2, By::velocity, "force left at the joint to accelerate it", "N m; N",
+    visit({"u", 2, By::velocity, "joint force minus articulated-body bias force", "N m; N",
            "u = tau - S^T pA, table 7.1"},
           u);
+    visit({"qdd", 3, By::velocity, "joint acceleration", "rad/s^2; m/s^2",
+           "qdd = D^-1 (u - U^T (Xup a_p + c)), table 7.1"},
+          qdd);
+    visit({"a", 3, By::body, "spatial acceleration, with gravity as a_0 = -a_g", "rad/s^2; m/s^2",
+           "a = Xup a_p + c + S qdd, table 7.1"},
+          a);
   }
-
-  static std::size_t n(const Model<S>& model) { return model.parent.size(); }
 };
 
 }  // namespace twinarm

@@ -2,9 +2,17 @@
 //
 //   qdd = M^-1 (tau - C(q, qd, f_ext)),  in O(n).
 //
-// All quantities in body axes. Inputs beyond the book: the rotors' armature is added to D; and for
-// implicit spring-dampers (docs/understand/coupling_laws.md) forces.armature to D, forces.impedance
-// to IA, and neither to anything else. Callers include solver/dynamics/dynamics.h.
+//   pass 1   v_i = X_i v_p + S_i qd_i,   c_i = cJ_i + v_i x S_i qd_i,
+//            p_i = v_i x* I_i v_i - f_ext_i
+//   pass 2   U_i = IA_i S_i,   D_i = S_i^T U_i,   u_i = tau_i - S_i^T pA_i,
+//            Ia = IA_i - U_i D_i^-1 U_i^T,   pa = pA_i + Ia c_i + U_i D_i^-1 u_i,
+//            IA_p += X_i^T Ia X_i,   pA_p += X_i^T pa
+//   pass 3   a' = X_i a_p + c_i,   qdd_i = D_i^-1 (u_i - U_i^T a'),   a_i = a' + S_i qdd_i
+//
+// X_i (Xup) transforms motion vectors from parent p to body i. All quantities are in body axes,
+// about the body's origin. Added to the book's algorithm: rotor inertia (model.armature) on the
+// diagonal of D; for implicit spring-dampers (docs/understand/coupling_laws.md) forces.armature on
+// the diagonal of D and forces.impedance in IA. Interface: solver/dynamics/dynamics.h.
 #pragma once
 
 #include "solver/model/joint_slice.h"
@@ -15,17 +23,17 @@
 
 namespace twinarm::TWINARM_ISA {
 
-// M: a Model<S>, or a type with its members.
+// M: Model<S> or a type with the same members.
 template <class S, class M, class Trace = NoTrace>
 [[gnu::flatten]] void aba(const M& model, const State<S>& x, const Forces<S>& forces,
                           Workspace<S>& w, Trace&& trace = {}) {
   const std::size_t n_bodies = model.parent.size();
-  forget(w.v), forget(w.c), forget(w.IA), forget(w.pA), forget(w.a), forget(w.qdd);
+  poison_with_nan(w.v, w.c, w.IA, w.pA, w.a, w.qdd);
   w.v[0] = {};
-  w.a[0] = {{}, -model.gravity};  // gravity as an upward acceleration of the base
+  w.a[0] = {{}, -model.gravity};  // gravity as a fictitious acceleration of the base, a_0 = -a_g
   precompute_sincos(x.q, w.sin, w.cos);
 
-  // pass 1, base to tips: velocities, velocity-product terms, inertias and bias forces of each body
+  // pass 1, base to tips: velocity, velocity-product acceleration and bias force of each body
   for (std::size_t i = 1; i < n_bodies; ++i) {
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
@@ -38,20 +46,20 @@ template <class S, class M, class Trace = NoTrace>
       w.v[i] = w.Xup[i] * w.v[p] + vJ;
       w.c[i] = crm(w.v[i], vJ) + joint.cJ(q, qd);
       w.pA[i] = crf(w.v[i], model.I[i] * w.v[i]) - forces.f_ext[i];
-      remember(S_i, w.S_.data() + model.iv[i]);
+      store_subspace(S_i, w.S_.data() + model.iv[i]);
     });
   }
   trace.moved();
 
-  // pass 2, tips to base: articulated-body inertias and bias forces
+  // pass 2, tips to base: articulated-body inertia and articulated-body bias force
   for (std::size_t i = n_bodies; i-- > 1;) {
-    if (model.last_child[i] == 0) w.IA[i] = model.I[i];  // a tip; others begin at their last child
+    if (model.last_child[i] == 0) w.IA[i] = model.I[i];  // leaf; others are set by their last child
     if (forces.has_impedance) w.IA[i] += forces.impedance[i];
-    visit_joint(model, forces.armature, i, [&](auto joint, auto felt) TWINARM_KERNEL {
+    visit_joint(model, forces.armature, i, [&](auto joint, auto sparsity) TWINARM_KERNEL {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
       decltype(joint.subspace(nullptr)) S_i;
-      recall(w.S_.data() + iv, S_i);
+      load_subspace(w.S_.data() + iv, S_i);
 
       const auto U = w.IA[i] * S_i;
       auto D = transpose_times(S_i, U);
@@ -59,7 +67,7 @@ template <class S, class M, class Trace = NoTrace>
       const auto factors = factorized(D);
       const auto u = slice<joint.nv>(forces.tau, iv) - transpose_times(S_i, w.pA[i]);
       if (p > 0) {
-        const auto Ia = apparent_inertia(felt, w.IA[i], U, factors);  // IA - U D^-1 U^T
+        const auto Ia = apparent_inertia(sparsity, w.IA[i], U, factors);  // IA - U D^-1 U^T
         const Force<S> pa = w.pA[i] + Ia * w.c[i] + times(U, solve(factors, u));
         w.pA[p] += transpose_times(w.Xup[i], pa);
         if (model.last_child[p] == static_cast<int>(i))  // IA_p = I_p + X^T Ia X
@@ -73,13 +81,13 @@ template <class S, class M, class Trace = NoTrace>
     });
   }
 
-  // pass 3, base to tips: accelerations
+  // pass 3, base to tips: joint accelerations and spatial accelerations
   for (std::size_t i = 1; i < n_bodies; ++i) {
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
       decltype(joint.subspace(nullptr)) S_i;
-      recall(w.S_.data() + iv, S_i);
+      load_subspace(w.S_.data() + iv, S_i);
 
       const Motion<S> a = w.Xup[i] * w.a[p] + w.c[i];
       const auto r = slice<joint.nv>(w.u, iv) - transpose_times(slice<joint.nv>(w.U, iv), a);

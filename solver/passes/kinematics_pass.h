@@ -1,9 +1,9 @@
-// Forward kinematics, RBDA section 4.1 and 3.4: where the bodies are and how fast they move.
+// Forward kinematics, RBDA sections 3.4 and 4.1: poses and spatial velocities of the bodies.
 //
-//   Xup_i = XJ Xtree,   X0_i = Xup_i X0_p,   v_i = Xup_i v_p + S qd
+//   X_i = XJ_i XT_i,   X0_i = X_i X0_p,   v_i = X_i v_p + S_i qd_i,   c_i = cJ_i + v_i x S_i qd_i
 //
-// Writes Xup, v, c, S_, and X0 where w is a Workspace and not BodyVelocities alone. Callers include
-// solver/dynamics/dynamics.h and kinematics.cpp.
+// Writes Xup, v, c and S_; and X0 if w has it (Workspace, not BodyVelocities). Interface:
+// solver/dynamics/dynamics.h, solver/dynamics/kinematics.h.
 #pragma once
 
 #include "solver/model/joint_slice.h"
@@ -17,9 +17,9 @@ template <class S, class W>
   constexpr bool has_X0 = requires {
     w.X0;
   };
-  forget(w.v), forget(w.c);
+  poison_with_nan(w.v, w.c);
   w.v[0] = {};
-  if constexpr (has_X0) forget(w.X0), w.X0[0] = {};
+  if constexpr (has_X0) poison_with_nan(w.X0), w.X0[0] = {};
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
       const auto p = static_cast<std::size_t>(model.parent[i]);
@@ -30,7 +30,7 @@ template <class S, class W>
       if constexpr (has_X0) w.X0[i] = w.Xup[i] * w.X0[p];
       w.v[i] = w.Xup[i] * w.v[p] + vJ;
       w.c[i] = crm(w.v[i], vJ) + joint.cJ(q, qd);
-      remember(S_i, w.S_.data() + model.iv[i]);
+      store_subspace(S_i, w.S_.data() + model.iv[i]);
     });
   }
 }

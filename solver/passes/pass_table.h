@@ -1,4 +1,4 @@
-// The passes of one scalar at one level of the instruction set, as function pointers.
+// Table of function pointers: the algorithms for one scalar and one instruction-set level.
 #pragma once
 
 #include <span>

@@ -1,8 +1,8 @@
-// Batch<N>: N doubles side by side, so that one call of a pass computes N states of one model.
+// Batch<N>: N doubles in SIMD lanes; one call of an algorithm computes N states of one model.
 //
-// Lanes never mix, so lane k gives the same as a run of its own (to the bit, at one level of the
-// instruction set; solver/dynamics/dynamics.h). By rounding only where a hinge has armature in some
-// lanes and none in others: all of them then take the way of a geared hinge.
+// Lanes are independent: lane k is bit-identical to a run of its own at the same instruction-set
+// level (solver/dynamics/dynamics.h). Exception: if a revolute joint has armature in some lanes
+// only, all lanes use the general form of Ia, and results differ by rounding.
 #pragma once
 
 #include "solver/spatial/scalar.h"
@@ -17,7 +17,7 @@ struct alignas(N * sizeof(double)) Batch {
 
   Lanes lanes{};
   Batch() = default;
-  // A scalar stands for itself in every lane; x - 0 is x, and one instruction to both compilers.
+  // Broadcasts x to all lanes; x - 0 compiles to one instruction in g++ and clang.
   Batch(double x) : lanes(x - Lanes{}) {}  // NOLINT
   static Batch of(const Lanes& l) {
     Batch b;
@@ -48,7 +48,7 @@ struct alignas(N * sizeof(double)) Batch {
     SinCos<Batch> out{of(both.sin), of(both.cos)};
     const Mask near = (x.lanes <= kPolynomialRange) & (x.lanes >= -kPolynomialRange);
     if (!any_lane(~near)) return out;
-    for (int i = 0; i < N; ++i) {  // far out, and NaN
+    for (int i = 0; i < N; ++i) {  // outside the polynomial's range, or NaN
       const SinCos<double> one = sin_cos(static_cast<double>(x.lanes[i]));
       out.sin.lanes[i] = one.sin;
       out.cos.lanes[i] = one.cos;

@@ -1,4 +1,4 @@
-// Spatial quantities in another scalar, number by number.
+// Conversion of spatial quantities to another scalar.
 #pragma once
 
 #include "solver/spatial/spatial.h"

@@ -1,13 +1,13 @@
-// Dual<N>: a number and its derivatives in N directions, by forward-mode differentiation.
+// Dual<N>: value and derivatives in N directions (forward-mode automatic differentiation).
 //
-// Comparisons look at the value alone, so that a branch of select() is differentiated as it is.
+// Comparisons use the value only: select() returns the derivatives of the selected branch.
 #pragma once
 
 #include "solver/spatial/scalar.h"
 #include "solver/spatial/simd_vector.h"
 
-// Where a product takes a dozen instructions (SSE2), it is called: a third of the code, of the time
-// to compile it, and by half slower than inlined. Above that all is inlined
+// With SSE2 a product takes a dozen instructions and is not inlined: a third of the code size and
+// compile time, 1.5 times the run time. With AVX all operations are inlined
 // (tests/lint/test_levels.py).
 #if defined(__AVX__)
 #define TWINARM_DUAL_OPERATION
@@ -17,10 +17,8 @@
 
 namespace twinarm {
 
-// N doubles, halved until they fit the vectors of the processor: g++ 12 keeps those in registers,
-// but lowers wider ones through memory, one number after the other. The bytes are the same at every
-// level of the instruction set, and only the passes, which have a namespace for each, compute with
-// it there.
+// N doubles, split in halves that fit a vector register: g++ 12 lowers wider vectors through
+// memory, element by element. The memory layout is the same at every instruction-set level.
 template <int N, bool fits = (N <= kNativeLanes)>
 struct Tangents {
   Tangents<N / 2> low{}, high{};
@@ -42,7 +40,7 @@ struct Tangents<N, true> {
   friend Tangents operator-(const Tangents& a, const Tangents& b) { return {a.lanes - b.lanes}; }
   friend Tangents operator*(double s, const Tangents& a) { return {s * a.lanes}; }
   friend Tangents operator-(const Tangents& a) { return {-a.lanes}; }
-  // A vector's lanes may be reached as what they are: doubles, one after the other.
+  // GCC and clang permit access to the lanes of a vector as consecutive doubles.
   double& operator[](int i) { return reinterpret_cast<double*>(&lanes)[i]; }
   double operator[](int i) const { return lanes[i]; }
 };

@@ -1,11 +1,11 @@
-// Rotations: about z, and unit quaternions (w, x, y, z) with their exponential map on SO(3).
+// Rotations about z, and unit quaternions (w, x, y, z) with the exponential map of SO(3).
 #pragma once
 
 #include "solver/spatial/spatial.h"
 
 namespace twinarm {
 
-// The coordinate transform of a turn about z by an angle: E = (c s 0; -s c 0; 0 0 1), r = 0.
+// Coordinate transform of a rotation about z: E = (c s 0; -s c 0; 0 0 1), r = 0.
 template <class S>
 struct RotationZ {
   S c, s;
@@ -17,7 +17,7 @@ struct RotationZ {
   }
 };
 
-// E of a unit quaternion that turns child into parent coordinates: E = R^T.
+// E = R^T of a unit quaternion; R maps child coordinates to parent coordinates.
 template <class S>
 Mat3<S> quaternion_E(const S* q) {
   const S &w = q[0], &x = q[1], &y = q[2], &z = q[3], one(1), two(2);
@@ -26,15 +26,15 @@ Mat3<S> quaternion_E(const S* q) {
           {two * (x * z + w * y), two * (y * z - w * x), one - two * (x * x + y * y)}};
 }
 
-// out = q exp(turn), turn in child axes [rad]; out may be q. sin(t/2)/t is an even power series in
-// t: below t = 1e-1 five terms are exact to rounding, and there is no 0/0.
+// out = q exp(phi), rotation vector phi in child axes [rad]; out may be q. For t = |phi| < 0.1,
+// five terms of the power series of sin(t/2)/t are exact to rounding and avoid 0/0.
 template <class S>
-void integrate_quaternion(const S* q, const S* turn, S* out) {
+void integrate_quaternion(const S* q, const S* phi, S* out) {
   using std::sqrt;
-  const Vec3<S> u{turn[0], turn[1], turn[2]};
+  const Vec3<S> u{phi[0], phi[1], phi[2]};
   const S t2 = dot(u, u);
   const auto small = t2 < S(1e-2);
-  const S t = sqrt(select(small, S(1), t2));  // where small, the series is taken instead
+  const S t = sqrt(select(small, S(1), t2));  // if small, the series is used instead
   const SinCos<S> half = sin_cos(t * S(0.5));
   const S x = t2 * S(0.25);  // (t/2)^2
   const S dw = select(
@@ -52,14 +52,15 @@ void integrate_quaternion(const S* q, const S* turn, S* out) {
   const Vec3<S> v{q[1], q[2], q[3]};
   const S new_w = w * dw - dot(v, dv);
   const Vec3<S> new_v = w * dv + dw * v + cross(v, dv);
-  const S inverse_norm = S(1) / sqrt(new_w * new_w + dot(new_v, new_v));  // of rounding only
+  const S inverse_norm = S(1) / sqrt(new_w * new_w + dot(new_v, new_v));  // corrects rounding only
   out[0] = new_w * inverse_norm;
   out[1] = new_v.x * inverse_norm;
   out[2] = new_v.y * inverse_norm;
   out[3] = new_v.z * inverse_norm;
 }
 
-// d theta/dt where R(t) = R(0) exp(theta(t)) and R' = R [w]x, up to fourth order in theta:
+// Inverse differential of exp on SO(3): d theta/dt for R(t) = R(0) exp(theta(t)) and R' = R [w]x (w
+// in body axes), to fourth order in theta:
 //   w + theta x w / 2 + theta x (theta x w) / 12 - [theta]x^4 w / 720.
 template <class S>
 Vec3<S> dexpinv_so3(const Vec3<S>& theta, const Vec3<S>& w) {

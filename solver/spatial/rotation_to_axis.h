@@ -1,14 +1,14 @@
-// The shortest turn that takes z to a direction. Eigen's FromTwoVectors does it by a singular value
-// decomposition, 7 s of every compiler run that names it.
+// Shortest rotation that maps z to a direction. Replaces Eigen's FromTwoVectors, whose singular
+// value decomposition adds 7 s to each translation unit.
 #pragma once
 
 #include "solver/spatial/pose.h"
 
 namespace twinarm {
 
-// R_AB with the axis (in A, of any length but 0) as its third column; exactly the identity for an
-// axis along +z, half a turn about x for one along -z. By Rodrigues' formula about z x a, with
-// 1 / (1 + a_z) written so that nothing cancels near -z.
+// R_AB with the normalized axis (in A, nonzero) as third column; exactly the identity for +z, a
+// rotation by pi about x for -z. Rodrigues' formula about z x a, with 1 / (1 + a_z) rewritten to
+// avoid cancellation near -z.
 inline Matrix3 rotation_taking_z_to(const Vector3& axis) {
   const Vector3 a = axis.normalized();
   const double x = a.x(), y = a.y(), z = a.z(), aside = x * x + y * y;

@@ -1,8 +1,7 @@
-// What a scalar must offer to run through the passes, and that for double and float.
+// Requirements on the scalar S of the algorithms, and their implementation for double and float.
 //
 // S is double, float, Dual<N> (solver/spatial/dual.h) or Batch<N> (solver/spatial/batch.h). The
-// text of the passes is written once with + - * /, sqrt, and the three functions below; it never
-// branches on an S.
+// algorithms use + - * /, sqrt, select, is_nonzero and sin_cos; they never branch on a value of S.
 #pragma once
 
 #include <cmath>
@@ -15,14 +14,13 @@ namespace twinarm {
 
 inline constexpr double kDegree = std::numbers::pi / 180;  // [rad]
 
-// condition ? a : b, lane by lane where S has lanes. Both sides are evaluated.
+// condition ? a : b, per lane. Both sides are evaluated.
 template <class S>
 S select(bool condition, const S& a, const S& b) {
   return condition ? a : b;
 }
 
-// True where adding x could matter; for lanes, where it could matter in any of them. Only to skip
-// work whose result would be exactly zero.
+// False only if x is zero in value, all lanes and derivatives: work with result zero is skipped.
 inline bool is_nonzero(double x) {
   return x != 0;
 }
@@ -30,7 +28,7 @@ inline bool is_nonzero(float x) {
   return x != 0;
 }
 
-// The scalar of what is the same in all lanes of S: S itself where it has none.
+// Scalar type of values that are equal in all lanes of S; S itself if it has no lanes.
 template <class S>
 struct ConstantOf {
   using type = S;
@@ -43,10 +41,9 @@ struct SinCos {
   S sin, cos;
 };
 
-// Both to within 1.6 units in the last place for |x| <= 200, by reduction to [-pi/4, pi/4] in three
-// parts (Cody and Waite) and the minimax polynomials of fdlibm's kernels; no branch, so that it is
-// 3 to 4 times as fast as libm and has the same text for lanes. T: a floating-point number or a
-// vector of them, I: the integers of the same size.
+// Sine and cosine to 1.6 ulp for |x| <= 200: Cody-Waite reduction to [-pi/4, pi/4] in three parts,
+// minimax polynomials of fdlibm. Branch-free: 3 to 4 times as fast as libm, and valid for SIMD
+// vectors. T: floating-point number or vector, I: integer type of the same size.
 template <class T, class I>
 SinCos<T> sin_cos_polynomial(const T& x) {
   constexpr double round_by_adding = 6755399441055744.0;  // 1.5 * 2^52: leaves the integer part
@@ -75,7 +72,7 @@ SinCos<T> sin_cos_polynomial(const T& x) {
                      z * (-2.75573143513906633035e-07 +
                           z * (2.08757232129817482790e-09 + z * -1.13596475577881948265e-11)))));
 
-  // In odd quadrants sine and cosine change places; in the upper ones they change sign.
+  // Odd quadrants swap sine and cosine; the sign depends on the quadrant.
   const I odd = -(quadrant & 1), sign_s = (quadrant & 2) << 62, sign_c = ((quadrant + 1) & 2) << 62;
   I bits_s, bits_c;
   std::memcpy(&bits_s, &s, sizeof bits_s);
@@ -90,14 +87,13 @@ SinCos<T> sin_cos_polynomial(const T& x) {
 
 inline constexpr double kPolynomialRange = 200;  // [rad]
 
-// Whether the polynomials are worth evaluating side by side for many numbers
-// (solver/spatial/sincos_batch.h).
+// Whether sines of all coordinates are precomputed in SIMD lanes (solver/spatial/sincos_batch.h).
 template <class S>
 inline constexpr bool precomputes_sincos = std::is_same_v<S, double>;
 
 inline SinCos<double> sin_cos(double x) {
   if (std::abs(x) <= kPolynomialRange) return sin_cos_polynomial<double, std::int64_t>(x);
-  return {std::sin(x), std::cos(x)};  // far out, and NaN
+  return {std::sin(x), std::cos(x)};  // outside the polynomial's range, or NaN
 }
 inline SinCos<float> sin_cos(float x) {
   const SinCos<double> both = sin_cos(static_cast<double>(x));

@@ -1,15 +1,13 @@
-// Vectors of doubles, by the vector extension of g++ and clang: plain operators, lowered to
-// whatever the processor has.
+// SIMD vectors of doubles by the vector extension of g++ and clang.
 #pragma once
 
 #include <cstdint>
 
 namespace twinarm {
 
-// Bare, a vector's alignment depends on the instruction set that a unit is compiled for: whoever
-// holds one says alignas.
+// The alignment of a vector type depends on the instruction set: members need alignas.
 template <int N>
-struct LanesOf;  // Mask: all bits of a lane, or none
+struct LanesOf;  // Mask: all bits of a lane set, or none
 template <>
 struct LanesOf<2> {
   typedef double Lanes __attribute__((vector_size(16)));
@@ -26,7 +24,7 @@ struct LanesOf<8> {
   typedef std::int64_t Mask __attribute__((vector_size(64)));
 };
 
-// Whether any bit of any lane is set. By halves, so that lanes are not taken out one by one.
+// Whether any bit of any lane is set. Halves are combined to avoid extracting lanes one by one.
 inline bool any_lane(const LanesOf<2>::Mask& m) {
   return (m[0] | m[1]) != 0;
 }
@@ -34,7 +32,7 @@ inline bool any_lane(const LanesOf<4>::Mask& m) {
   return any_lane(__builtin_shufflevector(m, m, 0, 1) | __builtin_shufflevector(m, m, 2, 3));
 }
 inline bool any_lane(const LanesOf<8>::Mask& m) {
-#if defined(__AVX512DQ__)  // by the lanes' signs
+#if defined(__AVX512DQ__)  // sign bits of the lanes
   using Signs = long long __attribute__((vector_size(64)));
   return __builtin_ia32_cvtq2mask512(reinterpret_cast<const Signs&>(m)) != 0;
 #else
@@ -43,7 +41,7 @@ inline bool any_lane(const LanesOf<8>::Mask& m) {
 #endif
 }
 
-// How many doubles a register holds at the level that a unit is compiled for.
+// Doubles per vector register at the instruction-set level of this translation unit.
 #if defined(__AVX512F__)
 inline constexpr int kNativeLanes = 8;
 #elif defined(__AVX__)

@@ -1,8 +1,7 @@
-// Sines and cosines of all coordinates of a mechanism, ahead of the pass that needs them.
+// Sines and cosines of all coordinates of a model, computed in SIMD lanes before pass 1.
 //
-// As many side by side as a register holds, and to the bit what sin_cos gives one by one. In the
-// pass itself each would be the beginning of a chain of sixty cycles. Coordinates that are no
-// angles are taken along: that costs less than to sort them out.
+// Bit-identical to sin_cos() per coordinate. Within pass 1 each would start a dependency chain of
+// 60 cycles. Coordinates that are not angles are computed too: cheaper than selecting.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +25,7 @@ void sin_cos_side_by_side(const double* x, double* sin, double* cos) {
   std::memcpy(cos, &both.cos, sizeof both.cos);
 }
 
-// In groups of N, the last of which may overlap the one before; of fewer than N, in smaller groups.
+// Groups of N; the last may overlap the one before. For n < N: groups of N/2.
 template <int N>
 void sin_cos_in_groups(std::size_t n, const double* x, double* sin, double* cos) {
   if (n >= N) {
@@ -40,8 +39,8 @@ void sin_cos_in_groups(std::size_t n, const double* x, double* sin, double* cos)
   }
 }
 
-// Valid where |q| <= kPolynomialRange (joint_transform asks). Other scalars than double are not
-// taken ahead: lanes are side by side already.
+// Valid for |q| <= kPolynomialRange (checked by joint_transform). Only for double: a Batch already
+// fills the lanes.
 template <class S>
 void precompute_sincos(const std::vector<S>& q, std::vector<S>& sin, std::vector<S>& cos) {
   if constexpr (precomputes_sincos<S>)

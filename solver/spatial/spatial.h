@@ -1,9 +1,9 @@
 // Spatial vectors, transforms and inertias of RBDA chapter 2, in 3-D blocks, angular part first.
 //
-// Motion (w; v) and Force (n; f) are different types: a force does not add to a velocity. Written
-// out in scalars, because both compilers see through it (expression templates cost the peers up to
-// a factor 2.4), and templated on the scalar S: no `if` on an S value. All quantities of one
-// formula are in the same frame; the frame is named where the quantity is stored (Workspace).
+// Motion (w; v) and Force (n; f) are distinct types: elements of M^6 and F^6 do not add. Written
+// out in scalars, which compilers optimize best (other libraries lose up to a factor 2.4 with
+// expression templates), and templated on the scalar S: no branch on an S value. All operands of a
+// formula are in the same frame; the frame is documented with the stored quantity (Workspace).
 #pragma once
 
 #include "solver/spatial/scalar.h"
@@ -31,7 +31,7 @@ Vec3<S> cross(const Vec3<S>& a, const Vec3<S>& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-// a + r x b and a - r x b, in an order that a fused multiply-add can take.
+// a + r x b and a - r x b, ordered for fused multiply-add.
 template <class S>
 Vec3<S> plus_cross(const Vec3<S>& a, const Vec3<S>& r, const Vec3<S>& b) {
   return {a.x + r.y * b.z - r.z * b.y, a.y + r.z * b.x - r.x * b.z, a.z + r.x * b.y - r.y * b.x};
@@ -41,7 +41,7 @@ Vec3<S> minus_cross(const Vec3<S>& a, const Vec3<S>& r, const Vec3<S>& b) {
   return {a.x - r.y * b.z + r.z * b.y, a.y - r.z * b.x + r.x * b.z, a.z - r.x * b.y + r.y * b.x};
 }
 
-// General 3x3 matrix, by rows.
+// General 3x3 matrix, row-major.
 template <class S>
 struct Mat3 {
   Vec3<S> r0, r1, r2;
@@ -80,7 +80,7 @@ Mat3<S> outer(const Vec3<S>& a, const Vec3<S>& b) {
   return {a.x * b, a.y * b, a.z * b};
 }
 
-// Symmetric 3x3 matrix: six numbers.
+// Symmetric 3x3 matrix.
 template <class S>
 struct Sym3 {
   S xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
@@ -108,21 +108,21 @@ Mat3<S> full(const Sym3<S>& a) {
   return {a.row0(), a.row1(), a.row2()};
 }
 template <class S>
-Sym3<S> symmetric_part_of(const Mat3<S>& a) {  // for a matrix that is symmetric but for rounding
+Sym3<S> symmetric_part_of(const Mat3<S>& a) {  // upper triangle; a is symmetric up to rounding
   return {a.r0.x, a.r1.y, a.r2.z, a.r0.y, a.r0.z, a.r1.z};
 }
 template <class S>
-Sym3<S> rotate_back(const Mat3<S>& E, const Sym3<S>& a) {  // E^T a E, six outputs
+Sym3<S> rotate_back(const Mat3<S>& E, const Sym3<S>& a) {  // E^T a E
   const Vec3<S>&e0 = E.r0, &e1 = E.r1, &e2 = E.r2;
   const Vec3<S> x = a.xx * e0 + a.xy * e1 + a.xz * e2, y = a.xy * e0 + a.yy * e1 + a.yz * e2,
-                z = a.xz * e0 + a.yz * e1 + a.zz * e2;  // the rows of a E
+                z = a.xz * e0 + a.yz * e1 + a.zz * e2;  // rows of a E
   return {e0.x * x.x + e1.x * y.x + e2.x * z.x, e0.y * x.y + e1.y * y.y + e2.y * z.y,
           e0.z * x.z + e1.z * y.z + e2.z * z.z, e0.x * x.y + e1.x * y.y + e2.x * z.y,
           e0.x * x.z + e1.x * y.z + e2.x * z.z, e0.y * x.z + e1.y * y.z + e2.y * z.z};
 }
 
 template <class S>
-struct Motion {  // (w; v): angular, then linear velocity of the frame's origin
+struct Motion {  // (w; v): angular velocity; linear velocity of the point at the frame's origin
   Vec3<S> w, v;
   Motion operator-() const { return {-w, -v}; }
   Motion& operator+=(const Motion& b) {
@@ -134,7 +134,7 @@ struct Motion {  // (w; v): angular, then linear velocity of the frame's origin
   friend Motion operator*(const S& s, const Motion& a) { return {s * a.w, s * a.v}; }
 };
 template <class S>
-struct Force {  // (n; f): couple about the frame's origin, then force
+struct Force {  // (n; f): moment about the frame's origin; force
   Vec3<S> n, f;
   Force operator-() const { return {-n, -f}; }
   Force& operator+=(const Force& b) {
@@ -146,7 +146,7 @@ struct Force {  // (n; f): couple about the frame's origin, then force
   friend Force operator*(const S& s, const Force& a) { return {s * a.n, s * a.f}; }
 };
 template <class S>
-S dot(const Motion<S>& a, const Force<S>& b) {  // power of the force b at the velocity a
+S dot(const Motion<S>& a, const Force<S>& b) {  // scalar product a . b (power)
   return dot(a.w, b.n) + dot(a.v, b.f);
 }
 template <class S>
@@ -158,8 +158,8 @@ Force<S> crf(const Motion<S>& a, const Force<S>& b) {  // a x* b, RBDA (2.32)
   return {plus_cross(cross(a.w, b.n), a.v, b.f), cross(a.w, b.f)};
 }
 
-// Pluecker transform B_X_A, RBDA (2.24): E turns coordinates in A into coordinates in B, r is the
-// origin of B in A.
+// Pluecker transform B_X_A = (E 0; -E rx E), RBDA (2.24): E maps coordinates in A to coordinates in
+// B, r is the origin of B in A.
 template <class S>
 struct Transform {
   Mat3<S> E = Mat3<S>::identity();
@@ -189,8 +189,8 @@ struct Inertia {
   }
 };
 
-// sum += X^T I X, RBDA (2.66): the inertia of a child's subtree added to its parent's. Rotated into
-// the parent's axes (h, I_r), then about the parent's origin:
+// sum += X^T I X, RBDA (2.66): adds a child's composite inertia to its parent's. First rotated to
+// the parent's axes (h, I_r), then translated to the parent's origin:
 //   I' = I_r + 2 (r.t) 1 - t r^T - r t^T,  t = h + m r / 2.
 template <class S>
 void add_congruence(const Transform<S>& X, const Inertia<S>& a, Inertia<S>& sum) {
@@ -208,7 +208,7 @@ void add_congruence(const Transform<S>& X, const Inertia<S>& a, Inertia<S>& sum)
   sum.I.yz = sum.I.yz + I.yz - t.y * r.z - t.z * r.y;
 }
 
-// Articulated-body inertia [I H; H^T M], RBDA (7.22): 6 + 9 + 6 numbers.
+// Articulated-body inertia (I H; H^T M), RBDA section 7.1; I and M symmetric, 21 numbers.
 template <class S>
 struct ArticulatedInertia {
   Sym3<S> I;
@@ -241,17 +241,16 @@ struct ArticulatedInertia {
     return {a.I - b.I, a.H - b.H, a.M - b.M};
   }
 };
-// a b^T of two forces, where the result is known to be symmetric (b a multiple of a, or a sum of
-// such products that is symmetric as a whole).
+// a b^T of two forces; requires a symmetric result (b parallel to a, or a symmetric sum).
 template <class S>
 ArticulatedInertia<S> outer(const Force<S>& a, const Force<S>& b) {
   return {symmetric_part_of(outer(a.n, b.n)), outer(a.n, b.f), symmetric_part_of(outer(a.f, b.f))};
 }
-// sum = before + the part of an inertia [0 H; H^T M] about a point, seen from a point r before it:
-//   H' = H + [r]x M,   I' = [r]x H^T + ([r]x H'^T)^T   (symmetric: six outputs).
+// sum = before + (I' H'; H'^T M): the inertia (0 H; H^T M) translated by r, with
+//   H' = H + [r]x M,   I' = [r]x H^T + ([r]x H'^T)^T.
 template <class S>
-void add_shifted(const Vec3<S>& r, const Mat3<S>& H, const Sym3<S>& M,
-                 const ArticulatedInertia<S>& before, ArticulatedInertia<S>& sum) {
+void add_translated(const Vec3<S>& r, const Mat3<S>& H, const Sym3<S>& M,
+                    const ArticulatedInertia<S>& before, ArticulatedInertia<S>& sum) {
   sum.M = before.M + M;
   const Mat3<S> Hs{H.r0 + r.y * M.row2() - r.z * M.row1(), H.r1 + r.z * M.row0() - r.x * M.row2(),
                    H.r2 + r.x * M.row1() - r.y * M.row0()};
@@ -264,14 +263,13 @@ void add_shifted(const Vec3<S>& r, const Mat3<S>& H, const Sym3<S>& M,
   sum.I.xz = before.I.xz + r.y * p2.z - r.z * p2.y + r.x * q0.y - r.y * q0.x;
   sum.I.yz = before.I.yz + r.z * p2.x - r.x * p2.z + r.x * q1.y - r.y * q1.x;
 }
-// parent = before + X^T IA X: the inertia of a child as its parent feels it, RBDA (2.66), by
-// rotation and shift. Added piece by piece, so that little has to be kept in registers; before may
-// be parent.
+// parent = before + X^T IA X, RBDA (2.66), by rotation and translation. Block by block, to reduce
+// register pressure; `before` may be `parent`.
 template <class S>
 void add_congruence(const Transform<S>& X, const ArticulatedInertia<S>& a,
                     const ArticulatedInertia<S>& before, ArticulatedInertia<S>& parent) {
   const Sym3<S> M = rotate_back(X.E, a.M);
-  add_shifted(X.r, transpose(X.E) * (a.H * X.E), M, before, parent);
+  add_translated(X.r, transpose(X.E) * (a.H * X.E), M, before, parent);
   parent.I += rotate_back(X.E, a.I);
 }
 

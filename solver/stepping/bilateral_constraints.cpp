@@ -1,14 +1,16 @@
 #include "solver/stepping/bilateral_constraints.h"
 
 #include <stdexcept>
+#include <string>
 
 namespace twinarm {
 
-void BilateralConstraints::serialize(StateArchive& memory, std::size_t loop_rows) {
-  memory.visit_fixed(mimic_guess_);
-  memory.visit(loop_guess_);
+void BilateralConstraints::serialize(StateArchive& archive, std::size_t loop_rows) {
+  archive.visit_fixed(mimic_guess_);
+  archive.visit(loop_guess_);
   if (!loop_guess_.empty() && loop_guess_.size() != loop_rows)
-    throw std::runtime_error("the loops are not those of this simulation");
+    throw std::runtime_error("state data has " + std::to_string(loop_guess_.size()) +
+                             " loop rows, this simulation " + std::to_string(loop_rows));
 }
 
 void BilateralConstraints::add_to(ImpulseProblem& problem, const KinematicTrees& trees,
@@ -24,8 +26,8 @@ void BilateralConstraints::add_mimics(ImpulseProblem& problem, const KinematicTr
     const int a = trees.tree_of_dof(mimic.follower), b = trees.tree_of_dof(mimic.leader);
     ImpulseConstraint& c =
         problem.add(ConstraintType::bilateral, 1, a, a == b ? ImpulseConstraint::no_tree : b);
-    problem.J(c, 0)[trees.place(mimic.follower)] = 1;
-    problem.J(c, a == b ? 0 : 1)[trees.place(mimic.leader)] -= mimic.ratio;
+    problem.J(c, 0)[trees.index_in_tree(mimic.follower)] = 1;
+    problem.J(c, a == b ? 0 : 1)[trees.index_in_tree(mimic.leader)] -= mimic.ratio;
     c.p[0] = mimic_guess_[i];
   }
 }
@@ -38,10 +40,10 @@ void BilateralConstraints::keep_guesses(const ImpulseProblem& problem) {
       loop_guess_[row++] = problem.constraints()[next].p[static_cast<std::size_t>(r)];
 }
 
-void BilateralConstraints::count(const ImpulseProblem& problem, const double* velocity_before,
-                                 IntegrationState& m, Phase phase) {
+void BilateralConstraints::add_work(const ImpulseProblem& problem, const double* velocity_before,
+                                    IntegrationState& m, Phase phase) {
   if (!m.account) return;
-  const bool in_flow = phase == Phase::flow;
+  const bool in_segment = phase == Phase::flow;
   const auto work_of = [&](const ImpulseConstraint& c) {
     std::array<double, 3> before, after;
     problem.velocity(c, velocity_before, before);
@@ -52,14 +54,14 @@ void BilateralConstraints::count(const ImpulseProblem& problem, const double* ve
   };
   std::size_t next = first_;
   for (std::size_t i = 0; i < model_->mimics.size(); ++i)
-    m.account->add_mimic(i, work_of(problem.constraints()[next++]), in_flow);
+    m.account->add_mimic(i, work_of(problem.constraints()[next++]), in_segment);
   const LoopClosures& loops = m.dynamics.bilateral().loops();
   lambda_.resize(static_cast<Eigen::Index>(loops.rows()));
   for (std::size_t row = 0; row < loops.rows(); ++next) {
     const ImpulseConstraint& c = problem.constraints()[next];
     EnergyMomentum on_both;
     on_both.work = work_of(c);
-    m.account->add_loop(loops.loop_of(row), on_both, in_flow);
+    m.account->add_loop(loops.loop_of(row), on_both, in_segment);
     for (int r = 0; r < c.rows; ++r)
       lambda_[static_cast<Eigen::Index>(row++)] = c.p[static_cast<std::size_t>(r)];
   }
@@ -67,11 +69,11 @@ void BilateralConstraints::count(const ImpulseProblem& problem, const double* ve
     EnergyMomentum on_a;
     const LoopWrench wrench = loops.wrench(l, lambda_);
     on_a.add_wrench(1, loops.point(l), wrench.force, wrench.couple);
-    m.account->add_loop(l, on_a, in_flow);
+    m.account->add_loop(l, on_a, in_segment);
   }
 }
 
-// g' = 0; what is left of g = 0 is for Mechanism::refresh().
+// g' = 0; g = 0 is restored by IntegrationState::project_and_update().
 void BilateralConstraints::add_loops(ImpulseProblem& problem, const KinematicTrees& trees,
                                      IntegrationState& m, Phase phase, double h) {
   LoopClosures& loops = m.dynamics.bilateral().loops();
@@ -98,8 +100,8 @@ void BilateralConstraints::add_loops(ImpulseProblem& problem, const KinematicTre
         const double entry = loops.J()(from, static_cast<Eigen::Index>(dof));
         const int tree = trees.tree_of_dof(dof);
         const std::size_t n = static_cast<std::size_t>(problem.size(tree));
-        problem.J(c, tree == a ? 0 : 1)[r * n + trees.place(dof)] = entry;
-        // what prescribed joints do is in g' and not in J qd
+        problem.J(c, tree == a ? 0 : 1)[r * n + trees.index_in_tree(dof)] = entry;
+        // leaves the velocity of prescribed joints: g' - J qd
         if (phase != Phase::separate) c.b[r] -= entry * m.x.qd[dof];
       }
     }

@@ -1,4 +1,4 @@
-// Mimics and closed loops as constraints of a step (constrained_step.h): g' = 0 of each.
+// Mimic joints and loops as bilateral constraints g' = 0 of a step (constrained_step.h).
 #pragma once
 
 #include <vector>
@@ -13,20 +13,20 @@ class BilateralConstraints {
  public:
   explicit BilateralConstraints(const Model<double>& model)
       : model_(&model), mimic_guess_(model.mimics.size()) {}
-  // Loops: J qdd + gamma = 0, the forces of this instant, in place of g' = 0 after the step. A run
-  // leaves gamma to the impulses that put velocities right: they cannot give energy.
+  // Loops: J qdd + gamma = 0 (forces at this instant) instead of g' = 0 after the step. Runs use
+  // g' = 0 without gamma, which cannot increase the energy.
   void constrain_accelerations() { with_gamma_ = true; }
 
   void add_to(ImpulseProblem& problem, const KinematicTrees& trees, IntegrationState& m,
               Phase phase, double h = 0);
-  // After the solution: its impulses are the next guesses.
+  // Stores the solution's impulses as initial guess of the next step.
   void keep_guesses(const ImpulseProblem& problem);
-  // Works and momenta of what add_to() added (constraint_work.h); `before`: v0 of the problem.
-  void count(const ImpulseProblem& problem, const double* before, IntegrationState& m, Phase phase);
+  // Adds work and impulses of the constraints (constraint_work.h); `before`: v0 of the problem.
+  void add_work(const ImpulseProblem& problem, const double* before, IntegrationState& m,
+                Phase phase);
 
-  // Guesses of impulses. Those of loops: none before the first step, then one for each row.
-  void forget_loops() { loop_guess_.clear(); }
-  void serialize(StateArchive& memory, std::size_t loop_rows);
+  void clear_loop_guesses() { loop_guess_.clear(); }
+  void serialize(StateArchive& archive, std::size_t loop_rows);
 
  private:
   void add_mimics(ImpulseProblem& problem, const KinematicTrees& trees);
@@ -35,9 +35,9 @@ class BilateralConstraints {
 
   const Model<double>* model_;
   bool with_gamma_ = false;
-  std::size_t first_ = 0;  // of the constraints in the problem
-  std::vector<double> mimic_guess_, loop_guess_;
-  Eigen::VectorXd lambda_;  // impulses of the loops' rows
+  std::size_t first_ = 0;                         // index of the first constraint in the problem
+  std::vector<double> mimic_guess_, loop_guess_;  // loops: empty before the first step
+  Eigen::VectorXd lambda_;                        // impulses of the loops' rows
 };
 
 }  // namespace twinarm

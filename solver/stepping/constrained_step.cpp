@@ -10,15 +10,15 @@
 namespace twinarm {
 namespace {
 
-// A jump of velocities that sources are asked about, as a way within the step [m, rad]: what moves
-// less, on arms of less than 4 m, stays within their least reach.
-constexpr double jump = 1.25e-4;
-constexpr int max_looks = 4;
+// Displacement in the step due to a velocity jump [m, rad] above which contact detection is
+// extended; smaller ones, on lever arms below 4 m, stay within the sources' minimum margin.
+constexpr double kDetectionJump = 1.25e-4;
+constexpr int kMaxDetections = 4;
 
 }  // namespace
 
 ConstrainedStep::ConstrainedStep(const Model<double>& model)
-    : model_(&model), system_(model), couples_(model), constraint_(model.nv), shift_(model.nv) {}
+    : model_(&model), system_(model), couples_(model), constraint_(model.nv), delta_(model.nv) {}
 
 void ConstrainedStep::step(IntegrationState& m, double h, StepReport& report) {
   start_report();
@@ -30,18 +30,18 @@ void ConstrainedStep::step(IntegrationState& m, double h, StepReport& report) {
   if (solve_step(m, h, Phase::step)) aba(*model_, m.x, m.forces, m.w);
   before_ = m.x.qd;
   kick(m, h);
-  move(m, h);
-  separate(m, h);
+  update_positions(m, h);
+  correct_positions(m, h);
   report.converged = report_.step.converged && report_.impact.converged;
   report.rounds = report_.step.rounds;
   report.iterations = report_.step.newton;
 }
 
-bool ConstrainedStep::hit(IntegrationState& m) {
+bool ConstrainedStep::resolve_impacts_now(IntegrationState& m) {
   return impacts_.resolve(system_, m, 0, Phase::hit, report_) > 0;
 }
 
-void ConstrainedStep::flow(IntegrationState& m, double h) {
+void ConstrainedStep::smooth_step(IntegrationState& m, double h) {
   system_.accelerate(m, h);
   if (solve_step(m, h, Phase::flow))
     system_.trees.scatter(system_.problem, m.x.qd);
@@ -54,60 +54,60 @@ void ConstrainedStep::constrain_accelerations() {
   system_.bilateral.constrain_accelerations();
 }
 
-void ConstrainedStep::serialize(StateArchive& memory, std::size_t loop_rows) {
-  system_.friction.serialize(memory);
-  system_.bilateral.serialize(memory, loop_rows);
-  system_.solver.serialize(memory);
+void ConstrainedStep::serialize(StateArchive& archive, std::size_t loop_rows) {
+  system_.friction.serialize(archive);
+  system_.bilateral.serialize(archive, loop_rows);
+  system_.solver.serialize(archive);
 }
 
-// The velocities at the end of the step, in the problem, and the constraints' forces; false where
-// there are none.
+// Solves for the velocities at the end of the step and the constraint forces; false if there are no
+// constraints.
 bool ConstrainedStep::solve_step(IntegrationState& m, double h, Phase phase) {
   ImpulseProblem& problem = system_.problem;
   const KinematicTrees& trees = system_.trees;
   ConstraintFrame frame{m.k, trees, m.x, phase, h};
   std::fill(constraint_.begin(), constraint_.end(), 0);
   system_.friction.clear();
-  for (int looks = 0;; ++looks) {
+  for (int detections = 0;; ++detections) {
     system_.begin_problem(&m.forces, m.w);
     trees.gather(m.x.qd, problem);
-    system_.keep_velocities(frame);
+    system_.store_velocities(frame);
     for (std::size_t dof = 0; dof < model_->nv; ++dof)
-      problem.v0(trees.tree_of_dof(dof))[trees.place(dof)] += h * m.w.qdd[dof];
+      problem.v0(trees.tree_of_dof(dof))[trees.index_in_tree(dof)] += h * m.w.qdd[dof];
     system_.add_sources(frame);
     system_.friction.add_to(problem, trees, h);
     system_.bilateral.add_to(problem, trees, m, phase, h);
     if (problem.constraints().empty()) return false;
     report_.step = system_.solver.solve(problem);
-    if (phase != Phase::step || looks == max_looks || !looks_farther(m, h)) break;
+    if (phase != Phase::step || detections == kMaxDetections || !extend_detection(m, h)) break;
   }
   system_.distribute_impulses(frame);
-  system_.bilateral.count(problem, system_.velocity.data(), m, phase);
-  system_.friction.take(problem, h);
+  system_.bilateral.add_work(problem, system_.velocity.data(), m, phase);
+  system_.friction.read_impulses(problem, h);
   system_.bilateral.keep_guesses(problem);
 
   sum_.assign(problem.nv(), 0);
   for (const ImpulseConstraint& c : problem.constraints())
     problem.add_transpose(c, c.p, sum_.data());
   for (std::size_t dof = 0; dof < model_->nv; ++dof) {
-    const double force = sum_[problem.first(trees.tree_of_dof(dof)) + trees.place(dof)] / h;
+    const double force = sum_[problem.first(trees.tree_of_dof(dof)) + trees.index_in_tree(dof)] / h;
     m.forces.tau[dof] += force;
     constraint_[dof] = force - coulomb_torque()[dof];
   }
   return true;
 }
 
-// With the velocities that the problem holds.
-bool ConstrainedStep::looks_farther(IntegrationState& m, double h) {
+// Contact detection at the velocities of the solution; true if it finds new constraints.
+bool ConstrainedStep::extend_detection(IntegrationState& m, double h) {
   const ImpulseProblem& problem = system_.problem;
-  double farthest = 0;
+  double max_displacement = 0;
   for (int t = 0; t < problem.tree_count(); ++t) {
     double sum = 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(problem.size(t)); ++k)
       sum += std::abs(problem.v(t)[k] - system_.velocity[problem.first(t) + k]);
-    farthest = std::max(farthest, h * sum);
+    max_displacement = std::max(max_displacement, h * sum);
   }
-  if (!(farthest > jump)) return false;
+  if (!(max_displacement > kDetectionJump)) return false;
   m.stage = m.x;
   system_.trees.scatter(problem, m.stage.qd);
   forward_kinematics(*model_, m.stage, m.k_stage);
@@ -117,42 +117,40 @@ bool ConstrainedStep::looks_farther(IntegrationState& m, double h) {
   return found;
 }
 
-// A free body that nothing but gravity acts on moves by the mean of its velocities: so its fall and
-// its energy are exact, and a bouncing ball keeps its height.
-void ConstrainedStep::move(IntegrationState& m, double h) {
-  for (std::size_t dof = 0; dof < model_->nv; ++dof) shift_[dof] = h * m.x.qd[dof];
-  flies_.assign(static_cast<std::size_t>(system_.trees.count()), 1);
+// q' = q exp(h v'). Free bodies under gravity alone use the mean of v and v': exact free fall and
+// energy, so that a bouncing ball keeps its height.
+void ConstrainedStep::update_positions(IntegrationState& m, double h) {
+  for (std::size_t dof = 0; dof < model_->nv; ++dof) delta_[dof] = h * m.x.qd[dof];
+  is_free_.assign(static_cast<std::size_t>(system_.trees.count()), 1);
   for (const ImpulseConstraint& c : system_.problem.constraints())
     if (c.p != std::array<double, 3>{})
       for (const int tree : c.tree)
-        if (tree != ImpulseConstraint::no_tree) flies_[static_cast<std::size_t>(tree)] = 0;
+        if (tree != ImpulseConstraint::no_tree) is_free_[static_cast<std::size_t>(tree)] = 0;
   for (std::size_t i = 1; i < model_->parent.size(); ++i) {
     const int tree = system_.trees.tree_of(static_cast<int>(i));
     if (model_->joint[i] != JointType::free || tree == ImpulseConstraint::no_tree ||
-        system_.problem.size(tree) != 6 || !flies_[static_cast<std::size_t>(tree)])
+        system_.problem.size(tree) != 6 || !is_free_[static_cast<std::size_t>(tree)])
       continue;
     const Vec3<double> couple = m.forces.f_ext[i].n - couples_.of(i), force = m.forces.f_ext[i].f;
-    bool pushed = dot(couple, couple) + dot(force, force) > 0 || m.forces.has_impedance;
+    bool forced = dot(couple, couple) + dot(force, force) > 0 || m.forces.has_impedance;
     for (std::size_t dof = model_->iv[i]; dof < model_->iv[i] + 6; ++dof)
-      pushed = pushed || m.forces.tau[dof] != 0 || m.forces.armature[dof] != 0;
-    for (std::size_t dof = model_->iv[i]; !pushed && dof < model_->iv[i] + 6; ++dof)
-      shift_[dof] = 0.5 * h * (before_[dof] + m.x.qd[dof]);
+      forced = forced || m.forces.tau[dof] != 0 || m.forces.armature[dof] != 0;
+    for (std::size_t dof = model_->iv[i]; !forced && dof < model_->iv[i] + 6; ++dof)
+      delta_[dof] = 0.5 * h * (before_[dof] + m.x.qd[dof]);
   }
-  integrate_coordinates(*model_, m.x.q, shift_, m.x.q);
+  integrate_coordinates(*model_, m.x.q, delta_, m.x.q);
 }
 
-void ConstrainedStep::separate(IntegrationState& m, double h) {
-  bool wanted = false;
-  for (const ConstraintSource* source : system_.sources)
-    wanted = source->needs_position_correction() || wanted;
-  if (!wanted) return;
+void ConstrainedStep::correct_positions(IntegrationState& m, double h) {
+  const auto needed = [](const ConstraintSource* s) { return s->needs_position_correction(); };
+  if (std::none_of(system_.sources.begin(), system_.sources.end(), needed)) return;
   if (m.account) penetrating_ = m.x;
   system_.begin_problem(nullptr, m.w);
   system_.add_sources({m.k, system_.trees, m.x, Phase::separate, h});
   system_.bilateral.add_to(system_.problem, system_.trees, m, Phase::separate);
   system_.solver.solve(system_.problem);
-  system_.trees.scatter(system_.problem, shift_);
-  integrate_coordinates(*model_, m.x.q, shift_, m.x.q);
+  system_.trees.scatter(system_.problem, delta_);
+  integrate_coordinates(*model_, m.x.q, delta_, m.x.q);
   if (m.account) m.account->add_separation(penetrating_, m.x);
 }
 

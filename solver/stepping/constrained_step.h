@@ -1,21 +1,20 @@
-// A semi-implicit step under constraints (contacts, limits, locks, dry friction of joints, mimics).
+// Semi-implicit time-stepping with constraints (contacts, limits, locks, joint friction, mimics).
 //
-//   impacts    while something closes within the step faster than it may without a bounce:
-//              M (v+ - v-) = J^T p at the coordinates of the start. What closes leaves with
-//              u+ >= -e u-, what touches stays, both under Coulomb friction: touching bodies take
-//              part at once (Newton's law, simultaneous), those with a gap between in sequence.
-//   velocity   v* = v+ + h ABA(q, v+, forces);   M' (v' - v*) = J^T p,  where gaps g may close:
-//              u' >= -g/h. M' has the implicit terms that ABA solved with. Free bodies turn by
-//              the gyroscopic moment of their mean velocity (gyroscopic_step.cpp).
-//   position   q' = q + h v'; of a body that flies under gravity alone q + h (v + v')/2
-//   separate   what penetrates by more than a slop is moved apart,
-//              by the smallest motion in the norm of M;
-//              velocities do not feel it.
-// No step gains energy from its impulses. In an impact Newton's law with friction can (Kane and
-// Levinson 1985): then v+ is taken back towards the plastic one, which cannot, until it does not.
-// In the second phase p u' <= 0, as gaps only close.
-// What is hit may leave faster than it came, and meet within the step what was too far to be found
-// for it: where velocities jump, sources look again, and the phase is solved with what they find.
+//   impacts    while a contact closes within the step fast enough to bounce:
+//              M (v+ - v-) = J^T p at the initial coordinates, with Coulomb friction and Newton's
+//              restitution u+ >= -e u- of closing contacts. Touching bodies take part
+//              simultaneously, bodies with a gap between them in sequence.
+//   velocity   v* = v+ + h ABA(q, v+, forces);   M' (v' - v*) = J^T p with u' >= -g/h for gaps g.
+//              M' includes the implicit terms of ABA. Free bodies use the gyroscopic moment of
+//              their mean velocity (gyroscopic_step.h).
+//   position   q' = q + h v'; q + h (v + v')/2 for free bodies under gravity alone
+//   separation penetration above a tolerance is reduced by the smallest motion in the norm of M,
+//              without effect on velocities
+// Impulses never increase the energy. Newton's restitution with friction could (Kane and Levinson
+// 1985): v+ is then blended towards the inelastic solution, which cannot. In the velocity phase
+// p u' <= 0, as gaps can only close.
+// A velocity jump can lead to contacts that were beyond the detection margin: detection is then
+// extended, and the phase is solved again with the new contacts.
 #pragma once
 
 #include <vector>
@@ -33,32 +32,31 @@ class ConstrainedStep {
   ConstraintSystem& system() { return system_; }
   const ConstraintSystem& system() const { return system_; }
 
-  // From m.x, whose m.k is up to date, to the end of the step; begins it for all sources.
+  // Advances m.x by h; m.k must be up to date. Calls begin_step() of all sources.
   void step(IntegrationState& m, double h, StepReport& report);
 
-  // The parts that event_driven_step.h puts together, from m.x with m.k up to date. Velocities
-  // alone move.
+  // Parts used by event_driven_step.h, from m.x with m.k up to date; change velocities only.
   void start_report() { report_ = {}; }
-  bool hit(IntegrationState& m);  // what touches and closes now; false where nothing does
-  void flow(IntegrationState& m, double h);  // by forces and what is held, over h
+  bool resolve_impacts_now(IntegrationState& m);    // of closed gaps; false if there are none
+  void smooth_step(IntegrationState& m, double h);  // with the active set of the sources
 
-  // Of this instant: BilateralConstraints::constrain_accelerations(), and no gyroscopic couples.
+  // Forces at this instant: BilateralConstraints::constrain_accelerations(), no gyroscopic couples.
   void constrain_accelerations();
-  void serialize(StateArchive& memory, std::size_t loop_rows);
+  void serialize(StateArchive& archive, std::size_t loop_rows);
 
   const ConstraintReport& report() const { return report_; }
   // Of the last step.
   const std::vector<double>& coulomb_torque() const { return system_.friction.torque(); }
-  // Generalised force of all constraints, by velocity [N m, N]; without impacts.
+  // Generalised force of all constraints without impacts, by velocity [N m, N].
   const std::vector<double>& constraint_force() const { return constraint_; }
-  // After the impacts of the last step, before its second phase.
+  // After the impacts, before the velocity phase.
   const std::vector<double>& velocities_after_impacts() const { return before_; }
 
  private:
   bool solve_step(IntegrationState& m, double h, Phase phase);
-  bool looks_farther(IntegrationState& m, double h);
-  void move(IntegrationState& m, double h);
-  void separate(IntegrationState& m, double h);
+  bool extend_detection(IntegrationState& m, double h);
+  void update_positions(IntegrationState& m, double h);
+  void correct_positions(IntegrationState& m, double h);
 
   const Model<double>* model_;
   ConstraintSystem system_;
@@ -66,10 +64,10 @@ class ConstrainedStep {
   GyroscopicCouples couples_;
   ConstraintReport report_;
   bool at_instant_ = false;
-  std::vector<char> flies_;     // by tree
-  std::vector<double> before_;  // by velocity: those at the start of the second phase
-  std::vector<double> constraint_, shift_, sum_;
-  State<double> penetrating_;  // before what penetrates is moved apart
+  std::vector<char> is_free_;   // by tree: no constraint impulse
+  std::vector<double> before_;  // velocities at the start of the velocity phase
+  std::vector<double> constraint_, delta_, sum_;
+  State<double> penetrating_;  // before position correction
 };
 
 }  // namespace twinarm

@@ -24,7 +24,7 @@ void ConstraintSystem::begin_problem(const Forces<double>* forces, Workspace<dou
   trees.add_to(problem, forces, w);
 }
 
-void ConstraintSystem::keep_velocities(ConstraintFrame& frame) {
+void ConstraintSystem::store_velocities(ConstraintFrame& frame) {
   if (problem.nv() == 0) return;
   velocity.assign(problem.v0(0), problem.v0(0) + problem.nv());
   frame.v = velocity.data();

@@ -1,5 +1,5 @@
-// What the phases of a step under constraints share (constrained_step.h): who gives constraints,
-// the problem that they make, and its solver.
+// Shared by the phases of a constrained step (constrained_step.h): constraint sources, impulse
+// problem and its solver.
 #pragma once
 
 #include <array>
@@ -25,27 +25,26 @@ class ConstraintSystem {
   FrictionConstraints friction;
   ImpulseProblem problem;
   ImpulseSolver solver;
-  std::vector<double> velocity;  // v0 of the problem, as keep_velocities() found it
+  std::vector<double> velocity;  // v0 at store_velocities()
 
   void begin_step(const IntegrationState& m, double h);
-  // m.w.qdd at m.x, whose m.k is up to date, without constraints.
+  // m.w.qdd at m.x without constraints; m.k must be up to date.
   void accelerate(IntegrationState& m, double h);
-  // A problem without constraints; with the implicit terms of `forces` where given.
+  // Starts a problem without constraints, with the implicit terms of `forces` if given.
   void begin_problem(const Forces<double>* forces, Workspace<double>& w);
-  // v0 of the problem, before anything is added to it.
-  void keep_velocities(ConstraintFrame& frame);
+  void store_velocities(ConstraintFrame& frame);  // copies v0 of the problem
   void add_sources(const ConstraintFrame& frame);
-  void distribute_impulses(const ConstraintFrame& frame);  // the solution, to the sources
+  void distribute_impulses(const ConstraintFrame& frame);  // passes the solution to the sources
 
-  // Residuals [m/s]: of a guess and of a solution that will do, and what a solution aims at.
-  void set_accuracy(double good_guess, double accepted, double aim) {
-    solver.good_guess = good_guess, solver.accepted = accepted, solver.tolerance = aim;
+  // Residuals [m/s]: of an accepted guess, of an accepted solution, target of the iteration.
+  void set_accuracy(double good_guess, double accepted, double tolerance) {
+    solver.good_guess = good_guess, solver.accepted = accepted, solver.tolerance = tolerance;
   }
-  void set_usual_accuracy() { set_accuracy(usual_[0], usual_[1], usual_[2]); }
+  void set_default_accuracy() { set_accuracy(default_[0], default_[1], default_[2]); }
 
  private:
-  std::vector<std::size_t> first_;  // by source: its first constraint in the problem
-  std::array<double, 3> usual_{solver.good_guess, solver.accepted, solver.tolerance};
+  std::vector<std::size_t> first_;  // by source: index of its first constraint
+  std::array<double, 3> default_{solver.good_guess, solver.accepted, solver.tolerance};
 };
 
 }  // namespace twinarm

@@ -19,7 +19,7 @@ void FrictionConstraints::add_to(ImpulseProblem& problem, const KinematicTrees& 
     if (!has_coulomb(dof)) continue;
     ImpulseConstraint& c =
         problem.add(ConstraintType::box, 1, trees.tree_of_dof(dof), ImpulseConstraint::no_tree);
-    problem.J(c, 0)[trees.place(dof)] = 1;
+    problem.J(c, 0)[trees.index_in_tree(dof)] = 1;
     c.low = -h * model_->coulomb_plus[dof], c.high = h * model_->coulomb_minus[dof];
     c.p[0] = std::clamp(guess_[dof], c.low, c.high);
   }
@@ -29,7 +29,7 @@ void FrictionConstraints::clear() {
   std::fill(torque_.begin(), torque_.end(), 0);
 }
 
-void FrictionConstraints::take(const ImpulseProblem& problem, double h) {
+void FrictionConstraints::read_impulses(const ImpulseProblem& problem, double h) {
   std::size_t next = first_;
   for (std::size_t dof = 0; is_on_ && dof < model_->nv; ++dof)
     if (has_coulomb(dof)) {

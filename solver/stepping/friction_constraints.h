@@ -1,5 +1,5 @@
-// Damping and Coulomb friction of joints in a step under constraints (constrained_step.h). Dampers
-// act at the end of the step: h b is armature. Coulomb friction is a bounded impulse of each dof.
+// Joint damping and Coulomb friction in a constrained step (constrained_step.h). Damping acts at
+// the end of the step (armature h b). Coulomb friction is a box-constrained impulse per dof.
 #pragma once
 
 #include <vector>
@@ -17,11 +17,11 @@ class FrictionConstraints {
 
   void add_dampers(const State<double>& x, double h, Forces<double>& forces) const;
   void add_to(ImpulseProblem& problem, const KinematicTrees& trees, double h);
-  // After the solution, over a step of h: its impulses are torques, and the next guesses.
-  void take(const ImpulseProblem& problem, double h);
-  void clear();                                                  // no torque
+  // Reads the solution of a step h: joint forces, and initial guesses of the next step.
+  void read_impulses(const ImpulseProblem& problem, double h);
+  void clear();                                                  // sets torque() to zero
   const std::vector<double>& torque() const { return torque_; }  // by velocity [N m, N]
-  void serialize(StateArchive& memory) { memory.visit_fixed(guess_); }
+  void serialize(StateArchive& archive) { archive.visit_fixed(guess_); }
 
  private:
   bool has_coulomb(std::size_t dof) const {
@@ -29,7 +29,7 @@ class FrictionConstraints {
   }
   const Model<double>* model_;
   bool is_on_ = true;
-  std::size_t first_ = 0;  // of the constraints in the problem
+  std::size_t first_ = 0;  // index of the first constraint in the problem
   std::vector<double> torque_, guess_;
 };
 

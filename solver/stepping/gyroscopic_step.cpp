@@ -5,9 +5,9 @@
 namespace twinarm {
 namespace {
 
-// A turn in one step that is left alone [rad]: its nutation grows e-fold in 1e12 steps.
-constexpr double min_turn = 1e-6;
-constexpr int max_newton_steps = 10;
+// Minimum rotation per step [rad] for a correction; below, the nutation grows e-fold in 1e12 steps.
+constexpr double kMinRotation = 1e-6;
+constexpr int kMaxNewtonSteps = 10;
 
 Matrix3 cross_matrix(const Vector3& a) {
   Matrix3 A;
@@ -23,14 +23,14 @@ Matrix3 about_centre(const Inertia<double>& body) {
   return about_origin + H * H / body.m;
 }
 
-// w' - w of the equation above.
-Vector3 turn_freely(const Matrix3& I, const Vector3& w, const Vector3& n, double h) {
+// w' - w of the implicit equation, by Newton's method.
+Vector3 velocity_change(const Matrix3& I, const Vector3& w, const Vector3& n, double h) {
   Vector3 change = Vector3::Zero();
-  for (int k = 0; k < max_newton_steps; ++k) {
+  for (int k = 0; k < kMaxNewtonSteps; ++k) {
     const Vector3 mean = w + 0.5 * change, L = I * mean;
-    const Vector3 left = I * change + h * (mean.cross(L) - n);
-    const Matrix3 slope = I + 0.5 * h * (cross_matrix(mean) * I - cross_matrix(L));
-    const Vector3 step = slope.inverse() * left;
+    const Vector3 residual = I * change + h * (mean.cross(L) - n);
+    const Matrix3 jacobian = I + 0.5 * h * (cross_matrix(mean) * I - cross_matrix(L));
+    const Vector3 step = jacobian.inverse() * residual;
     change -= step;
     if (!(step.norm() > 1e-15 * w.norm())) break;
   }
@@ -53,11 +53,11 @@ void GyroscopicCouples::apply(IntegrationState& m, double h) {
     couple_[i] = {};
     if (!is_free_rigid_body(m.model, m.forces, i)) continue;
     const Eigen::Map<const Vector3> w(m.x.qd.data() + m.model.iv[i]);
-    if (!(h * w.norm() > min_turn)) continue;
+    if (!(h * w.norm() > kMinRotation)) continue;
     const Matrix3 I = about_centre(m.model.I[i]);
     const Vector3 moment = w.cross(I * w);
     const Vector3 n = I * Eigen::Map<const Vector3>(m.w.qdd.data() + m.model.iv[i]) + moment;
-    const Vector3 mean = w + 0.5 * turn_freely(I, w, n, h);
+    const Vector3 mean = w + 0.5 * velocity_change(I, w, n, h);
     couple_[i] = from_eigen(moment - mean.cross(I * mean));
     m.forces.f_ext[i].n += couple_[i];
     any = true;

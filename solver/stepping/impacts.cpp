@@ -6,10 +6,10 @@
 namespace twinarm {
 namespace {
 
-constexpr double obeyed = 1e-8;  // the law, by velocities within that residual [m/s]
+constexpr double kFeasible = 1e-8;  // residual of the impact law [m/s]
 
-// Of many passes the worst is told: one that is not solved must not hide behind the next.
-void note(const ImpulseReport& pass, bool first, ImpulseReport& worst) {
+// Keeps the report of the pass with the largest residual; converged only if all passes are.
+void keep_worst(const ImpulseReport& pass, bool first, ImpulseReport& worst) {
   const bool converged = pass.converged && (first || worst.converged);
   if (first || pass.residual > worst.residual) worst = pass;
   worst.converged = converged;
@@ -37,7 +37,7 @@ ImpulseReport Impacts::solve(ConstraintSystem& system, IntegrationState& m,
   by_tree_.assign(problem.v0(0), problem.v0(0) + problem.nv());
   frame.acceleration = by_tree_.data();
   system.trees.gather(m.x.qd, problem);
-  system.keep_velocities(frame);
+  system.store_velocities(frame);
   system.add_sources(frame);
   system.bilateral.add_to(problem, system.trees, m, frame.phase);
   return system.solver.solve(problem);
@@ -47,7 +47,7 @@ int Impacts::resolve(ConstraintSystem& system, IntegrationState& m, double h, Ph
                      ConstraintReport& report) {
   ImpulseProblem& problem = system.problem;
   int passes = 0;
-  for (; passes < max_impacts; ++passes, ++report.impacts) {
+  for (; passes < kMaxImpacts; ++passes, ++report.impacts) {
     ConstraintFrame frame{m.k, system.trees, m.x, phase, h};
     bool has_closing_contact = false;
     for (ConstraintSource* source : system.sources)
@@ -60,9 +60,9 @@ int Impacts::resolve(ConstraintSystem& system, IntegrationState& m, double h, Ph
     plastic_.assign(static_cast<std::size_t>(system.trees.count()), 0);
     frame.plastic = &plastic_;
     ImpulseReport pass = solve(system, m, frame);
-    if (!(pass.residual <= obeyed)) {
+    if (!(pass.residual <= kFeasible)) {
       for (std::size_t t = 0; t < plastic_.size(); ++t)
-        plastic_[t] = !(system.solver.residual_of(static_cast<int>(t)) <= obeyed);
+        plastic_[t] = !(system.solver.residual_of(static_cast<int>(t)) <= kFeasible);
       ++report.infeasible_impacts;
       pass = solve(system, m, frame);
     }
@@ -75,12 +75,12 @@ int Impacts::resolve(ConstraintSystem& system, IntegrationState& m, double h, Ph
         elastic_p_.insert(elastic_p_.end(), c.p.begin(), c.p.end());
       plastic_.assign(plastic_.size(), 1);
       pass = solve(system, m, frame);
-      after = bounce(problem);
+      after = blend_towards_elastic(problem);
     }
-    note(pass, report.impacts == 0, report.impact);
+    keep_worst(pass, report.impacts == 0, report.impact);
     report.impact_loss += before - after;
-    system.distribute_impulses(frame);  // with the kinematics before
-    system.bilateral.count(problem, system.velocity.data(), m, phase);
+    system.distribute_impulses(frame);  // with the kinematics before the impact
+    system.bilateral.add_work(problem, system.velocity.data(), m, phase);
     system.trees.scatter(problem, m.x.qd);
     forward_kinematics(m.model, m.x, m.k);
     for (ConstraintSource* source : system.sources) source->extend_detection(m.k, h);
@@ -88,10 +88,10 @@ int Impacts::resolve(ConstraintSystem& system, IntegrationState& m, double h, Ph
   return passes;
 }
 
-// From the plastic solution, which the problem holds, towards the elastic one (elastic_ its
-// velocities, elastic_p_ its impulses) as far as the energy before allows. Impulses of both lie in
-// convex cones, so the mixture does. Returns the energy after.
-double Impacts::bounce(ImpulseProblem& problem) {
+// Convex combination of the inelastic solution in `problem` and the elastic one (velocities
+// elastic_, impulses elastic_p_) with at most the energy before the impact. Both impulses lie in
+// convex cones, and so does the combination. Returns the energy after the impact.
+double Impacts::blend_towards_elastic(ImpulseProblem& problem) {
   double* v = problem.v(0);
   const std::size_t nv = problem.nv();
   const double before = kinetic_energy(problem, problem.v0(0)),
@@ -106,9 +106,9 @@ double Impacts::bounce(ImpulseProblem& problem) {
       for (int k = 0; k < n; ++k) cross += a[r] * M[r * n + k] * b[k];
   }
   // square s^2 + cross s + plastic = before
-  const double room = std::max(0.0, before - plastic);
-  const double root = std::sqrt(cross * cross + 4 * square * room);
-  const double s = std::clamp(2 * room / (cross + root), 0.0, 1.0);
+  const double allowed = std::max(0.0, before - plastic);
+  const double root = std::sqrt(cross * cross + 4 * square * allowed);
+  const double s = std::clamp(2 * allowed / (cross + root), 0.0, 1.0);
   for (std::size_t k = 0; k < nv; ++k) v[k] += s * elastic_[k];
   for (std::size_t i = 0; i < problem.constraints().size(); ++i)
     for (std::size_t r = 0; r < 3; ++r) {

@@ -10,11 +10,10 @@
 namespace twinarm {
 namespace {
 
-// What a simulation is made of: not all integrators, sources of forces and sources of constraints
-// go with one another. check_parts() throws std::invalid_argument where they do not.
+// check_parts() throws std::invalid_argument for incompatible parts.
 struct StepParts {
   Integrator integrator;
-  bool located;  // steps locate their events
+  bool located;  // event-driven steps
   const std::vector<ForceSource*>& forces;
   const std::vector<ConstraintSource*>& constraints;
 };
@@ -22,54 +21,51 @@ struct StepParts {
 void check_integrator(const StepParts& parts) {
   const std::string name = integrator_name(parts.integrator);
   if (!parts.constraints.empty() && parts.integrator != Integrator::semi_implicit)
-    throw std::invalid_argument("contacts and limits go with the integrator 'semi-implicit' only");
-  if (parts.located && parts.integrator != Integrator::semi_implicit)
     throw std::invalid_argument(
-        "steps that locate their events go with the integrator 'semi-implicit' only, not with '" +
-        name + "'");
+        "contacts and limits require the integrator 'semi-implicit', not '" + name + "'");
+  if (parts.located && parts.integrator != Integrator::semi_implicit)
+    throw std::invalid_argument("event-driven steps require the integrator 'semi-implicit', not '" +
+                                name + "'");
   for (const ForceSource* source : parts.forces)
     if (source->needs_semi_implicit() && !facts_of(parts.integrator).implicit_force)
       throw std::invalid_argument(
-          "implicit spring-dampers and contacts go with the semi-implicit integrators only, not "
-          "with " +
-          name);
+          "implicit spring-dampers and contacts require a semi-implicit integrator, not '" + name +
+          "'");
 }
 
 void check_located(const StepParts& parts) {
   for (const ForceSource* source : parts.forces)
     if (source->needs_semi_implicit())
       throw std::invalid_argument(
-          "implicit spring-dampers do not go with steps that locate their events");
+          "implicit spring-dampers cannot be combined with event-driven steps");
   for (ConstraintSource* source : parts.constraints)
     if (!source->events())
-      throw std::invalid_argument("a source of constraints cannot have its events located");
+      throw std::invalid_argument(
+          "event-driven steps require constraint sources with events (ConstraintSource::events)");
 }
 
 void check_parts(const StepParts& parts) {
   check_integrator(parts);
   if (parts.located) check_located(parts);
-  // Its force would be that of the first round: a wrong one, and nobody would say so.
   for (const ForceSource* source : parts.forces)
     if (!parts.constraints.empty() && source->needs_rounds())
       throw std::invalid_argument(
-          "a force that is found in rounds (ForceSource::refine) does not go with contacts, limits "
-          "and locks: their step has one round; give the contact as a constraint, or leave them "
-          "out");
+          "iterated force sources (ForceSource::refine) cannot be combined with contacts, limits "
+          "and locks; use compliant contacts (ConstraintType::compliant) instead");
 }
 
-// What all sources remember.
-std::vector<Checkpointable*> memories(const Simulation& simulation) {
-  std::vector<Checkpointable*> memories;
-  const auto add_all = [&](const auto& sources, const std::string& what) {
+std::vector<Checkpointable*> checkpointable_sources(const Simulation& simulation) {
+  std::vector<Checkpointable*> all;
+  const auto add_all = [&](const auto& sources, const std::string& kind) {
     for (auto* source : sources) {
-      memories.push_back(dynamic_cast<Checkpointable*>(source));
-      if (!memories.back())
-        throw std::invalid_argument("a source of " + what + " does not let a step be taken back");
+      all.push_back(dynamic_cast<Checkpointable*>(source));
+      if (!all.back())
+        throw std::invalid_argument(kind + " source does not implement Checkpointable");
     }
   };
-  add_all(simulation.mechanism().sources, "forces");
-  add_all(simulation.constraints().system().sources, "constraints");
-  return memories;
+  add_all(simulation.mechanism().sources, "force");
+  add_all(simulation.constraints().system().sources, "constraint");
+  return all;
 }
 
 }  // namespace
@@ -113,43 +109,46 @@ void Simulation::set_integrator(Integrator integrator, double tolerance) {
 void Simulation::set_loops(std::vector<LoopClosure> loops) {
   check_loops(m_.model, loops, m_.x);
   m_.set_loops(LoopClosures(m_.model, std::move(loops)));
-  constrained_.system().bilateral.forget_loops();
-  integrator_step_.forget();
+  constrained_.system().bilateral.clear_loop_guesses();
+  integrator_step_.reset_step_size();
 }
 
-void Simulation::prescribe(int body, MotionFunction law) {
+void Simulation::prescribe(int body, MotionFunction motion) {
   const auto i = static_cast<std::size_t>(body);
   if (body <= 0 || body >= m_.model.body_count() || m_.model.joint[i] != JointType::prescribed)
-    throw std::invalid_argument("only the body of a prescribed joint moves by a law");
-  const std::vector<IntegrationState::Drive> before = m_.drives;
-  std::erase_if(m_.drives, [&](const IntegrationState::Drive& drive) { return drive.body == i; });
-  m_.drives.push_back({i, std::move(law)});
+    throw std::invalid_argument("body " + std::to_string(body) +
+                                " is not the child of a prescribed joint");
+  const auto before = m_.prescribed_joints;
+  std::erase_if(m_.prescribed_joints, [&](const auto& joint) { return joint.body == i; });
+  m_.prescribed_joints.push_back({i, std::move(motion)});
   try {
     m_.start(m_.x);
   } catch (...) {
-    m_.drives = before;
+    m_.prescribed_joints = before;
     throw;
   }
-  integrator_step_.forget();
+  integrator_step_.reset_step_size();
 }
 
 void Simulation::set_state(State<double> x) {
   if (x.q.size() != m_.model.nq || x.qd.size() != m_.model.nv || x.prescribed.size() != m_.model.np)
-    throw std::invalid_argument("the state is not one of this model");
+    throw std::invalid_argument("state size mismatch: q, qd have " + std::to_string(x.q.size()) +
+                                ", " + std::to_string(x.qd.size()) + " entries, the model " +
+                                std::to_string(m_.model.nq) + ", " + std::to_string(m_.model.nv));
   m_.start(std::move(x));
-  integrator_step_.forget();
+  integrator_step_.reset_step_size();
 }
 
-void Simulation::serialize(StateArchive& memory) {
-  const std::vector<Checkpointable*> all = memories(*this);
+void Simulation::serialize(StateArchive& archive) {
+  const std::vector<Checkpointable*> all = checkpointable_sources(*this);
   State<double> x = m_.x;
-  visit_state(memory, m_.model, x);
-  if (memory.reads()) m_.resume(std::move(x));
-  m_.dynamics.serialize(memory);
-  integrator_step_.serialize(memory);
-  constrained_.serialize(memory, m_.dynamics.bilateral().loops().rows());
-  if (located_) located_->serialize(memory);
-  for (Checkpointable* source : all) source->serialize(memory);
+  visit_state(archive, m_.model, x);
+  if (archive.reads()) m_.resume(std::move(x));
+  m_.dynamics.serialize(archive);
+  integrator_step_.serialize(archive);
+  constrained_.serialize(archive, m_.dynamics.bilateral().loops().rows());
+  if (located_) located_->serialize(archive);
+  for (Checkpointable* source : all) source->serialize(archive);
 }
 
 StepReport Simulation::step(double h, bool one_substep) {
@@ -166,8 +165,8 @@ StepReport Simulation::step(double h, bool one_substep) {
     } else {
       integrator_step_.step(m_, h, one_substep, report);
     }
-    m_.refresh();
-    if (m_.account) m_.account->count_projection();
+    m_.project_and_update();
+    if (m_.account) m_.account->add_projection();
   }
   report.h = m_.x.t - t;
   report.loop_position_error = m_.loop_position_error;
@@ -177,7 +176,7 @@ StepReport Simulation::step(double h, bool one_substep) {
 
 State<double> side_step(const Simulation& from, double h, StepReport* report) {
   check_step_size(h);
-  const SavedSources saved(memories(from));
+  const SavedSources saved(checkpointable_sources(from));
   Simulation aside(from);
   const StepReport taken = aside.step(h);
   if (report) *report = taken;
@@ -185,12 +184,12 @@ State<double> side_step(const Simulation& from, double h, StepReport* report) {
 }
 
 IntegrationState evaluate_at(const Simulation& simulation, const State<double>& x) {
-  constexpr double kMoment = 1e-6;  // [s]; tells which side of a corner of a hand's motion is meant
-  const SavedSources saved(memories(simulation));
+  constexpr double kInstant = 1e-6;  // [s]; > 0: right-sided limit at velocity discontinuities
+  const SavedSources saved(checkpointable_sources(simulation));
   IntegrationState aside(simulation.mechanism());
   aside.x = x;
   forward_kinematics(aside.model, aside.x, aside.k);
-  aside.begin_step(kMoment);
+  aside.begin_step(kInstant);
   aside.accelerate();
   return aside;
 }

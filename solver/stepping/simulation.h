@@ -1,9 +1,9 @@
-// One step, in the order that the data flows:
+// Simulation of a model with force sources and constraints. Data flow of a step:
 //
 //   kinematics -> sources (targets, contacts, forces) -> ABA (+ implicit terms, joint friction,
-//   mimics, loops) -> integrate -> report
+//   mimic joints, loops) -> integrator -> report
 //
-// step() never allocates, and throws for a step size alone. The same inputs give the same bits.
+// step() never allocates, and throws only for an invalid step size. Results are bit-reproducible.
 #pragma once
 
 #include <optional>
@@ -18,58 +18,54 @@
 namespace twinarm {
 
 struct SimulationOptions {
-  bool joint_friction = true;  // false: no joint has damping or Coulomb friction
-  bool enable_constraint_work =
-      false;  // mechanism().account: what constraints did in the last step
-  // Constraints give the forces of this instant (ConstrainedStep::constrain_accelerations).
+  bool joint_friction = true;           // false: no damping or Coulomb friction in joints
+  bool enable_constraint_work = false;  // compute mechanism().account (constraint_work.h)
+  // Constraint forces at this instant (ConstrainedStep::constrain_accelerations).
   bool at_instant = false;
-  // Asked within steps that locate their events, which may be long; true ends the step
-  // (StepReport::interrupted), and the state stands before its end.
+  // Called within event-driven steps, which may be long; true ends the step early
+  // (StepReport::interrupted).
   EventStep::Interrupted interrupted = nullptr;
 };
 
 class Simulation {
  public:
-  // The model must outlive the simulation; so must the sources.
+  // Model and sources must outlive the simulation.
   Simulation(const Model<double>& model, State<double> start,
              const SimulationOptions& options = {});
-  // Throws std::invalid_argument for a source that cannot go with the integrator, or that needs
-  // rounds where there are constraints.
+  // Throws std::invalid_argument if the source is incompatible with the integrator, or needs
+  // iterations although there are constraint sources.
   void add(ForceSource& source);
-  // Contacts, limits, locks: from now on a step is one of solver/stepping/constrained_step.h, which
-  // goes with the semi-implicit integrator alone and has one round of forces. Throws likewise.
+  // Contacts, limits, locks: steps are then those of solver/stepping/constrained_step.h, which
+  // require the semi-implicit integrator and force sources without iterations. Throws likewise.
   void add(ConstraintSource& source);
   bool has_constrained_steps() const { return !constrained_.system().sources.empty(); }
-  // Constrained steps locate their events in time and are of high order between them
-  // (solver/stepping/event_driven_step.h), to 1e-10. Throws std::invalid_argument where a source is
-  // implicit in the step, or has no events(), or where the integrator is not semi-implicit; then
-  // so does set_integrator() with another one.
+  // Event-driven steps (solver/stepping/event_driven_step.h), tolerance 1e-10. Throws
+  // std::invalid_argument if a source is implicit in the step or has no events(), or if the
+  // integrator is not semi-implicit (also set_integrator() from then on).
   void locate_events();
-  // Bilateral constraints, in place of those before. Throws InputError with all faults; loops must
-  // be closed where the mechanism stands (close_loops finds such a place).
-  // Velocities that they do not allow go to the nearest that they do, as in an impact. From then
-  // on set_state and prescribe throw likewise where they would open a loop.
+  // Replaces the loop closures. Throws InputError with all errors; loops must be closed at the
+  // current state (close_loops()). Velocities are projected, as in an impact. From then on
+  // set_state() and prescribe() throw if they open a loop.
   void set_loops(std::vector<LoopClosure> loops);
   // `tolerance`: of dopri5, relative and absolute.
   void set_integrator(Integrator integrator, double tolerance = 1e-9);
-  // The prescribed joint that carries the body moves by this law, from now on.
-  void prescribe(int body, MotionFunction law);
-  // Elsewhere, at another time; followers go to their leaders. What sources remember is left alone.
+  // Sets the motion of a prescribed joint, given by its child body.
+  void prescribe(int body, MotionFunction motion);
+  // Sets state and time; mimic joints are updated. The internal state of sources is unchanged.
   void set_state(State<double> x);
 
-  // By exactly h. Only dopri5 may stand before it, and then says so (StepReport::reached); with
-  // `one_substep` it takes one, of the size that its tolerance asks for, at most h. StepReport::h
-  // says how far the step went. Throws InputError for an h that is not positive and finite; nothing
-  // has changed.
+  // Advances by h. Only dopri5 may end early (StepReport::reached, StepReport::h); with
+  // `one_substep` it takes one accepted substep of at most h. Throws InputError, without any
+  // change, unless h is positive and finite.
   StepReport step(double h, bool one_substep = false);
-  // All that the next step reads: the state, and what integrator, impulses and sources remember.
-  // Taken back in a simulation that was built alike, the run goes on with the same bits. Throws
-  // std::runtime_error where it was not, std::invalid_argument as side_step().
-  void serialize(StateArchive& memory);
+  // All inputs of the next step: state, and internal state of integrator, impulse solver and
+  // sources. A simulation that is built equally continues bit-identically. Throws
+  // std::runtime_error if it is not, std::invalid_argument as side_step().
+  void serialize(StateArchive& archive);
 
   const State<double>& state() const { return m_.x; }
   const Kinematics& kinematics() const { return m_.k; }  // of state()
-  // Workspace, forces, friction, followers' and loops' forces: of the last step's last ABA.
+  // Workspace, forces, friction and constraint forces of the last ABA of the last step.
   const IntegrationState& mechanism() const { return m_; }
   const ConstrainedStep& constraints() const { return constrained_; }  // of the last step
   Integrator integrator() const { return integrator_step_.integrator(); }
@@ -82,12 +78,12 @@ class Simulation {
   EventStep::Interrupted interrupted_;
 };
 
-// Where a step of h would lead; the run is not changed, down to the last bit. For samples between
-// the steps. Throws as step(), and std::invalid_argument for a source that is not Rewindable. May
-// allocate. It uses the sources, and restores them: not for several threads at once.
+// Result of a step h without changing the simulation; for samples between steps. Throws as step(),
+// and std::invalid_argument for a source that is not Checkpointable. May allocate. Uses and
+// restores the sources: not thread-safe.
 State<double> side_step(const Simulation& from, double h, StepReport* report = nullptr);
-// A copy that stands at x, after one evaluation of all forces there by no step's rule; contacts and
-// limits take no part. Sources, and what it throws, as in side_step(). May allocate.
+// A copy at state x after one evaluation of all forces, without contacts and limits. Sources and
+// exceptions as in side_step(). May allocate.
 IntegrationState evaluate_at(const Simulation& simulation, const State<double>& x);
 
 }  // namespace twinarm

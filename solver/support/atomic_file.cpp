@@ -11,7 +11,7 @@
 namespace twinarm {
 
 void write_whole_file(const std::filesystem::path& file, const std::string& bytes) {
-  // The process number keeps two programs that write the same file apart.
+  // The process id makes the temporary name unique among programs that write the same file.
   const std::filesystem::path temporary = file.string() + "." + std::to_string(::getpid()) + ".tmp";
   std::error_code error;
   errno = 0;
@@ -27,7 +27,7 @@ void write_whole_file(const std::filesystem::path& file, const std::string& byte
   std::filesystem::remove(temporary, ignored);
   throw InputError(
       {{file.string(), 0, "", "the file cannot be written" + (why.empty() ? "" : ": " + why),
-        "choose a folder that exists, can be written and has room", "file.unwritable"}});
+        "choose an existing, writable folder with free space", "file.unwritable"}});
 }
 
 }  // namespace twinarm

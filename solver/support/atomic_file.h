@@ -1,5 +1,5 @@
-// Writes a file in one piece: under a temporary name in the same folder, then renamed. Every file
-// of the project is written by it, so that none is ever seen half.
+// Atomic file write: temporary file in the same folder, then rename. All output files are written
+// this way, so that no partial file is visible.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace twinarm {
 
-// Throws InputError where the folder does not exist or cannot be written.
+// Throws InputError if the folder does not exist or is not writable.
 void write_whole_file(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace twinarm

@@ -1,4 +1,5 @@
-// Sources and the steps that are thrown away (side_step of solver/stepping/simulation.h).
+// Save and restore of the internal state of sources around steps whose result is discarded
+// (side_step() of solver/stepping/simulation.h).
 #pragma once
 
 #include <string>
@@ -9,29 +10,28 @@
 
 namespace twinarm {
 
-// A source that is asked for a step which then is not taken must be as before. What it remembers
-// from step to step (held forces, last positions, stick anchors, warm starts) it names in
-// serialize(): it is put aside and taken back by that, or written down for a restart elsewhere
-// (solver/support/state_archive.h). A source that is not Rewindable refuses side steps.
+// serialize() visits the state that a source keeps between steps (held forces, last positions,
+// stick anchors, warm starts). It is used for save and restore, and for restarts
+// (solver/support/state_archive.h). side_step() rejects sources that are not Checkpointable.
 class Checkpointable {
  public:
   virtual ~Checkpointable() = default;
   virtual void serialize(StateArchive&) {}
   virtual void keep() {
-    StateArchive memory;
-    serialize(memory);
-    kept_memory_ = memory.bytes();
+    StateArchive archive;
+    serialize(archive);
+    saved_ = archive.bytes();
   }
   virtual void restore() noexcept {
-    StateArchive memory(kept_memory_);
-    serialize(memory);
+    StateArchive archive(saved_);
+    serialize(archive);
   }
 
  private:
-  std::string kept_memory_;
+  std::string saved_;
 };
 
-// Keeps what sources remember, and takes it back at the end of its scope.
+// Saves the state of sources and restores it at the end of the scope.
 class SavedSources {
  public:
   explicit SavedSources(std::vector<Checkpointable*> sources) : sources_(std::move(sources)) {

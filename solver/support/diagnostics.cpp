@@ -8,29 +8,25 @@
 namespace twinarm {
 namespace {
 
-std::string line_by_line(const std::vector<Diagnostic>& faults) {
+// Cuts texts longer than 1000 bytes, not within a UTF-8 character.
+void truncate(Diagnostic& fault) {
+  constexpr std::size_t kMaxBytes = 1000;
+  for (std::string* text : {&fault.where, &fault.problem, &fault.fix}) {
+    if (text->size() <= kMaxBytes) continue;
+    std::size_t end = kMaxBytes;
+    while (end > 0 && (static_cast<unsigned char>((*text)[end]) & 0xc0) == 0x80) --end;
+    text->resize(end);
+    *text += "...";
+  }
+}
+
+std::string truncated_lines(std::vector<Diagnostic>& faults) {
   std::string text;
-  for (const Diagnostic& fault : faults) text += (text.empty() ? "" : "\n") + to_string(fault);
+  for (Diagnostic& fault : faults) {
+    truncate(fault);
+    text += (text.empty() ? "" : "\n") + to_string(fault);
+  }
   return text;
-}
-
-// Not within a letter of UTF-8.
-void shorten(std::string& text) {
-  constexpr std::size_t kLongest = 1000;
-  if (text.size() <= kLongest) return;
-  std::size_t end = kLongest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
-  text.resize(end);
-  text += "...";
-}
-
-void shorten(Diagnostic& fault) {
-  for (std::string* text : {&fault.where, &fault.problem, &fault.fix}) shorten(*text);
-}
-
-std::vector<Diagnostic>& shortened(std::vector<Diagnostic>& faults) {
-  for (Diagnostic& fault : faults) shorten(fault);
-  return faults;
 }
 
 }  // namespace
@@ -53,17 +49,17 @@ bool is_of_option(const Diagnostic& fault, std::string_view option) {
 }
 
 void add_diagnostic(std::vector<Diagnostic>& faults, Diagnostic fault) {
-  shorten(fault);
+  truncate(fault);
   if (faults.size() < kMaxFaults)
     faults.push_back(std::move(fault));
   else if (faults.size() == kMaxFaults)
     faults.push_back({std::move(fault.file), 0, "",
-                      "has more than " + std::to_string(kMaxFaults) + " faults",
-                      "mend the others that are told, and try again", "faults.too-many"});
+                      "has more than " + std::to_string(kMaxFaults) + " errors",
+                      "fix the errors that are listed and run again", "faults.too-many"});
 }
 
 InputError::InputError(std::vector<Diagnostic> faults)
-    : std::runtime_error(line_by_line(shortened(faults))), faults_(std::move(faults)) {}
+    : std::runtime_error(truncated_lines(faults)), faults_(std::move(faults)) {}
 InputError::~InputError() = default;
 
 void DiagnosticList::add(Diagnostic fault) {

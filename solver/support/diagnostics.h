@@ -1,7 +1,7 @@
-// What is wrong with an input, told so that it can be mended: where, which rule, which remedy.
+// Errors of an input: location, problem, fix.
 //
-// A reader (URDF, mesh, trace, scene, command line) collects every fault it finds and throws them
-// all at once as one InputError. The program prints them and ends with exit code 2.
+// A reader (URDF, mesh, trace, scene, command line) collects all errors and throws them as one
+// InputError. The program prints them and exits with code 2.
 #pragma once
 
 #include <stdexcept>
@@ -13,13 +13,12 @@
 namespace twinarm {
 
 struct Diagnostic {
-  std::string file;     // empty where no file is at fault
-  int line = 0;         // 1-based; 0 where unknown
-  std::string where;    // the element, body or joint, by its name in the user's file; or "--option"
-  std::string problem;  // what does not hold, with the value that was found
-  std::string fix;      // what to do about it
-  // What kind of fault it is: GROUP.NAME, a literal that stays when the texts above change.
-  // Programs and tests compare this and no text.
+  std::string file;     // empty: not about a file
+  int line = 0;         // 1-based; 0: unknown
+  std::string where;    // element, body or joint, by its name in the user's file; or "--option"
+  std::string problem;  // what is wrong, with the value found
+  std::string fix;      // what to do
+  // GROUP.NAME, a string literal. Programs and tests compare the code, not the texts.
   std::string_view code;
 };
 
@@ -28,12 +27,12 @@ bool is_of_option(const Diagnostic& fault, std::string_view option);  // "durati
 // "robot.urdf:12: link 'arm1': mass is -3 kg, must be positive; give <mass value=...>"
 std::string to_string(const Diagnostic& fault);
 
-// Of a hostile file there could be millions: so many are kept, and that there are more. A text in
-// one is cut after 1000 bytes, here and by InputError.
+// Keeps at most kMaxFaults and one note that there are more. Texts are cut after 1000 bytes, here
+// and by InputError.
 inline constexpr std::size_t kMaxFaults = 200;
 void add_diagnostic(std::vector<Diagnostic>& faults, Diagnostic fault);
 
-// Bad input, with all its faults. what() has one line per fault.
+// what() has one line per error.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Diagnostic> faults);
@@ -44,11 +43,11 @@ class InputError : public std::runtime_error {
   std::vector<Diagnostic> faults_;
 };
 
-// Collects faults; check() throws them together. One per reader.
+// Collects errors; check() throws them together.
 class DiagnosticList {
  public:
   void add(Diagnostic fault);
-  // Of no file.
+  // Not about a file.
   void add(std::string where, std::string problem, std::string fix, std::string_view code) {
     add(Diagnostic{"", 0, std::move(where), std::move(problem), std::move(fix), code});
   }
@@ -62,8 +61,7 @@ class DiagnosticList {
   std::vector<Diagnostic> faults_;
 };
 
-// The one check of a step size, for all functions that take one from a caller: throws InputError
-// unless h [s] is positive and finite.
+// Throws InputError unless h [s] is positive and finite.
 void check_step_size(double h);
 
 }  // namespace twinarm

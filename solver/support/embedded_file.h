@@ -1,4 +1,4 @@
-// A file as it was when the program was built (scripts/cmake/embed.cmake).
+// File that is embedded in the program at build time (scripts/cmake/embed.cmake).
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 namespace twinarm {
 
 struct EmbeddedFile {
-  std::string_view name;  // its path below the folder that was embedded
+  std::string_view name;  // path relative to the embedded folder
   std::string_view text;
 };
 

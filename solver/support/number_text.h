@@ -1,4 +1,4 @@
-// Numbers to text and back, bit for bit, in every locale.
+// Locale-independent conversion between numbers and text; exact round trip.
 #pragma once
 
 #include <algorithm>
@@ -11,14 +11,14 @@
 
 namespace twinarm {
 
-// The fewest digits (17 at most) that read back as the same double.
+// Shortest text (at most 17 digits) that reads back as the same double.
 inline std::string number_text(double value) {
   char buffer[32];
   const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
   return {buffer, end};
 }
 
-// Six digits, for messages about computed values.
+// Six significant digits, for messages.
 inline std::string short_number_text(double value) {
   char buffer[32];
   const auto end =
@@ -26,7 +26,7 @@ inline std::string short_number_text(double value) {
   return {buffer, end};
 }
 
-// One finite number and nothing else; "nan", "inf" and "0.1m" are refused.
+// One finite number and nothing else; "nan", "inf" and "0.1m" are rejected.
 inline std::optional<double> parse_number(std::string_view text) {
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0;
@@ -36,7 +36,7 @@ inline std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
-// Finite numbers separated by blanks; nothing where one of them is not a number.
+// Finite numbers separated by blanks; nullopt if one of them is not a number.
 inline std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r\n";
   std::vector<double> values;

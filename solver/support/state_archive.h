@@ -1,8 +1,8 @@
-// What a run remembers from step to step besides its state: held forces, stick anchors, guesses of
-// impulses, lengths of substeps. Without it a restart is not bit-exact.
+// Serialization of internal state besides q and qd: held forces, stick anchors, initial guesses of
+// impulses, substep sizes. Required for bit-exact restarts.
 //
-// Each owner names its fields once, in serialize(). A Memory that was made empty appends them as
-// bytes; one that was made of such bytes puts them back. Little-endian, sizes before vectors.
+// Each owner visits its fields in serialize(). A default-constructed archive appends them as bytes,
+// one constructed from bytes reads them. Little-endian; sizes precede vectors.
 #pragma once
 
 #include <Eigen/Core>
@@ -27,7 +27,7 @@ class StateArchive {
   const std::string& bytes() const { return bytes_; }
   bool at_end() const { return at_ == bytes_.size(); }
 
-  // All throw std::runtime_error where there are too few bytes to read.
+  // All throw std::runtime_error if too few bytes are left to read.
   template <class T>
   void visit(T& value) {
     static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>, "field by field: no padding");
@@ -38,7 +38,7 @@ class StateArchive {
     }
     need(sizeof value);
     if constexpr (std::is_same_v<T, bool>)
-      value = bytes_[at_] != 0;  // another byte is no bool
+      value = bytes_[at_] != 0;  // bool has two valid bytes only
     else
       std::memcpy(&value, bytes_.data() + at_, sizeof value);
     at_ += sizeof value;
@@ -51,14 +51,14 @@ class StateArchive {
     resize(values, sizeof(T));
     for (T& value : values) visit(value);
   }
-  // Of a vector that is as long as the scene makes it.
+  // Vector whose size is given by the scene.
   template <class T>
   void visit_fixed(std::vector<T>& values) {
     const std::size_t size = values.size();
     visit(values);
     if (values.size() != size) of_another_scene();
   }
-  // Of one of `count` things of the scene.
+  // Index below `count`.
   template <class T>
   void visit_index(T& index, std::size_t count) {
     visit(index);
@@ -76,7 +76,7 @@ class StateArchive {
       bytes_ += text;
     }
   }
-  // Of a vector whose elements the caller visits; each has at least so many bytes.
+  // Size of a vector whose elements the caller visits, each of at least `min_bytes` bytes.
   template <class T>
   void resize(std::vector<T>& values, std::size_t min_bytes) {
     std::uint64_t size = values.size();
@@ -91,7 +91,7 @@ class StateArchive {
     if (bytes > bytes_.size() - at_) of_another_scene();
   }
   [[noreturn]] static void of_another_scene() {
-    throw std::runtime_error("what a run remembers is cut short, or is of another scene");
+    throw std::runtime_error("state data is truncated or belongs to another scene");
   }
   std::string bytes_;
   std::size_t at_ = 0;

@@ -133,7 +133,7 @@ class CommandLine(ProgramTest):
             self.assertNotIn(f"hand.csv:{line}:", result.stderr)
         self.assertEqual(self.written(), ["hand.csv"])
 
-    def test_faults_come_as_one_json_object_when_json_is_asked_for(self):
+    def test_errors_come_as_one_json_object_when_json_is_asked_for(self):
         file = self.write("hand.csv", HAND_COLUMNS + "0,0,0,0,0,0,0\n1,x,0,0,0,0,0\n1.5,0,y,0,0,0,0\n")
         result = self.study("--json", "--trace", file)
         self.refused(result, "hand.csv:3", "hand.csv:4")
@@ -153,7 +153,7 @@ class CommandLine(ProgramTest):
         self.assertEqual(file.read_text(), "a file")
         self.assertEqual(self.written(), ["taken"])
 
-    def test_two_faults_of_a_robot_are_told_at_once_with_their_lines(self):
+    def test_two_faults_of_a_robot_are_reported_at_once_with_their_lines(self):
         assets = self.copy_of_assets()
         urdf = assets / "robots" / "s103" / "s103.urdf"
         lines = urdf.read_text().splitlines(keepends=True)

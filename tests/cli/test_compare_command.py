@@ -46,7 +46,7 @@ class Compare(ProgramTest):
         self.assertIn("E6-two", names)
         self.assertTrue(all(name.startswith("E6-") for name in names), names)
 
-    def test_a_group_and_names_add_up_and_energy_is_told_where_it_is_kept(self):
+    def test_a_group_and_names_add_up_and_conserved_energy_is_reported(self):
         asked = ["D3", "D4", "D5-springs", "D5-rods", "E6-two"]
         answer = self.answer(*asked, "--group", "robots")
         self.assertEqual([c["name"] for c in answer["cases"] if c["group"] != "robots"],
@@ -75,7 +75,7 @@ class Compare(ProgramTest):
                          [c["name"] for c in self.answer("free-body")["cases"]])
         self.assertTrue(all(c["pass"] for c in by_letter["cases"]))
 
-    def test_a_known_motion_tells_its_order_and_other_integrators_stand_beside(self):
+    def test_a_known_motion_has_its_order_and_other_integrators_stand_beside(self):
         answer = self.answer("A2", "B9-free", "D7", "--integrator", "verlet,dopri5",
                              "--step", "0.002,0.001")
         rows = {c["name"]: c for c in answer["cases"]}

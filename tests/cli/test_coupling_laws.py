@@ -165,7 +165,7 @@ class Errors(CouplingLaws):
             found.append({name: target[name] - q for name, q in sample["q"].items()})
         return found
 
-    def test_at_an_even_speed_every_law_lags_as_predicted(self):
+    def test_at_an_even_speed_every_law_has_the_tracking_error_predicted(self):
         T, z = 0.05, 0.8
         point = {"stiffness": 4000, "damping": 60, "point": [R, 0, 0]}
         turn = {"measure": "joint", "stiffness": 300, "damping": 5}
@@ -226,7 +226,7 @@ class Errors(CouplingLaws):
             coupling("torsional", link="quill", measure="joint", stiffness=20, damping=1,
                      target="hand.csv").replace("pull", "hold"))
 
-    def test_each_joint_of_the_papers_robot_lags_as_predicted_to_2_percent(self):
+    def test_each_joint_of_the_papers_robot_has_the_tracking_error_predicted_to_2_percent(self):
         """Half a degree of all three joints in 0.2 s: small, for the theory is linear."""
         degrees, T = 0.5, 0.2
         D = math.radians(degrees)
@@ -256,7 +256,7 @@ class Errors(CouplingLaws):
                 turn = max(abs(e[name]) for e in errors[1000:])
                 self.assertAlmostEqual(found["reversal"][name] / turn, 1, delta=0.02, msg=name)
 
-    def test_what_nothing_holds_has_no_error_in_table_and_json(self):
+    def test_what_no_coupling_holds_has_no_error_in_table_and_json(self):
         text = coupling("torsional", link="upper", measure="joint", stiffness=300, damping=5)
         scene = self.scene(text, urdf=TWO)
         found = self.predict(scene)["joint_errors"]

@@ -187,7 +187,7 @@ class ClosedForms(RobotCommand):
         self.close(answer["base_wrench"]["torque"], [0, -4 * 9.81, 0])
         self.close(answer["tau_inverse"]["slide"], 2 * (9.81 + 3))
 
-    def test_a_follower_counts_through_its_ratio_and_is_not_named(self):
+    def test_a_mimic_joint_counts_through_its_ratio_and_is_not_named(self):
         m, ratio = 2.0, -1.5
         urdf = robot('<link name="base"/>', link("a", m, (0, 0, 0)), link("b", m, (0, 0, 0)),
                      joint("lead", "prismatic", "base", "a"),

@@ -72,7 +72,7 @@ class FullDisk(Case):
                 self.told_well(name, done)
                 self.nothing_half(name, left, may_be_left)
 
-    def test_a_file_that_may_not_grow_is_told_as_a_full_disk_is(self):
+    def test_a_file_that_may_not_grow_is_reported_as_a_full_disk_is(self):
         """`ulimit -f`: of all who can mount nothing."""
         for name in ("recording", "map", "picture", "trace", "hand"):
             words, may_be_left = WRITERS[name]
@@ -98,7 +98,7 @@ class FullDisk(Case):
         self.assertEqual(len(json.loads(read.stdout)["frames"]), kinds.count("F"))
         self.assertIn("run.part", read.stderr)
 
-    def test_a_recording_whose_name_was_taken_meanwhile_is_told_and_kept(self):
+    def test_a_recording_whose_name_was_taken_meanwhile_is_reported_and_kept(self):
         """By a folder, while the run waits for somebody to read its table."""
         process = start("simulate", SCENES / "box_stack.toml", "--duration", 0.5, "--csv", "--every", 0.001, "--record",
                         "run.twinrec", cwd=self.folder)
@@ -133,7 +133,7 @@ class ReadOnly(Case):
                 self.assertEqual(list(self.folder.iterdir()), [])
                 self.assertEqual(list(self.base.glob("work.*")), [])  # a map would begin with it
 
-    def test_a_read_only_folder_is_told_at_once_with_the_other_faults(self):
+    def test_a_read_only_folder_is_reported_at_once_with_the_other_faults(self):
         who = self.start_as_nobody()
         self.folder.chmod(0o555)
         self.addCleanup(self.folder.chmod, 0o755)
@@ -169,7 +169,7 @@ class Streams(Case):
         command = " ".join(f"'{word}'" for word in [program.PROGRAM, *words])
         return self.run_it(["sh", "-c", f"{command} {redirections}"])
 
-    def test_what_cannot_be_printed_is_told(self):
+    def test_what_cannot_be_printed_is_reported(self):
         for words in self.PRINTING:
             with self.subTest(words):
                 for stdout in ("/dev/full", None):
@@ -195,7 +195,7 @@ class Streams(Case):
             self.run_in_shell(words, closed)
             self.assertTrue((self.folder / "run.twinrec").read_bytes() == heard, closed)
 
-    def test_nobody_needs_to_read_what_is_said_on_stderr(self):
+    def test_stderr_may_be_closed(self):
         for stderr in ("2>&-", "2>/dev/full"):
             done = self.run_in_shell(["render", PENDULUM, "--frames", "film", "--to", 0.1, "--size", "64x48"], stderr)
             self.assertEqual(done.returncode, 0)

@@ -50,7 +50,7 @@ class Missing(Case):
                 self.assertIn("gnuplot-nox", self.refused(*WRITERS[name][0], PATH=str(self.base)))
                 self.assertEqual({p.name for p in self.base.rglob("*") if p.is_file()}, {"run.twinrec"})
 
-    def test_without_a_place_for_temporary_files_it_is_said_how_to_give_one(self):
+    def test_without_a_place_for_temporary_files_the_message_says_how_to_give_one(self):
         self.record_pendulum()
         (self.base / "file").write_text("")
         for place in ("gone", "file"):
@@ -59,7 +59,7 @@ class Missing(Case):
                 with self.subTest(words):
                     told = self.refused(*words, TMPDIR=str(self.base / place))
                     self.assertIn(str(self.base / place), told)
-                    self.assertIn("let TMPDIR name", told)
+                    self.assertIn("set TMPDIR", told)
 
 
 class Strange(Case):
@@ -151,7 +151,7 @@ class Pages(Case):
         self.addCleanup(running.process.send_signal, signal.SIGINT)  # it takes its temporary folder away
         return running.process, running.url
 
-    def test_a_port_that_is_taken_is_told_with_the_way_out(self):
+    def test_a_port_that_is_taken_is_reported_with_the_way_out(self):
         with socket.socket() as taken:
             taken.bind(("127.0.0.1", 0))
             taken.listen()
@@ -162,7 +162,7 @@ class Pages(Case):
         _, url = self.lab("--port", str(port))  # it is free now
         self.assertIn(f":{port}/", url)
 
-    def test_pages_that_vanish_in_the_middle_of_a_word_disturb_nobody(self):
+    def test_pages_that_vanish_in_the_middle_of_a_word_disturb_no_other_client(self):
         process, url = self.lab()
         lab = Lab(url)
         with lab.live() as stays:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm hand`: a scene under a device; its log makes the run again.
+"""`twinarm hand`: a scene driven by a device, and its log.
 
     test_hand_command.py PROGRAM
 """
@@ -19,7 +19,7 @@ class Hand(ProgramTest):
     def simulated(self, *more, out=None):
         return self.json_of("hand", SCENE, "--simulated", "--out", out or self.out, *more)
 
-    def test_a_simulated_run_is_the_same_twice_and_is_recorded_again_with_the_same_bits(self):
+    def test_a_simulated_run_is_reproducible_and_re_simulated_bit_for_bit(self):
         first = self.simulated("--duration", 1.5, "--record")
         self.assertEqual(first["ticks"], 1500)
         self.assertTrue(first["finite"])
@@ -30,7 +30,7 @@ class Hand(ProgramTest):
                          (self.out / "again/hand.csv").read_bytes())
         self.assertEqual(first["tracking"], again["tracking"])
 
-    def test_the_errors_told_are_those_of_the_log_and_the_recording(self):
+    def test_the_reported_errors_are_those_of_the_log_and_the_recording(self):
         told = self.simulated("--duration", 1, "--record")["tracking"]
         lines = (self.out / "hand.csv").read_text().splitlines()
         self.assertEqual(len(lines), 1001)
@@ -41,13 +41,13 @@ class Hand(ProgramTest):
         largest = max(abs(k - d) for k, d in zip(kinematic, dynamic))
         self.assertAlmostEqual(largest, told["joint1"]["max"], delta=1e-9)
 
-    def test_each_mapping_says_what_can_be_felt(self):
+    def test_each_mapping_says_its_force_feedback(self):
         words = [self.twinarm("hand", SCENE, "--simulated", "--duration", 0.2, "--mapping", mapping, "--out",
                               self.out).stdout for mapping in ("paper", "arm", "cartesian")]
-        self.assertIn("joint 1 alone", words[0])
+        self.assertIn("joint 1 only", words[0])
         self.assertEqual(len(set(line.split("\n")[2] for line in words)), 3)
 
-    def test_ctrl_c_ends_a_run_in_real_time_with_its_log_whole(self):
+    def test_ctrl_c_ends_a_run_in_real_time_with_a_complete_log(self):
         log = self.out / "hand.csv"
         told, _ = self.interrupted("hand", SCENE, "--json", "--out", self.out, code=0,
                                    is_ready=lambda _: log.is_file() and log.stat().st_size > 20000)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the program tells about itself: the manual, completion, its version, and its assets from anywhere.
+"""Help, glossary, manual, completion and version of the program, and its assets in any folder.
 
     test_help_command.py PATH/TO/twinarm
 """
@@ -19,13 +19,13 @@ def run(*arguments, cwd="/"):
 
 
 def options_of(page):
-    """All --options that a help page lists, and not those that its sentences mention."""
+    """All --options that a help page lists."""
     return set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", page, re.M))
 
 
 class HelpCommand(unittest.TestCase):
     def commands(self):
-        """Every path of commands, by what --help lists."""
+        """All commands and subcommands that --help lists."""
         def below(path):
             page = run(*path, "--help").stdout
             names = re.findall(r"^  ([a-z][\w-]*) ", page.partition("Subcommands:")[2], re.M)
@@ -35,35 +35,48 @@ class HelpCommand(unittest.TestCase):
         self.assertIn(["coupling", "predict"], paths)
         return paths
 
-    def test_the_manual_has_a_section_for_every_command_with_every_option_of_its_help(self):
+    def test_manual_has_a_section_for_every_command_with_all_its_options(self):
         manual = run("help", "--man").stdout.replace("\\-", "-")
         sections = dict(re.findall(r"^\.SS (.*?)\n(.*?)(?=^\.S)", manual, re.M | re.S))
         paths = self.commands()
         self.assertEqual(sorted(sections), sorted(" ".join(path) for path in paths))
         for path in paths:
             expected = options_of(run(*path, "--help").stdout) - {"--help"}
-            told = set(re.findall(r"\\fB(--[\w-]+)\\fR", sections[" ".join(path)]))
-            self.assertEqual(told, expected, path)
+            found = set(re.findall(r"\\fB(--[\w-]+)\\fR", sections[" ".join(path)]))
+            self.assertEqual(found, expected, path)
 
-    def test_help_of_a_command_is_what_its_own_option_prints_and_shows_an_example(self):
-        self.assertIn("Example:  twinarm", run("--help").stdout)
+    def test_help_of_a_command_prints_the_same_as_its_option_and_has_examples(self):
+        self.assertIn("Examples:\n  twinarm", run("--help").stdout)
         for path in self.commands():
-            asked, own = run("help", *path), run(*path, "--help")
-            self.assertEqual((asked.returncode, own.returncode, own.stderr), (0, 0, ""))
-            self.assertIn("Example:  twinarm", own.stdout)
-            self.assertEqual(asked.stdout.split("Usage:")[0], own.stdout.split("Usage:")[0])
-            self.assertEqual(options_of(asked.stdout), options_of(own.stdout))
+            page, own = run("help", *path), run(*path, "--help")
+            self.assertEqual((page.returncode, own.returncode, own.stderr), (0, 0, ""))
+            self.assertIn("Examples:\n  twinarm " + path[0], own.stdout)
+            self.assertEqual(page.stdout.split("Usage:")[0], own.stdout.split("Usage:")[0])
+            self.assertEqual(options_of(page.stdout), options_of(own.stdout))
 
-    def test_what_an_option_takes_is_told_in_words_and_not_as_a_program_has_it(self):
-        inhuman = re.compile(r"\b(?:FLOAT|U?INT|BOOLEAN|POSITIVE|NONNEGATIVE)\b| in \[")
+    def test_values_of_options_are_described_in_words(self):
+        types = re.compile(r"\b(?:FLOAT|U?INT|BOOLEAN|POSITIVE|NONNEGATIVE)\b| in \[")
         pages = [run(*path, "--help").stdout for path in self.commands()] + [run("help", "--man").stdout]
         for page in pages:
-            self.assertNotRegex(page, inhuman)
+            self.assertNotRegex(page, types)
         lab, manual = run("lab", "--help").stdout, pages[-1].replace("\\-", "-")
         for page in (lab, manual):
-            self.assertRegex(page, r"--port(?:\\fR \\fI| )N(?:\\fR)?\s+of the server; left out: any that is free "
+            self.assertRegex(page, r"--port(?:\\fR \\fI| )N(?:\\fR)?\s+port of the server; default: any free port "
                                    r"\(0 to 65535\)")
-        self.assertRegex(lab, r"--remember N +megabytes .* \(1 to 65536; if not given 256\)")
+        self.assertRegex(lab, r"--remember N +memory .* \(1 to 65536; default 256\)")
+        self.assertRegex(lab, r"\nServer:\n  --port N")
+
+    def test_help_of_a_term_prints_its_glossary_entry(self):
+        for words, parts in ((["bias force"], ["bias force, symbol p [N m, N]", "p = v x* I v - f_ext", "RBDA 7.1"]),
+                             (["bias", "force"], ["bias force, symbol p"]), (["IA"], ["articulated-body inertia"]),
+                             (["KVR"], ["target robot"]), (["ghost"], ["not used; use target robot"])):
+            page = run("help", *words)
+            self.assertEqual((page.returncode, page.stderr), (0, ""), words)
+            for part in parts:
+                self.assertIn(part, page.stdout)
+        unknown = run("help", "bias forc")
+        self.assertEqual(unknown.returncode, 2)
+        self.assertIn("did you mean 'bias force'?", unknown.stderr)
 
     def completed(self, *words):
         script = '. "$0"; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _twinarm; printf "%s\\n" "${COMPREPLY[@]}"'
@@ -76,7 +89,7 @@ class HelpCommand(unittest.TestCase):
                                   timeout=TIMEOUT, cwd=folder)
         return sorted(line for line in done.stdout.split("\n") if line)
 
-    def test_the_shell_completes_commands_options_and_files_and_nothing_where_a_number_stands(self):
+    def test_completion_of_commands_options_and_files_and_none_for_numbers(self):
         for words, expected in ((["twinarm", "stu"], ["study"]),
                                 (["twinarm", "coupling", "p"], ["predict"]),
                                 (["twinarm", "study", "--seed", "3", "--pa"], ["--paper-view"]),
@@ -87,18 +100,18 @@ class HelpCommand(unittest.TestCase):
                                 (["twinarm", "study", "--seed", "my"], [])):
             self.assertEqual(self.completed(*words), expected, words)
 
-    def test_every_command_and_option_is_completed(self):
+    def test_all_commands_and_options_are_completed(self):
         for path in self.commands():
             options = options_of(run(*path, "--help").stdout)
             self.assertEqual(set(self.completed("twinarm", *path, "--")), options, path)
 
-    def test_the_version_is_that_of_the_manual(self):
+    def test_version_is_that_of_the_manual(self):
         result = run("--version")
         self.assertEqual(result.returncode, 0)
         self.assertRegex(result.stdout, r"^twinarm \d+\.\d+\.\d+\n$")
         self.assertIn(f'"{result.stdout.strip()}"', run("help", "--man").stdout)
 
-    def test_a_model_of_the_examples_is_found_from_any_folder_unless_one_of_that_name_is_there(self):
+    def test_assets_are_found_from_any_folder_unless_a_file_of_that_name_exists(self):
         words = ("dynamics", "assets/robots/teaching/pendulum.urdf", "--json")
         found = run(*words)
         self.assertEqual(found.returncode, 0, found.stderr)

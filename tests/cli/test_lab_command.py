@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm lab`: the whole program over its socket, as pages and strangers meet it.
+"""`twinarm lab`: the whole program over its socket, with one and several clients.
 
     test_lab_command.py PROGRAM
 """
@@ -17,7 +17,7 @@ from waiting import TIMEOUT
 
 
 class LabCommand(LabTest):
-    def test_a_newcomer_is_told_everything(self):
+    def test_a_new_client_gets_scene_state_and_frame(self):
         scene = self.live.wait_for("scene")
         self.assertEqual([layer["name"] for layer in scene["layers"]][0], "bodies")
         self.assertEqual([body["name"] for body in scene["bodies"]], ["world", "base", "rod", "ball"])
@@ -31,7 +31,7 @@ class LabCommand(LabTest):
         for mesh in scene["meshes"]:
             self.assertEqual(self.lab.get(f"/mesh/{mesh}").status, 200)
 
-    def test_what_pages_see_is_what_is_recorded_and_the_recording_replays_bit_for_bit(self):
+    def test_frames_equal_the_recording_which_replays_bit_for_bit(self):
         names = [c["name"] for c in self.live.wait_for("scene")["channels"]]
         seen = {}
         while len(seen) < 90:
@@ -46,7 +46,7 @@ class LabCommand(LabTest):
             for name in ("q/hinge", "qd/hinge", "links/rod/x", "kinetic_energy"):
                 self.assertEqual(seen[step][name], recorded[step]["values"][name], name)
 
-    def test_standing_it_is_taken_step_by_step(self):
+    def test_while_paused_single_steps_are_taken(self):
         before = self.stand()
         self.live.do("step", steps=7)
         after = self.frame(lambda f: f.step == before.step + 7)
@@ -57,7 +57,7 @@ class LabCommand(LabTest):
         self.live.do("look", at=None)
         self.assertEqual(self.frame(lambda f: not f.looked_back).step, after.step)
 
-    def test_a_branch_without_a_change_is_the_same_run_and_with_one_another(self):
+    def test_a_branch_repeats_the_run_without_a_change_and_differs_with_one(self):
         self.frame(lambda f: f.time > 1.5)
         self.live.do("play", on=False)
         self.state(lambda s: not s["playing"])
@@ -78,7 +78,7 @@ class LabCommand(LabTest):
         self.assertTrue(all(compared[True]))
         self.assertFalse(any(compared[False]))
 
-    def test_an_explosion_stops_the_run_says_why_and_what_would_hold_does(self):
+    def test_a_diverged_run_stops_with_a_reason_and_its_fix_is_stable(self):
         self.frame(lambda f: f.time > 0.5)
         self.live.do("set", changes=["coupling[0].stiffness=1e8"])
         dead = self.state(lambda s: s["dead"])["dead"]
@@ -93,7 +93,7 @@ class LabCommand(LabTest):
             self.frame(lambda f: f.time > 1.5)
             self.assertIsNone(self.state()["dead"], remedy["words"])
 
-    def test_a_hand_leads_the_robot_and_a_spring_pulls_the_ball(self):
+    def test_operator_input_drives_the_robot_and_the_mouse_spring_drags_the_ball(self):
         scene = self.live.wait_for("scene")
         names = [c["name"] for c in scene["channels"]]
         ball = [b["name"] for b in scene["bodies"]].index("ball")
@@ -107,7 +107,7 @@ class LabCommand(LabTest):
         self.frame(lambda f: f.channels[y] > 0.8)
         self.live.do("drop")
 
-    def test_inputs_send_no_frames_of_their_own(self):
+    def test_inputs_cause_no_extra_frames(self):
         self.frame()
         start, seen = time.monotonic(), []
         for n in range(300):
@@ -116,7 +116,7 @@ class LabCommand(LabTest):
         self.assertLess(len(seen), 63 * (time.monotonic() - start) + 3)
         self.assertEqual(len({frame.step for frame in seen}), len(seen))
 
-    def test_a_page_that_vanishes_holds_nothing_any_more(self):
+    def test_a_disconnected_client_releases_its_inputs(self):
         scene = self.live.wait_for("scene")
         names = [c["name"] for c in scene["channels"]]
         ball = [b["name"] for b in scene["bodies"]].index("ball")
@@ -134,22 +134,22 @@ class LabCommand(LabTest):
         self.assertTrue(self.state()["hand"]["gripper"])
         self.assertEqual(self.state()["hand"]["source"], "joints")
 
-    def test_one_has_the_hand_and_gives_it_to_who_asks(self):
+    def test_control_is_granted_on_request(self):
         you = self.state()["you"]
         with self.lab.live() as other:
             second = self.state(live=other)
             self.assertEqual(second["holder"], you)
             other.do("set", changes=["coupling[0].stiffness=21"])
-            self.assertIn("hand", self.told(self.state(lambda s: s["notes"], live=other)))
+            self.assertIn("control", self.told(self.state(lambda s: s["notes"], live=other)))
             other.do("take")
             self.state(lambda s: s["asked"] == [second["you"]])
             self.live.do("give", to=second["you"])
             self.state(lambda s: s["holder"] == second["you"], live=other)
             other.do("set", changes=["coupling[0].stiffness=21"])
             self.state(lambda s: s["changes"] == ["coupling[0].stiffness=21"], live=other)
-        self.state(lambda s: s["holder"] == you)  # who is left has it
+        self.state(lambda s: s["holder"] == you)  # the remaining client
 
-    def test_what_is_no_command_and_no_scene_is_refused_and_the_run_goes_on(self):
+    def test_invalid_commands_and_scenes_are_refused_and_the_run_continues(self):
         for text in ("", "{", "[1, 2]", '{"do": "fly"}', '{"do": "tip", "goal": ["a"]}',
                      '{"do": "set", "changes": ["coupling[0].colour=red"]}',
                      '{"do": "set", "changes": ["coupling[0].stiffness=-5"]}',
@@ -166,14 +166,14 @@ class LabCommand(LabTest):
         step = self.frame().step
         self.frame(lambda f: f.step > step)
 
-    def test_a_robot_is_dropped_onto_the_page(self):
+    def test_a_robot_is_uploaded(self):
         number = self.live.wait_for("scene")["scene"]
         self.assertEqual(self.lab.upload("fresh.urdf", ROD, self.live).status, 200)
         scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
         self.assertEqual(scene["file"], "fresh.urdf")
         self.frame(lambda f: f.scene == scene["scene"])
 
-    def test_only_the_page_that_has_control_uploads_files(self):
+    def test_only_the_client_in_control_uploads_files(self):
         with self.lab.live() as other:
             refused = self.lab.upload("fresh.urdf", ROD, other)
             self.assertEqual((refused.status, refused.body), (403, b"another client has control; request it\n"))
@@ -184,7 +184,7 @@ class LabCommand(LabTest):
             self.assertEqual(self.lab.upload("fresh.urdf", ROD, self.live).status, 403)
             self.assertEqual(self.lab.upload("fresh.urdf", ROD, other).status, 200)
 
-    def test_the_scene_with_its_changes_and_the_page_to_share_stand_alone(self):
+    def test_the_saved_scene_and_the_shared_page_are_self_contained(self):
         self.live.do("set", changes=["coupling[0].stiffness=33"])
         self.state(lambda s: s["changes"])
         text = self.lab.get("/scene").body.decode()
@@ -197,7 +197,7 @@ class LabCommand(LabTest):
         picture = self.lab.get("/frame.png?width=320&height=200")
         self.assertEqual(picture.body[:4], b"\x89PNG")
 
-    def test_a_client_that_never_reads_slows_nobody(self):
+    def test_a_client_that_never_reads_does_not_delay_others(self):
         """Compared with itself on the same machine; scripts/measure/lab_load measures how fast it is."""
         def frames_and_time():
             times = [frame.time for kind, frame in self.live.messages(2.0) if kind == "frame"]
@@ -210,7 +210,7 @@ class LabCommand(LabTest):
 
 
 class LabLanes(ProgramTest):
-    """Runs side by side."""
+    """Variants."""
 
     def start(self, scene, *words):
         running = Running(scene, *words)
@@ -229,7 +229,7 @@ class LabLanes(ProgramTest):
         self.live.do("step", steps=steps - taken)
         return self.live.wait_for("frame", lambda f: f.step == steps, timeout=TIMEOUT)
 
-    def test_six_integrators_part_as_the_gallery_says(self):
+    def test_six_integrators_differ_as_the_gallery_says(self):
         self.start("six_integrators")
         lanes = self.state(lambda s: s["lanes"])["lanes"]
         self.stand_at(700)
@@ -240,14 +240,14 @@ class LabLanes(ProgramTest):
             return history.channel(self.names.index(f"lane/{quantity}/{lane}"))
         gain = {lane: [e - of(lane, "total_energy")[0] for e in of(lane, "total_energy")]
                 for lane in lanes["values"]}
-        for lane, energies in gain.items():  # what was made is what the ledger says was made
+        for lane, energies in gain.items():  # as in the energy balance
             for made, told in zip(energies, of(lane, "numerical")):
                 self.assertAlmostEqual(made, told, delta=1e-9)
         late = [i for i, t in enumerate(history.time) if t > 10]
         self.assertGreater(min(gain["euler"][i] for i in late), 4.905)  # to the height of the hinge
         self.assertGreater(max(of("euler", "q/hinge")), math.pi)
         self.assertLess(max(gain["implicit-euler"][i] for i in late), -4.905 / 2)
-        # Of first order in the step: h/2 times the weight's power, g sin q qd, up and down.
+        # First order in the step: h/2 times the power of gravity, g sin q qd.
         start = math.radians(60)
         most = max(0.01 * 9.81 * math.sin(q) * math.sqrt(2 * 9.81 * (math.cos(q) - 0.5))
                    for q in (start * i / 1000 for i in range(1000)))
@@ -257,7 +257,7 @@ class LabLanes(ProgramTest):
             self.assertLess(max(map(abs, gain[lane])), most)
             self.assertAlmostEqual(max(of(lane, "q/hinge")[i] for i in late), start, delta=0.01)
 
-    def test_one_explodes_and_is_said_to_and_comes_back_with_a_branch(self):
+    def test_a_diverged_variant_is_reported_and_returns_with_a_branch(self):
         self.write("rod.urdf", ROD)
         self.start(self.write("rod.toml", SCENE), "--lanes", "coupling[0].stiffness=200,1e8,3000")
         self.assertNotIn("coupling[0].stiffness", [k["path"] for k in self.state()["knobs"]])
@@ -270,8 +270,8 @@ class LabLanes(ProgramTest):
         self.assertTrue(state["playing"])
         self.assertIn("1e8 stopped at", " ".join(n["text"] for n in state["notes"]))
         self.live.do("set", changes=["coupling[0].stiffness=7"])
-        self.state(lambda s: "lanes differ" in " ".join(n["text"] for n in s["notes"]))
-        # With damping it holds, if it begins before it exploded; looked back at, it goes.
+        self.state(lambda s: "varied between the variants" in " ".join(n["text"] for n in s["notes"]))
+        # Stable with damping, from a time before it diverged.
         self.live.do("look", at=0.0)
         self.state(lambda s: s["at"] == 0 and s["lanes"]["stopped"] == [None] * 3)
         self.live.do("branch", at=0.0, changes=["coupling[0].treatment=implicit"])
@@ -280,11 +280,10 @@ class LabLanes(ProgramTest):
         self.live.do("reset")
         state = self.state(lambda s: not s["branch"])
         self.assertEqual(state["lanes"]["values"], ["200", "1e8", "3000"])
-        # Another scene has none.
         self.live.do("scene", name="gyroscope")
         self.state(lambda s: s["name"] == "gyroscope" and s["lanes"] is None)
 
-    def test_what_is_saved_is_the_first(self):
+    def test_the_first_variant_is_saved(self):
         self.start("pendulum", "--lanes", "integrator=rk4,euler")
         last = self.stand_at(100)
         file = self.folder / "first.twinrec"
@@ -297,7 +296,7 @@ class LabLanes(ProgramTest):
 
 
 class LabEnds(ProgramTest):
-    def test_it_ends_with_0_when_it_is_told_and_leaves_nothing(self):
+    def test_it_exits_with_0_and_leaves_no_files(self):
         for how in (signal.SIGINT, signal.SIGTERM):
             running = Running(SCENES / "cradle.toml", env=dict(os.environ, TMPDIR=str(self.folder)))
             with Lab(running.url).live() as live:
@@ -305,7 +304,7 @@ class LabEnds(ProgramTest):
             self.assertEqual(running.end(how), (0, ""))
             self.assertEqual(list(self.folder.iterdir()), [])
 
-    def test_pages_of_other_machines_open_no_files_and_devices_here(self):
+    def test_remote_clients_open_no_files_and_devices(self):
         for listen, is_refused in (("0.0.0.0", True), ("127.0.0.1", False)):
             running = Running(SCENES / "hand_and_obstacles.toml", "--listen", listen)
             self.addCleanup(running.process.kill)
@@ -319,7 +318,7 @@ class LabEnds(ProgramTest):
                 live.wait_for("state", lambda s: s["hand"]["spec"] == "virtual:synthetic")
             running.end()
 
-    def test_uploads_of_other_machines_name_only_uploads_and_assets(self):
+    def test_uploads_of_remote_clients_name_only_uploads_and_assets(self):
         secret = "the secret of this machine\n"
         body = ('[[body]]\nname = "ball"\nmass = 1\nshape = {{ sphere = {{ radius = 0.1 }} }}\n'
                 'position = [0, 0, 1]\n{}')
@@ -344,7 +343,7 @@ class LabEnds(ProgramTest):
             mesh = f'<mesh filename="{path}/secret.png"/>'
             self.assertEqual(lab.upload("f.urdf", re.sub('<box.*?/>', mesh, ROD), live).status, 200)
             self.assertFalse(secret.encode() in lab.get("/save").body)
-            # What it may name: uploads, and assets.
+            # Permitted: uploads and assets.
             for name, text in (("rod.urdf", ROD), ("g.toml", SCENE),
                                ("h.toml", SCENE.replace("rod.urdf", "robots/puma560/puma560.urdf").replace(
                                    '"rod"', '"link1"').replace("hinge", "j1"))):

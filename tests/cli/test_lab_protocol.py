@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What the lab sends and takes is what app/web/src/protocol says, to the key.
+"""Messages and commands of the lab against app/web/src/protocol.
 
     test_lab_protocol.py PROGRAM
 """
@@ -17,7 +17,7 @@ WORD = re.compile(r"'[^']*'|\w+|\S")
 
 
 class Types:
-    """TypeScript's interfaces: of each its fields, name to (whether it may be absent, words of its type)."""
+    """Fields of TypeScript interfaces: name to (is optional, tokens of its type)."""
 
     def __init__(self, text):
         self.extends = dict(re.findall(r"interface (\w+) extends Partial<(\w+)>", text))
@@ -28,7 +28,7 @@ class Types:
 
     @staticmethod
     def read(words):
-        """Of what stands between braces."""
+        """Of the text between braces."""
         fields, at = {}, 0
         while at < len(words):
             name, is_optional = words[at], words[at + 1] == "?"
@@ -46,7 +46,7 @@ class Types:
         return {key: (True, words) for key, (_, words) in partial.items()} | self.fields[name]
 
     def faults(self, value, words, where):
-        """Where a value is not what a type's words say."""
+        """Paths at which a value does not have its type."""
         parts, depth, part = [], 0, []
         for word in [*words, "|"]:
             depth += (word in "{[<(") - (word in "}]>)")
@@ -101,7 +101,7 @@ class LabProtocol(LabTest):
     def check(self, name, message):
         self.assertEqual(self.types.faults(message, [name], name), [])
 
-    def test_messages_have_the_keys_and_kinds_of_the_description(self):
+    def test_messages_have_the_described_keys_and_types(self):
         self.live.do("glass", on=True, body=1)
         self.check("SceneMessage", self.live.wait_for("scene"))
         self.check("BodyInspection", self.live.wait_for("glass"))
@@ -116,7 +116,7 @@ class LabProtocol(LabTest):
         self.assertTrue(dead["branch"] and dead["dead"]["remedies"] and dead["notes"])
         self.check("StateMessage", dead)
 
-    def test_a_frame_has_the_arrays_of_the_description(self):
+    def test_a_frame_has_the_described_arrays(self):
         table = re.search(r"const ARRAYS = \{(.*?)\n\}", (FOLDER / "frame.ts").read_text(), re.S)[1]
         rows = re.findall(r"(\w+): \[(\w+)Array, '([^']+)', (\d)\]", table)
         codes = {"Float64": "d", "Float32": "f", "Int16": "h", "Uint32": "I", "Uint16": "H", "Uint8": "B"}
@@ -131,7 +131,7 @@ class LabProtocol(LabTest):
             self.assertEqual((array.format, len(array)), (codes[kind], int(width) * counts[of]), name)
         self.assertEqual(len(rows), len(arrays) + 1)  # and the text
 
-    def test_commands_are_those_that_the_program_reads(self):
+    def test_described_commands_are_those_of_the_program(self):
         said = {}
         union = re.search(r"type Command =(.*\}) *;", TEXT, re.S)[1]
         for form in re.findall(r"\{(.*?)\}", union):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm lab`: what holds whatever pages do with its time, its changes and its files.
+"""`twinarm lab`: time, changes, history and files.
 
     test_lab_rules.py PROGRAM
 """
@@ -17,7 +17,7 @@ K, B = "coupling[0].stiffness", "coupling[0].damping"
 
 
 class LabRules(LabTest):
-    def test_a_newcomer_sees_what_stands_and_what_is_looked_back_at(self):
+    def test_a_new_client_gets_paused_and_earlier_frames(self):
         self.frame(lambda f: f.time > 0.5)
         stood = self.stand()
         self.live.do("look", at=0.25)
@@ -31,7 +31,7 @@ class LabRules(LabTest):
             frame, scene = Frame(other.newest["frame"]), json.loads(other.newest["scene"])
             self.assertEqual((frame.step, frame.scene), (looked.step, scene["scene"]))
 
-    def test_who_looks_back_stops_time_and_who_plays_leaves_the_past(self):
+    def test_seeking_pauses_and_playing_returns_to_the_present(self):
         self.frame(lambda f: f.time > 0.5)
         self.live.do("look", at=0.1)
         self.assertFalse(self.state(lambda s: s["at"] is not None)["playing"])
@@ -39,7 +39,7 @@ class LabRules(LabTest):
         self.assertTrue(self.state(lambda s: s["at"] is None)["playing"])
         self.frame(lambda f: not f.looked_back and f.time > 0.8)
 
-    def test_a_run_that_is_dead_neither_plays_nor_steps(self):
+    def test_a_diverged_run_neither_plays_nor_steps(self):
         self.live.do("set", changes=[f"{K}=1e8"])
         time_of_death = self.state(lambda s: s["dead"])["dead"]["time"]
         self.live.do("play", on=True)
@@ -49,13 +49,13 @@ class LabRules(LabTest):
         self.assertFalse(state["playing"])
         self.assertTrue(state["dead"])
         self.assertAlmostEqual(state["time"], time_of_death, delta=0.002)
-        self.live.do("speed", factor=0.001)  # it lives for three steps again: so long that a state tells of it
+        self.live.do("speed", factor=0.001)  # it runs three steps again; slow enough for a state message
         self.live.do("reset")
         state = self.state(lambda s: not s["dead"])
         self.assertTrue(state["playing"])
         self.assertEqual(state["first"], 0)
 
-    def test_one_change_to_a_path_stands_and_none_that_was_refused(self):
+    def test_the_last_accepted_change_of_a_path_is_in_effect(self):
         for changes in ([f"{K}=21"], [f"{K}=22"], [f"{B}=-1"], [f"{B}=3"]):
             self.live.do("set", changes=changes)
             if changes == [f"{B}=-1"]:
@@ -65,7 +65,7 @@ class LabRules(LabTest):
         self.state(lambda s: s["changes"] == [f"{K}=22", f"{B}=3"])
         self.assertIn("22", self.lab.get("/scene").body.decode())
 
-    def test_the_ledger_goes_on_over_a_change(self):
+    def test_the_energy_balance_continues_over_a_change(self):
         gravity = self.live.wait_for("scene", lambda s: "gravity" in s["ledger"])["ledger"].index("gravity")
         self.frame(lambda f: f.time > 0.4)
         before = self.stand()
@@ -76,7 +76,7 @@ class LabRules(LabTest):
         self.assertGreater(abs(before.works[gravity]), 0.1)
         self.assertAlmostEqual(after.works[gravity], before.works[gravity], delta=0.1)
 
-    def test_a_branch_shows_the_run_that_was_left_and_whoever_moves_the_robot_outranks_it(self):
+    def test_a_branch_shows_the_run_that_was_left_and_new_input_takes_precedence(self):
         scene = self.live.wait_for("scene")
         layer = [one["name"] for one in scene["layers"]].index("before")
         self.live.do("layers", names=["bodies", "before"])
@@ -90,14 +90,14 @@ class LabRules(LabTest):
         self.frame(lambda f: f.stamp == 2.0 and f.time < 2)
         self.frame(lambda f: abs(f.channels[q] - 0.9) < 0.3)
 
-    def test_the_last_twenty_notes_are_told_in_their_order(self):
+    def test_the_last_twenty_notes_are_kept_in_order(self):
         for n in range(30):
             self.live.do(f"nothing{n}")
             self.state(lambda s: s["notes"] and f"nothing{n}" in s["notes"][-1]["text"])
         notes = self.state(lambda s: len(s["notes"]) == 20)["notes"]
         self.assertEqual([note["n"] for note in notes], list(range(notes[0]["n"], notes[0]["n"] + 20)))
 
-    def test_another_scene_brings_rows_and_instants_of_its_own(self):
+    def test_another_scene_has_its_own_rows_and_history(self):
         self.frame(lambda f: f.time > 0.3)
         ball = '[[body]]\nname = "b"\nshape = { sphere = { radius = 0.1 } }\nmass = 1\n'
         number = self.live.wait_for("scene")["scene"]
@@ -108,7 +108,7 @@ class LabRules(LabTest):
         self.assertLess(self.frame(lambda f: f.scene == scene["scene"]).time, 0.3)
         self.assertEqual(self.lab.history(0).scene, scene["scene"])
 
-    def test_three_pages_get_thirty_frames_a_second_each(self):
+    def test_three_clients_get_thirty_frames_per_second_each(self):
         with self.lab.live() as second, self.lab.live() as third:
             for live in (second, third):
                 live.wait_for("frame")
@@ -117,7 +117,7 @@ class LabRules(LabTest):
             frames = sum(kind == "frame" for kind, _ in self.live.messages(2.0))
             self.assertLess(frames, 31.5 * (time.monotonic() - start) + 4)
 
-    def test_history_begins_where_it_is_asked_for(self):
+    def test_history_begins_at_the_requested_time(self):
         self.frame(lambda f: f.time > 1)
         self.stand()
         all_of_it, late = self.lab.history(), self.lab.history(0.7)
@@ -125,7 +125,7 @@ class LabRules(LabTest):
         self.assertAlmostEqual(late.time[0], 0.7, delta=0.02)
         self.assertEqual(list(all_of_it.time[-late.frames:]), list(late.time))
 
-    def test_what_is_asked_for_wrongly_is_refused_or_bounded(self):
+    def test_invalid_requests_are_refused_or_limited(self):
         self.assertEqual(self.lab.post("/save", "x").status, 404)
         self.assertEqual(self.lab.upload("part.stl", "solid", self.live).status, 202)
         for name in ("/etc/x.toml", "%2ftmp/x.toml", "..%2fx.toml", "a/../../x.toml", ".hidden.toml", "a" * 300):
@@ -135,7 +135,7 @@ class LabRules(LabTest):
             picture = self.lab.get(f"/frame.png?{query}").body
             self.assertEqual(struct.unpack(">II", picture[16:24]), size)
 
-    def test_a_preset_brings_its_scene_and_its_values(self):
+    def test_a_preset_opens_its_scene_with_its_values(self):
         self.live.do("hand", source="joints")
         for name, source in (("E1", "drag"), ("E3", "scene")):
             self.live.do("preset", name=name)
@@ -153,7 +153,7 @@ class LabTemporaryFiles(ProgramTest):
         self.live = self.lab.live()
         self.addCleanup(self.live.close)
 
-    def test_the_files_that_pages_brought_go_with_it(self):
+    def test_uploaded_files_are_removed_at_the_end(self):
         self.start("cradle.toml")
         self.assertEqual(self.lab.upload("part.stl", "solid", self.live).status, 202)
         self.assertEqual(len(list(self.folder.rglob("part.stl"))), 1)
@@ -166,7 +166,7 @@ class LabTemporaryFiles(ProgramTest):
             shutil.rmtree(copies)
             yield copies
 
-    def test_copies_that_were_removed_are_written_again(self):
+    def test_removed_copies_are_written_again(self):
         self.start("bouncing_ball.toml")
         self.live.wait_for("frame")
         self.assertEqual(len(list(self.remove_copies())), 1)

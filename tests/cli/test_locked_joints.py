@@ -45,7 +45,7 @@ class LockedJoints(ProgramTest):
                 self.assertAlmostEqual(locked["samples"][-1]["q"][key], value, delta=1e-12)
             self.assertGreater(abs(wanted["samples"][-1]["q"]["third"]), 0.01)
 
-    def test_what_cannot_be_locked_is_told(self):
+    def test_what_cannot_be_locked_is_reported(self):
         turns = joint("second", "continuous", "upper", "lower", axis="0 0 1")
         for keys, words in (('lock = ["secnd"]', "did you mean 'second'"),
                             ('lock = "second"', "must be a list of joints"),

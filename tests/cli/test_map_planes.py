@@ -55,7 +55,7 @@ class Planes(MapCommand):
             starts.append(curves[0]["y"])
             if worst is None:
                 worst = curves[1]
-        self.assertEqual(worst["name"], "the same, worst pose of the twin")
+        self.assertEqual(worst["name"], "the same, worst pose of the target")
         for column, h in enumerate(worst["y"]):
             least = min(start[column] for start in starts)
             self.assertLess(least, 0.999 * starts[0][column])

@@ -75,7 +75,7 @@ class NamedForces(RobotCommand):
         qdd = 7 / (0.2 + 0.5 / 9)
         self.close([by_joint["jb"], by_joint["ja"]], [0.5 * qdd / 3, -0.5 * qdd / 9], 1e-7)
 
-    def test_a_contact_is_told_by_pressing_and_friction(self):
+    def test_a_contact_is_reported_by_pressing_and_friction(self):
         # A box at rest on an incline: m g cos, m g sin, between all points of contact.
         tilt, m = 0.3, 2.0
         text = ('contact = "rigid"\n[[body]]\nname = "box"\nmass = 2\nfriction = 0.9\n'

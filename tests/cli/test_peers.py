@@ -84,7 +84,7 @@ class Peers(unittest.TestCase):
         for engine in ENGINES - set(self.answer["missing"]):  # else it nears another motion
             self.assertIn(engine, {name[0] for name in curves})
 
-    def test_a_run_above_the_budget_is_stopped_and_said(self):
+    def test_a_run_above_the_budget_is_stopped_and_reported(self):
         result = run("--cases", "E11", "--engines", "twinarm", "--repetitions", "1", "--budget",
                      "1e-3")
         rows = json.loads(result.stdout)["rows"]

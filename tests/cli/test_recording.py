@@ -45,7 +45,7 @@ class Recordings(RecordingCommand):
             self.twinarm("simulate", scene, "--duration", duration, "--record", file, "--json")
             self.goes_on_with_the_same_bits(file, (duration / 2,))
 
-    def test_followers_driven_bodies_and_events_go_on_with_the_same_bits(self):
+    def test_mimic_joints_driven_bodies_and_events_go_on_with_the_same_bits(self):
         follower = robot('<link name="base"/>', link("lead"), link("hand"),
                          joint("leader", "revolute", "base", "lead", axis="0 1 0",
                                more='<limit lower="-0.2" upper="0.2" effort="1" velocity="1"/>'),
@@ -85,7 +85,7 @@ class Recordings(RecordingCommand):
         (self.folder / "scene.toml").write_text("step = 5")
         self.goes_on_with_the_same_bits(file, (0.1,))
 
-    def test_a_fork_is_the_run_that_the_changed_scene_gives(self):
+    def test_a_branch_is_the_run_that_the_changed_scene_gives(self):
         """Forked at t = 0 it must be, number by number, a run of the edited scene."""
         file = self.record(held(50, 2), "--duration", 0.3)
         for path in ("coupling.stiffness", "coupling[0].stiffness", "coupling.pull.stiffness"):
@@ -111,7 +111,7 @@ class Recordings(RecordingCommand):
                       "difference [J]", "momentum, 0.1 to 0.3 s"):
             self.assertIn(words, table.stdout)
 
-    def test_the_rows_of_a_fork_since_then_are_the_change_of_kinetic_energy(self):
+    def test_the_rows_of_a_branch_since_then_are_the_change_of_kinetic_energy(self):
         file = self.record(held(50, 2), "--duration", 0.3)
         fork = self.replayed(file, "--from", 0.1, "--set", "coupling.stiffness=800")
         for branch in fork["branches"]:
@@ -119,16 +119,16 @@ class Recordings(RecordingCommand):
             gained = sum(row[branch["name"]] for row in fork["ledger"].values())
             self.close(gained, kinetic[-1] - kinetic[0])
 
-    def test_a_fork_of_free_bodies_shows_each_once_and_one_that_changes_nothing_says_so(self):
+    def test_a_branch_of_free_bodies_shows_each_once_and_one_that_changes_nothing_says_so(self):
         file = self.record(BOXES, "--duration", 0.2)
         table = self.twinarm("replay", file, "--set", "gravity=0,0,-3").stdout
         self.assertLessEqual(max(map(len, table.splitlines())), 100)
         for body in ("low", "high"):
             self.assertEqual(table.count(f"links/{body}/"), 1, table)
         table = self.twinarm("replay", file, "--set", "gravity=0,0,-9.81").stdout
-        self.assertIn("no value of the fork differs", table)
+        self.assertIn("no value of the branch differs", table)
 
-    def test_a_fork_counts_no_work_that_the_old_spring_would_have_done(self):
+    def test_a_branch_counts_no_work_that_the_old_spring_would_have_done(self):
         """Forked where the arm is held by a box and its target moves on: nothing else moves."""
         scene, file = SCENES / "robot_beside_obstacles.toml", "arm.twinrec"
         self.twinarm("simulate", scene, "--duration", 1.002, "--record", file, "--json")
@@ -136,7 +136,7 @@ class Recordings(RecordingCommand):
         for name, row in fork["ledger"].items():
             self.assertLess(abs(row["fork"] - row["recorded"]), 1e-4, name)
 
-    def test_the_plot_of_a_fork_has_both_branches_with_their_units(self):
+    def test_the_plot_of_a_branch_has_both_branches_with_their_units(self):
         file = self.record(held(50, 2), "--duration", 0.3)
         plot = self.folder / "fork.svg"
         self.twinarm("replay", file, "--from", 0.1, "--set", "coupling.stiffness=800", "--plot", plot)
@@ -157,13 +157,13 @@ class Recordings(RecordingCommand):
             self.assertIn("same bits", self.twinarm("replay", file).stdout)
 
     @unittest.skipUnless(shutil.which("gnuplot"), "needs gnuplot")
-    def test_the_plot_of_a_fork_is_well_formed_for_any_name_of_a_joint(self):
+    def test_the_plot_of_a_branch_is_well_formed_for_any_name_of_a_joint(self):
         name = 'a</title>&"b'
         file = self.record(PENDULUM.replace('name="hinge"', f'name="{html.escape(name)}"'), "--duration", 0.1)
         plot = self.folder / "fork.svg"
         self.twinarm("replay", file, "--set", "gravity=0,5,0", "--plot", plot)
         title = xml.etree.ElementTree.parse(plot).getroot().find("{http://www.w3.org/2000/svg}title")
-        self.assertEqual(title.text, f"Recorded run and fork: q/{name}")
+        self.assertEqual(title.text, f"Recording and branch: q/{name}")
 
     def test_a_plot_that_could_not_be_drawn_is_refused_before_the_run(self):
         file = self.record(held(50, 2), "--duration", 0.1)
@@ -190,7 +190,7 @@ class Recordings(RecordingCommand):
         error = self.refused("replay", file, "--set", "coupling.link=nothing")
         self.assertNotIn("twinarm-replay", error)
 
-    def test_what_a_fork_cannot_change_is_refused(self):
+    def test_what_a_branch_cannot_change_is_refused(self):
         file = self.record(held(50, 2), "--duration", 0.1)
         for change, code, value in (("coupling.stifness=1", "scene.unknown-key", "stifness"),
                                     ("step=0.1", "change.method", "--set step"),
@@ -201,7 +201,7 @@ class Recordings(RecordingCommand):
             self.assertIn(value, self.refused_as(code, "replay", file, "--set", change))
         self.assertIn("--from", self.refused_as("recording.time", "replay", file, "--from", 5))
 
-    def test_the_ledger_and_the_states_are_those_that_simulate_prints(self):
+    def test_the_energy_balance_and_the_states_are_those_that_simulate_prints(self):
         file = self.record(BOXES, "--duration", 0.4)
         printed = json.loads(self.simulated.stdout)
         exported = self.exported(file)
@@ -240,7 +240,7 @@ class Recordings(RecordingCommand):
 
 
 class Damage(RecordingCommand):
-    def test_what_is_whole_of_a_file_cut_short_anywhere_is_kept_and_said(self):
+    def test_what_is_whole_of_a_file_cut_short_anywhere_is_kept_and_reported(self):
         file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
         data = file.read_bytes()
         frames = [end for kind, _, end in recorded_blocks(data) if kind == "F"]
@@ -249,7 +249,7 @@ class Damage(RecordingCommand):
             file.write_bytes(data[:cut])
             exported = self.exported(file)
             self.assertEqual(len(exported["frames"]), sum(end <= cut for end in frames))
-            self.assertTrue(any("cut short" in n or "mark of its end" in n
+            self.assertTrue(any("truncated" in n or "end block" in n
                                 for n in exported["notes"]), exported["notes"])
         for cut in (0, 5, 11, 12, 20, frames[0] - 1):
             file.write_bytes(data[:cut])
@@ -262,7 +262,7 @@ class Damage(RecordingCommand):
         self.assertEqual(len(exported["notes"]), 1)
         self.assertIn("22 bytes after", exported["notes"][0])
 
-    def test_a_flipped_bit_ends_what_is_read_and_is_said(self):
+    def test_a_flipped_bit_ends_what_is_read_and_reported(self):
         file = self.record(PENDULUM, "--duration", 0.05, "--step", 0.01, state={"q": {"hinge": 1}})
         data = bytearray(file.read_bytes())
         frames = [end for kind, _, end in recorded_blocks(data) if kind == "F"]

@@ -108,7 +108,7 @@ class Bytes(RecordingCommand):
             self.assertEqual(list(frame["ledger"].values()), values[7])
         self.goes_on_with_the_same_bits(file, (0,))
 
-    def test_damage_anywhere_is_told_and_never_a_crash(self):
+    def test_damage_anywhere_is_reported_and_never_a_crash(self):
         file = self.record(BOXES, "--duration", 0.06)
         data, chance = file.read_bytes(), random.Random(5)
         for trial in range(60):
@@ -122,7 +122,7 @@ class Bytes(RecordingCommand):
             self.assertIn(result.returncode, (0, 2), f"{at}: {result.stderr}")
             self.assertTrue(result.stderr, f"byte {at} of {len(data)}")
 
-    def test_what_lies_behind_a_right_checksum_but_makes_no_sense_is_told(self):
+    def test_what_lies_behind_a_valid_checksum_but_is_invalid_is_reported(self):
         """Sizes and numbers of names that are beyond all bounds, with checksums that fit."""
         file = self.record(BOXES, "--duration", 0.02)
         found = form.blocks(file.read_bytes())

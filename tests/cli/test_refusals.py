@@ -26,7 +26,7 @@ def is_told(faults, wanted):
 class Refusals(ProgramTest):
     cwd = DATA
 
-    def test_each_is_told_with_all_its_faults_and_nothing_is_made(self):
+    def test_each_is_reported_with_all_its_faults_and_nothing_is_made(self):
         for command, row in ROWS:
             with self.subTest(row["words"], state=row.get("state")), tempfile.TemporaryDirectory() as folder:
                 self.folder = pathlib.Path(folder)

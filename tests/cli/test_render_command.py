@@ -77,7 +77,7 @@ class Render(ProgramTest):
         self.assertEqual(sorted(p.name for p in out.iterdir()),
                          [f"frame_{i:05}.png" for i in range(5)])
 
-    def test_a_recording_gives_the_film_of_its_run(self):
+    def test_a_recording_gives_the_video_of_its_run(self):
         out = self.folder / "film"
         told = self.rendered(self.record("run"), "--frames", out, "--size", "64x48", "--quality", "draft",
                              "--fps", 10, "--show", "all")

@@ -139,7 +139,7 @@ class Couplings(Scenes):
             self.close([sample["q"]["hinge"], sample["qd"]["hinge"]], [x, v], 1e-12)
             self.assertEqual(sample["targets"]["pull"]["q"], {"hinge": -0.2})
 
-    def test_the_ledger_tells_spring_from_damper_from_the_price_of_the_treatment(self):
+    def test_the_energy_balance_separates_spring_damper_and_discretization(self):
         text = (arm("r", "q = { hinge = 0.1 }") +
                 coupling("stiffness = 800\ndamping = 3\ntarget = { q = { hinge = 0 } }\n"
                          'treatment = "TREATMENT"'))
@@ -257,7 +257,7 @@ class Compliance(Scenes):
 
 
 class DeepStart(Scenes):
-    """Bodies that begin in one another: told, and parted gently."""
+    """Bodies that overlap at the start: a warning; they are separated slowly."""
     BALLS = data("deep_start.toml")
 
     def test_the_deepest_pair_is_named_on_stderr_with_its_depth(self):
@@ -265,13 +265,13 @@ class DeepStart(Scenes):
         self.assertEqual(result.returncode, 0)
         warning = [line for line in result.stderr.splitlines() if "warning" in line]
         self.assertEqual(len(warning), 1, result.stderr)
-        self.assertIn("'one' and 'two' stand 0.05 m deep in one another", warning[0])
-        self.assertIn("no faster than 0.5 m/s", warning[0])
+        self.assertIn("initial penetration of 'one' and 'two': 0.05 m", warning[0])
+        self.assertIn("at 0.5 m/s or less", warning[0])
         self.assertIn("'one' and 'two'", json.loads(result.stdout)["warnings"][0])
         self.assertEqual(self.simulate(self.BALLS.replace("0.15", "0.2001").replace("-0.09", "-1"))
                          .stderr, "")
 
-    def test_bodies_part_without_an_explosion(self):
+    def test_bodies_part_slowly(self):
         for gravity in ("[0, 0, 0]", "[0, 0, -9.81]"):
             answer = self.run_scene(self.BALLS.replace("[0, 0, 0]", gravity, 1), "--every", 0.001)
             samples = answer["samples"]
@@ -333,7 +333,7 @@ class Flight(Scenes):
 
 
 class Refused(Scenes):
-    def test_a_step_of_the_scene_without_end_is_told_by_its_key(self):
+    def test_a_step_of_the_scene_without_end_is_reported_by_its_key(self):
         self.refused("run.too-many-steps", "step", 0, f"step = 1e-11\n{BALL}", "--duration", "1")
 
     def test_an_implicit_coupling_takes_both_semi_implicit_integrators(self):

@@ -80,7 +80,7 @@ def known(before, skip=(), inside=None):
             ran = run("simulate", file, "--duration", 0.001)
         if ran.returncode != 2:
             raise AssertionError(f"the scene was not refused: {ran.stderr[:500]}")
-        refused = set(re.findall(r", (\w+): (?:this key is not known here|there is no such)", ran.stderr))
+        refused = set(re.findall(r", (\w+): (?:unknown key|there is no such)", ran.stderr))
         taken |= set(some) - refused
     return taken | set(skip)
 

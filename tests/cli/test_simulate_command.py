@@ -91,7 +91,7 @@ class Motions(RobotCommand):
         for key in ("q", "qd", "base"):
             self.close([*self.end(again)[key].values()], [*self.end(whole)[key].values()], 1e-11)
 
-    def test_the_ledger_of_an_undamped_double_pendulum_closes_and_shows_what_a_method_creates(self):
+    def test_the_energy_balance_of_an_undamped_double_pendulum_closes_and_shows_what_a_method_creates(self):
         """Two rods let go from the level, 10 s: chaotic, and nothing may take or give energy."""
         rod = lambda name: link(name, 1, (0, 0, -0.5), (1 / 12, 0, 0, 1 / 12, 0, 1e-4))
         urdf = robot('<link name="base"/>', rod("a"), rod("b"),
@@ -115,7 +115,7 @@ class Motions(RobotCommand):
         self.assertLess(abs(rough["ledger"]["numerical"] - gained), 1e-11 * most)
         self.assertGreater(abs(gained), 1e-5)
 
-    def test_a_follower_keeps_its_ratio_along_the_run(self):
+    def test_a_mimic_joint_keeps_its_ratio_along_the_run(self):
         urdf = robot('<link name="base"/>', link("a"), link("b"),
                      joint("lead", "continuous", "base", "a", axis="0 1 0"),
                      joint("follow", "continuous", "a", "b", xyz="0.3 0 0", axis="0 1 0",

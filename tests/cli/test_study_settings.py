@@ -30,7 +30,7 @@ class Settings(ProgramTest):
             text = text.replace(f"\n{key} = ", f"\nno_{key} = ")
         self.assertLessEqual({"obstacle, rate_hz", "obstacle, contact_stiffness"}, self.faults_of(text).keys())
 
-    def test_settings_that_nothing_reads_are_told_with_their_lines_and_the_nearest_key(self):
+    def test_settings_that_nothing_reads_are_reported_with_their_lines_and_the_nearest_key(self):
         lines = []
         wanted = {}  # by where: line, nearest key
         for line in SHIPPED.splitlines():
@@ -47,7 +47,7 @@ class Settings(ProgramTest):
         self.assertEqual({where: error["line"] for where, error in errors.items()},
                          {where: line for where, (line, _) in wanted.items()})
         for where, (_, nearest) in wanted.items():
-            self.assertEqual(errors[where]["rule"], "this key is not known here")
+            self.assertEqual(errors[where]["rule"], "unknown key")
             self.assertIn(f"did you mean '{nearest}'?", errors[where]["remedy"])
 
     def test_lists_of_settings_of_the_wrong_kind_or_length_are_refused(self):

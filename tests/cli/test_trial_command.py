@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm trial`: a protocol with a person, here done by a hand that is a trace.
+"""`twinarm trial`: a user study, with a trace as the operator.
 
     test_trial_command.py PROGRAM
 """
@@ -15,7 +15,7 @@ OBJECT, GOAL = (0.42, 0.28), (0.42, -0.28)
 
 
 def angles_at(place):
-    """Of the robot's joints 1 and 2, elbow to the left."""
+    """Angles of joints 1 and 2, elbow to the left."""
     x, y = place
     cosine = (x * x + y * y - L1 * L1 - L2 * L2) / (2 * L1 * L2)
     q2 = -math.acos(cosine)
@@ -23,7 +23,7 @@ def angles_at(place):
 
 
 def trace_of(stops):
-    """CSV of a hand: [(time, robot angles, button)], with minimum-jerk ways in between."""
+    """CSV trace of [(time, robot angles, button)] with minimum-jerk motions in between."""
     lines = [HAND_COLUMNS.strip() + ",button"]
     n = 0
     for (t0, a, _), (t1, b, _) in zip(stops, stops[1:]):
@@ -52,7 +52,7 @@ class Trial(ProgramTest):
                                        (4.5 + rest, away, 1), (6 + rest, away, 0),
                                        (8 + rest, away, 0)]))
 
-    def test_a_hand_that_brings_the_object_to_its_goal_has_done_the_task_when_it_lets_go(self):
+    def test_the_task_is_done_when_the_object_is_released_at_the_goal(self):
         self.carries()
         told = self.trial("--tasks", "pick-and-place", "--most", 20)
         self.assertEqual([r["condition"] for r in told["results"]],
@@ -60,13 +60,13 @@ class Trial(ProgramTest):
         for result in told["results"]:
             self.assertTrue(result["done"], result)
             self.assertEqual((result["picks"], result["drops"]), (1, 0))
-            self.assertLess(abs(result["seconds"] - 7.5), 0.1)  # the button goes up at 7.5 s
+            self.assertLess(abs(result["seconds"] - 7.5), 0.1)  # the button is released at 7.5 s
             self.assertLess(abs(result["picked_at"] - 3.0), 0.1)
             self.assertLess(result["off_mm"], 30)
-        self.assertEqual(told["results"][2]["max_deg"], [])  # the kinematic robot has no error
+        self.assertEqual(told["results"][2]["max_deg"], [])  # no tracking error of the target robot
         self.assertGreater(told["results"][0]["max_deg"][0], 0.1)
 
-    def test_an_object_let_go_beside_the_goal_is_a_drop_and_no_success(self):
+    def test_an_object_released_elsewhere_is_a_drop_and_no_success(self):
         self.carries(to=(0.45, -0.15))
         told = self.trial("--tasks", "pick-and-place", "--most", 12, "--conditions", "kinematic")
         result = told["results"][0]
@@ -75,7 +75,7 @@ class Trial(ProgramTest):
         self.assertAlmostEqual(result["seconds"], 12, delta=0.01)
         self.assertAlmostEqual(result["off_mm"], 1e3 * math.hypot(0.03, 0.13), delta=10)
 
-    def test_the_table_of_all_subjects_grows_and_names_nobody(self):
+    def test_the_table_of_all_subjects_grows_and_has_no_names(self):
         self.carries()
         first = self.trial("--tasks", "free", "--seconds", 1)
         self.assertEqual(first["subject"], "S1")
@@ -88,18 +88,18 @@ class Trial(ProgramTest):
         self.assertAlmostEqual(float(rows[0]["joint1_max[deg]"]),
                                first["results"][0]["max_deg"][0], delta=1e-4)
 
-    def test_the_log_of_a_task_makes_the_run_again(self):
+    def test_the_log_of_a_task_repeats_the_run(self):
         self.carries()
         told = self.trial("--tasks", "free", "--seconds", 3, "--conditions", "linear")
         scene = self.out / "S1/linear.toml"
         log = told["results"][0]["log"]
         scene.write_text(scene.read_text().replace('"device"', f'"{log}"'))
         sample = self.json_of("simulate", scene, "--duration", 3)["samples"][-1]
-        # It has gone to the object (1.5 s) and waits there.
+        # At the object after 1.5 s.
         for joint, angle in zip(("joint1", "joint2"), angles_at(OBJECT)):
             self.assertAlmostEqual(sample["q"][joint], angle, delta=0.05)
 
-    def test_the_table_of_another_program_is_left_alone(self):
+    def test_a_file_with_another_header_is_not_changed(self):
         self.out.mkdir()
         (self.out / "results.csv").write_text("something else\n")
         for words in ((), ("--subject", "S1", "--tasks", "free", "--seconds", "0.1")):
@@ -109,11 +109,11 @@ class Trial(ProgramTest):
 
     def test_results_of_finished_tasks_are_kept_when_a_later_task_fails(self):
         self.twinarm("trial", "--device", "virtual", "--tasks", "free", "--seconds", 0.2, "--out", self.out,
-                     input="\n", code=2)  # there is no second line to read
+                     input="\n", code=2)  # no second line
         rows = list(csv.DictReader((self.out / "results.csv").read_text().splitlines()))
         self.assertEqual([(row["order"], row["condition"]) for row in rows], [("1", "torsional")])
 
-    def test_without_a_terminal_it_asks_for_yes(self):
+    def test_without_a_terminal_yes_is_required(self):
         done = self.twinarm("trial", "--device", "virtual", "--tasks", "free", "--out", self.out, code=2,
                             stdin=subprocess.DEVNULL)
         self.assertIn("--yes", done.stderr)

@@ -60,7 +60,7 @@ class Faults(ProgramTest):
         self.told(TypeError, "is a ndarray", twinarm.crba, self.puma, z * 1j)
         self.told(TypeError, "must be a twinarm.Model, is a", twinarm.aba, z, z, z, z)
         self.told(TypeError, "'tau' is missing", twinarm.aba, self.puma, z, z)
-        self.told(TypeError, "'torque' is no argument", twinarm.aba, self.puma, z, z, torque=z)
+        self.told(TypeError, "'torque' is not an argument", twinarm.aba, self.puma, z, z, torque=z)
         self.told(TypeError, "'q' is given twice", twinarm.aba, self.puma, z, z, z, q=z)
         self.told(TypeError, "at most 3", twinarm.crba, self.puma, z, None, z)
         self.told(ValueError, "no body 'link33'.*'link3'", twinarm.jacobian, self.puma, z, "link33")
@@ -76,14 +76,14 @@ class Faults(ProgramTest):
         q, qd, tau = (rows[0] for rows in states(model, 1))
         place = model.q_of["spherical"]
         q[place] *= 1.1
-        self.told(ValueError, rf"q\[{place.start}:{place.stop}\] is a unit quaternion.*1.1",
+        self.told(ValueError, rf"q\[{place.start}:{place.stop}\] must be a unit quaternion.*1.1",
                   twinarm.aba, model, q, qd, tau)
 
-    def test_files_that_are_missing_or_wrong_are_told_with_all_faults(self):
+    def test_files_that_are_missing_or_wrong_are_reported_with_all_faults(self):
         self.told(twinarm.InputError, "nowhere.urdf", twinarm.load, "nowhere.urdf")
         self.told(ValueError, "nowhere.toml", twinarm.simulate, "nowhere.toml")
         self.told(twinarm.InputError, "nowhere.twinrec", twinarm.open_recording, "nowhere.twinrec")
-        self.told(twinarm.InputError, "it is no recording", twinarm.open_recording, PUMA)
+        self.told(twinarm.InputError, "not a twinarm recording", twinarm.open_recording, PUMA)
         self.told(twinarm.InputError, "has no coupling", twinarm.predict_couplings,
                   "assets/scenes/pendulum.toml")
         self.told(ValueError, "duration", twinarm.simulate, DOUBLE_PENDULUM)

@@ -85,7 +85,7 @@ class Workspace(ProgramTest):
         for k in range(2):
             self.assertAlmostEqual(ws["D"][k, k], ws["S"][k] @ ws["U"][k], places=14)
 
-    def test_a_name_that_is_none_is_told_with_the_nearest(self):
+    def test_a_name_that_is_none_is_reported_with_the_nearest(self):
         model = twinarm.load(DOUBLE_PENDULUM)
         with self.assertRaisesRegex(RuntimeError, "aba"):
             model.workspace()

@@ -1,5 +1,5 @@
-// Counts what a piece of code takes from the heap, by C++ or by C (Eigen's matrices call malloc).
-// Takes malloc's place in the test program that includes it.
+// Counts heap allocations by C++ and C (Eigen calls malloc). Replaces malloc in the test program
+// that includes it.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ inline void count_allocation(std::size_t size) {
 }  // namespace twinarm::testing
 
 #ifdef TWINARM_SANITIZED
-// Their malloc must stay in its place. g++ ships the function but not its header.
+// Sanitizers need their own malloc. g++ ships the function but not its header.
 extern "C" int __sanitizer_install_malloc_and_free_hooks(void (*malloc_hook)(const volatile void*,
                                                                              std::size_t),
                                                          void (*free_hook)(const volatile void*));
@@ -34,7 +34,7 @@ void* __libc_calloc(std::size_t count, std::size_t size);
 void* __libc_realloc(void* old, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
-// Weak: the same in every file that includes this.
+// Weak: defined in every file that includes this header.
 [[gnu::weak]] void* malloc(std::size_t size) {
   twinarm::testing::count_allocation(size);
   return __libc_malloc(size);

@@ -1,4 +1,4 @@
-// Numbers by velocity as Eigen's vectors, for dense oracles.
+// std::vector as Eigen vector, for dense cross-checks.
 #pragma once
 
 #include <Eigen/Core>

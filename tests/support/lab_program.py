@@ -22,7 +22,7 @@ def resident(pid):
 
 
 class Program:
-    """twinarm lab, and what the system says of it."""
+    """twinarm lab, with figures of the operating system."""
     def __init__(self, program, *words):
         command = [program or ROOT / "build/release/twinarm", "lab", "--json", "--no-browser", *map(str, words)]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
@@ -48,7 +48,7 @@ class Program:
         return len(os.listdir(f"/proc/{self.process.pid}/fd"))
 
     def waited(self, name="lab run"):
-        """For how long a thread could have run, and another had the processor [s]; 0 where the system does not say."""
+        """Time in which a runnable thread waited for the processor [s]; 0: unknown."""
         for task in pathlib.Path(f"/proc/{self.process.pid}/task").iterdir():
             if (task / "comm").read_text().strip() == name and (task / "schedstat").exists():
                 return 1e-9 * int((task / "schedstat").read_text().split()[1])
@@ -65,7 +65,7 @@ class Program:
 
 
 class Watcher:
-    """A client that notes when frames come, and when its inputs are seen."""
+    """A client that measures arrivals of frames and latencies of inputs."""
     def __init__(self, lab):
         self.live = lab.live()
         self.clear()
@@ -91,7 +91,7 @@ class Watcher:
 
 
 class Hand:
-    """Swings a driven joint about where it stands."""
+    """Oscillates a driven joint about its position."""
     def __init__(self, live):
         self.live, self.next, self.start = live, time.time(), time.time()
         scene, state = json.loads(live.newest["scene"]), json.loads(live.newest["state"])

@@ -17,7 +17,7 @@ class Running:
         self.url = json.loads(self.process.stdout.readline())["url"]
 
     def end(self, how=signal.SIGINT):
-        """Its exit code, and what it said."""
+        """Exit code and output."""
         self.process.send_signal(how)
         _, errors = self.process.communicate(timeout=TIMEOUT)
         return self.process.returncode, errors
@@ -43,7 +43,7 @@ class LabTest(ProgramTest):
         return self.live.wait_for("frame", condition)
 
     def stand(self):
-        """The frame at which it stands: one comes, before the state or after it."""
+        """The frame of the pause: it comes before the state or after it."""
         self.live.do("play", on=False)
         self.state(lambda s: not s["playing"])
         newest = Frame(self.live.newest["frame"])

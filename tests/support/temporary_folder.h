@@ -1,4 +1,4 @@
-// A folder of its own below the system's temporary folder, removed at the end of the test.
+// A unique folder in the system's temporary folder, removed at the end of the test.
 #pragma once
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-// Waiting for another thread or process, as waiting.py.
+// Waiting for another thread or process, like waiting.py.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 #include <functional>
 #include <thread>
 
-// Only ends tests that hang [s]; TWINARM_TEST_TIMEOUT is a factor for slow machines.
+// Timeout of hanging tests [s]; TWINARM_TEST_TIMEOUT is a factor for slow machines.
 inline double longest_wait() {
   const char* factor = std::getenv("TWINARM_TEST_TIMEOUT");
   return 900 * (factor ? std::atof(factor) : 1);

@@ -118,7 +118,7 @@ class Keyboard(LabCase):
         self.keys(" ")
         self.until("twinarm.page.overlays.names.includes('frames')")
         self.keys("Escape")
-        self.until("document.querySelector('.overlays .list').hidden")
+        self.until("document.querySelector('.overlays .switches').hidden")
         self.assertTrue(self.value(f"{AT}.matches('.overlays > button')"))
         self.tab_to(".transport .menu summary")
         self.keys("Enter")

@@ -1,4 +1,4 @@
-// twinarm: the command line, its exit codes, and how errors are told.
+// twinarm: parses the command line, runs a command, reports errors.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -20,10 +20,10 @@ namespace {
 
 enum ExitCode { kDone = 0, kBadInput = 2, kInternal = 4, kInterrupted = 130 };
 
-// All faults at once: on stderr for people, on stdout for machines too.
-int tell(const InputError& error, bool as_json) {
-  using Told = nlohmann::ordered_json;  // the one flavour of this program: it is compiled once
-  Told errors = Told::array();
+// Prints all diagnostics on stderr and, if as_json, on stdout as JSON.
+int report(const InputError& error, bool as_json) {
+  using Json = nlohmann::ordered_json;  // the one variant that the program instantiates
+  Json errors = Json::array();
   for (const Diagnostic& fault : error.faults()) {
     say("twinarm: {}\n", to_string(fault));
     errors.push_back({{"code", fault.code},
@@ -34,36 +34,37 @@ int tell(const InputError& error, bool as_json) {
                       {"where", fault.where}});
   }
   if (as_json)
-    std::puts(  // does not throw where it is full
-        Told{{"errors", errors}}.dump(1, ' ', false, Told::error_handler_t::replace).c_str());
+    std::puts(  // does not throw if stdout is full
+        Json{{"errors", errors}}.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
   return kBadInput;
 }
 
-// What printed threw, perhaps: then that is the fault.
-int tell_internal(const std::exception& error, bool as_json) {
+// Flushes stdout; returns `code`, or that of the error if the output is incomplete.
+int check_output(int code, bool as_json) {
   try {
     check_stdout();
+    return code;
   } catch (const InputError& full) {
-    return tell(full, as_json);
+    return report(full, as_json);
   }
-  say("twinarm: internal fault: {}\n", error.what());
-  return kInternal;
 }
 
-// --help and --version: what is printed goes the way of all output, and is checked as such.
-int tell_help(const CLI::App& app, const CLI::ParseError& asked, bool as_json) {
+// An error of printing may be the cause: then it is reported instead.
+int report_internal(const std::exception& error, bool as_json) {
+  const int code = check_output(kInternal, as_json);
+  if (code == kInternal) say("twinarm: internal error: {}\n", error.what());
+  return code;
+}
+
+// --help and --version.
+int print_help(const CLI::App& app, const CLI::ParseError& parsed, bool as_json) {
   std::ostringstream text;
-  app.exit(asked, text);
+  app.exit(parsed, text);
   std::fputs(text.str().c_str(), stdout);
-  try {
-    check_stdout();
-    return kDone;
-  } catch (const InputError& full) {
-    return tell(full, as_json);
-  }
+  return check_output(kDone, as_json);
 }
 
-// The first word, where it is meant to be a command and is none.
+// Throws if the first word is neither an option nor a command.
 void check_command(const CLI::App& app, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   std::vector<std::string> names;
@@ -73,17 +74,17 @@ void check_command(const CLI::App& app, int argc, char** argv) {
                      name_remedy(argv[1], names, "commands"), "command.unknown"}});
 }
 
-// `--png=` of a script whose variable is not set: CLI11 would take the next word for its value.
+// `--png=` without a value (an unset shell variable): CLI11 would use the next word as its value.
 void check_values(int argc, char** argv) {
   DiagnosticList faults;
   for (const std::string_view word : std::vector<std::string_view>(argv, argv + argc))
     if (word.starts_with("--") && word.find('=') == word.size() - 1)
-      faults.add({"", 0, "command line", fmt::format("'{}' has no value", word),
-                  "give one, or leave the option out", "option.no-value"});
+      faults.add("command line", fmt::format("'{}' has no value", word),
+                 "give a value, or leave the option out", "option.no-value");
   faults.check();
 }
 
-// When its words are parsed, `chosen` runs it.
+// Adds a subcommand whose callback stores the function to run in `chosen`.
 void add_command(CLI::App& parent, const Command& command,
                  std::function<int(const Words&)>& chosen) {
   CLI::App* app = parent.add_subcommand(command.name, command.help);
@@ -96,7 +97,9 @@ void add_command(CLI::App& parent, const Command& command,
 
 int run_program(int argc, char** argv) {
   fill_closed_streams();
-  CLI::App app{"twinarm: a glass-box multibody laboratory\n\nExample:  twinarm study"};
+  CLI::App app{
+      "twinarm: rigid-body dynamics solver with inspectable algorithms\n\n"
+      "Examples:\n  twinarm lab\n  twinarm simulate assets/scenes/pendulum.toml --duration 1"};
   app.formatter(help_formatter());
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("twinarm ") + kProgramVersion,
@@ -112,10 +115,10 @@ int run_program(int argc, char** argv) {
     check_values(argc, argv);
     app.parse(argc, argv);
   } catch (const InputError& error) {
-    return tell(error, as_json);
+    return report(error, as_json);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return tell_help(app, error, as_json);
-    return tell(
+    if (error.get_exit_code() == 0) return print_help(app, error, as_json);
+    return report(
         InputError({{"", 0, "command line", error.what(), "see twinarm --help", "command.line"}}),
         as_json);
   }
@@ -126,13 +129,13 @@ int run_program(int argc, char** argv) {
     check_stdout();
     return code;
   } catch (const InputError& error) {
-    const int code = tell(error, as_json);
-    return is_interrupted() ? kInterrupted : code;  // Ctrl-C ends the reader of a mesh too
+    const int code = report(error, as_json);
+    return is_interrupted() ? kInterrupted : code;  // Ctrl-C also ends reading a mesh
   } catch (const Interrupted&) {
-    say("twinarm: interrupted; nothing half-written was left behind\n");
+    say("twinarm: interrupted; no partial files were left\n");
     return kInterrupted;
   } catch (const std::exception& error) {
-    return tell_internal(error, as_json);
+    return report_internal(error, as_json);
   }
 }
 

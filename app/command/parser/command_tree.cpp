@@ -18,10 +18,16 @@ std::vector<std::string> paragraphs(const std::string& text) {
   return found;
 }
 
-OptionInfo told(CLI::Option& option) {
+// "[]" is that of an empty list.
+std::string default_text(const CLI::Option& option) {
+  const std::string text = option.get_default_str();
+  return text == "[]" ? "" : text;
+}
+
+OptionInfo describe(CLI::Option& option) {
   OptionInfo result;
-  result.is_word = option.get_positional();
-  if (result.is_word) {
+  result.is_positional = option.get_positional();
+  if (result.is_positional) {
     result.names.push_back(option.get_name(true));
   } else {
     for (const std::string& name : option.get_snames()) result.names.push_back("-" + name);
@@ -29,7 +35,7 @@ OptionInfo told(CLI::Option& option) {
   }
   if (option.get_items_expected_max() > 0) {
     result.value = value_word(option);
-    result.preset = option.get_default_str();
+    result.preset = default_text(option);
   }
   result.help = option.get_description();
   if (const std::string limits = value_limits(option); !limits.empty())
@@ -39,7 +45,7 @@ OptionInfo told(CLI::Option& option) {
   return result;
 }
 
-void tell(CLI::App& command, const std::string& name, std::vector<CommandInfo>& tree) {
+void add_to_tree(CLI::App& command, const std::string& name, std::vector<CommandInfo>& tree) {
   CommandInfo result;
   result.name = name;
   result.details = paragraphs(command.get_description());
@@ -47,28 +53,28 @@ void tell(CLI::App& command, const std::string& name, std::vector<CommandInfo>& 
     result.summary = result.details.front();
     result.details.erase(result.details.begin());
   }
-  for (CLI::Option* option : command.get_options()) result.options.push_back(told(*option));
+  for (CLI::Option* option : command.get_options()) result.options.push_back(describe(*option));
   std::stable_partition(result.options.begin(), result.options.end(),
-                        [](const OptionInfo& option) { return option.is_word; });
+                        [](const OptionInfo& option) { return option.is_positional; });
   const std::vector<CLI::App*> next = command.get_subcommands({});
-  for (const CLI::App* follower : next) result.followers.push_back(follower->get_name());
+  for (const CLI::App* below : next) result.subcommands.push_back(below->get_name());
   tree.push_back(std::move(result));
-  for (CLI::App* follower : next)
-    tell(*follower, (name.empty() ? "" : name + " ") + follower->get_name(), tree);
+  for (CLI::App* below : next)
+    add_to_tree(*below, (name.empty() ? "" : name + " ") + below->get_name(), tree);
 }
 
 }  // namespace
 
 std::vector<CommandInfo> command_tree(CLI::App& program) {
   std::vector<CommandInfo> tree;
-  tell(program, "", tree);
+  add_to_tree(program, "", tree);
   return tree;
 }
 
 namespace {
 
-// CLI11 says "FLOAT:above 0": the type, and what each check is called.
-constexpr char kBetween = ':';
+// Separates the type from the checks in CLI11's type name: "FLOAT:above 0".
+constexpr char kSeparator = ':';
 
 class HelpFormatter : public CLI::Formatter {
  public:
@@ -85,8 +91,8 @@ class HelpFormatter : public CLI::Formatter {
       if (!words.empty()) notes += (notes.empty() ? "" : "; ") + words;
     };
     note(value_limits(*option));
-    const std::string preset = option->get_default_str();
-    if (option->get_items_expected_max() > 0 && !preset.empty()) note("if not given " + preset);
+    const std::string preset = default_text(*option);
+    if (option->get_items_expected_max() > 0 && !preset.empty()) note("default " + preset);
     for (const CLI::Option* other : option->get_needs()) note("with " + other->get_name());
     for (const CLI::Option* other : option->get_excludes()) note("not with " + other->get_name());
     return option->get_description() + (notes.empty() ? "" : " (" + notes + ")");
@@ -97,16 +103,16 @@ class HelpFormatter : public CLI::Formatter {
 
 std::string value_word(const CLI::Option& option) {
   if (option.get_items_expected_max() == 0) return "";
-  const std::string told = option.get_type_name(), type = told.substr(0, told.find(kBetween));
+  const std::string full = option.get_type_name(), type = full.substr(0, full.find(kSeparator));
   if (type == "FLOAT") return "NUMBER";
   if (type == "INT" || type == "UINT") return "N";
   return type;
 }
 
 std::string value_limits(const CLI::Option& option) {
-  const std::string told = option.get_type_name();
-  const std::size_t at = told.find(kBetween);
-  return at == std::string::npos ? "" : told.substr(at + 1);
+  const std::string full = option.get_type_name();
+  const std::size_t at = full.find(kSeparator);
+  return at == std::string::npos ? "" : full.substr(at + 1);
 }
 
 std::shared_ptr<CLI::FormatterBase> help_formatter() {

@@ -1,4 +1,4 @@
-// The commands and options of the program as plain lists, for what is written about them.
+// Commands and options as plain lists, from which help, man page and completion are made.
 #pragma once
 
 #include <memory>
@@ -7,9 +7,6 @@
 
 namespace CLI {
 class App;
-}
-
-namespace CLI {
 class FormatterBase;
 class Option;
 }  // namespace CLI
@@ -17,34 +14,32 @@ class Option;
 namespace twinarm {
 
 struct OptionInfo {
-  std::vector<std::string> names;  // "-h", "--help"; of a word without dashes its name alone
+  std::vector<std::string> names;  // "-h", "--help"; of a positional argument its name
   std::string value;               // "NUMBER", "PATH"; empty: a flag
-  std::string preset;              // what it is if not given; may be empty
+  std::string preset;              // default value; may be empty
   std::string help;
-  bool is_word = false, is_file = false, is_required = false;
+  bool is_positional = false, is_file = false, is_required = false;
 };
 
 struct CommandInfo {
-  std::string name;                    // "coupling predict"; empty: the program itself
-  std::string summary;                 // the first paragraph of its description
-  std::vector<std::string> details;    // the others, an example first
-  std::vector<OptionInfo> options;     // words without dashes first
-  std::vector<std::string> followers;  // names of commands that may come next
+  std::string name;                      // "coupling predict"; empty: the program itself
+  std::string summary;                   // first paragraph of its description
+  std::vector<std::string> details;      // the other paragraphs, examples first
+  std::vector<OptionInfo> options;       // positional arguments first
+  std::vector<std::string> subcommands;  // their names
 };
 
-// The program first; each before the commands below it.
+// The program first; each command before its subcommands.
 std::vector<CommandInfo> command_tree(CLI::App& program);
 
-// That tree as a man page, in man(7), section 1; and as completion for a shell, to be sourced by
-// bash, or by zsh after bashcompinit. Made from what reads the command line itself, so that neither
-// can go stale.
+// The tree as man page (man(7), section 1) and as completion script for bash, or for zsh after
+// bashcompinit.
 std::string man_page(CLI::App& program, const std::string& version);
 std::string shell_completion(CLI::App& program);
 
-// How the help, the manual and the site tell what an option takes: "--port N", and "(0 to 65535)"
-// at the end of its words.
-std::string value_word(const CLI::Option& option);    // NUMBER, N, TEXT, PATH ..; empty: a flag
-std::string value_limits(const CLI::Option& option);  // "above 0"; empty: none that are told
+// Value and range of an option, as help and manual print them: "--port N", "(0 to 65535)".
+std::string value_word(const CLI::Option& option);    // NUMBER, N, TEXT, PATH; empty: a flag
+std::string value_limits(const CLI::Option& option);  // "above 0"; may be empty
 std::shared_ptr<CLI::FormatterBase> help_formatter();
 
 }  // namespace twinarm

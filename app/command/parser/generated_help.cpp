@@ -1,5 +1,4 @@
-// The manual as man(7) has it: a section for the program, one for each command.
-
+// The man page: a section for the program and one for each command.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -9,7 +8,7 @@
 namespace twinarm {
 namespace {
 
-// Text as roff takes it: its own letters escaped, no line that begins with a request.
+// Escapes roff's special characters, and requests at the start of a line.
 std::string roff(const std::string& text) {
   std::string out;
   for (const char c : text) {
@@ -18,7 +17,7 @@ std::string roff(const std::string& text) {
     if (c == '\\') {
       out += "\\e";
     } else if (c == '-') {
-      out += "\\-";  // a minus that can be copied, not a hyphen
+      out += "\\-";  // minus, not hyphen: can be copied
     } else if (c == '`') {
       out += "\\(ga";
     } else {
@@ -38,29 +37,27 @@ std::string italic(const std::string& text) {
 std::string of_option(const OptionInfo& option) {
   std::string names;
   for (const std::string& name : option.names)
-    names += (names.empty() ? "" : ", ") + (option.is_word ? italic(name) : bold(name));
-  if (!option.value.empty() && !option.is_word) names += " " + italic(option.value);
+    names += (names.empty() ? "" : ", ") + (option.is_positional ? italic(name) : bold(name));
+  if (!option.value.empty() && !option.is_positional) names += " " + italic(option.value);
   std::string help = roff(option.help);
-  if (!option.preset.empty()) help += fmt::format(" (if not given: {})", roff(option.preset));
+  if (!option.preset.empty()) help += fmt::format(" (default: {})", roff(option.preset));
   return fmt::format(".TP\n{}\n{}\n", names, help.empty() ? "\\&" : help);
 }
 
 std::string of_paragraph(const std::string& text) {
-  const std::string_view example = "Example:";
-  if (!text.starts_with(example)) return ".PP\n" + roff(text) + "\n";
-  const std::size_t from = text.find_first_not_of(' ', example.size());
-  return ".PP\nExample:\n.PP\n.nf\n.RS\n" + roff(text.substr(std::min(from, text.size()))) +
-         "\n.RE\n.fi\n";
+  const std::string examples = "Examples:\n";
+  if (!text.starts_with(examples)) return ".PP\n" + roff(text) + "\n";
+  return ".PP\nExamples:\n.PP\n.nf\n.RS\n" + roff(text.substr(examples.size())) + "\n.RE\n.fi\n";
 }
 
 std::string usage(const CommandInfo& command) {
   std::string line = bold("twinarm " + command.name);
   for (const OptionInfo& option : command.options) {
-    if (!option.is_word) continue;
+    if (!option.is_positional) continue;
     line += option.is_required ? " " + italic(option.names.front())
                                : " [" + italic(option.names.front()) + "]";
   }
-  if (!command.followers.empty()) line += " " + italic("COMMAND");
+  if (!command.subcommands.empty()) line += " " + italic("COMMAND");
   return line + " [" + italic("options") + "]\n";
 }
 
@@ -79,16 +76,16 @@ constexpr const char* kEnd = R"(.SH EXIT STATUS
 done
 .TP
 1
-a checked result fell short
+a check failed
 .TP
 2
-bad input; all faults are told, each with its remedy
+bad input; all errors are printed, each with a remedy
 .TP
 3
-the run stopped by itself: a number that is not finite, or too much energy
+the simulation diverged: a number that is not finite, or too much energy
 .TP
 4
-an internal fault
+an internal error
 .TP
 130
 Ctrl\-C
@@ -96,16 +93,16 @@ Ctrl\-C
 .TP
 .B TWINARM_ISA
 .BR generic ", " v3 " or " v4 :
-the highest level of the instruction set that is used, the processor's own if not given.
+highest instruction set level to use; default: the processor's.
 Results of two levels differ by rounding.
 .SH FILES
-Robots, scenes and states that the examples name lie in
+Robots, scenes and states of the examples are in
 .IR share/twinarm
-beside the folder of the program; the documentation in
+beside the program's folder, the documentation in
 .IR share/doc/twinarm .
 A path that begins with
 .I assets/
-and is not there means the former.
+and does not exist is looked up in the former.
 )";
 
 }  // namespace
@@ -117,7 +114,7 @@ std::string man_page(CLI::App& program, const std::string& version) {
   std::string out = fmt::format(
       ".\\\" Made by `twinarm help --man`.\n.TH TWINARM 1 \"\" \"twinarm {}\"\n"
       ".SH NAME\ntwinarm \\- {}\n.SH SYNOPSIS\n{} {} [{}]\n.SH DESCRIPTION\n"
-      "Each command tells its options and an example:\n{} {} {}.\n"
+      "Options and examples of a command:\n{} {} {}.\n"
       "Units are SI and radians unless a name says otherwise.\n",
       version, roff(what), bold("twinarm"), italic("COMMAND"), italic("options"), bold("twinarm"),
       italic("COMMAND"), bold("--help"));
@@ -128,13 +125,13 @@ std::string man_page(CLI::App& program, const std::string& version) {
   return out + kEnd;
 }
 
-// Completion for a shell: which words may stand where, as one function of bash. Options whose value
-// is a file complete files; those with another value complete nothing.
+// Completion as one bash function. Options with a file as value complete files; those with another
+// value complete nothing.
 namespace {
 
 struct CompletedWords {
-  std::string next, files, values;  // what may come, options before a file, and before a value
-  bool is_file = false;             // a word without dashes is one
+  std::string next, files, values;  // subcommands and options; options that take a file; a value
+  bool is_file = false;             // a positional argument is a file
 };
 
 CompletedWords completed_words(const CommandInfo& command) {
@@ -142,10 +139,12 @@ CompletedWords completed_words(const CommandInfo& command) {
   const auto add = [](std::string& list, const std::string& word) {
     list += (list.empty() ? "" : " ") + word;
   };
-  for (const std::string& follower : command.followers) add(words.next, follower);
+  for (const std::string& name : command.subcommands) add(words.next, name);
   for (const OptionInfo& option : command.options) {
-    if (option.is_word) words.is_file = words.is_file || option.is_file;
-    if (option.is_word) continue;
+    if (option.is_positional) {
+      words.is_file = words.is_file || option.is_file;
+      continue;
+    }
     for (const std::string& name : option.names) {
       if (name.starts_with("--")) add(words.next, name);
       if (option.is_file)
@@ -157,7 +156,7 @@ CompletedWords completed_words(const CommandInfo& command) {
   return words;
 }
 
-// Names of commands and options have no blanks or quotes. zsh runs it too, after bashcompinit.
+// Names of commands and options have no blanks or quotes.
 constexpr const char* kFunction = R"(# Made by `twinarm help --completion`.
 _twinarm() {{
   local word="${{COMP_WORDS[COMP_CWORD]}}" before="${{COMP_WORDS[COMP_CWORD-1]}}"

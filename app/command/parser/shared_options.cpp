@@ -6,13 +6,13 @@
 
 #include "app/robot/robot_input.h"
 #include "app/support/files.h"
+#include "app/support/text.h"
 #include "solver/integration/integrator.h"
 
 namespace twinarm {
 namespace {
 
-// Said for all options at this one place: nothing would be read or written, and nobody told.
-CLI::Option* refuse_empty(CLI::Option* option) {
+CLI::Option* reject_empty(CLI::Option* option) {
   const auto fault = [](const std::string& name) {
     return name.empty() ? std::string("the name of a file is empty") : std::string();
   };
@@ -21,14 +21,18 @@ CLI::Option* refuse_empty(CLI::Option* option) {
 
 }  // namespace
 
+void begin_group(CLI::App& command, const char* heading) {
+  command.option_defaults()->group(heading)->always_capture_default();
+}
+
 CLI::Option* add_file_option(CLI::App& command, const char* name, std::filesystem::path& file,
                              const char* help) {
-  return refuse_empty(command.add_option(name, file, help));
+  return reject_empty(command.add_option(name, file, help));
 }
 
 CLI::Option* add_file_option(CLI::App& command, const char* name,
                              std::vector<std::filesystem::path>& files, const char* help) {
-  return refuse_empty(command.add_option(name, files, help));
+  return reject_empty(command.add_option(name, files, help));
 }
 
 CLI::Option* add_input_option(CLI::App& command, const char* name, std::filesystem::path& file,
@@ -46,39 +50,43 @@ CLI::Validator above_zero() {
 CLI::Validator zero_or_more() {
   return CLI::NonNegativeNumber.description("0 or more");
 }
-CLI::Validator between(int least, int most) {
-  return CLI::Range(least, most).description(fmt::format("{} to {}", least, most));
+CLI::Validator between(int min, int max) {
+  return CLI::Range(min, max).description(fmt::format("{} to {}", min, max));
 }
 
 void add_json_option(CLI::App& command, bool& json) {
   command.add_flag("--json", json, "print one JSON object on stdout");
 }
 void add_assets_option(CLI::App& command, std::filesystem::path& assets) {
-  add_file_option(command, "--assets", assets, "folder of robots and settings (found by itself)");
+  add_file_option(command, "--assets", assets,
+                  "folder with robots and settings; default: beside the program");
 }
 void add_scene_step_options(CLI::App& command, std::optional<double>& step,
                             std::string& integrator) {
-  command.add_option("--step", step, "seconds; the scene's if not given");
-  command.add_option("--integrator", integrator, "the scene's if not given");
+  command.add_option("--step", step, "step [s]; default: the scene's");
+  command.add_option("--integrator", integrator,
+                     "default: the scene's; one of: " + integrator_names());
 }
 
 std::string integrator_names() {
-  std::string names;
-  for (const IntegratorFacts& facts : all_integrators) names += std::string(" ") + facts.name;
-  return names;
+  return fmt::format("{}", fmt::join(names_of(all_integrators), ", "));
 }
 
 void add_robot_options(CLI::App& command, RobotOptions& options, const char* model) {
+  begin_group(command, "Model");
   add_input_option(command, "model", options.model, model)->required();
-  add_input_option(command, "--state", options.state, "JSON file: q, qd, tau, qdd, base, wrenches");
+  add_input_option(command, "--state", options.state,
+                   "state file (JSON): q, qd, tau, qdd, base, wrenches; default: at rest, or the "
+                   "scene's start");
   command.add_option("--gravity", options.gravity,
-                     "x,y,z in world axes [m/s^2]; 0,0,-9.81 if not given");
-  command.add_flag("--floating", options.floating, "the root link is free, not fixed to the world");
+                     "x,y,z in world axes [m/s^2]; default: the scene's, or 0,0,-9.81");
+  command.add_flag("--floating", options.floating,
+                   "floating base: the root link is not fixed to the world (URDF)");
   command.add_flag_callback(
-      "--no-friction", [&] { options.friction = false; }, "as if no joint had damping or friction");
+      "--no-friction", [&] { options.friction = false; }, "ignore joint damping and friction");
   command.add_flag_callback(
-      "--no-armature", [&] { options.armature = false; }, "as if no joint had a rotor's inertia");
-  command.add_flag("--strict", options.strict, "refuse inertias that no body has");
+      "--no-armature", [&] { options.armature = false; }, "ignore rotor inertia (armature)");
+  command.add_flag("--strict", options.strict, "reject physically inconsistent inertias (URDF)");
 }
 
 }  // namespace twinarm

@@ -124,7 +124,7 @@ std::string panel_plots(Gnuplot& gnuplot, const CaseCurves& curves,
 
 // Lines of a gnuplot script for an axis, "x" or "y".
 
-// About so many tics, at multiples of 1, 2 or 5 times a power of ten.
+// About this number of tics, at multiples of 1, 2 or 5 times a power of ten.
 std::string tics(const char* axis, double low, double high, int about) {
   const double wish = (high - low) / about;
   if (!(wish > 0) || !std::isfinite(wish)) return "";

@@ -3,12 +3,12 @@
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "app/page/pages.h"
 #include "app/render/gl/painter.h"
 #include "app/support/files.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -46,12 +46,7 @@ void answer_faults(const LabRoutes::Answer& answer, const std::function<void()>&
 }
 
 double number_of(const std::string& query, const std::string& key, double otherwise) {
-  const std::string text = query_value(query, key).value_or("");
-  double value = 0;
-  const auto end = text.data() + text.size();
-  const bool is_number =
-      !text.empty() && std::from_chars(text.data(), end, value).ptr == end && std::isfinite(value);
-  return is_number ? value : otherwise;
+  return parse_number(query_value(query, key).value_or("")).value_or(otherwise);
 }
 
 // A file name of a client: letters, digits and a few others, inside its folder.

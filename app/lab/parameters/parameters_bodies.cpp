@@ -15,53 +15,40 @@ LabParameter parameter_of(const SurfaceKey& key, std::string path, double value,
   return parameter;
 }
 
-class Surfaces {
- public:
-  Surfaces(const SceneModel& model, std::vector<LabParameter>& parameters)
-      : scene_(model.description), parameters_(parameters) {}
-
-  void add(const SurfaceKey& key) {
-    const auto value = [&](const auto& owner) { return owner.surface.*key.member; };
-    for (std::size_t i = 0; i < scene_.robots.size(); ++i)
-      if (scene_.robots[i].collide)
-        parameters_.push_back(parameter_of(key, item("robot", i, key.key), value(scene_.robots[i]),
-                                           scene_.robots[i].name));
-    const auto& bodies = scene_.bodies;
-    const bool agree = std::ranges::all_of(
-        bodies, [&](const BodyDescription& b) { return value(b) == value(bodies[0]); });
-    if (bodies.size() > 1 && agree)
-      parameters_.push_back(
-          parameter_of(key, std::string("body.") + key.key, value(bodies[0]), "all bodies"));
-    else if (bodies.size() <= kManyBodies)
-      for (std::size_t i = 0; i < bodies.size(); ++i)
-        parameters_.push_back(
-            parameter_of(key, item("body", i, key.key), value(bodies[i]), bodies[i].name));
-  }
-
-  void add_pairs() {
-    for (std::size_t i = 0; i < scene_.pairs.size(); ++i) {
-      const PairDescription& pair = scene_.pairs[i];
-      const std::string group = pair.a + " on " + pair.b;
-      for (const SurfaceKey& key : surface_keys())
-        if (key.slider.label && key.of_pair && !key.is_of_compliant && pair.*key.of_pair)
-          parameters_.push_back(
-              parameter_of(key, item("pair", i, key.key), *(pair.*key.of_pair), group));
-    }
-  }
-
- private:
-  const SceneDescription& scene_;
-  std::vector<LabParameter>& parameters_;
-};
+void add_surface(const SceneDescription& scene, const SurfaceKey& key,
+                 std::vector<LabParameter>& parameters) {
+  const auto add = [&](std::string path, const auto& owner, const std::string& group) {
+    parameters.push_back(parameter_of(key, std::move(path), owner.surface.*key.member, group));
+  };
+  for (std::size_t i = 0; i < scene.robots.size(); ++i)
+    if (scene.robots[i].collide)
+      add(item("robot", i, key.key), scene.robots[i], scene.robots[i].name);
+  const auto& bodies = scene.bodies;
+  const bool agree = std::ranges::all_of(bodies, [&](const BodyDescription& body) {
+    return body.surface.*key.member == bodies[0].surface.*key.member;
+  });
+  if (bodies.size() > 1 && agree)
+    add(std::string("body.") + key.key, bodies[0], "all bodies");
+  else if (bodies.size() <= kManyBodies)
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      add(item("body", i, key.key), bodies[i], bodies[i].name);
+}
 
 }  // namespace
 
 void add_surfaces(const SceneModel& model, std::vector<LabParameter>& parameters) {
-  Surfaces surfaces(model, parameters);
-  const bool is_compliant = model.description.contact == ContactMode::compliant;
+  const SceneDescription& scene = model.description;
+  const bool is_compliant = scene.contact == ContactMode::compliant;
   for (const SurfaceKey& key : surface_keys())
-    if (key.slider.label && (is_compliant || !key.is_of_compliant)) surfaces.add(key);
-  surfaces.add_pairs();
+    if (key.slider.label && (is_compliant || !key.is_of_compliant))
+      add_surface(scene, key, parameters);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const PairDescription& pair = scene.pairs[i];
+    for (const SurfaceKey& key : surface_keys())
+      if (key.slider.label && key.of_pair && !key.is_of_compliant && pair.*key.of_pair)
+        parameters.push_back(parameter_of(key, item("pair", i, key.key), *(pair.*key.of_pair),
+                                          pair.a + " on " + pair.b));
+  }
 }
 
 void add_masses(const SceneDescription& scene, std::vector<LabParameter>& parameters) {

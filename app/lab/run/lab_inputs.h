@@ -29,6 +29,7 @@ namespace twinarm {
 class OperatorInput {
  public:
   enum class Source { scene, drag, joints, device };
+  static constexpr std::array<const char*, 4> kSourceNames{"scene", "drag", "joints", "device"};
   static constexpr double kMaxJointSpeed = 3;  // of Source::joints [rad/s, m/s]
 
   OperatorInput();

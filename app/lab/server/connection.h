@@ -23,7 +23,7 @@
 #include <string>
 
 #include "app/lab/server/http_text.h"
-#include "app/lab/server/mailboxes.h"
+#include "app/lab/server/outgoing_queues.h"
 
 namespace twinarm::lab_server {
 

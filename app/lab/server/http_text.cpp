@@ -7,26 +7,21 @@
 #include <algorithm>
 #include <array>
 #include <boost/beast/http/status.hpp>
+#include <charconv>
 #include <stdexcept>
 
 namespace twinarm {
 namespace {
 
-int hex_digit(char c) {
-  if (c >= '0' && c <= '9') return c - '0';
-  if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-  if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-  return -1;
-}
-
 std::optional<std::string> unescaped(std::string_view text, bool plus_is_space) {
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '%') {
-      const int high = i + 2 < text.size() ? hex_digit(text[i + 1]) : -1;
-      const int low = i + 2 < text.size() ? hex_digit(text[i + 2]) : -1;
-      if (high < 0 || low < 0) return {};
-      plain += static_cast<char>(high * 16 + low);
+      const std::string_view digits = text.substr(i + 1, 2);
+      unsigned char byte = 0;
+      const auto end = digits.data() + digits.size();
+      if (digits.size() < 2 || std::from_chars(digits.data(), end, byte, 16).ptr != end) return {};
+      plain += static_cast<char>(byte);
       i += 2;
     } else {
       plain += plus_is_space && text[i] == '+' ? ' ' : text[i];

@@ -74,7 +74,7 @@ class LabServer {
   std::uint16_t port() const;
   // "http://127.0.0.1:PORT/?token=.."
   std::string url() const;
-  // From any thread; returns at once. `channel`: small number, see mailboxes.h.
+  // From any thread; returns at once. `channel`: small number, see outgoing_queues.h.
   void send(ClientId client, int channel, Bytes message, bool is_binary);
   // Of a client; replaced: messages that were not sent because a newer one came.
   struct Traffic {

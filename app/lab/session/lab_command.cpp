@@ -11,7 +11,7 @@
 namespace twinarm {
 namespace {
 
-using Do = LabCommand::Do;
+using Verb = LabCommand::Do;
 
 constexpr std::size_t kMaxNames = 64;
 constexpr std::size_t kMaxCommands = 4096;
@@ -91,7 +91,7 @@ Field angle(const char* key, Eigen::Index component) {
 
 struct Form {
   const char* name;
-  Do what;
+  Verb what;
   bool needs_control;
   std::vector<Field> fields;
 };
@@ -113,34 +113,34 @@ const std::vector<Form>& forms() {
     return whole_number("body", "a body's number", kMaxIndex, is_optional);
   };
   static const std::vector<Form> all{
-      {"layers", Do::layers, false, {field("names", texts, &LabCommand::names)}},
-      {"glass", Do::glass, false, {on, body(true)}},
-      {"take", Do::take, false, {}},
-      {"give", Do::give, false, {whole_number("to", "a client's number", kMaxIndex)}},
-      {"look", Do::look, false, {at}},
-      {"play", Do::play, true, {on}},
-      {"step", Do::step, true, {whole_number("steps", "1 to 100000", 100'000)}},
-      {"speed", Do::speed, true, {factor}},
-      {"set", Do::set, true, {changes}},
-      {"branch", Do::branch, true, {at, changes}},
-      {"preset", Do::preset, true, {name}},
-      {"scene", Do::scene, true, {name}},
-      {"reset", Do::reset, true, {}},
-      {"restore", Do::restore, true, {}},
+      {"layers", Verb::layers, false, {field("names", texts, &LabCommand::names)}},
+      {"glass", Verb::glass, false, {on, body(true)}},
+      {"take", Verb::take, false, {}},
+      {"give", Verb::give, false, {whole_number("to", "a client's number", kMaxIndex)}},
+      {"look", Verb::look, false, {at}},
+      {"play", Verb::play, true, {on}},
+      {"step", Verb::step, true, {whole_number("steps", "1 to 100000", 100'000)}},
+      {"speed", Verb::speed, true, {factor}},
+      {"set", Verb::set, true, {changes}},
+      {"branch", Verb::branch, true, {at, changes}},
+      {"preset", Verb::preset, true, {name}},
+      {"scene", Verb::scene, true, {name}},
+      {"reset", Verb::reset, true, {}},
+      {"restore", Verb::restore, true, {}},
       {"hand",
-       Do::hand,
+       Verb::hand,
        true,
        {field("source", text, &LabCommand::name), field("spec", text, &LabCommand::spec, true)}},
-      {"tip", Do::tip, true, {goal, stamp}},
-      {"joint", Do::joint, true, {index, field("value", number, &LabCommand::value), stamp}},
-      {"turn", Do::turn, true, {angle("yaw", 0), angle("pitch", 1), angle("roll", 2), stamp}},
-      {"axes", Do::axes, true, {field("rates", "six numbers", &LabCommand::rates), stamp}},
-      {"button", Do::button, true, {index, field("down", flag, &LabCommand::on), stamp}},
+      {"tip", Verb::tip, true, {goal, stamp}},
+      {"joint", Verb::joint, true, {index, field("value", number, &LabCommand::value), stamp}},
+      {"turn", Verb::turn, true, {angle("yaw", 0), angle("pitch", 1), angle("roll", 2), stamp}},
+      {"axes", Verb::axes, true, {field("rates", "six numbers", &LabCommand::rates), stamp}},
+      {"button", Verb::button, true, {index, field("down", flag, &LabCommand::on), stamp}},
       {"pull",
-       Do::pull,
+       Verb::pull,
        true,
        {body(false), field("point", three, &LabCommand::point), goal, stamp}},
-      {"drop", Do::drop, true, {}}};
+      {"drop", Verb::drop, true, {}}};
   return all;
 }
 
@@ -179,7 +179,7 @@ LabCommand parse_command(const std::string& text) {
   return command;
 }
 
-bool needs_hand(Do what) {
+bool needs_hand(LabCommand::Do what) {
   return std::ranges::find(forms(), what, &Form::what)->needs_control;
 }
 

@@ -98,13 +98,9 @@ void SessionCommands::switch_source(OperatorInput::Source source) {
 }
 
 void SessionCommands::choose_source(const std::string& source, const std::string& spec) {
-  using Source = OperatorInput::Source;
-  static const std::vector<std::pair<std::string, Source>> all{{"scene", Source::scene},
-                                                               {"drag", Source::drag},
-                                                               {"joints", Source::joints},
-                                                               {"device", Source::device}};
-  for (const auto& [name, kind] : all)
-    if (name == source) return s_.hand.choose(kind, spec);
+  for (std::size_t i = 0; i < OperatorInput::kSourceNames.size(); ++i)
+    if (source == OperatorInput::kSourceNames[i])
+      return s_.hand.choose(static_cast<OperatorInput::Source>(i), spec);
   throw InputError({{"command", 0, "hand, source", "there is no '" + source + "'",
                      "give scene, drag, joints or device", "lab.choice"}});
 }

@@ -70,13 +70,13 @@ bool StatusReporter::take_notes() {
 
 OperatorStatus StatusReporter::operator_status() const {
   using Source = OperatorInput::Source;
-  static const char* const kSources[] = {"scene", "drag", "joints", "device"};
   static const char* const kModes[] = {"live", "held", "released"};
   const OperatorInput& hand = state_.hand;
   const InputOverride& driven = state_.loop.run().input_override();
   OperatorStatus shown;
   const Source source = hand.source();
-  if (!driven.driven().empty()) shown.source = kSources[static_cast<int>(source)];
+  if (!driven.driven().empty())
+    shown.source = OperatorInput::kSourceNames[static_cast<std::size_t>(source)];
   shown.spec = hand.spec();
   shown.mapping = kMappingNames[static_cast<std::size_t>(hand.mapping().kind)];
   shown.device = hand.description();

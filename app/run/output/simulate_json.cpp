@@ -14,12 +14,9 @@ class JsonOutput : public RunOutput {
     json_.begin_object();
     json_.members(
         {{"joints", input_.coordinates.names()}, {"integrator", integrator_name(plan.integrator)}});
-    if (plan.is_adaptive()) {
-      plan.step_is_given ? json_.key("step").number(plan.step) : json_.key("step").null();
-      json_.key("tolerance").number(plan.tolerance);
-    } else {
-      json_.key("step").number(plan.step);
-    }
+    const bool has_step = !plan.is_adaptive() || plan.step_is_given;
+    json_.put("step", has_step ? std::optional(plan.step) : std::nullopt);
+    if (plan.is_adaptive()) json_.put("tolerance", plan.tolerance);
     json_.key("samples").begin_array();
   }
 
@@ -68,7 +65,7 @@ class JsonOutput : public RunOutput {
       for (const EnergyRow& row : rows) json_.put(row.name, row.work);
     });
   }
-  // The kinematic side of each coupling: joints of its robot, and the end of the spring.
+  // The target of each coupling: joints of its robot, and the end of the spring.
   void write_targets(double t) {
     json_.key("targets").object([&] {
       for (std::size_t c = 0; c < simulated_.couplings->size(); ++c)
@@ -93,11 +90,11 @@ class JsonOutput : public RunOutput {
   void write_joints(const SceneCoupling& spec, const Values& values) {
     const auto [first, last] = simulated_.scene->bodies_of_robot(spec.robot);
     json_.begin_object();
-    for (std::size_t j = input_.coordinates.first_joint(); j < input_.coordinates.all().size();
-         ++j) {
-      const NamedJoint& joint = input_.coordinates.all()[j];
+    for (const NamedJoint& joint : input_.coordinates.all()) {
       const auto body = static_cast<int>(joint.body);
-      if (body >= first && body <= last) json_.key(joint.name).number_or_list(values(joint));
+      const bool is_base = input_.coordinates.floating() && &joint == &input_.coordinates.base();
+      if (body >= first && body <= last && !is_base)
+        json_.key(joint.name).number_or_list(values(joint));
     }
     json_.end_object();
   }
@@ -115,22 +112,22 @@ class JsonOutput : public RunOutput {
                    {"kinetic_energy", found.kinetic_energy}});
     if (found.by_energy) json_.key("energy_bound").number(found.energy_bound);
     json_.members({{"ledger_row", found.row}, {"ledger_growth", found.row_growth}});
-    json_.key("suspects").list(found.suspects, [&](const StabilityViolation& suspect) {
-      write(suspect);
+    json_.key("suspects").list(found.suspects, [&](const StabilityViolation& violation) {
+      write(violation);
     });
     json_.members({{"recording", found.recording}, {"words", found.words}});
     json_.end_object();
   }
 
-  void write(const StabilityViolation& suspect) {
-    json_.object({{"name", suspect.name},
-                  {"scheme", suspect.scheme},
-                  {"w_h", suspect.product},
-                  {"limit", suspect.limit},
-                  {"step", suspect.step},
-                  {"largest_step", suspect.max_step},
-                  {"gain", suspect.gain},
-                  {"largest_gain", suspect.max_gain}});
+  void write(const StabilityViolation& violation) {
+    json_.object({{"name", violation.name},
+                  {"scheme", violation.scheme},
+                  {"w_h", violation.product},
+                  {"limit", violation.limit},
+                  {"step", violation.step},
+                  {"largest_step", violation.max_step},
+                  {"gain", violation.gain},
+                  {"largest_gain", violation.max_gain}});
   }
 
   const RobotInput& input_;

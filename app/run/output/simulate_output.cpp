@@ -24,7 +24,7 @@ void sum_up(MomentumRow& sum, const MomentumRow& row) {
   sum.angular += row.angular;
 }
 
-// Of the rows of a kind that are summed where there are many; others have none.
+// Name of the sum of all rows of a kind; nullptr for kinds that are not summed.
 const char* name_of_sum(EnergyRowKind kind) {
   static constexpr std::pair<EnergyRowKind, const char*> kSums[] = {
       {EnergyRowKind::contact, "contact, all"},
@@ -39,12 +39,12 @@ const char* name_of_sum(EnergyRowKind kind) {
   return nullptr;
 }
 
-// Rows of many contacts or constraints are summed by kind: the JSON has them all.
+// Sums rows of contacts and constraints by kind if there are many; the JSON has them all.
 template <class Row>
 std::vector<Row> shortened(const std::vector<Row>& rows) {
-  constexpr std::ptrdiff_t most = 12;
+  constexpr std::ptrdiff_t kMaxRows = 12;
   const auto is_summed = [](const Row& row) { return name_of_sum(row.kind) != nullptr; };
-  if (std::ranges::count_if(rows, is_summed) <= most) return rows;
+  if (std::ranges::count_if(rows, is_summed) <= kMaxRows) return rows;
   std::vector<Row> out;
   for (const Row& row : rows) {
     const auto same = std::ranges::find_if(
@@ -98,7 +98,7 @@ class TableOutput : public RunOutput {
     fmt::print("{}: {} step{} of {}, {}\n\n{}{}\n", input_.robot.name, result.steps,
                result.steps == 1 ? "" : "s", integrator_name(plan_.integrator), steps,
                samples_.str(), left_out());
-    TextTable ledger({"work on the bodies, 0 to " + cell(result.end) + " s", "[J]"});
+    TextTable ledger({"energy balance, 0 to " + cell(result.end) + " s", "work [J]"});
     double sum = 0;
     for (const EnergyRow& row : shortened(result.ledger)) {
       ledger.add({row.name, cell(row.work)});
@@ -108,8 +108,8 @@ class TableOutput : public RunOutput {
     fmt::print("{}\n{}", ledger.str(), momentum_table(result));
     if (result.contacts > 0)
       fmt::print("\n{} at the end\n",
-                 result.contacts == 1 ? "1 contact point presses"
-                                      : fmt::format("{} contact points press", result.contacts));
+                 result.contacts == 1 ? "1 active contact point"
+                                      : fmt::format("{} active contact points", result.contacts));
     const char* space = "\n";
     for (const auto* warnings : {&input_.warnings, &result.warnings})
       for (const std::string& warning : *warnings) {
@@ -125,7 +125,7 @@ class TableOutput : public RunOutput {
                        bodies_ - kShownBodies, bodies_);
   }
 
-  // Coordinates, the first few of a scene's own bodies, energies.
+  // Coordinates, positions of the first bodies of a scene, energies.
   std::vector<std::string> headings(const SimulateInput& input) {
     const int bodies = input.robot.model.body_count();
     const int first = input.scene ? input.scene->robot_bodies + 1 : bodies;
@@ -144,14 +144,14 @@ class TableOutput : public RunOutput {
       names.push_back((kind == "energy" ? of : name.substr(name.find('/') + 1)) + " [" + unit +
                       "]");
     }
-    names.push_back("sum [J]");
+    names.push_back("total energy [J]");
     return names;
   }
 
   static constexpr int kShownBodies = 3;
   const RobotInput& input_;
   const RunPlan& plan_;
-  int bodies_ = 0;                  // of the scene's own, after its robots
+  int bodies_ = 0;                  // of the scene, after its robots
   std::vector<std::size_t> shown_;  // of run_columns()
   TextTable samples_;
   Kinematics k_;
@@ -165,7 +165,6 @@ std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPla
 
 namespace {
 
-// One line of values, in the order of the header.
 class CsvOutput : public RunOutput {
  public:
   explicit CsvOutput(const RobotInput& input) : input_(input), k_(input.model) {
@@ -181,7 +180,6 @@ class CsvOutput : public RunOutput {
     fmt::print("{}\n", csv_line(row));
   }
 
-  // The ledger has no place in a table of samples.
   void end(const SimulateResult& result) override {
     std::fflush(stdout);
     for (const auto* warnings : {&input_.warnings, &result.warnings})

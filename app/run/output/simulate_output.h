@@ -1,4 +1,4 @@
-// What `twinarm simulate` prints: one JSON object, CSV row by row, or a table for people.
+// Output of `twinarm simulate`: one JSON object, CSV row by row, or tables.
 #pragma once
 
 #include <memory>
@@ -15,8 +15,8 @@ class RunOutput {
   virtual void end(const SimulateResult& result) = 0;
 };
 
-// They print to stdout: JSON and the table at the end, CSV as the rows come. The arguments must
-// outlive them.
+// They print to stdout: JSON and tables at the end, CSV during the run. They keep references to
+// their arguments.
 std::unique_ptr<RunOutput> json_output(const SimulateInput& input, const RunPlan& plan);
 std::unique_ptr<RunOutput> csv_output(const SimulateInput& input);
 std::unique_ptr<RunOutput> table_output(const SimulateInput& input, const RunPlan& plan);

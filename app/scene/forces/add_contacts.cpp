@@ -9,16 +9,6 @@
 namespace twinarm {
 namespace {
 
-LoopClosure closure_of(const SceneConstraint& c) {
-  using Type = SceneConstraint::Type;
-  const LoopType type = c.type == Type::weld       ? LoopType::weld
-                        : c.type == Type::ball     ? LoopType::ball
-                        : c.type == Type::hinge    ? LoopType::hinge
-                        : c.type == Type::distance ? LoopType::distance
-                                                   : LoopType::gear;
-  return {c.name, type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset};
-}
-
 bool has_limits(const SceneModel& scene) {
   for (const auto& robot : scene.description.robots)
     for (const JointDescription& joint : robot.description.joints)
@@ -55,71 +45,64 @@ void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticLi
     for (const SceneCoupling& coupling : scene.couplings)
       if (coupling.leads() && coupling.needs_semi_implicit())
         faults.add({file, coupling.line, "coupling '" + coupling.coupling + "'",
-                    "its treatment does not go with contact = \"event\"",
+                    "an implicit coupling cannot be combined with contact = \"event\"",
                     "give treatment = \"explicit\", or contact = \"rigid\"", "scene.treatment"});
   if (scene.may_touch() && integrator != Integrator::semi_implicit)
     faults.add({file, 0, "integrator",
-                std::string("contacts go with the semi-implicit integrator, not with ") +
+                std::string("contacts need the integrator semi-implicit, not ") +
                     integrator_name(integrator),
-                "give --integrator semi-implicit, or keep the bodies apart with groups",
+                "give --integrator semi-implicit, or exclude contacts by groups",
                 "run.integrator"});
   else if (locates_events(scene) && integrator != Integrator::semi_implicit)
-    faults.add(
-        {file, 0, "integrator",
-         std::string("contact = \"event\" goes with the semi-implicit integrator, not with ") +
-             integrator_name(integrator),
-         "give --integrator semi-implicit, or --contact rigid", "run.integrator"});
+    faults.add({file, 0, "integrator",
+                std::string("contact = \"event\" needs the integrator semi-implicit, not ") +
+                    integrator_name(integrator),
+                "give --integrator semi-implicit, or --contact rigid", "run.integrator"});
 }
 
 SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : scene_(scene) {
   std::vector<LoopClosure> loops;
-  for (const SceneConstraint& constraint : scene.constraints)
-    loops.push_back(closure_of(constraint));
+  for (const SceneConstraint& c : scene.constraints)
+    loops.push_back({c.name, c.type, c.a, c.b, c.X_AC, c.X_BC, c.length, c.ratio, c.offset});
   if (!loops.empty()) simulation.set_loops(std::move(loops));
   if (scene.may_touch()) {
     contacts_.emplace(scene.model, scene.description.contact == ContactMode::compliant
                                        ? ContactResponse::compliant
                                        : ContactResponse::rigid);
     add_geometries();
-    add_rules();
-    look_at_start(simulation);
+    find_deepest_contact(simulation);
     simulation.add(*contacts_);
   }
   const bool flies = !scene.may_touch() && !locates_events(scene) &&
                      steps_for_flight(scene, simulation.integrator());
   if (flies || limits_act(scene, simulation.integrator())) {
-    limits_.emplace(scene.model);  // where it flies maybe without a limit
+    limits_.emplace(scene.model);  // for flight maybe without a limit
     add_limits();
     simulation.add(*limits_);
   }
   if (!locates_events(scene)) return;
   if (deepest_at_start_ > ContactConstraints::kSlop)
     throw InputError({{scene.description.file.string(), 0, "contact",
-                       deepest_pair_ + " stand " + short_number_text(deepest_at_start_) +
-                           " m deep in one another at the start",
-                       "move them apart, or let contact = \"rigid\" do it", "scene.deep"}});
+                       "initial penetration of " + deepest_pair_ + ": " +
+                           short_number_text(deepest_at_start_) + " m",
+                       "move them apart, or give contact = \"rigid\"", "scene.deep"}});
   simulation.locate_events();
 }
 
 void SceneContacts::add_geometries() {
-  // Pairs that never touch must be known before a geometry comes in that could not touch another.
   for (const SceneGeometry& g : scene_.geometries) {
-    ContactSurface surface;
-    surface.friction = g.friction;
-    surface.restitution = g.restitution;
-    surface.torsional = g.torsional_friction;
-    surface.rolling = g.rolling_friction;
-    surface.stiffness = g.stiffness;
-    surface.dissipation = g.dissipation;
+    const ContactSurface surface{.friction = g.friction,
+                                 .restitution = g.restitution,
+                                 .torsional = g.torsional_friction,
+                                 .rolling = g.rolling_friction,
+                                 .stiffness = g.stiffness,
+                                 .dissipation = g.dissipation};
     contacts_->bodies().add({g.name, g.body, g.X_LG, collision_shape(g.shape), surface, 0});
   }
   for (const auto& [a, b] : scene_.apart) contacts_->bodies().world().disable_pair(a, b);
-}
-
-void SceneContacts::add_rules() {
-  for (const PairOverride& problem : scene_.pairs)
-    for (const int a : problem.a)
-      for (const int b : problem.b) {
+  for (const PairOverride& rule : scene_.pairs)
+    for (const int a : rule.a)
+      for (const int b : rule.b) {
         const Surface pair = scene_.surface_of_pair(a, b);
         contacts_->bodies().set_pair(
             a, b, {pair.friction, pair.restitution, {pair.stiffness, pair.dissipation}});
@@ -134,7 +117,7 @@ void SceneContacts::add_limits() {
     }
 }
 
-void SceneContacts::look_at_start(const Simulation& simulation) {
+void SceneContacts::find_deepest_contact(const Simulation& simulation) {
   contacts_->begin_step(simulation.kinematics(), simulation.state(), 0);
   for (const ContactPoint& point : contacts_->points()) {
     const Contact& contact = point.contact;
@@ -177,13 +160,13 @@ int SceneContacts::contact_count() const {
 void LimitWatch::look(double t, const State<double>& x) {
   for (Limit& limit : limits_) {
     const double q = x.q[limit.iq];
-    const double slack = 1e-9;  // a joint that rests at its limit is not beyond it
-    if (limit.is_told || (q >= limit.joint->lower - slack && q <= limit.joint->upper + slack))
+    const double slack = 1e-9;  // for a joint at rest at its limit
+    if (limit.is_reported || (q >= limit.joint->lower - slack && q <= limit.joint->upper + slack))
       continue;
-    limit.is_told = true;
+    limit.is_reported = true;
     warnings_.push_back(fmt::format(
-        "joint '{}' stands at {} beyond its limits {} .. {} at t = {} s: position limits do not "
-        "act here",
+        "joint '{}' is at {}, beyond its limits {} .. {}, at t = {} s: position limits do not act "
+        "here",
         limit.joint->name, short_number_text(q), short_number_text(limit.joint->lower),
         short_number_text(limit.joint->upper), short_number_text(t)));
   }

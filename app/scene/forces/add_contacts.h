@@ -1,4 +1,4 @@
-// Contacts, loop closures and joint limits of a scene: into the simulation, and their work.
+// Adds contacts, loop closures and joint limits of a scene to a simulation; their work.
 #pragma once
 
 #include <optional>
@@ -15,34 +15,33 @@
 
 namespace twinarm {
 
-// What this program cannot compute of the scene, with that integrator.
+// Adds diagnostics for what the integrator cannot simulate.
 void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticList& faults);
 
-// Position limits go with the semi-implicit integrator alone; with others a run warns of them.
+// Position limits act with the semi-implicit integrator only; with others a run warns of them.
 bool limits_act(const SceneModel& scene, Integrator integrator);
 
-// With the semi-implicit integrator: whether a free body is there that no joint and no constraint
-// ties to anything. Steps under constraints keep its energy and angular momentum in flight
-// (docs/understand/contact.md), so all steps of the scene are such, though nothing may touch.
+// Whether there is a free body without joints and constraints, and the integrator is semi-implicit.
+// The scene is then always stepped as with constraints, which conserves energy and angular momentum
+// of that body (docs/understand/contact.md).
 bool steps_for_flight(const SceneModel& scene, Integrator integrator);
 
-// contact = "event": steps locate their events in time, and are adaptive between them.
+// contact = "event": events are located in time; steps between them are adaptive.
 bool locates_events(const SceneModel& scene);
 
 class SceneContacts {
  public:
-  // Both must outlive it. Throws InputError for loops that are open at the start.
+  // Keeps references to both. Throws InputError for loops that are open at the start.
   SceneContacts(const SceneModel& scene, Simulation& simulation);
-  // `contact/A-B/normal|friction|impact` and `joint/NAME/limit`: what did any work.
+  // `contact/A-B/normal|friction|impact` and `joint/NAME/limit`, with work other than 0.
   std::vector<EnergyRow> rows() const;
-  int contact_count() const;  // points that press, at the last step
+  int contact_count() const;  // active contact points at the last step
   double deepest_at_start() const { return deepest_at_start_; }  // [m]
   const std::string& deepest_pair() const { return deepest_pair_; }
-  // Of the last step; null where nothing may touch; limits() may have no limit, or be null.
+  // Of the last step; null if the scene has none (limits() may also be empty).
   const ContactConstraints* contacts() const { return contacts_ ? &*contacts_ : nullptr; }
   const JointLimits* limits() const { return limits_ ? &*limits_ : nullptr; }
-  // In the step that was taken last, a side step included: whether joints beyond their limits were
-  // moved back, and no bodies apart, which would be one equation.
+  // Whether the last step (side steps included) corrected positions of joint limits only.
   bool only_limits_were_passed() const {
     return limits_ && limits_->needs_position_correction() &&
            !(contacts_ && contacts_->needs_position_correction());
@@ -50,9 +49,8 @@ class SceneContacts {
 
  private:
   void add_geometries();
-  void add_rules();
   void add_limits();
-  void look_at_start(const Simulation& simulation);
+  void find_deepest_contact(const Simulation& simulation);
 
   const SceneModel& scene_;
   std::optional<ContactConstraints> contacts_;
@@ -61,7 +59,7 @@ class SceneContacts {
   std::string deepest_pair_;
 };
 
-// Notes the first time at which a joint stands beyond its limits, which do not act.
+// Warns once per joint that is beyond its limits, where limits do not act.
 class LimitWatch {
  public:
   LimitWatch(const RobotInput& input, bool limits_act, std::vector<std::string>& warnings)
@@ -79,7 +77,7 @@ class LimitWatch {
   struct Limit {
     const JointDescription* joint;
     std::size_t iq;
-    bool is_told = false;
+    bool is_reported = false;
   };
   std::vector<Limit> limits_;
   std::vector<std::string>& warnings_;

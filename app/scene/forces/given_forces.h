@@ -1,4 +1,4 @@
-// What a state file says that acts, held constant. Both remember nothing from step to step.
+// Constant joint forces and wrenches of a state file; without internal state.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,7 @@
 
 namespace twinarm {
 
-// Joint torques: constant as the command line has them, so those of a floating joint in the
+// Joint forces, constant in the coordinates of app/robot/coordinates.h: of a floating joint in the
 // parent's axes.
 class GivenTorques : public ForceSource, public Checkpointable {
  public:
@@ -25,16 +25,15 @@ class GivenTorques : public ForceSource, public Checkpointable {
   std::vector<double> by_velocity_;
 };
 
-// A force at a point of a link, and a torque about it. In link axes it turns with the link. In
-// world axes both keep their direction, and the point is the one of the link that stood there at
-// the start: it goes with the link.
+// A force at a point of a link and a torque about it. The point is fixed to the link; the
+// directions are constant in link axes, or in world axes (the point is then given at the start).
 class GivenWrench : public ForceSource, public Checkpointable {
  public:
   GivenWrench(const Wrench& wrench, const Kinematics& start);
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   double power(const Kinematics& k) const;  // [W]
-  Wrench now(const Kinematics& k) const;    // in world axes
+  Wrench now(const Kinematics& k) const;    // world axes
   std::size_t body() const { return wrench_.body; }
 
  private:

@@ -1,4 +1,4 @@
-// One row of the energy balance.
+// Rows of the energy balance.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace twinarm {
 
-// What a row is of. Programs ask for this: the name of a row is for people, JSON and recordings.
+// Programs use the kind of a row; its name is for output and recordings.
 enum class EnergyRowKind {
   gravity,
   actuator,
@@ -32,13 +32,13 @@ enum class EnergyRowKind {
   contact_stabilisation,
   constraint,
   constraint_stabilisation,
-  tree,  // impulse through the joint that carries a tree
+  tree,  // impulse through the root joint of a tree
   outside,
   numerical,
-  earlier  // read from a recording, or of what ran before a change
+  earlier  // from a recording, or from a run before a change
 };
 
-// In recordings and JSON; always the last row.
+// Name of the residual in recordings and JSON; always the last row.
 inline constexpr const char* kNumericalRow = "numerical";
 
 struct EnergyRow {
@@ -47,22 +47,22 @@ struct EnergyRow {
   double work = 0;  // [J]
 };
 
-// A force that no scene knows, such as a mouse's, with books of its own: they are added to those of
-// the run, so that both ledgers close.
+// A force that is not part of the scene, such as the lab's mouse spring, with its own energy and
+// momentum account, which is added to that of the run.
 class OutsideForce : public ForceSource, public Checkpointable {
  public:
   virtual std::string name() const = 0;  // of its rows
-  // A step of h that went from `start` by way of `inner` to `end`: the states that the ledger looks
-  // at, with the weights of its rule for integrals over the step.
+  // Accounts for a step of length h: states at its start, at the inner nodes, at its end;
+  // `weights`: those of the quadrature rule over the step.
   virtual void book(double h, std::span<const double> weights, const State<double>& start,
                     const std::vector<State<double>>& inner, const State<double>& end) = 0;
-  // What it did since the start, by bodies that it acted on.
+  // Energy and momentum transferred since the start, by body.
   struct Given {
     int body = 0;
     EnergyMomentum exchange;
   };
   virtual const std::vector<Given>& given() const = 0;
-  // Those, both ways. Until it has acted they have no part in what a run remembers.
+  // Serializes the account; not part of a run's state before the force has acted.
   virtual void visit_books(StateArchive& memory) = 0;
 
   bool has_acted() const { return !given().empty(); }

@@ -10,7 +10,7 @@
 namespace twinarm {
 namespace {
 
-// Steps between two evaluations of a force that is held; 0: none is held.
+// Steps between two evaluations of a held force; 0: evaluated in each step.
 int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
                DiagnosticList& faults) {
   if (coupling.rate == 0) return 0;
@@ -18,13 +18,13 @@ int hold_steps(const SceneModel& scene, const SceneCoupling& coupling, double h,
   if (whole >= 1 && std::abs(steps - whole) <= 1e-6 * whole) return static_cast<int>(whole);
   faults.add({scene.description.file.string(), coupling.line,
               "coupling '" + coupling.coupling + "'",
-              "between two evaluations at " + short_number_text(coupling.rate) + " Hz lie " +
+              "the interval of " + short_number_text(coupling.rate) + " Hz is " +
                   short_number_text(steps) + " steps of " + short_number_text(h) + " s",
               "choose rate and step so that it is a whole number", "scene.rate"});
   return 1;
 }
 
-// The matched law measures J_K (q_K - q_D): its rates are J_K qd_K and J_K qd_D.
+// Matched law: offset J_K (q_K - q_D), velocities J_K qd_K and J_K qd_D.
 CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, const TargetSample& kvr,
                           const State<double>& x) {
   CouplingEnds ends;
@@ -46,8 +46,8 @@ JointStops::Stop stop_of(const SceneCoupling& spec) {
           spec.spring.b};
 }
 
-// Couplings that are led alike have one kinematic robot between them: its pose is the dear part.
-bool led_alike(const SceneCoupling& a, const SceneCoupling& b) {
+// Couplings with the same motion share a target robot, to compute its kinematics once.
+bool share_target(const SceneCoupling& a, const SceneCoupling& b) {
   return a.target == b.target && a.trace == b.trace && a.seed == b.seed &&
          a.duration == b.duration && a.delay == b.delay && a.speed == b.speed &&
          a.driven == b.driven && a.absolute_damper == b.absolute_damper && a.rest.q == b.rest.q;
@@ -55,13 +55,9 @@ bool led_alike(const SceneCoupling& a, const SceneCoupling& b) {
 
 }  // namespace
 
-// What leads couplings.
-struct SceneCouplings::Twin {
-  Twin(const SceneModel& scene, std::size_t pull, const OperatorMotion* device,
-       const HandInPlace& in_place, DiagnosticList& faults)
-      : Twin(scene, scene.couplings[pull], make_hand(scene, pull, device, in_place, faults)) {}
-  Twin(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<OperatorMotion> its)
-      : hand(std::move(its)),
+struct SceneCouplings::Target {
+  Target(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<OperatorMotion> motion)
+      : hand(std::move(motion)),
         kvr(scene.model, *hand, {}, spec.driven,
             spec.absolute_damper ? TargetRates::none : TargetRates::from_hand),
         shown(scene.model, *hand, {}, spec.driven) {
@@ -73,11 +69,10 @@ struct SceneCouplings::Twin {
   TargetRobot kvr, shown;
 };
 
-// A coupling at work.
-struct SceneCouplings::Tie {
-  Tie(const SceneModel& scene, const SceneCoupling& spec, double h, std::shared_ptr<Twin> leader,
-      DiagnosticList& faults)
-      : twin(std::move(leader)) {
+struct SceneCouplings::Active {
+  Active(const SceneModel& scene, const SceneCoupling& spec, double h,
+         std::shared_ptr<Target> shared, DiagnosticList& faults)
+      : target(std::move(shared)) {
     law.name = spec.coupling;
     law.type = spec.law;
     law.printed = spec.printed;
@@ -93,7 +88,7 @@ struct SceneCouplings::Tie {
       return;
     }
     try {
-      source = make_coupling(law, scene.model, twin->kvr);
+      source = make_coupling(law, scene.model, target->kvr);
     } catch (const InputError& error) {
       for (Diagnostic fault : error.faults()) {
         fault.file = scene.description.file.string();
@@ -103,51 +98,53 @@ struct SceneCouplings::Tie {
     }
   }
 
-  std::shared_ptr<Twin> twin;
+  std::shared_ptr<Target> target;
   CouplingSpec law;
-  std::unique_ptr<SpringSource> source;  // a Coupling, or of a soft stop JointStops
+  std::unique_ptr<SpringSource> source;  // a Coupling, or JointStops for soft limits
 };
 
 SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const OperatorMotion* device,
                                const HandInPlace& in_place)
     : scene_(scene) {
   DiagnosticList faults;
-  const auto twin_of = [&](std::size_t c) {
+  const auto target_of = [&](std::size_t c) {
     for (std::size_t before = 0; before < c; ++before)
-      if (led_alike(scene.couplings[before], scene.couplings[c])) return ties_[before]->twin;
-    return std::make_shared<Twin>(scene, c, device, in_place, faults);
+      if (share_target(scene.couplings[before], scene.couplings[c]))
+        return couplings_[before]->target;
+    return std::make_shared<Target>(scene, scene.couplings[c],
+                                    make_hand(scene, c, device, in_place, faults));
   };
   for (std::size_t c = 0; c < scene.couplings.size(); ++c)
-    if (scene.couplings[c].leader == c)
-      ties_.push_back(std::make_shared<Tie>(scene, scene.couplings[c], h, twin_of(c), faults));
-    else
-      ties_.push_back(ties_.back());
+    couplings_.push_back(
+        scene.couplings[c].leader != c
+            ? couplings_.back()
+            : std::make_shared<Active>(scene, scene.couplings[c], h, target_of(c), faults));
   faults.check();
 }
 
 SceneCouplings::~SceneCouplings() = default;
 
 ForceSource* SceneCouplings::source(std::size_t c) {
-  return spec(c).leader == c ? ties_[c]->source.get() : nullptr;
+  return spec(c).leader == c ? couplings_[c]->source.get() : nullptr;
 }
 
 void SceneCouplings::forget_hands() {
-  for (const std::shared_ptr<Tie>& tie : ties_) {
-    tie->twin->kvr.forget();
-    tie->twin->shown.forget();
+  for (const std::shared_ptr<Active>& active : couplings_) {
+    active->target->kvr.forget();
+    active->target->shown.forget();
   }
 }
 const OperatorMotion& SceneCouplings::hand(std::size_t c) const {
-  return *ties_[c]->twin->hand;
+  return *couplings_[c]->target->hand;
 }
 
 const Coupling& SceneCouplings::coupling(std::size_t c) const {
-  return dynamic_cast<const Coupling&>(*ties_[c]->source);
+  return dynamic_cast<const Coupling&>(*couplings_[c]->source);
 }
 
 const TargetSample& SceneCouplings::target(std::size_t c, double t, Side side) {
-  TargetRobot& shown = ties_[c]->twin->shown;
-  shown.begin_step(t, side == Side::after ? 1e-6 : -1e-6);  // within the motion that is meant
+  TargetRobot& shown = couplings_[c]->target->shown;
+  shown.begin_step(t, side == Side::after ? 1e-6 : -1e-6);  // on that side of a corner
   return shown.start();
 }
 
@@ -170,7 +167,7 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
     ends.offset.x() = kvr.x.q[iq] - x.q[iq];
     ends.velocity.x() = x.qd[iv];
     ends.target_velocity.x() = kvr.x.qd[iv];
-    if (spec.outside) {  // a stop stands still; between the stops nothing is stretched or damped
+    if (spec.outside) {  // soft limits are at rest; no force between them
       ends.offset.x() = stop_of(spec).way_back(x.q[iq]);
       ends.target_velocity.x() = ends.offset.x() == 0 ? x.qd[iv] : 0;
     }
@@ -180,38 +177,38 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
 
 Vector3 SceneCouplings::pull(std::size_t c) const {
   const SceneCoupling& spec = scene_.couplings[c];
-  const SpringState& reading = ties_[c]->source->readings()[spec.reading(c)];
+  const SpringState& reading = couplings_[c]->source->readings()[spec.reading(c)];
   const bool at_joint =
       spec.type == CouplingDescription::Type::torsional && spec.measure == SpringSpace::joint;
   return at_joint ? Vector3(reading.size, 0, 0) : reading.pull;
 }
 
 const CouplingSpec& SceneCouplings::law(std::size_t c) const {
-  return ties_[c]->law;
+  return couplings_[c]->law;
 }
 
 const TargetRobot& SceneCouplings::kvr(std::size_t c) const {
-  return ties_[c]->twin->kvr;
+  return couplings_[c]->target->kvr;
 }
 
 double SceneCouplings::m_star(std::size_t c) const {
-  return ties_[c]->source->readings()[scene_.couplings[c].reading(c)].m_star;
+  return couplings_[c]->source->readings()[scene_.couplings[c].reading(c)].m_star;
 }
 
 void SceneCouplings::hold_still(std::size_t c, const State<double>& x, const Kinematics& k,
                                 Forces<double>& forces) {
   const SceneCoupling& given = spec(c);
   const CouplingEnds at = ends(c, x, k);
-  // Between the limits of a stop its damper moves along.
+  // Between soft limits the damper has no force.
   const Vector3 along = given.outside ? at.target_velocity : Vector3(Vector3::Zero());
-  const Vector3 pull = given.spring.k * at.offset - given.spring.b * (at.velocity - along);
+  const Vector3 force = given.spring.k * at.offset - given.spring.b * (at.velocity - along);
   const int body = given.spring.body;
   if (given.type == CouplingDescription::Type::linear)
-    add_point_force(k, body, k.position(body, given.spring.p_L), pull, forces);
+    add_point_force(k, body, k.position(body, given.spring.p_L), force, forces);
   else if (given.measure == SpringSpace::world)
-    add_couple(k, body, pull, forces);
+    add_couple(k, body, force, forces);
   else
-    forces.tau[scene_.model.iv[static_cast<std::size_t>(body)]] += pull.x();
+    forces.tau[scene_.model.iv[static_cast<std::size_t>(body)]] += force.x();
 }
 
 }  // namespace twinarm

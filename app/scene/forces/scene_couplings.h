@@ -1,5 +1,5 @@
-// The couplings of a scene at work: each with a hand, a kinematic robot and its springs. Numbered
-// by their pulls (SceneCoupling).
+// The couplings of a run: each with an operator motion, a target robot and its springs. Indices are
+// those of SceneModel::couplings.
 #pragma once
 
 #include <cstddef>
@@ -17,69 +17,63 @@
 
 namespace twinarm {
 
-// What moves the kinematic side of a pull in place of the hand that the scene gives it, which is
-// handed over to be asked. Pulls with one kinematic robot between them are asked for once.
+// Replaces the operator motion `own` of a coupling; called once for each target robot.
 using HandInPlace = std::function<std::unique_ptr<OperatorMotion>(
-    std::size_t pull, std::unique_ptr<OperatorMotion> own)>;
+    std::size_t coupling, std::unique_ptr<OperatorMotion> own)>;
 
-// As the scene says of the pull; `device` is what couplings with target = "device" follow, nullptr
-// where none is connected. Adds a fault for a trace that cannot be read.
-std::unique_ptr<OperatorMotion> make_hand(const SceneModel& scene, std::size_t pull,
+// The operator motion of a coupling; `device`: that of target = "device", nullptr if none is
+// connected. Adds a diagnostic for a trace that cannot be read.
+std::unique_ptr<OperatorMotion> make_hand(const SceneModel& scene, std::size_t coupling,
                                           const OperatorMotion* device, const HandInPlace& in_place,
                                           DiagnosticList& faults);
 
-// A spring-damper as it stands in one state. Linear: the points of the link in both robots.
-// Torsional: rotation vectors in the world; at a joint its coordinate, in the first component.
+// A spring-damper in one state, world axes. Linear: the points of the link in both robots.
+// Torsional: rotation vectors; at a joint its position, in the first component.
 struct CouplingEnds {
-  Vector3 offset = Vector3::Zero();    // of the target, from the link [m, rad]
+  Vector3 offset = Vector3::Zero();    // target minus link [m, rad]
   Vector3 velocity = Vector3::Zero();  // of the link
   Vector3 target_velocity = Vector3::Zero();
 };
 
 class SceneCouplings {
  public:
-  // For steps of h [s]. The scene must outlive it, and so must the hand of a device: what couplings
-  // with target = "device" follow; nullptr where none is connected, and they stand still. Throws
-  // InputError with all faults: a trace that cannot be read, a rate that is no part of the steps.
+  // For steps of h [s]. Keeps references to scene and device. Without a device, targets "device"
+  // stay at rest. Throws InputError for unreadable traces and for rates that do not divide 1/h.
   SceneCouplings(const SceneModel& scene, double h, const OperatorMotion* device = nullptr,
                  const HandInPlace& in_place = {});
   SceneCouplings(const SceneCouplings&) = delete;
   SceneCouplings& operator=(const SceneCouplings&) = delete;
   ~SceneCouplings();
 
-  std::size_t size() const { return ties_.size(); }
-  // For Simulation::add; Rewindable. nullptr where an earlier pull has it already.
+  std::size_t size() const { return couplings_.size(); }
+  // For Simulation::add; nullptr for all but the first component of a coupling.
   ForceSource* source(std::size_t c);
-  const Coupling& coupling(std::size_t c) const;  // not of a soft stop
-  const CouplingSpec& law(std::size_t c) const;   // what it was made of
-  const TargetRobot& kvr(std::size_t c) const;    // as the last step saw it
-  // The kinematic side at a time, with the velocity of the motion after or before it: they differ
-  // at a corner. Not that of the source: asking does not change the run. Valid until the next call.
+  const Coupling& coupling(std::size_t c) const;  // not for soft limits
+  const CouplingSpec& law(std::size_t c) const;
+  const TargetRobot& kvr(std::size_t c) const;  // in the last step
+  // The target at a time, with the velocity after or before it (they differ at a corner). A copy
+  // for output, valid until the next call: does not change the run.
   enum class Side { after, before };
   const TargetSample& target(std::size_t c, double t, Side side = Side::after);
-  // The DVR at x and its kinematics k, at the time x.t.
+  // For the robot at x, with its kinematics k, at the time x.t.
   CouplingEnds ends(std::size_t c, const State<double>& x, const Kinematics& k,
                     Side side = Side::after);
-  // Spring and damper at x against a kinematic side that stands still: a smooth push, for the
-  // linear theory about a state.
+  // Adds spring and damper forces at x with the target at rest, for linearisation.
   void hold_still(std::size_t c, const State<double>& x, const Kinematics& k,
                   Forces<double>& forces);
-  // The pull of the last evaluation, in the same components.
+  // Coupling force of the last evaluation, in the same components.
   Vector3 pull(std::size_t c) const;
-  // The weightless inertia that the treatment added in the last step
-  // (docs/understand/coupling_laws.md).
-  double m_star(std::size_t c) const;
+  double m_star(std::size_t c) const;  // added inertia in the last step
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
-  // What moves the kinematic side; of a target that stands still a hand at rest.
   const OperatorMotion& hand(std::size_t c) const;
-  // Hands lead otherwise now, also at times that were looked at.
+  // After a change of operator motions: discards cached targets.
   void forget_hands();
 
  private:
-  struct Twin;
-  struct Tie;
+  struct Target;
+  struct Active;
   const SceneModel& scene_;
-  std::vector<std::shared_ptr<Tie>> ties_;  // by pull
+  std::vector<std::shared_ptr<Active>> couplings_;  // components share one
 };
 
 }  // namespace twinarm

@@ -10,45 +10,44 @@
 namespace twinarm {
 namespace {
 
-// Of a target that stands still: no joint is turned by it.
-class RestingHand final : public OperatorMotion {
+// Moves no joint.
+class MotionAtRest final : public OperatorMotion {
  public:
   HandSample sample(double, double) const override { return {}; }
   double duration() const override { return std::numeric_limits<double>::infinity(); }
   std::string description() const override { return "at rest"; }
 };
 
-// Somebody else's hand.
-class LentHand final : public OperatorMotion {
+// Refers to a motion without owning it.
+class BorrowedMotion final : public OperatorMotion {
  public:
-  explicit LentHand(const OperatorMotion& hand) : hand_(hand) {}
-  HandSample sample(double t, double toward) const override { return hand_.sample(t, toward); }
-  double duration() const override { return hand_.duration(); }
-  std::string description() const override { return hand_.description(); }
+  explicit BorrowedMotion(const OperatorMotion& motion) : motion_(motion) {}
+  HandSample sample(double t, double toward) const override { return motion_.sample(t, toward); }
+  double duration() const override { return motion_.duration(); }
+  std::string description() const override { return motion_.description(); }
 
  private:
-  const OperatorMotion& hand_;
+  const OperatorMotion& motion_;
 };
 
-// Of a device that is not there, and of a target that stands still though a hand may take it: it
-// holds the driven joints where they stand.
-std::unique_ptr<OperatorMotion> hand_at_rest(const Model<double>& model,
-                                             const SceneCoupling& coupling) {
+// Holds the driven joints at their rest positions: without a device, or until an input takes over.
+std::unique_ptr<OperatorMotion> rest_position(const Model<double>& model,
+                                              const SceneCoupling& coupling) {
   HandTarget target;
   for (const std::string& joint : coupling.driven.turned) {
     const auto body = static_cast<std::size_t>(model.find_joint(joint));
     target.q.push_back(coupling.rest.q[model.iq[body]]);
     target.qd.push_back(0);
   }
-  auto hand = std::make_unique<DeviceMotion>(1);
-  hand->set(target, 0, 1);
-  return hand;
+  auto motion = std::make_unique<DeviceMotion>(1);
+  motion->set(target, 0, 1);
+  return motion;
 }
 
-std::unique_ptr<OperatorMotion> hand_of_target(const SceneModel& scene,
-                                               const SceneCoupling& coupling,
-                                               const OperatorMotion* device,
-                                               DiagnosticList& faults) {
+std::unique_ptr<OperatorMotion> motion_of_target(const SceneModel& scene,
+                                                 const SceneCoupling& coupling,
+                                                 const OperatorMotion* device,
+                                                 DiagnosticList& faults) {
   switch (coupling.target) {
     case CouplingTarget::Kind::paper:
       return std::make_unique<AutomaticMotion>(HandMapping{});
@@ -62,26 +61,26 @@ std::unique_ptr<OperatorMotion> hand_of_target(const SceneModel& scene,
     case CouplingTarget::Kind::synthetic:
       return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration);
     case CouplingTarget::Kind::device:
-      if (device) return std::make_unique<LentHand>(*device);
-      return hand_at_rest(scene.model, coupling);
+      if (device) return std::make_unique<BorrowedMotion>(*device);
+      return rest_position(scene.model, coupling);
     case CouplingTarget::Kind::start:
     case CouplingTarget::Kind::state:
-      if (!coupling.driven.turned.empty()) return hand_at_rest(scene.model, coupling);
+      if (!coupling.driven.turned.empty()) return rest_position(scene.model, coupling);
       break;
   }
-  return std::make_unique<RestingHand>();
+  return std::make_unique<MotionAtRest>();
 }
 
 }  // namespace
 
-std::unique_ptr<OperatorMotion> make_hand(const SceneModel& scene, std::size_t pull,
+std::unique_ptr<OperatorMotion> make_hand(const SceneModel& scene, std::size_t index,
                                           const OperatorMotion* device, const HandInPlace& in_place,
                                           DiagnosticList& faults) {
-  const SceneCoupling& coupling = scene.couplings[pull];
-  auto hand = hand_of_target(scene, coupling, device, faults);
-  if (in_place) hand = in_place(pull, std::move(hand));
-  if (coupling.delay == 0 && coupling.speed == 1) return hand;
-  return std::make_unique<DelayedMotion>(std::move(hand), coupling.delay, coupling.speed);
+  const SceneCoupling& coupling = scene.couplings[index];
+  auto motion = motion_of_target(scene, coupling, device, faults);
+  if (in_place) motion = in_place(index, std::move(motion));
+  if (coupling.delay == 0 && coupling.speed == 1) return motion;
+  return std::make_unique<DelayedMotion>(std::move(motion), coupling.delay, coupling.speed);
 }
 
 }  // namespace twinarm

@@ -1,6 +1,5 @@
-// Constraints, from names to bodies of the model.
+// Constraints and couplings: from names to bodies of the model.
 
-#include "app/robot/coordinates.h"
 #include "app/scene/model/scene_builder.h"
 #include "coupling/laws/coupling_spec.h"
 #include "coupling/laws/mujoco_weld.h"
@@ -33,18 +32,18 @@ class ConstraintBuilder {
   }
 
  private:
-  // Of the body that is meant, in the world; a fixed one has no body of its own in the model.
+  // Origin of the body in the world; a fixed one has no body in the model.
   Vector3 origin_of(const std::string& name) const {
-    const SceneReference who = *find_reference(scene_.description, name);
-    if (who.body >= 0) {
-      const BodyDescription& body = scene_.description.bodies[static_cast<std::size_t>(who.body)];
+    const SceneReference found = *find_reference(scene_.description, name);
+    if (found.body >= 0) {
+      const BodyDescription& body = scene_.description.bodies[static_cast<std::size_t>(found.body)];
       if (body.fixed) return body.X_WB.p;
     }
-    return k_.X_WL[static_cast<std::size_t>(body_of(scene_, who))].p;
+    return k_.X_WL[static_cast<std::size_t>(body_of(scene_, found))].p;
   }
 
-  // The ends of a distance in the world. One point belongs to the one of the two that is fixed,
-  // else to a; the other end is then the origin of the other body.
+  // The ends of a distance in the world. A single point belongs to the fixed body, else to a; the
+  // other end is the origin of the other body.
   std::pair<Vector3, Vector3> ends(const ConstraintDescription& given,
                                    const SceneConstraint& made) const {
     const Vector3 origin_a = origin_of(given.a), origin_b = origin_of(given.b);
@@ -80,14 +79,15 @@ class ConstraintBuilder {
     const Pose& X_WA = k_.X_WL[static_cast<std::size_t>(made.a)];
     const Pose& X_WB = k_.X_WL[static_cast<std::size_t>(made.b)];
     if (made.a == made.b)
-      fault(made, "both are the same body", "name two that can move", "scene.same-ends");
+      fault(made, "both are the same body", "name two bodies, at most one of them fixed",
+            "scene.same-ends");
     if (given.type == ConstraintDescription::Type::distance) {
       const auto [p_WA, p_WB] = ends(given, made);
       made.X_AC = X_WA.inverse() * Pose{Matrix3::Identity(), p_WA};
       made.X_BC = X_WB.inverse() * Pose{Matrix3::Identity(), p_WB};
       made.length = (p_WB - p_WA).norm();
       if (!(made.length > 0))
-        fault(made, "its two ends are the same point", "give another point", "scene.same-ends");
+        fault(made, "the two points coincide", "give another point", "scene.same-ends");
       return;
     }
     Pose X_WC;
@@ -108,20 +108,19 @@ void build_constraints(SceneModel& scene) {
   ConstraintBuilder(scene).build();
 }
 
-// Couplings, from names to bodies of the model, and into their pulls.
 namespace {
 
 using Law = CouplingSpec::Type;
-using Pull = CouplingDescription::Type;
+using Component = CouplingDescription::Type;
 
 std::size_t robot_named(const SceneDescription& scene, const std::string& name) {
   std::size_t r = 0;
-  while (scene.robots[r].name != name) ++r;  // the reader has seen it
+  while (scene.robots[r].name != name) ++r;  // exists: checked by the reader
   return r;
 }
 
-// All but the pulls.
-SceneCoupling without_pulls(const SceneModel& scene, std::size_t index) {
+// All but the components.
+SceneCoupling without_components(const SceneModel& scene, std::size_t index) {
   const CouplingDescription& given = scene.description.couplings[index];
   SceneCoupling made;
   static_cast<CouplingTraits&>(made) = given;
@@ -144,8 +143,8 @@ SceneCoupling without_pulls(const SceneModel& scene, std::size_t index) {
   return made;
 }
 
-void add_pull(SceneModel& scene, SceneCoupling made, const std::string& part, Pull type,
-              const Spring& spring) {
+void add_component(SceneModel& scene, SceneCoupling made, const std::string& part, Component type,
+                   const Spring& spring) {
   if (scene.couplings.size() != made.leader) made.springs.clear();
   if (!part.empty()) made.name += "/" + part;
   made.type = type;
@@ -156,10 +155,10 @@ void add_pull(SceneModel& scene, SceneCoupling made, const std::string& part, Pu
 
 void add_six_dimensions(SceneModel& scene, SceneCoupling made, const Spring& spring) {
   made.springs = {spring};
-  add_pull(scene, made, "force", Pull::linear, spring);
-  Spring turn = spring;
-  turn.k = spring.k_turn, turn.b = spring.b_turn;
-  add_pull(scene, made, "couple", Pull::torsional, turn);
+  add_component(scene, made, "force", Component::linear, spring);
+  Spring rotational = spring;
+  rotational.k = spring.k_turn, rotational.b = spring.b_turn;
+  add_component(scene, made, "couple", Component::torsional, rotational);
 }
 
 void add_god_object(SceneModel& scene, SceneCoupling made, DiagnosticList& faults) {
@@ -167,11 +166,11 @@ void add_god_object(SceneModel& scene, SceneCoupling made, DiagnosticList& fault
   made.springs = god_object_joints(scene.model, first, last);
   made.measure = SpringSpace::joint;
   for (const Spring& joint : made.springs)
-    add_pull(scene, made, scene.model.joint_name[static_cast<std::size_t>(joint.body)],
-             Pull::torsional, joint);
+    add_component(scene, made, scene.model.joint_name[static_cast<std::size_t>(joint.body)],
+                  Component::torsional, joint);
   if (made.springs.empty())
     faults.add({scene.description.file.string(), made.line, "coupling '" + made.name + "'",
-                "its robot has no joint to drive", "name a robot that can move",
+                "its robot has no joint to move", "name a robot with joints",
                 "scene.nothing-to-drive"});
 }
 
@@ -179,7 +178,6 @@ void add_god_object(SceneModel& scene, SceneCoupling made, DiagnosticList& fault
 
 std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot) {
   std::vector<std::string> names;
-  const Coordinates coordinates(scene.model, false);
   const std::string prefix = name_in_scene(scene.description, robot, "");
   for (const JointDescription& joint : scene.description.robots[robot].description.joints)
     if (joint.dofs() == 1 && !joint.mimic && names.size() < 3) names.push_back(prefix + joint.name);
@@ -190,7 +188,7 @@ void build_couplings(SceneModel& scene) {
   DiagnosticList faults;
   for (std::size_t i = 0; i < scene.description.couplings.size(); ++i) {
     const CouplingDescription& given = scene.description.couplings[i];
-    SceneCoupling made = without_pulls(scene, i);
+    SceneCoupling made = without_components(scene, i);
     if (given.law == Law::god_object) {
       add_god_object(scene, std::move(made), faults);
       continue;
@@ -205,12 +203,11 @@ void build_couplings(SceneModel& scene) {
     const Spring spring{given.name,        body,          given.point,
                         given.stiffness,   given.damping, given.turn_stiffness,
                         given.turn_damping};
-    if (given.law == Law::bushing) {
-      add_six_dimensions(scene, std::move(made), spring);
-      continue;
-    }
     made.springs = {spring};
-    add_pull(scene, std::move(made), "", given.type, spring);
+    if (given.law == Law::bushing)
+      add_six_dimensions(scene, std::move(made), spring);
+    else
+      add_component(scene, std::move(made), "", given.type, spring);
   }
   faults.check();
 }

@@ -1,4 +1,4 @@
-// What touches what, and with which surface.
+// Geometries, their surfaces, and the pairs without contacts.
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -11,16 +11,16 @@
 namespace twinarm {
 namespace {
 
-// The first body inward that moves on a joint of its own, or the world: bodies of one piece do not
-// move against one another.
-int piece_of(const Model<double>& model, int body) {
+// The nearest ancestor (or the body itself) whose joint is not fixed, or the world: the root of the
+// rigid body that it belongs to.
+int rigid_root_of(const Model<double>& model, int body) {
   while (body > 0 && model.joint[static_cast<std::size_t>(body)] == JointType::fixed)
     body = model.parent[static_cast<std::size_t>(body)];
   return body;
 }
 
-bool is_moved_by_forces(const Model<double>& model, int piece) {
-  return piece > 0 && model.joint[static_cast<std::size_t>(piece)] != JointType::prescribed;
+bool is_moved_by_forces(const Model<double>& model, int root) {
+  return root > 0 && model.joint[static_cast<std::size_t>(root)] != JointType::prescribed;
 }
 
 class GeometryBuilder {
@@ -37,7 +37,7 @@ class GeometryBuilder {
     }
     find_pairs_apart();
     for (const PairDescription& pair : description().pairs)
-      scene_.pairs.push_back({meant(pair.a), meant(pair.b), pair.friction, pair.restitution,
+      scene_.pairs.push_back({named(pair.a), named(pair.b), pair.friction, pair.restitution,
                               pair.stiffness, pair.dissipation});
   }
 
@@ -62,7 +62,7 @@ class GeometryBuilder {
     owners_.push_back(std::move(owner));
   }
 
-  std::vector<int> meant(const std::string& name) const {
+  std::vector<int> named(const std::string& name) const {
     const SceneReference wanted = *find_reference(description(), name);
     std::vector<int> found;
     for (std::size_t g = 0; g < owners_.size(); ++g)
@@ -72,44 +72,40 @@ class GeometryBuilder {
     return found;
   }
 
-  // The last rule that says something about it counts; else what keeps bodies apart by itself.
+  // The last matching [[pair]] decides; then the default rules.
   bool is_apart(int a, int b) const {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
     const Model<double>& model = scene_.model;
-    const int piece_a = piece_of(model, scene_.geometries[i].body);
-    const int piece_b = piece_of(model, scene_.geometries[j].body);
-    if (piece_a == piece_b) return true;
-    if (!is_moved_by_forces(model, piece_a) && !is_moved_by_forces(model, piece_b)) return true;
-    if (told_[i].size() > j && told_[i][j] != 0) return told_[i][j] < 0;
+    const int root_a = rigid_root_of(model, scene_.geometries[i].body);
+    const int root_b = rigid_root_of(model, scene_.geometries[j].body);
+    if (root_a == root_b) return true;
+    if (!is_moved_by_forces(model, root_a) && !is_moved_by_forces(model, root_b)) return true;
+    if (rules_[i].size() > j && rules_[i][j] != 0) return rules_[i][j] < 0;
     const int group = scene_.geometries[i].group;
     if (group != 0 && group == scene_.geometries[j].group) return true;
     if (owners_[i].robot >= 0 && owners_[i].robot == owners_[j].robot &&
-        (inward(piece_a) == piece_b || inward(piece_b) == piece_a))
+        (parent_of(root_a) == root_b || parent_of(root_b) == root_a))
       return true;
-    return std::any_of(
-        scene_.constraints.begin(), scene_.constraints.end(), [&](const SceneConstraint& c) {
-          const bool joins = c.type == SceneConstraint::Type::weld ||
-                             c.type == SceneConstraint::Type::ball ||
-                             c.type == SceneConstraint::Type::hinge;
-          const int on_a = piece_of(model, c.a), on_b = piece_of(model, c.b);
-          return joins &&
-                 ((on_a == piece_a && on_b == piece_b) || (on_a == piece_b && on_b == piece_a));
-        });
+    return std::ranges::any_of(scene_.constraints, [&](const SceneConstraint& c) {
+      using Type = SceneConstraint::Type;
+      const bool joins = c.type == Type::weld || c.type == Type::ball || c.type == Type::hinge;
+      const int on_a = rigid_root_of(model, c.a), on_b = rigid_root_of(model, c.b);
+      return joins && ((on_a == root_a && on_b == root_b) || (on_a == root_b && on_b == root_a));
+    });
   }
-  int inward(int piece) const {
-    return piece == 0
-               ? 0
-               : piece_of(scene_.model, scene_.model.parent[static_cast<std::size_t>(piece)]);
+  int parent_of(int root) const {
+    if (root == 0) return 0;
+    return rigid_root_of(scene_.model, scene_.model.parent[static_cast<std::size_t>(root)]);
   }
 
   void find_pairs_apart() {
     const std::size_t n = scene_.geometries.size();
-    told_.assign(n, {});
+    rules_.assign(n, {});
     for (const PairDescription& pair : description().pairs) {
       if (!pair.collide) continue;
-      for (const int a : meant(pair.a))
-        for (const int b : meant(pair.b)) {
-          auto& row = told_[static_cast<std::size_t>(std::min(a, b))];
+      for (const int a : named(pair.a))
+        for (const int b : named(pair.b)) {
+          auto& row = rules_[static_cast<std::size_t>(std::min(a, b))];
           row.resize(n, 0);
           row[static_cast<std::size_t>(std::max(a, b))] = *pair.collide ? 1 : -1;
         }
@@ -120,11 +116,11 @@ class GeometryBuilder {
   }
 
   SceneModel& scene_;
-  std::vector<SceneReference> owners_;          // by geometry
-  std::vector<std::vector<signed char>> told_;  // [a][b], a < b: 1 they touch, -1 they do not
+  std::vector<SceneReference> owners_;           // by geometry
+  std::vector<std::vector<signed char>> rules_;  // [a][b], a < b: 1 contacts, -1 none, 0 default
 };
 
-bool holds(const std::vector<int>& sorted, int value) {
+bool contains(const std::vector<int>& sorted, int value) {
   return std::binary_search(sorted.begin(), sorted.end(), value);
 }
 
@@ -149,14 +145,14 @@ Surface SceneModel::surface_of_pair(int a, int b) const {
                std::max(s.rolling_friction, t.rolling_friction),
                soft.stiffness,
                soft.dissipation};
-  for (const PairOverride& problem : pairs) {
-    if (!(holds(problem.a, a) && holds(problem.b, b)) &&
-        !(holds(problem.a, b) && holds(problem.b, a)))
+  for (const PairOverride& rule : pairs) {
+    if (!(contains(rule.a, a) && contains(rule.b, b)) &&
+        !(contains(rule.a, b) && contains(rule.b, a)))
       continue;
-    pair.friction = problem.friction.value_or(pair.friction);
-    pair.restitution = problem.restitution.value_or(pair.restitution);
-    pair.stiffness = problem.stiffness.value_or(pair.stiffness);
-    pair.dissipation = problem.dissipation.value_or(pair.dissipation);
+    pair.friction = rule.friction.value_or(pair.friction);
+    pair.restitution = rule.restitution.value_or(pair.restitution);
+    pair.stiffness = rule.stiffness.value_or(pair.stiffness);
+    pair.dissipation = rule.dissipation.value_or(pair.dissipation);
   }
   return pair;
 }

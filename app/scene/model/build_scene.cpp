@@ -1,4 +1,4 @@
-// Robots and bodies into one model, and the state at the start.
+// Builds one model of all robots and bodies, and the start state.
 #include <algorithm>
 
 #include "app/robot/coordinates.h"
@@ -16,7 +16,6 @@ std::string prefix_of(const SceneDescription& scene, std::size_t robot) {
   return name_in_scene(scene, robot, "");
 }
 
-// The solid's inertia is in proportion to its mass.
 BodyInertia inertia_of(const BodyDescription& body) {
   const bool is_given = body.inertia && body.com && body.mass;
   MassProperties solid;
@@ -26,11 +25,9 @@ BodyInertia inertia_of(const BodyDescription& body) {
           body.inertia ? *body.inertia : Matrix3(solid.inertia * (mass / solid.mass))};
 }
 
-// A wider mesh is mostly one in millimetres [m].
-constexpr double kWideMesh = 10;
+constexpr double kWideMesh = 10;  // [m]; a wider mesh is probably in millimetres
 
-// Looks at a mesh before anything touches it. Of a convex one the hull counts, and the surface may
-// be what it likes.
+// Checks a mesh. The surface of a convex one need not be closed: its hull is used.
 void check_mesh(const BodyDescription& body, SceneDescription& scene) {
   const auto* file = std::get_if<MeshGeometry>(&body.shape);
   if (!file) return;
@@ -43,17 +40,17 @@ void check_mesh(const BodyDescription& body, SceneDescription& scene) {
                              body.name + "': its mesh is " + short_number_text(width) +
                              " m wide; if the file is in millimetres, give scale = 0.001");
   if (file->convex) {
-    collision_shape(body.shape);  // throws where there is no volume
+    collision_shape(body.shape);  // throws if it has no volume
     return;
   }
   const std::string fault = MeshShape{std::move(mesh)}.fault();
   if (!fault.empty())
     throw InputError({{"", 0, "", "mesh '" + file->name + "': " + fault,
-                       "mend the mesh, or give convex = true: its hull", "scene.mesh"}});
+                       "repair the mesh, or give convex = true to use its hull", "scene.mesh"}});
 }
 
-// X(t): the origin moves evenly along a line, the axes turn evenly about a fixed direction.
-MotionFunction steady(const Pose& X_WB, const BodyMotion& motion) {
+// Constant velocity of the origin and constant angular velocity.
+MotionFunction constant_motion(const Pose& X_WB, const BodyMotion& motion) {
   const double rate = motion.angular.norm();
   const Vector3 axis = rate > 0 ? Vector3(motion.angular / rate) : Vector3(Vector3::UnitZ());
   return [=](double t) {
@@ -130,7 +127,7 @@ class SceneBuilder {
         sound = true;
       });
       if (body.fixed || !sound) continue;
-      BodyInertia inertia;  // of a body whose motion is given nothing asks for it
+      BodyInertia inertia;  // not used for a prescribed motion
       if (body.is_free())
         attempt(body.line, "body '" + body.name + "'", [&] { inertia = inertia_of(body); });
       builder_.add_body(body.name, 0, free_joint_name(body.name),
@@ -139,29 +136,28 @@ class SceneBuilder {
     }
   }
 
-  // The body's own, unless a joint of the robots has it.
+  // The name of the body, made unique among the joints of the robots.
   std::string free_joint_name(std::string name) const {
     while (find_joint(description(), name)) name += "_";
     return name;
   }
 
-  // A fault of robot r at its line in the robot's file; of the joint at its root, in the scene.
+  // Moves a diagnostic of robot r to its line in the robot's file; of its root joint, in the scene.
   void locate(std::size_t r, Diagnostic& fault) const {
     const RobotInScene& robot = description().robots[r];
     const std::string prefix = prefix_of(description(), r);
     if (fault.where == joint_called(prefix + root_joint_name(robot.description, robot.floating)))
       fault.line = robot.line;
-    const auto stands_at = [&](int line) {
+    const auto move_to = [&](int line) {
       fault.file = robot.description.file.string();
       fault.line = line;
     };
     for (const LinkDescription& link : robot.description.links)
-      if (fault.where == link_called(prefix + link.name)) stands_at(link.line);
+      if (fault.where == link_called(prefix + link.name)) move_to(link.line);
     for (const JointDescription& joint : robot.description.joints)
-      if (fault.where == joint_called(prefix + joint.name)) stands_at(joint.line);
+      if (fault.where == joint_called(prefix + joint.name)) move_to(joint.line);
   }
 
-  // The builder knows the names of the model only.
   void build_model() {
     try {
       scene_.model = builder_.build();
@@ -198,23 +194,23 @@ class SceneBuilder {
         place(index, body.X_WB, body.linear_velocity, body.angular_velocity);
         continue;
       }
-      scene_.motions.push_back({index, steady(body.X_WB, *body.motion)});
+      scene_.motions.push_back({index, constant_motion(body.X_WB, *body.motion)});
       store_motion(scene_.model, static_cast<std::size_t>(index), scene_.motions.back().law(0),
                    scene_.start);
     }
   }
 
-  // A free joint: solver/model/joints.h has its angular velocity in the body's axes.
+  // State of a free joint; its angular velocity is in body axes (solver/model/joints.h).
   void place(int body, const Pose& X_WB, const Vector3& v_W, const Vector3& w_W) {
     const auto i = static_cast<std::size_t>(body);
     double* q = scene_.start.q.data() + scene_.model.iq[i];
     double* qd = scene_.start.qd.data() + scene_.model.iv[i];
-    const Eigen::Quaterniond turn(X_WB.R);
+    const Eigen::Quaterniond rotation(X_WB.R);
     const Vector3 w_B = X_WB.R.transpose() * w_W;
-    q[3] = turn.w();
+    q[3] = rotation.w();
     for (int c = 0; c < 3; ++c) {
       q[c] = X_WB.p[c];
-      q[4 + c] = turn.vec()[c];
+      q[4 + c] = rotation.vec()[c];
       qd[c] = w_B[c];
       qd[3 + c] = v_W[c];
     }
@@ -228,7 +224,7 @@ class SceneBuilder {
 
 const NamedJoint& joint_in_model(const SceneModel& scene, const Coordinates& coordinates,
                                  std::size_t robot, const std::string& name) {
-  return *coordinates.find(prefix_of(scene.description, robot) + name);  // the reader has seen it
+  return *coordinates.find(prefix_of(scene.description, robot) + name);  // checked by the reader
 }
 
 }  // namespace

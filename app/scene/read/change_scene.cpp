@@ -16,7 +16,7 @@ bool is_list_of_tables(const Value& value) {
   return value.is_list() && !value.items.empty() && value.items[0].is_table();
 }
 
-// Goes along a path through the tree.
+// Follows a path through the tree.
 class PathWalk {
  public:
   PathWalk(const ValuePath& path, MadeKeys made, int line, const std::string& where)
@@ -27,10 +27,10 @@ class PathWalk {
   void go(Value& table, std::size_t p = 0) {
     const ValuePath::Part& part = path_.parts[p];
     if (part.name.empty() || part.index == -2)
-      fault("'" + path_.text + "' is no path",
+      fault("'" + path_.text + "' is not a path",
             "write it as in coupling[0].stiffness, body.mass or step", "path.form");
     if (!table.is_table())
-      fault(up_to(p) + " is " + describe(table) + ", and has no '" + part.name + "'",
+      fault(up_to(p) + " is " + describe(table) + ": it has no '" + part.name + "'",
             "name a number of the scene file", "path.unknown-key");
     const bool last = is_last(p);
     const bool may_make = part.index < 0 && (made_ == MadeKeys::last ? last : p > 0);
@@ -61,7 +61,7 @@ class PathWalk {
     throw InputError({{"", 0, where_, problem, fix, code}});
   }
   bool is_last(std::size_t p) const { return p + 1 == path_.parts.size(); }
-  std::string up_to(std::size_t p) const {  // the path before part p, as "the scene" or "body[0]"
+  std::string up_to(std::size_t p) const {  // the path before part p: "the scene", "'body[0]'"
     if (p == 0) return "the scene";
     std::string text;
     for (std::size_t i = 0; i < p; ++i) {
@@ -76,19 +76,19 @@ class PathWalk {
     const ValuePath::Part& part = path_.parts[p];
     const auto i = static_cast<std::size_t>(part.index);
     if (!list.is_list())
-      fault("'" + part.name + "' is " + describe(list) + ", and has no items",
+      fault("'" + part.name + "' is " + describe(list) + ": it has no items",
             "leave the brackets out", "path.no-list");
     if (i >= list.items.size())
       fault("'" + part.name + "' has " + std::to_string(list.items.size()) +
-                " items, counted from 0, and no item " + std::to_string(i),
-            "give an index below " + std::to_string(list.items.size()), "path.no-item");
+                " items: there is no item " + std::to_string(i),
+            "give an index from 0, below " + std::to_string(list.items.size()), "path.no-item");
     if (is_last(p))
       found.push_back({&list.items[i], &list});
     else
       go(list.items[i], p + 1);
   }
 
-  // One of them where its name comes next, else all.
+  // The item whose name is the next part, else all items.
   void go_to_items(Value& list, std::size_t p) {
     const ValuePath::Part& next = path_.parts[p + 1];
     for (Value& item : list.items) {
@@ -140,7 +140,7 @@ void set_number(Value& scene, const std::string& text, double value, int line,
   for (const PathTarget& target : *found)
     if (!target.value->is_number())
       return faults.add(
-          {"", 0, where, "'" + text + "' is " + describe(*target.value) + ", and no number",
+          {"", 0, where, "'" + text + "' is " + describe(*target.value) + ", not a number",
            target.value->is_list() ? "name one of them: " + path.parts.back().name + "[0]"
                                    : "name a number of the scene file",
            "path.no-number"});
@@ -152,7 +152,7 @@ void set_number(Value& scene, const std::string& text, double value, int line,
 
 namespace {
 
-// A number, true or false, numbers with commas between them, or a text.
+// A number, true or false, numbers separated by commas, or a text.
 Value value_of_text(const std::string& text) {
   if (const auto number = parse_number(text)) return Value::of(*number);
   Value value = Value::of(text);
@@ -171,12 +171,11 @@ Value value_of_text(const std::string& text) {
   return value;
 }
 
-// A key of the top that a scene may leave out, for a path to lead to.
-void add_left_out(const std::string& name, int line, Value& scene) {
-  static const std::array kLeftOut{"gravity", "step", "integrator", "contact", "duration"};
-  if (scene.find(name) || std::find(kLeftOut.begin(), kLeftOut.end(), name) == kLeftOut.end())
-    return;
-  Value made = Value::of(0.0);  // its text or number comes in its place
+// Adds an optional top-level key, so that a path can denote it.
+void add_optional_key(const std::string& name, int line, Value& scene) {
+  static const std::array kOptional{"gravity", "step", "integrator", "contact", "duration"};
+  if (scene.find(name) || std::ranges::find(kOptional, name) == kOptional.end()) return;
+  Value made = Value::of(0.0);  // to be replaced by the new value
   if (name == "gravity") {
     made = Value::list({});
     for (const double g : SceneDescription().gravity) made.items.push_back(Value::of(g));
@@ -190,7 +189,7 @@ void add_left_out(const std::string& name, int line, Value& scene) {
 Change parse_change(const std::string& text) {
   const std::size_t equal = text.find('=');
   if (equal == std::string::npos || equal == 0 || equal + 1 == text.size())
-    throw InputError({{"", 0, "--set", "'" + text + "' is no change",
+    throw InputError({{"", 0, "--set", "'" + text + "' is not a change",
                        "write PATH=VALUE, as in coupling.stiffness=800", "change.form"}});
   return {text.substr(0, equal), text.substr(equal + 1)};
 }
@@ -201,13 +200,13 @@ void apply(const Change& change, int line, Value& scene, DiagnosticList& faults)
                          std::string_view code) {
     faults.add({"", 0, where, problem, fix, code});
   };
-  constexpr std::size_t kLongestPath = 16;  // each step is a table within a table
+  constexpr std::size_t kMaxDepth = 16;
   const ValuePath path(change.path);
-  if (path.parts.size() > kLongestPath)
-    return fault("the path has " + std::to_string(path.parts.size()) + " steps",
-                 "no number of a scene lies deeper than a few", "change.too-deep");
+  if (path.parts.size() > kMaxDepth)
+    return fault("the path has " + std::to_string(path.parts.size()) + " parts",
+                 "give at most " + std::to_string(kMaxDepth), "change.too-deep");
   const std::string& name = path.parts.front().name;
-  add_left_out(name, line, scene);
+  add_optional_key(name, line, scene);
   std::vector<std::string> names;
   for (const Value& member : scene.members) names.push_back(member.key);
   if (!scene.find(name))

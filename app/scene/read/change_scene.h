@@ -1,5 +1,4 @@
-// Changes of a scene's tree, before it is read. A place in it is named by the way to
-// it from the top:
+// Changes of a scene's tree before it is read. Paths:
 //
 //   step                       of the scene itself
 //   gravity[2]                 in a list, from 0
@@ -20,29 +19,28 @@ namespace twinarm {
 struct ValuePath {
   struct Part {
     std::string name;
-    long index = -1;  // -1: none is given; -2: what stands in the brackets is no index
+    long index = -1;  // -1: none; -2: not a valid index
   };
   explicit ValuePath(const std::string& path);
   std::string text;
   std::vector<Part> parts;  // at least one
 };
 
-// Where a path leads; `table`: in what its last part stands.
+// A value that a path denotes, and the table or list that contains it.
 struct PathTarget {
   Value *value, *table;
 };
 
-// Keys that tables leave out and a path may make: whether there are such, the reader of the scene
-// knows.
+// Missing keys that a path may add; the reader of the scene checks whether they are valid.
 enum class MadeKeys { last, all_below_top };
 
-// All places that are meant; what is made stands in `line`. Throws InputError, at `where` and with
-// the nearest names, where the path leads nowhere.
+// All values that the path denotes; added ones get the line number `line`. Throws InputError at
+// `where`, with the nearest names, if there are none.
 std::vector<PathTarget> find_targets(Value& scene, const ValuePath& path, MadeKeys made, int line,
                                      const std::string& where);
 
-// Puts the number there, in `line`, by which later faults are known. Adds a fault at `where` where
-// the path does not lead to numbers.
+// Sets the numbers at the path and their line number, by which later diagnostics can be attributed.
+// Adds a diagnostic at `where` if the path does not denote numbers.
 void set_number(Value& scene, const std::string& path, double value, int line,
                 const std::string& where, DiagnosticList& faults);
 
@@ -51,12 +49,11 @@ void set_number(Value& scene, const std::string& path, double value, int line,
 struct Change {
   std::string path, value;
 };
-// Throws InputError for what has no '='.
+// Throws InputError if there is no '='.
 Change parse_change(const std::string& text);
-// To a scene's tree; adds a fault where the path leads nowhere. Tables and keys below the top that
-// are missing are made: the reader knows whether there are such. With another `type` a coupling
-// loses the keys that the new one has not (app/scene/read/scene_keys.h). `line`: what it writes
-// stands there.
+// Applies the change to a scene's tree, with line number `line`. Missing tables and keys below the
+// top are added. A changed `type` removes the keys that the new type of coupling does not have
+// (fit_keys_to_type).
 void apply(const Change& change, int line, Value& scene, DiagnosticList& faults);
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// Bodies and their shapes: those of collision/shapes/shape.h, and meshes.
+// Bodies with their shapes: primitives (collision/shapes/shape.h) and meshes.
 #include "app/scene/read/scene_reader.h"
 #include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
@@ -7,12 +7,12 @@
 namespace twinarm {
 namespace {
 
-// What has no inside has no inertia of its own either.
+// A shape without volume has no inertia; nullptr if it can be a free body.
 const char* why_not_free(const ShapeDescription& shape) {
-  if (std::holds_alternative<HalfSpace>(shape)) return "a half-space has no end";
+  if (std::holds_alternative<HalfSpace>(shape)) return "a half-space is unbounded";
   if (std::holds_alternative<SphericalCavity>(shape) ||
       std::holds_alternative<CylindricalCavity>(shape))
-    return "a hollow shape is the world around something";
+    return "a hollow shape is unbounded outside";
   const auto* mesh = std::get_if<MeshGeometry>(&shape);
   return mesh && !mesh->convex ? "contacts of a moving mesh need convex = true" : nullptr;
 }
@@ -25,14 +25,15 @@ std::optional<Matrix3> read_inertia(TableReader& table, SceneDescription& scene)
   const Matrix3 I = (Matrix3() << xx, xy, xz, xy, yy, yz, xz, yz, zz).finished();
   const Vector3 principal = symmetric_eigenvalues(I);  // ascending
   if (!(principal[0] > 0))
-    table.fault(
-        "inertia",
-        "its principal moments must be positive, the least is " + short_number_text(principal[0]),
-        "give [xx, yy, zz, xy, xz, yz] in kg m^2, about the centre of mass", "scene.inertia");
+    table.fault("inertia",
+                "the principal moments must be positive, the smallest is " +
+                    short_number_text(principal[0]),
+                "give [xx, yy, zz, xy, xz, yz] in kg m^2, about the centre of mass",
+                "scene.inertia");
   else if (principal[0] + principal[1] < principal[2] * (1 - 1e-9))
     scene.warnings.push_back(scene.file.string() + ": " + table.where() +
-                             ", inertia: no body has this one: of its principal moments the "
-                             "largest is more than the sum of the others");
+                             ", inertia: physically inconsistent: the largest principal moment "
+                             "exceeds the sum of the others");
   return I;
 }
 
@@ -42,11 +43,10 @@ void read_mass(TableReader& table, BodyDescription& body, SceneDescription& scen
   body.com = table.vector("com");
   body.inertia = read_inertia(table, scene);
   if (table.has("com") && !table.has("inertia"))
-    table.fault("com", "goes with 'inertia' alone: the inertia of the shape is about its centre",
+    table.fault("com", "is valid only together with 'inertia'",
                 "give inertia = [xx, yy, zz, xy, xz, yz] about this point", "scene.key-alone");
   if (table.has("mass") && table.has("density"))
-    table.fault("density", "the body has a mass already", "leave one of them out",
-                "scene.two-keys");
+    table.fault("density", "conflicts with 'mass'", "leave one of them out", "scene.two-keys");
   if (body.is_free() && !table.has("mass") && !table.has("density"))
     table.fault("", "a free body needs a mass", "give mass or density, or fixed = true, or motion",
                 "scene.missing");
@@ -60,23 +60,22 @@ void read_motion(SceneReader& reader, TableReader& table, BodyDescription& body)
                              velocities.vector("angular").value_or(Vector3::Zero())};
     velocities.done();
     if (body.fixed)
-      table.fault("motion", "a fixed body does not move", "leave 'fixed' or 'motion' out",
-                  "scene.two-keys");
+      table.fault("motion", "conflicts with 'fixed'", "leave one of them out", "scene.two-keys");
   }
-  reader.read_velocities(table, body, body.is_free(),
-                         {"is of a free body, and this one is not",
-                          "leave it out, or give motion = { linear, angular }"});
+  reader.read_velocities(
+      table, body, body.is_free(),
+      {"applies to a free body only", "leave it out, or give motion = { linear, angular }"});
 }
 
-// What is only to be looked at.
-void read_looks(SceneReader& reader, TableReader& table, BodyDescription& body) {
+// Colour and texture.
+void read_appearance(SceneReader& reader, TableReader& table, BodyDescription& body) {
   body.color = table.vector("color");
   if (body.color && !(body.color->minCoeff() >= 0 && body.color->maxCoeff() <= 1))
-    table.fault("color", "red, green and blue must lie from 0 to 1", "", "scene.range");
+    table.fault("color", "red, green and blue must be from 0 to 1", "", "scene.range");
   if (const auto name = table.text("texture"))
     body.texture = reader.find_file(table, "texture", *name).value_or("");
   if (!body.texture.empty() && std::holds_alternative<HalfSpace>(body.shape))
-    table.fault("texture", "a half-space has none", "leave it out", "scene.key-useless");
+    table.fault("texture", "a half-space has no texture", "leave it out", "scene.key-useless");
 }
 
 }  // namespace
@@ -96,7 +95,7 @@ void SceneReader::read_body(const Value& value) {
   read_mass(table, body, scene);
   body.X_WB = read_pose(table);
   body.surface = read_surface(table);
-  read_looks(*this, table, body);
+  read_appearance(*this, table, body);
   if (const auto group = table.number("group")) {
     body.group = static_cast<int>(*group);
     if (!(*group >= 0 && *group <= 31 && *group == body.group))
@@ -109,7 +108,6 @@ void SceneReader::read_body(const Value& value) {
 
 namespace {
 
-// All of them are > 0.
 void read_length(TableReader& table, const char* key, double& length) {
   table.missing(key, std::string("give ") + key + " = ... in metres");
   length = table.positive(key).value_or(1);
@@ -174,11 +172,11 @@ std::optional<ShapeDescription> SceneReader::read_shape(TableReader& body) {
   if (!shape) return std::nullopt;
   const std::vector<std::string> names = names_of_shapes();
   if (shape->members.empty())
-    body.fault("shape", "names no shape", name_remedy("", names, "shapes"), "scene.shapes");
+    body.fault("shape", "is empty", name_remedy("", names, "shapes"), "scene.shapes");
   if (shape->members.size() > 1) {
     std::string given;
     for (const Value& member : shape->members) given += (given.empty() ? "" : " and ") + member.key;
-    body.fault("shape", "names " + given, "give one shape; a second one needs a second body",
+    body.fault("shape", "has " + given, "give one shape; a second one needs a second body",
                "scene.shapes");
   }
   std::optional<ShapeDescription> found;

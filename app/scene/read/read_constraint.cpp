@@ -1,4 +1,4 @@
-// Constraints: what ties links and bodies together.
+// Constraints between links and bodies.
 #include "app/scene/read/read_scene.h"
 #include "app/scene/read/scene_reader.h"
 #include "app/support/text.h"
@@ -8,7 +8,7 @@ namespace {
 
 using Type = ConstraintDescription::Type;
 
-// The joint of a gear, the body of all others: its name, told where there is none.
+// Name of the joint of a gear, or of the body of other constraints; a diagnostic if there is none.
 std::string read_end(TableReader& table, const char* key, bool gear,
                      const SceneDescription& scene) {
   table.missing(key, gear ? "name a joint: robot/joint" : "name a body, robot/link or world");
@@ -22,39 +22,38 @@ std::string read_end(TableReader& table, const char* key, bool gear,
     else if (joint->joint->dofs() != 1)
       table.fault(key,
                   "the joint has " + std::to_string(joint->joint->dofs()) + " degrees of freedom",
-                  "a gear goes between joints of one", "scene.degrees-of-freedom");
+                  "name a joint with one", "scene.degrees-of-freedom");
     return *name;
   }
   const auto found = find_reference(scene, *name);
   if (!found || (found->robot >= 0 && found->link.empty()))
-    table.fault(key, found ? "a robot has many links" : "there is no body '" + *name + "'",
+    table.fault(key, found ? "names a robot, not a link" : "there is no body '" + *name + "'",
                 name_remedy(*name, reference_names(scene), "names"), "scene.unknown-name");
   return *name;
 }
 
-// Where it holds, and how fast: each type has keys of its own.
-void read_places(TableReader& table, ConstraintDescription& constraint) {
+// The keys that only some types have.
+void read_type_keys(TableReader& table, ConstraintDescription& constraint) {
   const bool gear = constraint.type == Type::gear;
-  const auto place = [&](const char* key, bool allowed) -> std::optional<Vector3> {
-    const auto found = table.vector(key);
+  const auto vector = [&](const char* key, bool allowed) {
     if (table.has(key) && !allowed)
-      table.fault(key, "has no meaning in this type of constraint", "leave it out",
+      table.fault(key, "is not a key of this type of constraint", "leave it out",
                   "scene.key-useless");
-    return found;
+    return table.vector(key);
   };
-  constraint.point = place("point", !gear);
-  constraint.point_b = place("point_b", constraint.type == Type::distance);
-  constraint.axis = place("axis", constraint.type == Type::hinge);
+  constraint.point = vector("point", !gear);
+  constraint.point_b = vector("point_b", constraint.type == Type::distance);
+  constraint.axis = vector("axis", constraint.type == Type::hinge);
   if (constraint.axis && !(constraint.axis->norm() > 0))
-    table.fault("axis", "has no direction", "give an axis that is not zero", "scene.no-direction");
+    table.fault("axis", "is zero", "give a direction", "scene.no-direction");
   if (constraint.type == Type::ball || constraint.type == Type::hinge)
-    table.missing("point", "give the point that both share, in the world at the start");
+    table.missing("point", "give the common point in the world at the start");
   if (constraint.type == Type::hinge)
-    table.missing("axis", "give the axis of the hinge, in the world at the start");
+    table.missing("axis", "give the axis of the hinge in the world at the start");
   if (gear) table.missing("ratio", "give the speed of a as a multiple of that of b");
   if (const auto ratio = table.number("ratio")) {
     constraint.ratio = *ratio;
-    if (!gear) table.fault("ratio", "is of a gear", "leave it out", "scene.key-useless");
+    if (!gear) table.fault("ratio", "is a key of gears only", "leave it out", "scene.key-useless");
     if (*ratio == 0) table.fault("ratio", "must not be 0", "", "scene.zero");
   }
 }
@@ -67,15 +66,16 @@ void SceneReader::read_constraint(const Value& value, std::size_t index) {
   constraint.line = table.line();
   constraint.name = read_item_name(table, "constraint", index, scene.constraints);
   table.missing("type", "give type = \"weld\", \"ball\", \"hinge\", \"distance\" or \"gear\"");
+  constexpr Type kTypes[] = {Type::weld, Type::ball, Type::hinge, Type::distance, Type::gear};
   if (const auto type = table.choice("type", {"weld", "ball", "hinge", "distance", "gear"}))
-    constraint.type = static_cast<Type>(*type);
+    constraint.type = kTypes[*type];
   const bool gear = constraint.type == Type::gear;
 
   constraint.a = read_end(table, "a", gear, scene);
   constraint.b = read_end(table, "b", gear, scene);
   if (!constraint.a.empty() && constraint.a == constraint.b)
-    table.fault("b", "is the same as a", "name two", "scene.same-ends");
-  read_places(table, constraint);
+    table.fault("b", "is the same as a", "name two bodies or joints", "scene.same-ends");
+  read_type_keys(table, constraint);
   table.done();
   scene.constraints.push_back(std::move(constraint));
 }

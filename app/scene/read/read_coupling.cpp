@@ -1,4 +1,4 @@
-// Couplings: spring-dampers and other pulls after a kinematic twin.
+// Couplings between a robot and its target robot.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace twinarm {
 namespace {
 
-// The robot that carries the link; nullptr, told, where it cannot be found.
+// The robot of the coupling; nullptr with a diagnostic if there is none.
 const RobotInScene* read_robot_of(TableReader& table, const SceneDescription& scene,
                                   CouplingDescription& coupling) {
   const std::vector<std::string> names = names_of(scene.robots);
@@ -29,7 +29,7 @@ const RobotInScene* read_robot_of(TableReader& table, const SceneDescription& sc
 }
 
 void read_link(TableReader& table, const RobotDescription& robot, CouplingDescription& coupling) {
-  table.missing("link", "name the link that is pulled");
+  table.missing("link", "name the link on which it acts");
   coupling.link = table.text("link").value_or("");
   if (coupling.link.empty() || robot.links.empty()) return;
   if (!find_link(robot, coupling.link))
@@ -39,12 +39,13 @@ void read_link(TableReader& table, const RobotDescription& robot, CouplingDescri
   const bool at_joint = coupling.type == CouplingDescription::Type::torsional &&
                         coupling.measure == SpringSpace::joint;
   if (at_joint && !own_joint(robot, coupling.link))
-    table.fault("link", "its joint has not one degree of freedom of its own",
-                "name a link on a revolute, prismatic or screw joint, or give measure = \"world\"",
+    table.fault("link", "its joint is a mimic joint, or does not have one degree of freedom",
+                "name the child of a revolute, prismatic or screw joint, or give measure = "
+                "\"world\"",
                 "scene.degrees-of-freedom");
 }
 
-// Whether the type has the key; told where it stands and is none of the type's.
+// Whether the type has the key; a diagnostic if it is given and the type does not have it.
 bool fits(TableReader& table, const char* key, const CouplingFacts& facts) {
   const CouplingKey& row = coupling_key(key);
   if (row.has(facts)) return true;
@@ -67,26 +68,27 @@ void read_treatment(TableReader& table, const CouplingFacts& facts, CouplingDesc
     coupling.treatment = static_cast<Discretization>(*chosen);
   if (coupling.treatment == Discretization::explicit_) return;
   if (facts.treatments == Discretizations::explicit_only)
-    table.fault("treatment", "this type of coupling is explicit: it sees the start of the step",
+    table.fault("treatment", "this type of coupling is explicit",
                 "leave it out, or choose another type", "scene.treatment");
   if (coupling.rate > 0)
-    table.fault("rate", "a held force is explicit: it cannot see the end of the step",
+    table.fault("rate", "a force that is held between evaluations is explicit",
                 "give treatment = \"explicit\", or leave 'rate' out", "scene.treatment");
 }
 
-// Those that a coupling has by its type, and not by its target.
+// The numbers that depend on the type, not on the target.
 void read_numbers(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
-  const bool turns = coupling.type == CouplingDescription::Type::torsional;
+  const bool is_torsional = coupling.type == CouplingDescription::Type::torsional;
   for (const CouplingKey& row : coupling_keys()) {
     if (!row.number || row.of_target || !fits(table, row.key, facts)) continue;
-    if (row.is_required()) table.missing(row.key, std::string("give it in ") + row.unit_of(turns));
+    if (row.is_required())
+      table.missing(row.key, std::string("give it in ") + row.unit_of(is_torsional));
     double& number = row.number(coupling);
     number = read_number(table, row.key, row.range).value_or(number);
   }
 }
 
-// How it pulls, and where.
-void read_pull(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+// Type, measure, point and damper.
+void read_law(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
   coupling.type =
       facts.at_point ? CouplingDescription::Type::linear : CouplingDescription::Type::torsional;
   if (facts.at_joint) coupling.measure = SpringSpace::joint;
@@ -100,28 +102,29 @@ void read_pull(TableReader& table, const CouplingFacts& facts, CouplingDescripti
       coupling.absolute_damper = *damper == 1;
 }
 
-// A soft stop: the spring-damper acts outside of these two coordinates of the joint.
-void read_outside(TableReader& table, CouplingDescription& coupling) {
-  const auto ends = table.numbers("outside", 2);
-  if (!ends) return;
-  coupling.outside = {(*ends)[0], (*ends)[1]};
-  if (!((*ends)[0] <= (*ends)[1]))
-    table.fault("outside", "the first is above the second", "give [lower, upper]", "scene.order");
+// Soft limits: the spring-damper acts outside this range of joint positions.
+void read_soft_limits(TableReader& table, CouplingDescription& coupling) {
+  const auto limits = table.numbers("outside", 2);
+  if (!limits) return;
+  coupling.outside = {(*limits)[0], (*limits)[1]};
+  if (!((*limits)[0] <= (*limits)[1]))
+    table.fault("outside", "the first number exceeds the second", "give [lower, upper]",
+                "scene.order");
   const bool at_joint = coupling.type == CouplingDescription::Type::torsional &&
                         coupling.measure == SpringSpace::joint;
   if (!at_joint || coupling.treatment != Discretization::implicit || table.has("target"))
-    table.fault("outside", "a stop is a torsional coupling at a joint, implicit, without a target",
-                "give type = \"torsional\", measure = \"joint\", and leave the others out",
+    table.fault("outside", "needs an implicit torsional coupling at a joint, without a target",
+                "give type = \"torsional\", measure = \"joint\", and no treatment and target",
                 "scene.stop");
 }
 
-// The joint that the button of the hand moves.
+// The joint that the device's button moves.
 void read_gripper(SceneReader& reader, TableReader& table, const RobotDescription& robot,
                   CouplingTarget& target) {
   const Value* value = table.table("gripper");
   if (!value) return;
   if (!target.is_hand())
-    table.fault("gripper", "no hand moves this target", "give one, as target = \"paper\"",
+    table.fault("gripper", "needs an operator motion", "give one, as target = \"paper\"",
                 "scene.key-useless");
   TableReader gripper = reader.open(*value, table.where() + ", gripper");
   for (const char* key : {"joint", "open", "closed"})
@@ -133,32 +136,30 @@ void read_gripper(SceneReader& reader, TableReader& table, const RobotDescriptio
   std::vector<std::string> names;
   for (const JointDescription& joint : robot.joints)
     if (joint.dofs() == 1 && !joint.mimic) names.push_back(joint.name);
-  if (!target.gripper.empty() &&
-      std::find(names.begin(), names.end(), target.gripper) == names.end())
+  if (!target.gripper.empty() && std::ranges::find(names, target.gripper) == names.end())
     gripper.fault("joint", "there is no such joint of one degree of freedom",
                   name_remedy(target.gripper, names, "joints"), "scene.unknown-name");
 }
 
-void read_synthetic(TableReader& hand, CouplingTarget& target) {
+void read_synthetic(TableReader& motion, CouplingTarget& target) {
   target.kind = CouplingTarget::Kind::synthetic;
-  const double seed = hand.not_negative("seed").value_or(1);
+  const double seed = motion.not_negative("seed").value_or(1);
   if (!(seed <= 4294967295.0) || seed != std::floor(seed))
-    hand.fault("seed", "must be a whole number below 2^32", "give seed = 1", "scene.range");
+    motion.fault("seed", "must be a whole number below 2^32", "give seed = 1", "scene.range");
   else
     target.seed = static_cast<unsigned>(seed);
-  target.duration = hand.positive("duration").value_or(20);
+  target.duration = motion.positive("duration").value_or(20);
   if (target.duration > 1e5)
-    hand.fault("duration", "must be at most 100000 s", "give a shorter one", "scene.range");
+    motion.fault("duration", "must be at most 100000 s", "give a shorter one", "scene.range");
 }
 
-// What should be known of a trace before a run on it. Its faults are told where it is played.
-void look_at_trace(const std::filesystem::path& file, std::vector<std::string>& warnings) {
+// Adds the warnings of a trace. Its errors are reported when it is used.
+void add_trace_warnings(const std::filesystem::path& file, std::vector<std::string>& warnings) {
   try {
     const RecordedTrace trace(file);
     for (const std::string& warning : trace.quality().warnings)
       warnings.push_back(file.string() + ": " + warning);
   } catch (const InputError&) {
-    return;
   }
 }
 
@@ -185,13 +186,13 @@ void read_target(SceneReader& reader, TableReader& table, const RobotDescription
     target.kind = CouplingTarget::Kind::trace;
     if (const auto file = reader.find_file(table, "target", name)) {
       target.trace = *file;
-      look_at_trace(*file, reader.scene.warnings);
+      add_trace_warnings(*file, reader.scene.warnings);
     }
   }
 }
 
-// How late and how fast the motion of the target is seen.
-void read_pace(TableReader& table, CouplingDescription& coupling) {
+// Delay and speed of the target's motion.
+void read_timing(TableReader& table, CouplingDescription& coupling) {
   for (const CouplingKey& row : coupling_keys()) {
     if (!row.of_target) continue;
     const double given = read_number(table, row.key, row.range).value_or(0);
@@ -208,23 +209,24 @@ void SceneReader::read_coupling(const Value& value, std::size_t index) {
   CouplingDescription coupling;
   coupling.line = table.line();
   coupling.name = read_item_name(table, "coupling", index, scene.couplings);
-  table.missing("type", "give type = \"linear\", \"torsional\" or another of docs/reference/scene_file.md");
+  table.missing("type",
+                "give type = \"linear\", \"torsional\" or another (docs/reference/scene_file.md)");
   const std::size_t chosen = table.choice("type", names_of(all_couplings)).value_or(0);
   const CouplingFacts& facts = all_couplings[chosen];
   coupling.law = facts.type;
   coupling.printed = facts.printed;
-  read_pull(table, facts, coupling);
+  read_law(table, facts, coupling);
   read_numbers(table, facts, coupling);
   read_treatment(table, facts, coupling);
   const RobotInScene* robot = read_robot_of(table, scene, coupling);
-  const RobotDescription nobody;
-  const RobotDescription& description = robot ? robot->description : nobody;
+  const RobotDescription none;
+  const RobotDescription& description = robot ? robot->description : none;
   if (fits(table, "link", facts)) read_link(table, description, coupling);
-  read_outside(table, coupling);
+  read_soft_limits(table, coupling);
   if (robot && !description.links.empty()) {
     read_target(*this, table, description, coupling.target);
     read_gripper(*this, table, description, coupling.target);
-    read_pace(table, coupling);
+    read_timing(table, coupling);
   } else {
     for (const char* key : {"target", "delay", "speed", "gripper"}) table.find(key);
   }

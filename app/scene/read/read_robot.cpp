@@ -10,11 +10,11 @@
 namespace twinarm {
 namespace {
 
-// Masses of links by factors, and particles on links.
+// Factors on link masses, and point masses on links.
 void read_masses(SceneReader& reader, TableReader& table, RobotInScene& robot) {
   const std::vector<std::string> links = names_of(robot.description.links);
   const auto check_link = [&](TableReader& where, const std::string& key, const std::string& name) {
-    if (std::find(links.begin(), links.end(), name) == links.end())
+    if (std::ranges::find(links, name) == links.end())
       where.fault(key, "there is no link '" + name + "'", name_remedy(name, links, "links"),
                   "scene.unknown-name");
   };
@@ -27,7 +27,7 @@ void read_masses(SceneReader& reader, TableReader& table, RobotInScene& robot) {
   }
   for (const Value* value : table.tables("payload")) {
     TableReader payload = reader.open(*value, table.where() + ", payload");
-    payload.missing("link", "name the link that carries it");
+    payload.missing("link", "name its link");
     payload.missing("mass", "give it in kg");
     PointMass mass{payload.text("link").value_or(""),
                    payload.vector("point").value_or(Vector3::Zero()),
@@ -39,11 +39,8 @@ void read_masses(SceneReader& reader, TableReader& table, RobotInScene& robot) {
 }
 
 void drop_limits(RobotDescription& robot) {
-  constexpr double kNowhere = std::numeric_limits<double>::infinity();
-  for (JointDescription& joint : robot.joints) {
-    joint.lower = -kNowhere;
-    joint.upper = kNowhere;
-  }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  for (JointDescription& joint : robot.joints) joint.lower = -kInfinity, joint.upper = kInfinity;
 }
 
 }  // namespace
@@ -65,8 +62,7 @@ void SceneReader::read_robot(const Value& value) {
   robot.surface = read_surface(table);
   robot.X_WR = read_pose(table);
   if (const auto base = table.choice("base", {"fixed", "floating"})) robot.floating = *base == 1;
-  read_velocities(table, robot, robot.floating,
-                  {"the robot stands on the world", "give base = \"floating\""});
+  read_velocities(table, robot, robot.floating, {"the base is fixed", "give base = \"floating\""});
 
   table.missing("model", "give model = \"robots/.../robot.urdf\"");
   bool readable = false;
@@ -100,15 +96,15 @@ void SceneReader::read_robot(const Value& value) {
 
 namespace {
 
-// Of a rotation, as Origin::pose() takes them.
+// Roll, pitch and yaw about fixed axes, as in Origin::pose().
 Vector3 fixed_angles(const Matrix3& R) {
   const double pitch = std::atan2(-R(2, 0), std::hypot(R(0, 0), R(1, 0)));
-  if (std::hypot(R(0, 0), R(1, 0)) < 1e-12)  // one angle is left to choose
+  if (std::hypot(R(0, 0), R(1, 0)) < 1e-12)  // gimbal lock: roll = 0
     return {0, pitch, std::atan2(-R(0, 1), R(1, 1))};
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }
 
-// The joint's frame as it stands at q.
+// Makes the joint fixed at the position q.
 void fix_at(JointDescription& joint, double q) {
   const Matrix3 R = joint.X_PJ().R;
   if (joint.type == JointDescription::Type::prismatic)
@@ -125,7 +121,7 @@ void SceneReader::lock_joints(TableReader& table, RobotInScene& robot) {
   if (!list) return;
   const auto fault = [&](const std::string& problem, const std::string& fix,
                          std::string_view code) { table.fault("lock", problem, fix, code); };
-  if (list->kind != Value::Kind::list)
+  if (!list->is_list())
     return fault("must be a list of joints, is " + describe(*list), "write lock = [\"joint1\"]",
                  "scene.type");
   std::vector<JointDescription>& joints = robot.description.joints;
@@ -133,24 +129,21 @@ void SceneReader::lock_joints(TableReader& table, RobotInScene& robot) {
   for (const JointDescription& joint : joints)
     if (joint.dofs() == 1) names.push_back(joint.name);
   for (const Value& item : list->items) {
-    const auto joint = std::find_if(joints.begin(), joints.end(), [&](const JointDescription& j) {
-      return item.kind == Value::Kind::text && j.name == item.text;
-    });
+    const auto joint = std::ranges::find_if(
+        joints, [&](const JointDescription& j) { return item.is_text() && j.name == item.text; });
     const std::string quoted = "joint '" + item.text + "'";
-    const auto follows = [&](const JointDescription& j) {
+    const auto mimics_it = [&](const JointDescription& j) {
       return j.mimic && j.mimic->joint == item.text;
     };
     if (joint == joints.end())
       fault("there is no joint " + describe(item), name_remedy(item.text, names, "joints"),
             "scene.unknown-name");
-    else if (joint->mimic || std::any_of(joints.begin(), joints.end(), follows))
-      fault(quoted + " follows another, or another follows it", "leave both as they are",
-            "scene.lock");
+    else if (joint->mimic || std::ranges::any_of(joints, mimics_it))
+      fault(quoted + " is a mimic joint, or is mimicked", "leave it out", "scene.lock");
     else if (joint->type != JointDescription::Type::revolute &&
              joint->type != JointDescription::Type::continuous &&
              joint->type != JointDescription::Type::prismatic)
-      fault(quoted + " neither turns nor slides alone", "lock revolute and prismatic joints",
-            "scene.lock");
+      fault(quoted + " is neither revolute nor prismatic", "leave it out", "scene.lock");
     else if (robot.qd.contains(item.text))
       fault(quoted + " has a velocity at the start", "leave it out of qd, or of lock",
             "scene.lock");

@@ -10,9 +10,9 @@
 namespace twinarm {
 namespace {
 
-// In the order of the lines of the scene; those of other files after them, as they were found.
+// Sorted by line of the scene; those of other files last.
 std::vector<Diagnostic> in_order(std::vector<Diagnostic> faults, const std::string& file) {
-  std::stable_sort(faults.begin(), faults.end(), [&](const Diagnostic& a, const Diagnostic& b) {
+  std::ranges::stable_sort(faults, [&](const Diagnostic& a, const Diagnostic& b) {
     if ((a.file == file) != (b.file == file)) return a.file == file;
     return a.file == file && a.line < b.line;
   });
@@ -51,7 +51,7 @@ void SceneReader::read(const Value& root) {
   if (const auto chosen = table.choice("integrator", names_of(all_integrators)))
     scene.integrator = all_integrators[*chosen].integrator;
 
-  // Robots and bodies first: the others name them.
+  // Robots and bodies first: the other items refer to them.
   for (const Value* robot : table.tables("robot")) read_robot(*robot);
   for (const Value* body : table.tables("body")) read_body(*body);
   for (const Value* pair : table.tables("pair")) read_pair(*pair);
@@ -69,16 +69,15 @@ std::string SceneReader::read_name(TableReader& table, const char* kind) {
   if (name.empty()) return name;
   table.rename(std::string(kind) + " '" + name + "'");
   if (name.find('/') != std::string::npos)
-    table.fault("name", "must not contain '/': that parts a robot from its link",
+    table.fault("name", "must not contain '/', which separates a robot from its link",
                 "choose another name", "scene.name");
   if (name == "world")
-    table.fault("name", "'world' is the world itself", "choose another name", "scene.name");
+    table.fault("name", "'world' is reserved", "choose another name", "scene.name");
   const auto is_same = [&](const auto& item) { return item.name == name; };
-  if (std::any_of(scene.robots.begin(), scene.robots.end(), is_same) ||
-      std::any_of(scene.bodies.begin(), scene.bodies.end(), is_same))
-    table.fault("name", "the name is taken already", "give each robot and body its own name",
+  if (std::ranges::any_of(scene.robots, is_same) || std::ranges::any_of(scene.bodies, is_same))
+    table.fault("name", "the name is already used", "give each robot and body its own name",
                 "scene.name-taken");
-  // One robot's links keep their names in what is printed, beside those of the bodies.
+  // The links of a single robot have no prefix in the output.
   else if (std::string(kind) == "body" && scene.robots.size() == 1 &&
            find_link(scene.robots[0].description, name))
     table.fault("name", "a link of robot '" + scene.robots[0].name + "' has this name",
@@ -128,16 +127,16 @@ std::optional<std::filesystem::path> SceneReader::find_file(TableReader& table,
                                                             const std::string& name) {
   namespace fs = std::filesystem;
   std::error_code ignored;
-  std::vector<fs::path> places{path.parent_path() / name};  // of an absolute name: the name
+  std::vector<fs::path> places{path.parent_path() / name};  // an absolute name is kept
   try {
     places.push_back(find_assets() / name);
-  } catch (const InputError&) {  // without assets there is one place less
+  } catch (const InputError&) {  // no assets
   }
   for (const fs::path& place : places)
     if (may_name(roots, place) && fs::is_regular_file(place, ignored))
       return fs::absolute(place).lexically_normal();
-  if (roots)  // the same whether there is one or not
-    table.fault(key, "the file '" + name + "' is not among those that this scene may read",
+  if (roots)  // does not reveal whether the file exists
+    table.fault(key, "this scene may not read the file '" + name + "'",
                 "upload it before the scene, or name one below assets/", "file.missing");
   else
     table.fault(key, "the file '" + name + "' does not exist",
@@ -147,14 +146,14 @@ std::optional<std::filesystem::path> SceneReader::find_file(TableReader& table,
 
 namespace {
 
-// "arm/joint1" in two; the robot is empty where there is no stroke.
+// Splits "arm/joint1"; the robot is empty if there is no slash.
 std::pair<std::string, std::string> robot_and_item(const std::string& name) {
-  const auto stroke = name.find('/');
-  if (stroke == std::string::npos) return {"", name};
-  return {name.substr(0, stroke), name.substr(stroke + 1)};
+  const auto slash = name.find('/');
+  if (slash == std::string::npos) return {"", name};
+  return {name.substr(0, slash), name.substr(slash + 1)};
 }
 
-// The index of the robot, or the only one where no name is given; -1 where there is none.
+// Index of the robot, or of the only one if the name is empty; -1: none.
 int find_robot(const SceneDescription& scene, const std::string& name) {
   if (name.empty()) return scene.robots.size() == 1 ? 0 : -1;
   for (std::size_t r = 0; r < scene.robots.size(); ++r)

@@ -1,8 +1,8 @@
-// What a scene file says, as plain data: robots, bodies, obstacles, couplings, constraints.
+// A scene file as plain data: robots, bodies, couplings, constraints
+// (docs/reference/scene_file.md).
 //
-// SI units, radians; vectors and positions in world axes unless a comment says otherwise. Defaults
-// stand here and nowhere else. Each item remembers its line, so that whoever refuses it later can
-// still say where it stands. docs/reference/scene_file.md tells users the same.
+// SI units, radians; vectors and positions in world axes unless a comment says otherwise. Default
+// values are defined here. `line` is that of the item in the file, for diagnostics.
 #pragma once
 
 #include <filesystem>
@@ -18,18 +18,19 @@
 #include "coupling/laws/coupling_spec.h"
 #include "solver/forces/force_source.h"
 #include "solver/integration/integrator.h"
+#include "solver/loops/loop_closure.h"
 #include "solver/spatial/pose.h"
 
 namespace twinarm {
 
 struct Surface {
-  double friction = 0.5;          // Coulomb; a pair takes the geometric mean
-  double restitution = 0;         // 0 to 1; a pair takes the product
-  double torsional_friction = 0;  // against turning about the normal [m]
+  double friction = 0.5;          // Coulomb coefficient; a pair has the geometric mean
+  double restitution = 0;         // 0 to 1; a pair has the product
+  double torsional_friction = 0;  // moment about the normal / normal force [m]
   double rolling_friction = 0;    // [m]
-  // Of the compliant response, at each contact point; a pair is two springs in series.
+  // Compliant contact, per contact point; a pair is two springs in series.
   double stiffness = 1e6;  // [N/m]
-  double dissipation = 1;  // of Hunt and Crossley [s/m]
+  double dissipation = 1;  // Hunt-Crossley c [s/m]
 };
 
 struct BodyMotion {                   // constant
@@ -41,19 +42,18 @@ struct BodyDescription {
   std::string name;
   int line = 0;
   bool fixed = false;
-  std::optional<BodyMotion> motion;  // it moves so, whatever pushes
+  std::optional<BodyMotion> motion;  // prescribed
   ShapeDescription shape;
-  std::optional<double> mass, density;  // of a free body exactly one [kg, kg/m^3]
-  std::optional<Vector3> com;           // body axes; left out: the centre of the solid shape
-  std::optional<Matrix3> inertia;       // about the com, body axes; left out: of the solid shape
+  std::optional<double> mass, density;  // exactly one for a free body [kg, kg/m^3]
+  std::optional<Vector3> com;           // body axes; default: of the solid shape
+  std::optional<Matrix3> inertia;       // about the com, body axes; default: of the solid shape
   Pose X_WB;                            // at the start
   Vector3 linear_velocity = Vector3::Zero();  // of the body's origin
   Vector3 angular_velocity = Vector3::Zero();
   Surface surface;
-  std::optional<Vector3>
-      color;  // red, green, blue in [0, 1]; of a texture what it is multiplied by
-  std::filesystem::path texture;  // PNG or JPEG, absolute; empty for none
-  int group = 0;                  // bodies of one group other than 0 do not touch one another
+  std::optional<Vector3> color;   // red, green, blue in [0, 1]; multiplies the texture
+  std::filesystem::path texture;  // PNG or JPEG, absolute; may be empty
+  int group = 0;                  // bodies of one group other than 0 do not collide
 
   bool is_free() const { return !fixed && !motion; }
 };
@@ -67,69 +67,66 @@ struct RobotInScene {
   Vector3 linear_velocity = Vector3::Zero(), angular_velocity = Vector3::Zero();  // floating only
   JointValueMap q, qd;
   Surface surface;
-  bool collide = true;                       // false: nothing touches it
-  std::map<std::string, double> mass_scale;  // by link; of mass and inertia
+  bool collide = true;                       // false: no contacts
+  std::map<std::string, double> mass_scale;  // by link; factor on mass and inertia
   std::vector<PointMass> payloads;
 };
 
-// Names in pairs and constraints: a body, "robot/link", "world"; in a pair also a robot: all of it.
+// Names in pairs and constraints: a body, "robot/link", "world"; in a pair also a robot (all
+// links).
 struct PairDescription {
   std::string a, b;
   int line = 0;
-  // In place of what the surfaces give.
-  std::optional<double> friction, restitution, stiffness, dissipation;
-  std::optional<bool> collide;  // false: they pass through each other
+  std::optional<double> friction, restitution, stiffness, dissipation;  // override the surfaces'
+  std::optional<bool> collide;
 };
 
 struct CouplingTarget {
   enum class Kind { start, state, paper, trace, device, synthetic };
   Kind kind = Kind::start;
-  JointValueMap q;              // of a state
-  std::filesystem::path trace;  // CSV of a hand
-  unsigned seed = 1;            // of a synthetic hand
-  double duration = 20;         // likewise [s]
-  // The joint that the button moves; empty: none. The coordinate where it is up, and where pressed.
-  std::string gripper;
-  double open = 0, closed = 0;
+  JointValueMap q;              // kind state
+  std::filesystem::path trace;  // operator motion (CSV)
+  unsigned seed = 1;            // of a synthetic operator
+  double duration = 20;         // of a synthetic operator [s]
+  std::string gripper;          // joint that the button moves; may be empty
+  double open = 0, closed = 0;  // its position with the button released, pressed
 
-  // Moved by a hand, or by what stands for one.
+  // Moved by an operator motion.
   bool is_hand() const { return kind != Kind::start && kind != Kind::state; }
 };
 
-// Of a coupling, and of each of its pulls in the model (app/scene/model/scene_model.h).
+// Common to a coupling and its components in the model (SceneCoupling).
 struct CouplingTraits {
-  // How it pulls: at a point of the link, or by turning it.
-  enum class Type { linear, torsional };
+  enum class Type { linear, torsional };  // force at a point of the link, or torque
   std::string name;
   int line = 0;
   CouplingSpec::Type law = CouplingSpec::Type::linear;
   bool printed = false;
   Type type = Type::linear;
-  SpringSpace measure = SpringSpace::world;  // of laws that turn
+  SpringSpace measure = SpringSpace::world;  // torsional laws
   SolrefParameters reference;                // weld
   Discretization treatment = Discretization::implicit;
-  // A soft stop: it acts where the joint's coordinate is not between these two, back to them.
-  std::optional<std::pair<double, double>> outside;
-  bool absolute_damper = false;  // against the link's own velocity, and not that of the target
-  double rate = 0;               // [Hz] at which the force is computed; 0: every step
-  double delay = 0;  // [s]: the kinematic side is seen this late; before, at its start, at rest
-  double speed = 1;  // a motion or trace is played this many times faster
+  std::optional<std::pair<double, double>> outside;  // soft limits: acts outside this range
+  bool absolute_damper = false;  // damping acts on the link's velocity, not relative to the target
+  double rate = 0;               // of the force evaluation [Hz]; 0: every step
+  double delay = 0;              // of the target's motion [s]; before: its start, at rest
+  double speed = 1;              // factor on the speed of a motion or trace
 };
 
 struct CouplingDescription : CouplingTraits {
-  std::string robot, link;          // a god object has no link: it drives all joints
-  Vector3 point = Vector3::Zero();  // link axes; of laws that pull at a point
+  std::string robot, link;          // a god object has no link: it moves all joints
+  Vector3 point = Vector3::Zero();  // link axes; linear laws
   double stiffness = 0, damping = 0;
   double turn_stiffness = 0, turn_damping = 0;  // bushing
   CouplingTarget target;
 };
 
 struct ConstraintDescription {
-  enum class Type { weld, ball, hinge, distance, gear };
+  using Type = LoopType;
   std::string name;
   int line = 0;
   Type type = Type::weld;
-  std::string a, b;                             // of a gear: "robot/joint"
+  std::string a, b;                             // gear: "robot/joint"
   std::optional<Vector3> point, point_b, axis;  // world, at the start
   double ratio = 1;                             // gear: speed of a = ratio * speed of b
 };
@@ -143,7 +140,7 @@ struct SceneDescription {
   double step = 0.001;  // [s]
   ContactMode contact = ContactMode::rigid;
   std::optional<Integrator> integrator;
-  std::optional<double> duration;  // [s], where the command line gives none
+  std::optional<double> duration;  // [s]; the command line overrides it
   std::vector<RobotInScene> robots;
   std::vector<BodyDescription> bodies;
   std::vector<PairDescription> pairs;

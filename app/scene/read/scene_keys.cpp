@@ -21,28 +21,27 @@ const std::vector<SurfaceKey>& surface_keys() {
   // clang-format off
   static const std::vector<SurfaceKey> rows{
       {.key = "friction", .member = &Surface::friction, .of_pair = &P::friction,
-       .slider = {"friction", 0, 2, "Coulomb's: a pair takes the geometric mean of its two.",
+       .slider = {"friction", 0, 2, "Coulomb coefficient; a pair has the geometric mean.",
                   SliderRow::linear}},
       {.key = "restitution",
        .range = {Sign::not_negative, [](double e) { return e <= 1; },
                  "must be at most 1: an impact creates no energy", "give a number from 0 to 1"},
        .member = &Surface::restitution, .of_pair = &P::restitution,
-       .slider = {"restitution", 0, 1, "Speed after an impact over speed before: a pair takes the "
+       .slider = {"restitution", 0, 1, "Speed after an impact over speed before; a pair has the "
                   "product.", SliderRow::linear}},
       {.key = "torsional_friction", .unit = "m", .member = &Surface::torsional_friction,
-       .slider = {.meaning = "Couple about the normal per normal force: a pair takes the larger "
-                  "one."}},
+       .slider = {.meaning = "Moment about the normal per normal force; a pair has the larger one."}},
       {.key = "rolling_friction", .unit = "m", .member = &Surface::rolling_friction,
-       .slider = {.meaning = "Couple against rolling per normal force, likewise."}},
+       .slider = {.meaning = "Rolling moment per normal force; a pair has the larger one."}},
       {.key = "stiffness", .unit = "N/m", .range = {Sign::positive},
        .member = &Surface::stiffness, .of_pair = &P::stiffness,
-       .slider = {"contact stiffness", 1e3, 1e9, "Of each contact point; two surfaces are springs "
+       .slider = {"contact stiffness", 1e3, 1e9, "Stiffness per contact point; two surfaces are springs "
                   "in series."},
        .is_of_compliant = true},
       {.key = "dissipation", .unit = "s/m",
        .member = &Surface::dissipation, .of_pair = &P::dissipation,
-       .slider = {.meaning = "c of N = k d (1 + c d') of each contact point; of two springs in "
-                  "series the softer one says more."}}};
+       .slider = {.meaning = "c of N = k d (1 + c d') per contact point; of two springs in series "
+                  "the softer one has more weight."}}};
   // clang-format on
   return rows;
 }
@@ -88,60 +87,60 @@ const std::vector<CouplingKey>& coupling_keys() {
   // clang-format off
   static const std::vector<CouplingKey> rows{
       {.key = "measure", .has = [](const F& f) { return f.has_measure; },
-       .useless = "is of a torsional coupling"},
+       .useless = "is a key of torsional couplings"},
       {.key = "point", .has = [](const F& f) { return f.at_point; },
-       .useless = "this type of coupling turns the link: it has no point", .unit = "m"},
+       .useless = "this type of coupling has no point", .unit = "m"},
       {.key = "damper", .has = [](const F& f) { return has_springs(f) && !f.printed; },
-       .useless = "this type of coupling has a damper of its own, or none"},
+       .useless = "this type of coupling has its own damper, or none"},
       {.key = "stiffness", .has = has_springs, .useless = kNoGain,
        .unit = "N/m", .turning_unit = "N m/rad", .number = at<&C::stiffness>, .added = 1000,
-       .slider = {"stiffness k", 1, 1e7, "Pull per distance between the robot and its twin: "
-                  "stiffer follows closer, and swings faster."},
+       .slider = {"stiffness k", 1, 1e7, "Coupling force per position error to the target robot; "
+                  "torque per angle for torsional couplings."},
        .turning_low = 0.01, .turning_high = 1e6},
       {.key = "damping", .has = has_springs, .useless = kNoGain,
        .unit = "N s/m", .turning_unit = "N m s/rad", .number = at<&C::damping>,
-       .slider = {"damping b", 0.01, 1e5, "Pull per difference of their velocities: "
-                  "it calms the swinging."},
+       .slider = {"damping b", 0.01, 1e5, "Coupling force per velocity error; torque per angular "
+                  "velocity for torsional couplings."},
        .turning_low = 1e-4, .turning_high = 1e4},
-      {.key = "turn_stiffness", .has = has<Gains::two_springs>, .useless = "is of a bushing",
+      {.key = "turn_stiffness", .has = has<Gains::two_springs>, .useless = "is a key of bushings",
        .unit = "N m/rad", .number = at<&C::turn_stiffness>,
-       .added = 0.01, .added_times = "stiffness",  // as if that had an arm of 0.1 m
-       .slider = {"turn stiffness", 0.01, 1e5, "Couple per angle between the two links."}},
-      {.key = "turn_damping", .has = has<Gains::two_springs>, .useless = "is of a bushing",
+       .added = 0.01, .added_times = "stiffness",  // a lever arm of 0.1 m
+       .slider = {"rotational stiffness", 0.01, 1e5, "Torque per orientation error."}},
+      {.key = "turn_damping", .has = has<Gains::two_springs>, .useless = "is a key of bushings",
        .unit = "N m s/rad", .number = at<&C::turn_damping>,
-       .slider = {"turn damping", 1e-4, 1e4, "Couple per difference of their rates of turn."}},
-      {.key = "time_constant", .has = has<Gains::reference>, .useless = "is of a weld",
+       .slider = {"rotational damping", 1e-4, 1e4, "Torque per angular velocity error."}},
+      {.key = "time_constant", .has = has<Gains::reference>, .useless = "is a key of welds",
        .unit = "s", .range = kPositive, .number = at<&C::reference, &W::time_constant>,
-       .slider = {"time constant", 1e-3, 1, "The weld follows as a swing of this time does."}},
-      {.key = "damping_ratio", .has = has<Gains::reference>, .useless = "is of a weld",
+       .slider = {"time constant", 1e-3, 1, "MuJoCo solref: time constant of the tracking error."}},
+      {.key = "damping_ratio", .has = has<Gains::reference>, .useless = "is a key of welds",
        .range = kPositive, .number = at<&C::reference, &W::damping_ratio>,
-       .slider = {"damping ratio", 0.05, 10, "1: it comes back without swinging past."}},
-      {.key = "impedance", .has = has<Gains::reference>, .useless = "is of a weld",
+       .slider = {"damping ratio", 0.05, 10, "MuJoCo solref; 1 is critically damped."}},
+      {.key = "impedance", .has = has<Gains::reference>, .useless = "is a key of welds",
        .range = {Sign::positive, [](double d) { return d < 1; },
                  "must be below 1: at 1 the weld would be rigid",
                  "give a number between 0 and 1, or a [[constraint]] of type \"weld\""},
        .number = at<&C::reference, &W::impedance>,
-       .slider = {"impedance", 0.05, 0.999, "How firm the weld is: towards 1 as a rigid one.",
+       .slider = {"impedance", 0.05, 0.999, "MuJoCo impedance d; 1 would be a rigid weld.",
                   SliderRow::linear}},
       {.key = "rate", .has = [](const F& f) { return f.can_hold; },
        .useless = "this type of coupling is computed at every step",
        .unit = "Hz", .range = kPositive, .number = at<&C::rate>,
-       .slider = {.meaning = "The force is computed at this rate and held between; explicit."}},
+       .slider = {.meaning = "Rate of evaluation; the force is held in between, explicit."}},
       {.key = "treatment", .has = [](const F& f) { return f.treatments == F::Discretizations::all; },
-       .useless = "this type of coupling is a treatment of its own"},
+       .useless = "this type of coupling has its own discretization"},
       {.key = "link", .has = [](const F& f) { return f.gains != Gains::none; },
-       .useless = "a god object drives all joints"},
+       .useless = "a god object moves all joints"},
       {.key = "outside", .has = [](const F& f) { return f.has_measure; }},
       {.key = "delay", .has = any_coupling,
-       .useless = "the target stands still: seen late, it is the same",
+       .useless = "needs a moving target",
        .unit = "s", .number = at<&C::delay>,
-       .slider = {.meaning = "The coupling sees its target this late."},
-       .of_target = moves, .help = "leave it out, or give a target that moves"},
+       .slider = {.meaning = "Delay of the target's motion."},
+       .of_target = moves, .help = "leave it out, or give a moving target"},
       {.key = "speed", .has = any_coupling,
-       .useless = "is of a target that is a motion by name or a trace",
+       .useless = "needs a target that is a named motion or a trace",
        .range = kPositive, .number = at<&C::speed>,
        .slider = {"speed of the motion", 0.1, 10,
-                  "How many times faster the twin's motion is played.", SliderRow::log, true},
+                  "Factor on the speed of the target's motion.", SliderRow::log, true},
        .of_target = is_played,
        .help = "leave it out, or give target = \"paper\" or a trace file"}};
   // clang-format on
@@ -168,7 +167,7 @@ void fit_keys_to_type(Value& coupling, int line) {
   }
 }
 
-// ---- numbers within their ranges; units ----
+// ---- ranges and units ----
 
 std::optional<double> read_number(TableReader& table, const char* key, const NumberRange& range) {
   const auto value = range.sign == Sign::positive       ? table.positive(key)
@@ -181,13 +180,13 @@ std::optional<double> read_number(TableReader& table, const char* key, const Num
 
 namespace {
 
-// Of the coupling that a table is: whether its gains are of turns.
-bool turns_link(const Value& table) {
+// Whether the table is a coupling with gains per angle.
+bool is_torsional_table(const Value& table) {
   const Value* type = table.find("type");
   return type && type->text == "torsional";
 }
 
-// Keys that are read one by one.
+// Keys without a row.
 constexpr std::array<std::pair<const char*, const char*>, 15> kOtherUnits{
     {{"step", "s"},
      {"duration", "s"},
@@ -218,11 +217,11 @@ std::string unit_of_number(const Value& scene, const std::string& text) {
   if (path.parts.size() > 1 && path.parts.front().name == "coupling")
     for (const CouplingKey& row : coupling_keys()) {
       if (key != row.key) continue;
-      const bool turns = turns_link(*found->front().table);
-      const bool agree = std::all_of(found->begin(), found->end(), [&](const PathTarget& target) {
-        return turns_link(*target.table) == turns;
+      const bool is_torsional = is_torsional_table(*found->front().table);
+      const bool agree = std::ranges::all_of(*found, [&](const PathTarget& target) {
+        return is_torsional_table(*target.table) == is_torsional;
       });
-      return row.turning_unit && !agree ? "" : row.unit_of(turns);
+      return row.turning_unit && !agree ? "" : row.unit_of(is_torsional);
     }
   for (const SurfaceKey& row : surface_keys())
     if (key == row.key) return row.unit;
@@ -238,7 +237,7 @@ std::string unit_of_number(const Value& scene, const std::string& text) {
   return unit;
 }
 
-// ---- the same for people ----
+// ---- tables for the reference ----
 
 namespace {
 

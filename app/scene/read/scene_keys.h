@@ -1,7 +1,6 @@
-// The numbers of a scene file, one row a key. From the rows are made: what the reader takes and
-// refuses, what a change of a coupling's type leaves out, the units of `map`, the sliders of the
-// lab, and the tables of docs/reference/scene_file.md. A key more is a row more, and the member that it fills; a
-// slider more is `slider` in its row.
+// The numeric keys of a scene file, one row each. From the rows are made: what the reader accepts,
+// what a change of a coupling's type removes, the units of `map`, the sliders of the lab, and the
+// tables of docs/reference/scene_file.md. A new key is a row and the member that it fills.
 #pragma once
 
 #include <optional>
@@ -13,72 +12,74 @@
 
 namespace twinarm {
 
-// What a number may be; `fits` beside its sign, with what a fault says where it does not.
+// Range of a number: its sign and, if set, `fits`, with problem and fix of the diagnostic.
 struct NumberRange {
   enum class Sign { any, not_negative, positive } sign = Sign::not_negative;
   bool (*fits)(double) = nullptr;
   const char *problem = "", *fix = "";
 };
 
-// What the lab offers, without a label nothing; and what the number means.
+// The slider of the lab, if it has a label; and the meaning of the number.
 struct SliderRow {
   enum Scale { log, linear };
   const char* label = nullptr;
   double low = 0, high = 0;
   const char* meaning = "";
   Scale scale = log;
-  bool restarts = false;  // the run goes on from coordinates and velocities alone
+  bool restarts = false;  // a change keeps only coordinates and velocities
 };
 
-// Of robots and bodies, and of pairs in place of what these have.
+// Of robots and bodies, and of pairs, which override them.
 struct SurfaceKey {
   const char *key, *unit = "";
   NumberRange range = {};
   double Surface::*member;
-  std::optional<double> PairDescription::*of_pair = nullptr;  // nullptr: pairs have none
+  std::optional<double> PairDescription::*of_pair = nullptr;  // nullptr: not a key of pairs
   SliderRow slider = {};
-  bool is_of_compliant = false;  // the slider goes with compliant contacts alone
+  bool is_of_compliant = false;  // slider only for compliant contacts
 };
 const std::vector<SurfaceKey>& surface_keys();
 
-// Of couplings. Rows without a number stand for a key that some types have and others have not.
+// Of couplings. Rows without `number` are other keys that only some types have.
 struct CouplingKey {
   const char* key;
   bool (*has)(const CouplingFacts& facts);
-  const char* useless = "";  // what is told where a type has it not, or a target
-  const char *unit = "", *turning_unit = nullptr;  // the latter of those that turn a link
+  const char* useless = "";                        // diagnostic if type or target do not have it
+  const char *unit = "", *turning_unit = nullptr;  // the latter for torsional ones
   NumberRange range = {};
   double& (*number)(CouplingDescription& coupling) = nullptr;
-  // Where a change of type adds the key that must be there: its value, or the multiple of another.
+  // A required key is added with this value, or multiple of another key, when the type changes.
   double added = 0;
   const char* added_times = nullptr;
   SliderRow slider = {};
-  double turning_low = 0, turning_high = 0;  // of its slider, where it turns a link; 0: the same
-  // The targets that it goes with, and what helps where it stands beside another; nullptr: all.
+  double turning_low = 0, turning_high = 0;  // slider of torsional ones; 0: the same
+  // Targets with which it is valid (nullptr: all), and the fix for other ones.
   bool (*of_target)(CouplingTarget::Kind target) = nullptr;
   const char* help = "";
 
   bool is_required() const { return added > 0; }
-  const char* unit_of(bool turns) const { return turns && turning_unit ? turning_unit : unit; }
+  const char* unit_of(bool is_torsional) const {
+    return is_torsional && turning_unit ? turning_unit : unit;
+  }
   double value(const CouplingDescription& c) const {
     return number(const_cast<CouplingDescription&>(c));
   }
 };
 const std::vector<CouplingKey>& coupling_keys();
-const CouplingKey& coupling_key(const std::string& key);  // that must be there
+const CouplingKey& coupling_key(const std::string& key);  // must exist
 
-// Where the key stands and is within its range; else nothing, or a fault.
+// The number, if given; a diagnostic if it is out of range.
 std::optional<double> read_number(TableReader& table, const char* key, const NumberRange& range);
 
-// After the `type` of a [[coupling]] was changed: leaves out the keys that the new type has not,
-// and adds what it must have, in `line`. A type that is not known stays, for the reader to tell.
+// After a change of the `type` of a [[coupling]]: removes keys that the new type does not have and
+// adds required ones, with line number `line`. Unknown types are left to the reader.
 void fit_keys_to_type(Value& coupling, int line);
 
-// What is measured in which unit, by the path's last key; empty where that is not known. Of a
-// coupling's gain it depends on the couplings that are meant.
+// Unit of the number at the path; empty if unknown, or if it differs between the couplings that the
+// path denotes.
 std::string unit_of_number(const Value& scene, const std::string& path);
 
-// The rows as Markdown: a table of surfaces, an empty line, one of couplings.
+// Markdown tables of surface keys and of coupling keys.
 std::string scene_numbers();
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// The parts of read_scene. Only app/scene/read_*.cpp include it.
+// Implementation of read_scene(); only read_*.cpp include it.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +13,8 @@ namespace twinarm {
 
 struct SceneReader {
   std::filesystem::path path;
-  std::string file;  // the same, for faults
-  FileRoots roots;   // of the files that it names
+  std::string file;  // path, for diagnostics
+  FileRoots roots;   // folders that may contain the files it names
   DiagnosticList faults;
   SceneDescription scene;
 
@@ -29,9 +29,9 @@ struct SceneReader {
   TableReader open(const Value& table, std::string where) {
     return TableReader(table, std::move(where), file, faults);
   }
-  // Required, without a stroke, taken by nobody else; the table's faults bear it from then on.
+  // Required, unique, without a slash; later diagnostics of the table name it.
   std::string read_name(TableReader& table, const char* kind);
-  // Of a coupling or constraint: KINDn where it is left out; taken by no other of them.
+  // Name of a coupling or constraint, unique among them; default KINDn.
   template <class Items>
   static std::string read_item_name(TableReader& table, const char* kind, std::size_t index,
                                     const Items& others) {
@@ -39,11 +39,11 @@ struct SceneReader {
     table.rename(std::string(kind) + " '" + name + "'");
     for (const auto& other : others)
       if (other.name == name)
-        table.fault("name", "the name is taken already",
+        table.fault("name", "the name is already used",
                     std::string("give each ") + kind + " its own name", "scene.name-taken");
     return name;
   }
-  // Of a robot or body that is free to move; else a fault of this rule and remedy.
+  // Initial velocities; if not is_free, a diagnostic with this problem and fix.
   template <class Item>
   static void read_velocities(TableReader& table, Item& item, bool is_free,
                               const std::pair<const char*, const char*>& fault) {
@@ -60,7 +60,7 @@ struct SceneReader {
                             JointRows rows);
   void lock_joints(TableReader& table, RobotInScene& robot);
   std::optional<ShapeDescription> read_shape(TableReader& body);
-  // Absolute, relative to the scene, or below assets/; a fault where it is nowhere.
+  // Absolute, relative to the scene, or in assets/; a diagnostic if it does not exist.
   std::optional<std::filesystem::path> find_file(TableReader& table, const std::string& key,
                                                  const std::string& name);
 };

@@ -58,7 +58,7 @@ class ContactRecorder {
   struct Complete {};
   std::function<std::vector<double>(const ContactScene&)> read{};  // null: nothing is recorded
   std::size_t count = 1;    // runs to record; in a bisection two, one of each outcome
-  std::size_t every = 1;    // records one scene in so many
+  std::size_t every = 1;    // records every nth scene
   double until = HUGE_VAL;  // [s]
   bool bisects = false;
   double step_scale = 1;  // factor of all steps
@@ -195,7 +195,7 @@ struct ContactCasePlot {
   // Closed form of curve k at time t; NAN where it is unknown. Curves are readings, or runs.
   double (*exact)(std::size_t k, double t) = nullptr;
   std::vector<std::string> runs{};  // names of several runs of one reading; empty: the first run
-  std::size_t every = 1;            // one such run in so many scenes
+  std::size_t every = 1;            // every nth scene is such a run
   double until = HUGE_VAL;          // [s]
   double known_at = NAN;            // the only time at which exact() is known [s]
   bool from_start = false;          // readings are differences to their start

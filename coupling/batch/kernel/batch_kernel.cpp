@@ -1,5 +1,4 @@
-// The steps of a batch at one level of the instruction set (TWINARM_ISA), with as many lanes as a
-// register of that level has. Compiled once for each level (coupling/CMakeLists.txt).
+// Batch kernel for one instruction set (TWINARM_ISA), compiled once for each.
 #include "coupling/batch/kernel/batch_kernel.h"
 
 namespace twinarm::TWINARM_ISA {

@@ -1,10 +1,9 @@
 // The steps of one batch: couplings, forward dynamics, integration and measures, lane by lane.
 //
 //   qd' = qd + h qdd,   q' = q + h qd'
-// Forward dynamics are aba() (solver/passes/aba.h). Between its first pass, which knows where the
-// bodies are, and its second, which asks for the forces, the springs pull
-// (coupling/batch/kernel/batch_springs.h). Works are sums of powers by the trapezoidal rule; at a
-// corner, where a target's velocity or the step changes, the two halves differ.
+// Forward dynamics: aba() (solver/passes/aba.h), with spring forces (batch_springs.h) computed
+// between its first and second pass. Work is the integral of power by the trapezoidal rule; at a
+// jump of a target's velocity or of the step size the two halves differ.
 //
 // Callers include coupling/batch/batch_run.h.
 #pragma once
@@ -23,43 +22,44 @@ S larger(const S& a, const S& b) {
   return select(a < b, b, a);
 }
 
-// A spring at a corner of the motion, in body axes; of a joint the first component alone.
+// A spring at a velocity jump, in body axes; joint: first component.
 template <class S>
-struct PullEnds {
-  Vec3<S> offset, v_D, v_before, v_after;  // of the target just before and after the moment
+struct SpringEnds {
+  Vec3<S> offset, v_D, v_before, v_after;  // of the target before and after the jump
 };
 template <class S>
-PullEnds<S> ends_of(const BatchWork<S>& b, const LaneSpring<S>& pull, const double* row) {
-  if (pull.kind == SpringKind::joint)
-    return {{S(row[0]) - b.x.q[pull.iq], S(0), S(0)},
-            {b.x.qd[pull.iv], S(0), S(0)},
+SpringEnds<S> spring_ends(const BatchWork<S>& b, const LaneSpring<S>& lane_spring,
+                          const double* row) {
+  if (lane_spring.kind == SpringKind::joint)
+    return {{S(row[0]) - b.x.q[lane_spring.iq], S(0), S(0)},
+            {b.x.qd[lane_spring.iv], S(0), S(0)},
             {S(row[1]), S(0), S(0)},
             {S(row[2]), S(0), S(0)}};
-  const Mat3<S>& E = b.E[pull.body];
-  const Motion<S>& v = b.w.v[pull.body];
-  const std::size_t velocity = pull.kind == SpringKind::world ? 9 : 3;
+  const Mat3<S>& E = b.E[lane_spring.body];
+  const Motion<S>& v = b.w.v[lane_spring.body];
+  const std::size_t velocity = lane_spring.kind == SpringKind::world ? 9 : 3;
   const Vec3<S> before = E * spread3<S>(row + velocity), after = E * spread3<S>(row + velocity + 3);
-  if (pull.kind == SpringKind::linear)
-    return {E * (spread3<S>(row) - b.o[pull.body]) - pull.p_B, plus_cross(v.v, v.w, pull.p_B),
-            before, after};
-  return {turn_between(E, row), v.w, before, after};
+  if (lane_spring.kind == SpringKind::linear)
+    return {E * (spread3<S>(row) - b.o[lane_spring.body]) - lane_spring.p_B,
+            plus_cross(v.v, v.w, lane_spring.p_B), before, after};
+  return {rotation_between(E, row), v.w, before, after};
 }
 
-// The moment of step n: half of each power belongs to the step before, half to this one.
+// Time of step n: half of each power belongs to the step before, half to this one.
 template <class S>
-TWINARM_KERNEL void add_works_at_corner(BatchWork<S>& b, std::size_t n) {
+TWINARM_KERNEL void add_work_at_jump(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
   const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
   S hand_before = b.hand_work, hand_after(0), held(0);
-  b.lost_work = b.lost_work + (before + after) * b.lost_power;  // in the joints
-  for (const LaneSpring<S>& pull : b.pulls) {
-    const PullEnds<S> e = ends_of(b, pull, row + pull.energy);
-    const SpringPowers<S> was(pull, e.offset, e.v_D, e.v_before),
-        is(pull, e.offset, e.v_D, e.v_after);
-    b.lost_work = b.lost_work + before * was.lost + after * is.lost;
-    hand_before = hand_before + before * was.hand;
-    hand_after = hand_after + after * is.hand;
-    held = held + S(0.5) * pull.k * dot(e.offset, e.offset);
+  b.dissipated_work = b.dissipated_work + (before + after) * b.dissipated_power;  // in the joints
+  for (const LaneSpring<S>& lane_spring : b.springs) {
+    const SpringEnds<S> e = spring_ends(b, lane_spring, row + lane_spring.energy);
+    const SpringPowers<S> was(lane_spring, e.offset, e.v_D, e.v_before),
+        is(lane_spring, e.offset, e.v_D, e.v_after);
+    b.dissipated_work = b.dissipated_work + before * was.dissipated + after * is.dissipated;
+    hand_before = hand_before + before * was.operator_;
+    hand_after = hand_after + after * is.operator_;
+    held = held + S(0.5) * lane_spring.k * dot(e.offset, e.offset);
   }
   b.hand_work_least = select(hand_before < b.hand_work_least, hand_before, b.hand_work_least);
   b.hand_work = hand_before + hand_after;
@@ -67,33 +67,32 @@ TWINARM_KERNEL void add_works_at_corner(BatchWork<S>& b, std::size_t n) {
   if (n == b.steps) b.spring_energy = held;
 }
 
-// Elsewhere both halves are the same; the springs at links have added their powers while they
-// pulled.
+// Without a jump both halves are equal; springs at links have already added their powers.
 template <class S>
-TWINARM_KERNEL void add_works(BatchWork<S>& b, std::size_t n) {
+TWINARM_KERNEL void add_work(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
-  for (const LaneSpring<S>& pull : b.pulls) {
-    if (pull.kind != SpringKind::joint) continue;
-    const double* target = row + pull.energy;
-    const S e = S(target[0]) - b.x.q[pull.iq], v_K(target[2]);
-    const S& v_D = b.x.qd[pull.iv];
-    add(b, SpringPowers<S>(pull, e * v_K, v_D * v_K, v_K * v_K, v_D * v_D));
+  for (const LaneSpring<S>& lane_spring : b.springs) {
+    if (lane_spring.kind != SpringKind::joint) continue;
+    const double* target = row + lane_spring.energy;
+    const S e = S(target[0]) - b.x.q[lane_spring.iq], v_K(target[2]);
+    const S& v_D = b.x.qd[lane_spring.iv];
+    add(b, SpringPowers<S>(lane_spring, e * v_K, v_D * v_K, v_K * v_K, v_D * v_D));
   }
-  b.lost_work = b.lost_work + b.h * b.lost_power;
-  const S half = S(0.5) * b.h * b.hand_power, before = b.hand_work + half;
+  b.dissipated_work = b.dissipated_work + b.h * b.dissipated_power;
+  const S half = S(0.5) * b.h * b.operator_power, before = b.hand_work + half;
   b.hand_work_least = select(before < b.hand_work_least, before, b.hand_work_least);
   b.hand_work = before + half;
 }
 
 template <class S>
 void start_powers(BatchWork<S>& b) {
-  b.lost_power = b.hand_power = S(0);
+  b.dissipated_power = b.operator_power = S(0);
   if (b.has_damping)
     for (std::size_t d = 0; d < b.x.qd.size(); ++d)
-      b.lost_power = b.lost_power + b.model.damping[d] * b.x.qd[d] * b.x.qd[d];
+      b.dissipated_power = b.dissipated_power + b.model.damping[d] * b.x.qd[d] * b.x.qd[d];
 }
 
-// The hook of aba(): what acts by where the bodies are.
+// Hook of aba() between its first and second pass.
 template <class S>
 struct LaneSprings {
   BatchWork<S>& b;
@@ -102,18 +101,18 @@ struct LaneSprings {
   template <class... T>
   void felt(const T&...) const {}
   void moved() const {
-    if (b.has_places) place_bodies(b);
-    if (b.has_bias) find_biases(b);
-    const bool smooth = b.has_energy && b.is_corner[n] == 0;
+    if (b.needs_rotations) update_rotations(b);
+    if (b.needs_bias) update_bias(b);
+    const bool smooth = b.has_energy && b.is_velocity_jump[n] == 0;
     if (b.has_energy) start_powers(b);
-    for (const LaneSpring<S>& pull : b.pulls)
-      pull_at(b, pull, row + pull.motion,
-              smooth ? b.energy + n * b.energy_stride + pull.energy : nullptr);
+    for (const LaneSpring<S>& lane_spring : b.springs)
+      apply_spring(b, lane_spring, row + lane_spring.motion,
+                   smooth ? b.energy + n * b.energy_stride + lane_spring.energy : nullptr);
     if (smooth)
-      add_works(b, n);
+      add_work(b, n);
     else if (b.has_energy)
-      add_works_at_corner(b, n);
-    b.model.I = b.model.I_felt.data();
+      add_work_at_jump(b, n);
+    b.model.I = b.model.I_effective.data();
   }
 };
 
@@ -125,7 +124,7 @@ TWINARM_KERNEL void integrate(BatchWork<S>& b) {
   }
 }
 
-// Errors after step n; lanes that have left all bounds stop.
+// Tracking errors after step n; stops diverged lanes.
 template <class S>
 TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n) {
   const double* q_K = b.q_K + (n + 1) * b.measured.size();
@@ -143,7 +142,7 @@ TWINARM_KERNEL void measure(BatchWork<S>& b, std::size_t n) {
     if (outside[lane]) b.stopped(b, lane, n + 1);
 }
 
-// The quarter's largest errors, by joint and of all, go where the run's are.
+// Merges the maximum errors of a quarter into those of the run.
 template <class S>
 void end_window(BatchWork<S>& b, std::size_t window) {
   for (std::size_t j = 0; j < b.measured.size(); ++j) {
@@ -160,7 +159,7 @@ void run_steps(BatchWork<S>& b) {
     const std::size_t end = std::min(b.last, (window + 1) * b.steps / b.kWindows);
     for (; n < end && b.lanes_running > 0; ++n) {
       const double* row = b.motion + n * b.motion_stride;
-      if (b.has_joint_pulls || b.has_damping) pull_joints(b, row);
+      if (b.has_joint_springs || b.has_damping) apply_joint_springs(b, row);
       b.model.I = b.model.I_own.data();
       aba(b.model, b.x, b.forces, b.w, LaneSprings<S>{b, row, n});
       integrate(b);
@@ -170,7 +169,7 @@ void run_steps(BatchWork<S>& b) {
     end_window(b, window);
   }
   if (!b.has_energy || b.last < b.steps || b.lanes_running == 0) return;
-  b.model.I = b.model.I_own.data();  // the powers at the end; the motion's last row will do
+  b.model.I = b.model.I_own.data();  // powers at the end, with the last row of the motion
   aba(b.model, b.x, b.forces, b.w,
       LaneSprings<S>{b, b.motion + (b.steps - 1) * b.motion_stride, b.steps});
 }

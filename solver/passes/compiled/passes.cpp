@@ -1,5 +1,5 @@
-// The passes for one scalar (TWINARM_SCALAR) at one level of the instruction set (TWINARM_ISA).
-// Compiled once for each pair that solver/CMakeLists.txt lists.
+// Instantiates the algorithms for one scalar (TWINARM_SCALAR) at one instruction-set level
+// (TWINARM_ISA). Compiled once per pair in solver/passes/compiled/CMakeLists.txt.
 #include "solver/passes/aba.h"
 #include "solver/passes/crba.h"
 #include "solver/passes/kinematics_pass.h"

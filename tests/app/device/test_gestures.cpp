@@ -1,6 +1,5 @@
-// Keyboard, game controller and space mouse through fakes: a pseudo-terminal, a pipe with a name,
-// and a socket in spacenavd's place. Bytes are those of the terminal, of linux/joystick.h, and of
-// spacenavd's packets, written out by hand.
+// Keyboard, game controller and space mouse with a pseudo-terminal, a named pipe and a socket.
+// Bytes are written by hand from the formats of the terminal, linux/joystick.h and spacenavd.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -26,12 +25,12 @@ using namespace twinarm;
 
 namespace {
 
-// What a decoder's bytes do in a tenth of a second of the asker's time: displacement of the
-// stylus [m] and of the gimbal [rad].
+// Displacement of the stylus [m] and of the gimbal [rad] by a decoder's bytes in a tenth of a
+// second.
 struct Moved {
   Vector3 place;
   std::array<double, 3> gimbal;
-  Vector3 turn;  // of the stylus, as a rotation vector [rad]
+  Vector3 rotation;  // of the stylus, rotation vector [rad]
 };
 Moved moved_by(GestureDecoder& decoder, const std::vector<std::uint8_t>& bytes) {
   const OmniParameters omni;
@@ -48,7 +47,7 @@ Moved moved_by(GestureDecoder& decoder, const std::vector<std::uint8_t>& bytes) 
 std::vector<std::uint8_t> letters(const std::string& text) {
   return {text.begin(), text.end()};
 }
-// time, value, type, number; little-endian, as on the machines that have these devices.
+// time, value, type, number; little-endian.
 std::vector<std::uint8_t> joystick(int value, std::uint8_t type, std::uint8_t number) {
   const auto byte = [](int bits) { return static_cast<std::uint8_t>(bits & 0xff); };
   return {0x10, 0x27, 0, 0, byte(value), byte(value >> 8), type, number};
@@ -82,7 +81,8 @@ DeviceState run_for(HandDevice& device, double seconds) {
 
 }  // namespace
 
-TEST_CASE("keys: each moves the place its way at 0.1 m/s, whole or torn") {
+TEST_CASE(
+    "keys: each moves the stylus in its direction at 0.1 m/s, also with split escape sequences") {
   const struct {
     const char* bytes;
     Vector3 direction;
@@ -101,7 +101,7 @@ TEST_CASE("keys: each moves the place its way at 0.1 m/s, whole or torn") {
   check_goes(moved_by(nothing, letters("\x1b[Cx")), kRight, 0);
 }
 
-TEST_CASE("keys: one that is not repeated is let go of after its time, buttons go to and fro") {
+TEST_CASE("keys: a key that is not repeated is released after the hold time; buttons toggle") {
   KeyDecoder decoder(0.2);
   DesktopInput hand{OmniParameters()};
   const std::uint8_t key = 'd', space = ' ', clutch = 'c';
@@ -121,7 +121,7 @@ TEST_CASE("keys: one that is not repeated is let go of after its time, buttons g
   CHECK(hand.sample(0.3, 1).clutch);
 }
 
-TEST_CASE("game controller: sticks move the place, also those of controllers without RX") {
+TEST_CASE("game controller: sticks move the stylus, also without an RX axis") {
   const auto axis = [](int value, std::uint8_t number) { return joystick(value, 0x02, number); };
   const auto check = [&](std::vector<std::uint8_t> codes, int value, std::uint8_t number,
                          const Vector3& direction) {
@@ -132,9 +132,9 @@ TEST_CASE("game controller: sticks move the place, also those of controllers wit
   check({}, -32767, 1, kUp);  // the kernel's y goes down
   check({}, 32767, 4, kToward);
   check({0, 1, 2, 5}, 32767, 3, kToward);  // ABS_X, Y, Z, RZ
-  check({}, -32768, 0, -kRight);           // one more than full
+  check({}, -32768, 0, -kRight);           // one beyond the full range
   JoystickDecoder initial;
-  check_goes(moved_by(initial, joystick(32767, 0x82, 0)), kRight, 0.01);  // as it is at the start
+  check_goes(moved_by(initial, joystick(32767, 0x82, 0)), kRight, 0.01);  // initial value
   JoystickDecoder half;
   const double part = moved_by(half, axis(16384, 0)).place.x();
   CHECK(part > 0.003);  // between the dead zone and full
@@ -148,11 +148,11 @@ TEST_CASE("game controller: sticks move the place, also those of controllers wit
   CHECK(moved_by(triggers, both).gimbal[2] == 0);
 }
 
-TEST_CASE("game controller: buttons, and numbers that no controller has") {
+TEST_CASE("game controller: buttons; invalid axis and button numbers are ignored") {
   JoystickDecoder decoder;
   DesktopInput hand{OmniParameters()};
   const auto feed = [&](const std::vector<std::uint8_t>& bytes) {
-    for (const std::uint8_t byte : bytes) decoder.feed(&byte, 1, 0, hand);  // torn
+    for (const std::uint8_t byte : bytes) decoder.feed(&byte, 1, 0, hand);  // split
   };
   feed(joystick(1, 0x81, 0));
   CHECK(hand.sample(0, 1).button);
@@ -167,8 +167,7 @@ TEST_CASE("game controller: buttons, and numbers that no controller has") {
   CHECK(hand.sample(0.1, 1).theta == before);
 }
 
-TEST_CASE(
-    "space mouse: six axes and two buttons, its z goes away from the user, and turns with it") {
+TEST_CASE("space mouse: six axes and two buttons; z points away from the user, with its rotation") {
   const auto push = [](std::size_t n, int value) {
     std::array<std::int32_t, 8> words{};
     words[n] = value;
@@ -183,11 +182,11 @@ TEST_CASE(
   check(3, -kToward);
   const auto turned = [&](std::size_t n) {
     SpaceMouseDecoder decoder;
-    return moved_by(decoder, push(n, 350)).turn;
+    return moved_by(decoder, push(n, 350)).rotation;
   };
   CHECK(turned(4).x() > 0.1);
   CHECK(turned(5).y() > 0.05);
-  CHECK(turned(6).z() < -0.01);  // about the stylus, which stands nearly upright
+  CHECK(turned(6).z() < -0.01);  // about the stylus, nearly vertical
   SpaceMouseDecoder damaged;
   check_goes(moved_by(damaged, space_mouse({99, 350, 350, 350, 0, 0, 0, 0})), kRight, 0);
   SpaceMouseDecoder decoder;
@@ -197,7 +196,7 @@ TEST_CASE(
   CHECK(hand.sample(0, 1).clutch);
 }
 
-TEST_CASE("random bytes move hands only to places that are") {
+TEST_CASE("desktop devices: random bytes give finite motions only") {
   std::mt19937 random(3);
   KeyDecoder keys;
   JoystickDecoder stick;
@@ -215,7 +214,7 @@ TEST_CASE("random bytes move hands only to places that are") {
 }
 
 TEST_CASE(
-    "keyboard: a terminal is raw while the device lives, as before afterwards, and moves it") {
+    "keyboard: the terminal is raw while the device exists, restored afterwards, and moves it") {
   const OwnedFd master(posix_openpt(O_RDWR | O_NOCTTY));
   REQUIRE(grantpt(master.get()) == 0);
   REQUIRE(unlockpt(master.get()) == 0);
@@ -231,7 +230,7 @@ TEST_CASE(
     const auto device = open_device("keyboard:" + terminal);
     CHECK(flags() == ISIG);  // Ctrl-C is still a signal
     CHECK_FALSE(device->has_motors());
-    CHECK_THROWS_AS(open_device("keyboard:" + terminal), InputError);  // one hand is enough
+    CHECK_THROWS_AS(open_device("keyboard:" + terminal), InputError);  // one at a time
     const DeviceState before = run_for(*device, 0.05);
     CHECK(before.alive);
     CHECK(write(master.get(), "\x1b[C ", 4) == 4);
@@ -242,24 +241,24 @@ TEST_CASE(
   CHECK(flags() == (ICANON | ECHO | ISIG));
 }
 
-TEST_CASE("keyboard: a program that a signal ends leaves the terminal as it was") {
+TEST_CASE("keyboard: the terminal is restored when a signal ends the program") {
   const OwnedFd master(posix_openpt(O_RDWR | O_NOCTTY));
   REQUIRE(grantpt(master.get()) == 0);
   REQUIRE(unlockpt(master.get()) == 0);
   const OwnedFd terminal(open(ptsname(master.get()), O_RDWR | O_NOCTTY));
   for (const int ending : {SIGINT, SIGTERM}) {
-    int told[2];
-    REQUIRE(pipe(told) == 0);
+    int ready_pipe[2];
+    REQUIRE(pipe(ready_pipe) == 0);
     const pid_t child = fork();
     if (child == 0) {
       signal(ending, SIG_DFL);
       const RawTerminal raw(terminal.get());
-      [[maybe_unused]] const auto done = write(told[1], "r", 1);
+      [[maybe_unused]] const auto done = write(ready_pipe[1], "r", 1);
       pause();
       _exit(0);
     }
     char ready = 0;
-    REQUIRE(read(told[0], &ready, 1) == 1);
+    REQUIRE(read(ready_pipe[0], &ready, 1) == 1);
     termios mode{};
     tcgetattr(terminal.get(), &mode);
     CHECK((mode.c_lflag & ICANON) == 0);
@@ -270,12 +269,12 @@ TEST_CASE("keyboard: a program that a signal ends leaves the terminal as it was"
     CHECK(WTERMSIG(status) == ending);
     tcgetattr(terminal.get(), &mode);
     CHECK((mode.c_lflag & (ICANON | ECHO)) == (ICANON | ECHO));
-    close(told[0]);
-    close(told[1]);
+    close(ready_pipe[0]);
+    close(ready_pipe[1]);
   }
 }
 
-TEST_CASE("game controller: unplugged it is not alive and stands; plugged in again it goes on") {
+TEST_CASE("game controller: unplugged it is not alive and at rest; reconnected it continues") {
   const std::string path = scratch("twinarm-js-");
   REQUIRE(mkfifo(path.c_str(), 0600) == 0);
   OwnedFd plug(open(path.c_str(), O_RDWR | O_CLOEXEC));

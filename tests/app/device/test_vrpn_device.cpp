@@ -1,6 +1,5 @@
-// A VRPN device over a real socket: greeting, poses, buttons, forces, and everything that a bad
-// peer does. The server's bytes are not from our encoder (vrpn_bytes.h). Times are generous: the
-// tests hold on a loaded machine.
+// A VRPN device over a real socket: handshake, poses, buttons, forces, and faulty peers. The
+// server's bytes are not from our encoder (vrpn_bytes.h). Timeouts permit a loaded machine.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -21,7 +20,7 @@ namespace {
 double test_clock() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
-// Polls at 1 kHz until something is so.
+// Polls at 1 kHz until a condition is met.
 template <class Condition>
 bool soon(VrpnDevice& device, const Condition& condition) {
   return comes_true([&] { return condition(device.poll(test_clock())); }, 1);
@@ -36,7 +35,7 @@ struct Said {
         lines.begin(), lines.end(), [&](const auto& l) { return l.find(word) != l.npos; }));
   }
 };
-// Short patience, so that the tests are quick; a silence that a loaded machine does not make.
+// Short timeouts, but a silence longer than the delays of a loaded machine.
 VrpnSettings quick(Said& said) {
   VrpnSettings settings;
   settings.silence = 0.8;
@@ -62,7 +61,7 @@ Diagnostic fault_of(const VrpnAddress& address) {
 bool has(const std::string& text, const std::string& word) {
   return text.find(word) != std::string::npos;
 }
-// theta1 = -atan2(x, z + L4) of the published kinematics: a pose whose waist has turned.
+// theta1 = -atan2(x, z + L4) of the published kinematics.
 Bytes pose_at_waist(double theta1) {
   const double R = 0.13335, L4 = 0.16835;
   return pose_with(0, -R * std::sin(theta1), pose_with(2, R * std::cos(theta1) - L4));
@@ -70,7 +69,7 @@ Bytes pose_at_waist(double theta1) {
 
 }  // namespace
 
-TEST_CASE("VRPN device: greets with the cookie, is given poses and buttons, names what it wants") {
+TEST_CASE("VRPN device: sends the cookie, receives poses and buttons, announces its types") {
   Bytes first, device_name, force_name;
   std::atomic<bool> heard{false};
   VrpnServer server([&](const VrpnClient& client, int) {
@@ -103,11 +102,11 @@ TEST_CASE("VRPN device: greets with the cookie, is given poses and buttons, name
   CHECK(said.lines.empty());
 }
 
-TEST_CASE("VRPN device: a connection cut in the middle of a pose is made anew, said once") {
+TEST_CASE("VRPN device: reconnects after a connection cut within a pose, reported once") {
   VrpnServer server([&](const VrpnClient& client, int nth) {
     client.say(greeting);
     client.go_on(pose_at_waist(0.1 * nth), 4);
-    if (nth < 3) return client.say(Bytes(pose.begin(), pose.begin() + 41));  // and hang up
+    if (nth < 3) return client.say(Bytes(pose.begin(), pose.begin() + 41));  // and close
     client.go_on(pose_at_waist(0.3));
   });
   Said said;
@@ -115,10 +114,10 @@ TEST_CASE("VRPN device: a connection cut in the middle of a pose is made anew, s
   CHECK(soon(device, [](const DeviceState& s) { return std::abs(s.theta[0] - 0.3) < 1e-12; }));
   CHECK(device.counts().connections == 4);
   CHECK(device.counts().broken == 3);
-  CHECK(said.count("trying again") == 1);  // noticed while listening or while speaking
+  CHECK(said.count("retrying") == 1);  // noticed while receiving or while sending
 }
 
-TEST_CASE("VRPN device: garbage in the middle of a run is survived, counted and said once") {
+TEST_CASE("VRPN device: invalid data during a run is counted, reported once, and survived") {
   Bytes absurd = pose;
   absurd[0] = 0x7f;
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -139,35 +138,35 @@ TEST_CASE("VRPN device: garbage in the middle of a run is survived, counted and 
   }));
   const VrpnCounts counts = device.counts();
   CHECK(counts.not_finite == 2);
-  CHECK(counts.out_of_reach > 0);  // of several poses in one packet the last counts
+  CHECK(counts.out_of_reach > 0);  // of several poses in one packet the last is used
   CHECK(counts.broken == 2);
   CHECK(said.count("not finite") == 1);
-  CHECK(said.count("impossible length") == 1);
-  CHECK(said.count("out of the arm's reach") == 1);
+  CHECK(said.count("invalid length") == 1);
+  CHECK(said.count("out of reach") == 1);
 }
 
-TEST_CASE("VRPN device: silence makes it not alive, in place; speech makes it alive again") {
-  std::atomic<bool> send_pending{true};
+TEST_CASE("VRPN device: not alive and at rest while silent, alive again with the next report") {
+  std::atomic<bool> sends_poses{true};
   VrpnServer server([&](const VrpnClient& client, int) {
     client.say(greeting);
-    while (!client.stopped()) client.go_on(pose_at_waist(0.3), send_pending ? 1 : 0);
+    while (!client.stopped()) client.go_on(pose_at_waist(0.3), sends_poses ? 1 : 0);
   });
   Said said;
   VrpnSettings settings = quick(said);
   settings.patience = 30;  // the connection is kept
   VrpnDevice device({"Phantom0", "127.0.0.1", server.port()}, {}, settings);
   CHECK(soon(device, [](const DeviceState& s) { return s.alive; }));
-  send_pending = false;
+  sends_poses = false;
   CHECK(soon(device, [](const DeviceState& s) { return !s.alive; }));
   const DeviceState still = device.poll(test_clock());
   CHECK(still.theta[0] == doctest::Approx(0.3));
-  CHECK(test_clock() - still.t > 0.8);  // it says how old it is
-  send_pending = true;
+  CHECK(test_clock() - still.t > 0.8);
+  sends_poses = true;
   CHECK(soon(device, [](const DeviceState& s) { return s.alive; }));
   CHECK(device.counts().broken == 0);
 }
 
-TEST_CASE("VRPN device: a server that dies leaves a device that is not alive, and ends at once") {
+TEST_CASE("VRPN device: not alive after the end of the server, and ends at once") {
   auto server = std::make_unique<VrpnServer>([&](const VrpnClient& client, int) {
     client.say(greeting);
     client.go_on(pose);
@@ -184,7 +183,7 @@ TEST_CASE("VRPN device: a server that dies leaves a device that is not alive, an
   CHECK(test_clock() - start < 1);
 }
 
-TEST_CASE("VRPN device: a connection that stays mute is given up after its patience") {
+TEST_CASE("VRPN device: closes a connection without data after its timeout") {
   VrpnServer server([&](const VrpnClient& client, int nth) {
     client.say(greeting);
     client.go_on(pose_at_waist(0.1 * nth), nth == 0 ? 5 : 1 << 20);
@@ -196,7 +195,7 @@ TEST_CASE("VRPN device: a connection that stays mute is given up after its patie
   CHECK(said.count("no pose for 1.5 s") == 1);
 }
 
-TEST_CASE("VRPN device: one that cannot be had is refused with a remedy") {
+TEST_CASE("VRPN device: an unavailable device is refused with a remedy") {
   const auto answer = [](const Bytes& bytes) {
     VrpnServer server([&](const VrpnClient& client, int) {
       client.say(bytes);
@@ -205,12 +204,12 @@ TEST_CASE("VRPN device: one that cannot be had is refused with a remedy") {
     return fault_of({"Phantom", "127.0.0.1", server.port()});
   };
   CHECK(has(answer(hex("48 54 54 50")).problem, "not a VRPN server"));
-  CHECK(has(answer({}).problem, "does not answer"));
+  CHECK(has(answer({}).problem, "no VRPN handshake"));
   Bytes other = cookie;
   other[12] = '6';
   CHECK(has(answer(other).problem, "06.38"));
   const Diagnostic unknown = answer(greeting);
-  CHECK(has(unknown.problem, "no device 'Phantom'"));
+  CHECK(has(unknown.problem, "unknown device 'Phantom'"));
   CHECK(has(unknown.fix, "Phantom0"));
   int port = 0;
   {
@@ -223,7 +222,7 @@ TEST_CASE("VRPN device: one that cannot be had is refused with a remedy") {
   CHECK(has(fault_of({"Phantom0", "no.such.host.invalid", 3883}).problem, "unknown host"));
 }
 
-TEST_CASE("VRPN device: forces go out as newtons at the stylus, clamped, and end when let go") {
+TEST_CASE("VRPN device: forces are sent in N at the stylus, limited, and end without render()") {
   std::mutex mutex;
   std::vector<std::array<float, 4>> forces;  // fx, fy, fz, radius
   VrpnServer server([&](const VrpnClient& client, int) {
@@ -253,7 +252,7 @@ TEST_CASE("VRPN device: forces go out as newtons at the stylus, clamped, and end
     return std::abs(f[0] - 0.5) < 1e-6 && std::abs(f[1]) < 1e-6 && std::abs(f[2]) < 1e-6 &&
            f[3] > 1;
   }));
-  CHECK(heard([](const auto& f) { return f[3] == 0 && f[0] == 0; }));  // not renewed: let go
+  CHECK(heard([](const auto& f) { return f[3] == 0 && f[0] == 0; }));  // ended by the timeout
   device.render({{1.0, 0, 0}});                                        // -7.5 N
   CHECK(heard([](const auto& f) { return std::abs(f[0] + 3.3) < 1e-6; }));
   device.render({{std::numeric_limits<double>::quiet_NaN(), 0, 0}});
@@ -261,7 +260,7 @@ TEST_CASE("VRPN device: forces go out as newtons at the stylus, clamped, and end
   for (const auto& f : forces) CHECK_UNARY(std::hypot(f[0], f[1], f[2]) < 3.3 + 1e-5);
 }
 
-TEST_CASE("VRPN device: reports at 60 Hz make a path, not a staircase") {
+TEST_CASE("VRPN device: reports at 60 Hz are interpolated, without steps") {
   constexpr int reports = 40;
   std::atomic<bool> done{false};
   VrpnServer server([&](const VrpnClient& client, int) {
@@ -279,7 +278,7 @@ TEST_CASE("VRPN device: reports at 60 Hz make a path, not a staircase") {
   double last = 0, max_step = 0;
   while (!done) {
     const double theta = device.poll(test_clock()).theta[0];
-    CHECK_UNARY(theta >= last - 1e-12);  // never back
+    CHECK_UNARY(theta >= last - 1e-12);
     max_step = std::max(max_step, theta - last);
     angles.insert(last = theta);
     std::this_thread::sleep_for(std::chrono::milliseconds(1));

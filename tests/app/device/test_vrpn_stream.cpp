@@ -1,4 +1,4 @@
-// The bytes of VRPN without a socket: what is understood, what is skipped, what ends a connection.
+// VRPN messages without a socket: decoded, skipped, ending the connection.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -21,7 +21,7 @@ VrpnStream greeted() {
   CHECK(feed(stream, greeting) == StreamFault::none);
   return stream;
 }
-// Our messages without what differs from run to run: the time.
+// Our messages without the time.
 Bytes timeless(Bytes bytes, std::size_t at) {
   std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(at) + 4, 8, 0);
   return bytes;
@@ -29,7 +29,7 @@ Bytes timeless(Bytes bytes, std::size_t at) {
 
 }  // namespace
 
-TEST_CASE("VRPN: a server's greeting names its devices and types, a pose and buttons are read") {
+TEST_CASE("VRPN: a handshake gives names of devices and types; pose and buttons are decoded") {
   VrpnStream stream = greeted();
   CHECK(stream.version() == "vrpn: ver. 07.38");
   CHECK(stream.has_device());
@@ -47,14 +47,14 @@ TEST_CASE("VRPN: a server's greeting names its devices and types, a pose and but
   CHECK(stream.malformed() + stream.not_finite() == 0);
 }
 
-TEST_CASE("VRPN: the quaternion's scalar comes last: w = z = 0.7071 turns x to y") {
+TEST_CASE("VRPN: the quaternion's scalar is last: w = z = 0.7071 rotates x to y") {
   VrpnStream stream = greeted();
   const double half = std::sqrt(0.5);
   feed(stream, pose_with(6, half, pose_with(5, half)));
   CHECK((stream.pose().R * Vector3::UnitX() - Vector3::UnitY()).norm() < 1e-15);
 }
 
-TEST_CASE("VRPN: one byte at a time says the same as all at once") {
+TEST_CASE("VRPN: decoding byte by byte equals decoding at once") {
   VrpnStream stream("Phantom0");
   for (const std::uint8_t byte : all({greeting, press_1, pose, pose_with(0, 0.01)}))
     CHECK_UNARY(stream.feed(&byte, 1) == StreamFault::none);
@@ -63,7 +63,7 @@ TEST_CASE("VRPN: one byte at a time says the same as all at once") {
   CHECK(stream.buttons()[1]);
 }
 
-TEST_CASE("VRPN: other senders, sensors and types are none of our business") {
+TEST_CASE("VRPN: other senders, sensors and types are ignored") {
   VrpnStream stream = greeted();
   Bytes other_sender = pose, other_sensor = pose, unknown_type = pose;
   other_sender[15] = 9;
@@ -74,7 +74,7 @@ TEST_CASE("VRPN: other senders, sensors and types are none of our business") {
   CHECK(stream.malformed() == 0);
 }
 
-TEST_CASE("VRPN: a pose that is not finite, or whose quaternion is no rotation, is skipped") {
+TEST_CASE("VRPN: a pose that is not finite or not a rotation is skipped") {
   VrpnStream stream = greeted();
   feed(stream, pose);
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -88,10 +88,10 @@ TEST_CASE("VRPN: a pose that is not finite, or whose quaternion is no rotation, 
   CHECK(stream.pose().p == Vector3(0, -0.11, -0.035));
 }
 
-TEST_CASE("VRPN: a message that is not as long as its type is skipped, what follows is read") {
+TEST_CASE("VRPN: a message of wrong length for its type is skipped, the next ones are read") {
   VrpnStream stream = greeted();
   Bytes short_pose = pose, nameless = phantom;
-  short_pose[3] = 0x50;  // one number less
+  short_pose[3] = 0x50;  // a number missing
   short_pose.resize(short_pose.size() - 8);
   nameless[27] = 0xff;  // a name longer than its message
   CHECK(feed(stream, all({short_pose, nameless, pose})) == StreamFault::none);
@@ -99,7 +99,7 @@ TEST_CASE("VRPN: a message that is not as long as its type is skipped, what foll
   CHECK(stream.poses() == 1);
 }
 
-TEST_CASE("VRPN: what is no VRPN, speaks another version, or has no length is given up") {
+TEST_CASE("VRPN: another protocol, another version or an invalid length ends the connection") {
   const auto fault_of = [](const Bytes& bytes) {
     VrpnStream stream("Phantom0");
     return feed(stream, bytes);
@@ -122,7 +122,7 @@ TEST_CASE("VRPN: what is no VRPN, speaks another version, or has no length is gi
   CHECK(fault_of(all({greeting, goodbye, pose})) == StreamFault::goodbye);
 }
 
-TEST_CASE("VRPN: our own words are those that a vrpn_Phantom server reads, byte for byte") {
+TEST_CASE("VRPN: our messages equal those that a vrpn_Phantom server reads, byte for byte") {
   VrpnWriter speech;
   VrpnBytes out;
   speech.cookie(out);
@@ -146,12 +146,12 @@ TEST_CASE("VRPN: our own words are those that a vrpn_Phantom server reads, byte 
             "00 00 00 00|00 00 00 00|00 00 00 00|00 00 00 00|00 00 00 00|00 00 00 00|"
             "00 00 00 00|00 00 00 00|00 00 00 00|41 20 00 00"));
   out.clear();
-  speech.ask_rate(out, 1);
+  speech.request_rate(out, 1);
   CHECK(timeless(out, 0) == hex("00 00 00 20|00 00 00 00|00 00 00 00|00 00 00 00|00 00 00 01|"
                                 "00 00 00 03|3f f0 00 00 00 00 00 00"));
 }
 
-TEST_CASE("VRPN: ten thousand damaged conversations neither crash nor give a pose that is none") {
+TEST_CASE("VRPN: ten thousand damaged streams give no crash and no invalid pose") {
   std::mt19937 random(7);
   const auto draw = [&](std::size_t below) { return static_cast<std::size_t>(random()) % below; };
   const Bytes whole = all({greeting, pose, press_0, pose_with(1, 0.02), goodbye});
@@ -174,5 +174,5 @@ TEST_CASE("VRPN: ten thousand damaged conversations neither crash nor give a pos
                 1e-9);
     poses += stream.poses();
   }
-  CHECK(poses > 3000);  // many of them were still good
+  CHECK(poses > 3000);
 }

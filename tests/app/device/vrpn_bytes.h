@@ -1,5 +1,5 @@
-// The bytes of a VRPN server, written out by hand from the text of the protocol (vrpn_Connection.C,
-// vrpn_Tracker.C, vrpn_Button.C and vrpn_ForceDevice.C of VRPN 7), none of them by our own encoder.
+// Bytes of a VRPN server, written by hand from vrpn_Connection.C, vrpn_Tracker.C, vrpn_Button.C and
+// vrpn_ForceDevice.C of VRPN 7, not by our encoder.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace vrpn_bytes {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// "76 72 70" to bytes; '|' parts fields for readers.
+// "76 72 70" to bytes; '|' separates fields.
 inline Bytes hex(const char* text) {
   Bytes bytes;
   int digits = 0, value = 0;
@@ -58,7 +58,7 @@ inline const Bytes press_1 = message("press_1");
 inline const Bytes release_0 = message("release_0");
 inline const Bytes goodbye = message("goodbye");
 
-// The pose above with another number in place of its n-th (x, y, z, then the quaternion).
+// The pose above with another n-th number (x, y, z, quaternion).
 inline Bytes pose_with(std::size_t n, double value, Bytes bytes = pose) {
   std::uint64_t bits = 0;
   std::memcpy(&bits, &value, sizeof bits);

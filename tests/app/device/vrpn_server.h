@@ -1,5 +1,5 @@
-// A server for tests on 127.0.0.1 and a free port: what it says is a script of bytes, one call of
-// the script for each connection. No call waits longer than two seconds.
+// Test server on 127.0.0.1 and a free port: a script of bytes, called for each connection. No call
+// waits longer than two seconds.
 #pragma once
 
 #include <arpa/inet.h>
@@ -16,14 +16,14 @@
 
 class VrpnServer;
 
-// One client, seen from the server.
+// Connection to a client.
 class VrpnClient {
  public:
   VrpnClient(int fd, const std::atomic<bool>& stop) : fd_(fd), stop_(stop) {}
   void say(const vrpn_bytes::Bytes& bytes) const {
     [[maybe_unused]] const auto sent = send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
   }
-  // The next `count` bytes, fewer where they do not come.
+  // The next `count` bytes, fewer after the timeout.
   vrpn_bytes::Bytes hear(std::size_t count) const {
     vrpn_bytes::Bytes bytes;
     while (bytes.size() < count) {
@@ -44,12 +44,12 @@ class VrpnClient {
     bytes.insert(bytes.end(), rest.begin(), rest.end());
     return bytes;
   }
-  // Until the client hangs up: who closes with words unheard takes back what he said.
+  // Until the client closes; unread input would make close() discard what was sent.
   void hear_end() const {
     while (!stop_ && hear(1).size() == 1) {
     }
   }
-  // Poses until the test is over, or `count` of them.
+  // `count` poses, or until the end of the test.
   void go_on(const vrpn_bytes::Bytes& bytes, int count = 1 << 20) const {
     for (int n = 0; n < count && !stop_; ++n) {
       say(bytes);

@@ -1,15 +1,13 @@
-// What a servo tick costs: the same deterministic run several times over, each tick by the least
-// processor time that it took in any of them. So what is left is the algorithm's: interrupts, other
-// programs and the thread's own wakings hit another tick each time.
+// Cost of a servo tick: the minimum processor time of each tick over several equal runs.
+// Interrupts, other programs and wake-ups affect other ticks in each run.
 //
-//   bench_ticks [--scene FILE] [--device HAND] [--duration S] [--runs N] [--cold KB] [--paced]
+//   bench_ticks [--scene FILE] [--device MOTION] [--duration S] [--runs N] [--cold KB] [--paced]
 //               [--spin US]
 //
-// --cold KB   before each tick so much memory is written: what a thread finds that has slept
-// --paced     one run at the pace of its steps; beside it empty ticks, and ticks that do 20 us of
-//             arithmetic in registers, a second of each in turn: what these take longer is the
-//             machine's. --spin US: the clock is asked over and over for the last US microseconds
-//             before each deadline
+// --cold KB   writes memory before each tick, for cold caches as after a sleep
+// --paced     one run in real time, alternating each second with empty ticks and ticks of 20 us of
+//             arithmetic in registers; what these take longer is due to the machine
+// --spin US   busy-waits for the last US microseconds before each deadline
 #include <time.h>
 
 #include <algorithm>
@@ -75,7 +73,7 @@ std::vector<double> times_of(const std::vector<Tick>& ticks,
   return times;
 }
 
-// By a number that each tick has; what is rarer than others goes together at the end.
+// Ticks by a number; rare ones are put together at the end.
 void print_by(const char* name, const std::vector<Tick>& ticks,
               const std::function<int(const Tick&)>& number) {
   constexpr int kMax = 12;
@@ -112,7 +110,7 @@ void note(const LiveRun& run, double cpu, Tick& tick) {
   tick.impulses = run.simulation().constraints().report().step;
 }
 
-// Time between two looks at the clock: what every tick's figure has on top.
+// Cost of reading the clock, part of every tick's figure.
 std::vector<double> empty_ticks(std::size_t count) {
   std::vector<double> times;
   for (std::size_t i = 0; i < count; ++i) {
@@ -157,7 +155,7 @@ void measure_unpaced(const SceneModel& scene, const TicksOptions& options) {
   print_heaviest(least, step);
 }
 
-// Sleeps until `spin` seconds before the deadline and asks the clock from there on.
+// Sleeps until `spin` seconds before the deadline, then busy-waits.
 void wait(double deadline, double spin) {
   const double until = deadline - spin;
   const timespec time{static_cast<time_t>(until),
@@ -167,14 +165,14 @@ void wait(double deadline, double spin) {
   }
 }
 
-// So many steps of a sum that nothing can shorten, in registers.
+// Steps of a sum in registers that the compiler cannot shorten.
 void add_up(long steps) {
   double x = 1;
   for (long i = 0; i < steps; ++i) x = x * 0.999999 + 1e-9;
-  [[maybe_unused]] volatile double sum = x;  // or the compiler would leave it out
+  [[maybe_unused]] volatile double sum = x;  // against optimisation
 }
 
-// Steps of add_up() that take so long where nothing interrupts them.
+// Number of steps of add_up() for that time without interrupts.
 long steps_of(double seconds) {
   constexpr long kSteps = 10000;
   double least = 1e300;
@@ -186,7 +184,7 @@ long steps_of(double seconds) {
   return static_cast<long>(seconds / least * static_cast<double>(kSteps));
 }
 
-// A second of ticks, a second of empty ones, a second of arithmetic.
+// Alternates seconds of ticks, empty ticks and arithmetic.
 void measure_paced(const SceneModel& scene, const TicksOptions& options) {
   constexpr double kArithmetic = 20e-6;  // [s]
   const auto device = open_device(options.device);

@@ -1,5 +1,4 @@
-// A scene under a hand: it follows, it never jumps, its log makes the same run, the loop is
-// punctual in what it counts.
+// Live run and servo loop: tracking, no jumps, force, timing figures.
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -12,7 +11,7 @@
 namespace twinarm {
 namespace {
 
-// A device that a test moves; what it is to render is kept.
+// A device moved by a test; stores the rendered force.
 class TestDevice final : public HandDevice {
  public:
   std::function<DeviceState(double)> state = [](double) { return DeviceState(); };
@@ -47,9 +46,7 @@ SceneModel live_scene(const std::string& more = "") {
 
 }  // namespace
 
-TEST_CASE(
-    "live run: the kinematic robot goes where the device turns, by the gain, and pulls the other "
-    "along") {
+TEST_CASE("live run: the target robot follows the device by the gain, and pulls the robot along") {
   const SceneModel scene = live_scene();
   TestDevice device;
   device.state = [](double t) { return turned(0.2 + 0.3 * std::sin(2 * t)); };
@@ -65,8 +62,9 @@ TEST_CASE(
   CHECK(farthest > 1e-4);
 }
 
-TEST_CASE("live run: the motor feels the springs' torque times the gain, against the hand") {
-  // The hand turns and then holds still: the spring that the friction of the joint leaves is felt.
+TEST_CASE(
+    "live run: the motor torque is the springs' torque times the gain, against the operator") {
+  // Rotated, then at rest: joint friction leaves a spring deflection.
   const SceneModel scene = live_scene(R"(
 [[body]]
 name = "block"
@@ -84,28 +82,26 @@ position = [0.3, 0.16, 0.3]
   const double spring = 2000 * view.error[0];
   REQUIRE(run.contacts().contact_count() > 0);
   REQUIRE(spring > 1);
-  CHECK(device.rendered.torque[0] < 0);  // back to where the robot is
+  CHECK(device.rendered.torque[0] < 0);  // towards the robot
   CHECK(device.rendered.torque[1] == 0);
   const Vector3 torque(device.rendered.torque[0], device.rendered.torque[1],
                        device.rendered.torque[2]);
   const double most = device.figures().peak_force;
-  const double felt = stylus_force(device.figures(), turned(0.2).theta, torque);
-  // Two times the spring's torque, unless the motors cannot do that.
+  const double rendered = stylus_force(device.figures(), turned(0.2).theta, torque);
+  // Twice the spring's torque, limited by the motors.
   const double wanted =
       stylus_force(device.figures(), turned(0.2).theta, Vector3(2 * spring, 0, 0));
-  CHECK(felt == doctest::Approx(std::min(most, wanted)).epsilon(1e-6));
+  CHECK(rendered == doctest::Approx(std::min(most, wanted)).epsilon(1e-6));
 }
 
-TEST_CASE(
-    "live run: a device that falls silent leaves the robot holding, then slack, and never "
-    "jumping") {
+TEST_CASE("live run: after a device timeout the target holds, then is released, and never jumps") {
   const SceneModel scene = live_scene();
   TestDevice device;
   device.state = [](double t) {
     DeviceState state = turned(0.3 * std::sin(3 * t));
     const bool is_silent = t > 0.5 && t < 2.5;
     state.alive = !is_silent;
-    // While it is silent it shows nonsense; when it is back it is elsewhere.
+    // Invalid data while silent; another pose afterwards.
     if (is_silent) state.theta[0] = -0.9;
     if (t >= 2.5) state.theta[0] -= 0.5;
     return state;
@@ -128,10 +124,10 @@ TEST_CASE(
   CHECK(released > 980);
   CHECK(run.watch().silences() == 1);
   CHECK(slack < 1e-3);
-  CHECK(fastest < 0.6 * 3 * 0.001 * 1.01);  // the sine's own speed, twice the device's
+  CHECK(fastest < 0.6 * 3 * 0.001 * 1.01);  // speed of the sine, twice the device's
 }
 
-TEST_CASE("live run: a device that says what is no number leaves the robot where it is") {
+TEST_CASE("live run: a device state that is not finite leaves the target robot at rest") {
   const SceneModel scene = live_scene();
   TestDevice device;
   device.state = [](double t) { return turned(t < 0.1 ? 0.1 * t : NAN); };
@@ -142,7 +138,7 @@ TEST_CASE("live run: a device that says what is no number leaves the robot where
   CHECK(std::abs(HandMapping{}.robot_angle(view.hand.hand, 0) - 0.02) < 1e-3);
 }
 
-TEST_CASE("live run: a robot that has left all bounds stands, and pushes nobody") {
+TEST_CASE("live run: a diverged robot is not stepped any more, and renders no force") {
   std::string text = kScene;
   const std::string from = "damping = 100\n", to = "damping = 1e7\ntreatment = \"explicit\"\n";
   text.replace(text.find(from), from.size(), to);
@@ -158,7 +154,7 @@ TEST_CASE("live run: a robot that has left all bounds stands, and pushes nobody"
   CHECK(device.rendered.torque[0] == 0);
 }
 
-TEST_CASE("live run: a tick among obstacles takes nothing from the heap once it is warm") {
+TEST_CASE("live run: a tick among obstacles allocates nothing once warm") {
   const SceneModel scene = build_scene(read_scene(std::filesystem::path(TWINARM_SOURCE_DIR) /
                                                   "assets/scenes/hand_and_obstacles.toml"));
   TestDevice device;
@@ -181,7 +177,7 @@ TEST_CASE("live run: a tick among obstacles takes nothing from the heap once it 
   CHECK(touching > 100);
 }
 
-TEST_CASE("live run: what cannot be led by a device is said before the run") {
+TEST_CASE("live run: scenes that a device cannot drive are refused before the run") {
   TestDevice device;
   const auto codes_of = [&](const SceneModel& scene) {
     std::string all;
@@ -204,7 +200,7 @@ model = "robots/s103/s103.urdf"
   CHECK(codes_of(with("integrator = \"semi-implicit\"\n")).empty());
 }
 
-TEST_CASE("servo loop: the thread takes as many ticks as asked for, in the time that they take") {
+TEST_CASE("servo loop: takes the requested ticks in real time") {
   const SceneModel scene = live_scene();
   TestDevice device;
   LiveRun run(scene, device, {});
@@ -223,12 +219,12 @@ TEST_CASE("servo loop: the thread takes as many ticks as asked for, in the time 
   CHECK(drained + result.lost == 200);
   CHECK(result.run.cpu.count() == 200);
   CHECK(result.run.late.count() == 200);
-  // Never before its time: two hundred periods, less those that had slipped.
+  // Two hundred periods, less the skipped ones.
   CHECK(monotonic_time() - start >=
         0.001 * (200.0 - static_cast<double>(result.run.slipped)) - 1e-6);
 }
 
-TEST_CASE("servo loop: it ends at the next tick when it is told to") {
+TEST_CASE("servo loop: ends at the next tick after the stop flag") {
   const SceneModel scene = live_scene();
   TestDevice device;
   LiveRun run(scene, device, {});

@@ -13,6 +13,10 @@
 
 namespace twinarm::testing {
 
+inline ContactSurface rough_surface(double friction, double restitution) {
+  return {.friction = friction, .restitution = restitution};
+}
+
 class ContactScene {
  public:
   explicit ContactScene(ContactResponse response = ContactResponse::rigid) : response_(response) {}

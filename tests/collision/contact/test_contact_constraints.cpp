@@ -15,13 +15,6 @@ using namespace twinarm::testing;
 
 namespace {
 
-ContactSurface surface(double friction, double restitution) {
-  ContactSurface s;
-  s.friction = friction;
-  s.restitution = restitution;
-  return s;
-}
-
 Shape random_shape(Random& random) {
   const double r = random.uniform(0.05, 0.15);
   switch (random.integer(0, 3)) {
@@ -47,10 +40,10 @@ ContactScene thrown_together(unsigned seed, bool floating) {
     const Vector3 p(0.45 * (i % 2) - 0.2, 0.45 * (i / 2) - 0.2, 0.4 + 0.1 * i);
     const Vector3 to_middle = floating ? Vector3(-2 * p + Vector3(0, 0, 0.8)) : Vector3(0, 0, -1);
     scene.body(random_shape(random), std::pow(100.0, random.uniform(0, 1)),
-               surface(mu, std::sqrt(e)),
+               rough_surface(mu, std::sqrt(e)),
                {p, to_middle + random.vector(0.3), random.vector(3), random.rotation()});
   }
-  if (!floating) scene.floor(surface(mu, std::sqrt(e)));
+  if (!floating) scene.floor(rough_surface(mu, std::sqrt(e)));
   scene.begin();
   return scene;
 }
@@ -121,8 +114,8 @@ TEST_CASE("a sphere of 10 mm at 50 m/s does not tunnel through a plate of 5 mm")
   for (const double offset : {0.0, 0.0031, 0.0497}) {
     ContactScene scene;
     scene.set_gravity(Vector3::Zero());
-    scene.obstacle(Box{{1, 1, 0.005}}, surface(0.3, 0));
-    const int ball = scene.body(Sphere{0.005}, 0.004, surface(0.3, 0),
+    scene.obstacle(Box{{1, 1, 0.005}}, rough_surface(0.3, 0));
+    const int ball = scene.body(Sphere{0.005}, 0.004, rough_surface(0.3, 0),
                                 {{0.01, 0.02, 0.5 + offset}, {0, 0, -50}});
     scene.begin();
     scene.run(1e-3, 100);
@@ -132,8 +125,8 @@ TEST_CASE("a sphere of 10 mm at 50 m/s does not tunnel through a plate of 5 mm")
 
 TEST_CASE("deeply penetrating bodies separate slowly, and are then at rest") {
   ContactScene scene;
-  scene.floor(surface(0.5, 0));
-  const int box = scene.body(Box{{0.2, 0.2, 0.2}}, 1, surface(0.5, 0), {{0, 0, 0.04}});
+  scene.floor(rough_surface(0.5, 0));
+  const int box = scene.body(Box{{0.2, 0.2, 0.2}}, 1, rough_surface(0.5, 0), {{0, 0, 0.04}});
   scene.begin();
   double fastest = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -147,8 +140,8 @@ TEST_CASE("deeply penetrating bodies separate slowly, and are then at rest") {
 TEST_CASE("a box on a belt is accelerated by friction up to mu m g") {
   ContactScene scene;  // the belt: a floor with a surface velocity
   scene.set_gravity({9.81 * std::sin(0.2), 0, -9.81 * std::cos(0.2)});
-  scene.floor(surface(0.1, 0));
-  const int box = scene.body(Box{{0.2, 0.2, 0.2}}, 2, surface(0.1, 0), {{0, 0, 0.1}});
+  scene.floor(rough_surface(0.1, 0));
+  const int box = scene.body(Box{{0.2, 0.2, 0.2}}, 2, rough_surface(0.1, 0), {{0, 0, 0.1}});
   scene.begin();
   scene.run(1e-3, 1000);
   const double a = 9.81 * (std::sin(0.2) - 0.1 * std::cos(0.2));
@@ -160,10 +153,10 @@ TEST_CASE("a box on a belt is accelerated by friction up to mu m g") {
 
 TEST_CASE(
     "torsional friction stops a spinning box after w I / (mu_t m g), rolling friction a sphere") {
-  ContactSurface rough = surface(0.5, 0);
+  ContactSurface rough = rough_surface(0.5, 0);
   rough.torsional = 0.02;
   ContactScene top;
-  top.floor(surface(0, 0));
+  top.floor(rough_surface(0, 0));
   top.body(Sphere{0.1}, 1, rough, {{0, 0, 0.1}, {0, 0, 0}, {0, 0, 10}});
   top.begin();
   top.run(1e-3, 100);
@@ -171,7 +164,7 @@ TEST_CASE(
   CHECK(top.simulation().kinematics().w_WL[1].z() ==
         doctest::Approx(10 - 0.1 * alpha).epsilon(1e-6));
 
-  ContactSurface soft = surface(0.5, 0);
+  ContactSurface soft = rough_surface(0.5, 0);
   soft.rolling = 0.002;
   ContactScene ball;
   ball.floor(soft);
@@ -188,9 +181,9 @@ TEST_CASE("the same scene gives bit-identical results; a warm step does not allo
   a.run(1e-3, 700), b.run(1e-3, 700);
   CHECK(a.simulation().state().q == b.simulation().state().q);
   ContactScene boxes;
-  boxes.floor(surface(0.5, 0));
+  boxes.floor(rough_surface(0.5, 0));
   for (int i = 0; i < 5; ++i)
-    boxes.body(Box{{0.1, 0.1, 0.1}}, 1, surface(0.5, 0), {{0, 0, 0.05 + 0.101 * i}});
+    boxes.body(Box{{0.1, 0.1, 0.1}}, 1, rough_surface(0.5, 0), {{0, 0, 0.05 + 0.101 * i}});
   boxes.begin();
   boxes.run(1e-3, 200);
   CHECK(allocations_in([&] { boxes.run(1e-3, 100); }) == 0);
@@ -212,7 +205,7 @@ TEST_CASE("all errors of a surface are reported at once") {
     return builder.build();
   }();
   ContactConstraints contacts(empty, ContactResponse::rigid);
-  ContactGeometry bad{"bad", 7, {}, Sphere{0.1}, surface(-1, 2), 0};
+  ContactGeometry bad{"bad", 7, {}, Sphere{0.1}, rough_surface(-1, 2), 0};
   try {
     contacts.bodies().add(bad);
     FAIL("accepted");

@@ -11,27 +11,21 @@ using namespace twinarm::testing;
 
 namespace {
 
-ContactSurface struck_surface(double friction, double restitution) {
-  ContactSurface s;
-  s.friction = friction;
-  s.restitution = restitution;
-  return s;
-}
-
 constexpr double r = 0.05;
 
 }  // namespace
 
 // At rest the speculative margin is 0.5 mm. Before detection was repeated after an impact, the
 // sphere ended 5 mm deep in the wall.
-TEST_CASE("a sphere at rest that is hit by another does not enter the wall behind it, near or far") {
+TEST_CASE(
+    "a sphere at rest that is hit by another does not enter the wall behind it, near or far") {
   for (const double e : {0.0, 0.3, 1.0})
     for (const double gap : {1e-3, 4e-3, 9e-3, 17e-3}) {
       CAPTURE(e);
       CAPTURE(gap);
       ContactScene scene;
       scene.set_gravity(Vector3::Zero());
-      const ContactSurface s = struck_surface(0.5, e);
+      const ContactSurface s = rough_surface(0.5, e);
       scene.obstacle(HalfSpace{Vector3::UnitX(), 0}, s);
       const int ball = scene.body(Sphere{r}, 1, s, {{r + gap, 0, 0}});
       const int striker =
@@ -57,10 +51,10 @@ TEST_CASE("a sphere in a groove bounces as far as friction permits, and another 
     constexpr double e = 0.5;
     ContactScene scene;
     scene.set_gravity(Vector3::Zero());
-    scene.obstacle(HalfSpace{Vector3::UnitX(), 0}, struck_surface(mu, 1));
-    scene.obstacle(HalfSpace{Vector3::UnitZ(), 0}, struck_surface(mu, 1));
-    const int ball = scene.body(Sphere{r}, 1, struck_surface(mu, e), {{r, 0, r}, {-1, 0, -1}});
-    const int other = scene.body(Sphere{r}, 1, struck_surface(0, e), {{1, 0, r}, {0, 0, -1}});
+    scene.obstacle(HalfSpace{Vector3::UnitX(), 0}, rough_surface(mu, 1));
+    scene.obstacle(HalfSpace{Vector3::UnitZ(), 0}, rough_surface(mu, 1));
+    const int ball = scene.body(Sphere{r}, 1, rough_surface(mu, e), {{r, 0, r}, {-1, 0, -1}});
+    const int other = scene.body(Sphere{r}, 1, rough_surface(0, e), {{1, 0, r}, {0, 0, -1}});
     scene.begin();
     scene.run(1e-3, 1);
     const bool bounces = mu < 1;
@@ -80,7 +74,7 @@ TEST_CASE("a fast spinning capsule nutates with the mean of its velocities") {
   ContactScene scene;
   scene.set_gravity(Vector3::Zero());
   const Vector3 w(20, 0, 170);
-  const int capsule = scene.body(Capsule{0.03, 0.12}, 1, struck_surface(0.5, 0), {{}, {}, w});
+  const int capsule = scene.body(Capsule{0.03, 0.12}, 1, rough_surface(0.5, 0), {{}, {}, w});
   const Simulation& simulation = scene.begin();
   const Inertia<double> body = simulation.mechanism().model.I[static_cast<std::size_t>(capsule)];
   const double energy = scene.energy();
@@ -99,7 +93,7 @@ TEST_CASE("a tumbling box keeps its energy exactly and its momentum with order 2
     ContactScene scene;
     scene.set_gravity(Vector3::Zero());
     const int box =
-        scene.body(Box{{0.1, 0.2, 0.3}}, 1, struck_surface(0.5, 0), {{}, {}, {1, 30, -2}});
+        scene.body(Box{{0.1, 0.2, 0.3}}, 1, rough_surface(0.5, 0), {{}, {}, {1, 30, -2}});
     const Simulation& simulation = scene.begin();
     const Inertia<double> body = simulation.mechanism().model.I[static_cast<std::size_t>(box)];
     const auto momentum = [&]() -> Vector3 {
@@ -125,10 +119,10 @@ TEST_CASE("the energy of spinning bodies that fall onto a floor never increases"
       CAPTURE(spin);
       ContactScene scene;
       scene.set_gravity({0, 0, -9.81});
-      scene.floor(struck_surface(0.5, 1));
-      scene.body(Capsule{0.03, 0.12}, 1, struck_surface(0.5, e),
+      scene.floor(rough_surface(0.5, 1));
+      scene.body(Capsule{0.03, 0.12}, 1, rough_surface(0.5, e),
                  {{0, 0, 0.1}, {}, spin * Vector3(0.1, 0.2, 1)});
-      scene.body(Box{{0.1, 0.06, 0.03}}, 1, struck_surface(0.5, e),
+      scene.body(Box{{0.1, 0.06, 0.03}}, 1, rough_surface(0.5, e),
                  {{1, 0, 0.1}, {}, spin * Vector3(1, 0.2, 0.1)});
       scene.begin();
       double most = scene.energy();

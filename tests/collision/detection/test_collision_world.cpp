@@ -206,7 +206,6 @@ TEST_CASE("crossings of sides have different features, which persist while the b
   }
 }
 
-// Few and many bodies, for both broad-phase algorithms.
 static void check_pile(int count) {
   CollisionWorld world, again;
   Random random(14);

@@ -1,5 +1,5 @@
-// The coupling and integrator that make each scheme of coupling/analysis/gains.h, and
-// whether a small motion about a target at rest grows in the real stepper.
+// Coupling and integrator of each stepping scheme of coupling/analysis/gains.h, and whether a small
+// motion grows in a simulation.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace twinarm::testing {
 inline constexpr double kHingeInertia = 0.7, kFrame = 0.01, kSmall = 1e-9;
 inline constexpr int kHeld = 20;  // steps of the integrator in one held step
 
-// The inequality at each Scheme.
+// The stability condition of each SteppingScheme.
 inline bool is_stable(SteppingScheme scheme, double alpha, double beta) {
   switch (scheme) {
     case SteppingScheme::euler:
@@ -52,7 +52,7 @@ struct Stepper {
   int substeps = 1;
 };
 
-// The coupling and integrator that make a scheme: torsional on a hinge, or linear on a slide.
+// Coupling and integrator of a scheme: torsional on a revolute, or linear on a prismatic joint.
 inline Stepper stepper_of(SteppingScheme scheme, CouplingSpec::Type type,
                           std::vector<Spring> springs) {
   Stepper s;
@@ -95,8 +95,8 @@ inline Stepper stepper_of(SteppingScheme scheme, CouplingSpec::Type type,
   return s;
 }
 
-// Whether a small motion about the KVR at rest in a pose grows: its largest size in the last
-// quarter of the steps against the second quarter. Coordinates are angles and lengths.
+// Whether a small motion about the KVR at rest grows: maximum of the last quarter of the steps
+// against the second quarter. Coordinates are angles and lengths.
 inline bool grows(const Stepper& stepper, const Model<double>& model, const State<double>& pose,
                   double h, int steps) {
   State<double> start = pose;
@@ -114,7 +114,7 @@ inline bool grows(const Stepper& stepper, const Model<double>& model, const Stat
     double& window = n < steps / 2 ? early : late;
     if (n >= 3 * steps / 4 || (n >= steps / 4 && n < steps / 2)) window = std::max(window, size);
   }
-  return late > 1.01 * early;  // undamped motion, seen once a step, seems to by less
+  return late > 1.01 * early;  // tolerance for undamped motion sampled once a step
 }
 
 inline bool grows(SteppingScheme scheme, CouplingSpec::Type type, double alpha, double beta) {
@@ -129,7 +129,7 @@ inline bool grows(SteppingScheme scheme, CouplingSpec::Type type, double alpha, 
       scheme == SteppingScheme::hold || scheme == SteppingScheme::hold_difference ? 800 : 4000);
 }
 
-// Where a run begins to grow, to 1e-4 of itself, between 0.9 and 1.1 of a limit.
+// Stability limit of a simulation, to 1e-4, between 0.9 and 1.1 of the prediction.
 template <class Stable>
 double measured_limit(Stable&& stable, double predicted) {
   double inside = 0.9 * predicted, outside = 1.1 * predicted;

@@ -1,4 +1,4 @@
-// All couplings in all their treatments, on a chain of three hinges: what contract tests loop over.
+// All couplings with all discretizations on a chain of three revolute joints, for contract tests.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -21,7 +21,7 @@ struct Law {
   bool printed;
   SpringSpace measure;
   Discretization treatment;
-  bool own;  // a treatment of its own
+  bool own;  // fixed discretization
   const CouplingFacts& facts;
 
   bool is(CouplingType t) const { return type == t; }
@@ -32,13 +32,13 @@ struct Law {
   bool on_joint() const { return at_joint() && facts.is_spring_damper; }
 
  private:
-  // AsPublishedOptions have a measure too.
+  // AsPublishedOptions also have a spring space.
   bool at_joint() const {
     return facts.at_joint || (is(CouplingType::torsional) && measure == SpringSpace::joint);
   }
 };
 
-// coupling/laws/coupling_spec.h times treatments times measures.
+// coupling/laws/coupling_spec.h times discretizations times spring spaces.
 inline std::vector<Law> all_laws() {
   using Discretizations = CouplingFacts::Discretizations;
   std::vector<Law> laws;
@@ -77,7 +77,7 @@ inline std::vector<Spring> chain_springs(double k, double b) {
           {"third", 3, {0.1, 0, 0.2}, 0.3 * k, 0.7 * b, 0.6 * k, 0.9 * b}};
 }
 
-// Three hinges in random directions, all of it moved by X_W from the world's origin.
+// Three revolute joints in random directions, moved by X_W from the world's origin.
 inline Model<double> chain_of_three(unsigned seed, const Pose& X_W = {}) {
   Random random(seed);
   ModelBuilder builder;
@@ -100,7 +100,7 @@ inline State<double> three_state(const Model<double>& model, const Vector3& q, c
   return state_of(model, {q[0], q[1], q[2]}, {qd[0], qd[1], qd[2]});
 }
 
-// What a fresh coupling puts into a step of h: forces, and the readings behind them.
+// Forces and spring states of a new coupling in a step of h.
 struct Evaluated {
   Kinematics D, K;  // of the DVR; of the KVR at the start of the step
   Forces<double> forces;
@@ -121,7 +121,7 @@ inline Evaluated evaluated(const CouplingSpec& spec, const Model<double>& model,
   return all;
 }
 
-// The generalised force of a fresh coupling: M times what it changes in the accelerations.
+// Joint force of a new coupling: M times the change of the accelerations.
 inline Vector3 generalised_force(const CouplingSpec& spec, const Model<double>& model,
                                  const SteadyHand& hand, const Vector3& q, const Vector3& qd) {
   const Evaluated all = evaluated(spec, model, hand, q, qd);

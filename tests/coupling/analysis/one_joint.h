@@ -1,4 +1,4 @@
-// One joint, a hand that stands still or turns it at constant speed, and the coupling between.
+// One joint, a motion at rest or at constant speed, and a coupling.
 #pragma once
 
 #include <memory>
@@ -37,7 +37,7 @@ inline Model<double> one_joint(JointType type, double inertia) {
   return builder.build();
 }
 
-// KVR, coupling and DVR of one model, ready to step. Not to be moved: the parts point at another.
+// KVR, coupling and DVR of one model, ready to step. Not movable: the parts hold references.
 struct Coupled {
   Model<double> model;
   SteadyHand hand;

@@ -1,5 +1,5 @@
-// The twin arm against a fixed box: the hand drives the kinematic robot into it and stops inside;
-// the dynamic one is stopped outside, by each coupling, at the speed of the paper's experiments.
+// The S-103 arm against a fixed box: the target robot is driven into it and stops inside; the robot
+// stays outside with each coupling, at the speed of the paper's experiments.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kArm = 0.25, kFore = 0.35, kSpeed = 2.0, kTime = 0.45;  // m, m, rad/s, s
 
-// Turns joint 1 at kSpeed for kTime, then holds.
+// Rotates joint 1 at kSpeed for kTime, then stops.
 class StoppingHand final : public OperatorMotion {
  public:
   HandSample sample(double t, double) const override {
@@ -45,13 +45,12 @@ CouplingSpec coupling_of(int kind) {
   return spec;
 }
 
-// Generalised force of the coupling where everything is at rest, from its definition: springs
-// alone.
+// Joint force of the springs at rest, from the definition.
 std::array<double, 2> pull(int kind, const CouplingSpec& spec, const std::vector<double>& q,
                            double q1_K, double q2_K) {
   const double k1 = spec.springs[0].k, k2 = spec.springs[1].k;
   const double e1 = q1_K - q[0], e12 = q1_K + q2_K - q[0] - q[1];
-  if (kind == 1) return {k1 * e1 + k2 * e12, k2 * e12};  // couples on the links, in the world
+  if (kind == 1) return {k1 * e1 + k2 * e12, k2 * e12};  // torques on the links, in the world
   if (kind == 2) return {k1 * e1, k2 * (q2_K - q[1])};
   const auto along = [](double angle, double r) {
     return Vector3(r * std::cos(angle), r * std::sin(angle), 0);
@@ -64,7 +63,7 @@ std::array<double, 2> pull(int kind, const CouplingSpec& spec, const std::vector
 
 }  // namespace
 
-TEST_CASE("an arm pushed against a box stays outside, and rests on it with the coupling's force") {
+TEST_CASE("an arm pushed against a box stays outside, at rest with the coupling's force") {
   for (int kind = 0; kind < 3; ++kind) {
     CAPTURE(kind);
     const Model<double> model = TwoLink{5, 3, kArm, kFore}.model();
@@ -92,7 +91,7 @@ TEST_CASE("an arm pushed against a box stays outside, and rests on it with the c
         deepest = std::max(deepest, point.contact.depth);
         force += point.force_W.norm();
       }
-      if (n < 2000) continue;  // the arm has come to rest on the post
+      if (n < 2000) continue;  // the arm is at rest on the post
       least = std::min(least, force), most = std::max(most, force);
     }
     CHECK(refused == 0);

@@ -1,5 +1,5 @@
-// What every coupling owes, whatever its law: it refuses nonsense, rests where there is nothing to
-// do, pulls down the slope of its energy, and does not know where the world's axes point.
+// Properties of every coupling: rejects invalid gains, rests at zero error, is the gradient of its
+// energy, is independent of the world's axes.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -12,7 +12,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// The energy stored in the springs, from the law's own formula.
+// Energy stored in the springs, from the law's formula.
 double stored(const CouplingSpec& spec, const Law& law, const Model<double>& model,
               const Vector3& q_K, const Vector3& q) {
   Kinematics K(model), D(model);
@@ -38,7 +38,7 @@ double stored(const CouplingSpec& spec, const Law& law, const Model<double>& mod
 
 }  // namespace
 
-TEST_CASE("every coupling refuses negative and undefined gains, all springs at fault at once") {
+TEST_CASE("every coupling rejects negative and undefined gains, all springs at once") {
   const Model<double> model = chain_of_three(1);
   const SteadyHand hand;
   TargetRobot kvr(model, hand, SteadyHand::mapping(), {kThreeJoints, "", 0, 0});
@@ -70,7 +70,7 @@ TEST_CASE("every coupling refuses negative and undefined gains, all springs at f
   }
 }
 
-TEST_CASE("no coupling moves a DVR that rests on a KVR at rest") {
+TEST_CASE("no coupling moves a DVR at rest on a KVR at rest") {
   Random random(2);
   for (const Law& law : all_laws())
     for (unsigned seed = 0; seed < 5; ++seed) {
@@ -84,10 +84,10 @@ TEST_CASE("no coupling moves a DVR that rests on a KVR at rest") {
     }
 }
 
-TEST_CASE("without damping every coupling with springs pulls with -dU/dq at the start of a step") {
+TEST_CASE("without damping every coupling has the force -dU/dq at the start of a step") {
   Random random(3);
   for (const Law& law : all_laws()) {
-    // Over the step, implicit springs lessen their pull: F - m* J qdd.
+    // Over the step, the force of implicit springs is F - m* J qdd.
     if (law.treatment != Discretization::explicit_ || !law.facts.is_spring_damper) continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, 0));
@@ -105,7 +105,7 @@ TEST_CASE("without damping every coupling with springs pulls with -dU/dq at the 
   }
 }
 
-TEST_CASE("moving base and KVR together leaves the joints' motion under every coupling as it is") {
+TEST_CASE("moving base and KVR together does not change the joint motion under any coupling") {
   Random random(5);
   for (const Law& law : all_laws())
     for (unsigned seed = 0; seed < 3; ++seed) {
@@ -127,10 +127,10 @@ TEST_CASE("moving base and KVR together leaves the joints' motion under every co
     }
 }
 
-TEST_CASE("joint_space is how the generalised force changes with the DVR about zero offset") {
+TEST_CASE("joint_space is the derivative of the joint force at zero error") {
   Random random(6);
   for (const Law& law : all_laws()) {
-    // The weld's damping brings an inertia (test_weld_like.cpp), stable PD's looks ahead.
+    // The weld's damping adds inertia (test_mujoco_weld.cpp), stable PD has a position lead.
     if (law.treatment != Discretization::explicit_ || law.is(CouplingType::god_object)) continue;
     const bool springs_alone = law.printed || law.own || law.is(CouplingType::weld_like);
     CAPTURE(law.name);

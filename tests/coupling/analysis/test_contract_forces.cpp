@@ -1,7 +1,6 @@
-// Contracts of the forces themselves: the consistent laws are what they say, action is minus
-// reaction, dampers take energy, and the implicit treatments become the explicit one as h -> 0.
-// Each law that breaks one of them is named with what it does instead: a finding, not a flaw of the
-// program (docs/understand/coupling_laws.md).
+// Force properties: consistent laws agree with their definition, action equals reaction, dampers
+// dissipate, implicit discretizations converge to explicit ones as h -> 0. Exceptions by law are
+// listed with their behaviour (docs/understand/coupling_laws.md).
 #include <doctest/doctest.h>
 
 #include "tests/coupling/analysis/laws.h"
@@ -11,7 +10,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// What acts on the DVR from outside, about the world's origin, and at its joints.
+// External wrench on the DVR about the world's origin, and joint forces.
 struct Action {
   Vector3 force = Vector3::Zero(), moment = Vector3::Zero(), joints = Vector3::Zero();
 };
@@ -25,7 +24,7 @@ Action action_of(const Evaluated& all) {
   sum.joints = {all.forces.tau[0], all.forces.tau[1], all.forces.tau[2]};
   return sum;
 }
-// On the DVR, and what the KVR would feel: the same law with the robots' roles exchanged.
+// On the DVR, and on the KVR: the same law with exchanged robots.
 std::pair<Action, Action> action_and_reaction(const CouplingSpec& spec, const Model<double>& model,
                                               const Vector3& q_K, const Vector3& qd_K,
                                               const Vector3& q, const Vector3& qd) {
@@ -33,7 +32,7 @@ std::pair<Action, Action> action_and_reaction(const CouplingSpec& spec, const Mo
           action_of(evaluated(spec, model, hand_at(q, qd), q_K, qd_K))};
 }
 
-// v_D - v_K of what spring s measures.
+// v_D - v_K of spring s.
 Vector3 relative_velocity(const Law& law, const Model<double>& model, const Evaluated& all,
                           const Spring& s, const Vector3& qd_K, const Vector3& qd, bool turn) {
   const auto i = static_cast<std::size_t>(s.body);
@@ -50,8 +49,7 @@ bool is_consistent(const Law& law) {
 
 }  // namespace
 
-TEST_CASE(
-    "the consistent couplings pull with J^T (k e + b e') at the DVR's end, KVR moving or not") {
+TEST_CASE("the consistent couplings have the force J^T (k e + b e'), with the KVR moving or not") {
   Random random(7);
   for (const Law& law : all_laws()) {
     if (!is_consistent(law) || law.own || law.is(CouplingType::matched) ||
@@ -92,11 +90,11 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("action is minus reaction: springs of all laws but the matched one, force and moment") {
+TEST_CASE("action equals reaction: springs of all laws except the equivalent torsional one") {
   Random random(8);
   const Vector3 rest = Vector3::Zero();
   for (const Law& law : all_laws()) {
-    if (law.is(CouplingType::god_object)) continue;  // a way to go, not a force between two
+    if (law.is(CouplingType::god_object)) continue;  // not a force between two bodies
     CAPTURE(law.name);
     for (unsigned seed = 0; seed < 10; ++seed) {
       const Model<double> model = chain_of_three(seed);
@@ -107,7 +105,7 @@ TEST_CASE("action is minus reaction: springs of all laws but the matched one, fo
       CHECK(size > 0.01);
       CHECK((on.force + back.force).norm() < 1e-12 * size);
       CHECK((on.moment + back.moment).norm() < 1e-12 * size);
-      // The matched law has its stiffness from the KVR's pose: the KVR would feel another.
+      // The equivalent torsional law has its stiffness from the KVR's pose.
       if (law.is(CouplingType::matched))
         CHECK((on.joints + back.joints).norm() > 1e-3 * size);
       else
@@ -116,7 +114,7 @@ TEST_CASE("action is minus reaction: springs of all laws but the matched one, fo
   }
 }
 
-TEST_CASE("action is minus reaction of a relative damper; between two points but for e x F") {
+TEST_CASE("action equals reaction of a relative damper; between two points except for e x F") {
   Random random(9);
   for (const Law& law : all_laws()) {
     if (!is_consistent(law) || law.is(CouplingType::matched) ||
@@ -130,11 +128,11 @@ TEST_CASE("action is minus reaction of a relative damper; between two points but
       const Vector3 qd_K = random.vector(3), qd = random.vector(3);
       const auto [on, back] = action_and_reaction(spec, model, q_K, qd_K, q, qd);
       const double size = on.force.norm() + on.moment.norm() + on.joints.norm();
-      if (law.is(CouplingType::weld_like)) {  // it does not see the KVR's velocity
+      if (law.is(CouplingType::weld_like)) {  // absolute damper
         CHECK((on.force + back.force).norm() > 1e-3 * size);
         continue;
       }
-      // F at p_D and -F at p_K make a couple where F is not along p_K - p_D: nobody's reaction.
+      // F at p_D and -F at p_K are a torque if F is not along p_K - p_D, without reaction.
       Vector3 left = Vector3::Zero();
       if (law.is(CouplingType::linear) || law.in_six_dimensions()) {
         const Evaluated all = evaluated(spec, model, hand_at(q_K, qd_K), q, qd);
@@ -149,10 +147,10 @@ TEST_CASE("action is minus reaction of a relative damper; between two points but
   }
 }
 
-TEST_CASE("a damper alone, against a KVR at rest, never does work on the DVR") {
+TEST_CASE("a damper alone, with the KVR at rest, never does positive work on the DVR") {
   Random random(4);
   for (const Law& law : all_laws()) {
-    if (!is_consistent(law) || law.is(CouplingType::weld_like)) continue;  // test_weld_like.cpp
+    if (!is_consistent(law) || law.is(CouplingType::weld_like)) continue;  // test_mujoco_weld.cpp
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(0, 5));
     for (unsigned seed = 0; seed < 20; ++seed) {
@@ -164,7 +162,7 @@ TEST_CASE("a damper alone, against a KVR at rest, never does work on the DVR") {
   }
 }
 
-TEST_CASE("a relative damper takes energy from the relative motion, whatever moves the KVR") {
+TEST_CASE("a relative damper dissipates energy of the relative motion, whatever the KVR's motion") {
   Random random(10);
   for (const Law& law : all_laws()) {
     if (!is_consistent(law) || law.is(CouplingType::weld_like)) continue;
@@ -179,7 +177,7 @@ TEST_CASE("a relative damper takes energy from the relative motion, whatever mov
         const bool turn = r >= 3 || law.on_orientation();
         const Vector3 pull = law.on_joint() ? Vector3(reading.size, 0, 0) : reading.pull;
         const Vector3 v = relative_velocity(law, model, all, spec.springs[r % 3], qd_K, qd, turn);
-        // Targets at the end of the step have turned on by h.
+        // Targets at the end of the step have rotated by h.
         CHECK(pull.dot(v) < 1e-2 * pull.norm() * v.norm());
         if (law.treatment == Discretization::explicit_ && !law.own)
           CHECK(pull.dot(v) == doctest::Approx(-pull.norm() * v.norm()).epsilon(1e-12));
@@ -188,9 +186,9 @@ TEST_CASE("a relative damper takes energy from the relative motion, whatever mov
   }
 }
 
-TEST_CASE("the printed torsional damper drives a DVR that follows too fast: power > 0") {
-  // A hinge turns faster than its KVR, both in the KVR's sense. The damper knows neither who is
-  // faster nor against what: with the sign along the KVR's motion it pushes on.
+TEST_CASE("the as-published torsional damper accelerates a DVR that is too fast: power > 0") {
+  // A revolute joint rotates faster than its KVR in the same direction. The damper's torque does
+  // not depend on which is faster.
   const Model<double> model = one_joint(JointType::revolute, 0.7);
   for (const double sign : {1.0, -1.0}) {
     CouplingSpec spec;
@@ -207,7 +205,7 @@ TEST_CASE("the printed torsional damper drives a DVR that follows too fast: powe
   }
 }
 
-TEST_CASE("the implicit treatments become the explicit one as h -> 0, in first order") {
+TEST_CASE("implicit discretizations converge to the explicit one with order 1 as h -> 0") {
   Random random(11);
   for (const Law& law : all_laws()) {
     if (law.treatment == Discretization::explicit_ && !law.is(CouplingType::stable_pd)) continue;

@@ -1,4 +1,4 @@
-// Gains that mean the same: there and back, and against the modes that they give.
+// Equivalent gains: round trips, and the resulting modes.
 #include <doctest/doctest.h>
 
 #include "collision/import/robot/robot_model.h"
@@ -38,7 +38,7 @@ Posed puma() {
 
 }  // namespace
 
-TEST_CASE("every conversion of gains leads back, at any size, damping and impedance") {
+TEST_CASE("every conversion of gains is invertible, at any size, damping and impedance") {
   Random random(12);
   const auto size = [&](double low, double high) {
     return std::pow(10, random.uniform(low, high));
@@ -61,13 +61,13 @@ TEST_CASE("every conversion of gains leads back, at any size, damping and impeda
   }
 }
 
-// mj_makeImpedance as the manual has it, written down a second time.
-TEST_CASE("a solref is what MuJoCo's manual says of it: w = 1/(timeconst dampratio) at d = dmax") {
+// mj_makeImpedance of the manual, implemented independently.
+TEST_CASE("solref agrees with MuJoCo's manual: w = 1/(timeconst dampratio) at d = dmax") {
   const SpringGains gains = gains_of(Solref{0.02, 0.7}, 3.0);
   const SpringResponse response = response_of(gains, 3.0);
   CHECK(response.omega == doctest::Approx(1 / (0.02 * 0.7)));
   CHECK(response.zeta == doctest::Approx(0.7));
-  // Off dmax: a + d (b v + k r) = 0 with b = 2/(dmax T), k = d/(dmax^2 T^2 z^2).
+  // d < dmax: a + d (b v + k r) = 0 with b = 2/(dmax T), k = d/(dmax^2 T^2 z^2).
   const double d = 0.6, d_max = 0.9, T = 0.05, z = 1.3, I = 2;
   const SpringGains soft = gains_of(Solref{T, z}, I, {d, d_max});
   CHECK(soft.k == doctest::Approx(I * d * d / (d_max * d_max * T * T * z * z)));
@@ -79,8 +79,7 @@ TEST_CASE("a solref is what MuJoCo's manual says of it: w = 1/(timeconst damprat
   CHECK(min_timeconst(0.002) == 0.004);  // refsafe
 }
 
-TEST_CASE(
-    "a drive has the spring's numbers as a force, and those over the inertia as acceleration") {
+TEST_CASE("a drive has the spring's gains as a force, and those over the inertia as acceleration") {
   const SpringGains spring{300, 12};
   const Drive force = drive_of(spring, 4, Drive::Mode::force);
   CHECK(force.stiffness == 300);
@@ -88,7 +87,7 @@ TEST_CASE(
   const Drive acceleration = drive_of(spring, 4, Drive::Mode::acceleration);
   CHECK(acceleration.stiffness == 75);
   CHECK(acceleration.damping == 3);
-  // Heavier by three: the same drive holds with a spring three times as stiff, at one frequency.
+  // Three times the inertia: the same drive has three times the stiffness at the same frequency.
   const SpringGains heavier = gains_of(acceleration, 12);
   CHECK(heavier.k == 900);
   CHECK(response_of(heavier, 12).omega == doctest::Approx(response_of(spring, 4).omega));
@@ -103,7 +102,7 @@ TEST_CASE("gains by frequency and damping ratio on a joint's inertia give the PU
     K(j, j) = gains.k;
     B(j, j) = gains.b;
     const SpringModes modes = spring_modes(arm.M, K, B);
-    REQUIRE(modes.size() == 1);  // all else is free
+    REQUIRE(modes.size() == 1);  // no other stiffness
     CHECK(modes.omega(0) == doctest::Approx(70).epsilon(1e-9));
     CHECK(modes.zeta(0) == doctest::Approx(0.3).epsilon(1e-9));
   }
@@ -124,7 +123,7 @@ TEST_CASE("a spring at a point has the three frequencies of its principal inerti
   }
 }
 
-TEST_CASE("one link: a point at r feels I/r^2 along its circle alone, and k r^2 is the match") {
+TEST_CASE("one link: a point at r has the apparent inertia I/r^2, and k r^2 is equivalent") {
   const double I = 0.7, r = 0.35, k = 900;
   const Model<double> model = one_joint(JointType::revolute, I);
   const Posed posed(model);

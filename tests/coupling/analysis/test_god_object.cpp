@@ -1,5 +1,5 @@
-// God object: on the KVR where nothing is in the way, and else the nearest motion that the contact
-// allows, in the metric of M.
+// God object: on the KVR without obstacles, else the nearest motion that the contacts permit, in
+// the metric of M.
 #include <doctest/doctest.h>
 
 #include "collision/contact/contact_constraints.h"
@@ -25,7 +25,7 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-// Weight, rotors, damping and dry friction in every joint.
+// Gravity, armature, damping and Coulomb friction in every joint.
 Model<double> rough_chain() {
   Random random(41);
   ModelBuilder builder;
@@ -45,7 +45,7 @@ Model<double> rough_chain() {
 }  // namespace
 
 TEST_CASE(
-    "god object: nothing in the way, every step ends on the KVR, friction and weight or not") {
+    "god object: without obstacles every step ends at the KVR, with friction and gravity or not") {
   const Model<double> model = rough_chain();
   Coupled system(model, hand_at({0.3, -0.2, 0.4}, {3, -0.5, -4}), kThreeJoints, god_object(model),
                  three_state(model, {1.3, 0.1, -0.4}, {-2, 1, 5}));
@@ -59,7 +59,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("god object: a joint at its limit stays there, the others as min |a - a_u| in M has it") {
+TEST_CASE("god object: a joint at its limit stays there, the others minimise |a - a_u| in M") {
   Random random(42);
   for (unsigned seed = 0; seed < 10; ++seed) {
     const Model<double> model = chain_of_three(seed);
@@ -75,8 +75,8 @@ TEST_CASE("god object: a joint at its limit stays there, the others as min |a - 
       const Eigen::MatrixXd M = mass_matrix(model, system.simulation.state());
       system.simulation.step(h);
       const Eigen::VectorXd v = vector_of(system.simulation.state().qd);
-      // In velocities: v_u lands on the KVR; v_1 may not pass (limit - q_1)/h. A limit counts as
-      // reached a little before, and what is past it is left to the positions.
+      // In velocities: v_u reaches the KVR; v_1 is at most (limit - q_1)/h. A limit counts as
+      // reached slightly before; overshoot is corrected by positions.
       Eigen::VectorXd nearest = (vector_of(system.kvr.end().x.q) - q) / h;
       const double excess = nearest[0] - std::max(0.0, limit - q[0] - JointLimits::kClosed) / h;
       if (excess > 0) {
@@ -87,11 +87,11 @@ TEST_CASE("god object: a joint at its limit stays there, the others as min |a - 
       CHECK((v - nearest).norm() < 1e-8 * (1 + nearest.norm()));
       CHECK(system.simulation.state().q[0] < limit + 1e-9);
     }
-    CHECK(system.kvr.end().x.q[0] > limit + 0.1);  // the KVR has gone on
+    CHECK(system.kvr.end().x.q[0] > limit + 0.1);  // the KVR is beyond the limit
   }
 }
 
-TEST_CASE("god object: against a ball it stays on the surface, as min |a - a_u| in M has it") {
+TEST_CASE("god object: against a sphere it stays on the surface, and minimises |a - a_u| in M") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   const double h = 1e-3, tip = 0.03, ball = 0.1;
@@ -117,13 +117,13 @@ TEST_CASE("god object: against a ball it stays on the surface, as min |a - a_u| 
     const Eigen::RowVectorXd J = normal.transpose() * point_jacobian(model, D, 2, p);
     double gap = (p - p_ball).norm() - tip - ball;
     system.simulation.step(h);
-    if (!contacts.points().empty()) {  // the step saw it to the accuracy of the search for contacts
+    if (!contacts.points().empty()) {  // within the accuracy of contact detection
       CHECK(std::abs(gap + contacts.points()[0].contact.depth) < 1e-7);
       gap = -contacts.points()[0].contact.depth;
     }
     const Eigen::VectorXd v = vector_of(system.simulation.state().qd);
     Eigen::VectorXd nearest = (vector_of(system.kvr.end().x.q) - q) / h;
-    // > 0: it would pass the surface. Depths up to 1e-6 are let be.
+    // > 0: it would penetrate. Depths up to 1e-6 are not corrected.
     const double closing = -std::max(0.0, gap - EventSource::kClosed) / h - (J * nearest)(0);
     if (closing > 0) {
       const Eigen::VectorXd per_force = M.ldlt().solve(J.transpose());
@@ -137,12 +137,12 @@ TEST_CASE("god object: against a ball it stays on the surface, as min |a - a_u| 
   }
   CHECK(pressed > 100);
   CHECK(inside > 100);
-  // Past the ball it is on the KVR again.
+  // Beyond the sphere it is at the KVR again.
   for (std::size_t j = 0; j < 2; ++j)
     CHECK(std::abs(system.simulation.state().q[j] - system.kvr.end().x.q[j]) < 1e-9);
 }
 
-TEST_CASE("god object: refuses what has no single coordinate, and a robot by halves") {
+TEST_CASE("god object: rejects joints without a single coordinate, and incomplete robots") {
   ModelBuilder builder;
   const BodyInertia body{1, Vector3::Zero(), Matrix3::Identity()};
   builder.add_body("a", 0, "joint1", JointType::revolute, {}, Vector3::UnitZ(), body);
@@ -158,7 +158,7 @@ TEST_CASE("god object: refuses what has no single coordinate, and a robot by hal
     make_coupling(half, model, kvr);
     FAIL("not refused");
   } catch (const InputError& error) {
-    CHECK(error.faults().size() == 2);  // the ball joint and joint2
+    CHECK(error.faults().size() == 2);  // the spherical joint and joint2
   }
   half.springs = {{"joint2", 3}};
   CHECK_THROWS_AS(make_coupling(half, model, kvr), InputError);

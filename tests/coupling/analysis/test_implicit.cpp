@@ -1,5 +1,5 @@
-// Spring-dampers treated semi-implicitly and implicitly, on mechanisms whose discrete motion is
-// known: docs/understand/coupling_laws.md, solver/forces/spring.h.
+// Semi-implicit and implicit spring-dampers on mechanisms with known discrete motion:
+// docs/understand/coupling_laws.md, solver/forces/spring.h.
 #include <doctest/doctest.h>
 
 #include "coupling/analysis/prediction.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInertia = 0.7, kStep = 0.01;
 
-// The couplings whose law is linear on one joint.
+// Couplings that are linear on one joint.
 struct LinearCase {
   const char* name;
   JointType joint;
@@ -63,8 +63,7 @@ TEST_CASE("implicit and semi-implicit: one degree of freedom follows its recurre
                      state_of(model, {-0.3}, {0.8}));
       double x = -0.3, v = 0.8, worst = 0;
       for (int n = 0; n < 200; ++n) {
-        // Where the target is at the end of the step, or at its start: backward Euler, or with an
-        // implicit damper alone.
+        // Target at the end of the step (backward Euler), or at its start with an implicit damper.
         const double target = 0.4 - 0.6 * h * (implicit ? n + 1 : n);
         v = (kInertia * v + h * k * (target - x) - h * b * 0.6) /
             (kInertia + h * b + (implicit ? h * h * k : 0));
@@ -76,7 +75,7 @@ TEST_CASE("implicit and semi-implicit: one degree of freedom follows its recurre
     }
 }
 
-TEST_CASE("implicit: the two eigenvalues of a step multiply to 1/(1 + alpha + beta)") {
+TEST_CASE("implicit: the product of the two eigenvalues of a step is 1/(1 + alpha + beta)") {
   for (const LinearCase& c : kCases)
     for (double alpha : {0.01, 1.0, 400.0})
       for (double beta : {0.0, 0.3, 20.0}) {
@@ -95,12 +94,12 @@ TEST_CASE("implicit: the two eigenvalues of a step multiply to 1/(1 + alpha + be
         }
         CHECK(A.determinant() == doctest::Approx(1 / (1 + alpha + beta)).epsilon(1e-10));
         const Eigen::Vector2d size = eigenvalues_of(A).cwiseAbs();
-        if (beta * beta < 4 * alpha)  // a complex pair: both have this size
+        if (beta * beta < 4 * alpha)  // a complex pair of this magnitude
           CHECK(size.maxCoeff() == doctest::Approx(1 / std::sqrt(1 + alpha + beta)).epsilon(1e-6));
       }
 }
 
-TEST_CASE("a horizontal hinge sags by the same angle in all three treatments: the static one") {
+TEST_CASE("a horizontal link has the static deflection with all three discretizations") {
   const double m = 3, c = 0.2, r = 0.25, k = 80, g = 9.81;
   ModelBuilder builder;
   builder.add_body("link", 0, "joint1", JointType::revolute, {}, Vector3::UnitY(),
@@ -122,7 +121,7 @@ TEST_CASE("a horizontal hinge sags by the same angle in all three treatments: th
         Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0.3}, {0}));
         for (int n = 0; n < 20000; ++n) system.simulation.step(1e-3);
         const double q = system.simulation.state().q[0];
-        const double tau_g = m * g * c * std::cos(q);  // about +y: turns it downwards, q > 0
+        const double tau_g = m * g * c * std::cos(q);  // about +y: downwards, q > 0
         const double sag = q - 0.3;
         CHECK(sag > 0.01);
         if (linear)
@@ -132,7 +131,8 @@ TEST_CASE("a horizontal hinge sags by the same angle in all three treatments: th
       }
 }
 
-TEST_CASE("a two-link arm at w h = 85 settles implicitly, where the explicit version overflows") {
+TEST_CASE(
+    "a two-link arm at w h = 85 settles with implicit springs, and diverges with explicit ones") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   SteadyHand hand;
@@ -165,7 +165,7 @@ TEST_CASE("a two-link arm at w h = 85 settles implicitly, where the explicit ver
   }
 }
 
-TEST_CASE("implicit and semi-implicit near the explicit motion in proportion to h") {
+TEST_CASE("implicit and semi-implicit converge to the explicit motion with order 1 in h") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   SteadyHand hand;

@@ -1,5 +1,5 @@
-// Where the implicit treatment has something left that is explicit: a long chain that moves fast
-// (velocity products), and a point spring whose target lies far out (geometric stiffness).
+// Explicit remainders of the implicit discretization: velocity products of a fast long chain, and
+// the geometric stiffness of a point spring with a distant target.
 #include <doctest/doctest.h>
 
 #include "coupling/analysis/joint_space_stiffness.h"
@@ -14,7 +14,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// Twenty links, hinges in all directions.
+// Twenty links, revolute joints in all directions.
 Model<double> long_chain(Random& random) {
   ModelBuilder builder;
   for (int i = 1; i <= 20; ++i)
@@ -26,12 +26,12 @@ Model<double> long_chain(Random& random) {
 
 }  // namespace
 
-TEST_CASE("a chain of 20 links that moves fast stays bounded implicitly at w h from 10 to 100") {
+TEST_CASE("a fast chain of 20 links stays bounded with implicit springs at w h from 10 to 100") {
   Random random(21);
   const Model<double> model = long_chain(random);
   const double h = 1e-3;
   SteadyHand hand;
-  hand.rate = {3, -2, 4};  // of the first three joints: all links outward are swept along
+  hand.rate = {3, -2, 4};  // of the first three joints
   State<double> start(model);
   for (double& qd : start.qd) qd = random.uniform(-20, 20);
   for (const bool point : {true, false})
@@ -62,7 +62,7 @@ TEST_CASE("a chain of 20 links that moves fast stays bounded implicitly at w h f
       }
       CHECK(finite);
       CHECK(largest < 2 * energy_at_start);
-      // The chain has come to follow the hand, to the sag of gravity and of centrifugal forces.
+      // The chain follows the target up to the static deflection by gravity and centrifugal forces.
       const State<double>& x = system.simulation.state();
       CHECK(std::abs(x.q[0] - 3) < 0.05);
       CHECK(std::abs(x.qd[0] - 3) < 0.5);
@@ -95,11 +95,11 @@ TEST_CASE("one implicit step of a moving chain solves (M + h B + h^2 K) qdd = ta
                                h);
       };
       Simulation alone(model, x);
-      const Eigen::VectorXd free = qdd_of(alone);  // no spring: M free = -bias
+      const Eigen::VectorXd free = qdd_of(alone);  // without springs: M free = -bias
       Coupled system(model, hand, {"joint1", "joint2", "joint3"}, spec, x);
       const Kinematics D = system.simulation.kinematics();
       const Eigen::VectorXd qdd = qdd_of(system.simulation);
-      const Kinematics& K = system.kvr.end().k;  // where the hand is at the end of the step
+      const Kinematics& K = system.kvr.end().k;  // target at the end of the step
 
       Eigen::MatrixXd felt = mass_matrix(model, x);
       Eigen::VectorXd tau = felt * free;
@@ -119,7 +119,8 @@ TEST_CASE("one implicit step of a moving chain solves (M + h B + h^2 K) qdd = ta
     }
 }
 
-TEST_CASE("an implicit point spring is stable up to its target's largest radius, to 0.5 percent") {
+TEST_CASE(
+    "an implicit point spring is stable up to the maximum radius of its target, to 0.5 percent") {
   const double I = 0.05, r = 0.2, h = 1e-3;
   ModelBuilder at_origin;
   at_origin.set_gravity(Vector3::Zero());
@@ -134,7 +135,7 @@ TEST_CASE("an implicit point spring is stable up to its target's largest radius,
     const double k = gains.first, b = gains.second;
     CAPTURE(k);
     spec.springs = {{"spring", 1, {r, 0, 0}, k, b}};
-    // The KVR's hinge stands so far back that its point lies at radius R_K from the DVR's hinge.
+    // The KVR's joint is offset so that its point is at radius R_K from the DVR's joint.
     const auto grows = [&](double R_K) {
       ModelBuilder shifted;
       shifted.add_body("link", 0, "joint1", JointType::revolute,
@@ -160,8 +161,8 @@ TEST_CASE("an implicit point spring is stable up to its target's largest radius,
 
 namespace {
 
-// A metre of twenty rods, straight along x, in its plane; held at its tip by one implicit spring at
-// w h = 100 (of the stiffest mode), whose target stands `off` metres to the side.
+// Twenty rods, 1 m long, straight along x, planar; one implicit spring at the tip at w h = 100 (of
+// the stiffest mode), target `off` metres to the side.
 struct HeldTip {
   static constexpr double h = 1e-3, length = 0.05;
   static constexpr int links = 20;
@@ -179,7 +180,7 @@ struct HeldTip {
                        {m, {length / 2, 0, 0}, Vector3(0.1 * I, I, I).asDiagonal()});
     model = builder.build();
     SteadyHand hand;
-    hand.angle[0] = off;  // of the root: the tip is 1 m out
+    hand.angle[0] = off;  // of the root: the tip is at 1 m
     const State<double> straight(model);
     CouplingSpec spec;
     spec.type = CouplingSpec::Type::linear;
@@ -212,7 +213,8 @@ struct HeldTip {
 
 }  // namespace
 
-TEST_CASE("a tip held at w h = 100 comes in from 7 mm, and energy falls; from 71 mm it is lost") {
+TEST_CASE(
+    "a tip held at w h = 100 converges from 7 mm with decreasing energy; from 71 mm it diverges") {
   for (const double zeta : {0.0, 0.7}) {
     CAPTURE(zeta);
     HeldTip near(0.007, zeta);
@@ -225,9 +227,9 @@ TEST_CASE("a tip held at w h = 100 comes in from 7 mm, and energy falls; from 71
     }
     CHECK(most < 1.5 * first);
     CHECK(near.offset().norm() < 1e-3);
-    CHECK(ratio < 0.7);  // of the limit of the geometric stiffness
+    CHECK(ratio < 0.7);  // relative to the geometric stiffness limit
 
-    // Here the limit is passed in the first steps, before the energy has grown.
+    // The limit is exceeded in the first steps, before the energy has grown.
     HeldTip far(0.071, zeta);
     const double before = far.energy();
     CHECK(far.radius().ratio() < 1);
@@ -242,7 +244,7 @@ TEST_CASE("a tip held at w h = 100 comes in from 7 mm, and energy falls; from 71
   }
 }
 
-TEST_CASE("the limit of the target's radius is that of the joint that folds: one link, any axis") {
+TEST_CASE("the maximum target radius is that of the joint that folds: one link, any axis") {
   Random random(23);
   ModelBuilder builder;
   builder.add_body("base", 0, "slide", JointType::prismatic, {random.rotation(), random.vector(1)},
@@ -255,7 +257,7 @@ TEST_CASE("the limit of the target's radius is that of the joint that folds: one
   forward_kinematics(model, x, D);
   const Spring spring{"spring", 2, random.vector(0.4), 1e6, 30};
   const TargetRadius found = nearest_target_radius(model, x, D, D, spring, 1e-3);
-  // r = |dp/dq| of a hinge; I is the inertia that the mass matrix has on its diagonal.
+  // r = |dp/dq| of a revolute joint; I is the diagonal of the mass matrix.
   const double r = point_jacobian(model, D, 2, D.position(2, spring.p_L)).col(1).norm();
   CHECK(found.body == 2);
   CHECK(found.r == doctest::Approx(r).epsilon(1e-12));

@@ -1,6 +1,5 @@
-// The errors of the joints of a chain (coupling/analysis/multi_joint_tracking.h): against the
-// closed forms of one degree of freedom, and against runs of the real stepper behind targets that
-// move both joints.
+// Tracking errors of the joints of a chain (coupling/analysis/multi_joint_tracking.h): against
+// closed forms of one degree of freedom, and simulations behind targets that move both joints.
 #include <doctest/doctest.h>
 
 #include "coupling/analysis/prediction.h"
@@ -19,7 +18,7 @@ using Eigen::VectorXd;
 
 constexpr double kMoveTime = 0.2;
 
-// Both joints at once, by small angles: a ramp that turns back, or a quintic and then rest.
+// Both joints simultaneously, by small angles: a ramp with reversal, or a quintic and then rest.
 class BothJoints final : public OperatorMotion {
  public:
   BothJoints(bool ramp, Vector2d distance) : ramp_(ramp), D_(std::move(distance)) {}
@@ -47,7 +46,7 @@ class BothJoints final : public OperatorMotion {
   Vector2d D_;
 };
 
-// The largest error of each joint from `from` to `to`, Runge-Kutta at 20 kHz.
+// Maximum error of each joint from `from` to `to`, Runge-Kutta at 20 kHz.
 Vector2d run_peaks(const Model<double>& model, const CouplingSpec& spec, const BothJoints& hand,
                    TargetRates rates, double from, double to) {
   TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"joint1", "joint2"}, "", 0, 0}, rates);
@@ -69,7 +68,7 @@ Vector2d run_peaks(const Model<double>& model, const CouplingSpec& spec, const B
   return peaks;
 }
 
-ChainFollower follower_of(const Model<double>& model, const CouplingSpec& spec, bool absolute) {
+ChainDynamics dynamics_of(const Model<double>& model, const CouplingSpec& spec, bool absolute) {
   Coupled system(model, {}, {}, spec, State<double>(model));
   const Coupling::JointSpace space = system.coupling->joint_space(system.simulation.kinematics());
   const MatrixXd none = MatrixXd::Zero(2, 2);
@@ -86,7 +85,7 @@ void check_near(const VectorXd& predicted, const VectorXd& run, double part) {
 }  // namespace
 
 TEST_CASE(
-    "each joint of an arm lags by its predicted peaks behind joints that move, to 1 percent") {
+    "the peak errors of an arm's joints behind moving targets agree with prediction to 1 percent") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   const Vector2d D(0.004, -0.0025), v = D / kMoveTime;
@@ -97,7 +96,7 @@ TEST_CASE(
       const auto springs =
           points ? arm.springs(22000, 400, 9000, 100) : arm.springs(600, 9, 200, 2);
       const CouplingSpec spec = points ? linear(springs) : torsional(springs, SpringSpace::world);
-      const MultiJointTrackingError predicted(follower_of(model, spec, absolute));
+      const MultiJointTrackingError predicted(dynamics_of(model, spec, absolute));
       const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_hand;
       check_near(predicted.behind(MotionProfile::quintic, D, kMoveTime),
                  run_peaks(model, spec, BothJoints(false, D), rates, 0, 0.6), 0.01);
@@ -106,22 +105,22 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a turn back from the steady lag is a reversal, and K e = A v that lag") {
+TEST_CASE("a reversal from the steady state agrees with after_reversal, and K e = A v with it") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   const Vector2d D(0.004, -0.0025), v = D / kMoveTime;
-  const auto springs = arm.springs(60000, 2400, 30000, 800);  // all is still at the turn
+  const auto springs = arm.springs(60000, 2400, 30000, 800);  // settled at the reversal
   for (const bool absolute : {false, true}) {
     CAPTURE(absolute);
-    const ChainFollower follower = follower_of(model, linear(springs), absolute);
-    const MultiJointTrackingError predicted(follower);
+    const ChainDynamics dynamics = dynamics_of(model, linear(springs), absolute);
+    const MultiJointTrackingError predicted(dynamics);
     const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_hand;
     check_near(predicted.after_reversal(v, kMoveTime),
                run_peaks(model, linear(springs), BothJoints(true, D), rates, kMoveTime - 1e-4,
                          2 * kMoveTime),
                0.01);
-    CHECK((follower.K * predicted.lag(v) - follower.absolute * v).norm() <
-          1e-9 * (1 + (follower.absolute * v).norm()));
+    CHECK((dynamics.K * predicted.lag(v) - dynamics.absolute * v).norm() <
+          1e-9 * (1 + (dynamics.absolute * v).norm()));
     CHECK((predicted.lag(v).norm() > 1e-4) == absolute);
   }
 }
@@ -158,20 +157,20 @@ TEST_CASE("for one joint the errors of a chain are those of one degree of freedo
       }
 }
 
-TEST_CASE("a joint that nothing holds has no error, and leaves the others theirs") {
+TEST_CASE("a joint without coupling has no error, and does not affect the others") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   const std::vector<Spring> inner{arm.springs(600, 9)[0]};
-  const ChainFollower follower = follower_of(model, torsional(inner, SpringSpace::joint), false);
-  const MultiJointTrackingError chain(follower);
+  const ChainDynamics dynamics = dynamics_of(model, torsional(inner, SpringSpace::joint), false);
+  const MultiJointTrackingError chain(dynamics);
   CHECK(chain.is_held(0));
   CHECK_FALSE(chain.is_held(1));
   const VectorXd v = chain.after_start(Vector2d(1, 5), 1);
   CHECK(std::isnan(v[1]));
-  // The outer link swings freely: the inner joint feels 1/(M^-1)_11.
-  const double I = 1 / inverse_of(follower.M)(0, 0), omega = std::sqrt(600 / I);
+  // The outer link is free: the inner joint has the apparent inertia 1/(M^-1)_11.
+  const double I = 1 / inverse_of(dynamics.M)(0, 0), omega = std::sqrt(600 / I);
   CHECK(v[0] == doctest::Approx(peak_after_jump(1, omega, 9 / (2 * I * omega))).epsilon(1e-3));
-  // Springs that push away have no bound.
-  const MultiJointTrackingError away({follower.M, -follower.K, follower.B, follower.absolute});
+  // Negative stiffness: unbounded.
+  const MultiJointTrackingError away({dynamics.M, -dynamics.K, dynamics.B, dynamics.absolute});
   CHECK(std::isnan(away.after_start(Vector2d(1, 0), 1)[0]));
 }

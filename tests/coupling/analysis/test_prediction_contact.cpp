@@ -1,4 +1,5 @@
-// Sag, torque at large angles and series stiffness, against where the real stepper comes to rest.
+// Static deflection, torque at large angles and series stiffness, against equilibria of
+// simulations.
 #include <doctest/doctest.h>
 
 #include "coupling/analysis/prediction.h"
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double kMass = 2, kLink = 0.4, kG = 9.81;
 
-// A point mass on a light rod along x, hinged about a level axis: it falls as q grows.
+// A point mass on a massless rod along x, with a horizontal axis: it falls as q grows.
 Model<double> level_arm(int links) {
   ModelBuilder builder;
   for (int i = 0; i < links; ++i)
@@ -23,7 +24,7 @@ Model<double> level_arm(int links) {
   return builder.build();
 }
 
-// Where it rests under its weight, the target level, after a long time of heavy damping.
+// Equilibrium under gravity with a horizontal target, after a long time with strong damping.
 std::vector<double> resting_pose(const Model<double>& model, CouplingSpec spec) {
   spec.treatment = Discretization::implicit;
   Coupled system(model, {}, {}, spec, State<double>(model));
@@ -34,9 +35,8 @@ std::vector<double> resting_pose(const Model<double>& model, CouplingSpec spec) 
 
 }  // namespace
 
-TEST_CASE(
-    "a level link sags by tau/k on a torsional spring, by asin(tau/(k r^2)) on a linear one") {
-  // The weight's torque falls as the link does: at the sag q it is m g l cos q, which is the load.
+TEST_CASE("a horizontal link deflects by tau/k (torsional), by asin(tau/(k r^2)) (linear)") {
+  // At the deflection q the load is m g l cos q.
   const Model<double> model = level_arm(1);
   const double k = 40;
   const double q =
@@ -49,7 +49,7 @@ TEST_CASE(
   CHECK(sag > 0.1);
 }
 
-TEST_CASE("a point spring's torque is k r^2 sin e: it pushes away beyond half a turn") {
+TEST_CASE("a point spring's torque is k r^2 sin e: it repels beyond half a revolution") {
   const double k = 300, r = 0.3;
   const Model<double> model = one_joint(JointType::revolute, 1);
   for (const double e : {0.3, 1.2, 2.5, 3.5}) {
@@ -60,7 +60,7 @@ TEST_CASE("a point spring's torque is k r^2 sin e: it pushes away beyond half a 
   }
 }
 
-TEST_CASE("a chain sags by K_q^-1 G, for torsional springs and for linear ones") {
+TEST_CASE("a chain deflects by K_q^-1 G, with torsional and with linear springs") {
   const Model<double> model = level_arm(2);
   const std::vector<Spring> springs{{"s1", 1, {0.35, 0, 0}, 4e4, 4e4},
                                     {"s2", 2, {0.4, 0, 0}, 3e4, 3e4}};
@@ -79,7 +79,8 @@ TEST_CASE("a chain sags by K_q^-1 G, for torsional springs and for linear ones")
   }
 }
 
-TEST_CASE("a coordinate that no spring holds has no sag, and a load that none can carry neither") {
+TEST_CASE(
+    "a coordinate without stiffness has no deflection, nor has a load that no spring can balance") {
   const Eigen::MatrixXd K = Eigen::Vector2d(50, 0).asDiagonal();
   const Eigen::VectorXd sag = chain_sag(K, Eigen::Vector2d(2, 3));
   CHECK(sag[0] == doctest::Approx(0.04));
@@ -88,8 +89,8 @@ TEST_CASE("a coordinate that no spring holds has no sag, and a load that none ca
   CHECK(std::isnan(chain_sag(one_direction, Eigen::Vector2d(1, 1))[0]));
 }
 
-TEST_CASE("a wall feels like k_c k_e/(k_c + k_e) through a coupling") {
-  // A slide between its target, d away, and a wall spring at its start: two couplings of one slide.
+TEST_CASE("a wall behind a coupling has the stiffness k_c k_e/(k_c + k_e)") {
+  // A prismatic joint between its target, d away, and a wall spring at its start: two couplings.
   const double k_c = 700, k_e = 2000, d = 0.05;
   const Model<double> model = one_joint(JointType::prismatic, 1);
   SteadyHand hand;

@@ -1,6 +1,5 @@
-// The limits of coupling/analysis/gains.h and step_matrix.h: against the closed forms of
-// docs/understand/stability_of_spring_dampers.md, and against where runs of the real stepper begin
-// to grow, by bisection.
+// Stability limits of coupling/analysis/gains.h and step_matrix.h: against closed forms of
+// docs/understand/stability_of_spring_dampers.md, and against simulations, by bisection.
 #include <doctest/doctest.h>
 
 #include "collision/import/robot/robot_model.h"
@@ -13,11 +12,11 @@
 using namespace twinarm;
 using namespace twinarm::testing;
 
-TEST_CASE("largest_omega_h is the edge of is_stable at every damping ratio") {
+TEST_CASE("max_omega_h is the limit of is_stable at every damping ratio") {
   for (const SteppingScheme scheme : all_schemes)
     for (const double z : {0.0, 0.05, 0.2, 0.5, 0.9, 1.3, 2.0}) {
       if (z == 0 && scheme == SteppingScheme::semi_implicit_older)
-        continue;  // its formula has an edge there
+        continue;  // its formula has a limit there
       const double limit = max_omega_h(scheme, z);
       CAPTURE(name_of(scheme));
       CAPTURE(z);
@@ -43,7 +42,7 @@ struct HeldRobot {
 
 Model<double> model_of(const char* file) {
   ModelOptions options;
-  options.friction = false;  // joints have dampers of their own
+  options.friction = false;  // joint damping would add to the couplings
   Model<double> model =
       build_model(read_urdf(std::string(TWINARM_SOURCE_DIR "/assets/robots/") + file), options);
   model.gravity = {0, 0, 0};
@@ -75,7 +74,7 @@ std::vector<HeldRobot> held_robots() {
 
 }  // namespace
 
-TEST_CASE("for the S-103 and the PUMA a run grows at the eigenvalues' step, to 1 percent") {
+TEST_CASE("for the S-103 and the PUMA simulations diverge at the predicted step, to 1 percent") {
   for (const HeldRobot& robot : held_robots())
     for (const SteppingScheme scheme : {SteppingScheme::euler, SteppingScheme::semi_implicit,
                                         SteppingScheme::rk4, SteppingScheme::implicit_damper}) {
@@ -98,7 +97,7 @@ TEST_CASE("for the S-103 and the PUMA a run grows at the eigenvalues' step, to 1
     }
 }
 
-TEST_CASE("how much stiffer a hinge may be: alpha + 2 beta = 4 with b/k or with z kept") {
+TEST_CASE("stiffness factor of a revolute joint: alpha + 2 beta = 4 with constant b/k or z") {
   const double I = 0.7, h = 0.002, k = 400, b = 3;
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
   const double alpha = k * h * h / I, beta = b * h / I;
@@ -111,7 +110,7 @@ TEST_CASE("how much stiffer a hinge may be: alpha + 2 beta = 4 with b/k or with 
   CHECK(by_zeta * alpha + 2 * std::sqrt(by_zeta) * beta == doctest::Approx(4).epsilon(1e-7));
   CHECK(max_stiffness_factor(one(I), one(k), one(b), SteppingScheme::implicit, h,
                              HoldConstant::damping_ratio) == kNoLimit);
-  // An implicit damper that grows with the spring outruns it.
+  // An implicit damper proportional to the spring outgrows it.
   CHECK(max_stiffness_factor(one(I), one(k), one(100 * b), SteppingScheme::implicit_damper, h,
                              HoldConstant::damping_per_stiffness) == kNoLimit);
 }

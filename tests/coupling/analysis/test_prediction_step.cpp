@@ -1,5 +1,5 @@
-// The step of several couplings together, each by its own law (coupling/analysis/step_matrix.h):
-// against closed forms, and against where runs of the real stepper begin to grow, by bisection.
+// Step matrix of several couplings with different laws (coupling/analysis/step_matrix.h): against
+// closed forms, and against simulations, by bisection.
 #include <doctest/doctest.h>
 
 #include "coupling/laws/coupling_spec.h"
@@ -11,7 +11,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// A part of a two-link arm's couplings, and the coupling itself.
+// A term of a two-link arm's couplings, and the coupling itself.
 CoupledTerm part_of(const Model<double>& model, const CouplingSpec& spec) {
   Coupled system(model, {}, {}, spec, State<double>(model));
   const Coupling::JointSpace space = system.coupling->joint_space(system.simulation.kinematics());
@@ -51,7 +51,7 @@ bool both_grow(const Model<double>& model, const CouplingSpec& a, const Coupling
 
 }  // namespace
 
-TEST_CASE("couplings of two treatments, rates or laws grow together at the step of their parts") {
+TEST_CASE("couplings with different discretizations, rates or laws diverge at the predicted step") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   const auto springs = arm.springs(600, 9, 200, 2);
@@ -135,7 +135,7 @@ TEST_CASE("on one hinge the parts of every law have their closed form") {
                       Discretization::explicit_, 0, law});
     return spectral_radius(one(I), others, integrator, h);
   };
-  // Both sides of the edge in alpha, at three dampings.
+  // Both sides of the limit in alpha, at three dampings.
   const auto check_edge = [&](double edge, const auto& at) {
     CHECK(at(0.999 * edge) <= 1 + 1e-9);
     CHECK(at(1.001 * edge) > 1 + 1e-6);
@@ -163,13 +163,13 @@ TEST_CASE("on one hinge the parts of every law have their closed form") {
     check_edge((4 + 2 * beta) / 3, [&](double alpha) {
       return growth(StepLaw::stable_pd, Integrator::semi_implicit, alpha, beta);
     });
-  // Beside a god object, e' = -alpha e - beta (e - e_before): Jury's test gives alpha < 1 - 2 beta.
+  // With a god object, e' = -alpha e - beta (e - e_before): Jury's test gives alpha < 1 - 2 beta.
   const CoupledTerm god{one(I), one(0), one(0), Discretization::explicit_, 0, StepLaw::god_object};
   for (const double beta : {0.0, 0.1, 0.4})
     check_edge(1 - 2 * beta, [&](double alpha) {
       return growth(StepLaw::spring_damper, Integrator::semi_implicit, alpha, beta, {god});
     });
-  // Alone it is there after one step, whatever its length.
+  // Alone it reaches the target after one step of any size.
   CHECK(spectral_radius(one(I), {god}, Integrator::semi_implicit, 0.3) < 1e-6);
   CHECK(max_stable_step(one(I), {god}, Integrator::semi_implicit) == kNoLimit);
   CHECK(max_stable_step(
@@ -178,7 +178,7 @@ TEST_CASE("on one hinge the parts of every law have their closed form") {
         doctest::Approx((2 * b + std::sqrt(4 * b * b + 48 * k * I)) / (6 * k)).epsilon(1e-7));
 }
 
-TEST_CASE("parts of one treatment have the limit of its scheme, and implicit integrators none") {
+TEST_CASE("terms of one discretization have the limit of its scheme, implicit integrators none") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   const Eigen::MatrixXd M = mass_matrix(model, State<double>(model));
@@ -205,7 +205,7 @@ TEST_CASE("parts of one treatment have the limit of its scheme, and implicit int
 }
 
 TEST_CASE("an implicit point spring off its target has the limit of its geometric stiffness") {
-  // R_K past 2 r: h^2 k r R_K = 4 I + 2 r^2 (h^2 k + h b), solved for h.
+  // R_K > 2 r: h^2 k r R_K = 4 I + 2 r^2 (h^2 k + h b), solved for h.
   const double I = 0.7, r = 0.3, k = 5000, b = 20, R_K = 0.9;
   const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
   const CoupledTerm part{one(k * r * R_K), one(k * r * r), one(b * r * r), Discretization::implicit,

@@ -1,4 +1,4 @@
-// K_q and B_q about a pose, with their geometric part, against second derivatives by hand.
+// K_q and B_q about a pose with the geometric part, against analytic second derivatives.
 #include <doctest/doctest.h>
 
 #include "coupling/analysis/prediction.h"
@@ -36,7 +36,7 @@ State<double> random_pose(Random& random, const Model<double>& model) {
 }  // namespace
 
 // dJ_j/dq_i = w_a x J_b, a the one of i and j nearer to the base, b the other.
-TEST_CASE("the geometric stiffness of a point spring is minus the turning of its lever arms") {
+TEST_CASE("the geometric stiffness of a point spring is minus the derivative of its lever arms") {
   Random random(8);
   const Model<double> model = random_arm(random, 5);
   const State<double> x = random_pose(random, model);
@@ -63,7 +63,7 @@ TEST_CASE("the geometric stiffness of a point spring is minus the turning of its
   CHECK((found.B - damping * J.transpose() * J).norm() < 1e-9 * found.B.norm());
 }
 
-TEST_CASE("a hinge's point spring, its target e further round at R_K, has k r R_K cos e") {
+TEST_CASE("a point spring of one joint with error e and target radius R_K has k r R_K cos e") {
   const double r = 0.4, R_K = 0.7, k = 300, e = 0.5;
   const Model<double> model = one_joint(JointType::revolute, 1);
   const Vector3 target(R_K * std::cos(e), R_K * std::sin(e), 0);
@@ -76,7 +76,7 @@ TEST_CASE("a hinge's point spring, its target e further round at R_K, has k r R_
   CHECK(found.K(0, 0) == doctest::Approx(k * r * R_K * std::cos(e)).epsilon(1e-9));
 }
 
-TEST_CASE("about zero offset it is joint_space, for torsional and linear couplings") {
+TEST_CASE("at zero error it is joint_space, for torsional and linear couplings") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   const State<double> pose = state_of(model, {0.3, 0.8}, {0, 0});
@@ -99,7 +99,8 @@ TEST_CASE("about zero offset it is joint_space, for torsional and linear couplin
 }
 
 TEST_CASE(
-    "springs at point masses, each as stiff as its mass, give all modes one frequency and z") {
+    "springs at point masses with stiffness proportional to mass: all modes have one frequency, "
+    "z") {
   // K = (k/m) M, B = (b/m) M: w^2 = k/m and 2 z w = b/m at any pose.
   const Eigen::MatrixXd M = (Eigen::Matrix2d() << 2.2, 0.4, 0.4, 0.3).finished();
   const SpringModes modes = spring_modes(M, 900 * M, 12 * M);
@@ -110,8 +111,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE(
-    "what no spring holds is no mode, and what only a damper holds is one without frequency") {
+TEST_CASE("no mode without stiffness and damping; a mode with damping only has no frequency") {
   const Eigen::MatrixXd M = Eigen::Vector3d(2, 1, 1).asDiagonal();
   const Eigen::MatrixXd K = Eigen::Vector3d(50, 0, 0).asDiagonal();
   const Eigen::MatrixXd B = Eigen::Vector3d(2, 3, 0).asDiagonal();

@@ -1,5 +1,5 @@
-// The error behind a moving target: the closed form of coupling/analysis/tracking.h against
-// runs of the real stepper, and against what is known of its peaks.
+// Tracking error behind a moving target: closed form of coupling/analysis/tracking.h against
+// simulations, and known peaks.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -21,7 +21,7 @@ constexpr MotionProfile kMoves[] = {MotionProfile::ramp, MotionProfile::cubic,
                                     MotionProfile::bang_bang};
 constexpr double kTurn = 180 * kDegree, kFollower = 0.7;
 
-// Joint 1 of a hand along such a move, written down from its definition.
+// Joint 1 along such a profile, from its definition.
 class MovingHand final : public OperatorMotion {
  public:
   MovingHand(MotionProfile move, double D, double T) : move_(move), D_(D), T_(T) {}
@@ -62,7 +62,7 @@ struct Deviation {
   double peak = 0, largest = 0;  // |e| of the run; |e - predicted|
 };
 
-// RK4 at steps of T/8000 of a hinge behind the move, and for half of its time after it.
+// RK4 with steps of T/8000 of one joint during the profile, and half of its time after it.
 Deviation run_behind(MotionProfile move, double omega, double zeta, TargetRates rates,
                      const std::function<double(double)>& predicted) {
   const double T = 1, h = T / 8000;
@@ -91,7 +91,8 @@ Deviation run_behind(MotionProfile move, double omega, double zeta, TargetRates 
 
 }  // namespace
 
-TEST_CASE("a run behind every move is the closed form, to 0.1 percent of its peak, at all times") {
+TEST_CASE(
+    "the error behind every profile agrees with the closed form, to 0.1 percent of its peak") {
   for (const MotionProfile move : kMoves)
     for (const double zeta : {0.0, 0.2, 0.7, 1.0, 1.6})
       for (const double omega : {12.0, 50.0}) {
@@ -106,7 +107,7 @@ TEST_CASE("a run behind every move is the closed form, to 0.1 percent of its pea
       }
 }
 
-TEST_CASE("with an absolute damper too, and its lag is 2 z v/w") {
+TEST_CASE("with an absolute damper as well, with the steady-state error 2 z v/w") {
   for (const MotionProfile move : kMoves)
     for (const double zeta : {0.2, 1.0}) {
       const FollowingError error(move, kTurn, 1, 50, zeta, FollowingError::Damper::absolute);
@@ -123,13 +124,13 @@ TEST_CASE("with an absolute damper too, and its lag is 2 z v/w") {
   CHECK(mocap_weld_lag(kTurn, 1 / 50.0) / kDegree == doctest::Approx(7.2).epsilon(1e-12));
 }
 
-TEST_CASE("the peak behind a jump of speed is (V/w) exp(-z acos z / sqrt(1 - z^2)), to 1 percent") {
+TEST_CASE("the peak after a velocity step is (V/w) exp(-z acos z / sqrt(1 - z^2)), to 1 percent") {
   for (const double zeta : {0.0, 0.2, 0.7, 1.0, 1.6}) {
     CAPTURE(zeta);
     const double predicted = peak_after_jump(kTurn, 50, zeta);
     const Deviation run = run_behind(MotionProfile::ramp, 50, zeta, TargetRates::from_hand,
                                      [](double) { return 0.0; });
-    // Undamped, the jump at the end meets what is left of the first: see the closed form above.
+    // Undamped, the step at the end interferes with the first: see the closed form above.
     if (zeta > 0) CHECK(run.peak == doctest::Approx(predicted).epsilon(0.01));
     const auto one = [](double value) { return Eigen::MatrixXd::Constant(1, 1, value); };
     const Eigen::VectorXd by_matrix = peak_after_jump(one(1), one(2500), one(2 * zeta * 50),
@@ -139,13 +140,12 @@ TEST_CASE("the peak behind a jump of speed is (V/w) exp(-z acos z / sqrt(1 - z^2
   CHECK(peak_after_jump(1, 1, 1) == doctest::Approx(std::exp(-1.0)));
 }
 
-// The factors are those of w T = 200: a cubic's acceleration falls from its start on, so that a
-// slower follower (w T = 50) reaches 1.43 and 0.94 in place of 1.5 and 1.02.
-TEST_CASE("a_max/w^2 is the peak behind a quintic, and what other moves reach of it") {
+// The factors are for w T = 200: a cubic's acceleration decreases from its start, so a slower robot
+// (w T = 50) reaches 1.43 and 0.94 instead of 1.5 and 1.02.
+TEST_CASE("a_max/w^2 is the peak behind a quintic; factors of other profiles") {
   constexpr double kPi = std::numbers::pi;
   const auto times_rule = [](MotionProfile move, double omega, double zeta) {
-    // The largest acceleration of a unit move in unit time, by MotionProfile; that of a ramp has
-    // none.
+    // Maximum acceleration of a unit profile in unit time, by MotionProfile; a ramp has none.
     const std::array largest{0.0, 6.0, 10 / std::sqrt(3.0), kPi * kPi / 2, 4.0};
     return FollowingError(move, kTurn, 1, omega, zeta).peak() * omega * omega /
            (largest[static_cast<std::size_t>(move)] * std::abs(kTurn));

@@ -1,6 +1,6 @@
 // The KVR of the S-103 against the paper's forward kinematics, its offsets in z-up axes
-// (docs/understand/paper.md): each joint's frame is its parent's times its fixed offset times its own rotation
-// about z. One unit of the paper is 25 mm here.
+// (docs/understand/paper.md): each joint's frame is its parent's times its fixed offset times its
+// own rotation about z. One unit of the paper is 25 mm here.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -17,7 +17,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr double brick = 0.025;  // the unit of its dimensions [m]
+constexpr double brick = 0.025;  // the paper's unit [m]
 
 const RobotDescription& s103() {
   static const RobotDescription robot =
@@ -44,7 +44,7 @@ Eigen::Isometry3d joint(double x, double z, double angle) {
 
 }  // namespace
 
-TEST_CASE("the S-103's KVR stands where the paper's three matrices put it, at random angles") {
+TEST_CASE("the S-103's KVR agrees with the paper's three matrices at random angles") {
   const Model<double> model = build_model(s103());
   const DrivenJoints driven{{"joint1", "joint2", "joint3"}, "gripper_lift", 0, 0.06};
   Random random(31);
@@ -73,7 +73,7 @@ TEST_CASE("the S-103's KVR stands where the paper's three matrices put it, at ra
   }
 }
 
-TEST_CASE("the S-103 with all angles at zero stretches along x: 24 units out, 37.25 units up") {
+TEST_CASE("the S-103 with all angles at zero extends along x: 24 units out, 37.25 units up") {
   const Model<double> model = build_model(s103());
   Kinematics k(model);
   forward_kinematics(model, State<double>(model), k);
@@ -81,7 +81,7 @@ TEST_CASE("the S-103 with all angles at zero stretches along x: 24 units out, 37
   CHECK((k.X_WL[quill].p - Vector3(24 * brick, 0, 37.25 * brick)).norm() < 1e-12);
 }
 
-TEST_CASE("theta1, theta4, theta6 turn the S-103's joints 1, 2, 3 and no other") {
+TEST_CASE("theta1, theta4, theta6 move the S-103's joints 1, 2, 3 only") {
   const Model<double> model = build_model(s103());
   for (std::size_t j = 0; j < 3; ++j) {
     SteadyHand hand;
@@ -98,7 +98,7 @@ TEST_CASE("theta1, theta4, theta6 turn the S-103's joints 1, 2, 3 and no other")
   }
 }
 
-TEST_CASE("a robot without the joints that the hand moves is refused, all missing names at once") {
+TEST_CASE("a robot without the driven joints is rejected, all missing names at once") {
   const Model<double> model = build_model(s103());
   const SteadyHand hand;
   try {

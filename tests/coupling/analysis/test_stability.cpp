@@ -1,6 +1,6 @@
-// The stability limits of coupling/analysis/prediction.h against runs of the real integrator
-// (docs/understand/stability_of_spring_dampers.md), and the closed orbit of the as-published, unsigned
-// damper (docs/understand/coupling_laws.md).
+// Stability limits of coupling/analysis/prediction.h against simulations
+// (docs/understand/stability_of_spring_dampers.md), and the periodic orbit of the as-published,
+// unsigned damper (docs/understand/coupling_laws.md).
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -13,7 +13,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// Where `stable` changes between a stable and an unstable value.
+// Bisection of `stable` between a stable and an unstable value.
 template <class Stable>
 double edge(Stable&& stable, double inside, double outside) {
   while (std::abs(outside - inside) > 1e-9 * std::abs(inside)) {
@@ -25,14 +25,14 @@ double edge(Stable&& stable, double inside, double outside) {
 
 }  // namespace
 
-TEST_CASE("every scheme's edge in alpha is where a run begins to grow, to half a percent") {
+TEST_CASE("every scheme's limit in alpha is where a simulation begins to grow, to half a percent") {
   int edges = 0;
   for (const SteppingScheme scheme : all_schemes)
     for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
       for (double beta : {0.15, 0.5, 0.8, 1.3, 3.0}) {
         const auto predicted = [&](double alpha) { return is_stable(scheme, alpha, beta); };
         const auto measured = [&](double alpha) { return !grows(scheme, type, alpha, beta); };
-        std::vector<double> alphas;  // where it is predicted to be stable
+        std::vector<double> alphas;  // predicted to be stable
         for (double alpha = 0.02; alpha < 40; alpha *= 1.2)
           if (predicted(alpha)) alphas.push_back(alpha);
         CAPTURE(name_of(scheme));
@@ -56,7 +56,7 @@ TEST_CASE("every scheme's edge in alpha is where a run begins to grow, to half a
   CHECK(edges >= 50);
 }
 
-TEST_CASE("the implicit treatment is stable at every alpha and beta, as it says") {
+TEST_CASE("the implicit discretization is stable at every alpha and beta") {
   for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
     for (double alpha : {1e-2, 1.0, 1e2, 1e6, 1e10})
       for (double beta : {0.0, 0.1, 1e2, 1e6})
@@ -64,7 +64,7 @@ TEST_CASE("the implicit treatment is stable at every alpha and beta, as it says"
 }
 
 TEST_CASE(
-    "largest_stable_step of a two-link arm is where its run begins to grow, to half a percent") {
+    "max_stable_step of a two-link arm is where its simulation begins to grow, to half a percent") {
   const TwoLink arm;
   const Model<double> model = arm.model();
   for (const auto type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
@@ -93,7 +93,7 @@ TEST_CASE(
 
 namespace {
 
-// Turning points of e = q_K - q_D, relative to the first, which is 0.1 rad, over 10 s.
+// Turning points of e = q_K - q_D, relative to the first (0.1 rad), over 10 s.
 std::vector<double> turning_points(Damper damper, double sign, double zeta) {
   const double w = 10, h = 2e-5, speed = 1.5, e0 = 0.1, seconds = 10;
   CouplingSpec spec;
@@ -122,7 +122,7 @@ std::vector<double> turning_points(Damper damper, double sign, double zeta) {
 
 }  // namespace
 
-TEST_CASE("the unsigned damper never damps: turning points 1 and -exp(pi z/sqrt(1-z^2)) for ever") {
+TEST_CASE("the unsigned damper never damps: turning points 1 and -exp(pi z/sqrt(1-z^2)) forever") {
   const double z = 0.2, ratio = std::exp(std::numbers::pi * z / std::sqrt(1 - z * z));
   CHECK(ratio == doctest::Approx(1.89890027).epsilon(1e-8));
   for (const double sign : {1.0, -1.0}) {  // along the KVR's motion, against it

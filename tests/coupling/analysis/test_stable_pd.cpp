@@ -1,4 +1,4 @@
-// Stable PD as printed, against its own recurrence and the limits that follow from it.
+// Stable PD as published, against its recurrence and stability limit.
 #include <doctest/doctest.h>
 
 #include "tests/coupling/analysis/growth.h"
@@ -25,7 +25,7 @@ bool pd_grows(double alpha, double beta) {
 
 }  // namespace
 
-TEST_CASE("stable PD: one degree of freedom follows the printed recurrence to 1e-12") {
+TEST_CASE("stable PD: one degree of freedom follows the published recurrence to 1e-12") {
   for (const JointType joint : {JointType::revolute, JointType::prismatic}) {
     const double k = 3e3, b = 40, h = kH;
     const Model<double> model = one_joint(joint, kI);
@@ -47,7 +47,7 @@ TEST_CASE("stable PD: one degree of freedom follows the printed recurrence to 1e
   }
 }
 
-TEST_CASE("stable PD: a run of the stepper begins to grow at (4 + 2 beta)/3, to 0.5 percent") {
+TEST_CASE("stable PD: a simulation begins to grow at (4 + 2 beta)/3, to 0.5 percent") {
   for (double beta : {0.05, 0.5, 2.0, 20.0, 400.0}) {
     CAPTURE(beta);
     const double limit = (4 + 2 * beta) / 3;

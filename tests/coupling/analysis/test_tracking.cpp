@@ -1,5 +1,5 @@
-// The coupled two-link arm against the claims about the paper (docs/understand/paper_analysis.md). In continuous
-// time it is benchmarks/analytic/coupling/tracking.cpp, F3.
+// The coupled two-link arm against the claims about the paper (docs/understand/paper_analysis.md).
+// In continuous time it is benchmarks/analytic/coupling/tracking.cpp, F3.
 #include <doctest/doctest.h>
 
 #include "tests/coupling/analysis/two_link.h"
@@ -11,7 +11,7 @@ namespace {
 using Type = CouplingSpec::Type;
 
 // The search protocol of the findings: five sweep times T, errors weighted by T so that resonance
-// with one T is not exploited.
+// at one T is not exploited.
 struct Protocol {
   double max1 = 0, max2 = 0, mean1 = 0, mean2 = 0;
 };
@@ -29,7 +29,7 @@ Protocol protocol(const TwoLink& arm, const CouplingSpec& spec, double rate) {
 }
 }  // namespace
 
-TEST_CASE("60 Hz, best gains: torsional errs 17.2/14.6 deg, linear 4.8/4.4, k2 = 0.2 k1 7.4/2.8") {
+TEST_CASE("60 Hz, best gains: torsional 17.2/14.6 deg, linear 4.8/4.4, k2 = 0.2 k1 7.4/2.8") {
   const TwoLink arm;
   const Protocol world =
       protocol(arm, torsional(arm.springs(295.1, 3.541), SpringSpace::world), 60);
@@ -50,7 +50,7 @@ TEST_CASE("60 Hz, best gains: torsional errs 17.2/14.6 deg, linear 4.8/4.4, k2 =
   CHECK(ratio.mean2 == doctest::Approx(0.460).epsilon(0.005));
 }
 
-TEST_CASE("the printed unfolded damper diverges at 1 kHz, the folded one stays bounded") {
+TEST_CASE("the as-published unfolded damper diverges at 1 kHz, the folded one stays bounded") {
   const TwoLink arm;
   AsPublishedOptions options;
   options.damping_sign = 1;
@@ -66,7 +66,7 @@ TEST_CASE("the printed unfolded damper diverges at 1 kHz, the folded one stays b
   }
 }
 
-TEST_CASE("an angle per frame that is not divided by h leaves the coupling almost undamped") {
+TEST_CASE("an angle difference per frame, not divided by h, is almost undamped") {
   const TwoLink arm;
   AsPublishedOptions options;
   options.damper = Damper::vector_;
@@ -77,8 +77,7 @@ TEST_CASE("an angle per frame that is not divided by h leaves the coupling almos
   CHECK(run.error.mean[0] == doctest::Approx(4.81).epsilon(0.005));
 }
 
-TEST_CASE(
-    "10 : 14 arms: the printed torsional law comes near E3, the printed linear law meets E4") {
+TEST_CASE("10 : 14 arms: the as-published torsional law is close to E3, the linear law meets E4") {
   const TwoLink arm{5, 3, 0.25, 0.35};
   const Tracking e3 =
       track(arm, printed(Type::torsional, arm.springs(195.137, 2.7316), {}), 1.0 / 60);

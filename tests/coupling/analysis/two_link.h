@@ -1,4 +1,4 @@
-// Two uniform slender links with vertical hinges, moved by the paper's automatic motion.
+// Two uniform slender links with vertical revolute joints, moved by the paper's automatic motion.
 #pragma once
 
 #include "coupling/analysis/tracking.h"

@@ -1,4 +1,4 @@
-// Many runs side by side against the same runs one by one, and what they must not notice.
+// Batched runs against single runs, and independence of the lanes.
 #include "coupling/batch/batch_run.h"
 
 #include <doctest/doctest.h>
@@ -9,7 +9,7 @@
 
 #include "solver/spatial/batch.h"
 #include "solver/spatial/rotation_log.h"
-#include "tests/coupling/batch/one_by_one.h"
+#include "tests/coupling/batch/single_runs.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
@@ -33,7 +33,7 @@ void check_equal(const BatchResult& a, const BatchResult& b, double scale) {
 
 }  // namespace
 
-TEST_CASE("runs side by side are those of the scalar simulation, every coupling and treatment") {
+TEST_CASE("batched runs agree with single simulations, every coupling and discretization") {
   Random random(81);
   for (const Axes axes : kAxes)
     for (const BatchLaw& law : kBatchLaws)
@@ -56,7 +56,7 @@ TEST_CASE("runs side by side are those of the scalar simulation, every coupling 
         }
 }
 
-TEST_CASE("a run that leaves all bounds stops as it does alone, and its neighbours never notice") {
+TEST_CASE("a diverged run stops as in a single run, without effect on its neighbours") {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Random random(82);
   const CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[2], Discretization::explicit_,
@@ -68,7 +68,7 @@ TEST_CASE("a run that leaves all bounds stops as it does alone, and its neighbou
     for (auto& gains : cells.back().springs) gains.p_L = {0.1, 0, 0};
     if (c % 3 == 0)
       for (auto& gains : cells.back().springs)
-        gains.b = c % 2 == 0 ? 1e5 : kInfinity;  // grows; is not a number at once
+        gains.b = c % 2 == 0 ? 1e5 : kInfinity;  // grows; is not NaN at once
   }
   std::vector<BatchResult> together(cells.size()), alone(cells.size());
   BatchRun batch(bench.setup);
@@ -87,7 +87,7 @@ TEST_CASE("a run that leaves all bounds stops as it does alone, and its neighbou
   }
 }
 
-TEST_CASE("cells are computed alike in any order") {
+TEST_CASE("results do not depend on the order of cells") {
   Random random(83);
   const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[0],
                         Discretization::implicit, false);
@@ -104,7 +104,7 @@ TEST_CASE("cells are computed alike in any order") {
   }
 }
 
-TEST_CASE("the rotation vector of lanes is that of the rotations they are made from, to 1e-14") {
+TEST_CASE("the batched rotation vector agrees with that of the rotations, to 1e-14") {
   Random random(84);
   using S = Batch<4>;
   for (int n = 0; n < 4000; ++n) {
@@ -131,7 +131,7 @@ TEST_CASE("the rotation vector of lanes is that of the rotations they are made f
   }
 }
 
-TEST_CASE("what cannot run side by side is refused, all reasons at once") {
+TEST_CASE("unsupported batched runs are rejected with all reasons at once") {
   Random random(85);
   auto bodies = random_bodies(random, 4, {JointType::revolute});
   bodies[1].type = JointType::universal;
@@ -150,23 +150,23 @@ TEST_CASE("what cannot run side by side is refused, all reasons at once") {
   } catch (const InputError& error) {
     const std::string text = error.what();
     for (const char* fault : {"universal", "Coulomb", "elbow", "torsional and linear",
-                              "no target 3", "no link that moves", "duration"}) {
+                              "target 3 does not exist", "not a moving link", "duration"}) {
       CAPTURE(fault);
       CHECK(text.find(fault) != std::string::npos);
     }
   }
 }
 
-TEST_CASE("each reason against running side by side is told alone, with what to do") {
+TEST_CASE("each unsupported feature of a batched run is reported with a fix") {
   Random random(86);
   const CellBench bench(tree_for_lanes(random, Axes::in_line), kBatchLaws[1],
                         Discretization::implicit, false);
   const Model<double>& model = bench.model;
-  const std::string fixed = model.joint_name[5], follower = model.joint_name[2];
+  const std::string fixed = model.joint_name[5], mimic_joint = model.joint_name[2];
   REQUIRE(model.joint[5] == JointType::fixed);
   REQUIRE(batch_faults(bench.setup).empty());
-  const auto only = [&](const char* where, const char* problem, const auto& spoil) {
-    CAPTURE(problem);
+  const auto only = [&](const char* where, const char* code, const auto& spoil) {
+    CAPTURE(code);
     BatchSetup setup = bench.setup;
     Model<double> own = model;
     spoil(setup, own);
@@ -174,28 +174,29 @@ TEST_CASE("each reason against running side by side is told alone, with what to 
     const std::vector<Diagnostic> faults = batch_faults(setup);
     REQUIRE(faults.size() == 1);
     CHECK(faults[0].where == where);
-    CHECK(faults[0].problem.find(problem) != std::string::npos);
+    CHECK(faults[0].code == code);
     CHECK_FALSE(faults[0].fix.empty());
   };
-  only(("joint '" + follower + "'").c_str(), "follow others", [](BatchSetup&, Model<double>& own) {
+  only(("joint '" + mimic_joint + "'").c_str(), "batch.mimic", [](BatchSetup&, Model<double>& own) {
     own.mimics.push_back({own.iv[2], own.iv[1], own.iq[2], own.iq[1], 1, 0});
   });
-  only("targets", "no kinematic robot", [](BatchSetup& setup, Model<double>&) {
+  only("targets", "batch.targets", [](BatchSetup& setup, Model<double>&) {
     setup.targets.clear();
     setup.springs.clear();
   });
-  only(("joint '" + fixed + "'").c_str(), "cannot move",
+  only(("joint '" + fixed + "'").c_str(), "batch.still-joint",
        [&](BatchSetup& setup, Model<double>&) { setup.targets[0].joints.gripper = fixed; });
-  only("spring 0", "does not move", [](BatchSetup& setup, Model<double>&) {
+  only("spring 0", "batch.joint", [](BatchSetup& setup, Model<double>&) {
     setup.springs[0].body = 5;  // fixed to a link that moves
   });
-  only("measured", "no coordinate",
+  only("measured", "batch.measured",
        [](BatchSetup& setup, Model<double>& own) { setup.measured.push_back(own.nq); });
   for (const double none : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    only("bound", "is ", [&](BatchSetup& setup, Model<double>&) { setup.bound = none; });
-    only("duration", "is ", [&](BatchSetup& setup, Model<double>&) { setup.duration = none; });
+    only("bound", "batch.bound", [&](BatchSetup& setup, Model<double>&) { setup.bound = none; });
+    only("duration", "batch.duration",
+         [&](BatchSetup& setup, Model<double>&) { setup.duration = none; });
   }
-  only("duration", "is inf", [](BatchSetup& setup, Model<double>&) {
+  only("duration", "batch.duration", [](BatchSetup& setup, Model<double>&) {
     setup.duration = std::numeric_limits<double>::infinity();
   });
 }

@@ -1,4 +1,4 @@
-// A step with couplings among the sources takes nothing from the heap and gives the same bits.
+// A step with couplings does not allocate and is deterministic.
 #include <doctest/doctest.h>
 
 #include <cstring>
@@ -6,7 +6,7 @@
 #include "tests/coupling/analysis/laws.h"
 #include "tests/coupling/analysis/one_joint.h"
 #include "tests/coupling/analysis/two_link.h"
-#include "tests/coupling/batch/one_by_one.h"
+#include "tests/coupling/batch/single_runs.h"
 #include "tests/support/count_allocations.h"
 
 using namespace twinarm;
@@ -37,7 +37,7 @@ std::vector<Run> runs() {
 
 struct System {
   Model<double> model = TwoLink().model();
-  AutomaticMotion hand{HandMapping{}, 0.05};  // corners within the run
+  AutomaticMotion hand{HandMapping{}, 0.05};  // velocity jumps within the run
   std::unique_ptr<TrackingSystem> system;
   explicit System(const Run& run, TargetRates rates) {
     TrackingSetup setup;
@@ -53,7 +53,7 @@ struct System {
 
 }  // namespace
 
-TEST_CASE("a step with a coupling takes nothing from the heap: all laws, treatments, integrators") {
+TEST_CASE("a step with a coupling does not allocate: all laws, discretizations, integrators") {
   for (const Run& run : runs())
     for (const TargetRates rates : {TargetRates::from_hand, TargetRates::backward_difference}) {
       System s(run, rates);
@@ -65,13 +65,13 @@ TEST_CASE("a step with a coupling takes nothing from the heap: all laws, treatme
     }
 }
 
-TEST_CASE("what a coupling remembers, put back into another, lets the run go on with its bits") {
+TEST_CASE("the serialised state of a coupling continues the run bit-identically") {
   for (Run run : runs()) {
     CAPTURE(run.spec.name);
     if (!run.spec.printed && run.spec.treatment == Discretization::explicit_)
       run.spec.hold_steps = 7;
     run.spec.options.hold_steps = 7;
-    run.spec.options.difference = Difference::older;  // it needs the last two evaluations
+    run.spec.options.difference = Difference::older;  // needs the last two evaluations
     if (run.integrator != Integrator::semi_implicit) continue;
     System first(run, TargetRates::from_hand), second(run, TargetRates::from_hand);
     for (int n = 0; n < 59; ++n) first.system->simulation().step(1e-3);
@@ -92,7 +92,7 @@ TEST_CASE("what a coupling remembers, put back into another, lets the run go on 
   }
 }
 
-TEST_CASE("a coupling that is implicit in the step is refused by rk4 and by explicit Euler") {
+TEST_CASE("an implicit coupling is rejected by rk4 and by explicit Euler") {
   for (const Law& law : all_laws()) {
     const bool in_stages =
         law.treatment == Discretization::explicit_ && !law.own && !law.is(CouplingType::weld_like);
@@ -105,7 +105,7 @@ TEST_CASE("a coupling that is implicit in the step is refused by rk4 and by expl
   }
 }
 
-TEST_CASE("runs side by side take nothing from the heap in a step: a longer run takes no more") {
+TEST_CASE("batched runs do not allocate in a step: a longer run allocates no more") {
   Random random(86);
   CellBench bench(tree_for_lanes(random, Axes::any), kBatchLaws[0], Discretization::implicit,
                   false);
@@ -114,7 +114,7 @@ TEST_CASE("runs side by side take nothing from the heap in a step: a longer run 
   const auto allocations_over = [&](double duration) {
     bench.setup.duration = duration;
     BatchRun batch(bench.setup);
-    batch.run(cells, results);  // results have their sizes from now on
+    batch.run(cells, results);  // results have their sizes now
     return allocations_in([&] { batch.run(cells, results); });
   };
   CHECK(allocations_over(0.4) == allocations_over(0.1));

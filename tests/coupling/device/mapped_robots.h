@@ -1,4 +1,4 @@
-// A hand device's state from its joint angles, and robots that mappings move.
+// State of an input device from its joint angles, and robots for mappings.
 #pragma once
 
 #include <string>
@@ -63,7 +63,7 @@ struct MappedModel {
   }
 };
 
-// A plane arm, a plane arm with a joint to spare, an arm in space, and one with three to spare.
+// A planar arm, a redundant planar arm, a spatial arm, and a redundant spatial arm.
 inline std::vector<std::unique_ptr<MappedModel>> mapped_robots() {
   std::vector<std::unique_ptr<MappedModel>> all;
   const auto add = [&](auto&&... arguments) {

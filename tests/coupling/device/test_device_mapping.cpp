@@ -1,5 +1,5 @@
-// From the device to the robot and back: kinematics against forward kinematics, forces against
-// virtual work by differences.
+// Device mappings: kinematics against forward kinematics, forces against virtual work by
+// differences.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace twinarm::testing;
 namespace {
 
 const OmniParameters kOmni;
-constexpr double kLong = 1e3;  // [s] between calls: no joint is too slow
+constexpr double kLong = 1e3;  // [s] between calls: no speed limit
 
 MappingSpec spec_of_kind(MappingKind which) {
   MappingSpec spec;
@@ -28,7 +28,7 @@ double max_change(const std::vector<double>& a, const std::vector<double>& b) {
   for (std::size_t j = 0; j < a.size(); ++j) most = std::max(most, std::abs(a[j] - b[j]));
   return most;
 }
-// Two links in the plane: the closed form says where the nearest place is.
+// Two links in the plane, with closed-form nearest points.
 struct PlaneArm {
   TwoLink arm;
   Model<double> model = arm.model();
@@ -73,7 +73,7 @@ TEST_CASE("joint mappings: q = offset + gain theta, of theta1, 4, 6 or of theta1
   }
 }
 
-TEST_CASE("the paper's mapping gives nothing on theta2 and theta3, whatever the robot's torques") {
+TEST_CASE("the paper's mapping gives no torque on theta2 and theta3") {
   const auto robots = mapped_robots();
   const auto mapping = make_mapping(spec_of_kind(MappingKind::paper), kOmni, robots[0]->robot);
   Random random(2);
@@ -81,16 +81,16 @@ TEST_CASE("the paper's mapping gives nothing on theta2 and theta3, whatever the 
     const DeviceState device = device_at(kOmni, random_angles(kOmni, random));
     mapping->map(device, 0.001);
     const double tau = random.uniform(-9, 9);
-    const DeviceForce felt = mapping->feel(device, {tau, random.uniform(-9, 9), 5});
+    const DeviceForce felt = mapping->motor_torques(device, {tau, random.uniform(-9, 9), 5});
     CHECK(felt.torque[0] == doctest::Approx(2 * tau));
     CHECK(felt.torque[1] == 0);
     CHECK(felt.torque[2] == 0);
   }
 }
 
-// Virtual work by central differences of what map() does. Of the paper's mapping only theta1 has a
-// motor: it is moved alone.
-TEST_CASE("the motors' power is that of the robot's joints: all mappings, all robots") {
+// Virtual work by central differences of map(). With the paper's mapping only theta1, which has a
+// motor, is moved.
+TEST_CASE("the motors' power equals that of the robot's joints: all mappings, all robots") {
   Random random(3);
   for (const auto& m : mapped_robots())
     for (const MappingKind which : {MappingKind::paper, MappingKind::arm, MappingKind::cartesian}) {
@@ -113,8 +113,8 @@ TEST_CASE("the motors' power is that of the robot's joints: all mappings, all ro
           return mapping->map(device_at(kOmni, at), kLong).q;
         };
         const std::vector<double> plus = moved(1), minus = moved(-1), here = moved(0);
-        if (max_change(plus, minus) > 1e-3) continue;  // beside a singular place
-        const DeviceForce felt = mapping->feel(device_at(kOmni, theta), tau);
+        if (max_change(plus, minus) > 1e-3) continue;  // near a singularity
+        const DeviceForce felt = mapping->motor_torques(device_at(kOmni, theta), tau);
         double of_robot = 0, of_hand = 0, size = 0;
         for (std::size_t j = 0; j < q.size(); ++j) {
           of_robot += tau[j] * (plus[j] - minus[j]);
@@ -128,7 +128,7 @@ TEST_CASE("the motors' power is that of the robot's joints: all mappings, all ro
     }
 }
 
-TEST_CASE("cartesian: the robot's point is p_start + scale (stylus - start) where it can be") {
+TEST_CASE("cartesian: the robot's point is p_start + scale (stylus - start) within reach") {
   Random random(4);
   for (const auto& m : mapped_robots()) {
     CAPTURE(m->name);
@@ -155,47 +155,47 @@ TEST_CASE("cartesian: the robot's point is p_start + scale (stylus - start) wher
         CHECK(found[j] <= m->robot.upper[j]);
       }
       Vector3 goal = m->point(q) + 1.5 * world_from_device(end.stylus.p - start.stylus.p);
-      if (plane) goal.z() = m->point(q).z();  // its driven joints cannot lift
+      if (plane) goal.z() = m->point(q).z();  // planar motion only
       if ((m->point(found) - goal).norm() < 1e-9) ++reached;
     }
     CHECK(reached > 20);
   }
 }
 
-TEST_CASE("a goal out of reach: the arm points to it, at the nearest place, and comes back") {
+TEST_CASE("a goal out of reach: the arm points to it, at the nearest point, and comes back") {
   const PlaneArm plane;
-  PointInverse inverse(plane.robot);
+  PointInverseKinematics inverse(plane.robot);
   inverse.set_pose({0.2, 0.9});
   const double reach = plane.reach();
-  inverse.reach(Vector3(0.4 * std::cos(0.6), 0.4 * std::sin(0.6), 0), 10);
+  inverse.move_towards(Vector3(0.4 * std::cos(0.6), 0.4 * std::sin(0.6), 0), 10);
   std::vector<double> before = inverse.q();
   double jump = 0;
-  for (int n = 0; n <= 4000; ++n) {  // out to three times the reach, round, and in again
+  for (int n = 0; n <= 4000; ++n) {  // out to three times the reach, around, and in again
     const double s = n / 4000.0, r = 0.4 + (3 * reach - 0.4) * std::sin(M_PI * s);
     const double turn = 0.6 + 1.2 * s;
     const Vector3 goal(r * std::cos(turn), r * std::sin(turn), 0);
-    inverse.reach(goal, 1);
+    inverse.move_towards(goal, 1);
     jump = std::max(jump, max_change(inverse.q(), before));
     before = inverse.q();
     const double nearest = std::max(0.0, r - reach);
     CHECK(std::abs((goal - inverse.position()).norm() - nearest) < 1e-9);
   }
-  // Bending from stretched goes as the root of the way: 1.5 mm a tick here.
+  // Bending from the stretched pose is a square root of the distance: 1.5 mm a tick here.
   CHECK(jump < 0.2);
 }
 
-TEST_CASE("a stretched arm that is asked to come straight in bends") {
+TEST_CASE("a stretched arm bends if the goal moves straight in") {
   const PlaneArm plane;
-  PointInverse inverse(plane.robot);
+  PointInverseKinematics inverse(plane.robot);
   inverse.set_pose({0.0, 0.0});
   for (const double in : {0.001, 0.01, 0.1, 0.2}) {
     const Vector3 goal(plane.reach() - in, 0, 0);
-    for (int n = 0; n < 3; ++n) inverse.reach(goal, 10);
+    for (int n = 0; n < 3; ++n) inverse.move_towards(goal, 10);
     CHECK((inverse.position() - goal).norm() < 1e-9);
   }
 }
 
-TEST_CASE("no joint goes faster than it is said to, and the robot catches up") {
+TEST_CASE("no joint exceeds the maximum speed, and the robot catches up") {
   const auto robots = mapped_robots();
   MappingSpec spec = spec_of_kind(MappingKind::cartesian);
   spec.fastest = 2;
@@ -217,13 +217,13 @@ TEST_CASE("no joint goes faster than it is said to, and the robot catches up") {
   }
   const Vector3 goal =
       robots[2]->point(q) + spec.scale * world_from_device(end.stylus.p - start.stylus.p);
-  PointInverse at_once(robots[2]->robot);
+  PointInverseKinematics at_once(robots[2]->robot);
   at_once.set_pose(q);
-  for (int n = 0; n < 5; ++n) at_once.reach(goal, 10);
+  for (int n = 0; n < 5; ++n) at_once.move_towards(goal, 10);
   CHECK((robots[2]->point(before) - at_once.position()).norm() < 1e-7);
 }
 
-TEST_CASE("a clutch makes no jump, nor does a device that is gone or says what is no number") {
+TEST_CASE("no jump by the clutch, by a lost device, or by invalid values") {
   Random random(5);
   const auto robots = mapped_robots();
   for (const MappingKind which : {MappingKind::paper, MappingKind::arm, MappingKind::cartesian}) {
@@ -248,7 +248,8 @@ TEST_CASE("a clutch makes no jump, nor does a device that is gone or says what i
       if (away) {
         CHECK(way == 0);
         for (const double rate : target.qd) CHECK(rate == 0);
-        for (const double torque : mapping->feel(device, {1, 2, 3}).torque) CHECK(torque == 0);
+        for (const double torque : mapping->motor_torques(device, {1, 2, 3}).torque)
+          CHECK(torque == 0);
       } else {
         CHECK(way < 0.021);  // `fastest` of cartesian, a gain of 2 of the others
         moved += way > 0;
@@ -259,7 +260,7 @@ TEST_CASE("a clutch makes no jump, nor does a device that is gone or says what i
   }
 }
 
-TEST_CASE("map() and feel() take nothing from the heap") {
+TEST_CASE("map() and motor_torques() do not allocate") {
   Random random(6);
   for (const auto& m : mapped_robots())
     for (const MappingKind which : {MappingKind::paper, MappingKind::cartesian}) {
@@ -270,13 +271,13 @@ TEST_CASE("map() and feel() take nothing from the heap") {
               for (int n = 0; n < 100; ++n) {
                 const DeviceState device = device_at(kOmni, random_angles(kOmni, random));
                 mapping->map(device, 0.001);
-                mapping->feel(device, tau);
+                mapping->motor_torques(device, tau);
               }
             }) == 0);
     }
 }
 
-TEST_CASE("a mapping that cannot be is refused with all its faults") {
+TEST_CASE("an invalid mapping is rejected with all its errors") {
   const auto robots = mapped_robots();
   MappingSpec spec = spec_of_kind(MappingKind::paper);
   spec.gain[1] = std::nan("");

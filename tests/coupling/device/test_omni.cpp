@@ -1,5 +1,5 @@
-// The Omni's kinematics against the published formulas (typed again here, on complex numbers), and
-// against themselves.
+// The Omni's kinematics against the published formulas (implemented again on complex numbers), and
+// for consistency.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -60,11 +60,11 @@ TEST_CASE("Omni: at zero the point is at (0, -0.110, -0.035) m; the formula is t
   CHECK((omni_position(o, {}) - Vector3(0, -0.110, -0.035)).norm() < 1e-15);
   OmniDraw draw;
   for (int n = 0; n < 2000; ++n) {
-    o.L2 = draw(0.1, 0.2);  // other lengths than the arm's: the two must not be mixed up
+    o.L2 = draw(0.1, 0.2);  // different lengths, to detect exchanged ones
     const OmniAngles q = draw.in_range(o);
     const auto p = published_point(o, q[0], q[1], q[1] + q[2]);
     CHECK_UNARY((omni_position(o, q) - Vector3(p[0], p[1], p[2])).norm() < 1e-15);
-    // The elbow is as far from the point as the forearm is long, and L1 from the shoulder.
+    // Distances elbow - point and elbow - shoulder.
     const Vector3 elbow = omni_elbow(o, q);
     CHECK_UNARY(std::abs((omni_position(o, q) - elbow).norm() - o.L2) < 1e-15);
     CHECK_UNARY(std::abs((elbow - Vector3(0, o.lift, -o.back)).norm() - o.L1) < 1e-15);
@@ -95,7 +95,7 @@ TEST_CASE("Omni: the Jacobian is the complex-step derivative; det J = -L1 L2 R c
   CHECK(worst_det < 1e-17);
 }
 
-TEST_CASE("Omni: motors do the work of the force; force and torque are each other's inverse") {
+TEST_CASE("Omni: motors do the work of the force; force and torque are inverse to each other") {
   const OmniParameters o;
   OmniDraw draw;
   double work = 0, back = 0;
@@ -105,7 +105,7 @@ TEST_CASE("Omni: motors do the work of the force; force and torque are each othe
     const Vector3 F = draw.vector(3);
     const auto tau = omni_torque(o, q, F);
     // Virtual work by central differences of the position: tau . dq = F . dx. theta3 is relative:
-    // the motor of theta2 carries tau2 + tau3 of the published, absolute angles.
+    // the motor of theta2 has tau2 + tau3 of the published, absolute angles.
     for (std::size_t j = 0; j < 3; ++j) {
       constexpr double e = 1e-4;
       OmniAngles a = q, b = q, c = q, d = q;
@@ -133,7 +133,7 @@ TEST_CASE("Omni: motors are limited together, to 3.3 N at the stylus") {
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(omni_limit(o, q, {0.1, nan, 0}) == std::array<double, 3>{});
-  // On the waist's axis its motor has no hold: the others' force is all there is.
+  // On the waist's axis its motor exerts no force.
   OmniParameters even = o;
   const double t2 = 1.2;
   const OmniAngles on_axis{0.4, t2, t2 - std::numbers::pi / 2 - t2, 0, 0, 0};  // sin t3 = -cos t2
@@ -141,14 +141,14 @@ TEST_CASE("Omni: motors are limited together, to 3.3 N at the stylus") {
   CHECK(omni_force(even, on_axis, {1, 0, 0}) == Vector3(0, 0, 0));
 }
 
-TEST_CASE("Omni: FK(IK(p)) = p to 1e-12 at every reachable point, the edges of the reach too") {
+TEST_CASE("Omni: FK(IK(p)) = p to 1e-12 at every reachable point, also at the workspace boundary") {
   OmniParameters o;
   OmniDraw draw;
   double worst = 0;
   int reached = 0, refused = 0;
   for (int n = 0; n < 20000; ++n) {
     o.L2 = n % 2 == 0 ? o.L1 : draw(0.1, 0.2);
-    // Within a ball about the shoulder, some right at the edges of what is reached.
+    // Within a sphere about the shoulder, some at the boundary.
     const double r = n % 7 == 0   ? o.L1 + o.L2
                      : n % 7 == 1 ? std::abs(o.L1 - o.L2)
                      : n % 7 == 2 ? (o.L1 + o.L2) * (1 - draw(0, 1e-9))
@@ -171,7 +171,7 @@ TEST_CASE("Omni: FK(IK(p)) = p to 1e-12 at every reachable point, the edges of t
   CHECK_FALSE(omni_inverse(o, Vector3(std::numeric_limits<double>::quiet_NaN(), 0, 0)).has_value());
 }
 
-TEST_CASE("Omni: IK(FK(q)) = q within the ranges where R > 0, and only there") {
+TEST_CASE("Omni: IK(FK(q)) = q within the ranges if and only if R > 0") {
   const OmniParameters o;
   OmniDraw draw;
   double worst = 0;
@@ -185,15 +185,16 @@ TEST_CASE("Omni: IK(FK(q)) = q within the ranges where R > 0, and only there") {
     for (std::size_t j = 0; j < 3; ++j) off = std::max(off, std::abs((*back)[j] - q[j]));
     if (R > 1e-3) worst = std::max(worst, off);
     if (R < 0) {
-      CHECK_UNARY(off > 1);  // the waist is seen turned by half a turn
+      CHECK_UNARY(off > 1);  // the other waist solution
       ++beyond;
     }
   }
   CHECK(worst < 1e-11);
-  CHECK(beyond > 0);  // a corner of the ranges lies beyond the waist's axis
+  CHECK(beyond > 0);  // a corner of the ranges is beyond the waist's axis
 }
 
-TEST_CASE("Omni: the pose of the stylus turns with each joint about that joint's axis, and back") {
+TEST_CASE(
+    "Omni: the pose of the stylus rotates with each joint about that joint's axis, and back") {
   const OmniParameters o;
   OmniDraw draw;
   double turned = 0, back = 0, angles = 0;
@@ -202,8 +203,8 @@ TEST_CASE("Omni: the pose of the stylus turns with each joint about that joint's
     const Pose X = omni_stylus(o, q);
     CHECK_UNARY((X.R.transpose() * X.R - Matrix3::Identity()).norm() < 1e-14);
     CHECK_UNARY((X.p - omni_position(o, q)).norm() == 0);
-    // Axes as geometry has them: waist down, arm and forearm about the waist's side, yaw along the
-    // forearm, roll along the stylus; what one joint adds is a turn about its axis.
+    // Geometric axes: waist down, arm and forearm about the waist's side, yaw along the forearm,
+    // roll along the stylus; each joint adds a rotation about its axis.
     const Vector3 side(std::cos(q[0]), 0, std::sin(q[0]));
     const Vector3 along = (X.p - omni_elbow(o, q)).normalized();
     const Vector3 axis[6] = {-Vector3::UnitY(), -side, -side, along, Vector3::Zero(), X.R.col(2)};
@@ -214,13 +215,13 @@ TEST_CASE("Omni: the pose of the stylus turns with each joint about that joint's
       const Matrix3 expected = Eigen::AngleAxisd(0.3, axis[j]) * X.R;
       turned = std::max(turned, (omni_stylus(o, more).R - expected).norm());
     }
-    // Pitch: the angle between stylus and forearm alone.
+    // Pitch: the angle between stylus and forearm.
     CHECK_UNARY(std::abs(X.R.col(2).dot(along) - std::sin(q[4] - o.gimbal_pitch)) < 1e-14);
     if (waist_lever(o, q) < 1e-3) continue;
     const auto found = omni_inverse(o, X);
     REQUIRE(found.has_value());
     back = std::max(back, (omni_stylus(o, *found).R - X.R).norm());
-    const bool folded = q[4] < -0.49;  // yaw and roll are not told apart there
+    const bool folded = q[4] < -0.49;  // yaw and roll are not unique there
     for (std::size_t j = 0; j < 6; ++j)
       if (!folded) angles = std::max(angles, std::abs((*found)[j] - q[j]));
   }
@@ -235,8 +236,7 @@ TEST_CASE("Omni: the pose of the stylus turns with each joint about that joint's
   CHECK((omni_stylus(square, *found).R - omni_stylus(square, lock).R).norm() < 1e-12);
 }
 
-TEST_CASE(
-    "Omni: the nearest reachable place is at least as near as any of many within the ranges") {
+TEST_CASE("Omni: no sampled pose within the ranges is nearer than the nearest point found") {
   const OmniParameters o;
   OmniDraw draw;
   for (int n = 0; n < 60; ++n) {
@@ -248,7 +248,7 @@ TEST_CASE(
     double best = 1e9;
     for (int k = 0; k < 4000; ++k)
       best = std::min(best, (omni_position(o, draw.in_range(o)) - p).norm());
-    // Small steps about what was found, within the ranges: a minimum.
+    // Small steps about the solution, within the ranges: a minimum.
     for (int k = 0; k < 300; ++k) {
       OmniAngles near = theta;
       for (std::size_t j = 0; j < 3; ++j)
@@ -257,7 +257,7 @@ TEST_CASE(
     }
     CHECK_UNARY(distance <= best + 1e-12);
   }
-  for (int n = 0; n < 2000; ++n) {  // a reachable point is its own nearest
+  for (int n = 0; n < 2000; ++n) {  // a reachable point is its own nearest point
     const Vector3 p = omni_position(o, draw.in_range(o));
     CHECK_UNARY((omni_position(o, with_arm(omni_nearest(o, p))) - p).norm() < 1e-12);
   }

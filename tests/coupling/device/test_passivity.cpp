@@ -1,4 +1,4 @@
-// Passivity of what is felt, with a ledger of its own: the work that each held force has done.
+// Passivity of force feedback, with an independent energy account of each held force.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -20,7 +20,8 @@ struct EnergyBalance {
   double E = 0, lowest = 0;
   long in_debt = 0, paid_at_once = 0, unpaid = 0;
 
-  // `motion(n, force)` gives the next place from the last force, `wanted(n, x)` the environment's.
+  // `motion(n, force)` gives the next position from the last force, `wanted(n, x)` the
+  // environment's force.
   template <class Motion, class Wanted>
   void run(long ticks, Motion&& motion, Wanted&& wanted, bool control = true) {
     PassivityControl passivity(kPeak * kMaxDistance);
@@ -32,7 +33,7 @@ struct EnergyBalance {
       const bool owed = E < 0;
       if (n > 0) E -= force.dot(way);
       lowest = std::min(lowest, E);
-      // Paid back by the next tick that moves on, by at least half of the motion before.
+      // The deficit is removed by the next tick that moves by at least half of the motion before.
       const bool moves_on = way.dot(d) >= 0.5 * d.squaredNorm() && way != Vector3::Zero();
       if (owed && way != Vector3::Zero()) {
         ++in_debt;
@@ -44,7 +45,7 @@ struct EnergyBalance {
       if (control) {
         force = passivity.tick(x, w, kPeak);
         CHECK_MESSAGE(std::abs(passivity.energy() - E) < 1e-9, "the observer is not the ledger");
-        clamped_ = force.norm() >= kPeak * passivity.allowance() * (1 - 1e-9);
+        clamped_ = force.norm() >= kPeak * passivity.force_fraction() * (1 - 1e-9);
       } else {
         force = w.norm() > kPeak ? Vector3(w * (kPeak / w.norm())) : w;
       }
@@ -57,7 +58,7 @@ struct EnergyBalance {
 
 }  // namespace
 
-TEST_CASE("passivity: whatever the hand does, 10^6 random ticks stay above one tick's work") {
+TEST_CASE("passivity: 10^6 ticks of random motion stay above minus one tick's work") {
   for (const bool in_space : {false, true}) {
     Random random(11);
     Vector3 x = Vector3::Zero();
@@ -80,7 +81,7 @@ TEST_CASE("passivity: whatever the hand does, 10^6 random ticks stay above one t
   }
 }
 
-TEST_CASE("passivity: a hand that always goes where the force pushes it gets one tick's work") {
+TEST_CASE("passivity: a motion that always follows the force gains at most one tick's work") {
   Vector3 x = Vector3::Zero();
   EnergyBalance ledger;
   ledger.run(
@@ -91,12 +92,12 @@ TEST_CASE("passivity: a hand that always goes where the force pushes it gets one
       },
       [&](long n, const Vector3&) { return Vector3(n % 7 < 4 ? 9 : -9, 0, 0); });
   CHECK(ledger.lowest >= -kPeak * kMaxDistance * (1 + 1e-3));
-  CHECK(ledger.lowest < -0.9 * kPeak * kMaxDistance);  // it is tried
+  CHECK(ledger.lowest < -0.9 * kPeak * kMaxDistance);  // close to the bound
 }
 
-// A hand moves smoothly, with tremor at up to 12 Hz: 10^6 ticks of 1 kHz against a wall whose force
-// comes 100 ms late, and which would give it energy without end.
-TEST_CASE("passivity: 10^6 ticks of a hand on a late wall: every debt is paid as it moves on") {
+// A smooth motion with tremor up to 12 Hz: 10^6 ticks of 1 kHz against a wall with 100 ms delay,
+// which would create unbounded energy.
+TEST_CASE("passivity: 10^6 ticks at a delayed wall: every deficit is removed by the next motion") {
   const auto run = [](bool control, double quantum) {
     Random random(12);
     std::array<double, 6> phase{}, frequency{0.3, 0.9, 2.2, 5.1, 8.7, 12};
@@ -124,7 +125,7 @@ TEST_CASE("passivity: 10^6 ticks of a hand on a late wall: every debt is paid as
     return ledger;
   };
   const EnergyBalance without = run(false, 0);
-  CHECK(without.E < -10);  // 10 J and more out of a wall
+  CHECK(without.E < -10);  // 10 J and more from the wall
   for (const double quantum : {0.0, 0.055e-3}) {
     CAPTURE(quantum);
     const EnergyBalance with = run(true, quantum);
@@ -136,24 +137,24 @@ TEST_CASE("passivity: 10^6 ticks of a hand on a late wall: every debt is paid as
   }
 }
 
-TEST_CASE("passivity: the published damping, alpha = -E/(T v^2), where all else is still") {
+TEST_CASE("passivity: the published damping, alpha = -E/(T v^2), without other forces") {
   PassivityControl passivity(1.0);
   const double T = 1e-3;
-  passivity.moved_to(Vector3(0, 0, 0));
-  passivity.holds(Vector3(2, 0, 0));
-  passivity.moved_to(Vector3(1e-4, 0, 0));  // the force has pushed the hand
+  passivity.set_position(Vector3(0, 0, 0));
+  passivity.set_held_force(Vector3(2, 0, 0));
+  passivity.set_position(Vector3(1e-4, 0, 0));  // the force has moved the device
   CHECK(passivity.energy() == doctest::Approx(-2e-4));
-  const double v = 1e-4 / T, alpha = 2 * 2e-4 / (T * v * v);  // twice: half the motion pays
-  const Vector3 force = passivity.damped(Vector3::Zero());
+  const double v = 1e-4 / T, alpha = 2 * 2e-4 / (T * v * v);  // twice: half the motion suffices
+  const Vector3 force = passivity.passive_force(Vector3::Zero());
   CHECK(force.x() == doctest::Approx(-alpha * v));
 }
 
-TEST_CASE("passivity: a passive spring that is pushed and let go is left alone") {
+TEST_CASE("passivity: a passive spring is not changed") {
   PassivityControl passivity(kPeak * kMaxDistance);
   double largest = 0;
   for (int n = 0; n <= 1000; ++n) {
     const double place = 0.004 * std::sin(std::numbers::pi * n / 1000.0);
-    // Held back by half a tick's motion, which is what the hold gives away.
+    // Delayed by half a tick's motion, the energy of the hold.
     const double velocity = 0.004 * std::numbers::pi / 1000 * std::cos(std::numbers::pi * n / 1000);
     const double wanted = -500 * place - 500 * 0.6 * velocity;
     const Vector3 force = passivity.tick({place, 0, 0}, {wanted, 0, 0}, kPeak);
@@ -162,7 +163,7 @@ TEST_CASE("passivity: a passive spring that is pushed and let go is left alone")
   CHECK(largest < 1e-12);
 }
 
-TEST_CASE("passivity: after the worst of hands a steady one feels the force again, in a moment") {
+TEST_CASE("passivity: after the worst motion a steady one has full force again, soon") {
   PassivityControl passivity(kPeak * kMaxDistance);
   double x = 0, force = 0;
   for (int n = 0; n < 100000; ++n) {
@@ -179,7 +180,7 @@ TEST_CASE("passivity: after the worst of hands a steady one feels the force agai
   CHECK(ticks < 200);
 }
 
-TEST_CASE("passivity: a tick takes nothing from the heap") {
+TEST_CASE("passivity: a tick does not allocate") {
   PassivityControl passivity(1.0);
   CHECK(allocations_in([&] {
           for (int n = 0; n < 1000; ++n)

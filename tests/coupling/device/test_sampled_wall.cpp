@@ -1,5 +1,5 @@
-// Limits of virtual walls, found by bisection of runs, against the eigenvalues of the sampled
-// system and the frequency response of the wall.
+// Limits of virtual walls by bisection of simulations, against eigenvalues of the sampled system
+// and the frequency response of the wall.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,7 +13,7 @@ using namespace twinarm;
 
 namespace {
 
-// The state is (x, v, x a tick ago, ...); A as e^(F T) with the hold, by a series of its own.
+// State (x, v, x a tick ago, ...); A by e^(F T) with the hold, by a separate series.
 double radius_of_walled(const SampledDevice& d, double K, double B) {
   Eigen::Matrix3d F = Eigen::Matrix3d::Zero();  // d/dt (x, v, force)
   F(0, 1) = 1;
@@ -23,7 +23,7 @@ double radius_of_walled(const SampledDevice& d, double K, double B) {
   for (int k = 1; k < 30; ++k) sum += power = power * F * d.tick() / k;
   const Eigen::Index n = 3 + d.delay;
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
-  const auto past = [&](int ago) { return ago == 0 ? 0 : 1 + ago; };  // where x of then stands
+  const auto past = [&](int ago) { return ago == 0 ? 0 : 1 + ago; };  // index of delayed x
   for (Eigen::Index row = 0; row < 2; ++row) {
     A(row, 0) += sum(row, 0);
     A(row, 1) += sum(row, 1);
@@ -78,7 +78,7 @@ TEST_CASE("uncoupled stability: the published device's limits, 2152.5 and 715.7 
   CHECK(max_stable_stiffness(late, 1) == doctest::Approx(715.7).epsilon(1e-3));
 }
 
-TEST_CASE("uncoupled stability by bisection is that of the eigenvalues, by damping, delay, rate") {
+TEST_CASE("uncoupled stability by bisection agrees with eigenvalues, by damping, delay, rate") {
   for (const double rate : {500.0, 1000.0, 4000.0})
     for (const int delay : {0, 1, 3})
       for (const double b : {0.0, 0.1, 2.0})
@@ -92,7 +92,7 @@ TEST_CASE("uncoupled stability by bisection is that of the eigenvalues, by dampi
         }
 }
 
-TEST_CASE("a wall gives no energy away up to Colgate's line, and beyond it it does") {
+TEST_CASE("a wall is passive up to Colgate's limit, and not beyond it") {
   for (const double rate : {500.0, 1000.0, 4000.0})
     for (const double part : {-0.9, -0.3, 0.0, 0.2, 0.7}) {
       const SampledDevice d = sampled(0.045, 0.5, rate, 0);
@@ -106,7 +106,7 @@ TEST_CASE("a wall gives no energy away up to Colgate's line, and beyond it it do
   CHECK(max_passive_damping(d, 0) == doctest::Approx(0.5).epsilon(1e-3));
 }
 
-TEST_CASE("with a delay the wall that gives no energy away is that of its frequency response") {
+TEST_CASE("with delay the passive limit is that of the frequency response") {
   for (const int delay : {1, 2, 5})
     for (const double B : {0.0, 0.05, 0.2}) {
       const SampledDevice d = sampled(0.045, 0.5, 1000, delay);
@@ -122,7 +122,7 @@ TEST_CASE("with a delay the wall that gives no energy away is that of its freque
     }
 }
 
-TEST_CASE("steps of the encoder cost stiffness: 2 f_c/Delta where the friction is small") {
+TEST_CASE("encoder quantisation reduces the stiffness: 2 f_c/Delta for small friction") {
   SampledDevice d = sampled(0.045, 2.0, 1000, 0);
   d.resolution = 0.055e-3;
   for (const double friction : {0.02, 0.05, 0.26}) {
@@ -134,10 +134,10 @@ TEST_CASE("steps of the encoder cost stiffness: 2 f_c/Delta where the friction i
           doctest::Approx(abbott_okamura_stiffness(d)).epsilon(0.02));
   }
   d.friction = 0;
-  CHECK(max_passive_stiffness(d, 0) < 10);  // none, but for the smallest amplitude tried
+  CHECK(max_passive_stiffness(d, 0) < 10);  // almost none, limited by the smallest amplitude tried
 }
 
-TEST_CASE("a wall without energy is stable, and not the other way round") {
+TEST_CASE("a passive wall is stable, but not conversely") {
   const SampledDevice d = sampled(0.045, 0.1, 1000, 0);
   for (const double B : {0.0, 0.03, 0.08}) {
     CHECK(max_passive_stiffness(d, B) < max_stable_stiffness(d, B));

@@ -1,5 +1,5 @@
 // The virtual Omni against closed forms: a mass under a force, a mass on a spring, Coulomb
-// friction, the limit of a wall whose force is held.
+// friction, the stability limit of a wall with held force.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -10,8 +10,7 @@
 using namespace twinarm;
 using namespace twinarm::testing;
 
-TEST_CASE(
-    "virtual Omni, not held: a force F moves 45 g by F t^2 / (2 m); 10 N move it like 3.3 N") {
+TEST_CASE("virtual Omni, free: a force F moves 45 g by F t^2 / (2 m); 10 N are limited to 3.3 N") {
   const Vector3 way = Vector3(1, 2, -1).normalized();
   for (const double F : {0.05, 0.4, 10.0}) {
     VirtualOmni omni(resting_hand(), not_held(closed_form()));
@@ -20,7 +19,7 @@ TEST_CASE(
     run_ticks(omni, 0, static_cast<int>(std::round(t / kTick)),
               [&](int, const DeviceState&) { return Vector3(F * way); });
     const double s = most * t * t / (2 * 0.045);
-    // What is left is the turn of the arm under torques that are held for a tick.
+    // Remaining error: rotation of the arm under torques held for a tick.
     CHECK((omni.truth().position - start - s * way).norm() < 0.01 * s);
     CHECK(omni.truth().motors.norm() == doctest::Approx(most).epsilon(0.02));
     CHECK(omni.truth().motors.norm() <= 3.3 + 1e-12);
@@ -28,7 +27,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "virtual Omni, held: the hand gives way by F / k, on the closed form of a mass on a spring") {
+    "virtual Omni, held: the arm deflects by F / k, on the closed form of a mass on a spring") {
   VirtualOmniSettings s = closed_form();
   VirtualOmni omni(resting_hand(), s);
   const double k = 300, b = 5, m = 0.145, F = 0.5;
@@ -43,14 +42,13 @@ TEST_CASE(
     worst = std::max(worst, (omni.truth().position - start - x * way).norm());
     push_stylus(omni, seen, F * way);
   }
-  CHECK(worst < 2e-3 * F / k);  // of torques that are held while the arm turns
+  CHECK(worst < 2e-3 * F / k);  // torques held while the arm rotates
   CHECK((omni.truth().position - start - F / k * way).norm() < 1e-9);
 }
 
-TEST_CASE(
-    "virtual Omni: the point follows a goal that moves evenly without lag, and a step's form") {
-  // A chirp of one slow frequency stands for even motion; the relative damper sees its velocity.
-  HandAngles to = kPosture;
+TEST_CASE("virtual Omni: no error behind a goal of constant velocity; closed-form step response") {
+  // A slow chirp is nearly constant velocity; relative damper.
+  DeviceAngles to = kPosture;
   to[2] += 0.02;
   VirtualOmni omni(std::make_shared<StepMotion>(kPosture, to, 0.01, 5), closed_form());
   const Vector3 from = omni.truth().position;
@@ -79,13 +77,13 @@ TEST_CASE(
   CHECK(lag < 2 * 5.7735 * 0.02 * 0.13335 / 16 / (w * w));
 }
 
-TEST_CASE("virtual Omni: friction holds the point without one bit of creep, until 0.26 N") {
+TEST_CASE("virtual Omni: friction holds the point without creep, up to 0.26 N") {
   VirtualOmniSettings s = not_held(closed_form());
   s.figures.friction = 0.26;
   const Vector3 way = Vector3(-0.2, 1, 0.4).normalized();
   VirtualOmni held(resting_hand(), s), slides(resting_hand(), s);
   const Vector3 start = held.truth().position;
-  // Both tremble as well: a stick that creeps would ratchet.
+  // Both with vibration: a stick that creeps would ratchet.
   run_ticks(held, 0, 3000,
             [&](int n, const DeviceState&) { return Vector3((0.2599 * std::cos(0.5 * n)) * way); });
   CHECK(std::memcmp(held.truth().position.data(), start.data(), 24) == 0);
@@ -94,7 +92,7 @@ TEST_CASE("virtual Omni: friction holds the point without one bit of creep, unti
   const double t = 0.1, v = 0.1 / 0.045 * t;
   CHECK((slides.truth().position - start - 0.5 * v * t * way).norm() < 0.01 * 0.5 * v * t);
   CHECK_FALSE(slides.truth().sticks);
-  // Let go: it stops after m v^2 / (2 f), and stays.
+  // Released: it stops after m v^2 / (2 f), and stays.
   const Vector3 free = slides.truth().position;
   const double speed = slides.truth().velocity.norm();
   run_ticks(slides, 100, 400, [](int, const DeviceState&) { return Vector3(0, 0, 0); });
@@ -104,11 +102,11 @@ TEST_CASE("virtual Omni: friction holds the point without one bit of creep, unti
   CHECK(slides.truth().sticks);
 }
 
-TEST_CASE("virtual Omni: an arm that creeps takes the stylus along once its spring has 0.26 N") {
+TEST_CASE("virtual Omni: a slowly moving arm moves the stylus once its spring has 0.26 N") {
   VirtualOmniSettings s = closed_form();
   s.figures.friction = 0.26;
   s.arm.damping = 0.5;
-  HandAngles to = kPosture;
+  DeviceAngles to = kPosture;
   to[2] += 0.05;
   VirtualOmni omni(std::make_shared<ReachMotion>(kPosture, to, 0, 10.0), s);
   const Vector3 start = omni.truth().position;
@@ -123,19 +121,19 @@ TEST_CASE("virtual Omni: an arm that creeps takes the stylus along once its spri
     }
     most = std::max(most, offset);
   }
-  CHECK(moves > 1000);  // it stood for seconds, not one bit away from its start
-  CHECK(most == doctest::Approx(0.26 / 300).epsilon(5e-3));  // sliding takes as much: one friction
-  CHECK(omni.truth().sticks);                                // and it rests short of the goal
+  CHECK(moves > 1000);  // at rest for seconds, bit-identical to its start
+  CHECK(most == doctest::Approx(0.26 / 300).epsilon(5e-3));  // kinetic friction is equal
+  CHECK(omni.truth().sticks);                                // and rests before the goal
   CHECK((omni.truth().goal - omni.truth().position).norm() > 0.5 * 0.26 / 300);
 }
 
-TEST_CASE("virtual Omni: with motors off and a still hand its energy never grows") {
+TEST_CASE("virtual Omni: without motors and with a goal at rest its energy never grows") {
   VirtualOmniSettings s = closed_form();
   for (const double friction : {0.0, 0.1}) {
     s.figures.friction = friction;
     s.arm.damping = friction > 0 ? 0 : 5;
-    HandAngles away = kPosture;
-    away[0] += 0.7, away[2] -= 0.6;  // beyond a stop on its way
+    DeviceAngles away = kPosture;
+    away[0] += 0.7, away[2] -= 0.6;  // beyond a joint limit on its way
     VirtualOmni omni(std::make_shared<StepMotion>(away, kPosture, 0, 2), s);
     const double m = 0.145, k = 300;
     double energy = std::numeric_limits<double>::infinity();
@@ -148,15 +146,15 @@ TEST_CASE("virtual Omni: with motors off and a still hand its energy never grows
       CHECK_UNARY(now <= energy * (1 + 1e-12) + 1e-18);
       energy = now;
     }
-    CHECK(energy < 0.5 * k * std::pow(0.1 / 300 + 1e-9, 2));  // no more than friction can hold
+    CHECK(energy < 0.5 * k * std::pow(0.1 / 300 + 1e-9, 2));  // at most what friction can hold
   }
 }
 
-TEST_CASE("virtual Omni: no stiffness of the arm is too large for its steps") {
+TEST_CASE("virtual Omni: stable at any stiffness of the arm") {
   VirtualOmniSettings s = closed_form();
   s.arm.stiffness = 1e7;  // w h = 2.1 of a substep, without damping
   s.arm.damping = 0;
-  HandAngles to = kPosture;
+  DeviceAngles to = kPosture;
   to[0] += 0.01;
   VirtualOmni omni(std::make_shared<StepMotion>(kPosture, to, 0.01, 3), s);
   double farthest = 0;
@@ -170,8 +168,8 @@ TEST_CASE("virtual Omni: no stiffness of the arm is too large for its steps") {
 
 TEST_CASE("virtual Omni: a wall is stable up to the exact limit of the held force, 2152.5 N/m") {
   // m = 45 g, b = 0.1, wall damping B = 1 N s/m by backward differences, T = 1 ms; one tick of
-  // delay: 715.7 N/m. The eigenvalues of the sampled system (docs/understand/phantom_omni.md), not
-  // this device, gave the two.
+  // delay: 715.7 N/m. Both are eigenvalue limits of the sampled system
+  // (docs/understand/phantom_omni.md).
   struct Limit {
     double K, delay;
   };

@@ -1,4 +1,4 @@
-// The virtual Omni as its host sees it: counts, ticks, held forces, delays, ranges, bad input.
+// The virtual Omni's interface: encoder counts, ticks, held forces, delays, ranges, invalid input.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -13,9 +13,9 @@ using namespace twinarm;
 using namespace twinarm::testing;
 
 TEST_CASE(
-    "virtual Omni: what is sensed are whole counts, one of the elbow 0.055 mm at the stylus") {
+    "virtual Omni: angles are whole encoder counts, one of the elbow 0.055 mm at the stylus") {
   VirtualOmniSettings s;
-  HandAngles to = kPosture;
+  DeviceAngles to = kPosture;
   for (double& theta : to) theta += 0.3;
   VirtualOmni omni(std::make_shared<ReachMotion>(kPosture, to, 0, 0.5), s);
   const double count = 0.055e-3 / 0.13335;
@@ -38,7 +38,7 @@ TEST_CASE(
         doctest::Approx(0.055e-3));
 }
 
-TEST_CASE("virtual Omni: forces are taken over at its own ticks and held between them") {
+TEST_CASE("virtual Omni: forces act from its own ticks on and are held between them") {
   const Vector3 way = Vector3(0, 1, 0);
   const auto torque = [&](const VirtualOmni& omni, double F) {
     OmniAngles at = kPosture;
@@ -51,7 +51,7 @@ TEST_CASE("virtual Omni: forces are taken over at its own ticks and held between
     const DeviceState a = plain.poll(n * kTick), b = quick.poll(n * kTick);
     CHECK_UNARY(same_bits(a, b));
     plain.render(torque(plain, wanted(n)));
-    // A host at 4 kHz: what it says between ticks is heard at the next, where it has said better.
+    // A host at 4 kHz: the last force before a tick counts.
     quick.render(torque(quick, wanted(n)));
     for (int i = 1; i < 4; ++i) {
       const DeviceState between = quick.poll((n + 0.25 * i) * kTick);
@@ -60,7 +60,7 @@ TEST_CASE("virtual Omni: forces are taken over at its own ticks and held between
       quick.render(torque(quick, -1.0 * i));
     }
   }
-  for (int n = 0; n < 200; ++n) {  // a host at 50 Hz and one that repeats itself: the same hold
+  for (int n = 0; n < 200; ++n) {  // a host at 50 Hz and one that repeats its force: the same hold
     if (n % 20 == 0) slow.render(torque(slow, wanted((slow.poll(n * kTick), n))));
     often.poll(n * kTick);
     often.render(torque(often, wanted(n - n % 20)));
@@ -68,8 +68,8 @@ TEST_CASE("virtual Omni: forces are taken over at its own ticks and held between
   CHECK_UNARY(same_bits(slow.poll(0.2), often.poll(0.2)));
 }
 
-TEST_CASE("virtual Omni: delays shift what is seen and what is felt, by their time") {
-  HandAngles to = kPosture;
+TEST_CASE("virtual Omni: delays shift measurements and forces in time") {
+  DeviceAngles to = kPosture;
   for (double& theta : to) theta += 0.2;
   const auto hand = std::make_shared<ReachMotion>(kPosture, to, 0.01, 0.1);
   VirtualOmniSettings late = closed_form();
@@ -93,8 +93,8 @@ TEST_CASE("virtual Omni: delays shift what is seen and what is felt, by their ti
   CHECK_FALSE(same_bits(seen[20], seen[140]));
 }
 
-TEST_CASE("virtual Omni: joints stop at their ranges, inelastically, and come away at once") {
-  HandAngles far = kPosture;
+TEST_CASE("virtual Omni: joints stop at their limits, inelastically, and leave them at once") {
+  DeviceAngles far = kPosture;
   far = {2.0, 2.5, -1.5, 3, 3, -3};
   VirtualOmniSettings s = closed_form();
   VirtualOmni omni(std::make_shared<StepMotion>(far, kPosture, 0.5, 1), s);
@@ -105,17 +105,17 @@ TEST_CASE("virtual Omni: joints stop at their ranges, inelastically, and come aw
     const DeviceState seen = omni.poll(n * kTick);
     for (std::size_t j = 0; j < 6; ++j)
       CHECK_UNARY(seen.theta[j] >= o.lower[j] && seen.theta[j] <= o.upper[j]);
-    if (n == 499) {  // at the place within the ranges that is nearest to the goal, at rest
+    if (n == 499) {  // at the reachable point nearest to the goal, at rest
       const auto q = omni_nearest(o, omni_position(o, goal));
       const Vector3 edge = omni_position(o, {q[0], q[1], q[2], 0, 0, 0});
       CHECK((omni.truth().position - edge).norm() < 1e-6);
       CHECK(omni.truth().velocity.norm() < 1e-3);
     }
   }
-  CHECK((omni.truth().position - omni.truth().goal).norm() < 1e-5);  // it has come away
+  CHECK((omni.truth().position - omni.truth().goal).norm() < 1e-5);  // it has left the limit
 }
 
-TEST_CASE("virtual Omni: nothing that a host says breaks it, and nothing allocates") {
+TEST_CASE("virtual Omni: robust against any force, without allocation") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = 1e308 * 10;
   VirtualOmni omni(resting_hand(), {});
   const Vector3 start = omni.truth().position;
@@ -133,12 +133,12 @@ TEST_CASE("virtual Omni: nothing that a host says breaks it, and nothing allocat
   });
   CHECK(good);
   CHECK(taken == 0);
-  // No force that it was given is one: it has not moved.
+  // No valid force was given: it has not moved.
   CHECK(omni.truth().position == start);
   CHECK(omni.truth().velocity == Vector3(0, 0, 0));
 }
 
-TEST_CASE("virtual Omni: bad settings are refused with all their faults") {
+TEST_CASE("virtual Omni: invalid settings are rejected with all their errors") {
   VirtualOmniSettings s;
   s.figures.rate = 0;
   s.arm.stiffness = -1;

@@ -1,4 +1,5 @@
-// A virtual Omni under test: a resting hand, settings that have closed forms, a host that pushes.
+// A virtual Omni under test: a motion at rest, settings with closed forms, a host that applies
+// forces.
 #pragma once
 
 #include <cstring>
@@ -11,12 +12,12 @@
 namespace twinarm::testing {
 
 inline constexpr double kTick = 1e-3;
-inline constexpr HandAngles kPosture{0.2, 0.7, 0.15, 0.1, 0.6, -0.2};
+inline constexpr DeviceAngles kPosture{0.2, 0.7, 0.15, 0.1, 0.6, -0.2};
 
 inline std::shared_ptr<const OperatorMotion> resting_hand() {
   return std::make_shared<StepMotion>(kPosture, kPosture, 0, 1);
 }
-// No friction, no counts: what has a closed form.
+// No friction, no quantisation: closed forms.
 inline VirtualOmniSettings closed_form() {
   VirtualOmniSettings s;
   s.figures.friction = 0;
@@ -27,17 +28,17 @@ inline VirtualOmniSettings not_held(VirtualOmniSettings s) {
   s.arm = {0, 0, 0};
   return s;
 }
-// The motors' torques that hold a force on the stylus' point, J^T F.
+// Motor torques of a force at the stylus' point, J^T F.
 inline std::array<double, 3> omni_torque(const OmniParameters& omni, const OmniAngles& theta,
                                          const Vector3& force) {
   const Vector3 tau = omni_jacobian(omni, theta).transpose() * force;
   return {tau.x(), tau.y(), tau.z()};
 }
-// A host that makes a force at the stylus, as far as it knows where that is.
+// A host that applies a force at the measured stylus pose.
 inline void push_stylus(VirtualOmni& omni, const DeviceState& seen, const Vector3& force) {
   omni.render({omni_torque(omni.figures(), seen.theta, force)});
 }
-// One tick after another; `force` by tick and what is seen.
+// Tick by tick; `force` from the tick and the measured state.
 inline void run_ticks(VirtualOmni& omni, int from, int to,
                       const std::function<Vector3(int, const DeviceState&)>& force) {
   for (int n = from; n < to; ++n) {

@@ -1,4 +1,4 @@
-// Recorded traces: the round trip, interpolation, and every fault of a bad file, all at once.
+// Recorded traces: round trip, interpolation, and all errors of an invalid file at once.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -36,7 +36,7 @@ bool names(const std::vector<Diagnostic>& faults, int line, const std::string& w
 
 }  // namespace
 
-TEST_CASE("a trace that was written is read back to its six decimals, angles and button") {
+TEST_CASE("a trace that was written is read with six decimals, angles and button") {
   const TemporaryFolder folder;
   const SyntheticOperator hand(3, 4.0);
   write_trace(hand, 200, (folder.path() / "hand.csv"));
@@ -51,9 +51,9 @@ TEST_CASE("a trace that was written is read back to its six decimals, angles and
   }
 }
 
-TEST_CASE("between samples a trace is linear; at a sample the rate is that of the side asked for") {
+TEST_CASE("between samples a trace is linear; at a sample the rate is one-sided") {
   const TemporaryFolder folder;
-  // Columns in another order, comments, blanks, another start of time, Windows line ends.
+  // Columns in another order, comments, blanks, another start time, Windows line ends.
   const RecordedTrace trace(folder.write(
       "trace.csv",
       "# made by hand\r\n"
@@ -88,13 +88,13 @@ TEST_CASE("a trace without a button column is read, its button never pressed") {
   CHECK(trace.sample(0.5, 1).theta[5] == 6);
 }
 
-TEST_CASE("a trace file that is not there, or is a folder, is refused by name") {
+TEST_CASE("a trace file that does not exist, or is a folder, is rejected by name") {
   const TemporaryFolder folder;
   CHECK(faults_of(folder.path() / "nowhere.csv").size() == 1);
   CHECK_FALSE(faults_of(folder.path()).empty());
 }
 
-TEST_CASE("all columns that a trace lacks are named at once") {
+TEST_CASE("all missing columns of a trace are reported at once") {
   const TemporaryFolder folder;
   const auto faults = faults_of(
       folder.write("trace.csv", "# x\ntime,theta1,theta2[rad],theta3[deg],theta4[rad],button\n"));
@@ -103,7 +103,8 @@ TEST_CASE("all columns that a trace lacks are named at once") {
   CHECK(faults.size() == 4);
 }
 
-TEST_CASE("all bad lines of a trace are named at once: text, nan, inf, missing cells, time back") {
+TEST_CASE(
+    "all invalid lines of a trace are reported at once: text, nan, inf, missing cells, time") {
   const TemporaryFolder folder;
   const auto faults =
       faults_of(folder.write("trace.csv", kHeader + "0,0,0,0,0,0,0,0\n"     // 2
@@ -129,14 +130,14 @@ TEST_CASE("all bad lines of a trace are named at once: text, nan, inf, missing c
   for (const int good : {1, 2, 5}) CHECK_FALSE(names(faults, good, ""));
 }
 
-TEST_CASE("a trace with fewer than two samples is refused, whatever else is in it") {
+TEST_CASE("a trace with fewer than two samples is rejected") {
   const TemporaryFolder folder;
   for (const std::string& body :
        {std::string(), kHeader, kHeader + "0,0,0,0,0,0,0,0\n", std::string("# only a comment\n")})
     CHECK_FALSE(faults_of(folder.write("trace.csv", body)).empty());
 }
 
-TEST_CASE("a trace with a hundred bad lines names the first twenty and counts the others") {
+TEST_CASE("a trace with a hundred invalid lines reports the first twenty and counts the others") {
   const TemporaryFolder folder;
   std::string body = kHeader;
   for (int n = 0; n < 100; ++n) body += "x,0,0,0,0,0,0,0\n";
@@ -145,7 +146,7 @@ TEST_CASE("a trace with a hundred bad lines names the first twenty and counts th
   CHECK(faults.back().problem.find("80") != std::string::npos);
 }
 
-TEST_CASE("a trace that cannot be written is refused and leaves nothing behind") {
+TEST_CASE("a trace that cannot be written is an error and leaves nothing behind") {
   const TemporaryFolder folder;
   const fs::path below_a_file = folder.write("trace.csv", "x") / "trace.csv";
   CHECK_THROWS_AS(write_trace(SyntheticOperator(1, 1), 10, below_a_file), InputError);
@@ -161,7 +162,7 @@ TEST_CASE("a blank line with a Windows line end is skipped") {
             .empty());
 }
 
-TEST_CASE("a column that says [deg] is converted, its neighbours in radians are not") {
+TEST_CASE("a column in [deg] is converted, its neighbours in radians are not") {
   const TemporaryFolder folder;
   const RecordedTrace trace(
       folder.write("trace.csv",
@@ -172,22 +173,23 @@ TEST_CASE("a column that says [deg] is converted, its neighbours in radians are 
   CHECK(trace.sample(1, 2).theta[3] == doctest::Approx(std::acos(-1.0)).epsilon(1e-14));
 }
 
-TEST_CASE("angles beyond a whole turn are refused: degrees are asked for where they would fit") {
+TEST_CASE(
+    "angles beyond a revolution are rejected, with a hint at degrees if these are plausible") {
   const TemporaryFolder folder;
   const auto degrees =
       faults_of(folder.write("trace.csv", kHeader + "0,20,60,-10,0,0,0,0\n1,-40,75,5,3,0,1,0\n"));
   CHECK(names(degrees, 1, "theta1[rad]"));
   CHECK(names(degrees, 1, "theta2[rad]"));
-  CHECK(names(degrees, 1, "looks like degrees"));
+  CHECK(names(degrees, 1, "probably degrees"));
   CHECK(names(degrees, 1, "theta1[deg]"));
   CHECK(degrees.size() == 3);  // joints 1 to 3
   const auto nonsense =
       faults_of(folder.write("trace.csv", kHeader + "0,4000,0,0,0,0,0,0\n1,0,0,0,0,0,0,0\n"));
   CHECK(names(nonsense, 1, "4000"));
-  CHECK_FALSE(names(nonsense, 1, "looks like degrees"));
+  CHECK_FALSE(names(nonsense, 1, "probably degrees"));
 }
 
-TEST_CASE("angles that an Omni cannot reach are doubted in words, and played as they are") {
+TEST_CASE("angles beyond the Omni's joint limits give a warning, and are used unchanged") {
   const TemporaryFolder folder;
   const RecordedTrace doubted(
       folder.write("trace.csv", kHeader + "0,0,0,0,0,0,0,0\n1,5,0,0,0,0,0,0\n"));
@@ -202,7 +204,7 @@ TEST_CASE("angles that an Omni cannot reach are doubted in words, and played as 
   CHECK(tiny.quality().warnings[0].find("theta1[rad]") != std::string::npos);
 }
 
-TEST_CASE("a trace says its rate, whatever it is, and nothing more when it is even") {
+TEST_CASE("a trace has its sampling rate, and no warnings if it is uniform") {
   const TemporaryFolder folder;
   for (const double rate : {7.0, 60.0, 1000.0}) {
     write_trace(SyntheticOperator(2, 3), rate, (folder.path() / "even.csv"));
@@ -214,7 +216,7 @@ TEST_CASE("a trace says its rate, whatever it is, and nothing more when it is ev
   }
 }
 
-TEST_CASE("gaps and jitter of a trace are measured and said") {
+TEST_CASE("gaps and jitter of a trace are measured and reported") {
   const TemporaryFolder folder;
   // 100 Hz, every other sample 4 ms late: intervals 14 and 6 ms, and one gap of 0.5 s from t = 2.
   std::string body = kHeader;

@@ -1,5 +1,5 @@
-// All scalars and all levels of the instruction set that the passes are built for: what contract
-// tests loop over. A scalar with lanes carries several states of one model.
+// All scalars and instruction-set levels of the algorithms, for parametrized tests. A scalar with
+// lanes has several states of one model.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -41,11 +41,11 @@ struct Scalar<Batch<N>> {
   static void set(Batch<N>& s, int lane, double x) { s.set(lane, x); }
   static double get(const Batch<N>& s, int lane) { return s[lane]; }
 };
-// How much larger rounding errors are than those of double.
+// Rounding unit relative to double.
 template <class S>
 inline constexpr double coarseness = Scalar<S>::epsilon / std::numeric_limits<double>::epsilon();
 
-// The levels with code of their own for this scalar, as far as this processor goes.
+// Levels with code for this scalar that this processor supports.
 template <class S>
 std::vector<Isa> levels_of() {
   std::vector<Isa> levels;
@@ -107,7 +107,7 @@ inline Forces<double> random_forces(Random& random, const Model<double>& model) 
   return forces;
 }
 
-// One model with a state and forces of its own in each lane.
+// One model; each lane has its own state and forces.
 template <class S>
 struct Packed {
   Model<double> model;

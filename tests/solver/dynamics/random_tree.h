@@ -1,4 +1,4 @@
-// Random mechanisms and states: seeded, so that a failure can be run again.
+// Random mechanisms and states, seeded.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ class Random {
         .normalized()
         .toRotationMatrix();
   }
-  // Of a cloud of points, so it is one that a body can have.
+  // Inertia of a cloud of points: physically consistent.
   BodyInertia inertia() {
     BodyInertia body;
     body.mass = uniform(0.2, 3);
@@ -43,7 +43,7 @@ class Random {
   std::mt19937 engine_;
 };
 
-// What the builder is told of one body; its index is the place in the list, from 1.
+// Builder input of one body; its index is its position in the list, from 1.
 struct TreeBody {
   int parent = 0;
   JointType type = JointType::fixed;
@@ -87,7 +87,7 @@ inline Model<double> random_tree(Random& random, int n, const std::vector<JointT
   return build(random_bodies(random, n, types));
 }
 
-// The same with what makes dynamics hard: masses up to 1e4 apart, and rotors on every third joint.
+// The same, ill-conditioned: masses up to 1e4 apart, rotors on every third joint.
 inline std::vector<TreeBody> uneven_bodies(Random& random, int n,
                                            const std::vector<JointType>& types) {
   std::vector<TreeBody> bodies = random_bodies(random, n, types);
@@ -116,7 +116,7 @@ inline State<double> random_state(Random& random, const Model<double>& model) {
 
 inline const std::vector<JointType> kAllJoints{all_joint_types.begin(), all_joint_types.end()};
 
-// Every list of joint types that the contract tests run over: each type alone, and all mixed.
+// Lists of joint types: each type alone, and all mixed.
 inline std::vector<std::vector<JointType>> lists_of_types() {
   std::vector<std::vector<JointType>> lists;
   for (const JointType type : all_joint_types) lists.push_back({type});

@@ -1,4 +1,4 @@
-// What the builder makes of its input, and what it refuses, all faults at once.
+// Model builder: result and rejected input, all errors at once.
 #include "solver/dynamics/model_builder.h"
 
 #include <doctest/doctest.h>
@@ -19,7 +19,7 @@ const BodyInertia kBody{2, {0.1, 0, 0}, Vector3(0.3, 0.2, 0.4).asDiagonal()};
 const BodyInertia kNothing;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// A good builder with one good body; bodies are added to it.
+// A valid builder with one body.
 ModelBuilder started() {
   ModelBuilder builder;
   builder.add_body("arm", 0, "shoulder", JointType::revolute, {}, kAxis, kBody);
@@ -65,16 +65,16 @@ TEST_CASE("a parent must be a body that was added before") {
   }
 }
 
-TEST_CASE("links and joints have names of their own") {
+TEST_CASE("duplicate link and joint names are rejected") {
   ModelBuilder same_link = started();
   same_link.add_body("arm", 1, "wrist", JointType::revolute, {}, kAxis, kBody);
-  CHECK(only_fault(same_link, "link 'arm'", "the name is taken already"));
+  CHECK(only_fault(same_link, "link 'arm'", "duplicate"));
   ModelBuilder same_joint = started();
   same_joint.add_body("hand", 1, "shoulder", JointType::revolute, {}, kAxis, kBody);
-  CHECK(only_fault(same_joint, "joint 'shoulder'", "the name is taken already"));
+  CHECK(only_fault(same_joint, "joint 'shoulder'", "duplicate"));
 }
 
-TEST_CASE("a link may be called world, and is found before the base") {
+TEST_CASE("a link named world is found before the base") {
   ModelBuilder builder;
   builder.add_body("world", 0, "stand", JointType::fixed, {}, kAxis, kBody);
   builder.add_body("arm", 1, "shoulder", JointType::revolute, {}, kAxis, kBody);
@@ -87,7 +87,7 @@ TEST_CASE("a link may be called world, and is found before the base") {
   CHECK(started().build().find_body("world") == 0);
 }
 
-TEST_CASE("an axis must have a direction, where the joint has an axis") {
+TEST_CASE("joints with an axis reject a zero or non-finite axis") {
   for (const JointType type : all_joint_types)
     for (const Vector3& axis : {Vector3(0, 0, 0), Vector3(kNaN, 0, 1), Vector3(INFINITY, 0, 0)}) {
       CAPTURE(std::string(name_of(type)));
@@ -96,13 +96,13 @@ TEST_CASE("an axis must have a direction, where the joint has an axis") {
                             type == JointType::universal || type == JointType::planar;
       const ModelBuilder builder = with(kBody, {}, type, axis);
       if (has_axis)
-        CHECK(only_fault(builder, "joint 'wrist'", "axis has no direction"));
+        CHECK(only_fault(builder, "joint 'wrist'", "axis is zero"));
       else
         CHECK(faults_of(builder).empty());
     }
 }
 
-TEST_CASE("masses and inertias must be numbers, and masses not negative") {
+TEST_CASE("masses and inertias must be finite, masses not negative") {
   BodyInertia body = kBody;
   body.mass = -3;
   CHECK(only_fault(with(body), "link 'hand'", "mass is -3"));
@@ -117,7 +117,7 @@ TEST_CASE("masses and inertias must be numbers, and masses not negative") {
   CHECK(only_fault(with(body), "link 'hand'", "not a finite number"));
 }
 
-TEST_CASE("armature, damping and Coulomb friction must not be negative, pitches be numbers") {
+TEST_CASE("armature, damping and Coulomb friction must not be negative, pitch must be finite") {
   const auto set = [](double JointProperties::*member, double value) {
     JointProperties properties;
     properties.*member = value;
@@ -133,7 +133,7 @@ TEST_CASE("armature, damping and Coulomb friction must not be negative, pitches 
   CHECK(faults_of(set(&JointProperties::pitch, -0.1)).empty());
 }
 
-TEST_CASE("all faults are told at once") {
+TEST_CASE("all errors are reported at once") {
   BodyInertia negative = kBody;
   negative.mass = -1;
   JointProperties bad;
@@ -145,21 +145,21 @@ TEST_CASE("all faults are told at once") {
   CHECK(faults.size() == 7);  // parent, two names, axis, mass, armature, damping
 }
 
-TEST_CASE("a joint that moves nothing is refused, by name") {
+TEST_CASE("a joint with zero articulated inertia is rejected by name") {
   for (const JointType type : all_joint_types) {
     CAPTURE(std::string(name_of(type)));
     const ModelBuilder tip = with(kNothing, {}, type);
     if (type == JointType::fixed || type == JointType::prescribed)
       CHECK(faults_of(tip).empty());
     else
-      CHECK(only_fault(tip, "joint 'wrist'", "no inertia in its direction"));
+      CHECK(only_fault(tip, "joint 'wrist'", "articulated inertia"));
   }
-  // A point mass does not resist turning about itself, nor about a line through it.
+  // A point mass has no inertia about an axis through it.
   const BodyInertia point{1, Vector3::Zero(), Matrix3::Zero()}, below{1, -kAxis, Matrix3::Zero()};
-  CHECK(only_fault(with(point), "joint 'wrist'", "no inertia"));
-  CHECK(only_fault(with(below), "joint 'wrist'", "no inertia"));
-  CHECK(only_fault(with(below, {}, JointType::spherical), "joint 'wrist'", "no inertia"));
-  CHECK(only_fault(with(below, {}, JointType::free), "joint 'wrist'", "no inertia"));
+  CHECK(only_fault(with(point), "joint 'wrist'", "articulated inertia"));
+  CHECK(only_fault(with(below), "joint 'wrist'", "articulated inertia"));
+  CHECK(only_fault(with(below, {}, JointType::spherical), "joint 'wrist'", "articulated inertia"));
+  CHECK(only_fault(with(below, {}, JointType::free), "joint 'wrist'", "articulated inertia"));
   CHECK(faults_of(with(point, {}, JointType::prismatic)).empty());
   CHECK(faults_of(with(below, {}, JointType::universal, Vector3::UnitX())).empty());
   JointProperties geared;
@@ -167,8 +167,8 @@ TEST_CASE("a joint that moves nothing is refused, by name") {
   CHECK(faults_of(with(kNothing, geared)).empty());
 }
 
-TEST_CASE("links without inertia may carry others, unless two hinges turn about one line") {
-  ModelBuilder wrist = started();  // three hinges in a row, only the last link has inertia
+TEST_CASE("massless links may have children, except between two collinear revolute joints") {
+  ModelBuilder wrist = started();  // three revolute joints, only the last link has inertia
   wrist.add_body("a", 1, "roll", JointType::revolute, {}, Vector3::UnitX(), kNothing);
   wrist.add_body("b", 2, "pitch", JointType::revolute, {}, Vector3::UnitY(), kNothing);
   wrist.add_body("c", 3, "yaw", JointType::revolute, {}, kAxis, kBody);
@@ -176,15 +176,15 @@ TEST_CASE("links without inertia may carry others, unless two hinges turn about 
   ModelBuilder doubled = started();
   doubled.add_body("a", 1, "inner", JointType::revolute, {}, kAxis, kNothing);
   doubled.add_body("b", 2, "outer", JointType::revolute, {}, kAxis, kBody);
-  CHECK(tells(faults_of(doubled), "joint 'inner'", "no inertia in its direction"));
-  ModelBuilder far = started();  // the same hinges side by side are a crank: fine
+  CHECK(tells(faults_of(doubled), "joint 'inner'", "articulated inertia"));
+  ModelBuilder far = started();  // parallel axes at a distance are valid
   far.add_body("a", 1, "inner", JointType::revolute, {}, kAxis, kNothing);
   far.add_body("b", 2, "outer", JointType::revolute, {Matrix3::Identity(), {0.3, 0, 0}}, kAxis,
                kBody);
   CHECK(faults_of(far).empty());
 }
 
-TEST_CASE("tiny bodies and great ones, and inertias that no body has, are accepted") {
+TEST_CASE("very small and large bodies and inconsistent inertias are accepted") {
   BodyInertia dust = kBody, planet = kBody;
   dust.mass *= 1e-9;
   dust.inertia *= 1e-15;
@@ -193,14 +193,14 @@ TEST_CASE("tiny bodies and great ones, and inertias that no body has, are accept
   planet.inertia *= 1e9;
   CHECK(faults_of(with(dust)).empty());
   CHECK(faults_of(with(planet)).empty());
-  // The PUMA's published link 1 and link 3: no body, but good about its hinges.
+  // Published PUMA links 1 and 3: inconsistent inertia, but positive about the joints.
   const BodyInertia link1{0, Vector3::Zero(), Vector3(0, 0.35, 0).asDiagonal()};
   CHECK(faults_of(with(link1, {}, JointType::revolute, Vector3::UnitY())).empty());
   const BodyInertia link3{4.8, {-0.02, -0.014, 0.07}, Vector3(0.066, 0.086, 0.0125).asDiagonal()};
   CHECK(faults_of(with(link3)).empty());
 }
 
-TEST_CASE("the body's z is the joint's axis, by the shortest turn, for axes of any direction") {
+TEST_CASE("the body's z is the joint's axis, by the shortest rotation, for any direction") {
   for (const Vector3& axis :
        {Vector3(0, 0, 1), Vector3(0, 0, -1), Vector3(0, 0, 5), Vector3(1, 0, 0), Vector3(0, -2, 0),
         Vector3(1, 2, 3), Vector3(-1, 1, -3), Vector3(1e-3, 0, -1), Vector3(1e-6, 0, -1),
@@ -213,7 +213,7 @@ TEST_CASE("the body's z is the joint's axis, by the shortest turn, for axes of a
     CHECK((R_LB * kAxis - a).norm() < 4e-16);
     CHECK((R_LB.transpose() * R_LB - Matrix3::Identity()).norm() < 1e-15);
     CHECK(R_LB.determinant() == doctest::Approx(1).epsilon(1e-15));
-    // Shortest: the turn's axis is normal to z and to a, so it leaves z x a as it is.
+    // Shortest: the rotation's axis is normal to z and a, so z x a is invariant.
     const Vector3 normal = kAxis.cross(a);
     CHECK((R_LB * normal - normal).norm() <= 1e-15 * normal.norm() + 1e-300);
   }
@@ -223,7 +223,7 @@ TEST_CASE("the body's z is the joint's axis, by the shortest turn, for axes of a
   CHECK(to_eigen(against.turn[2]) == Matrix3(Vector3(1, -1, -1).asDiagonal()));
 }
 
-TEST_CASE("properties of a joint are those of each of its dofs; the pitch is a screw's alone") {
+TEST_CASE("joint properties apply to each dof; pitch applies to screw joints only") {
   JointProperties p;
   p.pitch = 0.2, p.armature = 1, p.damping = 2, p.coulomb_plus = 3, p.coulomb_minus = 4;
   for (const JointType type : all_joint_types) {
@@ -242,7 +242,7 @@ TEST_CASE("properties of a joint are those of each of its dofs; the pitch is a s
 
 namespace {
 
-ModelBuilder four_hinges() {
+ModelBuilder four_revolutes() {
   ModelBuilder builder;
   for (int i = 1; i <= 4; ++i) {
     const std::string n = std::to_string(i);
@@ -255,8 +255,8 @@ ModelBuilder four_hinges() {
 
 }  // namespace
 
-TEST_CASE("who follows a follower follows its leader") {
-  ModelBuilder builder = four_hinges();
+TEST_CASE("chains of mimic joints are resolved to the independent joint") {
+  ModelBuilder builder = four_revolutes();
   builder.add_mimic("j3", "j2", 2, 0.5);
   builder.add_mimic("j2", "j1", -3, 0.1);
   const Model<double> model = builder.build();
@@ -272,24 +272,24 @@ TEST_CASE("who follows a follower follows its leader") {
   CHECK(model.mimics[1].ratio == -3);
 }
 
-TEST_CASE("mimic joints need a leader, one dof each, and no circle") {
+TEST_CASE("mimic joints need an existing mimicked joint, one dof each, and no cycle") {
   const auto faults = [](const std::string& follower, const std::string& leader) {
-    ModelBuilder builder = four_hinges();
+    ModelBuilder builder = four_revolutes();
     builder.add_mimic(follower, leader, 1, 0);
     return faults_of(builder);
   };
-  CHECK(tells(faults("j2", "nobody"), "joint 'j2'", "'nobody'"));
-  CHECK(tells(faults("nobody", "j2"), "joint 'nobody'", "must exist"));
-  CHECK(tells(faults("j2", "j4"), "joint 'j2'", "one dof"));
-  CHECK(tells(faults("j4", "j2"), "joint 'j4'", "one dof"));
-  CHECK(tells(faults("j2", "j2"), "joint 'j2'", "follows itself"));
+  CHECK(tells(faults("j2", "missing"), "joint 'j2'", "'missing'"));
+  CHECK(tells(faults("missing", "j2"), "joint 'missing'", "must exist"));
+  CHECK(tells(faults("j2", "j4"), "joint 'j2'", "one degree of freedom"));
+  CHECK(tells(faults("j4", "j2"), "joint 'j4'", "one degree of freedom"));
+  CHECK(tells(faults("j2", "j2"), "joint 'j2'", "cyclic"));
 
-  ModelBuilder circle = four_hinges();
+  ModelBuilder circle = four_revolutes();
   circle.add_mimic("j1", "j2", 1, 0);
   circle.add_mimic("j2", "j3", 1, 0);
   circle.add_mimic("j3", "j1", 1, 0);
-  CHECK(tells(faults_of(circle), "joint 'j1'", "follows itself"));
-  ModelBuilder beside = four_hinges();  // leads into a circle without being in it
+  CHECK(tells(faults_of(circle), "joint 'j1'", "cyclic"));
+  ModelBuilder beside = four_revolutes();  // leads into a cycle without being in it
   beside.add_mimic("j1", "j2", 1, 0);
   beside.add_mimic("j2", "j3", 1, 0);
   beside.add_mimic("j3", "j2", 1, 0);

@@ -1,4 +1,4 @@
-// Derivatives of forward dynamics by dual numbers against differences of forward dynamics.
+// Derivatives of forward dynamics by dual numbers against finite differences.
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
 
@@ -32,7 +32,7 @@ VectorXd slope(const Model<double>& model, const State<double>& x, const Forces<
 
 }  // namespace
 
-TEST_CASE("derivatives of qdd by q, qd and tau are those that differences find, for every joint") {
+TEST_CASE("derivatives of qdd by q, qd and tau agree with finite differences, for every joint") {
   Random random(1);
   double by_q = 0, by_qd = 0, by_tau = 0;
   for (const auto& types : lists_of_types())

@@ -6,7 +6,7 @@
 using namespace twinarm;
 using namespace twinarm::testing;
 
-TEST_CASE("links stand and move in the world as their joints are defined") {
+TEST_CASE("poses, velocities and accelerations of links follow the joint definitions") {
   Random random(1);
   double pose = 0, velocity = 0, acceleration = 0;
   for (const auto& types : lists_of_types())
@@ -46,7 +46,7 @@ TEST_CASE("links stand and move in the world as their joints are defined") {
   CHECK(acceleration < 1e-12);
 }
 
-TEST_CASE("columns of S are the velocities of the link per unit of each velocity of its joint") {
+TEST_CASE("columns of S are the link velocities per unit joint velocity") {
   Random random(2);
   double worst = 0;
   for (const auto& types : lists_of_types())
@@ -65,8 +65,8 @@ TEST_CASE("columns of S are the velocities of the link per unit of each velocity
   CHECK(worst < 1e-12);
 }
 
-// tau_k = sum over bodies of (the unit motion k) . (what Newton and Euler ask for).
-TEST_CASE("rnea and crba: Newton's and Euler's equations of each body in the world") {
+// tau_k = sum over bodies of (unit motion k) . (Newton-Euler wrench).
+TEST_CASE("rnea and crba agree with the Newton-Euler equations of each body in the world") {
   Random random(3);
   double torque = 0, mass = 0;
   for (const auto& types : lists_of_types())
@@ -121,7 +121,7 @@ TEST_CASE("rnea and crba: Newton's and Euler's equations of each body in the wor
   CHECK(mass < 1e-13);
 }
 
-TEST_CASE("the force through a joint is what the bodies beyond it need, in the world") {
+TEST_CASE("the joint wrench is the sum of the Newton-Euler wrenches of the descendants") {
   Random random(4);
   for (int n = 0; n < 100; ++n) {
     MovingTree t(random, random.integer(1, 5), {all_joint_types.begin(), all_joint_types.end()});
@@ -142,13 +142,13 @@ TEST_CASE("the force through a joint is what the bodies beyond it need, in the w
       angular += (link.X.p + c).cross(need) + I * link.alpha + link.w.cross(I * link.w) - N -
                  link.X.p.cross(F);
     }
-    // f[0] is what the base passes on: the sum over its children, about the world's origin.
+    // f[0]: wrench of the base on all bodies, about the world's origin.
     CHECK(length_of(real(f[0].f) - linear) < 1e-10 * (1 + length_of(linear)));
     CHECK(length_of(real(f[0].n) - angular) < 1e-10 * (1 + length_of(angular)));
   }
 }
 
-TEST_CASE("integrate moves along the velocities: q exp(shift) as the joint is defined") {
+TEST_CASE("integrate() is q exp(delta) of the joint definition") {
   Random random(5);
   const std::vector<double> none;
   for (const JointType type : all_joint_types)
@@ -166,7 +166,7 @@ TEST_CASE("integrate moves along the velocities: q exp(shift) as the joint is de
         joint.integrate(in_place.q.data(), shift.data(), in_place.q.data());
       });
       CHECK(in_place.q == moved.q);
-      // Prescribed joints stay: at time 0.
+      // Prescribed joints: at time 0.
       const RealPose expected = link_poses(t.bodies, t.model, q_with_prescribed(t.model, t.x),
                                            shift, zero, type == JointType::prescribed ? 0 : 1)[1];
       const RealPose got =

@@ -1,5 +1,4 @@
-// What the passes owe each other, for every joint, scalar and level of the instruction set: forward
-// and inverse dynamics, the mass matrix and its inverse come from four texts.
+// Consistency of ABA, RNEA, CRBA and M^-1 for every joint, scalar and instruction-set level.
 #include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "tests/solver/dynamics/every_scalar.h"
@@ -11,7 +10,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-// M, h = C(q, qd, f_ext) and qdd in the passes' own scalar.
+// M, h = C(q, qd, f_ext) and qdd in the scalar of the algorithms.
 template <class S>
 struct Dynamics {
   Workspace<S> forward, inverse, bias;
@@ -41,8 +40,8 @@ double round_trip(const Packed<S>& p, const Passes<S>& passes) {
   return worst;
 }
 
-// qdd against M^-1 (tau - h): relative to |qdd|, and in units of the rounding that M^-1 cannot but
-// magnify, eps (cond(M) |qdd| + |M^-1| (|tau| + |h|)).
+// qdd against M^-1 (tau - h): relative to |qdd|, and in units of the amplified rounding
+// eps (cond(M) |qdd| + |M^-1| (|tau| + |h|)).
 struct Difference {
   double relative = 0, in_roundings = 0;
 };
@@ -68,7 +67,7 @@ Difference against_dense(const Packed<S>& p, const Passes<S>& passes) {
 
 }  // namespace
 
-TEST_CASE("rnea gives back the torques that aba was given, on 1000 random trees of every joint") {
+TEST_CASE("rnea inverts aba on 1000 random trees of all joints") {
   Random random(1);
   double worst = 0;
   for (int n = 0; n < 1000; ++n) {
@@ -80,8 +79,7 @@ TEST_CASE("rnea gives back the torques that aba was given, on 1000 random trees 
   CHECK(worst <= 1e-14);
 }
 
-TEST_CASE_TEMPLATE("rnea gives back the torques that aba was given: each joint alone, and mixed", S,
-                   TWINARM_SCALARS) {
+TEST_CASE_TEMPLATE("rnea inverts aba: each joint alone, and mixed", S, TWINARM_SCALARS) {
   Random random(2);
   double worst = 0;
   for (const auto& types : lists_of_types())
@@ -169,7 +167,7 @@ TEST_CASE_TEMPLATE("minv_times on unit vectors is the inverse of M and symmetric
   CHECK(symmetric <= 1e-12 * coarseness<S>);
 }
 
-TEST_CASE("minv_times takes forces on bodies as J^T f, and leaves the accelerations they cause") {
+TEST_CASE("minv_times with wrenches on bodies is M^-1 J^T f, with their accelerations") {
   Random random(6);
   for (const auto& types : lists_of_types())
     for (int n = 0; n < 20; ++n) {

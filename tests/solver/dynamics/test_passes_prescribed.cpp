@@ -1,4 +1,4 @@
-// A joint whose motion is given from outside is a free joint that inverse dynamics moves so.
+// A prescribed joint is equivalent to a free joint with the force of inverse dynamics.
 #include "tests/solver/dynamics/every_scalar.h"
 
 using namespace twinarm;
@@ -6,7 +6,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// The same tree with its base driven, or free.
+// The same tree with prescribed or free base.
 struct DrivenAndFree {
   Model<double> driven, free;
   State<double> x_driven, x_free;
@@ -48,7 +48,7 @@ struct DrivenAndFree {
 
 }  // namespace
 
-TEST_CASE("a driven base moves its tree as a free base that is forced to the same motion") {
+TEST_CASE("a prescribed base is equivalent to a free base that is forced to the same motion") {
   Random random(1);
   for (int n = 0; n < 100; ++n) {
     const DrivenAndFree both(random);
@@ -63,14 +63,14 @@ TEST_CASE("a driven base moves its tree as a free base that is forced to the sam
     for (const double tau : w_free.tau) scale = std::max(scale, std::abs(tau));
     for (std::size_t k = 0; k < both.driven.nv; ++k)
       CHECK(std::abs(w_free.tau[6 + k] - forces.tau[k]) < 1e-12 * scale);
-    // ... and the free base given that force through its joint keeps to it.
+    // The free base with that joint force has the same motion.
     Forces<double> forced(both.free);
     forced.f_ext = forces.f_ext;
     forced.tau = w_free.tau;
     aba(both.free, both.x_free, forced, w_free);
     for (std::size_t k = 0; k < qdd.size(); ++k)
       CHECK(w_free.qdd[k] == doctest::Approx(qdd[k]).epsilon(1e-8));
-    // The force that drives the base is that of the free joint.
+    // The force of the prescribed joint is that of the free joint.
     rnea(both.driven, both.x_driven, w.qdd, forces.f_ext, w);
     rnea(both.free, both.x_free, qdd, forces.f_ext, w_free);
     const Force<double> difference = w.f[1] - w_free.f[1];

@@ -1,4 +1,4 @@
-// The scalars that the passes run with: what one gives, the others give too.
+// Scalars of the algorithms agree with one another.
 #include <cmath>
 #include <cstring>
 
@@ -51,7 +51,7 @@ TEST_CASE("sin_cos is within 1.6 ulp of the true sine and cosine for |x| <= 200"
   CHECK(cosine <= 1.6);
 }
 
-TEST_CASE("sin_cos far out, of infinity and of NaN is libm's") {
+TEST_CASE("sin_cos of large, infinite and NaN arguments is that of libm") {
   for (const double x : {200.1, -1e3, 1e9, 1e300, HUGE_VAL, -HUGE_VAL, std::nan("")}) {
     const SinCos<double> got = sin_cos(x);
     CHECK(ulps(got.sin, std::sin(x)) == 0);
@@ -59,8 +59,8 @@ TEST_CASE("sin_cos far out, of infinity and of NaN is libm's") {
   }
 }
 
-TEST_CASE_TEMPLATE("sin_cos of lanes: each as if it were alone, whatever the others hold", S,
-                   Batch<4>, Batch<8>) {
+TEST_CASE_TEMPLATE("sin_cos of lanes: each lane is independent of the others", S, Batch<4>,
+                   Batch<8>) {
   Random random(2);
   const double odd_ones[] = {201, -1e6, 1e300, HUGE_VAL, -HUGE_VAL, std::nan("")};
   for (int n = 0; n < 2000; ++n) {
@@ -80,7 +80,7 @@ TEST_CASE_TEMPLATE("sin_cos of lanes: each as if it were alone, whatever the oth
   }
 }
 
-TEST_CASE_TEMPLATE("lanes add, multiply, divide, compare and choose as doubles do", S, Batch<4>,
+TEST_CASE_TEMPLATE("lanes add, multiply, divide, compare and select as doubles", S, Batch<4>,
                    Batch<8>) {
   Random random(3);
   for (int n = 0; n < 100; ++n) {
@@ -128,15 +128,16 @@ TEST_CASE("dual numbers differentiate every operation") {
   CHECK_FALSE(is_nonzero(Dual<8>(0)));
 }
 
-TEST_CASE_TEMPLATE("every scalar and level gives what double gives at the generic level", S,
+TEST_CASE_TEMPLATE("every scalar and level agrees with double at the generic level", S,
                    TWINARM_SCALARS) {
   Random random(4);
   double worst = 0;
   for (const auto& types : lists_of_types())
     for (int n = 0; n < 10; ++n) {
       Packed<S> p(random, random_tree(random, random.integer(1, 8), types));
-      const bool geared = random.integer(0, 1) ==
-                          1;  // in all lanes or none: a hinge without any has an order of its own
+      const bool geared =
+          random.integer(0, 1) ==
+          1;  // in all lanes or none: revolute joints without armature use another formula
       for (Forces<double>& f : p.forces)
         for (std::size_t i = 1; i < p.model.parent.size(); ++i) {
           for (std::size_t k = p.model.iv[i]; k < p.model.iv[i] + p.model.dofs(i) && geared; ++k)
@@ -154,7 +155,7 @@ TEST_CASE_TEMPLATE("every scalar and level gives what double gives at the generi
           const Eigen::VectorXd got = lane_of(w.qdd, lane), expected = lane_of(alone.qdd, 0);
           if (p.model.nv == 0) continue;
           worst = std::max(worst, (got - expected).norm() / expected.norm());
-          if (isa == Isa::generic && Scalar<S>::lanes > 1) CHECK(got == expected);  // to the bit
+          if (isa == Isa::generic && Scalar<S>::lanes > 1) CHECK(got == expected);  // bit-identical
         }
       }
     }
@@ -162,8 +163,8 @@ TEST_CASE_TEMPLATE("every scalar and level gives what double gives at the generi
   CHECK(worst <= 1e-11 * coarseness<S>);
 }
 
-TEST_CASE_TEMPLATE("a lane far out or not finite leaves the others as they are, to the bit", S,
-                   Batch<4>, Batch<8>) {
+TEST_CASE_TEMPLATE("a large or non-finite lane leaves the others bit-identical", S, Batch<4>,
+                   Batch<8>) {
   Random random(5);
   const double odd_ones[] = {250, -3e5, HUGE_VAL, std::nan("")};
   for (int n = 0; n < 200; ++n) {
@@ -182,7 +183,7 @@ TEST_CASE_TEMPLATE("a lane far out or not finite leaves the others as they are, 
   }
 }
 
-TEST_CASE("hinges that have turned very far accelerate as those at the same angle near zero") {
+TEST_CASE("revolute joints after many turns accelerate as at the same angle near zero") {
   Random random(7);
   for (int n = 0; n < 100; ++n) {
     const Model<double> model = random_tree(random, 8, {JointType::revolute});
@@ -202,7 +203,7 @@ TEST_CASE("hinges that have turned very far accelerate as those at the same angl
   }
 }
 
-TEST_CASE("the level can be capped, and none is above the processor's best") {
+TEST_CASE("the instruction-set level can be limited, and is supported by the processor") {
   CHECK(std::string(name_of(Isa::generic)) == "generic");
   CHECK(std::string(name_of(Isa::v3)) == "v3");
   CHECK(std::string(name_of(Isa::v4)) == "v4");

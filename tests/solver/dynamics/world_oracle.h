@@ -1,7 +1,6 @@
-// Mechanisms by their definition: where the links stand in the world, from rotations about axes
-// that stand in the builder's input, in long double; velocities and accelerations by differencing
-// those poses along a motion, forces by Newton and Euler about each centre of mass. Shares no line
-// with the solver: no spatial vectors, no body frames, no recursion over velocities.
+// Cross-check by definition, in long double: poses of the links from rotations about the axes of
+// the builder's input, velocities and accelerations by finite differences of poses along a motion,
+// forces by Newton-Euler about each centre of mass. Shares no code with the solver.
 #pragma once
 
 #include <array>
@@ -30,7 +29,7 @@ inline RealMatrix3 rotation_by(const RealVector3& turn) {
   const Real angle = turn.norm();
   return angle > 0 ? rotation_about(turn / angle, angle) : RealMatrix3::Identity();
 }
-// The shortest rotation that takes z to the axis; not for axes along -z.
+// Shortest rotation from z to the axis; not for axes along -z.
 inline RealMatrix3 from_z_to(const RealVector3& unit_axis) {
   const RealVector3 normal = RealVector3::UnitZ().cross(unit_axis);
   if (normal.norm() == 0) return RealMatrix3::Identity();
@@ -40,8 +39,7 @@ inline RealMatrix3 of_quaternion(const double* q) {
   return Eigen::Quaternion<Real>(q[0], q[1], q[2], q[3]).toRotationMatrix();
 }
 
-// Where the link stands in its joint's frame, after moving from q by `shift` along its velocities;
-// t: time, for the joint whose motion is given.
+// Pose of the link in its joint's frame at q exp(shift); t: time, for prescribed joints.
 inline RealPose joint_pose(const TreeBody& body, const double* q, const RealVector& shift, Real t) {
   const RealVector3 a = body.axis.cast<Real>().normalized();
   const auto along = [&](int k) { return q[k] + shift[k]; };
@@ -158,7 +156,7 @@ inline std::vector<LinkMotion> link_motions(const std::vector<TreeBody>& bodies,
 inline std::vector<std::vector<LinkMotion>> unit_motions(std::vector<TreeBody> bodies,
                                                          const Model<double>& model,
                                                          std::vector<double> q) {
-  for (std::size_t i = 1; i <= bodies.size(); ++i)  // given motions stand still
+  for (std::size_t i = 1; i <= bodies.size(); ++i)  // prescribed joints at rest
     if (bodies[i - 1].type == JointType::prescribed)
       std::fill_n(&q[model.iq[i] + model.ip[i] + 7], 12, 0.0);
   std::vector<std::vector<LinkMotion>> by_dof;
@@ -185,7 +183,7 @@ inline std::vector<double> random_numbers(Random& random, std::size_t n, double 
   return all;
 }
 
-// A random tree on its way, with what the oracle says of it.
+// A random moving tree, with the results of the cross-check.
 struct MovingTree {
   std::vector<TreeBody> bodies;
   Model<double> model;

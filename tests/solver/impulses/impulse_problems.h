@@ -1,5 +1,4 @@
-// Random problems of impulses, and the laws as one would check them by hand: in their plain form,
-// without projections.
+// Random impulse problems, and a check of the constraint laws as inequalities, without projections.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +13,7 @@
 
 namespace twinarm::testing {
 
-// A body that moves freely, its twist (angular; linear) at its centre, some 0.3 m in size.
+// A free body, about 0.3 m in size; velocity (angular; linear) at its centre.
 inline void add_body(ImpulseProblem& problem, Random& random, double mass) {
   const int tree = problem.add_tree(6);
   const BodyInertia body = random.inertia();
@@ -39,8 +38,8 @@ inline void add_rows(ImpulseProblem& problem, const ImpulseConstraint& c, int si
   }
 }
 
-// Free bodies with masses up to `ratio` apart, and laws of all kinds between them or to the world:
-// contacts, limits and dry friction between points, torsional and rolling friction, locks.
+// Free bodies with masses up to `ratio` apart, and constraints of all types between them or to the
+// world: contacts, limits, box friction, torsional and rolling friction, locks.
 inline ImpulseProblem random_problem(unsigned seed, int bodies, int constraints, double ratio,
                                      bool contacts_only = false) {
   Random random(seed);
@@ -77,8 +76,8 @@ inline ImpulseProblem random_problem(unsigned seed, int bodies, int constraints,
   return problem;
 }
 
-// A pyramid of boxes of 1 kg and 0.1 m side, `levels` high and a little apart, that are thrown
-// about while they touch: four contacts where a box lies on another, with restitution.
+// A pyramid of boxes of 1 kg and 0.1 m side, `levels` high, with random velocities while they
+// touch: four contacts per pair, with restitution.
 inline ImpulseProblem struck_pyramid(unsigned seed, int levels) {
   constexpr double half = 0.05, apart = 0.02;
   Random random(seed);
@@ -119,7 +118,7 @@ inline ImpulseProblem struck_pyramid(unsigned seed, int levels) {
   return problem;
 }
 
-// problems/NAME.txt: a problem that a run of shoved scenes met; bodies are free. A line each: # and
+// problems/NAME.txt: a problem from simulated scenes; free bodies. A line each: # and
 // a comment; tree, the lower triangle of M, v0; or law, rows, trees of both sides (-1: none), of,
 // mu or radius, b, the guess of p, J of both sides.
 inline ImpulseProblem read_problem(const std::string& name) {
@@ -156,7 +155,7 @@ inline ImpulseProblem read_problem(const std::string& name) {
   return problem;
 }
 
-// The largest breach of a law, in m/s, N s, or J over 1 + |p|.
+// Largest violation of a law, in m/s, N s, or J over 1 + |p|.
 inline double breach(const ImpulseProblem& problem, const ImpulseConstraint& c) {
   const double slip = std::hypot(c.u[1], c.u[2]), hold = std::hypot(c.p[1], c.p[2]);
   double worst = 0;
@@ -168,7 +167,7 @@ inline double breach(const ImpulseProblem& problem, const ImpulseConstraint& c) 
       break;
     case ConstraintType::coulomb_cone:
       at_most_zero(hold - c.mu * c.p[0]);
-      // What slips, slips against the force, which is then as large as it may be.
+      // Sliding: velocity opposite to the friction force, which is at its limit.
       zero(c.p[1] * c.u[1] + c.p[2] * c.u[2] + c.mu * c.p[0] * slip);
       [[fallthrough]];
     case ConstraintType::unilateral:

@@ -1,5 +1,5 @@
-// The parts of the impulse solver: the envelope factors, the cone's algebra, the blocks of M; and
-// how it ends where a velocity is a small difference of large ones.
+// Parts of the impulse solver: envelope LU, cone algebra, blocks of M; and convergence if a contact
+// velocity is a small difference of large numbers.
 #include <doctest/doctest.h>
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@
 using namespace twinarm;
 using namespace twinarm::testing;
 
-TEST_CASE("envelope factors solve like a dense factorisation, symmetric or not") {
+TEST_CASE("envelope LU agrees with a dense factorisation, symmetric or not") {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> unit(-1, 1);
   const std::vector<std::size_t> first{0, 0, 1, 0, 3, 2, 6, 4};
@@ -37,7 +37,7 @@ TEST_CASE("envelope factors solve like a dense factorisation, symmetric or not")
   }
 }
 
-TEST_CASE("the scaling of a pair in the cone takes both to the same point") {
+TEST_CASE("Nesterov-Todd scaling maps x and z to the same point") {
   std::mt19937 random(8);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int i = 0; i < 1000; ++i) {
@@ -57,7 +57,7 @@ TEST_CASE("the scaling of a pair in the cone takes both to the same point") {
     for (int r = 0; r < 3; ++r) CHECK(y[r] == doctest::Approx(z[r]).epsilon(1e-7));
     const ConeVec d{unit(random), unit(random), unit(random)};
     const double step = cone_step(x, d);
-    if (step > 1e6) continue;  // it never leaves
+    if (step > 1e6) continue;  // never leaves the cone
     const ConeVec end{x[0] + step * d[0], x[1] + step * d[1], x[2] + step * d[2]};
     CHECK(std::abs(end[0] - std::hypot(end[1], end[2])) < 1e-9 * (1 + step));
     const ConeVec before{x[0] + 0.999 * step * d[0], x[1] + 0.999 * step * d[1],
@@ -66,7 +66,7 @@ TEST_CASE("the scaling of a pair in the cone takes both to the same point") {
   }
 }
 
-TEST_CASE("the blocks of the trees are the mass matrix, and their rows the Jacobians") {
+TEST_CASE("blocks of the trees are the mass matrix, rows are the Jacobians") {
   for (unsigned seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
     Random random(seed);
@@ -84,8 +84,9 @@ TEST_CASE("the blocks of the trees are the mass matrix, and their rows the Jacob
         const int t = trees.tree_of_dof(a);
         const auto n = static_cast<std::size_t>(problem.size(t));
         const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
-        const double entry =
-            t == trees.tree_of_dof(b) ? problem.M(t)[trees.place(a) * n + trees.place(b)] : 0;
+        const double entry = t == trees.tree_of_dof(b)
+                                 ? problem.M(t)[trees.index_in_tree(a) * n + trees.index_in_tree(b)]
+                                 : 0;
         CHECK(entry == doctest::Approx(M(row, column)).epsilon(1e-12).scale(1));
       }
     Kinematics k(model);
@@ -101,7 +102,7 @@ TEST_CASE("the blocks of the trees are the mass matrix, and their rows the Jacob
       for (std::size_t dof = 0; dof < model.nv; ++dof)
         for (int r = 0; r < 3; ++r) {
           const double entry = trees.tree_of_dof(dof) == t
-                                   ? J[static_cast<std::size_t>(r) * n + trees.place(dof)]
+                                   ? J[static_cast<std::size_t>(r) * n + trees.index_in_tree(dof)]
                                    : 0;
           CHECK(entry == doctest::Approx(expected(r, static_cast<int>(dof))).scale(1));
         }
@@ -109,9 +110,10 @@ TEST_CASE("the blocks of the trees are the mass matrix, and their rows the Jacob
   }
 }
 
-// u of the contact is 0 to rounding, but a sum of terms as large as the speed of the rim. Where it
-// holds, p = -(J M^-1 J^T)^-1 (J v0).
-TEST_CASE("a small body that rolls fast is solved to 1e-11 m/s by rounds, as a rule") {
+// u of the contact is 0 to rounding, a sum of terms as large as the rim speed. If it sticks,
+// p = -(J M^-1 J^T)^-1 (J v0).
+TEST_CASE(
+    "a small body that rolls fast: residual 1e-11 m/s by augmented Lagrangian in most cases") {
   Random random(3);
   int held_ones = 0, far = 0;
   for (int trial = 0; trial < 300; ++trial) {
@@ -153,9 +155,9 @@ TEST_CASE("a small body that rolls fast is solved to 1e-11 m/s by rounds, as a r
   CHECK(far < held_ones / 20);
 }
 
-// From a guess that presses too hard a large rho lets go at first sight; rounds whose shifts were
-// held then came nearer by mu at a time, and the interior path had to be asked.
-TEST_CASE("a point that slides on is found in a few steps, however hard its guess presses") {
+// With a large rho, a guess that is too large is projected to zero impulse; iterations with frozen
+// shift then converge linearly with factor mu.
+TEST_CASE("a sliding point converges in a few steps from too large a guess") {
   const double mass = 2, mu = 0.3, falls = 0.05, slides = 0.4;
   for (const double factor : {0.2, 0.9, 1.1, 1.5, 3.0}) {
     ImpulseProblem problem;

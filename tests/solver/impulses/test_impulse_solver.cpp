@@ -1,4 +1,4 @@
-// The solver of impulses against the laws in their plain form, and against closed forms.
+// Impulse solver against the constraint laws as inequalities, and against closed forms.
 #include "solver/impulses/impulse_solver.h"
 
 #include <doctest/doctest.h>
@@ -25,8 +25,8 @@ ImpulseProblem point_on_plane(double mu, std::array<double, 3> v) {
   return problem;
 }
 
-// More contacts than velocities, friction to 5, masses 10^4 apart. All contacts can part (b >= 0),
-// so there is a solution; without central_path.cpp 105 of 500 are not found.
+// More contacts than velocities, friction up to 5, mass ratio 10^4. All contacts can separate
+// (b >= 0), so a solution exists; without central_path.cpp 105 of 500 are not found.
 ImpulseProblem hard_problem(unsigned seed) {
   const int bodies = 1 + static_cast<int>(seed % 5);
   const int contacts = 2 * bodies * (1 + static_cast<int>(seed % 3));
@@ -36,7 +36,7 @@ ImpulseProblem hard_problem(unsigned seed) {
   return problem;
 }
 
-// The i-th constraint once more, on trees whose numbers are so much larger.
+// Copy of constraint i, on trees with an offset.
 void add_copy(ImpulseProblem& problem, std::size_t i, int shift) {
   const ImpulseConstraint original = problem.constraints()[i];
   const auto moved = [&](int t) { return t == ImpulseConstraint::no_tree ? t : t + shift; };
@@ -51,7 +51,7 @@ void add_copy(ImpulseProblem& problem, std::size_t i, int shift) {
 
 }  // namespace
 
-TEST_CASE("1000 random problems of every law end in velocities and impulses that obey them") {
+TEST_CASE("1000 random problems of every constraint type satisfy their laws") {
   double worst_breach = 0, worst_balance = 0;
   int unsolved = 0;
   for (unsigned seed = 0; seed < 1000; ++seed) {
@@ -69,7 +69,7 @@ TEST_CASE("1000 random problems of every law end in velocities and impulses that
   CHECK(unsolved == 0);
 }
 
-TEST_CASE("500 random problems of hard friction, over-determined, end in what obeys their laws") {
+TEST_CASE("500 over-determined random problems with large friction satisfy their laws") {
   double worst_breach = 0, worst_residual = 0;
   for (unsigned seed = 0; seed < 500; ++seed) {
     ImpulseProblem problem = hard_problem(seed);
@@ -84,9 +84,9 @@ TEST_CASE("500 random problems of hard friction, over-determined, end in what ob
   CHECK(worst_breach < 1e-7);
 }
 
-// Four laws to a body, which redundant contacts and discs of their own are among. Before rounds
-// went back to their best and on from there, four of these were not found.
-TEST_CASE("600 random problems of every law, over-determined, end in what obeys their laws") {
+// Four constraints per body, including redundant contacts and discs. Without restarts from the best
+// iterate four of these are not found.
+TEST_CASE("600 over-determined random problems of every constraint type satisfy their laws") {
   double worst_breach = 0, worst_residual = 0;
   for (unsigned seed = 0; seed < 600; ++seed) {
     ImpulseProblem problem =
@@ -102,15 +102,14 @@ TEST_CASE("600 random problems of every law, over-determined, end in what obeys 
   CHECK(worst_breach < 1e-6);  // residual 1e-8 m/s, impulses of masses up to 1000
 }
 
-// Limits of rolling and turning that follow their contact's impulse: held from one round to the
-// next they left 4e-8 m/s in the first four, up to 1.4e-6 elsewhere. In the wedges, where impulses
-// that hold one another may be as large as they like, one comes from the middle of all impulses to
-// the jam, whose impulses only seem to do; from the guess, or from none, to what slides.
-TEST_CASE("problems that shoved scenes met are solved, from any guess, without endless impulses") {
+// Rolling and torsional friction with limits that follow the contact's impulse: frozen limits left
+// residuals of 4e-8 m/s in the first four, up to 1.4e-6 elsewhere. In the wedges, where internal
+// impulses are unbounded, an interior start leads to jamming, the guess or zero to sliding.
+TEST_CASE("problems of simulated scenes are solved from any guess, with bounded impulses") {
   struct {
     const char* name;
     double largest;         // normal impulse [N s]
-    bool from_none = true;  // is found without a guess, too
+    bool from_none = true;  // also solved without a guess
   } const table[] = {{"rolling_pair", 1e300}, {"rolling_corner", 1e300},
                      {"rolling_rest", 1e300}, {"leaning_stack", 1e300},
                      {"sliding_wedge", 0.1},  {"sliding_wedge_next", 0.1},
@@ -134,8 +133,8 @@ TEST_CASE("problems that shoved scenes met are solved, from any guess, without e
     }
 }
 
-// Found by halving the restitution: what is left of the law falls with it, and only at none is
-// there a solution, as in the groove below.
+// The residual decreases with the restitution; only without restitution there is a solution, as in
+// the groove below.
 TEST_CASE(
     "a bounce out of a wedge that holds by friction has no solution; without it there is one") {
   for (const std::string name : {"jammed_bounce", "jammed_rod"})
@@ -154,10 +153,9 @@ TEST_CASE(
     }
 }
 
-// Up to 256 contacts, with many sets of impulses for the same velocities. Four of these (seed 17 of
-// five levels, all of eight) were left at 3e-6 to 2e-5 m/s before rounds counted what their inner
-// problem leaves open, and several paths were tried.
-TEST_CASE("pyramids that are struck end in what obeys their laws") {
+// Up to 256 redundant contacts. Four of these (seed 17 of five levels, all of eight) had residuals
+// of 3e-6 to 2e-5 m/s without the inner residual and with a single central path.
+TEST_CASE("pyramids with random velocities satisfy their laws") {
   const auto check = [](unsigned seed, int levels) {
     CAPTURE(seed);
     ImpulseProblem problem = struck_pyramid(seed, levels);
@@ -173,10 +171,10 @@ TEST_CASE("pyramids that are struck end in what obeys their laws") {
   for (const unsigned seed : {3u, 217u, 440u}) check(seed, 8);
 }
 
-// Normals along x and y, both of which are to leave at 1 m/s: so v_x, v_y >= 1 and friction pulls
-// against both. By symmetry m = (1 - mu) p. From mu = 1 on the sum of all impulses points into the
-// groove: no solution.
-TEST_CASE("a bounce in a groove: p = m / (1 - mu), and none from mu = 1 on") {
+// Normals along x and y with separation velocity 1 m/s each: v_x, v_y >= 1, friction opposes both.
+// By symmetry m = (1 - mu) p. For mu >= 1 the sum of the impulses points into the groove:
+// infeasible.
+TEST_CASE("a bounce in a groove: p = m / (1 - mu), infeasible for mu >= 1") {
   for (const double mu : {0.0, 0.5, 0.9, 1.1, 3.0}) {
     CAPTURE(mu);
     ImpulseProblem problem = point_on_plane(std::max(mu, 1e-12), {0, 0, 0});
@@ -184,7 +182,7 @@ TEST_CASE("a bounce in a groove: p = m / (1 - mu), and none from mu = 1 on") {
     ImpulseConstraint &a = problem.constraints()[0], &b = problem.constraints()[1];
     b.mu = a.mu;
     a.b[0] = b.b[0] = -1;
-    // a: normal z, as it was; b: normal x
+    // a: normal z, unchanged; b: normal x
     problem.J(b, 0)[0] = problem.J(b, 0)[4] = problem.J(b, 0)[8] = 1;
     ImpulseSolver solver;
     const ImpulseReport report = solver.solve(problem);
@@ -195,7 +193,7 @@ TEST_CASE("a bounce in a groove: p = m / (1 - mu), and none from mu = 1 on") {
   }
 }
 
-TEST_CASE("a point that slides stops or slows by mu g, and never lifts") {
+TEST_CASE("a sliding point stops or decelerates by mu g, and never separates") {
   for (const double mu : {0.0, 0.3, 1.0, 2.0}) {
     CAPTURE(mu);
     const double down = 0.1, along = 0.15;
@@ -212,7 +210,7 @@ TEST_CASE("a point that slides stops or slows by mu g, and never lifts") {
   }
 }
 
-TEST_CASE("what parts feels nothing; a gap may close and no more") {
+TEST_CASE("separating contacts have no impulse; a gap closes to zero at most") {
   ImpulseProblem parting = point_on_plane(0.5, {1, 0, 0.2});
   ImpulseSolver solver;
   solver.solve(parting);
@@ -223,7 +221,7 @@ TEST_CASE("what parts feels nothing; a gap may close and no more") {
   CHECK(closing.v(0)[2] == doctest::Approx(-0.05).epsilon(1e-9));
 }
 
-TEST_CASE("the same contact many times over changes no velocity") {
+TEST_CASE("duplicate contacts do not change velocities") {
   for (unsigned seed = 0; seed < 50; ++seed) {
     CAPTURE(seed);
     ImpulseProblem once = random_problem(seed, 3, 4, 10, true);
@@ -233,13 +231,13 @@ TEST_CASE("the same contact many times over changes no velocity") {
     ImpulseSolver solver;
     REQUIRE(solver.solve(once).converged);
     REQUIRE(solver.solve(often).converged);
-    // Coulomb's law can have several solutions; with the first as a guess it is to stay.
+    // Coulomb friction can have several solutions; the guess selects the first one.
     for (std::size_t k = 0; k < once.nv(); ++k)
       CHECK(often.v(0)[k] == doctest::Approx(once.v(0)[k]).epsilon(1e-6));
   }
 }
 
-TEST_CASE("a solution as the guess is found to do; the same problem gives the same bits") {
+TEST_CASE("a solution is accepted as guess; results are bit-reproducible") {
   ImpulseProblem problem = random_problem(3, 6, 12, 10);
   ImpulseSolver solver, other;
   solver.solve(problem);
@@ -251,11 +249,11 @@ TEST_CASE("a solution as the guess is found to do; the same problem gives the sa
   CHECK(fresh.solve(problem).solved == 0);
 }
 
-TEST_CASE("islands do not feel one another") {
+TEST_CASE("islands are independent") {
   ImpulseProblem both = random_problem(11, 3, 5, 10, true);
   ImpulseProblem first = both;
   const std::size_t nv = first.nv();
-  // The same once more beside it, on trees of its own.
+  // A copy on separate trees.
   const std::size_t count = both.constraints().size();
   for (int t = 0; t < 3; ++t) {
     const int copy = both.add_tree(both.size(t));
@@ -272,7 +270,7 @@ TEST_CASE("islands do not feel one another") {
   }
 }
 
-TEST_CASE("a solver that has seen a problem of this size allocates nothing") {
+TEST_CASE("the solver allocates nothing after a problem of the same size") {
   ImpulseProblem problem = random_problem(5, 8, 30, 10);
   ImpulseSolver solver;
   solver.solve(problem);
@@ -280,7 +278,7 @@ TEST_CASE("a solver that has seen a problem of this size allocates nothing") {
   CHECK(allocations_in([&] { solver.solve(problem); }) == 0);
 }
 
-TEST_CASE("a problem that takes the longest way is solved without the heap, too") {
+TEST_CASE("a problem that needs all stages is solved without allocation, too") {
   ImpulseSolver solver;
   int steps = 0;
   const auto solve_all = [&](bool count) {
@@ -293,6 +291,6 @@ TEST_CASE("a problem that takes the longest way is solved without the heap, too"
   };
   solve_all(false);
   CHECK(steps > 0);
-  solve_all(false);  // its buffers change places
+  solve_all(false);  // buffers are swapped
   solve_all(true);
 }

@@ -1,4 +1,4 @@
-// Coulomb friction at rest by trying every case: each of n <= 5 dofs sticks, or slips one way.
+// Coulomb friction by enumeration: each of n <= 5 dofs sticks or slides one way.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 namespace twinarm::testing {
 
 // f in [low, high] with v' = a + B f, v' > 0 only at low, v' < 0 only at high; each of the 3^n sets
-// is solved by a dense factorisation and looked at.
+// is solved by a dense factorisation and checked.
 inline std::optional<Eigen::VectorXd> friction_by_enumeration(const Eigen::MatrixXd& B,
                                                               const Eigen::VectorXd& a,
                                                               const Eigen::VectorXd& low,

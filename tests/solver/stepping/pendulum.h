@@ -11,7 +11,7 @@ namespace twinarm::testing {
 
 constexpr double kRight = std::numbers::pi / 2;
 
-// A point mass on a massless rod of 1 m, hinge along y; it hangs on -z at angle 0.
+// A point mass on a massless rod of 1 m, revolute about y; along -z at angle 0.
 inline Model<double> pendulum() {
   ModelBuilder builder;
   builder.add_body("bob", 0, "hinge", JointType::revolute, {}, Vector3::UnitY(),

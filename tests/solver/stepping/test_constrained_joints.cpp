@@ -1,5 +1,5 @@
-// Joint limits, and what damping, friction, followers and closed forms become in steps under
-// constraints: sliders whose motion is known in closed form.
+// Joint limits, damping, friction and mimic joints in constrained steps: sliders with closed-form
+// solutions.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -19,7 +19,7 @@ BodyInertia block_of(double mass) {
   return {mass, Vector3::Zero(), Matrix3::Identity()};
 }
 
-// A block on an upright rail, g down along it, between two limits.
+// A block on a vertical rail between two limits.
 struct Slider {
   Slider(double lower, double upper, double g, const JointProperties& properties = {},
          const SimulationOptions& options = {})
@@ -51,7 +51,7 @@ struct Slider {
 
 }  // namespace
 
-TEST_CASE("limits: a block that falls onto one stops there, and is borne by its weight") {
+TEST_CASE("limits: a falling block stops at the limit, whose force is its weight") {
   constexpr double h = 1e-4, g = 9.81, drop = 0.1;
   for (const double side : {1.0, -1.0}) {  // falls to the lower; thrown up by -g to the upper
     Slider s(side > 0 ? 0 : -kFar, side > 0 ? kFar : 0, side * g);
@@ -68,8 +68,8 @@ TEST_CASE("limits: a block that falls onto one stops there, and is borne by its 
   }
 }
 
-TEST_CASE("limits: one that is struck in steps of fixed size takes all that the block had") {
-  constexpr double speed = 1.7;  // some of it is taken by the step that reaches the limit
+TEST_CASE("limits: an impact in fixed steps dissipates the kinetic energy of the block") {
+  constexpr double speed = 1.7;  // partly dissipated by the step that reaches the limit
   Slider s(0, kFar, 0);
   s.start(0.1, -speed);
   for (int n = 0; n < 100; ++n) REQUIRE(s.simulation.step(1e-3).ok());
@@ -78,7 +78,7 @@ TEST_CASE("limits: one that is struck in steps of fixed size takes all that the 
   CHECK(s.limits.limits()[0].work == doctest::Approx(-had).epsilon(1e-9));
 }
 
-TEST_CASE("limits: one that is struck in a step that locates its events takes what the block had") {
+TEST_CASE("limits: an impact in event-driven steps dissipates the kinetic energy of the block") {
   constexpr double g = 9.81, drop = 0.1;
   Slider s(0, kFar, g);
   s.simulation.locate_events();
@@ -121,7 +121,7 @@ TEST_CASE(
   CHECK(work == doctest::Approx(kMassOfBlock * g * (s.q() + beyond)).epsilon(1e-9));
 }
 
-TEST_CASE("limits: side steps across an impact leave a run with located events bit for bit") {
+TEST_CASE("limits: side steps across an impact leave an event-driven run bit-identical") {
   constexpr double g = 9.81, drop = 0.1;
   Slider with(0, kFar, g), without(0, kFar, g);
   for (Slider* s : {&with, &without}) {
@@ -130,7 +130,7 @@ TEST_CASE("limits: side steps across an impact leave a run with located events b
   }
   for (int n = 0; n < 30; ++n) {
     const State<double> aside = side_step(with.simulation, 0.3);
-    CHECK(std::abs(aside.q[0]) < 1e-8);  // there the block rests on its limit
+    CHECK(std::abs(aside.q[0]) < 1e-8);  // the block rests on its limit
     REQUIRE(with.simulation.step(1e-2).ok());
     REQUIRE(without.simulation.step(1e-2).ok());
     CHECK(with.q() == without.q());
@@ -139,7 +139,7 @@ TEST_CASE("limits: side steps across an impact leave a run with located events b
   }
 }
 
-TEST_CASE("limits: they need a joint of one dof, and the lower one below the upper") {
+TEST_CASE("limits require a joint with one dof, and lower <= upper") {
   ModelBuilder builder;
   builder.add_body("a", 0, "ball", JointType::spherical, {}, Vector3::UnitZ(), block_of(1));
   builder.add_body("b", 1, "hinge", JointType::revolute, {}, Vector3::UnitZ(), block_of(1));
@@ -147,15 +147,16 @@ TEST_CASE("limits: they need a joint of one dof, and the lower one below the upp
   JointLimits limits(model);
   constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
   for (const int body : {-1, 0, 1, 3})
-    CHECK_THROWS_WITH(limits.add(body, -1, 1), "a position limit needs a joint of one dof");
+    CHECK_THROWS_WITH(limits.add(body, -1, 1),
+                      "a position limit requires a joint with one degree of freedom");
   for (const double upper : {-2.0, kNotANumber})
-    CHECK_THROWS_WITH(limits.add(2, -1, upper), "the lower limit lies above the upper one");
+    CHECK_THROWS_WITH(limits.add(2, -1, upper), "the lower limit is above the upper limit");
   CHECK(limits.limits().empty());
   limits.add(2, -1, -1);
   CHECK(limits.limits().size() == 1);
 }
 
-TEST_CASE("under constraints a joint's damper acts at the end of the step") {
+TEST_CASE("constrained steps: joint damping acts at the end of the step") {
   constexpr double h = 1e-2, b = 7, v0 = 3;
   JointProperties damped;
   damped.damping = b;
@@ -169,7 +170,7 @@ TEST_CASE("under constraints a joint's damper acts at the end of the step") {
   }
 }
 
-TEST_CASE("under constraints a joint's friction brakes at F / m, stops, and holds what is less") {
+TEST_CASE("constrained steps: joint friction decelerates by F / m, then sticks below its limit") {
   constexpr double h = 1e-3, F = 3;
   JointProperties rubbing;
   rubbing.coulomb_plus = rubbing.coulomb_minus = F;
@@ -195,7 +196,7 @@ TEST_CASE("under constraints a joint's friction brakes at F / m, stops, and hold
   }
 }
 
-// Leader and follower, q_f = -2 q_l: beside each other, or the follower on the leader. With the
+// Mimic joint q_f = -2 q_l: side by side, or on the mimicked joint. With the
 // speeds s_i q_l' of both blocks, a = -g sum(m_i s_i) / sum(m_i s_i^2).
 TEST_CASE(
     "under constraints who follows follows, without work, until the leader's limit stops both") {
@@ -235,7 +236,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("a source without any constraint makes the steps constrained ones") {
+TEST_CASE("a constraint source without constraints makes steps constrained") {
   ModelBuilder builder;
   builder.add_body("body", 0, "free", JointType::free, {}, Vector3::UnitZ(),
                    {1, Vector3(0.1, 0, 0), Vector3(1, 2, 3).asDiagonal()});

@@ -1,5 +1,4 @@
-// Closed loops in steps under constraints: what a step reports of them, and what is left of them
-// once they are replaced.
+// Loop closures in constrained steps: reported errors, and replacement of loops.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -45,7 +44,7 @@ struct Pendulums {
   Simulation simulation;
 };
 
-// Ties their tips, 0.5 m apart.
+// A rod of 0.5 m between their tips.
 LoopClosure ball() {
   LoopClosure loop{"tips", LoopType::ball, 1, 2};
   loop.X_LaC.p = {0.5, 0, -1}, loop.X_LbC.p = {0, 0, -1};
@@ -60,7 +59,7 @@ LoopClosure rod() {
 
 }  // namespace
 
-TEST_CASE("loops: once removed, steps under constraints are those without them") {
+TEST_CASE("loops: after removal, constrained steps are those without loops") {
   Pendulums opened({ball()}), free({});
   State<double> x(opened.model);
   x.qd[0] = x.qd[1] = 0.05;
@@ -77,7 +76,7 @@ TEST_CASE("loops: once removed, steps under constraints are those without them")
   }
 }
 
-TEST_CASE("loops: memory of a simulation with other loops is refused") {
+TEST_CASE("loops: state data of a simulation with other loops is rejected") {
   Pendulums one({ball()}), other({rod()});
   for (Pendulums* each : {&one, &other}) CHECK(each->simulation.step(1e-3).ok());
   StateArchive memory(one.memory()), own(other.memory());
@@ -86,9 +85,9 @@ TEST_CASE("loops: memory of a simulation with other loops is refused") {
   CHECK(own.at_end());
 }
 
-// A prescribed joint moves sideways, without saying so in its velocity, from a block on a rail that
-// it is tied to: nothing but the error of position shows that the loop opens.
-TEST_CASE("loops: a step under constraints reports by how much one is open") {
+// A prescribed joint moves away, with zero given velocity, from a block on a rail: only the
+// position error shows that the loop opens.
+TEST_CASE("loops: a constrained step reports the position error") {
   for (const bool located : {false, true}) {
     CAPTURE(located);
     ModelBuilder builder;

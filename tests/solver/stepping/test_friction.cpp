@@ -1,4 +1,4 @@
-// Friction in one joint: recurrences, coming to rest, breaking loose.
+// Friction in one joint: recurrences, transition to sticking and to sliding.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -91,7 +91,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a block that friction can hold comes to rest on its incline and stays, to the bit") {
+TEST_CASE("a block on an incline below the friction angle comes to rest and stays bit-identical") {
   const double tilt = 0.5, friction = 1.2 * 9.81 * std::sin(tilt);
   const Model<double> model =
       slider(1, {std::cos(tilt), 0, -std::sin(tilt)}, coulomb(friction, 0.1));
@@ -112,7 +112,7 @@ TEST_CASE("a block that friction can hold comes to rest on its incline and stays
   }
 }
 
-TEST_CASE("a block breaks loose when the push passes the limit of its direction, and not before") {
+TEST_CASE("a block starts to slide when the force exceeds the limit of its direction") {
   const Model<double> model = slider(1, Vector3::UnitX(), coulomb(0.5, 0.25));
   for (const double sign : {1.0, -1.0})
     for (const IntegratorFacts& facts : all_integrators) {
@@ -134,7 +134,7 @@ TEST_CASE("a block breaks loose when the push passes the limit of its direction,
     }
 }
 
-TEST_CASE("a joint that sticks is a fixed joint to the rest of the arm") {
+TEST_CASE("a sticking joint is a fixed joint for the rest of the arm") {
   const auto arm = [](JointType outer, double friction) {
     ModelBuilder builder;
     const BodyInertia rod{1, {0, 0, -0.5}, Vector3(1.0 / 12, 1.0 / 12, 0.01).asDiagonal()};

@@ -1,4 +1,4 @@
-// Friction of chains: every case of sticking and sliding tried, and the box problem behind it.
+// Friction of chains against enumeration of all modes; box LCP.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -20,7 +20,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A chain of hinges and slides, every dof with friction of its own.
+// A chain of revolute and prismatic joints, all with friction.
 Model<double> rubbing_chain(Random& random, int n) {
   ModelBuilder builder;
   for (int i = 1; i <= n; ++i) {
@@ -44,7 +44,7 @@ VectorXd bias(const Model<double>& model, const State<double>& x) {
 
 }  // namespace
 
-TEST_CASE("friction of chains, some joints at rest, is what trying all 3^n cases of M gives") {
+TEST_CASE("friction of chains with joints at rest agrees with enumeration of all 3^n modes") {
   Random random(21);
   int stuck = 0, slipping = 0;
   for (int trial = 0; trial < 300; ++trial) {
@@ -72,7 +72,7 @@ TEST_CASE("friction of chains, some joints at rest, is what trying all 3^n cases
         if (v[i] != 0) (v[i] > 0 ? high : low)[i] = v[i] > 0 ? low[i] : high[i];
     VectorXd a = a_free;
     if (h > 0) a += v / h;
-    // A dof that moves now has one friction, whatever its acceleration: put it into a.
+    // The friction of a moving dof does not depend on its acceleration: add it to a.
     std::vector<Eigen::Index> open;
     for (Eigen::Index i = 0; i < v.size(); ++i)
       if (h > 0 || v[i] == 0)
@@ -88,14 +88,14 @@ TEST_CASE("friction of chains, some joints at rest, is what trying all 3^n cases
 
     ForwardDynamics dynamics(model);
     Workspace<double> w(model);
-    using Rule = ForwardDynamics::Rule;
-    dynamics(x, forces, w, h > 0 ? Rule::end_of_step : Rule::now, h);
+    using Rule = ForwardDynamics::FrictionRule;
+    dynamics(x, forces, w, h > 0 ? Rule::end_of_step : Rule::current, h);
     const double scale = 1 + a_free.lpNorm<Eigen::Infinity>();
     CHECK((vector_of(w.qdd) - qdd).lpNorm<Eigen::Infinity>() < 1e-11 * scale);
     CHECK((vector_of(dynamics.torques().coulomb) - f).lpNorm<Eigen::Infinity>() < 1e-10 * scale);
     CHECK((vector_of(dynamics.torques().damping) + VectorXd(b.cwiseProduct(v + h * qdd)))
               .lpNorm<Eigen::Infinity>() < 1e-10 * scale);
-    CHECK(forces.tau == tau);  // lent, and given back
+    CHECK(forces.tau == tau);  // restored
 
     // The accelerations of the bodies are those of the true qdd.
     Workspace<double> plain(model);
@@ -118,7 +118,7 @@ TEST_CASE("friction of chains, some joints at rest, is what trying all 3^n cases
   CHECK(slipping > 100);
 }
 
-TEST_CASE("the box problem: pivoting meets all conditions up to 40 dofs, Gauss-Seidel agrees") {
+TEST_CASE("box LCP: pivoting satisfies all conditions up to 40 dofs, Gauss-Seidel agrees") {
   Random random(22);
   for (int trial = 0; trial < 200; ++trial) {
     const auto n = static_cast<std::size_t>(random.integer(1, 40));
@@ -146,7 +146,7 @@ TEST_CASE("the box problem: pivoting meets all conditions up to 40 dofs, Gauss-S
   }
 }
 
-TEST_CASE("rk4 with events and dopri5 agree on a rubbing chain to 1e-9") {
+TEST_CASE("rk4 with events and dopri5 agree on a chain with friction to 1e-9") {
   Random random(23);
   for (int trial = 0; trial < 5; ++trial) {
     const Model<double> model = rubbing_chain(random, 4);

@@ -1,5 +1,4 @@
-// What each integrator promises: its name, what it keeps exactly, how it behaves in the long run,
-// and that it says so where it fails.
+// Integrators: names, invariants, long-term behaviour, reported failures.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -20,7 +19,7 @@ constexpr int kManySteps = 1000000;
 constexpr int kManySteps = 100000;  // sanitizers are slow
 #endif
 
-// A torque about the pendulum's hinge, by its angle and rate.
+// A torque about the pendulum's joint as function of angle and rate.
 template <class Law>
 struct HingeTorque final : ForceSource, Checkpointable {
   Law law;
@@ -31,7 +30,7 @@ struct HingeTorque final : ForceSource, Checkpointable {
   }
 };
 
-// One turning mass of 1 kg m^2 without weight.
+// One rotating body of 1 kg m^2 without gravity.
 Model<double> wheel() {
   ModelBuilder builder;
   builder.add_body("wheel", 0, "axle", JointType::revolute, {}, Vector3::UnitZ(),
@@ -56,7 +55,7 @@ TEST_CASE("every integrator is found by its name, in the order of the list") {
   CHECK_FALSE(find_integrator(""));
 }
 
-TEST_CASE("an oscillator: both semi-implicit methods keep x'^2 + w^2 x^2 -+ h w^2 x x' exactly") {
+TEST_CASE("oscillator: both semi-implicit methods conserve x'^2 + w^2 x^2 -+ h w^2 x x' exactly") {
   const Model<double> model = wheel();
   const double w2 = 9, h = 0.05;
   for (const Integrator integrator : {Integrator::semi_implicit, Integrator::semi_implicit_xv}) {
@@ -80,7 +79,7 @@ TEST_CASE("an oscillator: both semi-implicit methods keep x'^2 + w^2 x^2 -+ h w^
 }
 
 TEST_CASE("a pendulum's energy has no trend over 1e6 steps of the symplectic methods") {
-  // Means under a bell that takes away what swings: the first tenth and the last.
+  // Windowed means without the oscillation: first and last tenth.
   constexpr int kSteps = kManySteps, kWindow = kSteps / 10;
   const Model<double> model = pendulum();
   for (const Integrator integrator :
@@ -106,7 +105,7 @@ TEST_CASE("a pendulum's energy has no trend over 1e6 steps of the symplectic met
   }
 }
 
-TEST_CASE("a turning body: exact under every integrator, and of unit length after 1e6 steps") {
+TEST_CASE("a rotating body: exact under every integrator, unit quaternion after 1e6 steps") {
   const Model<double> model =
       free_body({1, Vector3::Zero(), Vector3(1, 2, 3).asDiagonal()}, Vector3::Zero());
   State<double> start(model);
@@ -126,7 +125,7 @@ TEST_CASE("a turning body: exact under every integrator, and of unit length afte
   CHECK(std::abs(turn(x).norm() - 1) < 1e-12);
 }
 
-TEST_CASE("a thrown body flies the parabola to rounding under every method of order 2 and more") {
+TEST_CASE("free fall is exact to rounding under every method of order 2 and higher") {
   const Model<double> model =
       free_body({2, Vector3::Zero(), Vector3(0.1, 0.2, 0.25).asDiagonal()}, {0, 0, -9.81});
   State<double> start(model);
@@ -142,7 +141,7 @@ TEST_CASE("a thrown body flies the parabola to rounding under every method of or
   }
 }
 
-TEST_CASE("the implicit methods meet their own recurrences on a spring of w h = 100, to 1e-12") {
+TEST_CASE("implicit methods satisfy their recurrences on a spring with omega h = 100 to 1e-12") {
   const Model<double> model = wheel();
   const double k = 1e8, b = 1e3, h = 0.01;
   for (const IntegratorFacts& facts : all_integrators) {
@@ -172,12 +171,12 @@ TEST_CASE("the implicit methods meet their own recurrences on a spring of w h = 
   }
 }
 
-TEST_CASE("an implicit step whose equation has no solution says that it did not converge") {
+TEST_CASE("an implicit step without solution reports converged = false") {
   const Model<double> model = wheel();
   for (const IntegratorFacts& facts : all_integrators) {
     if (!facts.solves) continue;
     CAPTURE(std::string(facts.name));
-    // A torque that jumps across what would be needed: no velocity solves the step.
+    // A discontinuous torque: no velocity solves the step.
     HingeTorque dry([](double, double qd) { return qd > 0.001 ? -100.0 : 50.0; });
     Simulation simulation(model, state_at(model, 0, 0));
     simulation.add(dry);
@@ -190,7 +189,7 @@ TEST_CASE("an implicit step whose equation has no solution says that it did not 
   }
 }
 
-TEST_CASE("dopri5 says where no step is short enough, and stands before that time") {
+TEST_CASE("dopri5 reports reached = false if no substep meets the tolerance") {
   const Model<double> model = wheel();
   HingeTorque runaway([](double, double qd) { return qd * qd; });  // qd = 1 / (1 - t)
   Simulation simulation(model, state_at(model, 0, 1));
@@ -203,7 +202,7 @@ TEST_CASE("dopri5 says where no step is short enough, and stands before that tim
   CHECK(report.h == simulation.state().t);
 }
 
-TEST_CASE("dopri5 by substeps gives the same bits as in one step, and each within its limit") {
+TEST_CASE("dopri5 by substeps is bit-identical to one step, each within its limit") {
   const Model<double> model = pendulum();
   const auto start = [&] {
     Simulation simulation(model, state_at(model, kRight, 0));

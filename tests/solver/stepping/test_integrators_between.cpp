@@ -1,4 +1,4 @@
-// Runs that are looked at between their steps, and set elsewhere.
+// Side steps and set_state().
 #include <doctest/doctest.h>
 
 #include <stdexcept>
@@ -23,7 +23,7 @@ struct Implicit final : ForceSource {
   bool needs_semi_implicit() const override { return true; }
 };
 
-// A torque that grows with every step that was begun: memory.
+// A torque that grows with every begin_step(): internal state.
 struct Counter final : ForceSource, Checkpointable {
   int steps = 0;
   void begin_step(const Kinematics&, double, double) noexcept override { ++steps; }
@@ -36,7 +36,7 @@ struct Counter final : ForceSource, Checkpointable {
 
 }  // namespace
 
-TEST_CASE("semi-implicit-xv is semi-implicit seen half a cycle later, implicit sources included") {
+TEST_CASE("semi-implicit-xv is semi-implicit shifted by a drift, with implicit sources") {
   Random random(11);
   const Model<double> model = random_tree(random, 6, kJoints);
   const State<double> start = random_state(random, model);
@@ -62,7 +62,7 @@ TEST_CASE("semi-implicit-xv is semi-implicit seen half a cycle later, implicit s
   }
 }
 
-TEST_CASE("a side step leads where a step would, and leaves the run as it was, to the last bit") {
+TEST_CASE("a side step gives the result of a step and leaves the run bit-identical") {
   Random random(12);
   const Model<double> model = random_tree(random, 6, kJoints);
   const State<double> start = random_state(random, model);
@@ -97,7 +97,7 @@ TEST_CASE("a side step leads where a step would, and leaves the run as it was, t
   }
 }
 
-TEST_CASE("a side step is refused where a source cannot take a step back") {
+TEST_CASE("side_step() rejects sources that are not Checkpointable") {
   Random random(13);
   const Model<double> model = random_tree(random, 2, kJoints);
   Implicit source;
@@ -118,7 +118,7 @@ TEST_CASE(
     one.set_integrator(facts.integrator);
     two.set_integrator(facts.integrator);
     one.step(1e-3);
-    one.set_state(one.state());  // dopri5 forgets the length of its substeps
+    one.set_state(one.state());  // resets the substep size of dopri5
     two.set_state(one.state());
     CHECK(two.kinematics().X_WL[5].p == one.kinematics().X_WL[5].p);
     one.step(1e-3);

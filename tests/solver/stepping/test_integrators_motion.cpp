@@ -1,4 +1,4 @@
-// Links that move as a law of time says (prescribed joints), under every integrator.
+// Prescribed motion under every integrator.
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -13,7 +13,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// Tumbles and swings at once, all derivatives different from zero: R = Rz(a) Rx(b).
+// Rotation and translation with nonzero derivatives: R = Rz(a) Rx(b).
 PrescribedMotion tumbling(double t) {
   const double a = 0.3 + 1.1 * t + 0.4 * t * t, da = 1.1 + 0.8 * t, dda = 0.8;
   const double b = 0.9 * std::sin(2 * t), db = 1.8 * std::cos(2 * t), ddb = -3.6 * std::sin(2 * t);
@@ -30,7 +30,7 @@ PrescribedMotion tumbling(double t) {
   return motion;
 }
 
-// A carrier that is driven, and on it a body.
+// A body on a prescribed carrier.
 Model<double> on_carrier(JointType type, const BodyInertia& body, const Vector3& gravity) {
   ModelBuilder builder;
   builder.set_gravity(gravity);
@@ -42,7 +42,7 @@ Model<double> on_carrier(JointType type, const BodyInertia& body, const Vector3&
 
 }  // namespace
 
-TEST_CASE("a body that is free on a tumbling carrier goes straight on, under every integrator") {
+TEST_CASE("a free body on a tumbling carrier moves uniformly, under every integrator") {
   const BodyInertia sphere{2, Vector3::Zero(), 0.1 * Matrix3::Identity()};
   const Model<double> model = on_carrier(JointType::free, sphere, Vector3::Zero());
   State<double> x(model);

@@ -1,4 +1,4 @@
-// Joints that follow others: the saddle-point system of M and A, closed forms, and no net work.
+// Mimic joints: saddle-point system of M and A, closed forms, no net work.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -22,7 +22,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A tree of six hinges and slides; joint 3 follows 1, 5 follows 2, 6 follows 5 and so 2.
+// A tree of six revolute and prismatic joints; joint 3 mimics 1, 5 mimics 2, 6 mimics 5 (hence 2).
 Model<double> tree(Random& random, double friction) {
   ModelBuilder builder;
   for (int i = 1; i <= 6; ++i) {
@@ -92,7 +92,7 @@ TEST_CASE("mimics: accelerations and forces solve the saddle-point system of M a
       CHECK((to_eigen(w.a[i].v) - to_eigen(plain.a[i].v)).norm() < 1e-11 * scale);
     }
 
-    // The same in the independent velocities.
+    // The same in independent velocities.
     const MatrixXd G = mimic_projection(model);
     CHECK((dense.A * G).norm() < 1e-15);
     CHECK(largest(vector_of(x.qd) - G * vector_of(x.qd)(independent_dofs(model))) < 1e-15);
@@ -102,7 +102,7 @@ TEST_CASE("mimics: accelerations and forces solve the saddle-point system of M a
   }
 }
 
-TEST_CASE("friction of followers is felt by their leaders through the ratio, at rest and moving") {
+TEST_CASE("friction of mimic joints acts on the independent joint through the ratio") {
   Random random(32);
   int stuck = 0, slipping = 0;
   for (int trial = 0; trial < 300; ++trial) {
@@ -116,7 +116,7 @@ TEST_CASE("friction of followers is felt by their leaders through the ratio, at 
     for (double& tau : forces.tau) tau = random.uniform(-15, 15);
     const double h = trial % 2 ? random.uniform(0.01, 0.3) : 0;
 
-    // In the independent velocities y: the limits of a family are summed.
+    // In independent velocities y: limits of a mimic group are summed.
     const Dense dense(model, x);
     const MatrixXd G = mimic_projection(model);
     const VectorXd b = vector_of(model.damping), v = vector_of(x.qd);
@@ -166,7 +166,7 @@ TEST_CASE("friction of followers is felt by their leaders through the ratio, at 
       CHECK(rubbing[index(d)] <= model.coulomb_minus[d] + 1e-12);
       CHECK(rubbing[index(d)] >= -model.coulomb_plus[d] - 1e-12);
     }
-    // And everything together is Newton's law.
+    // Equation of motion with all forces.
     const VectorXd sum = vector_of(forces.tau) + rubbing + vector_of(dynamics.torques().damping) +
                          vector_of(dynamics.torques().mimic) - dense.h;
     CHECK(largest(dense.M * vector_of(w.qdd) - sum) < 1e-9 * (1 + largest(sum)));
@@ -176,7 +176,7 @@ TEST_CASE("friction of followers is felt by their leaders through the ratio, at 
 }
 
 TEST_CASE("a rack and pinion under gravity falls as m g / (m + I r^2), by closed form") {
-  constexpr double m = 2, I = 0.05, r = 3;  // angle = r shift + 0.7
+  constexpr double m = 2, I = 0.05, r = 3;  // angle = r x + 0.7
   ModelBuilder builder;
   builder.add_body("pinion", 0, "turn", JointType::revolute, {}, Vector3::UnitX(),
                    {1, Vector3::Zero(), I * Matrix3::Identity()});
@@ -204,7 +204,7 @@ TEST_CASE("a rack and pinion under gravity falls as m g / (m + I r^2), by closed
   }
 }
 
-TEST_CASE("mimics do no net work: the energy of a tree is kept to 1e-9 for 1 s (rk4, 0.2 ms)") {
+TEST_CASE("mimic joints do no net work: energy of a tree constant to 1e-9 for 1 s (rk4, 0.2 ms)") {
   Random random(33);
   const Model<double> model = tree(random, 0);
   Simulation simulation(model, state_of(random, model));

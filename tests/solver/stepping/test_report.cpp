@@ -1,4 +1,4 @@
-// What a simulation says of sources that break it or do not fit it.
+// Reports and exceptions for failing and incompatible sources.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -37,7 +37,7 @@ Model<double> chain(int n) {
 
 }  // namespace
 
-TEST_CASE("a torque that is not a number is reported with the joint it acts on") {
+TEST_CASE("a NaN torque is reported with its joint") {
   const Model<double> model = chain(5);
   for (int joint = 1; joint <= 5; ++joint) {
     ConstantTorque torque;
@@ -52,7 +52,7 @@ TEST_CASE("a torque that is not a number is reported with the joint it acts on")
   }
 }
 
-TEST_CASE("a source that is refused does not act") {
+TEST_CASE("a rejected source does not act") {
   const Model<double> model = chain(1);
   ConstantTorque torque;
   torque.implicit = true;
@@ -67,7 +67,7 @@ TEST_CASE("a source that is refused does not act") {
   CHECK(simulation.state().qd[0] == untouched.state().qd[0]);
 }
 
-// Fields of the passes stay finite: nothing turns, and there is no gravity along it.
+// Variables of the algorithms stay finite: no rotation, no gravity along the joint.
 TEST_CASE("a coordinate that overflows is reported with its joint") {
   ModelBuilder builder;
   builder.add_body("block", 0, "slide", JointType::prismatic, {}, Vector3::UnitX(),
@@ -82,16 +82,16 @@ TEST_CASE("a coordinate that overflows is reported with its joint") {
   CHECK(std::string(report.nonfinite_field ? report.nonfinite_field : "none") == "q");
 }
 
-TEST_CASE("a tolerance that is not positive, or no number, is refused") {
+TEST_CASE("a tolerance that is not positive and finite is rejected") {
   const Model<double> model = chain(1);
   Simulation simulation(model, State<double>(model));
   for (const double bad : {0.0, -1e-6, HUGE_VAL, std::numeric_limits<double>::quiet_NaN()})
     CHECK_THROWS_WITH(simulation.set_integrator(Integrator::dopri5, bad),
-                      "a tolerance is a positive number");
+                      "tolerance must be positive and finite");
   CHECK_NOTHROW(simulation.set_integrator(Integrator::dopri5, 1e-6));
 }
 
-TEST_CASE("a step size that is not positive and finite is refused, and nothing has changed") {
+TEST_CASE("a step size that is not positive and finite is rejected without any change") {
   const Model<double> model = chain(2);
   for (const Integrator integrator : {Integrator::semi_implicit, Integrator::dopri5})
     for (const bool limited : {false, true}) {
@@ -124,7 +124,7 @@ TEST_CASE("a step size that is not positive and finite is refused, and nothing h
 
 namespace {
 
-// Constrains nothing, and knows neither events nor steps that are taken back.
+// No constraints, no events, not Checkpointable.
 struct Plain final : ConstraintSource {
   void add(const ConstraintFrame&, ImpulseProblem&) noexcept override {}
   void take(const ConstraintFrame&, const ImpulseProblem&, std::size_t) noexcept override {}
@@ -132,7 +132,7 @@ struct Plain final : ConstraintSource {
 
 }  // namespace
 
-TEST_CASE("a source of constraints is refused where it cannot do what is asked of it") {
+TEST_CASE("incompatible constraint sources are rejected") {
   const Model<double> model = chain(2);
   Plain plain;
   Simulation simulation(model, State<double>(model));
@@ -150,7 +150,7 @@ TEST_CASE("a source of constraints is refused where it cannot do what is asked o
   CHECK_THROWS_AS(located.add(plain), std::invalid_argument);
 }
 
-TEST_CASE("steps that locate their events go with semi-implicit only, whichever is chosen first") {
+TEST_CASE("event-driven steps require semi-implicit, in any order of calls") {
   const Model<double> model = chain(2);
   for (const IntegratorFacts& facts : all_integrators) {
     CAPTURE(std::string(facts.name));
@@ -168,7 +168,7 @@ TEST_CASE("steps that locate their events go with semi-implicit only, whichever 
   }
 }
 
-TEST_CASE("a law that would open a loop is refused, and the run goes on by the one before") {
+TEST_CASE("a prescribed motion that opens a loop is rejected, the previous one is kept") {
   ModelBuilder builder;
   builder.add_body("hand", 0, "held", JointType::prescribed, {}, Vector3::UnitZ(),
                    {1, Vector3::Zero(), Matrix3::Identity()});
@@ -196,7 +196,7 @@ TEST_CASE("a law that would open a loop is refused, and the run goes on by the o
 
 namespace {
 
-// Pushes with every moment that was begun; they can be taken back.
+// A force that grows with every begin_step(); Checkpointable.
 struct Counting final : ForceSource, Checkpointable {
   double begun = 0;
   void begin_step(const Kinematics&, double, double) noexcept override { ++begun; }
@@ -208,7 +208,7 @@ struct Counting final : ForceSource, Checkpointable {
 
 }  // namespace
 
-TEST_CASE("what acts at another state is shown by a copy, and the run is left as it is") {
+TEST_CASE("evaluate_at() evaluates forces at another state in a copy") {
   const Model<double> model = chain(3);
   Random random(63);
   const State<double> start = random_state(random, model), elsewhere = random_state(random, model);

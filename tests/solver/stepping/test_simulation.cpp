@@ -1,5 +1,5 @@
-// What a step promises whatever the mechanism: no allocation, no silent NaN, no implicit source in
-// a Runge-Kutta step. Conservation is benchmarks/analytic/joints/floating_tree.cpp, A5.
+// Steps: no allocation, non-finite numbers reported, implicit sources rejected by Runge-Kutta.
+// Conservation: benchmarks/analytic/joints/floating_tree.cpp, A5.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -53,10 +53,10 @@ struct ImplicitArmature final : ForceSource {
 
 }  // namespace
 
-TEST_CASE("a step takes nothing from the heap, under every integrator, nor does its report") {
+TEST_CASE("a step and its report allocate nothing, under every integrator") {
   Random random(8);
   const Model<double> model = mixed_tree(random, 8, true);
-  CHECK(allocations_in([] { std::vector<double>(3).swap(kept()); }) == 1);  // the count counts
+  CHECK(allocations_in([] { std::vector<double>(3).swap(kept()); }) == 1);  // the counter works
   for (const IntegratorFacts& facts : all_integrators) {
     const Integrator integrator = facts.integrator;
     CAPTURE(std::string(facts.name));
@@ -72,7 +72,7 @@ TEST_CASE("a step takes nothing from the heap, under every integrator, nor does 
   }
 }
 
-TEST_CASE("nor does a step with joint friction, its events, and joints that follow others") {
+TEST_CASE("a step with joint friction, its events and mimic joints allocates nothing") {
   Random random(11);
   ModelBuilder builder;
   for (int i = 1; i <= 6; ++i) {
@@ -94,7 +94,7 @@ TEST_CASE("nor does a step with joint friction, its events, and joints that foll
             for (int n = 0; n < 50; ++n) events += simulation.step(0.01).events;
           }) == 0);
     if (!facts.implicit_force) CHECK(events > 0);
-    // A side step gives the bits of the step that follows, and disturbs nothing.
+    // A side step is bit-identical to the following step and has no effect.
     const State<double> aside = side_step(simulation, 0.01);
     simulation.step(0.01);
     CHECK(aside.q == simulation.state().q);
@@ -102,7 +102,7 @@ TEST_CASE("nor does a step with joint friction, its events, and joints that foll
   }
 }
 
-TEST_CASE("a torque that is not a number is reported in its step and in all later ones") {
+TEST_CASE("a NaN torque is reported in its step and in all later ones") {
   Random random(9);
   const Model<double> model = mixed_tree(random, 5, false);
   for (const IntegratorFacts& facts : all_integrators)
@@ -125,12 +125,12 @@ TEST_CASE("a torque that is not a number is reported in its step and in all late
         CHECK_FALSE(report.finite);
         CHECK(report.nonfinite_body > 0);
         CHECK(report.nonfinite_field != nullptr);
-        torque.value = 0;  // what went wrong stays wrong: nothing is reset
+        torque.value = 0;  // the state stays non-finite
       }
     }
 }
 
-TEST_CASE("a source that is implicit goes with the semi-implicit methods, whichever comes first") {
+TEST_CASE("implicit sources require semi-implicit integrators, in any order of calls") {
   Random random(10);
   const Model<double> model = mixed_tree(random, 2, false);
   for (const IntegratorFacts& facts : all_integrators) {

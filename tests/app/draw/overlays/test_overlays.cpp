@@ -10,7 +10,7 @@
 namespace twinarm {
 namespace {
 
-const char* const kBall = R"(
+const char* const kLargeBall = R"(
 [[body]]
 name = "ball"
 shape = { sphere = { radius = 0.4 } }
@@ -91,7 +91,7 @@ position = [0, 0, 1]
 }
 
 TEST_CASE("overlays: each one accepts a snapshot without contacts, couplings or motion") {
-  const SceneModel scene = built(kBall);
+  const SceneModel scene = built(kLargeBall);
   const Snapshot moment = moment_of(scene.model, scene.start);
   SceneView stage = stage_at(scene, moment);
   for (const Overlay& overlay : all_overlays()) {
@@ -104,7 +104,7 @@ TEST_CASE("overlays: each one accepts a snapshot without contacts, couplings or 
 }
 
 TEST_CASE("device: the stylus is at its forward kinematics, beside the scene") {
-  const SceneModel scene = built(kBall);
+  const SceneModel scene = built(kLargeBall);
   Snapshot moment = moment_of(scene.model, scene.start);
   SceneView none = stage_at(scene, moment);
   CHECK(instances_of(none, moment, "device").empty());

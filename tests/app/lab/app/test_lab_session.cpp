@@ -1,4 +1,4 @@
-// What is said to the lab, who may say it, and how its time goes.
+// Commands, control, uploads, and the run's thread.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -34,7 +34,6 @@ std::string texts_of(const std::vector<Change>& changes) {
   return all;
 }
 
-// Whatever was told of it; waits for what is being built.
 struct TestSession {
   const std::vector<GalleryScene> gallery{};
   LabSession session{built_from(kSlowlyDriven), gallery};
@@ -54,8 +53,7 @@ struct TestSession {
   }
 };
 
-TEST_CASE(
-    "lab session: a change that is refused does not undo those that wait, nor spoil the next") {
+TEST_CASE("lab session: a refused change affects neither the waiting ones nor the next") {
   TestSession lab;
   lab.set("coupling.one.stiffness=30");
   lab.set("coupling.one.damping=2");
@@ -70,7 +68,7 @@ TEST_CASE(
                       [](const LabNote& note) { return note.level == "error"; }) == 1);
 }
 
-TEST_CASE("lab session: what restores the scene outlives changes before it, not those behind it") {
+TEST_CASE("lab session: restoring the scene discards earlier changes, not later ones") {
   TestSession lab;
   lab.set("coupling.one.stiffness=30");
   lab.session.push(parse_command(R"({"do": "restore"})"));
@@ -78,7 +76,7 @@ TEST_CASE("lab session: what restores the scene outlives changes before it, not 
   CHECK(lab.comes_to("coupling.one.damping=2 "));
 }
 
-TEST_CASE("lab session: of two changes to one number the later holds, by whichever path") {
+TEST_CASE("lab session: of two changes of one value the later is in effect, by any path") {
   std::vector<Change> changes;
   for (const char* text :
        {"coupling.stiffness=31", "coupling.one.stiffness=32", "coupling.stiffness=33"})
@@ -86,20 +84,20 @@ TEST_CASE("lab session: of two changes to one number the later holds, by whichev
   CHECK(built_from(kSlowlyDriven).scene->text(changes).find("stiffness = 33") != std::string::npos);
 }
 
-TEST_CASE("lab session: a failure in the run's thread pauses the run and is shown as an error") {
+TEST_CASE("lab session: an exception in the run's thread pauses the run and is shown as an error") {
   TestSession lab;
-  BuildRequest order;
+  BuildRequest request;
   const TemporaryFolder folder;
-  order.file = folder.write("scene.toml", kFreeBox);
-  order.done = [](const std::string&) { throw std::runtime_error("nobody is there to answer"); };
-  lab.session.open(std::move(order));
-  CHECK(lab.has_note("the run is paused: nobody is there to answer"));
+  request.file = folder.write("scene.toml", kFreeBox);
+  request.done = [](const std::string&) { throw std::runtime_error("no client"); };
+  lab.session.open(std::move(request));
+  CHECK(lab.has_note("the run is paused: no client"));
   CHECK_FALSE(lab.session.shown().now().status->playing);
   lab.session.push(parse_command(R"({"do": "play", "on": true})"));
   CHECK(comes_true([&] { return lab.session.shown().now().status->playing; }));
 }
 
-TEST_CASE("lab session: an order that is replaced may ask the session in its answer") {
+TEST_CASE("lab session: the callback of a superseded request may call the session") {
   std::promise<void> begun, go_on;
   std::string answer;
   TestSession lab;
@@ -120,7 +118,7 @@ TEST_CASE("lab session: an order that is replaced may ask the session in its ans
   go_on.set_value();
 }
 
-TEST_CASE("lab session: of more notes than are kept the last are told") {
+TEST_CASE("lab session: of too many notes the last are kept") {
   TestSession lab;
   for (int n = 1; n <= 500; ++n) lab.session.note("note", "number " + std::to_string(n) + ".");
   CHECK(lab.has_note("number 500."));
@@ -128,7 +126,7 @@ TEST_CASE("lab session: of more notes than are kept the last are told") {
   CHECK(lab.session.shown().now().status->notes.size() == 20);
 }
 
-TEST_CASE("lab session: what is remembered of a run begins at its start, however many steps wait") {
+TEST_CASE("lab session: the history begins at the start, however many steps are requested") {
   TestSession lab;
   const long before = lab.session.shown().now().change_number;
   lab.session.push(parse_command(R"({"do": "step", "steps": 100000})"));
@@ -140,24 +138,24 @@ TEST_CASE("lab session: what is remembered of a run begins at its start, however
   CHECK(lab.session.timeline().frames(0).front()->recorded.t == 0);
 }
 
-TEST_CASE("lab session: whoever opens a file is answered, also where others do at the same time") {
+TEST_CASE("lab session: every request to open a file is answered, also concurrent ones") {
   std::atomic<int> answered = 0;
   {
     TestSession lab;
     for (int n = 0; n < 20; ++n) {
-      BuildRequest order;
-      order.file =
+      BuildRequest request;
+      request.file =
           std::filesystem::path(TWINARM_SOURCE_DIR) / "assets/scenes/hand_and_obstacles.toml";
-      order.name = "hand_and_obstacles";
-      order.done = [&](const std::string&) { ++answered; };
-      lab.session.open(std::move(order));
+      request.name = "hand_and_obstacles";
+      request.done = [&](const std::string&) { ++answered; };
+      lab.session.open(std::move(request));
     }
     CHECK(comes_true([&] { return answered == 20; }));
   }
   CHECK(answered == 20);
 }
 
-TEST_CASE("a command is read with all that it brings") {
+TEST_CASE("lab command: all fields are read") {
   const LabCommand pull = parse_command(
       R"({"do": "pull", "body": 3, "point": [0.5, -1, 2], "goal": [1, 2, 3.25], "stamp": 12.5})");
   CHECK(pull.what == LabCommand::Do::pull);
@@ -172,7 +170,7 @@ TEST_CASE("a command is read with all that it brings") {
   CHECK(parse_command(R"({"do": "axes", "rates": [2, -7, 0.5, 0, 0, 0]})").rates[0] == 1.0);
 }
 
-TEST_CASE("a command that is not understood is refused with every fault that it has") {
+TEST_CASE("lab command: an invalid command is refused with all its faults") {
   CHECK(faults_in("") == 1);
   CHECK(faults_in("[]") == 1);
   CHECK(faults_in(R"({"do": "dance"})") == 1);
@@ -185,14 +183,14 @@ TEST_CASE("a command that is not understood is refused with every fault that it 
   CHECK(faults_in(std::string(100'000, '[')) >= 1);
 }
 
-TEST_CASE("looking on needs no hand, moving the robot does") {
+TEST_CASE("lab command: looking requires no control, moving the robot does") {
   CHECK_FALSE(needs_hand(LabCommand::Do::layers));
   CHECK_FALSE(needs_hand(LabCommand::Do::take));
   CHECK(needs_hand(LabCommand::Do::tip));
   CHECK(needs_hand(LabCommand::Do::set));
 }
 
-TEST_CASE("what a page brings is opened by what it is, kept, or refused in clear words") {
+TEST_CASE("uploads: files are opened or stored by type, or refused with a reason") {
   const std::string robot =
       "\xef\xbb\xbf<?xml version=\"1.0\"?>\n<!-- <sdf> -->\n<robot name=\"a\"/>";
   for (const char* name : {"arm.urdf", "arm.xml", "arm.xacro", "arm.URDF"}) {
@@ -210,19 +208,19 @@ TEST_CASE("what a page brings is opened by what it is, kept, or refused in clear
     CHECK_FALSE(file.opens);
     CHECK(file.path == name);
   }
-  const auto said = [](const char* name, const char* bytes, const char* words) {
-    return classify_upload(name, bytes).fault.find(words) != std::string::npos;
+  const auto refused = [](const char* name, const char* bytes, const char* why) {
+    return classify_upload(name, bytes).fault.find(why) != std::string::npos;
   };
-  CHECK(said("a.xml", "<mujoco model=\"a\">", "MJCF"));
-  CHECK(said("a.xml", "<sdf version=\"1.7\">", "SDFormat"));
-  CHECK(said("a.xml", "<html>", "<html>"));
-  CHECK(said("a.xml", "<!-- never ended <robot>", "not an XML"));
-  CHECK(said("a.xacro", "", "not an XML"));
+  CHECK(refused("a.xml", "<mujoco model=\"a\">", "MJCF"));
+  CHECK(refused("a.xml", "<sdf version=\"1.7\">", "SDFormat"));
+  CHECK(refused("a.xml", "<html>", "<html>"));
+  CHECK(refused("a.xml", "<!-- never ended <robot>", "not an XML"));
+  CHECK(refused("a.xacro", "", "not an XML"));
   for (const char* name : {"junk.bin2", "photo", "a.exe", "notes.txt"})
-    CHECK(said(name, "<robot>", ".urdf"));
+    CHECK(refused(name, "<robot>", ".urdf"));
 }
 
-TEST_CASE("the first who comes has the hand, and others get it in turn") {
+TEST_CASE("clients: the first one gets control, others in order of their requests") {
   Clients clients;
   for (const ClientId client : {11u, 12u, 13u}) clients.opened(client);
   CHECK(clients.has_hand(11));
@@ -231,13 +229,13 @@ TEST_CASE("the first who comes has the hand, and others get it in turn") {
   clients.take(13);
   clients.opened(14);
   clients.take(14);
-  clients.closed(14);  // who asks and goes asks no more
+  clients.closed(14);  // withdraws its request
   CHECK(clients.view().waiting == std::vector<ClientId>{13, 12});
-  CHECK_FALSE(clients.give(12, 12));  // who has none gives none
+  CHECK_FALSE(clients.give(12, 12));
   CHECK_FALSE(clients.give(11, 99));
   CHECK(clients.give(11, 12));
   CHECK(clients.has_hand(12));
-  clients.closed(12);  // the next who asked
+  clients.closed(12);  // the next in order
   CHECK(clients.has_hand(13));
   clients.closed(13);
   CHECK(clients.has_hand(11));  // the only one left
@@ -245,7 +243,7 @@ TEST_CASE("the first who comes has the hand, and others get it in turn") {
   CHECK(clients.view().controller == 0);
 }
 
-TEST_CASE("all layers that anybody wants are drawn, each once") {
+TEST_CASE("clients: layers of all clients are drawn, each once") {
   Clients clients;
   clients.opened(1);
   clients.opened(2);
@@ -258,13 +256,13 @@ TEST_CASE("all layers that anybody wants are drawn, each once") {
   CHECK(clients.inspected().empty());
 }
 
-TEST_CASE("run time follows wall time, and what was missed is not made up for in a rush") {
+TEST_CASE("pacer: run time follows wall time, and a backlog is not made up for") {
   using std::chrono::milliseconds;
   const RealTimePacer::Time start{};
   RealTimePacer pace;
   pace.begin(start, 5.0, 0.5);
   CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
-  pace.limit_backlog(start + milliseconds(1000), 5.49, 0.05);  // as good as in time
+  pace.limit_backlog(start + milliseconds(1000), 5.49, 0.05);  // within the limit
   CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.5));
   pace.limit_backlog(start + milliseconds(1000), 5.2, 0.05);  // 0.6 s of wall time behind
   CHECK(pace.due(start + milliseconds(1000)) == doctest::Approx(5.225));

@@ -1,19 +1,18 @@
-// Each remedy tried: the run that stopped, again, with its changes.
+// Each remedy in a run of the scene that had stopped.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <tuple>
 
 #include "app/diagnose/post_mortem.h"
-#include "tests/app/lab/parameters/knob_scenes.h"
+#include "tests/app/lab/parameters/parameter_scenes.h"
 
 using namespace twinarm;
 
 namespace {
 
-// Of an arm that has some joules in its motion. A point spring pulls no more than k times its
-// length: a run that tumbles under it need not overflow.
-constexpr double kFarTooMuch = 1e4;  // [J]
+// Bound of the kinetic energy: a diverging run with a point spring need not overflow.
+constexpr double kEnergyBound = 1e4;  // [J]
 
 struct BadScene {
   const char* name;
@@ -42,11 +41,11 @@ std::vector<BadScene> bad_scenes() {
 
 }  // namespace
 
-TEST_CASE("remedies: each that is offered holds for two seconds where the run had stopped") {
+TEST_CASE("remedies: each offered one is stable for two seconds where the run had stopped") {
   for (const BadScene& bad : bad_scenes()) {
     INFO(std::string(bad.name));
     SimulatePlan plan = planned(bad.file, bad.changes, 2000);
-    plan.run.energy_bound = kFarTooMuch;
+    plan.run.energy_bound = kEnergyBound;
     const SimulateResult failure = run_plan(plan.input, plan.run, {});
     CHECK(failure.post_mortem);
     if (!failure.post_mortem) continue;
@@ -62,7 +61,7 @@ TEST_CASE("remedies: each that is offered holds for two seconds where the run ha
       }
       SimulatePlan again = planned(bad.file, changes);
       again.run.duration = 2;
-      again.run.energy_bound = kFarTooMuch;
+      again.run.energy_bound = kEnergyBound;
       const SimulateResult result = run_plan(again.input, again.run, {});
       CHECK(!result.post_mortem);
       CHECK(result.end == doctest::Approx(2));
@@ -70,7 +69,7 @@ TEST_CASE("remedies: each that is offered holds for two seconds where the run ha
   }
 }
 
-TEST_CASE("remedies: a step, a gain and a treatment are offered for a spring that is too stiff") {
+TEST_CASE("remedies: step, gain and discretization are offered for too stiff a spring") {
   const BadScene bad = bad_scenes().front();
   const SimulatePlan plan = planned(bad.file, bad.changes, 2000);
   std::vector<std::string> first;
@@ -81,7 +80,7 @@ TEST_CASE("remedies: a step, a gain and a treatment are offered for a spring tha
   CHECK(first[2].find("].treatment=implicit") != std::string::npos);
 }
 
-TEST_CASE("remedies: they follow from the kind and the place of a suspect, whatever its name") {
+TEST_CASE("remedies: depend on kind and index of a suspect, not on its name") {
   const BadScene stiff = bad_scenes().front();
   const SimulatePlan coupled = planned(stiff.file, stiff.changes);
   SimulatePlan damped = planned(stiff.file, {"integrator=euler", "coupling.stiffness=1"});
@@ -111,7 +110,7 @@ TEST_CASE("remedies: they follow from the kind and the place of a suspect, whate
   }
 }
 
-TEST_CASE("remedies: where nothing is beyond its limit only a shorter step is offered") {
+TEST_CASE("remedies: without a violated limit only a shorter step is offered") {
   const auto folder = read_gallery().front().file.parent_path();
   const SimulatePlan plan = planned(folder / "tracking_map.toml", {});
   for (const SuggestedFix& fix : remedies_of(plan, PostMortem())) {

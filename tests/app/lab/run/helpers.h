@@ -1,4 +1,4 @@
-// Scenes, and a session with what is remembered of it.
+// Scenes, and a run with its history.
 #pragma once
 
 #include "app/lab/run/history.h"
@@ -30,11 +30,11 @@ inline SimulateOptions options_of(const TemporaryFolder& folder, const std::stri
 }
 
 inline LabScene lab_scene(const std::string& text) {
-  const TemporaryFolder folder;  // gone when the scene runs
+  const TemporaryFolder folder;  // removed when the scene runs
   return LabScene(options_of(folder, text));
 }
 
-// A run with what is remembered of it: a frame each 16 steps.
+// A run with its history: a frame each 16 steps.
 struct Session {
   explicit Session(const std::string& text) : scene(lab_scene(text)) {
     run = std::make_unique<LabRun>(scene.plan(), hand);
@@ -64,17 +64,17 @@ struct Session {
 inline double work_of(const std::vector<EnergyRow>& rows, const std::string& name) {
   for (const EnergyRow& row : rows)
     if (row.name == name) return row.work;
-  FAIL("there is no row " << name);
+  FAIL("no row " << name);
   return 0;
 }
 inline MomentumRow momentum_of(const std::vector<MomentumRow>& rows, const std::string& name) {
   for (const MomentumRow& row : rows)
     if (row.name == name) return row;
-  FAIL("there is no row " << name);
+  FAIL("no row " << name);
   return {};
 }
 
-// Where the kinematic robot stood at the start of the last step.
+// Driven joints of the target robot at the start of the last step.
 inline std::vector<double> kvr_of(const LabRun& run) {
   const SimulateInput& input = run.prepared().input;
   std::vector<double> q;

@@ -1,16 +1,17 @@
-// What the lab remembers: gone back to, and saved.
+// History of a run: branches and saved recordings.
 #include "tests/app/lab/run/helpers.h"
 
 namespace twinarm {
 
-TEST_CASE("lab run: a branch that is moved as before repeats the frames' hashes bit for bit") {
+TEST_CASE("lab run: a branch with the same input repeats the frames' hashes bit for bit") {
   Session s(arm_with("device"));
   s.hand.choose(OperatorInput::Source::drag);
   const Vector3 tip = s.run->prepared().input.couplings->kvr(0).start().k.position(
       s.run->input_override().tip()->first, s.run->input_override().tip()->second);
   for (int n = 0; n < 50; ++n) {
     s.hand.tip(tip + Vector3(-0.1 * std::sin(0.1 * n), 0.2 * std::sin(0.2 * n), 0), n);
-    if (n == 20) REQUIRE(s.run->drag(s.run->input_override().driven().back(), Vector3::Zero(), tip, n));
+    if (n == 20)
+      REQUIRE(s.run->drag(s.run->input_override().driven().back(), Vector3::Zero(), tip, n));
     if (n == 35) s.run->release_mouse();
     s.step(20);
   }
@@ -31,7 +32,7 @@ TEST_CASE("lab run: a branch that is moved as before repeats the frames' hashes 
   }
   CHECK(left.size() > 30);
   CHECK(same == left.size() - 1);
-  // Then live input goes on from where the robot stands.
+  // Then live input continues without a jump.
   std::vector<double> before = kvr_of(again);
   for (int n = 0; n < 200; ++n) {
     REQUIRE(again.step());
@@ -41,7 +42,7 @@ TEST_CASE("lab run: a branch that is moved as before repeats the frames' hashes 
   }
 }
 
-TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and all") {
+TEST_CASE("lab history: a saved run replays bit for bit, with operator input and changes") {
   Session s(arm_with("device"));
   s.hand.choose(OperatorInput::Source::drag);
   const TemporaryFolder folder;
@@ -53,7 +54,8 @@ TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and 
   };
   const auto check = [&](double from, std::size_t frames) {
     const std::filesystem::path file = folder.path() / "lab.twinrec";
-    const LabHistory::Saved saved = s.history.save(s.scene, s.names, s.run->input_override().couplings(), file);
+    const LabHistory::Saved saved =
+        s.history.save(s.scene, s.names, s.run->input_override().couplings(), file);
     CHECK(saved.frames >= frames);
     CHECK(saved.from == doctest::Approx(from).epsilon(1e-9));
     const Recording recording(file);
@@ -67,8 +69,9 @@ TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and 
   s.change({{"coupling.stiffness", "700"}, {"gravity", "0,0,-1.6"}});
   drag(20);
   check(0.4, 20);
-  // After a pull: what no header describes is left out.
-  REQUIRE(s.run->drag(s.run->input_override().driven()[1], Vector3(0.35, 0, 0.1), Vector3(0.2, 0.2, 0.2), 3));
+  // After a mouse spring, which no header describes.
+  REQUIRE(s.run->drag(s.run->input_override().driven()[1], Vector3(0.35, 0, 0.1),
+                      Vector3(0.2, 0.2, 0.2), 3));
   drag(5);
   s.run->release_mouse();
   drag(20);
@@ -78,7 +81,7 @@ TEST_CASE("lab history: what is saved replays bit for bit, hand and changes and 
   check(1.3, 20);
 }
 
-TEST_CASE("lab history: the header of what is saved has the couplings that its frames have") {
+TEST_CASE("lab history: the header of a saved run has the couplings of its frames") {
   Session s(arm_with("device"));
   const std::size_t couplings = s.scene.header({}, {}).couplings.size();
   const std::vector<Change> changes{{"coupling.two.type", "god-object"}};
@@ -93,7 +96,8 @@ TEST_CASE("lab history: the header of what is saved has the couplings that its f
     CHECK(recording.frame(n).pulls.size() == recording.header().couplings.size());
 }
 
-TEST_CASE("lab run: another step length goes on at the same place and time, to be gone back to") {
+TEST_CASE(
+    "lab run: another step length continues at the same state and time, and can be branched") {
   Session s(arm_with("paper"));
   s.step(500);
   const State<double> before = s.run->view().simulation().state();
@@ -108,7 +112,7 @@ TEST_CASE("lab run: another step length goes on at the same place and time, to b
   LabRun again(s.scene.plan({{"step", "0.0003"}}), s.hand, &half);
   for (int n = 0; n < 100; ++n) REQUIRE(again.step());
   CHECK(again.view().memory() == s.run->view().memory());
-  // Another response of contacts remembers other things: whatever it takes over, it goes on there.
+  // Another contact model has another checkpoint layout: the state is continued.
   const State<double> then = s.run->view().simulation().state();
   s.change({{"contact", "compliant"}});
   CHECK(s.run->view().simulation().state().q == then.q);
@@ -117,7 +121,7 @@ TEST_CASE("lab run: another step length goes on at the same place and time, to b
   s.step(50);
 }
 
-TEST_CASE("lab history: the bound of bytes holds, the oldest goes first, times are found") {
+TEST_CASE("lab history: stays within its bytes, removes the oldest first, finds times") {
   Session s(arm_with("device"));
   s.history = LabHistory(400000);
   s.history.begin_segment({});

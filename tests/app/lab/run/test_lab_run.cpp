@@ -1,4 +1,4 @@
-// A run of the lab: the bits of `simulate`, changed on the way, led by a hand, pulled by a mouse.
+// A run of the lab: bits of `simulate`, changes, operator input, mouse spring.
 #include "app/record/unpack.h"
 #include "tests/app/lab/run/helpers.h"
 
@@ -22,7 +22,7 @@ std::filesystem::path recorded(const TemporaryFolder& folder, const SimulateOpti
 
 }  // namespace
 
-TEST_CASE("lab run: a run step by step has the bits of `simulate`, its files gone meanwhile") {
+TEST_CASE("lab run: steps equal those of `simulate` bit for bit, after its files were removed") {
   for (const char* target : {"paper", "device"}) {
     const TemporaryFolder folder;
     const SimulateOptions options = options_of(folder, arm_with(target));
@@ -38,7 +38,7 @@ TEST_CASE("lab run: a run step by step has the bits of `simulate`, its files gon
     const LabScene scene = lab_scene(arm_with(target));
     OperatorInput hand;
     LabRun run(scene.plan(), hand);
-    for (long n = 0; n < 1500; ++n) {  // on beyond the end of `simulate`
+    for (long n = 0; n < 1500; ++n) {  // beyond the end of `simulate`
       if (n % 100 == 0 && n <= 1000)
         CHECK(run.view().memory() == memories[static_cast<std::size_t>(n / 100)]);
       REQUIRE(run.step());
@@ -47,7 +47,7 @@ TEST_CASE("lab run: a run step by step has the bits of `simulate`, its files gon
   }
 }
 
-TEST_CASE("recorded instant: its files can be read again after the recording is closed") {
+TEST_CASE("recorded instant: its files can be read after the recording is closed") {
   const TemporaryFolder folder;
   const SimulateOptions options = options_of(folder, arm_with("paper"));
   const std::filesystem::path file = recorded(folder, options, 0.5);
@@ -57,13 +57,13 @@ TEST_CASE("recorded instant: its files can be read again after the recording is 
   CHECK(prepare_simulation(again).input.scene->couplings.size() == 3);
 }
 
-TEST_CASE("lab run: a stiffness changed on the way is the fork of a recording from that frame") {
+TEST_CASE("lab run: a stiffness changed at a frame equals the branch of a recording from there") {
   const TemporaryFolder folder;
   SimulateOptions options = options_of(folder, arm_with("paper"));
   const std::filesystem::path file = recorded(folder, options, 0.05);
   const Recording recording(file);
   const std::vector<Change> changes{{"coupling.one.stiffness", "900"}};
-  const Replay fork = replay(recording, 8, changes);
+  const Replay branch = replay(recording, 8, changes);
 
   LabFrame from;
   from.recorded = recording.frame(8);
@@ -72,15 +72,15 @@ TEST_CASE("lab run: a stiffness changed on the way is the fork of a recording fr
   LabRun run(scene.plan(changes), hand, &from);
   CHECK(run.restart_reason().empty());
   LabNames names;
-  CHECK(fork.frames.size() == recording.size() - 8);
-  for (const RecordedFrame& frame : fork.frames) {
+  CHECK(branch.frames.size() == recording.size() - 8);
+  for (const RecordedFrame& frame : branch.frames) {
     while (run.view().step() < frame.step) REQUIRE(run.step());
     CHECK(run.frame(names).recorded.hash == frame.hash);
   }
-  CHECK(fork.frames.back().hash != recording.frame(recording.size() - 1).hash);
+  CHECK(branch.frames.back().hash != recording.frame(recording.size() - 1).hash);
 }
 
-TEST_CASE("lab run: whoever moves the robot, it never jumps, and goes where it is told") {
+TEST_CASE("lab run: the target robot never jumps and reaches its goal, for every input source") {
   Session s(arm_with("paper"));
   std::vector<double> before;
   double farthest = 0;
@@ -104,15 +104,15 @@ TEST_CASE("lab run: whoever moves the robot, it never jumps, and goes where it i
   const auto tip_now = [&] {
     return s.run->prepared().input.couplings->kvr(0).end().k.position(tip.first, tip.second);
   };
-  // As near as the stylus' friction and the force that it feels let the soft arm come, magnified.
-  const Vector3 felt = s.run->frame(s.names).hand->force_W;
-  const double reach = s.hand.mapping().scale * (0.26 + felt.norm()) / ArmImpedance{}.stiffness;
+  // Static deflection of the arm model under friction and force, scaled.
+  const Vector3 force = s.run->frame(s.names).hand->force_W;
+  const double reach = s.hand.mapping().scale * (0.26 + force.norm()) / ArmImpedance{}.stiffness;
   CHECK((tip_now() - goal).head<2>().norm() < reach);
-  CHECK(felt.norm() <= OmniParameters{}.peak_force * 1.01);
+  CHECK(force.norm() <= OmniParameters{}.peak_force * 1.01);
   s.hand.release();
-  const Vector3 force_timeout = tip_now();
+  const Vector3 released = tip_now();
   run(300, nothing);
-  CHECK((tip_now() - force_timeout).norm() < 0.01);
+  CHECK((tip_now() - released).norm() < 0.01);
   s.hand.choose(OperatorInput::Source::joints);
   s.hand.joint(0, -0.6, 1);
   s.hand.joint(2, 0.3, 2);
@@ -125,17 +125,17 @@ TEST_CASE("lab run: whoever moves the robot, it never jumps, and goes where it i
   s.hand.choose(OperatorInput::Source::scene);
   run(3000, nothing);
   CHECK(!s.run->input_override().is_active());
-  CHECK(farthest <= 20 * 0.001 * (1 + 1e-9));  // of the mapping; our own limit is below it
+  CHECK(farthest <= 20 * 0.001 * (1 + 1e-9));  // limit of the mapping
   CHECK(farthest > 1e-4);
 }
 
-TEST_CASE("lab run: a frame between the choice of another hand and the next step is a good one") {
+TEST_CASE("lab run: a frame between the choice of a source and the next step is valid") {
   Session s(arm_with("device"));
   s.hand.choose(OperatorInput::Source::drag);
   s.step(20);
   REQUIRE(s.run->frame(s.names).hand->active);
   const std::vector<double> q = s.run->input_override().q();
-  s.hand.choose(OperatorInput::Source::joints);  // which has no device
+  s.hand.choose(OperatorInput::Source::joints);  // without a device
   CHECK(s.run->frame(s.names).hand->q_K == q);
   s.hand.choose(OperatorInput::Source::device, "virtual:step");
   const OperatorFrame frame = *s.run->frame(s.names).hand;
@@ -143,7 +143,7 @@ TEST_CASE("lab run: a frame between the choice of another hand and the next step
   CHECK(frame.torque == std::array<double, 3>{});
 }
 
-TEST_CASE("lab run: the gripper stays as it is where keys are released and another device comes") {
+TEST_CASE("lab run: the gripper keeps its state when keys are released or the device changes") {
   Session s(arm_with("device"));
   s.hand.choose(OperatorInput::Source::drag);
   s.hand.button(0, true, 1);
@@ -161,7 +161,7 @@ TEST_CASE("lab run: the gripper stays as it is where keys are released and anoth
   CHECK_FALSE(s.run->frame(s.names).hand->gripper_closed);
 }
 
-TEST_CASE("lab run: a body on the mouse is a damped oscillator, and both ledgers close") {
+TEST_CASE("lab run: a body on the mouse spring is a damped oscillator; both balances close") {
   Session s(kFreeBox);
   const Vector3 goal(0.1, -0.05, 1.2);
   REQUIRE(s.run->drag(1, Vector3::Zero(), goal, 7));
@@ -196,27 +196,28 @@ TEST_CASE("lab run: a body on the mouse is a damped oscillator, and both ledgers
 }
 
 TEST_CASE(
-    "lab run: a mouse on a link is felt by the ground through the joint, and no force is too "
-    "large for a light body") {
+    "lab run: a mouse spring on a link loads the base through its joints; its force is limited") {
   Session s(arm_with("device"));
   const Vector3 goal(0.3, 0.6, 0.5);
   REQUIRE(s.run->drag(s.run->input_override().driven()[1], Vector3(0.35, 0, 0.1), goal, 1));
   s.step(2000);
   const auto momenta = s.run->view().momentum();
   CHECK(momentum_of(momenta, "mouse").linear.norm() > 1);
-  // All rows together are the change of momentum, and what the integrator adds is little of it.
+  // The residual is small.
   CHECK(momentum_of(momenta, "numerical").linear.norm() <
         1e-3 * momentum_of(momenta, "mouse").linear.norm());
   CHECK(!s.run->drag(0, Vector3::Zero(), goal, 1));  // the world does not move
   CHECK(!s.run->drag(99, Vector3::Zero(), goal, 1));
 }
 
-TEST_CASE("lab run: bad changes are refused with all faults, and the run goes on as it was") {
+TEST_CASE("lab run: invalid changes are refused with all faults, and the run continues") {
   Session s(arm_with("paper"));
   s.step(10);
   const LabFrame frame = s.run->frame(s.names);
   try {
-    const LabRun other(s.scene.plan({{"step", "-1"}, {"coupling.one.stiffnes", "3"}, {"integrator", "rk5"}}), s.hand, &frame);
+    const LabRun other(
+        s.scene.plan({{"step", "-1"}, {"coupling.one.stiffnes", "3"}, {"integrator", "rk5"}}),
+        s.hand, &frame);
     FAIL("it was taken");
   } catch (const InputError& error) {
     CHECK(error.faults().size() >= 2);
@@ -224,7 +225,7 @@ TEST_CASE("lab run: bad changes are refused with all faults, and the run goes on
   s.step(10);
 }
 
-TEST_CASE("lab run: a spring beyond its limit stops the run, and says which and what would hold") {
+TEST_CASE("lab run: an unstable spring stops the run, and is named with a stable value") {
   Session s(arm_with("paper"));
   s.step(100);
   const auto rows = s.run->view().ledger();

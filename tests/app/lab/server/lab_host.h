@@ -1,4 +1,4 @@
-// A server for tests: it echoes, and remembers who has come and gone.
+// Test server: echoes, and counts clients.
 #pragma once
 
 #include <atomic>
@@ -39,7 +39,7 @@ class LabHost {
   std::string cookie() const {
     return "Cookie: a=b; twinarm_" + std::to_string(server.port()) + "=" + kToken + "\r\n";
   }
-  // "GET /path HTTP/1.1" with this server's name, and what else is given, each line with its end.
+  // "GET /path HTTP/1.1" with this server's host name; `more`: further complete lines.
   std::string request(const std::string& line, const std::string& more) const {
     return line + " HTTP/1.1\r\nHost: " + host() + "\r\n" + more + "\r\n";
   }
@@ -50,10 +50,10 @@ class LabHost {
                    "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n" +
                        more);
   }
-  // Lets it in; its number.
+  // Opens a WebSocket; returns the client's number.
   twinarm::ClientId open(RawClient& client) {
     const RawClient::Reply reply = client.ask(upgrade(cookie()));
-    if (reply.status != 101) throw std::runtime_error("not let in: " + reply.body);
+    if (reply.status != 101) throw std::runtime_error("refused: " + reply.body);
     const twinarm::ClientId number = ++opened_by_test_;
     if (!comes_true([&] { return opened >= number; })) throw std::runtime_error("not opened");
     return number;

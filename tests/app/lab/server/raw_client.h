@@ -1,5 +1,5 @@
-// A client that is nothing but a socket: requests and WebSocket frames byte by byte, as RFC 9112
-// and RFC 6455 say them. It shares no code with the server. No wait is longer than ten seconds.
+// Client on a plain socket: requests and WebSocket frames by RFC 9112 and RFC 6455, sharing no code
+// with the server. No wait is longer than ten seconds.
 #pragma once
 
 #include <arpa/inet.h>
@@ -22,7 +22,7 @@ class RawClient {
   struct Reply {
     int status = 0;  // 0: the connection has ended
     std::string head, body;
-    // Of a field, spelled as here; empty where it is not there.
+    // Value of a field, case-sensitive; empty: missing.
     std::string field(const std::string& name) const {
       const std::size_t at = head.find("\r\n" + name + ": ");
       if (at == head.npos) return {};
@@ -44,7 +44,7 @@ class RawClient {
   RawClient(const RawClient&) = delete;
   RawClient& operator=(const RawClient&) = delete;
 
-  // False where the server has hung up or takes no more.
+  // False: closed by the server.
   bool say(const std::string& bytes) const {
     for (std::size_t done = 0; done < bytes.size();) {
       pollfd ready{fd_, POLLOUT, 0};
@@ -57,7 +57,7 @@ class RawClient {
     return true;
   }
   void say_no_more() const { shutdown(fd_, SHUT_WR); }
-  // Until the server hangs up. False: it does not, within the wait.
+  // Waits until the server closes; false: timeout.
   bool hear_end() {
     while (fill()) in_.clear();
     return has_ended_;
@@ -82,7 +82,7 @@ class RawClient {
     return hear_reply(request.rfind("HEAD", 0) != 0);
   }
 
-  // As RFC 6455 5.2 has it; what a client sends is masked.
+  // RFC 6455 5.2; frames of a client are masked.
   static std::string frame(int opcode, const std::string& payload, bool is_last = true,
                            bool is_masked = true) {
     std::string bytes(1, static_cast<char>((is_last ? 0x80 : 0) | opcode));
@@ -117,7 +117,7 @@ class RawClient {
     frame.payload = take(size);
     return frame;
   }
-  // The next one that is no ping; pings are answered, as a browser does.
+  // The next message; pings are answered.
   Frame hear_message() {
     for (;;) {
       const Frame frame = hear_frame();
@@ -125,7 +125,7 @@ class RawClient {
       say_frame(kPong, frame.payload);
     }
   }
-  // The code of a close frame that comes within the wait, 0 where none does.
+  // Code of the close frame; 0: timeout.
   int hear_close(std::string* why = nullptr) {
     for (;;) {
       const Frame frame = hear_message();

@@ -1,6 +1,5 @@
-// Garbage on the wire: thousands of mutated heads and frames leave the server alive, and its memory
-// as it was. TWINARM_FUZZ=SECONDS goes on for so long, with other seeds (scripts/test runs a
-// second).
+// Thousands of mutated headers and frames: the server stays alive, without a memory leak.
+// TWINARM_FUZZ=SECONDS sets the duration, with other seeds (scripts/test: one second).
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,7 +18,7 @@ std::size_t below(Random& random, std::size_t count) {
   return random() % std::max<std::size_t>(count, 1);
 }
 
-// One of the usual ways to break bytes: changed, left out, doubled, put in, cut off.
+// Bytes changed, removed, doubled, inserted, or cut off.
 void mutate(std::string& bytes, Random& random) {
   static const std::vector<std::string> kNasty = {
       std::string(1, '\0'),
@@ -85,11 +84,11 @@ struct Fuzz {
     client.say_no_more();
     REQUIRE(client.hear_end());
   }
-  // Twenty frames on one connection: the first that is wrong ends it.
+  // Twenty frames on one connection: the first invalid one ends it.
   void one_live(LabHost& lab) {
     RawClient client(lab.server.port());
     if (client.ask(lab.upgrade(lab.cookie())).status != 101)
-      return;  // those before are still leaving
+      return;  // earlier ones are still closing
     for (int n = 0; n < 20; ++n) {
       const int opcodes[] = {0, 1, 1, 1, 2, 8, 9, 10, 3};
       std::string bytes =
@@ -106,13 +105,12 @@ struct Fuzz {
 
 }  // namespace
 
-TEST_CASE(
-    "lab fuzz: thousands of broken requests and frames do no harm, and leave nothing behind") {
+TEST_CASE("lab fuzz: thousands of damaged requests and frames do no harm and leak no memory") {
   const char* asked = std::getenv("TWINARM_FUZZ");
   const double seconds = asked ? std::stod(asked) : 0;
   LabHost lab;
-  RawClient witness(lab.server.port());
-  lab.open(witness);
+  RawClient observer(lab.server.port());
+  lab.open(observer);
   Fuzz fuzz{Random(asked ? std::random_device()() : 20240229u)};
   const auto start = std::chrono::steady_clock::now();
   double memory = 0;
@@ -121,14 +119,14 @@ TEST_CASE(
     for (int n = 0; n < 100; ++n) fuzz.one_head(lab);
     for (int n = 0; n < 20; ++n) fuzz.one_live(lab);
     REQUIRE(lab.is_alive());
-    witness.say_frame(RawClient::kText, "round");
-    REQUIRE(witness.hear_message().payload == "you said round");
+    observer.say_frame(RawClient::kText, "round");
+    REQUIRE(observer.hear_message().payload == "you said round");
     if (rounds == 9) memory = resident_memory();
     const double gone =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     goes_on = rounds < 30 || gone < seconds;
   }
-  CHECK(lab.opened - lab.closed >= 1);  // the witness
+  CHECK(lab.opened - lab.closed >= 1);  // the observer
   CHECK(comes_true([&] { return lab.opened - lab.closed == 1; }));
   if (kMemoryTells) CHECK(resident_memory() - memory < 3);
   if (asked) MESSAGE(rounds << " rounds of 100 heads and 20 connections");

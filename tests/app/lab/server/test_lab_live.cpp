@@ -1,10 +1,10 @@
-// The WebSocket: frames as RFC 6455 says, and newest-only messages that nobody can hold up.
+// WebSocket: frames as in RFC 6455; newest-only messages that no client can block.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <vector>
 
-#include "app/lab/server/mailboxes.h"
+#include "app/lab/server/mailqueues.h"
 #include "tests/app/lab/server/lab_host.h"
 
 using namespace twinarm;
@@ -22,7 +22,7 @@ Bytes numbered(int number, std::size_t size) {
 
 }  // namespace
 
-TEST_CASE("lab live: the handshake answers the key of RFC 6455's own example") {
+TEST_CASE("WebSocket: the handshake answers the key of the example in RFC 6455") {
   LabHost lab;
   RawClient client(lab.server.port());
   const auto reply = client.ask(lab.upgrade(lab.cookie()));
@@ -31,7 +31,7 @@ TEST_CASE("lab live: the handshake answers the key of RFC 6455's own example") {
   CHECK(reply.field("Sec-WebSocket-Extensions").empty());
 }
 
-TEST_CASE("lab live: text in pieces with a ping between is one message; pings are answered") {
+TEST_CASE("WebSocket: fragments with a ping between are one message; pings are answered") {
   LabHost lab;
   RawClient client(lab.server.port());
   const ClientId number = lab.open(client);
@@ -43,7 +43,7 @@ TEST_CASE("lab live: text in pieces with a ping between is one message; pings ar
   CHECK(pong.payload == "are you there");
   CHECK(echo.opcode == RawClient::kText);
   CHECK(echo.payload == "you said h\xc3\xa9llo");
-  // Lengths at which the form of a frame changes.
+  // Lengths at which the frame format changes.
   for (const std::size_t size : {0, 1, 125, 126, 127, 65535, 65536}) {
     const std::string text(size, 't');
     REQUIRE(client.say_frame(RawClient::kText, text));
@@ -56,10 +56,10 @@ TEST_CASE("lab live: text in pieces with a ping between is one message; pings ar
   CHECK(client.hear_close() == 1000);
   CHECK(client.hear_end());
   CHECK(comes_true([&] { return lab.closed == number; }));
-  CHECK(lab.server.traffic(number).received == 0);  // forgotten
+  CHECK(lab.server.traffic(number).received == 0);
 }
 
-TEST_CASE("lab live: what RFC 6455 forbids ends that connection with its code, and no other") {
+TEST_CASE("WebSocket: a violation of RFC 6455 closes that connection with its code, and no other") {
   LabHost lab;
   RawClient good(lab.server.port());
   lab.open(good);
@@ -79,22 +79,22 @@ TEST_CASE("lab live: what RFC 6455 forbids ends that connection with its code, a
   CHECK(code(Raw::frame(Raw::kPing, "in pieces", false)) == 1002);
   CHECK(code(Raw::frame(Raw::kPing, std::string(126, 'p'))) == 1002);
   CHECK(code(Raw::frame(Raw::kText, std::string((64 << 10) + 1, 'b'))) == 1009);  // too big
-  // Too big in pieces: told before the last has come.
+  // Too large in fragments: closed before the last one.
   std::string pieces = Raw::frame(Raw::kText, std::string(40000, 'b'), false);
   CHECK(code(pieces + Raw::frame(0, std::string(40000, 'b'), false)) == 1009);
-  // A length of 2^62: told before it is waited for.
+  // A length of 2^62: closed at once.
   CHECK(code(std::string("\x81\xff\x40\0\0\0\0\0\0\0mask", 14)) == 1009);
   good.say_frame(Raw::kText, "still here");
   CHECK(good.hear_message().payload == "you said still here");
   CHECK(comes_true([&] { return lab.closed == 11; }));
-  // Who stays on the line after that is hung up on.
+  // The socket is closed if the client does not close it.
   RawClient stays(lab.server.port());
   lab.open(stays);
   stays.say(Raw::frame(Raw::kText, "plain", true, false));
   CHECK(comes_true([&] { return lab.closed == 12; }));
 }
 
-TEST_CASE("lab live: a client that reads gets every message while another does not read at all") {
+TEST_CASE("WebSocket: a reading client gets every message while another does not read") {
   LabHost lab;
   RawClient reads(lab.server.port()), stalled(lab.server.port());
   const ClientId reader = lab.open(reads), staller = lab.open(stalled);
@@ -114,9 +114,9 @@ TEST_CASE("lab live: a client that reads gets every message while another does n
   const LabServer::Traffic traffic = lab.server.traffic(staller);
   CHECK(traffic.sent <= 5);
   CHECK(traffic.sent + traffic.replaced + 1 >= kMessages);
-  // 72 MB have been made since; what waits is one message.
+  // Of 72 MB one message is waiting.
   if (kMemoryTells) CHECK(resident_memory() - memory < 4);
-  // And when it reads again: what was on its way, in order, and then the newest.
+  // When it reads again: messages in transit in order, then the newest.
   int last = -1;
   while (last < kMessages - 1) {
     const Frame frame = stalled.hear_message();
@@ -127,7 +127,7 @@ TEST_CASE("lab live: a client that reads gets every message while another does n
   CHECK(lab.server.traffic(staller).sent <= 6);
 }
 
-TEST_CASE("lab live: faster than anybody reads, messages come in order, and the newest always") {
+TEST_CASE("WebSocket: faster than a client reads, messages stay in order, and the newest arrives") {
   LabHost lab;
   RawClient client(lab.server.port());
   const ClientId number = lab.open(client);
@@ -157,34 +157,33 @@ TEST_CASE("lab live: faster than anybody reads, messages come in order, and the 
   CHECK(traffic.sent + traffic.replaced == 2 * kMessages);
 }
 
-TEST_CASE(
-    "lab live: of places that are always full, each gets its turn, and the first channel goes "
-    "first") {
-  OutgoingQueues boxes;
-  boxes.open(1);
-  CHECK(boxes.put(1, 3, {bytes_of("c"), true}));
-  CHECK_FALSE(boxes.put(1, 1, {bytes_of("a"), true}));  // has been woken
-  boxes.put(1, 2, {bytes_of("b"), true});
-  boxes.clear_wakeup();
+TEST_CASE("outgoing queues: no full channel starves, and channel 0 goes first") {
+  OutgoingQueues queues;
+  queues.open(1);
+  CHECK(queues.put(1, 3, {bytes_of("c"), true}));
+  CHECK_FALSE(queues.put(1, 1, {bytes_of("a"), true}));  // already woken
+  queues.put(1, 2, {bytes_of("b"), true});
+  queues.clear_wakeup();
   std::string order;
   for (int n = 0; n < 9; ++n) {
-    const std::string taken = *boxes.take(1)->bytes;
+    const std::string taken = *queues.take(1)->bytes;
     order += taken;
-    // A newer one at every place, whoever was taken.
+    // A newer one in every channel.
     for (int channel = 1; channel <= 3; ++channel)
-      boxes.put(1, channel, {bytes_of(std::string(1, static_cast<char>('a' + channel - 1))), true});
+      queues.put(1, channel,
+                 {bytes_of(std::string(1, static_cast<char>('a' + channel - 1))), true});
   }
   CHECK(order.substr(0, 3) == "cab");
   for (const char channel : {'a', 'b', 'c'})
     CHECK(std::count(order.begin(), order.end(), channel) == 3);
-  boxes.put(1, 0, {bytes_of("first"), false});
-  CHECK(*boxes.take(1)->bytes == "first");
-  CHECK_FALSE(boxes.put(2, 0, {bytes_of("to nobody"), false}));
-  CHECK_FALSE(boxes.take(2));
+  queues.put(1, 0, {bytes_of("first"), false});
+  CHECK(*queues.take(1)->bytes == "first");
+  CHECK_FALSE(queues.put(2, 0, {bytes_of("unknown client"), false}));
+  CHECK_FALSE(queues.take(2));
 }
 
 TEST_CASE(
-    "lab live: a client that takes nothing is dropped after a while; one that is idle is kept") {
+    "WebSocket: a client that reads nothing is dropped after the timeout; an idle one is kept") {
   ServerOptions options;
   options.patience = 1;
   LabHost lab(options);
@@ -192,8 +191,8 @@ TEST_CASE(
   lab.open(stalled);
   const ClientId kept = lab.open(idle);
   const auto start = std::chrono::steady_clock::now();
-  lab.server.send(1, 2, bytes_of("nobody hears this"), false);
-  // Pings come in silence; who answers is there.
+  lab.server.send(1, 2, bytes_of("not read"), false);
+  // Idle clients are pinged.
   std::atomic<bool> stop{false};
   int pings = 0;
   std::thread answers([&] {
@@ -214,7 +213,7 @@ TEST_CASE(
   CHECK(pings >= 3);
 }
 
-TEST_CASE("lab live: there is an end to clients, and place again when one leaves") {
+TEST_CASE("WebSocket: the number of clients is limited, and a place is free when one leaves") {
   LabHost lab;
   std::vector<std::unique_ptr<RawClient>> clients;
   for (int n = 0; n < 32; ++n) {
@@ -234,7 +233,7 @@ TEST_CASE("lab live: there is an end to clients, and place again when one leaves
   for (const auto& client : clients) CHECK(client->hear_message().payload == "all");
 }
 
-TEST_CASE("lab live: who floods is told so and dropped; the others notice nothing") {
+TEST_CASE("WebSocket: a client that floods is closed with a reason; others are not affected") {
   ServerOptions options;
   options.messages_per_second = 100;
   LabHost lab(options);
@@ -254,7 +253,7 @@ TEST_CASE("lab live: who floods is told so and dropped; the others notice nothin
   }
 }
 
-TEST_CASE("lab live: the server ends with clients of all kinds open") {
+TEST_CASE("WebSocket: the server ends with open clients of all kinds") {
   std::vector<std::unique_ptr<RawClient>> clients;
   {
     LabHost lab;

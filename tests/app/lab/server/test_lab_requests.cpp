@@ -1,4 +1,4 @@
-// The lab's server as strangers see it: who is let in, and what they get.
+// HTTP requests: access and replies.
 #include <doctest/doctest.h>
 #include <zlib.h>
 
@@ -25,7 +25,7 @@ std::string unzipped(const std::string& packed, std::size_t size) {
 
 }  // namespace
 
-TEST_CASE("lab server: without the token nobody gets in, and is told what to do") {
+TEST_CASE("lab server: a request without the token is refused with a remedy") {
   const LabHost lab;
   for (const std::string line :
        {"GET /", "GET /mesh/1", "POST /open", "GET /?token=", "GET /?token=wrong",
@@ -45,7 +45,7 @@ TEST_CASE("lab server: without the token nobody gets in, and is told what to do"
             .status == 403);
 }
 
-TEST_CASE("lab server: the token in the first address gives a cookie that the page cannot read") {
+TEST_CASE("lab server: the token in the first address sets a cookie that scripts cannot read") {
   const LabHost lab;
   RawClient client(lab.server.port());
   const std::string token = LabHost::kToken;
@@ -55,7 +55,7 @@ TEST_CASE("lab server: the token in the first address gives a cookie that the pa
   const std::string cookie = first.field("Set-Cookie");
   CHECK(cookie == "twinarm_" + std::to_string(lab.server.port()) + "=" + token +
                       "; Path=/; HttpOnly; SameSite=Strict");
-  // The same connection goes on.
+  // The same connection.
   const auto second = client.ask(
       lab.request("GET /x%20y", "Cookie: " + cookie.substr(0, cookie.find(';')) + "\r\n"));
   CHECK(second.status == 200);
@@ -69,7 +69,7 @@ TEST_CASE("lab server: the token in the first address gives a cookie that the pa
   }
 }
 
-TEST_CASE("lab server: a name that is made to lead here is refused, token or not") {
+TEST_CASE("lab server: a foreign host name is refused, with or without the token") {
   const LabHost lab;
   const std::string port = std::to_string(lab.server.port());
   const auto status = [&](const std::string& hosts) {
@@ -87,7 +87,7 @@ TEST_CASE("lab server: a name that is made to lead here is refused, token or not
   CHECK(status("Host: 127.0.0.1:" + port + "\r\nHost: evil.example\r\n") == 403);
 }
 
-TEST_CASE("lab server: names of all addresses: any numeric one, for only words can be led astray") {
+TEST_CASE("lab server: on all addresses any numeric host is permitted, but no foreign name") {
   const HostNames any("0.0.0.0", 8080, false, true);
   for (const char* host : {"192.168.1.7:8080", "[fe80::1]:8080", "localhost:8080"})
     CHECK(any.has(host));
@@ -98,7 +98,7 @@ TEST_CASE("lab server: names of all addresses: any numeric one, for only words c
   CHECK_FALSE(HostNames("10.0.0.2", 80, false, false).has("localhost"));
 }
 
-TEST_CASE("lab server: another page's requests are not done, though the browser has the cookie") {
+TEST_CASE("lab server: cross-origin requests are refused, even with the cookie") {
   const LabHost lab;
   const auto status = [&](const std::string& origin, bool is_live) {
     const std::string more = lab.cookie() + (origin.empty() ? "" : "Origin: " + origin + "\r\n");
@@ -110,7 +110,7 @@ TEST_CASE("lab server: another page's requests are not done, though the browser 
   };
   for (const bool is_live : {false, true}) {
     const int done = is_live ? 101 : 200;
-    CHECK(status("", is_live) == done);  // no browser
+    CHECK(status("", is_live) == done);  // not a browser
     CHECK(status("http://" + lab.host(), is_live) == done);
     for (const std::string& origin :
          {std::string("http://evil.example"), std::string("null"), "https://" + lab.host(),
@@ -119,7 +119,7 @@ TEST_CASE("lab server: another page's requests are not done, though the browser 
   }
 }
 
-TEST_CASE("lab server: what is asked for reaches the handler, and comes back") {
+TEST_CASE("lab server: a request reaches the handler, and its reply the client") {
   LabHost lab;
   const int port = lab.server.port();
   CHECK(RawClient(port)
@@ -144,7 +144,7 @@ TEST_CASE("lab server: what is asked for reaches the handler, and comes back") {
   CHECK(RawClient(port).ask(lab.request("GET /", lab.cookie())).status == 500);
 }
 
-TEST_CASE("lab server: an answer may come later, from any thread, even when the server is gone") {
+TEST_CASE("lab server: a reply may come later, from any thread, even after the server's end") {
   std::function<void(HttpReply)> kept;
   {
     LabHost lab;
@@ -168,8 +168,7 @@ TEST_CASE("lab server: an answer may come later, from any thread, even when the 
   kept({200, "text/plain", bytes_of("too late"), false, {}});
 }
 
-TEST_CASE(
-    "lab server: what never changes is asked for once; text is packed for who can unpack it") {
+TEST_CASE("lab server: immutable replies are cached; text is compressed if accepted") {
   LabHost lab;
   const std::string page(100000, 'p');
   lab.http = [&](const HttpRequest& asked, const auto& answer) {
@@ -198,10 +197,10 @@ TEST_CASE(
         "attachment; filename=\"a_b_.twinrec\"");
 }
 
-TEST_CASE("lab server: what is too long or too slow is cut off") {
+TEST_CASE("lab server: requests that are too long or too slow are cut off") {
   ServerOptions options;
   options.max_body = 1000;
-  options.patience = 2;  // half a second for a head
+  options.patience = 2;  // half a second for a header
   const LabHost lab(options);
   const int port = lab.server.port();
   CHECK(RawClient(port).ask("GET / HTTP/1.1\r\nA: " + std::string(20000, 'a')).status == 431);
@@ -226,7 +225,7 @@ TEST_CASE("lab server: what is too long or too slow is cut off") {
   CHECK(lab.is_alive());
 }
 
-TEST_CASE("lab server: requests have a rate too") {
+TEST_CASE("lab server: the rate of requests is limited") {
   ServerOptions options;
   options.messages_per_second = 50;
   const LabHost lab(options);
@@ -240,7 +239,7 @@ TEST_CASE("lab server: requests have a rate too") {
   CHECK(lab.is_alive());
 }
 
-TEST_CASE("lab server: an address that cannot be listened on is refused with a remedy") {
+TEST_CASE("lab server: an unusable address is refused with a remedy") {
   const LabHost lab;
   ServerOptions options;
   options.port = lab.server.port();
@@ -257,7 +256,7 @@ TEST_CASE("lab server: an address that cannot be listened on is refused with a r
   }
 }
 
-TEST_CASE("lab server: UTF-8 is what RFC 3629 says, no more") {
+TEST_CASE("lab server: UTF-8 as in RFC 3629") {
   for (const char* good : {"", "a", "\xc2\x80", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf",
                            "\xee\x80\x80", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
     CHECK(is_utf8(good));

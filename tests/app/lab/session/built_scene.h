@@ -1,4 +1,4 @@
-// Scenes as the workshop of the lab hands them over.
+// Scenes built as by the scene builder thread.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@
 
 namespace twinarm {
 
-// The paper's robot, one joint of it drawn after a hand.
+// The paper's robot, one joint coupled to a target.
 inline const std::string kSlowlyDriven = test_data("app/lab/session/slowly_driven.toml");
 
 inline BuildResult built_from(const std::string& text) {
   const TemporaryFolder folder;
-  BuildRequest order;
-  order.file = folder.write("scene.toml", text);
-  return build(std::move(order));
+  BuildRequest request;
+  request.file = folder.write("scene.toml", text);
+  return build(std::move(request));
 }
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-// The parts of the lab's session by themselves, without a thread that steps.
+// Parts of the session without its thread.
 #include <doctest/doctest.h>
 
 #include "app/lab/session/session_state.h"
@@ -18,12 +18,12 @@ LabFrame frame_at(long step) {
 LabInput input_at(long step) {
   LabInput input;
   input.step = step;
-  input.mouse = MouseSpringInput{};  // one without is not remembered
+  input.mouse = MouseSpringInput{};  // else it is not stored
   input.stamp = static_cast<double>(step);
   return input;
 }
 
-TEST_CASE("session parts: a branch knows the inputs that came after its start, until the last") {
+TEST_CASE("timeline: a branch knows the inputs after its start, until the last") {
   Timeline timeline(LabHistory::kMaxBytes);
   timeline.begin(std::make_shared<const BuildResult>(built_from(kSlowlyDriven)), {});
   for (long step = 1; step <= 5; ++step) {
@@ -42,7 +42,7 @@ TEST_CASE("session parts: a branch knows the inputs that came after its start, u
   CHECK(timeline.known_input(6).input.stamp == 0);
 }
 
-TEST_CASE("session parts: an instant before what is remembered begins no branch") {
+TEST_CASE("timeline: a time before the history begins no branch") {
   Timeline timeline(LabHistory::kMaxBytes);
   timeline.begin(std::make_shared<const BuildResult>(built_from(kSlowlyDriven)), {});
   CHECK(timeline.branch(0) == nullptr);
@@ -51,7 +51,7 @@ TEST_CASE("session parts: an instant before what is remembered begins no branch"
   CHECK(timeline.branch(0.07) != nullptr);
 }
 
-TEST_CASE("session parts: of commands that nobody takes, the inbox keeps the first 4096") {
+TEST_CASE("inbox: keeps the first 4096 waiting commands") {
   Inbox inbox;
   for (long n = 0; n < 5000; ++n) {
     LabCommand command;
@@ -64,7 +64,7 @@ TEST_CASE("session parts: of commands that nobody takes, the inbox keeps the fir
   CHECK(inbox.take().commands.empty());
 }
 
-TEST_CASE("session parts: changes are pending until a number that is at least theirs is finished") {
+TEST_CASE("pending changes: finished by a number not below theirs") {
   PendingChanges pending;
   for (int n = 0; n < 3; ++n) pending.add({});
   pending.finish(2);

@@ -1,4 +1,4 @@
-// Reads a frame of the lab by the table in docs/reference/lab_protocol.md, written down here once more.
+// Decoder of frames, written from the table in docs/reference/lab_protocol.md.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -72,11 +72,11 @@ struct ReadFrame {
     text = bytes.substr(end, B);
     end += B;
   }
-  // x y z of a body's place, in `link` or `target`; and its quaternion, x y z w.
-  static std::array<float, 7> place(const std::vector<float>& places, std::size_t body) {
-    std::array<float, 7> place{};
-    for (std::size_t c = 0; c < 7; ++c) place[c] = places.at(7 * body + c);
-    return place;
+  // Pose of a body in `link` or `target`: x y z, quaternion x y z w.
+  static std::array<float, 7> pose(const std::vector<float>& poses, std::size_t body) {
+    std::array<float, 7> pose{};
+    for (std::size_t c = 0; c < 7; ++c) pose[c] = poses.at(7 * body + c);
+    return pose;
   }
   std::size_t instances() const { return body.size(); }
   std::string label(std::size_t m) const {
@@ -103,7 +103,7 @@ struct ReadFrame {
   }
 };
 
-// Of a JSON message: the texts at a key of the objects in a list, or those in the list itself.
+// Texts at a key of the objects in a list of a JSON message; empty key: texts in the list.
 inline std::vector<std::string> texts_in(const std::string& json, const std::string& list,
                                          const std::string& key) {
   const std::size_t begin = json.find("\"" + list + "\": [");

@@ -1,4 +1,4 @@
-// Frames of the lab as bytes, read back by the protocol's table, against the run that they are of.
+// Binary frames, decoded by the protocol's table, against the run.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -10,13 +10,13 @@
 namespace twinarm {
 namespace {
 
-void check_place(const std::array<float, 7>& place, const Pose& X_WL) {
-  CHECK((Vector3(place[0], place[1], place[2]) - X_WL.p).norm() < 1e-6);
-  const Eigen::Quaterniond turn(place[6], place[3], place[4], place[5]);
-  CHECK((turn.toRotationMatrix() - X_WL.R).cwiseAbs().maxCoeff() < 1e-6);
+void check_pose(const std::array<float, 7>& pose, const Pose& X_WL) {
+  CHECK((Vector3(pose[0], pose[1], pose[2]) - X_WL.p).norm() < 1e-6);
+  const Eigen::Quaterniond rotation(pose[6], pose[3], pose[4], pose[5]);
+  CHECK((rotation.toRotationMatrix() - X_WL.R).cwiseAbs().maxCoeff() < 1e-6);
 }
 
-// The same frame with other coordinates: they stand in the memory after its head.
+// The frame with another first coordinate in its checkpoint.
 LabFrame with_first_q(LabFrame frame, double old, double value) {
   std::string& memory = frame.recorded.memory;
   const std::string from(reinterpret_cast<const char*>(&old), sizeof old);
@@ -26,8 +26,7 @@ LabFrame with_first_q(LabFrame frame, double old, double value) {
   return frame;
 }
 
-TEST_CASE(
-    "lab frame: the head says what the session and the run say, and the arrays fill the rest") {
+TEST_CASE("lab frame: the header has the values of session and run, and the arrays fill the rest") {
   Watched watched = watched_boxes();
   LabFrame frame = watched.after(5);
   frame.input_stamp = 12.5;
@@ -52,7 +51,7 @@ TEST_CASE(
   CHECK(read.first.size() == all_layers(watched).size() + 1);
 }
 
-TEST_CASE("lab frame: bodies stand and are turned as forward kinematics has them") {
+TEST_CASE("lab frame: poses of bodies equal forward kinematics") {
   Watched watched = watched_boxes();
   const LabFrame frame = watched.after(70);
   const ReadFrame read(watched.view->frame(frame, nullptr, {}, {}));
@@ -67,7 +66,7 @@ TEST_CASE("lab frame: bodies stand and are turned as forward kinematics has them
     seen.push_back(bodies[read.body[i]]);
     CHECK((position_of(read, i) - X_WL.p).norm() < 1e-6);
     // Half a unit of each of four numbers, at most.
-    CHECK((turn_of(read, i) - X_WL.R).cwiseAbs().maxCoeff() < 4.0 / 32767);
+    CHECK((rotation_of(read, i) - X_WL.R).cwiseAbs().maxCoeff() < 4.0 / 32767);
     const bool rests = seen.back() == "resting";
     const Vector3 size = rests ? Vector3(0.4, 0.3, 0.2) : Vector3(0.1, 0.2, 0.3);
     for (int c = 0; c < 3; ++c)
@@ -76,8 +75,8 @@ TEST_CASE("lab frame: bodies stand and are turned as forward kinematics has them
   CHECK(seen == std::vector<std::string>{"resting", "spinning"});
   REQUIRE(read.link.size() == 7 * bodies.size());
   for (std::size_t body = 0; body < bodies.size(); ++body) {
-    check_place(ReadFrame::place(read.link, body), k.X_WL[body]);
-    CHECK(std::isnan(ReadFrame::place(read.target, body)[0]));  // no kinematic robot
+    check_pose(ReadFrame::pose(read.link, body), k.X_WL[body]);
+    CHECK(std::isnan(ReadFrame::pose(read.target, body)[0]));  // no target robot
   }
 }
 
@@ -92,7 +91,7 @@ TEST_CASE("lab frame: channels and works are those of the recorded frame, by nam
     CHECK(at(watched.header.columns[i].name) == frame.recorded.values[i]);
   Vector3 force = Vector3::Zero();
   for (const RecordedContact& c : frame.recorded.contacts) force += c.force;
-  CHECK(force.norm() == doctest::Approx(2 * 9.81).epsilon(1e-6));  // what rests weighs 2 kg
+  CHECK(force.norm() == doctest::Approx(2 * 9.81).epsilon(1e-6));  // resting mass of 2 kg
   CHECK(at("contact/floor-resting") == doctest::Approx(force.norm()).epsilon(1e-14));
   CHECK(std::isnan(at("pull")));
   CHECK(std::isnan(at("hand/force")));
@@ -102,7 +101,7 @@ TEST_CASE("lab frame: channels and works are those of the recorded frame, by nam
     CHECK(read.works[frame.recorded.rows[i]] == frame.recorded.works[i]);
 }
 
-TEST_CASE("lab frame: layers lie one behind the other, those that nobody wants are empty") {
+TEST_CASE("lab frame: layers are consecutive; those not requested are empty") {
   Watched watched = watched_boxes();
   const LabFrame frame = watched.after(20);
   const std::vector<std::string> names = all_layers(watched);
@@ -123,15 +122,15 @@ TEST_CASE("lab frame: layers lie one behind the other, those that nobody wants a
   }
   CHECK(all.labels_of(watched.layer("labels")) == std::vector<std::string>{"resting", "spinning"});
   CHECK(all.labels_of(watched.layer("forces")) == std::vector<std::string>{"19.6 N"});
-  // The weight of the resting box points down from its middle, and is told as of that box.
+  // The weight of the resting box points down from its centre.
   const auto [first, last] = all.layer(watched.layer("gravity"));
   REQUIRE(last == first + 4);  // two arrows of shaft and head
   CHECK((position_of(all, first) - Vector3(0.5, 0, 0.1)).norm() < 1e-3);
-  CHECK(turn_of(all, first).col(2).z() < -0.9999);
+  CHECK(rotation_of(all, first).col(2).z() < -0.9999);
   CHECK(all.body[first] == all.body[0]);
 }
 
-TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the same time too") {
+TEST_CASE("lab frame: the target robot has the operator's pose, also at an unchanged time") {
   Watched watched = watched_arm();
   LabFrame frame = watched.after(3);
   REQUIRE(frame.hand);
@@ -153,7 +152,7 @@ TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the s
     const std::size_t first = read.first[ghost], last = read.first[ghost + 1];
     Kinematics now(model);
     forward_kinematics(model, watched.run->view().simulation().state(), now);
-    // Its link's pose, by way of the same part of the dynamic robot, whose link stands at `now`.
+    // Pose of a link from the same part of the robot, whose link has the pose in `now`.
     const auto is_like = [&](std::size_t i, std::size_t j) {
       return read.body[i] == read.body[j] && read.mesh[i] == read.mesh[j];
     };
@@ -170,8 +169,8 @@ TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the s
     CHECK(seen > 0);
     for (int body = 1; body < model.body_count(); ++body) {
       const auto i = static_cast<std::size_t>(body);
-      check_place(ReadFrame::place(read.target, i), k.X_WL[i]);
-      check_place(ReadFrame::place(read.link, i), now.X_WL[i]);
+      check_pose(ReadFrame::pose(read.target, i), k.X_WL[i]);
+      check_pose(ReadFrame::pose(read.link, i), now.X_WL[i]);
     }
     const auto at = [&](const char* name) {
       return read.channels.at(watched.place_of("channels", "name", name));
@@ -181,7 +180,7 @@ TEST_CASE("lab frame: the kinematic robot stands where the hand has it, at the s
   }
 }
 
-TEST_CASE("lab frame: the run that was left stands beside this one only where it is elsewhere") {
+TEST_CASE("lab frame: the run that was left is shown only where it differs") {
   Watched watched = watched_boxes();
   const LabFrame earlier = watched.after(5), now = watched.after(100);
   const std::size_t before = watched.layer("before");
@@ -207,7 +206,7 @@ TEST_CASE("lab frame: the run that was left stands beside this one only where it
   }
 }
 
-TEST_CASE("lab frame: what the hand feels is an arrow from the stylus, as long as the force") {
+TEST_CASE("lab frame: the device force is an arrow at the stylus, proportional to the force") {
   Watched watched = watched_arm();
   LabFrame frame = watched.after(1);
   REQUIRE(frame.hand);
@@ -220,7 +219,7 @@ TEST_CASE("lab frame: what the hand feels is an arrow from the stylus, as long a
     const auto [first, last] = read.layer(felt);
     double reach = 0;  // from the point to the tip of the first arrow: shaft, head
     if (last > first) {
-      CHECK((turn_of(read, first).col(2) - Vector3(0, 0.6, 0.8)).norm() < 1e-3);
+      CHECK((rotation_of(read, first).col(2) - Vector3(0, 0.6, 0.8)).norm() < 1e-3);
       reach = read.scale[3 * first + 2] + read.scale[3 * first + 5];
     }
     return std::pair(reach, read.labels_of(felt));
@@ -233,12 +232,12 @@ TEST_CASE("lab frame: what the hand feels is an arrow from the stylus, as long a
   CHECK(length(0).first == 0);
 }
 
-TEST_CASE("lab frame: the mouse's spring is drawn from the body's point to the goal") {
+TEST_CASE("lab frame: the mouse spring is drawn from the body's point to the goal") {
   Watched watched = watched_boxes();
   LabFrame frame = watched.after(1);
   const Model<double>& model = watched.plan->prepared.input.robot.model;
-  frame.mouse = MouseSpringState{model.find_body("resting"), Vector3(0.2, 0, 0), Vector3(0.9, 0, 0.5),
-                          Vector3(7, 0, 0)};
+  frame.mouse = MouseSpringState{model.find_body("resting"), Vector3(0.2, 0, 0),
+                                 Vector3(0.9, 0, 0.5), Vector3(7, 0, 0)};
   const ReadFrame read(watched.view->frame(frame, nullptr, {"pull"}, {}));
   const std::size_t pull = watched.layer("pull");
   const auto [first, last] = read.layer(pull);
@@ -249,7 +248,8 @@ TEST_CASE("lab frame: the mouse's spring is drawn from the body's point to the g
   CHECK(read.channels.at(watched.place_of("channels", "name", "pull")) == 7);
 }
 
-TEST_CASE("lab frame: a state that is nowhere makes no instance of that body, and throws nothing") {
+TEST_CASE(
+    "lab frame: a state that is not finite gives no instance of that body, and no exception") {
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInf = std::numeric_limits<double>::infinity();
   for (const double bad : {kNaN, kInf, -kInf, 1e300, 1e30, 1e11}) {
@@ -267,7 +267,7 @@ TEST_CASE("lab frame: a state that is nowhere makes no instance of that body, an
   }
 }
 
-TEST_CASE("lab frame: the arm at a state that is nowhere throws nothing either") {
+TEST_CASE("lab frame: the arm in a state that is not finite gives no exception") {
   Watched watched = watched_arm();
   LabFrame frame = watched.after(2);
   State<double> x = watched.run->view().simulation().state();

@@ -1,4 +1,4 @@
-// What goes with the frames of the lab: meshes, names that come up, scales of arrows, the history.
+// Meshes, new names, scales of arrows, history.
 #include <cmath>
 
 #include "app/lab/stream/scene_message.h"
@@ -7,7 +7,7 @@
 namespace twinarm {
 namespace {
 
-TEST_CASE("lab view: of a scene with nothing in it there are frames too") {
+TEST_CASE("lab view: an empty scene gives frames") {
   const TemporaryFolder folder;
   Watched watched(folder.write("empty.toml", R"(
 [[body]]
@@ -21,7 +21,8 @@ shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
   CHECK(read.time == doctest::Approx(0.002));
 }
 
-TEST_CASE("lab view: meshes of equal content have one name, others another; the bytes are theirs") {
+TEST_CASE(
+    "lab view: meshes of equal content have one name, others another; bytes as in the protocol") {
   DrawList list;
   const auto wedge = [](float height) {
     DrawMesh mesh;
@@ -52,8 +53,7 @@ TEST_CASE("lab view: meshes of equal content have one name, others another; the 
   CHECK_FALSE(store.mesh("no such"));
 }
 
-TEST_CASE(
-    "lab view: what comes up during a run is added behind all else, and counts the revision") {
+TEST_CASE("lab view: new channels are appended, and the revision increases") {
   const TemporaryFolder folder;
   Watched watched(folder.write("drop.toml", replaced(kBoxes, "[0.5, 0, 0.1]", "[0.5, 0, 0.102]")));
   const LabFrame first = watched.after(1);
@@ -74,8 +74,7 @@ TEST_CASE(
     CHECK(watched.view->store().mesh(hash));
 }
 
-TEST_CASE(
-    "lab view: scales of arrows grow with the forces, by one round step a frame, never back") {
+TEST_CASE("lab view: scales of arrows grow by one round step a frame, and never shrink") {
   Watched watched = watched_boxes();
   LabFrame frame = watched.after(20);
   const std::size_t forces = watched.layer("forces");
@@ -88,10 +87,10 @@ TEST_CASE(
   CHECK(at_rest > 0);
   const auto contacts = frame.recorded.contacts;
   for (RecordedContact& c : frame.recorded.contacts) c.force *= 1000;
-  const float struck = length();
-  CHECK(struck < 1000 * at_rest);
-  CHECK(struck > 150 * at_rest);  // one step: a fifth of it at least, both being rounded
-  float last = struck;
+  const float loaded = length();
+  CHECK(loaded < 1000 * at_rest);
+  CHECK(loaded > 150 * at_rest);  // one round step
+  float last = loaded;
   for (int i = 0; i < 12; ++i) {
     const float now = length();
     CHECK(now <= last);
@@ -99,10 +98,12 @@ TEST_CASE(
   }
   CHECK(last < 2 * at_rest);
   frame.recorded.contacts = contacts;
-  CHECK(length() < 0.01f * at_rest);  // the scale has stayed: too short, or not drawn
+  CHECK(length() < 0.01f * at_rest);  // the scale is unchanged
 }
 
-TEST_CASE("moment: a robot of whose couplings one moves the gripper too has one twin, one hand") {
+TEST_CASE(
+    "snapshot: couplings of which one also moves the gripper give one target robot and one "
+    "device") {
   const Watched watched = watched_arm();
   const SimulateInput& input = watched.plan->prepared.input;
   const Snapshot moment = moment_of(*input.scene, *input.couplings, input.scene->start, {});
@@ -110,7 +111,7 @@ TEST_CASE("moment: a robot of whose couplings one moves the gripper too has one 
   CHECK(moment.hands.size() == 1);
 }
 
-TEST_CASE("lab history: frame by frame the channels and works of the frames") {
+TEST_CASE("lab history: channels and works of the frames, frame by frame") {
   Watched watched = watched_boxes();
   std::vector<LabFrame> frames;
   for (int i = 0; i < 4; ++i) frames.push_back(watched.after(10));

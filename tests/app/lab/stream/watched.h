@@ -1,4 +1,4 @@
-// A run of the lab and a view of it, whose frames are read back by the protocol's table.
+// A run of the lab and a view of it, whose frames are decoded by the protocol's table.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -63,7 +63,7 @@ inline std::vector<std::string> all_layers(const Watched& watched) {
 inline Vector3 position_of(const ReadFrame& read, std::size_t i) {
   return {read.position[3 * i], read.position[3 * i + 1], read.position[3 * i + 2]};
 }
-inline Matrix3 turn_of(const ReadFrame& read, std::size_t i) {
+inline Matrix3 rotation_of(const ReadFrame& read, std::size_t i) {
   const auto part = [&](std::size_t c) { return read.turn[4 * i + c] / 32767.0; };
   return Eigen::Quaterniond(part(3), part(0), part(1), part(2)).toRotationMatrix();
 }

@@ -47,14 +47,14 @@ double length_of(const std::array<float, 3>& v) {
 }  // namespace
 
 TEST_CASE("winding: a closed surface faces outwards, whichever triangles were flipped") {
-  for (unsigned turned = 0; turned < 16; ++turned) {
+  for (unsigned flipped = 0; flipped < 16; ++flipped) {
     TriangleMesh mesh = tetrahedron();
     for (std::size_t i = 0; i < 4; ++i)
-      if (turned >> i & 1) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-    const ConsistentWinding mended = make_winding_consistent(mesh);
-    CHECK(mended.is_closed);
+      if (flipped >> i & 1) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+    const ConsistentWinding winding = make_winding_consistent(mesh);
+    CHECK(winding.is_closed);
     CHECK(mesh.triangles == tetrahedron().triangles);
-    for (std::size_t i = 0; i < 4; ++i) CHECK(mended.turned[i] == ((turned >> i & 1) != 0));
+    for (std::size_t i = 0; i < 4; ++i) CHECK(winding.flipped[i] == ((flipped >> i & 1) != 0));
   }
 }
 
@@ -67,16 +67,16 @@ TEST_CASE("winding: separate surfaces are repaired separately, open ones too") {
       good.triangles.push_back({t[0] + 4 * copy, t[1] + 4 * copy, t[2] + 4 * copy});
     for (const Vector3& p : part.vertices) good.vertices.push_back(p + Vector3(2.0 * copy, 0, 0));
   }
-  for (unsigned turned = 0; turned < 1u << 11; turned += 7) {
+  for (unsigned flipped = 0; flipped < 1u << 11; flipped += 7) {
     TriangleMesh mesh = good;
     // Of the open part at most one triangle: the side of most of its area counts.
-    const unsigned open = turned >> 4 & 7;
+    const unsigned open = flipped >> 4 & 7;
     if ((open & (open - 1)) != 0) continue;
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-      if (turned >> i & 1) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
-    const ConsistentWinding mended = make_winding_consistent(mesh);
+      if (flipped >> i & 1) std::swap(mesh.triangles[i][1], mesh.triangles[i][2]);
+    const ConsistentWinding winding = make_winding_consistent(mesh);
     REQUIRE(mesh.triangles == good.triangles);
-    CHECK(!mended.is_closed);
+    CHECK(!winding.is_closed);
   }
 }
 
@@ -85,8 +85,8 @@ TEST_CASE("winding: an open surface keeps the side of most of its area") {
   mesh.triangles.pop_back();  // the slanted one
   const auto good = mesh.triangles;
   std::swap(mesh.triangles[1][1], mesh.triangles[1][2]);
-  const ConsistentWinding mended = make_winding_consistent(mesh);
-  CHECK(!mended.is_closed);
+  const ConsistentWinding winding = make_winding_consistent(mesh);
+  CHECK(!winding.is_closed);
   CHECK(mesh.triangles == good);
 }
 

@@ -39,8 +39,7 @@ struct Running {
   }
 };
 
-TEST_CASE(
-    "scene: every type of coupling can be named, leads the robot and is one source of force") {
+TEST_CASE("scene: every type of coupling has a name, moves the robot and is one force source") {
   for (const CouplingFacts& facts : all_couplings) {
     CAPTURE(std::string(facts.name));
     Running run("gravity = [0, 0, 0]\n" + kRobot + coupling_of(facts.name));
@@ -68,7 +67,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("scene: a run with any coupling goes on from what it remembers with the same bits") {
+TEST_CASE("scene: a run with any coupling resumes bit by bit") {
   for (const CouplingFacts& facts : all_couplings) {
     CAPTURE(std::string(facts.name));
     const std::string text =
@@ -93,7 +92,7 @@ TEST_CASE("scene: a run with any coupling goes on from what it remembers with th
   }
 }
 
-TEST_CASE("scene: pull and ends of any coupling have the power that it gives the joints") {
+TEST_CASE("scene: force times velocity of any coupling is its power at the joints") {
   for (const CouplingFacts& facts : all_couplings) {
     CAPTURE(std::string(facts.name));
     SceneModel scene = built("gravity = [0, 0, 0]\n" + kRobot + coupling_of(facts.name));
@@ -116,7 +115,7 @@ TEST_CASE("scene: pull and ends of any coupling have the power that it gives the
     double sum = 0;
     for (std::size_t c = 0; c < couplings.size(); ++c)
       sum += couplings.pull(c).dot(couplings.ends(c, x, k).velocity);
-    if (forces.has_impedance) {  // m* a_bias is handed back beside the pull
+    if (forces.has_impedance) {  // m* a_bias is added to the coupling force
       for (std::size_t i = 1; i < scene.model.parent.size(); ++i) {
         const Force<double> back = forces.impedance[i] * k.a_bias[i];
         power -= (k.R_WB[i] * to_eigen(back.n)).dot(k.w_WL[i]) +

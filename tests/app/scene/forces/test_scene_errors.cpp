@@ -1,14 +1,13 @@
-// Scenes with faults, each with what is to be said of it: scene_errors/NAME.toml ends with a line
-// for each fault, # fault LINE CODE VALUE. Those named good_* have none: they stand on the near
-// side of a rule.
+// Invalid scenes with their errors: scene_errors/NAME.toml ends with a line
+// for each error, # fault LINE CODE VALUE. Those named good_* have none: they are just
+// inside a range.
 #include "app/scene/forces/scene_couplings.h"
 #include "tests/app/scene/model/helpers.h"
 
 namespace twinarm {
 namespace {
 
-TEST_CASE(
-    "scene: each faulty file gives all its faults, with line, code and value, and no others") {
+TEST_CASE("scene: each invalid file gives exactly its errors, with line, code and value") {
   int files = 0;
   for (const auto& entry :
        fs::directory_iterator(TWINARM_SOURCE_DIR "/tests/app/scene/forces/scene_errors")) {

@@ -17,7 +17,7 @@ const std::string kTwoArms =
     "[[body]]\nname = 'ball'\nmass = 1\nshape.sphere.radius = 0.1\nposition = [1, 2, 3]\n"
     "orientation = [0.6, 0, 0.8, 0]\n";
 
-TEST_CASE("scene: constraints hold at the start, at the point and along the axis that were given") {
+TEST_CASE("scene: constraints are satisfied at the start, at the given point and axis") {
   const SceneModel scene = built(
       kTwoArms +
       "[[constraint]]\nname = 'pin'\ntype = 'hinge'\na = 'left/arm2'\nb = 'ball'\n"
@@ -64,7 +64,7 @@ TEST_CASE("scene: constraints hold at the start, at the point and along the axis
   CHECK(wheels.offset == doctest::Approx(0.4).epsilon(1e-15));  // q_a = 0.4, q_b = 0
 }
 
-TEST_CASE("scene: a distance begins at origins, and one point alone belongs to what is fixed") {
+TEST_CASE("scene: a distance starts at origins; a single point belongs to the fixed body") {
   const std::string hook = kTwoArms +
                            "[[body]]\nname = 'hook'\nfixed = true\nposition = [0, 0, 9]\n"
                            "shape.sphere.radius = 0.1\n[[constraint]]\ntype = 'distance'\n";
@@ -80,7 +80,7 @@ TEST_CASE("scene: a distance begins at origins, and one point alone belongs to w
   CHECK(length("a = 'ball'\nb = 'left/base'\npoint = [3, 4, 0]\n") == doctest::Approx(5));
 }
 
-TEST_CASE("scene: a coupling without target pulls back to where the robot started") {
+TEST_CASE("scene: a coupling without target acts towards the start") {
   SceneModel scene =
       built(kTwoArms +
             "[[coupling]]\nname = 'pull'\ntype = 'linear'\nrobot = 'left'\nlink = 'arm1'\n"
@@ -136,7 +136,7 @@ TEST_CASE("scene: targets are a state, the paper's motion, a trace") {
   CHECK(q(couplings.target(2, 0.5).x, "joint2") == doctest::Approx(0.4));
 }
 
-TEST_CASE("scene: a late, fast target is the motion of speed (t - delay), its velocity likewise") {
+TEST_CASE("scene: a target with delay and speed is the motion at speed (t - delay)") {
   const double delay = 0.12345, speed = 1.7;  // no number of steps of 1 ms
   SceneModel scene = built(
       "[[robot]]\nname = 'r'\nmodel = 'robots/findings_set0/findings_set0.urdf'\n[[coupling]]\n"
@@ -165,7 +165,7 @@ TEST_CASE("scene: a late, fast target is the motion of speed (t - delay), its ve
   CHECK(at(9).first == doctest::Approx(-pi / 2));  // three sweeps, and it is over
   CHECK(at(9).second == 0);
 
-  // What pulls sees the same: k (q_K - q_D) + b (qd_K - qd_D) at the late instant.
+  // The force is k (q_K - q_D) + b (qd_K - qd_D) with the delayed target.
   Kinematics k(scene.model);
   State<double> x = scene.start;
   x.t = 0.4;
@@ -178,7 +178,7 @@ TEST_CASE("scene: a late, fast target is the motion of speed (t - delay), its ve
         doctest::Approx(10 * (q_K - x.q[0]) - pi * speed).epsilon(1e-12));
 }
 
-TEST_CASE("scene: the target of a device that is not there stands still where its robot starts") {
+TEST_CASE("scene: the target of a missing device is at rest at the robot's start") {
   const SceneModel scene = built(
       "[[robot]]\nname = 'r'\nmodel = 'robots/findings_set0/findings_set0.urdf'\n"
       "q = { joint1 = 0.7, joint2 = -0.3 }\n[[coupling]]\ntype = 'linear'\nlink = 'arm1'\n"
@@ -192,7 +192,8 @@ TEST_CASE("scene: the target of a device that is not there stands still where it
   }
 }
 
-TEST_CASE("scene: an absolute damper brakes the link, a relative one follows the target") {
+TEST_CASE(
+    "scene: an absolute damper acts on the link's velocity, a relative one on the velocity error") {
   for (const bool absolute : {false, true}) {
     SceneModel scene = built(
         "gravity = [0, 0, 0]\n[[robot]]\nname = 'r'\n"

@@ -110,7 +110,7 @@ TEST_CASE("scene: a given inertia and centre of mass are taken as they are") {
   Matrix3 I;
   I << 0.4, 0.01, 0.02, 0.01, 0.5, 0.03, 0.02, 0.03, 0.6;
   CHECK(close(solid.inertia, I));
-  // Its centre of mass, and not its origin, stands in the potential.
+  // The potential energy is that of the centre of mass, not of the origin.
   CHECK(potential_energy(scene.model, scene.start) == doctest::Approx(2 * 9.81 * 3.3));
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("scene: velocities of a free body are those of its origin, in world ax
   CHECK(close(k.w_WL[b], Vector3(4, 5, -6)));
 }
 
-TEST_CASE("scene: a body of prescribed motion follows its law and has no weight") {
+TEST_CASE("scene: a body with prescribed motion follows it and has no weight") {
   SceneModel scene = built(
       "[[body]]\nname = 'table'\nshape.cylinder = { radius = 1, length = 0.1 }\n"
       "position = [1, 0, 0]\norientation = [0.8, 0, 0.6, 0]\n"
@@ -148,7 +148,7 @@ TEST_CASE("scene: a body of prescribed motion follows its law and has no weight"
   CHECK(kinetic_energy(scene.model, simulation.state()) == 0);
 }
 
-TEST_CASE("scene: several robots stand where they are put, each joint with its robot's name") {
+TEST_CASE("scene: several robots have their poses, each joint with its robot's name") {
   const std::string model = "model = 'robots/findings_set0/findings_set0.urdf'\n";
   const SceneModel scene = built(
       "gravity = [0, 0, -1]\n[[robot]]\nname = 'left'\n" + model +
@@ -189,7 +189,7 @@ TEST_CASE("scene: a floating robot is placed by its position and velocity") {
 }
 
 TEST_CASE(
-    "scene: a pair takes the mean of frictions and the product of restitutions, or its rule") {
+    "scene: a pair has the mean of frictions and the product of restitutions, or its override") {
   const std::string shape = "shape.box.size = [1, 1, 1]\nfixed = ";
   const SceneModel scene = built(
       "[[body]]\nname = 'a'\nmass = 1\n" + shape +
@@ -213,7 +213,7 @@ TEST_CASE(
   CHECK(scene.may_touch());
 }
 
-TEST_CASE("scene: the springs of a pair stand in series, unless its rule gives the spring") {
+TEST_CASE("scene: the springs of a pair are in series, unless overridden") {
   const std::string shape = "mass = 1\nshape.sphere.radius = 1\n";
   const SceneModel scene =
       built("[[body]]\nname = 'a'\n" + shape +
@@ -232,7 +232,7 @@ TEST_CASE("scene: the springs of a pair stand in series, unless its rule gives t
   CHECK(bc.dissipation == 0);
 }
 
-TEST_CASE("scene: neighbours, one group, the tied and the unmoved stay apart") {
+TEST_CASE("scene: no contacts of neighbours, one group, constrained or immovable bodies") {
   const std::string ball = "mass = 1\nshape.sphere.radius = 0.1\n";
   const auto name = [](const char* n) { return "[[body]]\nname = '" + std::string(n) + "'\n"; };
   const std::string fixed = "fixed = true\nshape.sphere.radius = 0.1\n";
@@ -269,7 +269,7 @@ TEST_CASE("scene: neighbours, one group, the tied and the unmoved stay apart") {
   CHECK(built(arm + "collide = false\n").geometries.empty());
 }
 
-TEST_CASE("scene: what only the model shows is told with the line of its robot") {
+TEST_CASE("scene: errors of the model are reported with the line of its robot") {
   const TemporaryFolder folder;
   folder.write("light.urdf",
                "<robot name='r'><link name='a'/><link name='b'/><joint name='j' type='continuous'>"

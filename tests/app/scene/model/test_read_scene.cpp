@@ -1,11 +1,11 @@
-// What a scene leaves out has its default; faults of other files stand beside its own
+// Defaults of a scene; errors of other files are reported with its own
 // (scene_errors: tests/app/scene/forces).
 #include "tests/app/scene/model/helpers.h"
 
 namespace twinarm {
 namespace {
 
-TEST_CASE("scene: what is left out has its default") {
+TEST_CASE("scene: optional keys have their defaults") {
   const SceneDescription scene =
       scene_of("[[body]]\nname = 'b'\nmass = 1\nshape.sphere.radius = 0.1\n");
   CHECK(scene.gravity == Vector3(0, 0, -9.81));
@@ -20,7 +20,7 @@ TEST_CASE("scene: what is left out has its default") {
   CHECK(scene.warnings.empty());
 }
 
-TEST_CASE("scene: faults of a robot's own file stand beside those of the scene") {
+TEST_CASE("scene: errors of a robot's file are reported together with those of the scene") {
   const TemporaryFolder folder;
   folder.write("bad.urdf", "<robot name='r'>\n<link name='a'/><link name='a'/>\n</robot>\n");
   const auto scene =
@@ -32,7 +32,7 @@ TEST_CASE("scene: faults of a robot's own file stand beside those of the scene")
   CHECK(faults[1].line == 2);
 }
 
-TEST_CASE("scene: a file that is not there is told") {
+TEST_CASE("scene: a missing file is reported") {
   const std::vector<Diagnostic> faults = faults_of([] { read_scene("no/such/scene.toml"); });
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].code == "file.missing");

@@ -1,4 +1,4 @@
-// The committed scenes: each reads, builds, starts finite, and stands as its comments say.
+// The committed scenes: each can be read and built, starts finite, as its comments say.
 #include <algorithm>
 #include <cmath>
 
@@ -47,7 +47,7 @@ TEST_CASE("scenes: every committed scene reads, builds and steps once with finit
   }
 }
 
-TEST_CASE("scenes: at the start nothing is deeper than 2 mm in another") {
+TEST_CASE("scenes: initial penetration is at most 2 mm") {
   for (const fs::path& file : all_scenes()) {
     INFO(file.string());
     const SceneModel scene = build_scene(read_scene(file));
@@ -76,7 +76,7 @@ TEST_CASE("scenes: at the start nothing is deeper than 2 mm in another") {
   }
 }
 
-TEST_CASE("scenes: the constraints of every scene hold its velocities at the start") {
+TEST_CASE("scenes: initial velocities satisfy the constraints") {
   for (const fs::path& file : all_scenes()) {
     INFO(file.string());
     const SceneModel scene = build_scene(read_scene(file));
@@ -101,7 +101,7 @@ TEST_CASE("scenes: the constraints of every scene hold its velocities at the sta
   }
 }
 
-// The lowest point of a body that stands on the plane z = 0, from its origin, world axes.
+// The lowest point of a body on the plane z = 0, relative to its origin, world axes.
 Vector3 lowest_point(const ShapeDescription& shape, const Matrix3& R) {
   const Vector3 down = R.transpose() * -Vector3::UnitZ();
   if (const auto* ellipsoid = std::get_if<Ellipsoid>(&shape)) {
@@ -111,7 +111,7 @@ Vector3 lowest_point(const ShapeDescription& shape, const Matrix3& R) {
   return R * support(collision_shape(shape), down);
 }
 
-TEST_CASE("scenes: coin, rattleback and the ball on the turntable begin by rolling on z = 0") {
+TEST_CASE("scenes: coin, rattleback and the ball on the turntable start rolling on z = 0") {
   struct Case {
     const char *scene, *body, *ground;
     double slip;  // [m/s]; of the coin: w times half its thickness

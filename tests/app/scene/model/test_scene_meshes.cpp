@@ -1,4 +1,4 @@
-// Meshes of bodies: what is wrong with one is told at its body's line, before anything moves.
+// Meshes of bodies: errors are reported at the line of the body.
 #include "tests/app/scene/model/helpers.h"
 
 namespace twinarm {
@@ -35,7 +35,7 @@ class MeshScene {
 
 const std::string kSurface = ", convex = false";
 
-TEST_CASE("scene: meshes that are open, flipped or degenerate are all told, each at its body") {
+TEST_CASE("scene: all open, flipped or degenerate meshes are reported, each at its body") {
   MeshScene scene;
   scene.mesh("good.obj", tetrahedron(1, kClosed))
       .mesh("open.obj", tetrahedron(1, "f 1 3 2\nf 1 2 4\nf 1 4 3\n"))
@@ -64,7 +64,7 @@ TEST_CASE("scene: meshes that are open, flipped or degenerate are all told, each
   }
 }
 
-TEST_CASE("scene: of a convex mesh the hull counts, and its surface may be open") {
+TEST_CASE("scene: a convex mesh is replaced by its hull, and its surface may be open") {
   MeshScene scene;
   scene.mesh("open.obj", tetrahedron(1, "f 1 3 2\nf 1 2 4\nf 1 4 3\n"))
       .body("open.obj", "", "mass = 1");
@@ -72,7 +72,7 @@ TEST_CASE("scene: of a convex mesh the hull counts, and its surface may be open"
   CHECK(scene.build().description.warnings.empty());
 }
 
-TEST_CASE("scene: a mesh in millimetres is warned of, with the scale that mends it") {
+TEST_CASE("scene: a mesh in millimetres gives a warning with the scale to set") {
   for (const char* more : {"", ", convex = false"}) {
     MeshScene scene;
     scene.mesh("part.obj", tetrahedron(60, kClosed)).body("part.obj", more, "fixed = true");

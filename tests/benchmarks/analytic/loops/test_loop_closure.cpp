@@ -183,12 +183,13 @@ TEST_CASE("loops: all errors at once, each with its fix") {
   const std::string what = what_of(c.model, loops, c.start);
   CAPTURE(what);
   for (const char* text :
-       {"loop 'again': it is the same as loop 'wrist'", "loop 'far': body a is 9, of 0 .. 3",
-        "loop 'self': no joint lets its ends move", "loop 'skew': its frames C are not finite",
-        "loop 'short': its length is 0 m", "loop 'geared to itself': it gears a joint to itself",
+       {"loop 'again': duplicate of loop 'wrist'", "loop 'far': body a is 9, of 0 .. 3",
+        "loop 'self': both ends are on the same rigid body",
+        "loop 'skew': frame X_LaC or X_LbC is not finite", "loop 'short': length is 0 m",
+        "loop 'geared to itself': both ends are the same joint",
         "loop 'world locked': the joint of body 0", "loop 'nan': ratio and offset must be finite",
-        "loop 'open': it is open by 0.01 (m or rad) at the start", "close_loops()",
-        "loop 'over': its frames are turned over"})
+        "loop 'open': position error is 0.01 (m or rad) in the initial state",
+        "give initial joint positions", "loop 'over': axes of the two frames point"})
     CHECK(what.find(text) != std::string::npos);
   CHECK(what.find("'wrist': ") == std::string::npos);
   CHECK(what_of(c.model, c.loops, c.start).empty());

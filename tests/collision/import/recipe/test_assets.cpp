@@ -82,14 +82,15 @@ TEST_CASE("the published PUMA 560 loads, and its two impossible inertias are rep
   double mass = 0;
   for (const LinkDescription& link : robot.links) mass += link.mass;
   CHECK(mass == doctest::Approx(23.45).epsilon(1e-15));
-  const auto told = [&](const std::vector<Diagnostic>& faults, const std::string& words) {
+  const auto reported = [&](const std::vector<Diagnostic>& faults, const std::string& words) {
     return std::count_if(faults.begin(), faults.end(), [&](const Diagnostic& fault) {
       return to_string(fault).find(words) != std::string::npos;
     });
   };
-  CHECK(told(robot.warnings, "no rigid body of positive density has it") == 2);
-  CHECK(told(robot.warnings, "link 'link1': its inertia is not positive definite") == 1);
-  CHECK(told(robot.warnings, "link 'link3': its inertia violates the triangle inequality") == 1);
+  CHECK(reported(robot.warnings, "no rigid body of positive density has it") == 2);
+  CHECK(reported(robot.warnings, "link 'link1': its inertia is not positive definite") == 1);
+  CHECK(reported(robot.warnings, "link 'link3': its inertia violates the triangle inequality") ==
+        1);
   const auto faults = faults_of([&] {
     read_urdf(file, {RobotFileOptions::Geometry::required, true});
   });

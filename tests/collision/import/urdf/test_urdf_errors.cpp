@@ -17,8 +17,8 @@ TEST_CASE("each invalid or suspicious URDF gives its errors or warnings in the o
     const std::vector<Diagnostic> faults = faults_of([&] { warnings = read_urdf(file).warnings; });
     check_faults(faults, expected_in(text, "<!-- fault ", " -->"), file);
     check_faults(warnings, expected_in(text, "<!-- warning ", " -->"), file);
-    for (const std::vector<Diagnostic>& told : {faults, warnings})
-      for (const Diagnostic& fault : told) CHECK(!fault.fix.empty());
+    for (const std::vector<Diagnostic>& reported : {faults, warnings})
+      for (const Diagnostic& fault : reported) CHECK(!fault.fix.empty());
     ++files;
   }
   CHECK(files == 111);

@@ -16,7 +16,8 @@ TEST_CASE("a physically impossible inertia is a warning, and an error if strict"
   for (const auto& [ixx, words] :
        {std::pair{"-0.01", "not positive definite: principal moments -0.01, 0.02, 0.025"},
         std::pair{"0", "not positive definite"},
-        std::pair{"0.1", "breaks the triangle inequality A + B >= C: principal moments 0.02, 0.02"},
+        std::pair{"0.1",
+                  "violates the triangle inequality A + B >= C: principal moments 0.02, 0.02"},
         std::pair{"0.1", "no rigid body of positive density has it"}}) {
     std::string text = replaced(kGoodArm, "ixx=\"0.01\"", std::string("ixx=\"") + ixx + "\"");
     if (std::string(ixx) == "0.1") text = replaced(text, "0.025", "0.02");

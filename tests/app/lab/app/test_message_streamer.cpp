@@ -1,4 +1,4 @@
-// A session in real time, and what its painter sends to clients: each frame once, and not too many.
+// A session in real time, and the messages sent to clients.
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -18,34 +18,30 @@
 namespace twinarm {
 namespace {
 
-LabCommand said(const std::string& text) {
-  return parse_command(text);
-}
-
 struct SentFrame {
   double time = 0, stamp = 0, age = 0;
   std::uint64_t step = 0;
   std::uint32_t flags = 0;
 };
 
-// A session and its painter, and what one client is sent.
-struct Painted {
-  explicit Painted(const std::string& text)
+// A session, its streamer, and the messages sent.
+struct Streamed {
+  explicit Streamed(const std::string& text)
       : session(built_from(text), gallery),
-        painter(session, clients, gallery,
-                [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes, bool) {
-                  if (client == 1)
-                    take(channel, *bytes);
-                  else
-                    take_as_newcomer(client, channel, *bytes);
-                }) {
+        streamer(session, clients, gallery,
+                 [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes, bool) {
+                   if (client == 1)
+                     take(channel, *bytes);
+                   else
+                     take_as_later_client(client, channel, *bytes);
+                 }) {
     clients.opened(1);
-    painter.begin();
+    streamer.begin();
     REQUIRE(comes_true([&] { return !frames().empty(); }));
   }
-  ~Painted() {
+  ~Streamed() {
     session.end();
-    painter.end();
+    streamer.end();
   }
 
   void take(MessageStreamer::Channel channel, const std::string& bytes) {
@@ -62,17 +58,17 @@ struct Painted {
     std::memcpy(&frame.flags, bytes.data() + 44, 4);
     return frame;
   }
-  void take_as_newcomer(ClientId client, MessageStreamer::Channel channel,
-                        const std::string& bytes) {
+  void take_as_later_client(ClientId client, MessageStreamer::Channel channel,
+                            const std::string& bytes) {
     const std::lock_guard lock(mutex);
-    newcomer_messages_[client].push_back(
+    later_messages_[client].push_back(
         {channel, channel == MessageStreamer::frame_channel ? read(bytes).step : 0});
   }
-  // Of each: what it was sent, a frame with its step.
+  // Of each later client: channels, with the step of frames.
   std::map<ClientId, std::vector<std::pair<MessageStreamer::Channel, std::uint64_t>>>
-  newcomer_messages() const {
+  later_messages() const {
     const std::lock_guard lock(mutex);
-    return newcomer_messages_;
+    return later_messages_;
   }
   std::vector<SentFrame> frames() const {
     const std::lock_guard lock(mutex);
@@ -83,7 +79,7 @@ struct Painted {
     return states_;
   }
   LabStatus status() const { return *session.shown().now().status; }
-  // RunSample once more, and done: all that was said before has been done then, and painted.
+  // Waits until all earlier commands are executed and streamed.
   void settle() {
     static int count = 0;
     const std::string text = "settled " + std::to_string(++count);
@@ -91,9 +87,9 @@ struct Painted {
     REQUIRE(
         comes_true([&] { return !status().notes.empty() && status().notes.back().text == text; }));
     bool is_done = false;
-    for (int n = 0; n < 2; ++n) {  // the first time it may be on its way past
+    for (int n = 0; n < 2; ++n) {  // the first one may overtake the state
       is_done = false;
-      painter.ask([&](MessageStreamer&) {
+      streamer.ask([&](MessageStreamer&) {
         const std::lock_guard lock(mutex);
         is_done = true;
       });
@@ -109,10 +105,10 @@ struct Painted {
   std::vector<SentFrame> frames_;
   std::size_t states_ = 0;
   std::map<ClientId, std::vector<std::pair<MessageStreamer::Channel, std::uint64_t>>>
-      newcomer_messages_;
+      later_messages_;
   Clients clients;
   LabSession session;
-  MessageStreamer painter;
+  MessageStreamer streamer;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -121,16 +117,16 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 }  // namespace
 
-TEST_CASE("lab frames: so many a second, two at once after a pause, and nothing is made up for") {
+TEST_CASE("rate limiter: bounded rate, two at once after a pause, no catching up") {
   using std::chrono::microseconds;
   const RateLimiter::Time start = RateLimiter::Time{} + std::chrono::hours(1);
   const auto sent = [&](int every_us, int count) {
-    RateLimiter allowance;
+    RateLimiter limiter;
     int went = 0;
     for (int n = 0; n < count; ++n) {
       const RateLimiter::Time now = start + n * microseconds(every_us);
-      if (allowance.wait(now) > 0) continue;
-      allowance.take(now, 50);
+      if (limiter.wait(now) > 0) continue;
+      limiter.take(now, 50);
       ++went;
     }
     return went;
@@ -138,30 +134,30 @@ TEST_CASE("lab frames: so many a second, two at once after a pause, and nothing 
   CHECK(sent(25'000, 400) == 400);  // 40 a second: all
   CHECK(sent(20'000, 500) == 500);
   CHECK(sent(1'000, 10'000) == 501);  // 1000 a second, for 10 s
-  RateLimiter allowance;
-  allowance.take(start, 50);
-  CHECK(allowance.wait(start) == 0);  // the second of two
-  allowance.take(start, 50);
-  CHECK(allowance.wait(start) == doctest::Approx(0.02));
-  CHECK(allowance.wait(start + microseconds(15'000)) == doctest::Approx(0.005));
+  RateLimiter limiter;
+  limiter.take(start, 50);
+  CHECK(limiter.wait(start) == 0);  // the second of two
+  limiter.take(start, 50);
+  CHECK(limiter.wait(start) == doctest::Approx(0.02));
+  CHECK(limiter.wait(start + microseconds(15'000)) == doctest::Approx(0.005));
   const RateLimiter::Time later = start + std::chrono::seconds(9);
-  allowance.take(later, 50);
-  allowance.take(later, 50);
-  CHECK(allowance.wait(later) == doctest::Approx(0.02));
+  limiter.take(later, 50);
+  limiter.take(later, 50);
+  CHECK(limiter.wait(later) == doctest::Approx(0.02));
 }
 
-TEST_CASE("lab frames: commands and notes send no frame twice, and inputs come in the next one") {
-  Painted lab(kSlowlyDriven);
+TEST_CASE("lab frames: commands and notes repeat no frame; inputs are in the next frame") {
+  Streamed lab(kSlowlyDriven);
   const auto start = std::chrono::steady_clock::now();
   const std::size_t states = lab.states();
   for (int n = 1; n <= 300; ++n) {
-    lab.session.push(
-        said(R"({"do": "joint", "index": 0, "value": 0.1, "stamp": )" + std::to_string(n) + "}"));
-    if (n % 3 == 0) lab.session.push(said(R"({"do": "look", "at": null})"));
+    lab.session.push(parse_command(R"({"do": "joint", "index": 0, "value": 0.1, "stamp": )" +
+                                   std::to_string(n) + "}"));
+    if (n % 3 == 0) lab.session.push(parse_command(R"({"do": "look", "at": null})"));
     std::this_thread::sleep_for(std::chrono::milliseconds(3));
   }
   const double gone = seconds_since(start);
-  const std::size_t told = lab.states() - states;
+  const std::size_t sent = lab.states() - states;
   REQUIRE(comes_true([&] { return lab.frames().back().stamp == 300; }));
   const std::vector<SentFrame> frames = lab.frames();
   CHECK(frames.size() > 5);
@@ -170,52 +166,50 @@ TEST_CASE("lab frames: commands and notes send no frame twice, and inputs come i
     CHECK(frames[n].stamp >= frames[n - 1].stamp);
   }
   CHECK(static_cast<double>(frames.size()) <= 63.0 * seconds_since(start) + 5);
-  // The 100 `look`s are told, the movements are not; without news a few times a second.
-  CHECK(told > 0);
-  CHECK(static_cast<double>(told) <= 100 + 8 * gone + 5);
+  // State messages for the 100 `look`s, not for movements; without news a few times a second.
+  CHECK(sent > 0);
+  CHECK(static_cast<double>(sent) <= 100 + 8 * gone + 5);
 }
 
-TEST_CASE(
-    "lab frames: while time stands one comes for each change of what is seen, no more, and the "
-    "last one of many steps") {
-  Painted lab(kSlowlyDriven);
-  lab.session.push(said(R"({"do": "play", "on": false})"));
+TEST_CASE("lab frames: while paused one for each visible change, and the last one of many steps") {
+  Streamed lab(kSlowlyDriven);
+  lab.session.push(parse_command(R"({"do": "play", "on": false})"));
   REQUIRE(comes_true([&] { return (lab.frames().back().flags & 1) != 0; }));
   lab.settle();
   const std::size_t before = lab.frames().size();
-  for (int n = 0; n < 10; ++n) {  // more than twenty at once would not all be kept
+  for (int n = 0; n < 10; ++n) {  // at most twenty notes are kept
     lab.session.note("note", "something");
-    lab.session.push(said(R"({"do": "speed", "factor": 1})"));
+    lab.session.push(parse_command(R"({"do": "speed", "factor": 1})"));
   }
   lab.settle();
   CHECK(lab.frames().size() == before);
-  // Another layer, which no step brings.
+  // Another layer.
   lab.clients.want_layers(1, {"bodies", "frames"});
-  lab.painter.look_again();
+  lab.streamer.look_again();
   REQUIRE(comes_true([&] { return lab.frames().size() > before; }));
   lab.settle();
   CHECK(lab.frames().size() == before + 1);
   const std::uint64_t step = lab.frames().back().step;
-  lab.session.push(said(R"({"do": "step", "steps": 5000})"));
+  lab.session.push(parse_command(R"({"do": "step", "steps": 5000})"));
   REQUIRE(comes_true([&] { return lab.frames().back().step == step + 5000; }));
-  lab.session.push(said(R"({"do": "look", "at": 0})"));
+  lab.session.push(parse_command(R"({"do": "look", "at": 0})"));
   REQUIRE(comes_true([&] { return (lab.frames().back().flags & 2) != 0; }));
   CHECK(lab.frames().back().step == 0);
 }
 
-TEST_CASE("lab painter: a newcomer is told the scene first, and each frame once") {
-  Painted lab(kSlowlyDriven);
+TEST_CASE("message streamer: a new client gets the scene first, and each frame once") {
+  Streamed lab(kSlowlyDriven);
   for (ClientId client = 2; client < 60; ++client) {
     lab.clients.opened(client);
     if (client % 2 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(3));
-    lab.painter.look_again();
+    lab.streamer.look_again();
   }
   REQUIRE(comes_true([&] {
-    const auto told = lab.newcomer_messages();
-    return told.size() == 58 &&
-           std::ranges::all_of(told, [](const auto& entry) { return entry.second.size() > 8; });
+    const auto sent = lab.later_messages();
+    return sent.size() == 58 &&
+           std::ranges::all_of(sent, [](const auto& entry) { return entry.second.size() > 8; });
   }));
-  for (const auto& [client, messages] : lab.newcomer_messages()) {
+  for (const auto& [client, messages] : lab.later_messages()) {
     CHECK(messages.front().first == MessageStreamer::scene_channel);
     std::set<std::uint64_t> steps;
     for (const auto& [channel, step] : messages)
@@ -223,10 +217,10 @@ TEST_CASE("lab painter: a newcomer is told the scene first, and each frame once"
   }
 }
 
-TEST_CASE("lab painter: a failure while it draws is shown as an error, and frames go on") {
-  Painted lab(kSlowlyDriven);
+TEST_CASE("message streamer: an exception while drawing is shown as an error, and frames go on") {
+  Streamed lab(kSlowlyDriven);
   for (int n = 0; n < 2; ++n)
-    lab.painter.ask([](MessageStreamer&) { throw std::runtime_error("no such mesh"); });
+    lab.streamer.ask([](MessageStreamer&) { throw std::runtime_error("no such mesh"); });
   REQUIRE(comes_true([&] { return !lab.status().notes.empty(); }));
   lab.settle();
   const std::vector<LabNote> notes = lab.status().notes;
@@ -237,10 +231,10 @@ TEST_CASE("lab painter: a failure while it draws is shown as an error, and frame
   CHECK(comes_true([&] { return lab.frames().size() > before + 5; }));
 }
 
-TEST_CASE("lab session: whoever is woken between a look and the wait does not wait") {
+TEST_CASE("lab session: a wake-up between now() and wait() ends the wait") {
   const std::vector<GalleryScene> gallery;
   LabSession session(built_from(kFreeBox), gallery);
-  session.push(said(R"({"do": "play", "on": false})"));
+  session.push(parse_command(R"({"do": "play", "on": false})"));
   REQUIRE(comes_true([&] { return !session.shown().now().status->playing; }));
   const LabNow seen = session.shown().now();
   session.shown().wake();
@@ -248,7 +242,7 @@ TEST_CASE("lab session: whoever is woken between a look and the wait does not wa
   const auto start = std::chrono::steady_clock::now();
   session.shown().wait(seen, kLongest);
   CHECK(seconds_since(start) < kLongest);
-  // And who has seen that waits.
+  // Without a wake-up it waits.
   const LabNow again = session.shown().now();
   CHECK(again.number == seen.number);
   const auto begin = std::chrono::steady_clock::now();
@@ -256,22 +250,23 @@ TEST_CASE("lab session: whoever is woken between a look and the wait does not wa
   CHECK(seconds_since(begin) >= 0.05);
 }
 
-TEST_CASE("lab session: a page that comes later is told of the hand as it is") {
-  Painted lab(kSlowlyDriven);
+TEST_CASE("lab session: a client that connects later gets the present input source") {
+  Streamed lab(kSlowlyDriven);
   CHECK(lab.status().hand.source == "scene");
   CHECK(lab.status().hand.mode.empty());
   CHECK_FALSE(lab.status().hand.gripper_closed);
-  lab.session.push(said(R"({"do": "hand", "source": "drag"})"));
-  lab.session.push(said(R"({"do": "button", "index": 0, "down": true})"));
+  lab.session.push(parse_command(R"({"do": "hand", "source": "drag"})"));
+  lab.session.push(parse_command(R"({"do": "button", "index": 0, "down": true})"));
   REQUIRE(comes_true([&] { return lab.status().hand.gripper_closed; }));
   CHECK(lab.status().hand.source == "drag");
   CHECK(lab.status().hand.mode == "live");
   CHECK(lab.status().hand.spec.empty());
-  // Whoever lets go of what he pulled, or goes away, opens no gripper.
-  lab.session.push(said(R"({"do": "drop"})"));
+  // Releasing the mouse does not open the gripper.
+  lab.session.push(parse_command(R"({"do": "drop"})"));
   lab.settle();
   CHECK(lab.status().hand.gripper_closed);
-  lab.session.push(said(R"({"do": "hand", "source": "device", "spec": "virtual:synthetic:4"})"));
+  lab.session.push(
+      parse_command(R"({"do": "hand", "source": "device", "spec": "virtual:synthetic:4"})"));
   REQUIRE(comes_true([&] { return lab.status().hand.source == "device"; }));
   CHECK(lab.status().hand.spec == "virtual:synthetic:4");
   const std::string message = state_message(lab.status(), lab.clients.view(), {}, {});

@@ -1,4 +1,5 @@
-// Hands: the paper's automatic motion, the mapping from device to robot, the synthetic operator.
+// Operator motions: the paper's automatic motion, the mapping from device to robot, the synthetic
+// operator.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -36,7 +37,7 @@ TEST_CASE("the automatic motion sweeps joint 1 from 90 to -90, joint 2 from -45 
   }
 }
 
-TEST_CASE("at a corner of the automatic motion the rate is that of the side that is asked for") {
+TEST_CASE("at a velocity jump of the automatic motion the rate is one-sided") {
   const HandMapping mapping;
   const AutomaticMotion hand(mapping);
   const auto rate1 = [&](double t, double toward) {  // of joint 1, in sweeps of 180 deg/s
@@ -49,20 +50,20 @@ TEST_CASE("at a corner of the automatic motion the rate is that of the side that
     CHECK(rate1(2, 2 - h) == doctest::Approx(1));
     CHECK(rate1(2, 2 + h) == doctest::Approx(-1));
     CHECK(rate1(3, 3 - h) == doctest::Approx(-1));
-    CHECK(rate1(3, 3 + h) == 0);  // the motion is over
+    CHECK(rate1(3, 3 + h) == 0);  // after the motion
   }
-  // A corner that a sum of steps meets only to rounding is still the corner.
+  // A velocity jump that is met within rounding.
   double t = 0;
   for (int n = 0; n < 1000; ++n) t += 1e-3;
   CHECK(t != 1);
   CHECK(rate1(t, t + 1e-3) == doctest::Approx(1));
   CHECK(rate1(t, t - 1e-3) == doctest::Approx(-1));
-  for (const double s : {0.0, 1.0, 2.0, 3.0})  // the angle has no jump
+  for (const double s : {0.0, 1.0, 2.0, 3.0})  // no jump of the angle
     CHECK(mapping.robot_angle(hand.sample(s, s - 1e-3), 0) ==
           doctest::Approx(mapping.robot_angle(hand.sample(s, s + 1e-3), 0)));
 }
 
-TEST_CASE("theta1, theta4, theta6 of the device turn joints 1, 2, 3, by gain and offset") {
+TEST_CASE("theta1, theta4, theta6 of the device move joints 1, 2, 3, by gain and offset") {
   HandMapping mapping;
   mapping.gain = {2, -0.5, 3};
   mapping.offset = {0.1, 0.2, -0.3};
@@ -84,7 +85,7 @@ TEST_CASE("theta1, theta4, theta6 of the device turn joints 1, 2, 3, by gain and
   CHECK(HandMapping{}.gain[0] * 0.98 > 90 * kDegree);
 }
 
-TEST_CASE("synthetic operator: the same seed gives the same bits, other seeds other hands") {
+TEST_CASE("synthetic operator: deterministic by seed, different for other seeds") {
   const SyntheticOperator a(7), b(7), c(8);
   bool differs = false;
   for (int n = 0; n <= 4000; ++n) {

@@ -56,13 +56,13 @@ inline std::filesystem::path temporary_scene(const std::string& name, const std:
 }
 
 inline const LabParameter& parameter_at(const std::vector<LabParameter>& parameters,
-                                   const std::string& path) {
+                                        const std::string& path) {
   for (const LabParameter& parameter : parameters)
     if (parameter.path == path) return parameter;
-  throw InputError({{"", 0, path, "there is no such knob", "", "test.no-knob"}});
+  throw InputError({{"", 0, path, "no such parameter", "", "test.no-parameter"}});
 }
 
-// All that a page opens by a click.
+// All scenes of gallery and presets.
 inline std::vector<std::filesystem::path> offered_scenes() {
   std::vector<std::filesystem::path> files;
   for (const GalleryScene& scene : read_gallery()) files.push_back(scene.file);
@@ -71,7 +71,7 @@ inline std::vector<std::filesystem::path> offered_scenes() {
   return files;
 }
 
-// The S-103 at rest at its start, without weight, held by two springs, and disturbed a little.
+// The S-103 at rest without gravity, held by two springs, with a small disturbance.
 inline std::string held_arm(const std::string& top, const std::string& spring) {
   std::string text = "gravity = [0, 0, 0]\n" + top + R"(
 [[robot]]

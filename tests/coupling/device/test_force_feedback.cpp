@@ -1,5 +1,5 @@
-// What the hand feels: the couplings' reaction against the derivative of their energy, against
-// Newton's law, and through the device's Jacobian.
+// Force feedback: the couplings' reaction against the derivative of their energy, Newton's law, and
+// the device's Jacobian.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// y <= place is free for the tip of the second link; beyond it a stiff spring with a damper.
+// Beyond y = place the tip of the second link meets a stiff spring-damper.
 class TipWall final : public ForceSource {
  public:
   double place = 0.1, k = 20000, b = 300;
@@ -32,7 +32,7 @@ class TipWall final : public ForceSource {
   }
 };
 
-// The KVR stands beyond the wall, the DVR has come to rest at it.
+// The KVR is beyond the wall, the DVR at rest at it.
 struct Pressed {
   TwoLink arm;
   Model<double> model = arm.model();
@@ -60,7 +60,7 @@ struct Pressed {
       tau = reaction.after_step(kvr->end(), simulation->state(), simulation->kinematics(), 1e-3);
     }
   }
-  // Of the springs, with the KVR elsewhere [J].
+  // Energy of the springs with another KVR [J].
   double energy(const CouplingSpec& spec, double q1, double q2) const {
     Kinematics K(model);
     forward_kinematics(model, state_of(model, {q1, q2}, {0, 0}), K);
@@ -96,7 +96,7 @@ std::vector<CouplingSpec> felt_laws(const TwoLink& arm) {
   return all;
 }
 
-// One spring at the tip, and the mapping that moves the tip with the stylus, one to one.
+// One spring at the tip, and a mapping of the tip to the stylus, one to one.
 struct TipHand {
   OmniParameters omni;
   DeviceState device = device_at(omni, {0.2, 0.6, 0.3, 0, 0, 0});
@@ -126,7 +126,7 @@ CouplingSpec at_tip(double k) {
 
 }  // namespace
 
-TEST_CASE("pressed on a wall: the hand's torques are the derivative of the springs' energy") {
+TEST_CASE("at a wall: the reaction torques are the derivative of the springs' energy") {
   for (const CouplingSpec& spec : felt_laws(TwoLink())) {
     CAPTURE(std::string(spec.type.name));
     CAPTURE(static_cast<int>(spec.treatment));
@@ -137,16 +137,16 @@ TEST_CASE("pressed on a wall: the hand's torques are the derivative of the sprin
         (pressed.energy(spec, q1 - d, q2) - pressed.energy(spec, q1 + d, q2)) / (2 * d);
     const double tau2 =
         (pressed.energy(spec, q1, q2 - d) - pressed.energy(spec, q1, q2 + d)) / (2 * d);
-    CHECK(std::abs(tau1) > 5);  // it is felt
+    CHECK(std::abs(tau1) > 5);  // not negligible
     CHECK(pressed.tau[0] == doctest::Approx(tau1).epsilon(1e-5));
     CHECK(pressed.tau[1] == doctest::Approx(tau2).epsilon(1e-5));
   }
 }
 
-TEST_CASE("pressed on a wall: the stylus feels the wall's force, and it is the coupling's pull") {
+TEST_CASE("at a wall: the stylus force is the wall's force and the coupling force") {
   const Pressed pressed(at_tip(40), 0.42, 20);
   TipHand hand(pressed);
-  const Vector3 felt = hand.stylus_force_W(hand.mapping->feel(hand.device, pressed.tau));
+  const Vector3 felt = hand.stylus_force_W(hand.mapping->motor_torques(hand.device, pressed.tau));
   const Vector3 pull = pressed.coupling->readings()[0].pull;
   const Vector3 tip = pressed.simulation->kinematics().position(2, pressed.wall.p_L);
   const double of_wall = -pressed.wall.k * (tip.y() - pressed.wall.place);
@@ -156,9 +156,9 @@ TEST_CASE("pressed on a wall: the stylus feels the wall's force, and it is the c
   CHECK(std::abs(felt.z()) < 1e-9);
 }
 
-TEST_CASE("moved slowly and freely the hand feels next to nothing") {
+TEST_CASE("in slow free motion the force feedback is almost zero") {
   Pressed free(at_tip(2000), 10, 3);
-  free.hand.rate = {0.05, -0.03, 0};  // the KVR has stood until now
+  free.hand.rate = {0.05, -0.03, 0};  // the KVR was at rest until now
   free.hand.angle = {0.5 - 0.05 * 3, 0.7 + 0.03 * 3, 0};
   double most = 0;
   for (int n = 0; n < 2000; ++n) {
@@ -170,8 +170,8 @@ TEST_CASE("moved slowly and freely the hand feels next to nothing") {
   CHECK(most < 0.1);  // against 2000 N/m at half a metre
 }
 
-// m a = F: whatever the treatment, over each step.
-TEST_CASE("the reaction of an implicit coupling is the force that really moved the body") {
+// m a = F over each step, with any discretization.
+TEST_CASE("the reaction of an implicit coupling is the mean force on the body") {
   for (const Discretization treatment :
        {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
     const double m = 0.7, h = 1e-3;
@@ -198,8 +198,7 @@ TEST_CASE("the reaction of an implicit coupling is the force that really moved t
   }
 }
 
-TEST_CASE(
-    "the force on the hand is never more than the device's peak, and comes as slowly as said") {
+TEST_CASE("the force is at most the device's peak, with the specified low-pass") {
   const Pressed pressed(at_tip(40), 0.42, 20);
   TipHand hand(pressed);
   HandForceSpec spec;
@@ -211,7 +210,7 @@ TEST_CASE(
 
   spec.cutoff = 20;
   HandForce soft(spec, hand.omni, *hand.mapping);
-  const Vector3 whole = hand.stylus_force_W(hand.mapping->feel(hand.device, pressed.tau));
+  const Vector3 whole = hand.stylus_force_W(hand.mapping->motor_torques(hand.device, pressed.tau));
   const double tau = 1 / (2 * std::numbers::pi * 20);
   Vector3 part;
   for (int n = 0; n < std::lround(tau * 1e4); ++n)
@@ -219,7 +218,7 @@ TEST_CASE(
   CHECK(part.norm() / whole.norm() == doctest::Approx(1 - std::exp(-1)).epsilon(0.01));
 }
 
-TEST_CASE("reaction and force take nothing from the heap") {
+TEST_CASE("reaction and force do not allocate") {
   Pressed pressed(at_tip(40), 0.42, 1);
   TipHand hand(pressed);
   HandForce force(HandForceSpec{}, hand.omni, *hand.mapping);

@@ -1,12 +1,11 @@
-// A hand seen late and played faster, against the same motion written down for that delay and
-// speed.
+// DelayedMotion against the same motion defined with delay and speed.
 #include "coupling/target/operator_motion.h"
 
 #include <doctest/doctest.h>
 
 #include <memory>
 
-#include "tests/coupling/batch/one_by_one.h"
+#include "tests/coupling/batch/single_runs.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
@@ -15,7 +14,7 @@ namespace {
 
 const HandMapping kPacedMapping;
 
-// 0.3 + 2 t: not zero at its beginning, and moving there.
+// 0.3 + 2 t: non-zero initial position and velocity.
 class PacedRamp final : public OperatorMotion {
  public:
   HandSample sample(double t, double) const override {
@@ -36,7 +35,7 @@ double paced_rate(const OperatorMotion& hand, double t, double toward) {
 
 }  // namespace
 
-TEST_CASE("a paced hand is at s = speed (t - delay) of the other, and moves speed times as fast") {
+TEST_CASE("a delayed motion is at s = speed (t - delay) with rates times speed") {
   Random random(91);
   const WavingHand waving;
   for (int n = 0; n < 300; ++n) {
@@ -54,13 +53,13 @@ TEST_CASE("a paced hand is at s = speed (t - delay) of the other, and moves spee
   }
 }
 
-TEST_CASE("before its delay has passed a paced hand rests at the beginning") {
+TEST_CASE("before its delay a delayed motion is at rest at the start") {
   const DelayedMotion hand(std::make_unique<PacedRamp>(), 0.3, 1.5);
   for (const double t : {0.0, 0.1, 0.2999}) {
     CHECK(paced_angle(hand, t, t + 1e-4) == doctest::Approx(0.3).epsilon(1e-15));
     CHECK(paced_rate(hand, t, t + 1e-4) == 0);
   }
-  const double met = 0.1 + 0.1 + 0.1;  // 0.30000000000000004, by a sum of steps
+  const double met = 0.1 + 0.1 + 0.1;  // 0.30000000000000004, as a sum of steps
   for (const double t : {0.3, met, 0.6 - met}) {
     CHECK(paced_angle(hand, t, t + 0.1) == doctest::Approx(0.3).epsilon(1e-14));
     CHECK(paced_rate(hand, t, t - 0.1) == 0);
@@ -70,7 +69,7 @@ TEST_CASE("before its delay has passed a paced hand rests at the beginning") {
   CHECK(hand.duration() == doctest::Approx(0.3 + 3 / 1.5).epsilon(1e-15));
 }
 
-TEST_CASE("the corners of a paced hand are those of the other, and each step belongs to its side") {
+TEST_CASE("velocity jumps of a delayed motion are those of the other, one-sided for each step") {
   const AutomaticMotion motion{kPacedMapping};  // sweeps of a second
   const DelayedMotion hand(motion, 0.25, 4);
   for (const double corner : {1.0, 2.0}) {

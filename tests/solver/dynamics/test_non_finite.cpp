@@ -1,4 +1,4 @@
-// The first bad number is found in the order in which the passes write.
+// The first non-finite variable is found in the order of computation.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -10,7 +10,7 @@
 using namespace twinarm;
 using namespace twinarm::testing;
 
-TEST_CASE("the first bad quantity is the cause: pass, body and name") {
+TEST_CASE("the first non-finite variable is reported with pass, body and name") {
   Random random(11);
   const Model<double> model = random_tree(random, 6, {JointType::revolute});
   const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -48,14 +48,14 @@ TEST_CASE("the first bad quantity is the cause: pass, body and name") {
   }
 }
 
-TEST_CASE("every field of the passes is described once, with all that a reader needs") {
+TEST_CASE("every variable of the algorithms is described once, with unit and equation") {
   Random random(12);
   const Model<double> model = random_tree(random, 3, {JointType::spherical});
   const Workspace<double> w(model);
   const FullTrace<double> trace(model.parent.size());
   const Forces<double> forces(model);
   std::vector<std::string> names;
-  const auto look = [&](const Quantity& quantity, const auto& field) {
+  const auto check = [&](const Quantity& quantity, const auto& field) {
     names.emplace_back(quantity.name);
     const std::size_t size = quantity.by == Quantity::By::body       ? model.parent.size()
                              : quantity.by == Quantity::By::velocity ? model.nv
@@ -66,9 +66,9 @@ TEST_CASE("every field of the passes is described once, with all that a reader n
     CHECK(quantity.pass >= 0);
     CHECK(quantity.pass <= 3);
   };
-  forces.describe(look);
-  w.describe(look);
-  trace.describe(look);
+  forces.describe(check);
+  w.describe(check);
+  trace.describe(check);
   const std::vector<std::string> wanted{"tau", "f_ext", "armature", "impedance", "S", "Xup",
                                         "v",   "c",     "IA",       "pA",        "U", "D",
                                         "u",   "qdd",   "a",        "Ia",        "pa"};

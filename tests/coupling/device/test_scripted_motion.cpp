@@ -1,4 +1,4 @@
-// Scripted hands by their formulas; then what every hand and every device has to keep.
+// Scripted motions by their formulas; properties of every motion and every device.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -20,13 +20,13 @@ using namespace twinarm;
 
 namespace {
 
-constexpr HandAngles kFrom{-0.3, 0.5, -0.2, 0.4, 0.3, -1}, kTo{0.4, 0.9, 0.3, -0.4, 1.0, 1};
+constexpr DeviceAngles kFrom{-0.3, 0.5, -0.2, 0.4, 0.3, -1}, kTo{0.4, 0.9, 0.3, -0.4, 1.0, 1};
 
-// A newcomer among the hands is tested by its line here.
+// All motions; add new ones here.
 struct NamedHand {
   std::string name;
   std::function<std::shared_ptr<OperatorMotion>()> make;
-  double corner = -1;  // an instant at which it jumps
+  double corner = -1;  // time of a jump
 };
 std::vector<NamedHand> all_hands() {
   const std::string trace = std::string(TWINARM_SOURCE_DIR) + "/assets/traces/synthetic_seed1.csv";
@@ -40,7 +40,7 @@ std::vector<NamedHand> all_hands() {
                                                 1.2);
        }},
       {"step", [] { return std::make_shared<StepMotion>(kFrom, kTo, 0.5, 3); }, 0.5},
-      {"chirp", [] { return std::make_shared<ChirpMotion>(kFrom, HandAngles{0.1}, 0.5, 8, 2); }},
+      {"chirp", [] { return std::make_shared<ChirpMotion>(kFrom, DeviceAngles{0.1}, 0.5, 8, 2); }},
       {"reach", [] { return std::make_shared<ReachMotion>(kFrom, kTo, 0.2, 0.8); }},
       {"gestures", [] {
          const auto hand = std::make_shared<DesktopInput>(OmniParameters{});
@@ -49,7 +49,7 @@ std::vector<NamedHand> all_hands() {
        }}};
 }
 
-// The same of devices, each moved by a hand.
+// All devices, each moved by a motion.
 struct NamedDevice {
   std::string name;
   std::function<std::unique_ptr<HandDevice>(std::shared_ptr<OperatorMotion>)> make;
@@ -69,7 +69,7 @@ std::vector<NamedDevice> all_devices() {
           {"virtual Omni, not held", virtual_omni(alone)}};
 }
 
-// Bits of all that a device says in a second, at times that are not its own ticks.
+// State of a device over a second, at times that are not its ticks, bit by bit.
 std::vector<double> story(HandDevice& device) {
   std::vector<double> all;
   for (int n = 0; n < 600; ++n) {
@@ -85,7 +85,7 @@ std::vector<double> story(HandDevice& device) {
 
 }  // namespace
 
-TEST_CASE("step, chirp and reach are what their formulas say, corners on the side asked for") {
+TEST_CASE("step, chirp and reach agree with their formulas, one-sided at jumps") {
   const StepMotion step(kFrom, kTo, 0.5, 3);
   CHECK(step.sample(0.499, 0.5).theta == kFrom);
   CHECK(step.sample(0.5, 0.499).theta == kFrom);
@@ -93,9 +93,9 @@ TEST_CASE("step, chirp and reach are what their formulas say, corners on the sid
   CHECK(step.sample(0.5 + 1e-16, 0.499).theta == kFrom);
   CHECK(step.sample(0.5, 0.501).theta_dot == std::array<double, 6>{});
 
-  const HandAngles amplitude{0.1, 0, 0, 0.2, 0, 0};
+  const DeviceAngles amplitude{0.1, 0, 0, 0.2, 0, 0};
   const ChirpMotion chirp(kFrom, amplitude, 1, 5, 2);
-  // Phase: the integral of the frequency, 1 Hz to 5 Hz in 2 s; 6 turns in all, 1.5 + 0.5 in 1 s.
+  // Phase: integral of the frequency, 1 Hz to 5 Hz in 2 s; 6 periods in all, 1.5 + 0.5 in 1 s.
   CHECK(chirp.sample(2, 3).theta[0] == doctest::Approx(kFrom[0]));
   CHECK(chirp.sample(1, 2).theta[3] == doctest::Approx(kFrom[3]));
   const double phi = 2 * std::numbers::pi * (0.25 + 0.25 * 0.25);
@@ -108,12 +108,13 @@ TEST_CASE("step, chirp and reach are what their formulas say, corners on the sid
   const ReachMotion reach(kFrom, kTo, 0.2, 0.8);
   CHECK(reach.sample(0.1, 1).theta == kFrom);
   CHECK(reach.sample(0.6, 1).theta[0] == doctest::Approx(0.05));
-  CHECK(reach.sample(0.6, 1).theta_dot[0] == doctest::Approx(1.875 * 0.7 / 0.8));  // 15/8 of mean
+  CHECK(reach.sample(0.6, 1).theta_dot[0] ==
+        doctest::Approx(1.875 * 0.7 / 0.8));  // 15/8 of the mean
   for (std::size_t j = 0; j < 6; ++j)
     CHECK(reach.sample(1.5, 2).theta[j] == doctest::Approx(kTo[j]));
 }
 
-TEST_CASE("every hand: finite, the same bits for the same call, rates that are its slope") {
+TEST_CASE("every motion: finite, deterministic, rates equal to the slope") {
   for (const NamedHand& named : all_hands()) {
     CAPTURE(named.name);
     const auto hand = named.make(), again = named.make();
@@ -140,7 +141,7 @@ TEST_CASE("every hand: finite, the same bits for the same call, rates that are i
   }
 }
 
-TEST_CASE("every device with every hand: within its ranges, time goes on, the same bits again") {
+TEST_CASE("every device with every motion: within its ranges, increasing time, deterministic") {
   for (const NamedDevice& device : all_devices())
     for (const NamedHand& hand : all_hands()) {
       CAPTURE(device.name);

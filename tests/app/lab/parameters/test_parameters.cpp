@@ -1,16 +1,16 @@
-// Knobs against the runs that they turn: the run is the oracle.
+// Parameters and their limits against runs.
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <numbers>
 
-#include "tests/app/lab/parameters/knob_scenes.h"
+#include "tests/app/lab/parameters/parameter_scenes.h"
 #include "tests/collision/import/robot/helpers.h"
 
 using namespace twinarm;
 
-TEST_CASE("knobs: all, set to the values that they show, change no bit of the run") {
+TEST_CASE("parameters: all set to their shown values change no bit of the run") {
   for (const auto& file : offered_scenes()) {
     INFO(file.filename().string());
     const SimulatePlan plan = planned(file, {}, 20);
@@ -24,7 +24,7 @@ TEST_CASE("knobs: all, set to the values that they show, change no bit of the ru
   }
 }
 
-TEST_CASE("knobs: each end of a range and each choice makes a scene that runs") {
+TEST_CASE("parameters: each end of a range and each choice gives a scene that runs") {
   const auto folder = read_gallery().front().file.parent_path();
   for (const char* name : {"study.toml", "study_e3.toml", "study_e4.toml", "tracking_map.toml",
                            "pendulum.toml", "incline.toml", "bouncing_ball.toml"})
@@ -43,7 +43,7 @@ TEST_CASE("knobs: each end of a range and each choice makes a scene that runs") 
     }
 }
 
-TEST_CASE("knobs: each has a label, a group, a meaning, and its value among its choices") {
+TEST_CASE("parameters: each has a label, a group, a description, and its value among its choices") {
   for (const auto& file : offered_scenes())
     for (const LabParameter& parameter : parameters_of(planned(file, {}))) {
       INFO(file.filename().string(), ": ", parameter.path);
@@ -58,7 +58,6 @@ TEST_CASE("knobs: each has a label, a group, a meaning, and its value among its 
 
 namespace {
 
-// Of a scene with changes, with their limits.
 std::vector<LabParameter> predicted(const std::string& text,
                                     const std::vector<std::string>& changes = {}) {
   SimulatePlan plan = planned(temporary_scene("predicted", text), changes);
@@ -71,8 +70,8 @@ struct LimitCase {
   const char *name, *top, *spring, *path;
 };
 
-// A swing that dies out, stays or grows within 3000 steps.
-bool dies_out(const std::string& text, const std::string& change) {
+// Whether a disturbance does not grow within 3000 steps.
+bool is_stable(const std::string& text, const std::string& change) {
   const long steps = 3000;
   SimulatePlan plan = planned(temporary_scene("limit", text), {change}, steps);
   plan.run.energy_bound = 1;
@@ -84,7 +83,9 @@ const char* const kLinear = "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
 
 }  // namespace
 
-TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not beyond it") {
+TEST_CASE(
+    "parameters: a run is stable 10 percent within a predicted limit, and unstable 10 percent "
+    "beyond") {
   const std::string linear = std::string(kLinear) + "treatment = \"explicit\"";
   const std::string half = std::string(kLinear) + "treatment = \"semi-implicit\"";
   const std::string held = "type = \"linear\"\nstiffness = 4000\ndamping = 40\nrate = 250";
@@ -121,12 +122,13 @@ TEST_CASE("knobs: a run holds 10 percent this side of a predicted limit, and not
     const double limit = *parameter.limit->value;
     CHECK(parameter.limit->state == ParameterLimit::State::ok);
     INFO(limit);
-    CHECK(dies_out(text, fmt::format("{}={}", c.path, 0.9 * limit)));
-    CHECK(!dies_out(text, fmt::format("{}={}", c.path, 1.15 * limit)));
+    CHECK(is_stable(text, fmt::format("{}={}", c.path, 0.9 * limit)));
+    CHECK(!is_stable(text, fmt::format("{}={}", c.path, 1.15 * limit)));
   }
 }
 
-TEST_CASE("knobs: a held force holds at the predicted rate, and not a quarter slower") {
+TEST_CASE(
+    "parameters: a held force is stable at the predicted rate, and unstable a quarter below") {
   const std::string text =
       held_arm("", "type = \"linear\"\nstiffness = 4000\ndamping = 40\nrate = 500");
   const std::vector<LabParameter> parameters = predicted(text);
@@ -136,11 +138,11 @@ TEST_CASE("knobs: a held force holds at the predicted rate, and not a quarter sl
   const long steps = std::lround(1 / (*parameter.limit->value * 1e-3));
   CHECK(steps > 2);
   const auto at = [&](long n) { return fmt::format("coupling[1].rate={}", 1000.0 / double(n)); };
-  CHECK(dies_out(text, at(steps)));
-  CHECK(!dies_out(text, at(steps + steps / 4 + 1)));
+  CHECK(is_stable(text, at(steps)));
+  CHECK(!is_stable(text, at(steps + steps / 4 + 1)));
 }
 
-TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would be stable") {
+TEST_CASE("parameters: `near` within a quarter of the limit; beyond it the stable value is given") {
   const std::string text = held_arm("", std::string(kLinear) + "treatment = \"explicit\"");
   const auto limit_at = [&](const std::vector<std::string>& changes) {
     return *parameter_at(predicted(text, changes), "coupling.stiffness").limit;
@@ -153,7 +155,7 @@ TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would
   CHECK(with(0.70).state == ParameterLimit::State::ok);
   CHECK(with(0.80).state == ParameterLimit::State::near);
   CHECK(with(1.30).state == ParameterLimit::State::beyond);
-  // Sought from above, it is the same edge.
+  // From above the limit is the same.
   CHECK(*with(1.30).value == doctest::Approx(*at_start.value).epsilon(0.02));
   CHECK(!with(1.30).words.empty());
   const ParameterLimit implicit = limit_at({"coupling.treatment=implicit"});
@@ -162,8 +164,8 @@ TEST_CASE("knobs: amber within a quarter of the limit, beyond it says what would
   CHECK(!implicit.words.empty());
 }
 
-TEST_CASE("knobs: where it does not hold, those that would mend it alone say so, and no others") {
-  // The linear spring is beyond its limit, the torsional one is not to blame.
+TEST_CASE("parameters: in an unstable scene only those that stabilise it alone have a limit") {
+  // The linear spring is beyond its limit, the torsional one is not.
   std::string text = held_arm("",
                               "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
                               "treatment = \"explicit\"");
@@ -176,7 +178,7 @@ TEST_CASE("knobs: where it does not hold, those that would mend it alone say so,
   CHECK(parameter_at(one, "step").limit->value);
   CHECK_FALSE(parameter_at(one, "coupling[1].stiffness").limit);
   CHECK_FALSE(parameter_at(one, "coupling[1].damping").limit);
-  // Both beyond: neither alone mends it, a shorter step does.
+  // Both beyond: a shorter step stabilises, neither gain alone does.
   const std::vector<LabParameter> both =
       predicted(text, {too_stiff, fmt::format("coupling[1].stiffness={}", 100 * limit)});
   CHECK_FALSE(parameter_at(both, "coupling[0].stiffness").limit);
@@ -184,7 +186,7 @@ TEST_CASE("knobs: where it does not hold, those that would mend it alone say so,
   CHECK(parameter_at(both, "step").limit->value);
 }
 
-TEST_CASE("knobs: each tells what the scene's file says, whatever was turned since") {
+TEST_CASE("parameters: the initial value is that of the scene's file, whatever was changed since") {
   const auto file = read_gallery().front().file;
   const std::vector<LabParameter> unchanged = parameters_of(planned(file, {}));
   std::vector<LabParameter> parameters = parameters_of(
@@ -197,15 +199,17 @@ TEST_CASE("knobs: each tells what the scene's file says, whatever was turned sin
         std::find_if(unchanged.begin(), unchanged.end(),
                      [&](const LabParameter& other) { return other.path == parameter.path; });
     CHECK(parameter.initial.has_value() == (before != unchanged.end()));
-    if (parameter.initial) CHECK(parameter.path + "=" + *parameter.initial == before->path + "=" + before->value());
+    if (parameter.initial)
+      CHECK(parameter.path + "=" + *parameter.initial == before->path + "=" + before->value());
     if (parameter.initial && parameter.initial != parameter.value()) back.push_back(parameter.path);
   }
   CHECK(std::count(back.begin(), back.end(), "step") == 1);
   CHECK(std::count(back.begin(), back.end(), "coupling[0].type") == 1);
-  CHECK_FALSE(parameter_at(parameters, "coupling[0].time_constant").start);  // the file has no such key
+  CHECK_FALSE(
+      parameter_at(parameters, "coupling[0].time_constant").initial);  // the file has no such key
 }
 
-TEST_CASE("knobs: the predicted lag is what the arm falls behind a twin that starts at 1 rad/s") {
+TEST_CASE("parameters: the predicted tracking error equals that after a velocity step of 1 rad/s") {
   // One joint alone: peak of e'' = -w^2 e - 2 z w e', e(0) = 0, e'(0) = 1 rad/s.
   const std::string text = R"(
 gravity = [0, 0, 0]
@@ -223,7 +227,7 @@ damping = 0
 )";
   const std::vector<LabParameter> parameters = predicted(text);
   const std::string lag = parameter_at(parameters, "coupling[0].stiffness").tracking_error;
-  // The period of a free swing says the inertia: a run from 1e-3 rad, its first zero.
+  // Inertia from the period: first zero of a run from 1e-3 rad.
   SimulatePlan swing =
       planned(temporary_scene("lag", text),
               {"coupling.treatment=explicit", "step=1e-4", "robot.qd.joint1=0.001"}, 20000);
@@ -238,7 +242,7 @@ damping = 0
   CHECK(lag == fmt::format("peak {:.2g}° after a velocity step of 1 rad/s", peak));
 }
 
-TEST_CASE("knobs: a coupling's type turns linear into torsional, and its point goes") {
+TEST_CASE("parameters: a coupling's type changes from linear to torsional, without its point") {
   const auto file = read_gallery().front().file;
   const std::vector<LabParameter> parameters = parameters_of(planned(file, {}));
   for (const std::string& type : parameter_at(parameters, "coupling[0].type").choices) {
@@ -250,7 +254,7 @@ TEST_CASE("knobs: a coupling's type turns linear into torsional, and its point g
   }
 }
 
-TEST_CASE("presets: each has a scene, and moves its robot as it says") {
+TEST_CASE("presets: each has a scene, and the input source that it names") {
   const auto folder = read_gallery().front().file.parent_path();
   CHECK(all_presets().size() == 4);
   for (const Preset& preset : all_presets()) {
@@ -264,7 +268,7 @@ TEST_CASE("presets: each has a scene, and moves its robot as it says") {
   CHECK(find_preset("E5") == nullptr);
 }
 
-TEST_CASE("gallery: the lanes of an entry are read, and what is wrong with them is told") {
+TEST_CASE("gallery: variants of an entry are read, and their faults reported") {
   const VariantSet variants = find_scene(read_gallery(), "six_integrators")->variants;
   CHECK(variants.path == "integrator");
   CHECK(variants.values.size() == 6);
@@ -284,7 +288,7 @@ TEST_CASE("gallery: the lanes of an entry are read, and what is wrong with them 
   }
 }
 
-TEST_CASE("gallery: every scene has a picture, and faults are told together") {
+TEST_CASE("gallery: every scene has a picture, and faults are reported together") {
   const auto gallery = read_gallery();
   CHECK(gallery.size() >= 16);
   CHECK(gallery.front().name == "study");

@@ -1,5 +1,5 @@
-// Input that couplings and kinematic robots refuse: joints without exactly one degree of freedom,
-// step sizes that are not positive and finite.
+// Invalid input of couplings and target robots: joints of several degrees of freedom, step sizes
+// that are not positive and finite.
 #include <doctest/doctest.h>
 
 #include <limits>
@@ -17,7 +17,7 @@ namespace {
 constexpr double kBadSteps[] = {0.0, -1e-3, std::numeric_limits<double>::infinity(),
                                 std::numeric_limits<double>::quiet_NaN()};
 
-// hinge (revolute) - plate (fixed) - ball (spherical).
+// revolute - plate (fixed) - spherical.
 Model<double> mixed_chain() {
   ModelBuilder builder;
   const BodyInertia inertia{1, Vector3::Zero(), 0.1 * Matrix3::Identity()};
@@ -40,7 +40,7 @@ std::string refusal(Make&& make) {
 
 }  // namespace
 
-TEST_CASE("couplings of joint coordinates refuse joints that have not one degree of freedom") {
+TEST_CASE("couplings of joint coordinates reject joints of several degrees of freedom") {
   const Model<double> model = mixed_chain();
   const SteadyHand hand;
   TargetRobot kvr(model, hand, SteadyHand::mapping(), {{"hinge"}, "", 0, 0});
@@ -60,14 +60,14 @@ TEST_CASE("couplings of joint coordinates refuse joints that have not one degree
       CHECK(text.find(words) != std::string::npos);
     }
   }
-  torsional.measure = SpringSpace::world;  // a couple on the link: any joint
+  torsional.measure = SpringSpace::world;  // a torque on the link: any joint
   torsional.springs = {{"s", 2, Vector3::Zero(), 10, 1}, {"t", 3, Vector3::Zero(), 10, 1}};
   CHECK(refusal([&] { make_coupling(torsional, model, kvr); }) == "");
   const std::vector<JointStops::Stop> stops{{2, -1, 1, 10, 1}};
   CHECK(refusal([&] { JointStops("stops", model, stops); }) != "");
 }
 
-TEST_CASE("a kinematic robot refuses to move a fixed or a spherical joint, and names each") {
+TEST_CASE("a target robot rejects driving a fixed or a spherical joint, and names each") {
   const Model<double> model = mixed_chain();
   const SteadyHand hand;
   const auto refused = [&](const DrivenJoints& joints) {
@@ -82,7 +82,7 @@ TEST_CASE("a kinematic robot refuses to move a fixed or a spherical joint, and n
   CHECK(refused({{"hinge"}, "plate", 0, 1}).find("joint 'plate'") != std::string::npos);
 }
 
-TEST_CASE("a printed coupling that holds its force for 0 steps computes it at every step") {
+TEST_CASE("an as-published coupling with hold_steps 0 is evaluated at every step") {
   const Model<double> model = chain_of_three(7);
   const SteadyHand hand = hand_at({0.3, -0.2, 0.4}, {0.5, 0.4, -0.6});
   for (const CouplingType type : {CouplingType::linear, CouplingType::torsional}) {
@@ -104,7 +104,7 @@ TEST_CASE("a printed coupling that holds its force for 0 steps computes it at ev
   }
 }
 
-TEST_CASE("a tracking run and predictions refuse a step size that is not positive and finite") {
+TEST_CASE("a tracking run and predictions reject a step size that is not positive and finite") {
   const Model<double> model = chain_of_three(3);
   const SteadyHand hand;
   TrackingSetup tracking;
@@ -124,7 +124,7 @@ TEST_CASE("a tracking run and predictions refuse a step size that is not positiv
   }
 }
 
-TEST_CASE("runs side by side refuse a step size that is not positive and finite before any runs") {
+TEST_CASE("batched runs reject a step size that is not positive and finite before any run") {
   const Model<double> model = chain_of_three(3);
   const SteadyHand hand;
   BatchSetup setup;

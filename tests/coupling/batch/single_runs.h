@@ -1,5 +1,5 @@
-// Cells of a map run one by one, as an oracle for runs side by side: Simulation with its couplings,
-// whose errors and energies are computed here from the states alone.
+// Cells of a map as single simulations, the oracle for batched runs: Simulation with its couplings;
+// errors and energies are computed here from the states only.
 #pragma once
 
 #include <algorithm>
@@ -26,8 +26,7 @@ inline constexpr std::array<BatchLaw, 3> kBatchLaws{
 inline constexpr std::array kBatchTreatments{
     Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit};
 
-// Smooth, in all three joints, and not small; as it looks where it comes late, and is played
-// faster.
+// A smooth motion of all three joints, with delay and speed factor.
 class WavingHand final : public OperatorMotion {
  public:
   explicit WavingHand(double speed = 1, double delay = 0) : speed_(speed), delay_(delay) {}
@@ -48,12 +47,11 @@ class WavingHand final : public OperatorMotion {
   double speed_, delay_;
 };
 
-// How the axes of the three driven hinges stand: any way; on a first one that stands askew;
-// upright.
+// Axes of the three driven revolute joints: random; parallel to an inclined first one; vertical.
 enum class Axes { any, in_line, upright };
 inline constexpr std::array kAxes{Axes::any, Axes::in_line, Axes::upright};
 
-// Joints of all kinds that go in lanes, fixed ones too, and damping; the first three are hinges.
+// Joints of all batchable types, fixed ones and damping; the first three are revolute.
 inline Model<double> tree_for_lanes(Random& random, Axes axes) {
   auto bodies = random_bodies(
       random, 6, {JointType::revolute, JointType::prismatic, JointType::screw, JointType::fixed});
@@ -116,7 +114,7 @@ struct CellBench {
   }
 };
 
-// The run of a cell, one by one.
+// A single run of a cell.
 class OneByOne {
  public:
   OneByOne(const BatchSetup& setup, const BatchCell& cell)

@@ -1,5 +1,5 @@
-// What a run remembers (solver/support/state_archive.h): written down and taken back it goes on
-// with the same bits.
+// Serialization of a run (solver/support/state_archive.h): a restored run continues
+// bit-identically.
 #include "solver/support/state_archive.h"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// Pushes harder with every step that was begun.
+// A force that grows with every begin_step().
 struct Growing final : ForceSource, Checkpointable {
   long steps = 0;
   void begin_step(const Kinematics&, double, double) noexcept override { ++steps; }
@@ -36,7 +36,7 @@ Model<double> rubbing_chain() {
   return build(bodies);
 }
 
-// A simulation with what remembers: a source, limits that are struck, events, an integrator.
+// A simulation with internal state: a source, limits with impacts, events, an integrator.
 struct Run {
   Run(const Model<double>& model, Integrator integrator, bool limited, bool located)
       : limits(model), simulation(model, State<double>(model)) {
@@ -81,9 +81,9 @@ std::vector<Kind> all_kinds() {
 
 }  // namespace
 
-// After each of a hundred steps: what is remembered matters where joints stick, limits open or a
-// substep was refused.
-TEST_CASE("memory: a run that is taken up elsewhere goes on with the same bits") {
+// After each of a hundred steps: state matters when joints stick, limits open or a substep is
+// rejected.
+TEST_CASE("archive: a restored run continues bit-identically") {
   const Model<double> model = rubbing_chain();
   for (const Kind& kind : all_kinds()) {
     CAPTURE(std::string(facts_of(kind.integrator).name));
@@ -95,7 +95,7 @@ TEST_CASE("memory: a run that is taken up elsewhere goes on with the same bits")
       return each;
     };
     Run one(model, kind.integrator, kind.limited, kind.located);
-    std::deque<Run> others;  // taken up after each of the last five steps
+    std::deque<Run> others;  // restored after each of the last five steps
     for (int n = 0; n < 100; ++n) {
       others.emplace_back(model, kind.integrator, kind.limited, kind.located);
       others.back().take_back(one.remembered());
@@ -107,13 +107,13 @@ TEST_CASE("memory: a run that is taken up elsewhere goes on with the same bits")
       CHECK(works(others.front()) == works(one));
       if (others.size() == 5) others.pop_front();
     }
-    double struck = 0;
-    for (const double work : works(one)) struck += std::abs(work);
-    CHECK((struck > 0) == kind.limited);
+    double total = 0;
+    for (const double work : works(one)) total += std::abs(work);
+    CHECK((total > 0) == kind.limited);
   }
 }
 
-TEST_CASE("memory: what is cut short anywhere, or is of another mechanism, is refused") {
+TEST_CASE("archive: truncated data and data of another model are rejected") {
   const Model<double> model = rubbing_chain();
   for (const Kind& kind : all_kinds()) {
     Run one(model, kind.integrator, kind.limited, kind.located);
@@ -131,7 +131,7 @@ TEST_CASE("memory: what is cut short anywhere, or is of another mechanism, is re
   CHECK_THROWS_AS(other.simulation.serialize(memory), std::runtime_error);
 }
 
-TEST_CASE("memory: what it holds comes back as it was, and sizes that cannot be are not believed") {
+TEST_CASE("archive: values round-trip, impossible sizes are rejected") {
   const auto visit = [](StateArchive& memory, auto&... values) { (memory.visit(values), ...); };
   std::string text = "a\0b";
   bool yes = true;

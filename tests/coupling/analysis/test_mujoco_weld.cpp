@@ -1,5 +1,5 @@
-// The weld-like coupling: MuJoCo's law a = (1 - d) a_0 + d a_ref, its lag, its sag, its energy; and
-// a trajectory that MuJoCo itself computed.
+// MuJoCo weld: the law a = (1 - d) a_0 + d a_ref, tracking error, deflection, energy; and
+// trajectories computed by MuJoCo.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -23,7 +23,7 @@ CouplingSpec weld(std::vector<Spring> springs, const SolrefParameters& reference
   return spec;
 }
 
-// Held by its point alone: no couple.
+// Point only: no torque.
 Spring point_alone(Spring spring) {
   spring.k_turn = spring.b_turn = 0;
   return spring;
@@ -31,22 +31,22 @@ Spring point_alone(Spring spring) {
 
 }  // namespace
 
-TEST_CASE("weld: on a slide a step has a = (1 - d) a_0 + d a_ref, to 1e-12") {
+TEST_CASE("weld: on a prismatic joint a step has a = (1 - d) a_0 + d a_ref, to 1e-12") {
   const double h = 1e-3, m = 0.7;
   const SolrefParameters reference{0.05, 0.8, 0.9};
   const double d = 0.9, b_ref = 2 / (d * 0.05), k_ref = 1 / (d * 0.05 * 0.05 * 0.8 * 0.8);
   const Model<double> model = one_joint(JointType::prismatic, m);
-  // A push by a second spring, so that there is an a_0.
+  // A second spring, for a non-zero a_0.
   const double push = 5;
   SteadyHand hand;
   hand.angle[0] = 0.4;
   hand.rate[0] = -0.6;
   const State<double> start = state_of(model, {-0.3}, {0.8});
-  // Along the slide alone: a third of the trace is 1/(3 m), as MuJoCo averages it.
+  // Along the joint only: a third of the trace is 1/(3 m), MuJoCo's mean.
   const Spring spring = weld_spring("weld", model, start, 1, Vector3::Zero(), reference);
   CHECK(spring.b / b_ref == doctest::Approx(d / (1 - d) * 3 * m).epsilon(1e-12));
   CHECK(spring.k / spring.b == doctest::Approx(k_ref / b_ref).epsilon(1e-12));
-  CHECK(spring.k_turn == 0);  // it cannot turn
+  CHECK(spring.k_turn == 0);  // no rotation
 
   // With m_0 = m the law is that of the documentation.
   const Spring alone{"weld", 1, Vector3::Zero(), d / (1 - d) * m * k_ref, d / (1 - d) * m * b_ref};
@@ -75,7 +75,7 @@ TEST_CASE("weld: on a slide a step has a = (1 - d) a_0 + d a_ref, to 1e-12") {
   CHECK(worst < 1e-12);
 }
 
-TEST_CASE("weld: a target at speed V is followed 2 V T z^2 behind, on a slide and on a hinge") {
+TEST_CASE("weld: the error behind a target at speed V is 2 V T z^2, prismatic and revolute") {
   for (const JointType joint : {JointType::prismatic, JointType::revolute})
     for (const double z : {1.0, 0.6})
       for (const Discretization treatment :
@@ -91,14 +91,14 @@ TEST_CASE("weld: a target at speed V is followed 2 V T z^2 behind, on a slide an
         for (int n = 0; n < 1000; ++n) system.simulation.step(h);
         const double lag = V * 1.0 - system.simulation.state().q[0];
         CAPTURE(z);
-        // The spring of an implicit step sees the target one step on, and the link too.
+        // Implicit: spring with target and link one step ahead.
         CHECK(lag == doctest::Approx(2 * V * T * z * z).epsilon(1e-9));
       }
 }
 
-TEST_CASE("weld: its particle has no weight, and other forces are felt (1 - d) as much") {
-  // A hinge about y with its mass m at r, held at the mass: m_0 counts once, k_ref r_ = (1-d)/d a_0
-  // at rest, a_0 = g cos(angle) along the circle.
+TEST_CASE("weld: its added inertia has no weight, and other forces act with the factor 1 - d") {
+  // A revolute joint about y with its mass m at r, held at the mass: m_0 counts once, k_ref r_ =
+  // (1-d)/d a_0 at rest, a_0 = g cos(angle) along the circle.
   const double m = 2, r = 0.5, g = 9.81;
   ModelBuilder builder;
   builder.add_body("bob", 0, "joint1", JointType::revolute, {}, Vector3::UnitY(),
@@ -118,7 +118,7 @@ TEST_CASE("weld: its particle has no weight, and other forces are felt (1 - d) a
   }
 }
 
-TEST_CASE("weld: with its inertia counted, a chain about a KVR at rest only loses energy") {
+TEST_CASE("weld: with the added inertia's energy, a chain about a KVR at rest only loses energy") {
   Random random(31);
   for (unsigned seed = 0; seed < 4; ++seed) {
     const Model<double> model = chain_of_three(seed);
@@ -128,7 +128,7 @@ TEST_CASE("weld: with its inertia counted, a chain about a KVR at rest only lose
     const Spring spring = weld_spring("weld", model, start, 3, {0.1, 0.2, 0}, reference);
     Coupled system(model, hand_at(q), kThreeJoints, weld({spring}, reference), start);
     const double b_ref = reference.damping(), h = 2e-5;
-    const auto energy = [&] {  // T + m_R v^2/2 + k e^2/2, and the same of the turn
+    const auto energy = [&] {  // T + m_R v^2/2 + k e^2/2, and the torsional ones
       const Kinematics& D = system.simulation.kinematics();
       const Kinematics& K = system.kvr.start().k;
       const Vector3 p = D.position(3, spring.p_L);
@@ -152,11 +152,11 @@ TEST_CASE("weld: with its inertia counted, a chain about a KVR at rest only lose
       before = now;
     }
     CHECK(risen < 1e-6 * first);
-    CHECK(first - before == doctest::Approx(lost).epsilon(2e-3));  // all that the damper took
+    CHECK(first - before == doctest::Approx(lost).epsilon(2e-3));  // the work of the dampers
   }
 }
 
-TEST_CASE("weld: MuJoCo's own trajectories of a weld and of a pin, to 1e-9") {
+TEST_CASE("weld: MuJoCo's trajectories of a weld and of a pin, to 1e-9") {
   // Computed with MuJoCo 2.2.2: step 1 ms, semi-implicit Euler, solref 0.05 0.8, solimp 0.9 0.9
   // 0.001, the Newton solver to 1e-14. A mass of 0.7 kg on three slides, welded to a mocap body
   // that moves at (0.6, -0.3, 0) m/s; a hinge with an arm, pinned to a mocap body at rest.

@@ -1,4 +1,5 @@
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <Eigen/SVD>
@@ -11,7 +12,7 @@ namespace twinarm {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Of no rows or columns Eigen's decompositions take entries that are not there.
+// Eigen's decompositions do not support empty matrices.
 MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& B) {
   if (M.size() == 0 || B.size() == 0) return MatrixXd::Zero(M.rows(), B.cols());
   return M.ldlt().solve(B);
@@ -40,9 +41,32 @@ PivotedColumns pivoted_columns(const MatrixXd& A, double threshold) {
 }
 
 SingularValues singular_values(const MatrixXd& A) {
-  assert(A.rows() == A.cols());  // others need a QR first, in two more kinds
+  assert(A.rows() == A.cols());  // NoQRPreconditioner requires a square matrix
   const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(A, Eigen::ComputeFullV);
   return {svd.singularValues(), svd.matrixV()};
+}
+
+Eigensystem eigensystem_of(const MatrixXd& A) {
+  const Eigen::EigenSolver<MatrixXd> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXcd eigenvalues_of(const MatrixXd& A) {
+  return Eigen::EigenSolver<MatrixXd>(A, false).eigenvalues();
+}
+
+SymmetricEigensystem generalized_eigensystem(const MatrixXd& K, const MatrixXd& M) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(K, M);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+Eigen::VectorXd generalized_eigenvalues(const MatrixXd& K, const MatrixXd& M) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd>(K, M, Eigen::EigenvaluesOnly)
+      .eigenvalues();
+}
+
+Eigen::VectorXd symmetric_eigenvalues(const MatrixXd& A) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(A, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 }  // namespace twinarm

@@ -1,5 +1,4 @@
-// Runs side by side: each is the run that it would be alone, whatever the others do, and they are
-// remembered together.
+// Variants: each equals the run alone, and their frames are stored together.
 #include "app/lab/run/variants.h"
 
 #include <numbers>
@@ -22,7 +21,7 @@ LabScene swinging() {
 const std::string kRod = test_data("app/lab/stream/rod.toml");
 const VariantSet kOneDiverges{"coupling.stiffness", {"2000", "4e6", "500"}, {}};
 
-// A run with its variants, as the session has them, and what is remembered: a frame each 4 steps.
+// A run with its variants and history: a frame each 4 steps.
 struct SideBySide {
   SideBySide(const LabScene& of, VariantSet variants, std::vector<Change> with = {})
       : scene(of), set(std::move(variants)), changes(std::move(with)) {
@@ -69,20 +68,20 @@ struct SideBySide {
   LabVariants others;
 };
 
-// All that the next step reads.
+// Time and checkpoint.
 void check_same_state(const LabFrame& one, const LabFrame& other) {
   CHECK(one.recorded.t == other.recorded.t);
   CHECK(one.recorded.step == other.recorded.step);
   CHECK(one.recorded.memory == other.recorded.memory);
 }
-// And the books.
+// And the energy balance.
 void check_same(const LabFrame& one, const LabFrame& other) {
   check_same_state(one, other);
   CHECK(one.recorded.works == other.recorded.works);
 }
 
-// The same to rounding: a branch begins its sums at its own instant.
-void check_books(const LabFrame& one, const LabFrame& other) {
+// Equal to rounding: a branch begins its sums at its own time.
+void check_balance(const LabFrame& one, const LabFrame& other) {
   REQUIRE(one.recorded.works.size() == other.recorded.works.size());
   for (std::size_t k = 0; k < one.recorded.works.size(); ++k)
     CHECK(one.recorded.works[k] == doctest::Approx(other.recorded.works[k]).epsilon(1e-9));
@@ -90,8 +89,8 @@ void check_books(const LabFrame& one, const LabFrame& other) {
 
 // The scene with one variant's changes, alone, up to that step.
 LabFrame alone(SideBySide& s, std::size_t variant, long steps) {
-  OperatorInput nobody;
-  LabRun run(s.scene.plan(s.changes_of(variant)), nobody);
+  OperatorInput unused;
+  LabRun run(s.scene.plan(s.changes_of(variant)), unused);
   while (run.view().step() < steps) REQUIRE(run.step());
   return run.frame(s.names);
 }
@@ -101,7 +100,7 @@ const VariantSet kSix{
 
 }  // namespace
 
-TEST_CASE("lanes: each repeats bit for bit what the scene does alone with its value") {
+TEST_CASE("variants: each repeats bit for bit the scene alone with its value") {
   const LabScene scene = swinging();
   SideBySide s(scene, kSix);
   s.step(640);
@@ -113,7 +112,7 @@ TEST_CASE("lanes: each repeats bit for bit what the scene does alone with its va
   check_same(*s.history.newest(), alone(s, 0, 640));
 }
 
-TEST_CASE("lanes: of other steps each keeps to the run's clock within half a step of its own") {
+TEST_CASE("variants: with other steps each follows the run's clock within half its step") {
   const LabScene scene = swinging();
   SideBySide s(scene, {"step", {"0.02", "0.0007", "0.05"}, {}});
   for (int n = 0; n < 20; ++n) {
@@ -125,9 +124,9 @@ TEST_CASE("lanes: of other steps each keeps to the run's clock within half a ste
     check_same(s.variant(variant), alone(s, variant, s.variant(variant).recorded.step));
 }
 
-// A hand that goes at its fastest from 0.7 rad on: in a step that begins at t it is at
-// 0.7 + kMaxJointSpeed (t + h), h the run's. A variant whose last step began later has gone on with it.
-TEST_CASE("lanes: of shorter steps they see a hand that moves where it is in each of them") {
+// A target moving from 0.7 rad at maximum speed: in a step from t it is at 0.7 + kMaxJointSpeed (t
+// + h), h of the run, extrapolated in variants whose last step begins later.
+TEST_CASE("variants: with shorter steps a moving target is extrapolated") {
   const LabScene scene = lab_scene(kRod);
   constexpr double h = 0.004, begin = 0.7;
   SideBySide s(scene, {"step", {"0.004", "0.002", "0.001"}, {}});
@@ -142,8 +141,8 @@ TEST_CASE("lanes: of shorter steps they see a hand that moves where it is in eac
   }
 }
 
-// Two variants of the same value must be the same run, whoever moves it.
-TEST_CASE("lanes: hand and mouse do to all what they do to the first") {
+// Two variants of the same value are the same run for any input.
+TEST_CASE("variants: operator and mouse input act on all as on the first") {
   const LabScene scene = lab_scene(arm_with("device"));
   SideBySide s(scene, {"coupling.stiffness", {"700", "700", "4000"}, {}});
   s.hand.choose(OperatorInput::Source::drag);
@@ -151,7 +150,8 @@ TEST_CASE("lanes: hand and mouse do to all what they do to the first") {
       s.run->input_override().tip()->first, s.run->input_override().tip()->second);
   for (int n = 0; n < 40; ++n) {
     s.hand.tip(tip + Vector3(-0.1 * std::sin(0.1 * n), 0.2 * std::sin(0.2 * n), 0), n);
-    if (n == 20) REQUIRE(s.run->drag(s.run->input_override().driven().back(), Vector3::Zero(), tip, n));
+    if (n == 20)
+      REQUIRE(s.run->drag(s.run->input_override().driven().back(), Vector3::Zero(), tip, n));
     if (n == 30) s.run->release_mouse();
     s.step(16);
     check_same(s.variant(1), *s.history.newest());
@@ -161,27 +161,27 @@ TEST_CASE("lanes: hand and mouse do to all what they do to the first") {
   CHECK(s.variant(2).recorded.memory != s.variant(1).recorded.memory);
 }
 
-TEST_CASE("lanes: one that explodes stays where it was, and the others are as they would be") {
+TEST_CASE("variants: a diverged one stays at its last frame, and the others are not affected") {
   const LabScene scene = lab_scene(kRod);
   SideBySide s(scene, kOneDiverges);
   CHECK(s.others.take_warnings().empty());
   s.step(640);
-  const std::vector<std::string> words = s.others.take_warnings();
-  REQUIRE(words.size() == 1);
-  CHECK(words[0].find("variant 4e6 stopped at") == 0);
+  const std::vector<std::string> warnings = s.others.take_warnings();
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("variant 4e6 stopped at") == 0);
   CHECK(s.others.take_warnings().empty());
-  const VariantFrame failure = s.history.newest()->variants[0];
-  CHECK(failure.stopped);
-  CHECK(failure.frame->recorded.t < 0.5);
-  CHECK(std::isfinite(failure.frame->recorded.values[0]));
+  const VariantFrame stopped = s.history.newest()->variants[0];
+  CHECK(stopped.stopped);
+  CHECK(stopped.frame->recorded.t < 0.5);
+  CHECK(std::isfinite(stopped.frame->recorded.values[0]));
   CHECK_FALSE(s.history.newest()->variants[1].stopped);
   check_same(s.variant(2), alone(s, 2, 640));
   check_same(*s.history.newest(), alone(s, 0, 640));
   s.step(160);
-  CHECK(s.history.newest()->variants[0].frame == failure.frame);  // it costs nothing any more
+  CHECK(s.history.newest()->variants[0].frame == stopped.frame);  // no copies
 }
 
-TEST_CASE("lanes: going back and on again repeats them all, the one that explodes too") {
+TEST_CASE("variants: a branch repeats all of them, the diverged one too") {
   const LabScene scene = lab_scene(kRod);
   SideBySide s(scene, kOneDiverges);
   s.hand.choose(OperatorInput::Source::joints);
@@ -190,10 +190,10 @@ TEST_CASE("lanes: going back and on again repeats them all, the one that explode
     s.step(16);
   }
   REQUIRE(s.history.newest()->variants[0].stopped);
-  std::size_t first_dead = 0;
-  while (!s.history.frame(first_dead)->variants[0].stopped) ++first_dead;
-  REQUIRE(first_dead > 1);
-  for (const std::size_t from : {first_dead - 1, first_dead + 5}) {
+  std::size_t first_stopped = 0;
+  while (!s.history.frame(first_stopped)->variants[0].stopped) ++first_stopped;
+  REQUIRE(first_stopped > 1);
+  for (const std::size_t from : {first_stopped - 1, first_stopped + 5}) {
     const LabHistory left = s.history.cut(from);
     s.begin(left.frame(0).get());
     CHECK(s.history.size() == from + 1);
@@ -202,17 +202,17 @@ TEST_CASE("lanes: going back and on again repeats them all, the one that explode
     for (std::size_t n = 0; n < left.size(); ++n) {
       const LabFrame &was = *left.frame(n), &is = *s.history.frame(from + n);
       check_same_state(is, was);
-      check_books(is, was);
+      check_balance(is, was);
       for (std::size_t variant = 0; variant < 2; ++variant) {
         CHECK(is.variants[variant].stopped == was.variants[variant].stopped);
         check_same_state(*is.variants[variant].frame, *was.variants[variant].frame);
-        check_books(*is.variants[variant].frame, *was.variants[variant].frame);
+        check_balance(*is.variants[variant].frame, *was.variants[variant].frame);
       }
     }
   }
 }
 
-TEST_CASE("lanes: what is remembered of them stays within the bound of bytes") {
+TEST_CASE("variants: their frames count to the history's limit of bytes") {
   const LabScene scene = swinging();
   SideBySide s(scene, kSix), single(scene, {"integrator", {"semi-implicit"}, {}});
   s.history = LabHistory(100000);
@@ -233,7 +233,7 @@ TEST_CASE("lanes: what is remembered of them stays within the bound of bytes") {
   CHECK(single.history.size() > 4 * s.history.size());
 }
 
-TEST_CASE("lanes: a view shows each in its place, and says its joints and energies by name") {
+TEST_CASE("variants: shown at their offsets, with joint positions and energies by name") {
   const LabScene scene = swinging();
   SideBySide s(scene, {"integrator", {"semi-implicit", "euler", "rk4"}, Vector3(0, 0.5, 0)});
   s.step(160);
@@ -270,7 +270,7 @@ TEST_CASE("lanes: a view shows each in its place, and says its joints and energi
     CHECK(std::abs(read.position[3 * ball]) == doctest::Approx(std::abs(std::sin(x.q[0]))));
     CHECK(read.position[3 * ball + 1] == doctest::Approx(0.5 * static_cast<double>(variant)));
     CHECK(read.position[3 * ball + 2] == doctest::Approx(1.2 - std::cos(x.q[0])));
-    CHECK((read.body[ball] == 65535) == (variant > 0));  // who is clicked at is the first
+    CHECK((read.body[ball] == 65535) == (variant > 0));  // only the first can be picked
   }
   CHECK(read.text ==
         "semi-implicit"
@@ -284,7 +284,7 @@ TEST_CASE("lanes: a view shows each in its place, and says its joints and energi
   CHECK(std::isnan(value(after, "lane/total_energy/euler")));
 }
 
-TEST_CASE("lanes: what names no lanes is refused with what to write") {
+TEST_CASE("variants: invalid sets are refused with a remedy") {
   CHECK(parse_lanes("integrator=semi-implicit,rk4").values ==
         std::vector<std::string>{"semi-implicit", "rk4"});
   CHECK(parse_lanes("body.position=[0,0,1],[0,0,2]").values ==

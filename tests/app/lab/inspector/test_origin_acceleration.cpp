@@ -1,7 +1,7 @@
 // The acceleration of a body's origin in the lab's inspector: classical, not spatial.
 #include <doctest/doctest.h>
 
-#include "tests/app/lab/inspector/glass_messages.h"
+#include "tests/app/lab/inspector/inspection_messages.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
@@ -20,7 +20,7 @@ Vector3 acceleration_of(const Value& message, const std::string& body) {
 
 }  // namespace
 
-TEST_CASE("glass: the acceleration of an origin is classical: w^2 r on a circle, 0 at rest") {
+TEST_CASE("inspector: the acceleration of an origin is classical: w^2 r on a circle, 0 at rest") {
   const TemporaryFolder folder;
   const auto link = [](const std::string& name) {
     return "<link name='" + name +
@@ -40,21 +40,18 @@ TEST_CASE("glass: the acceleration of an origin is classical: w^2 r on a circle,
     options.robot.state =
         folder.write("state.json", "{\"qd\": {\"j1\": " + std::to_string(w) + "}}");
     BodyInspector inspector(prepare_simulation(options));
-    const RunSample told = sample_of(prepare_simulation(options), 0);
-    const Value message = parsed(inspector.message(told.frame, {2, true, 1}));
+    const RunSample sample = sample_of(prepare_simulation(options), 0);
+    const Value message = parsed(inspector.message(sample.frame, {2, true, 1}));
     CHECK(acceleration_of(message, "a").norm() < 1e-12);
     CHECK((acceleration_of(message, "b") - Vector3(-0.5 * w * w, 0, 0)).norm() < 1e-12);
   }
 }
 
-TEST_CASE("glass: the acceleration of an origin is the second derivative of its position") {
-  const std::string file = "robots/s103/s103.urdf";
-  BodyInspector inspector(plan_of_asset(file, 1));
-  const SimulatePlan plan = plan_of_asset(file, 1);
-  const Model<double>& model = plan.input.robot.model;
-  const RunSample told = sample_of(file, 200);
-  const Value message = parsed(inspector.message(told.frame, {1, true, 1}));
-  StateArchive memory = simulation_memory(told.frame.recorded.memory);
+TEST_CASE("inspector: the acceleration of an origin is the second derivative of its position") {
+  InspectedRun sample("robots/s103/s103.urdf", 200);
+  const Model<double>& model = sample.model();
+  const Value message = sample.message(1, true);
+  StateArchive memory = simulation_memory(sample.frame.recorded.memory);
   State<double> x(model);
   memory.visit(x.q);
   memory.visit(x.qd);
@@ -67,7 +64,7 @@ TEST_CASE("glass: the acceleration of an origin is the second derivative of its 
       State<double> moved = x;
       for (std::size_t dof = 0; dof < model.nv; ++dof) {
         moved.q[dof] += side * h * x.qd[dof];
-        moved.qd[dof] += side * h * told.qdd[dof];
+        moved.qd[dof] += side * h * sample.qdd[dof];
       }
       forward_kinematics(model, moved, k);
       v[side > 0] = k.v_WLo[body];

@@ -1,4 +1,4 @@
-// Mouse, keys and sticks as a hand; scripted hands; what all hands and devices have in common.
+// Desktop input (mouse, keys, sticks) and the triple buffer.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -22,17 +22,17 @@ Vector3 velocity_of(const HandSample& hand) {
   return omni_jacobian({}, hand.theta) * Vector3(rate[0], rate[1], rate[2]);
 }
 
-// From where it is at the time t.
+// Starting from the position at the time t.
 void move(DesktopInput& hand, const Vector3& by, double t = 0) {
   hand.place(point_of(hand.sample(t, t + 1)) + by);
 }
 
 }  // namespace
 
-TEST_CASE("gestures: the stylus goes to a place, and turns by angles") {
+TEST_CASE("desktop input: the stylus moves to a point, and rotates by angles") {
   DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(0, 1));
-  CHECK((start - omni_position({}, GestureSettings{}.start)).norm() < 1e-12);
+  CHECK((start - omni_position({}, DesktopInputSettings{}.start)).norm() < 1e-12);
   hand.place(start + Vector3(0.010, 0.005, -0.008));
   CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0.010, 0.005, -0.008)).norm() < 1e-12);
   hand.turn_stylus({0.6, -0.3, -0.12});
@@ -42,7 +42,8 @@ TEST_CASE("gestures: the stylus goes to a place, and turns by angles") {
   CHECK(turned.theta[5] == doctest::Approx(-0.12));
 }
 
-TEST_CASE("gestures: keys and sticks move evenly in the time of the one who asks, until released") {
+TEST_CASE(
+    "desktop input: keys and sticks move at constant rates in the reader's time, until released") {
   DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(5, 6));
   hand.key(HandAxis::right, true, true);
@@ -69,7 +70,7 @@ TEST_CASE("gestures: keys and sticks move evenly in the time of the one who asks
   CHECK_FALSE(rest.clutch);
 }
 
-TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes back at once") {
+TEST_CASE("desktop input: out of reach the goal is the nearest point, and it comes back at once") {
   const OmniParameters omni;
   DesktopInput hand{omni};
   const Vector3 start = point_of(hand.sample(0, 1));
@@ -80,7 +81,7 @@ TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes ba
         1e-12);
   move(hand, {-0.010, 0, 0});
   CHECK((point_of(hand.sample(0, 1)) - point_of(edge) - Vector3(-0.010, 0, 0)).norm() < 1e-9);
-  // A key that is held at the edge winds nothing up either.
+  // A pressed key at the boundary does not wind up either.
   move(hand, {2, 0, 0});
   hand.key(HandAxis::right, true, true);
   hand.sample(10, 11);
@@ -88,11 +89,11 @@ TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes ba
   const Vector3 held = point_of(hand.sample(10, 11));
   hand.key(HandAxis::right, false, true);
   CHECK((point_of(hand.sample(10.1, 11)) - held - Vector3(-0.010, 0, 0)).norm() < 1e-9);
-  move(hand, {2, 0, 0}, 10.1);  // against the key that is held: it moves back from the edge
+  move(hand, {2, 0, 0}, 10.1);  // against the pressed key: it moves back from the boundary
   const Vector3 pushed = point_of(hand.sample(10.1, 11));
   CHECK((point_of(hand.sample(10.2, 11)) - pushed - Vector3(-0.010, 0, 0)).norm() < 1e-9);
   hand.release();
-  for (int n = 0; n < 400; ++n) {  // whatever is done, it stays within the ranges
+  for (int n = 0; n < 400; ++n) {  // always within the ranges
     move(hand, {0.15 * std::sin(1.7 * n), 0.15 * std::cos(0.9 * n), 0.08 * std::sin(2.3 * n)},
          12 + 0.01 * n);
     hand.turn_stylus({3 * std::sin(n), 2.4 * std::cos(n), 2.4 * std::cos(3.1 * n)});
@@ -102,7 +103,7 @@ TEST_CASE("gestures: out of reach the goal is the nearest place, and it comes ba
   }
 }
 
-TEST_CASE("gestures: what is not finite is not heard, and nothing takes from the heap") {
+TEST_CASE("desktop input: values that are not finite are ignored, no allocation") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(0, 1));
@@ -117,7 +118,7 @@ TEST_CASE("gestures: what is not finite is not heard, and nothing takes from the
   CHECK((point_of(hand.sample(0, 1)) - start).norm() < 1e-12);
 }
 
-TEST_CASE("gestures move the virtual Omni's stylus to the place, through the arm") {
+TEST_CASE("desktop input moves the virtual Omni's stylus to the point, through the arm") {
   const auto hand = std::make_shared<DesktopInput>(OmniParameters{});
   VirtualOmniSettings settings;
   settings.figures.friction = 0;
@@ -132,7 +133,7 @@ TEST_CASE("gestures move the virtual Omni's stylus to the place, through the arm
   CHECK(seen.buttons == std::array<bool, 2>{false, true});
 }
 
-TEST_CASE("newest value: values are never torn, never old after new, and the last one arrives") {
+TEST_CASE("triple buffer: values are never torn, never out of order, and the last one arrives") {
   struct Pair {
     long a, b;
     std::array<long, 30> more;

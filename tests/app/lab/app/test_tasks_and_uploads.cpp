@@ -1,4 +1,4 @@
-// What the lab does for requests over HTTP beside its run: tasks, and files that are uploaded.
+// Task queue and uploaded files.
 #include <doctest/doctest.h>
 
 #include <future>
@@ -9,7 +9,7 @@
 
 namespace twinarm {
 
-TEST_CASE("errands: one that throws is reported, and the next one is done") {
+TEST_CASE("task queue: an exception is reported, and the next task is executed") {
   std::promise<std::string> reported, done;
   TaskQueue tasks([&](const std::string& why) { reported.set_value(why); });
   tasks.add([] { throw std::runtime_error("no room on the disk"); });
@@ -18,7 +18,7 @@ TEST_CASE("errands: one that throws is reported, and the next one is done") {
   CHECK(done.get_future().get() == "done");
 }
 
-TEST_CASE("uploads: the oldest files are removed beyond a number of files and of bytes") {
+TEST_CASE("uploads: the oldest files are removed beyond the limits of number and bytes") {
   const TemporaryFolder folder;
   UploadFolder uploads(folder.path() / "uploads", 3, 100);
   const auto names = [&] {

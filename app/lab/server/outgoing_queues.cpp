@@ -1,4 +1,4 @@
-#include "app/lab/server/mailboxes.h"
+#include "app/lab/server/outgoing_queues.h"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
-// A fast arm with stiff couplings whips past the corner of a post: where rounds that do not
-// converge would let it in.
+// A fast arm with stiff couplings hits the corner of a post: requires convergence of the force
+// iterations.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using namespace twinarm::testing;
 
 namespace {
 
-// Largest depth while a hand that turns steadily drags the arm against the post [m].
+// Maximum penetration depth while the target moves the arm steadily against the post [m].
 double deepest_on_the_way(const Model<double>& model, double friction, double speed, double q2,
                           double direction) {
   ContactForce contact(model, {1e8, 1, friction, 1e-3});
@@ -31,7 +31,8 @@ double deepest_on_the_way(const Model<double>& model, double friction, double sp
   const State<double> start = state_of(model, {q1, q2}, {w1, w2});
   Coupled system(model, hand, {"joint1", "joint2"}, spec, start);
   system.simulation.add(contact);
-  if (contact.deepest(system.simulation.kinematics()) > 0) return 0;  // begins inside: no case
+  if (contact.deepest(system.simulation.kinematics()) > 0)
+    return 0;  // initial penetration: not a case
   double deepest = 0;
   for (int n = 0; n < static_cast<int>(3200 / speed); ++n) {
     system.simulation.step(1e-3);
@@ -42,8 +43,7 @@ double deepest_on_the_way(const Model<double>& model, double friction, double sp
 
 }  // namespace
 
-TEST_CASE(
-    "an arm that is whipped against a post with friction enters it by less than a millimetre") {
+TEST_CASE("a fast arm that hits a post with friction penetrates by less than a millimetre") {
   const Model<double> model = TwoLink{5, 3, 0.25, 0.35}.model();
   double worst = 0;
   for (double speed : {3.0, 6.0, 12.0})

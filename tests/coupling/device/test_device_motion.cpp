@@ -1,4 +1,4 @@
-// A live hand, and the log that makes its run again.
+// DeviceMotion, and the log for its replay.
 #include <doctest/doctest.h>
 
 #include <unistd.h>
@@ -32,7 +32,7 @@ bool same_bits(const HandSample& a, const HandSample& b) {
 
 }  // namespace
 
-TEST_CASE("live hand: a step goes on by the newest rate, and a hand that is not renewed stands") {
+TEST_CASE("device motion: a step is extrapolated with the newest rate; without renewal it stops") {
   const HandMapping mapping;
   DeviceMotion hand(8);
   CHECK(hand.sample(3, 4).theta[0] == 0);
@@ -46,14 +46,14 @@ TEST_CASE("live hand: a step goes on by the newest rate, and a hand that is not 
   CHECK(angle(1, 1.01) == 0.2);
   CHECK(angle(1.01, 1) == doctest::Approx(0.23).epsilon(1e-14));
   CHECK(rate(1, 1.01) == 3);
-  CHECK(rate(1.01, 1) == 3);     // the step's end, seen from within it
-  CHECK(rate(1.01, 1.02) == 0);  // seen from a step of which nothing is known
+  CHECK(rate(1.01, 1) == 3);     // the step's end, from inside
+  CHECK(rate(1.01, 1.02) == 0);  // from a step without data
   CHECK(angle(5, 6) == doctest::Approx(0.23).epsilon(1e-14));
   CHECK(angle(0.5, 0.6) == 0.2);
   CHECK(rate(0.5, 0.6) == 0);
 }
 
-TEST_CASE("live hand: at a jump each side of an instant has its own angle") {
+TEST_CASE("device motion: at a jump each side has its own angle") {
   const HandMapping mapping;
   DeviceMotion hand(8);
   hand.set(target_at(0, 0), 0, 0.01);
@@ -64,7 +64,7 @@ TEST_CASE("live hand: at a jump each side of an instant has its own angle") {
   CHECK_FALSE(hand.sample(0.01, 0).button);
 }
 
-TEST_CASE("live hand: seen late, it is as it was, as far back as it remembers") {
+TEST_CASE("device motion: with delay it is unchanged, as far back as it is stored") {
   auto live = std::make_unique<DeviceMotion>(200);
   DeviceMotion& hand = *live;
   const DelayedMotion late(std::move(live), 0.1, 1);
@@ -77,7 +77,7 @@ TEST_CASE("live hand: seen late, it is as it was, as far back as it remembers") 
   }
 }
 
-TEST_CASE("hand log: what was written and read again has the same bits at every instant") {
+TEST_CASE("motion log: written and read again it is bit-identical at every instant") {
   std::mt19937 random(4);
   std::normal_distribution<double> draw;
   DeviceMotion live(1000);
@@ -101,7 +101,7 @@ TEST_CASE("hand log: what was written and read again has the same bits at every 
   }
 }
 
-TEST_CASE("hand log: a torn last line is left out, and every other fault names its line") {
+TEST_CASE("motion log: an incomplete last line is ignored, every other error has its line") {
   DeviceMotion live(10);
   live.set(target_at(1, 2), 0, 0.001);
   const std::string line = hand_log_line(live.newest());

@@ -1,4 +1,4 @@
-// Frames of runs, and the messages that the lab's inspector writes of them.
+// Frames of runs, and the inspector's messages.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -22,7 +22,7 @@ inline SimulatePlan plan_of_asset(const std::string& file, double duration) {
   return prepare_simulation(options);
 }
 
-// A frame after so many steps, and what the next step found.
+// A frame after some steps, and results of the next step.
 struct RunSample {
   LabFrame frame;
   std::vector<std::string> ledger;
@@ -30,34 +30,33 @@ struct RunSample {
   std::vector<Vector3> force;  // of its contacts
 };
 inline RunSample sample_of(SimulatePlan plan, long steps) {
-  RunSample told;
+  RunSample sample;
   RunWatch watch;
   watch.warn = [](const std::string&) {};
   watch.sample = [](double, const State<double>&) {};
   watch.look = [&](RunView& view) {
     if (view.step() == steps) {
-      RecordedFrame& recorded = told.frame.recorded;
+      RecordedFrame& recorded = sample.frame.recorded;
       recorded.step = steps;
       recorded.t = view.simulation().state().t;
       recorded.memory = view.memory();
       for (const EnergyRow& row : view.ledger()) {
-        recorded.rows.push_back(static_cast<std::uint32_t>(told.ledger.size()));
+        recorded.rows.push_back(static_cast<std::uint32_t>(sample.ledger.size()));
         recorded.works.push_back(row.work);
-        told.ledger.push_back(row.name);
+        sample.ledger.push_back(row.name);
       }
     }
     if (view.step() != steps + 1) return;
-    told.qdd = view.simulation().mechanism().w.qdd;
+    sample.qdd = view.simulation().mechanism().w.qdd;
     if (view.contacts() && view.contacts()->contacts())
       for (const ContactPoint& p : view.contacts()->contacts()->points())
-        if (!p.force_W.isZero(0)) told.force.push_back(p.force_W);
+        if (!p.force_W.isZero(0)) sample.force.push_back(p.force_W);
   };
-  RunStart last;
   plan.run.times.clear();
   plan.run.duration = static_cast<double>(steps + 2) * plan.run.step;
   run_plan(plan.input, plan.run, watch);
-  REQUIRE(!told.qdd.empty());
-  return told;
+  REQUIRE(!sample.qdd.empty());
+  return sample;
 }
 inline RunSample sample_of(const std::string& file, long steps) {
   return sample_of(plan_of_asset(file, 1), steps);
@@ -65,7 +64,7 @@ inline RunSample sample_of(const std::string& file, long steps) {
 
 inline Value parsed(const std::string& message) {
   const TemporaryFolder folder;
-  return read_json(folder.write("glass.json", message));
+  return read_json(folder.write("inspection.json", message));
 }
 inline const Value& at(const Value& value, const std::string& name) {
   const Value* found = value.find(name);
@@ -76,5 +75,21 @@ inline Vector3 vector_of(const Value& list) {
   REQUIRE(list.items.size() == 3);
   return {list.items[0].number, list.items[1].number, list.items[2].number};
 }
+
+// The sample with an inspector of its file.
+struct InspectedRun : RunSample {
+  InspectedRun(const std::string& file, long steps)
+      : RunSample(sample_of(file, steps)),
+        plan(plan_of_asset(file, 1)),
+        inspector(plan_of_asset(file, 1)) {}
+  const Model<double>& model() const { return plan.input.robot.model; }
+  std::string text(const LabFrame& of, std::size_t body, bool paused) {
+    return inspector.message(of, {body, paused, 1, &ledger});
+  }
+  Value message(std::size_t body, bool paused) { return parsed(text(frame, body, paused)); }
+
+  SimulatePlan plan;
+  BodyInspector inspector;
+};
 
 }  // namespace twinarm::testing

@@ -1,4 +1,4 @@
-// The lab's inspector: what it tells of a frame, against the run that the frame is of.
+// The inspector's message of a frame against the run of the frame.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/lab/run/lab_run.h"
-#include "tests/app/lab/inspector/glass_messages.h"
+#include "tests/app/lab/inspector/inspection_messages.h"
 
 using namespace twinarm;
 using namespace twinarm::testing;
@@ -19,7 +19,6 @@ constexpr const char* kInspectedScenes[] = {
     "hand_and_obstacles",     "box_stack", "four_bar", "incline",
     "robot_beside_obstacles", "turntable"};
 
-// Of the body's pass.
 const Value* quantity_of(const Value& passes, int pass, const std::string& name) {
   for (const Value& step : passes.items)
     if (at(step, "pass").number == pass)
@@ -30,49 +29,43 @@ const Value* quantity_of(const Value& passes, int pass, const std::string& name)
 
 }  // namespace
 
-TEST_CASE("glass: accelerations and contact forces are those that the run's own next step finds") {
+TEST_CASE("inspector: accelerations and contact forces equal those of the run's next step") {
   for (const std::string name : kInspectedScenes) {
     CAPTURE(name);
-    const std::string file = "scenes/" + name + ".toml";
-    const RunSample told = sample_of(file, 120);
-    BodyInspector inspector(plan_of_asset(file, 1));
-    const SimulatePlan plan = plan_of_asset(file, 1);
-    const Model<double>& model = plan.input.robot.model;
+    InspectedRun sample("scenes/" + name + ".toml", 120);
+    const Model<double>& model = sample.model();
     double size = 1;
-    for (const double qdd : told.qdd) size = std::max(size, std::abs(qdd));
+    for (const double qdd : sample.qdd) size = std::max(size, std::abs(qdd));
     std::size_t pressing = 0;
     for (std::size_t body = 1; body < model.parent.size(); ++body) {
       CAPTURE(model.body_name[body]);
-      const Value message = parsed(inspector.message(told.frame, {body, false, 3, &told.ledger}));
-      CHECK(at(message, "scene").number == 3);
+      const Value message = sample.message(body, false);
+      CHECK(at(message, "scene").number == 1);
       CHECK(at(message, "name").text == model.body_name[body]);
       if (model.dofs(body) == 1) {
         const Value* qdd = quantity_of(at(message, "passes"), 3, "qdd");
         REQUIRE(qdd);
-        CHECK(std::abs(qdd->number - told.qdd[model.iv[body]]) <= 1e-9 * size);
+        CHECK(std::abs(qdd->number - sample.qdd[model.iv[body]]) <= 1e-9 * size);
       }
-      for (const Value& force : at(message, "forces").items)
-        if (force.find("axis")) {
-          const Vector3 on = vector_of(at(at(force, "on").items[0], "force"));
-          CHECK(std::any_of(told.force.begin(), told.force.end(), [&](const Vector3& f) {
-            return (f - on).norm() <= 1e-9 * std::max(1.0, f.norm());
-          }));
-          ++pressing;
-        }
+      for (const Value& force : at(message, "forces").items) {
+        if (!force.find("axis")) continue;
+        const Vector3 on = vector_of(at(at(force, "on").items[0], "force"));
+        CHECK(std::ranges::any_of(sample.force, [&](const Vector3& f) {
+          return (f - on).norm() <= 1e-9 * std::max(1.0, f.norm());
+        }));
+        ++pressing;
+      }
     }
-    CHECK((pressing > 0) == !told.force.empty());
+    CHECK((pressing > 0) == !sample.force.empty());
   }
 }
 
-TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation") {
+TEST_CASE("inspector: wrenches of every body and residuals of all equations sum to zero") {
   for (const std::string name : kInspectedScenes) {
     CAPTURE(name);
-    const std::string file = "scenes/" + name + ".toml";
-    const RunSample told = sample_of(file, 77);
-    BodyInspector inspector(plan_of_asset(file, 1));
-    const SimulatePlan plan = plan_of_asset(file, 1);
-    for (std::size_t body = 1; body < plan.input.robot.model.parent.size(); ++body) {
-      const Value message = parsed(inspector.message(told.frame, {body, true, 1, &told.ledger}));
+    InspectedRun sample("scenes/" + name + ".toml", 77);
+    for (std::size_t body = 1; body < sample.model().parent.size(); ++body) {
+      const Value message = sample.message(body, true);
       const Value& balance = at(message, "balance").items.at(0);
       Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
       double largest = 0;
@@ -95,11 +88,11 @@ TEST_CASE("glass: every body's wrenches sum to zero, and so does each equation")
   }
 }
 
-TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger the frame's") {
+TEST_CASE("inspector: values equal those of `inspect`; the energy balance is the frame's") {
   const std::string file = "scenes/hand_and_obstacles.toml";
-  const RunSample told = sample_of(file, 50);
-  SimulatePlan plan = plan_of_asset(file, 1);
-  StateArchive memory = simulation_memory(told.frame.recorded.memory);
+  InspectedRun sample(file, 50);
+  SimulatePlan& plan = sample.plan;
+  StateArchive memory = simulation_memory(sample.frame.recorded.memory);
   Inspected inspected = inspect_scene(plan.input, plan.run.step, &memory);
   const Inspection in(plan.input.robot.model, inspected.x, inspected.actors, inspected.loops);
   JsonWriter json;
@@ -107,19 +100,18 @@ TEST_CASE("glass: the numbers are those of inspect, digit by digit; its ledger t
   write_passes(json.key("passes"), in, {1, 2, 3}, {2});
   std::string wanted = json.str();
   wanted = wanted.substr(wanted.find("\"passes\""));
-  BodyInspector inspector(plan_of_asset(file, 1));
-  for (int again = 0; again < 3; ++again) {  // what was asked before leaves no trace
-    const std::string message = inspector.message(told.frame, {2, again == 1, 1, &told.ledger});
+  for (int again = 0; again < 3; ++again) {  // independent of earlier requests
+    const std::string message = sample.text(sample.frame, 2, again == 1);
     CHECK(message.find(wanted) != std::string::npos);
     const Value tree = parsed(message);
     const Value& ledger = at(tree, "ledger");
-    for (std::size_t i = 0; i < told.ledger.size(); ++i)
-      CHECK(at(ledger, told.ledger[i]).number == told.frame.recorded.works[i]);
-    inspector.message(sample_of(file, 10).frame, {1, true, 1});
+    for (std::size_t i = 0; i < sample.ledger.size(); ++i)
+      CHECK(at(ledger, sample.ledger[i]).number == sample.frame.recorded.works[i]);
+    sample.text(sample_of(file, 10).frame, 1, true);
   }
 }
 
-TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
+TEST_CASE("inspector: operator motion continues at its rate, and the mouse spring acts") {
   SimulateOptions options;
   options.robot.model = TWINARM_SOURCE_DIR "/assets/scenes/hand_and_obstacles.toml";
   options.duration = 1;
@@ -127,7 +119,7 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   OperatorInput hand;
   LabRun run(scene.plan(), hand);
   hand.choose(OperatorInput::Source::joints);
-  hand.joint(0, 2.5, 1);  // at OperatorInput::kMaxJointSpeed it is long under way
+  hand.joint(0, 2.5, 1);  // farther than it gets
   for (int n = 0; n < 100; ++n) REQUIRE(run.step());
   LabNames names;
   const LabFrame frame = run.frame(names);
@@ -140,20 +132,21 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   REQUIRE(run.step());
   const double wanted = run.view().simulation().mechanism().w.qdd[model.iv[body]];
   CHECK(std::abs(wanted) > 0.1);
-  const auto told_by = [&](const LabFrame& of) {
+  const auto inspected_qdd = [&](const LabFrame& of) {
     const Value message = parsed(inspector.message(of, {body, true, 1, &names.rows}));
     for (const Value& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
     const Value* qdd = quantity_of(at(message, "passes"), 3, "qdd");
     REQUIRE(qdd);
     return qdd->number;
   };
-  CHECK(told_by(frame) == doctest::Approx(wanted).epsilon(1e-9));
-  // A hand that stood still would have another force.
+  CHECK(inspected_qdd(frame) == doctest::Approx(wanted).epsilon(1e-9));
+  // With a target at rest the acceleration differs.
   LabFrame still = frame;
   still.hand->qd_K.assign(still.hand->qd_K.size(), 0);
-  CHECK(std::abs(told_by(still) - wanted) > 1e-3 * std::abs(wanted));
+  CHECK(std::abs(inspected_qdd(still) - wanted) > 1e-3 * std::abs(wanted));
   LabFrame pulled = frame;
-  pulled.mouse = MouseSpringState{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
+  pulled.mouse =
+      MouseSpringState{static_cast<int>(body), Vector3::Zero(), Vector3::Zero(), {0, 0, 10}};
   const Value message = parsed(inspector.message(pulled, {body, false, 1}));
   bool found = false;
   for (const Value& wrench : at(at(message, "balance").items.at(0), "wrenches").items)
@@ -162,15 +155,12 @@ TEST_CASE("glass: a hand that leads goes on as it did, and the mouse pulls") {
   CHECK(found);
 }
 
-TEST_CASE("glass: where time stands, all bodies come in the order of the call") {
-  const std::string file = "scenes/robot_beside_obstacles.toml";
-  const RunSample told = sample_of(file, 5);
-  const SimulatePlan plan = plan_of_asset(file, 1);
-  std::vector<std::string> names(plan.input.robot.model.body_name.begin() + 1,
-                                 plan.input.robot.model.body_name.end());
-  BodyInspector inspector(plan_of_asset(file, 1));
-  CHECK(!parsed(inspector.message(told.frame, {1, false, 1, &told.ledger})).find("rows"));
-  const Value message = parsed(inspector.message(told.frame, {1, true, 1}));
+TEST_CASE("inspector: while paused all bodies come in the order of the call") {
+  InspectedRun sample("scenes/robot_beside_obstacles.toml", 5);
+  std::vector<std::string> names(sample.model().body_name.begin() + 1,
+                                 sample.model().body_name.end());
+  CHECK(!sample.message(1, false).find("rows"));
+  const Value message = sample.message(1, true);
   std::vector<std::pair<int, std::string>> order, wanted;
   for (const Value& row : at(message, "rows").items) {
     order.emplace_back(static_cast<int>(at(row, "pass").number), at(row, "body").text);
@@ -184,48 +174,42 @@ TEST_CASE("glass: where time stands, all bodies come in the order of the call") 
   CHECK(order == wanted);
 }
 
-TEST_CASE("glass: a robot alone, without a scene") {
-  const std::string file = "robots/s103/s103.urdf";
-  const RunSample told = sample_of(file, 40);
-  BodyInspector inspector(plan_of_asset(file, 1));
-  const SimulatePlan plan = plan_of_asset(file, 1);
-  const Model<double>& model = plan.input.robot.model;
-  const auto body = static_cast<std::size_t>(model.find_joint("joint1"));
-  const Value message = parsed(inspector.message(told.frame, {body, true, 1, &told.ledger}));
+TEST_CASE("inspector: a robot without a scene") {
+  InspectedRun sample("robots/s103/s103.urdf", 40);
+  const auto body = static_cast<std::size_t>(sample.model().find_joint("joint1"));
+  const Value message = sample.message(body, true);
   const Value* qdd = quantity_of(at(message, "passes"), 3, "qdd");
   REQUIRE(qdd);
   CHECK(std::isfinite(qdd->number));
   for (const Value& check : at(message, "checks").items) CHECK(at(check, "pass").number == 1);
 }
 
-TEST_CASE("glass: numbers that are not finite are told, and a frame of another scene too") {
-  const std::string file = "scenes/hand_and_obstacles.toml";
-  RunSample told = sample_of(file, 20);
-  BodyInspector inspector(plan_of_asset(file, 1));
-  const std::string good = inspector.message(told.frame, {1, true, 1, &told.ledger});
+TEST_CASE("inspector: values that are not finite and frames of another scene give warnings") {
+  InspectedRun sample("scenes/hand_and_obstacles.toml", 20);
+  const std::string good = sample.text(sample.frame, 1, true);
   for (const double bad :
        {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), 1e200}) {
     CAPTURE(bad);
-    LabFrame broken = told.frame;
+    LabFrame broken = sample.frame;
     StateArchive memory = simulation_memory(broken.recorded.memory);
     const std::size_t head = broken.recorded.memory.size();
     std::vector<double> q;
     memory.visit(q);
     REQUIRE(q.size() > 1);
-    // The first coordinate stands behind the run's own numbers and the count of coordinates.
+    // The first coordinate follows the run's own numbers and the number of coordinates.
     StateArchive written;
     written.visit(q);
     const std::size_t place = broken.recorded.memory.find(written.bytes()) + sizeof(std::uint64_t);
     REQUIRE(place < head);
     broken.recorded.memory.replace(place, sizeof bad, reinterpret_cast<const char*>(&bad),
                                    sizeof bad);
-    const Value message = parsed(inspector.message(broken, {1, true, 1, &told.ledger}));
+    const Value message = parsed(sample.text(broken, 1, true));
     CHECK(at(message, "kind").text == "glass");
     if (std::isnan(bad)) CHECK(!at(message, "warnings").items.empty());
   }
   const RunSample other = sample_of("scenes/box_stack.toml", 3);
-  const Value message = parsed(inspector.message(other.frame, {1, true, 1, &told.ledger}));
+  const Value message = parsed(sample.text(other.frame, 1, true));
   CHECK(at(message, "warnings").items.size() == 1);
   CHECK(!message.find("passes"));
-  CHECK(inspector.message(told.frame, {1, true, 1, &told.ledger}) == good);
+  CHECK(sample.text(sample.frame, 1, true) == good);
 }
