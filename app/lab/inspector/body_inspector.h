@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "app/data/json_writer.h"
 #include "app/inspect/report/inspect_input.h"
 #include "app/lab/run/history.h"
 #include "app/lab/run/input_override.h"
