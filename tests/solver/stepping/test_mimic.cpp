@@ -156,8 +156,8 @@ TEST_CASE("friction of mimic joints acts on the independent joint through the ra
 
     ForwardDynamics dynamics(model);
     Workspace<double> w(model);
-    using Rule = ForwardDynamics::Rule;
-    dynamics(x, forces, w, h > 0 ? Rule::end_of_step : Rule::now, h);
+    using Rule = ForwardDynamics::FrictionRule;
+    dynamics(x, forces, w, h > 0 ? Rule::end_of_step : Rule::current, h);
     const double scale = 1 + largest(a);
     CHECK(largest(vector_of(w.qdd) - G * ydd) < 1e-10 * scale);
     const VectorXd rubbing = vector_of(dynamics.torques().coulomb);
