@@ -13,7 +13,7 @@ void vrpn(Bytes bytes) {
   for (std::size_t at = 0, size = 1; at < bytes.size(); at += size) {
     size = std::min(bytes.size() - at, 1 + static_cast<unsigned char>(bytes[at]) * std::size_t{3});
     const auto* part = reinterpret_cast<const std::uint8_t*>(bytes.data() + at);
-    if (stream.feed(part, size) != VrpnStream::Diagnostic::none) break;
+    if (stream.feed(part, size) != VrpnStream::Error::none) break;
   }
   stream.devices();
   if (const auto theta = omni_inverse(OmniParameters(), stream.pose()))

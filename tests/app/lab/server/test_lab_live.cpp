@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "app/lab/server/mailqueues.h"
+#include "app/lab/server/outgoing_queues.h"
 #include "tests/app/lab/server/lab_host.h"
 
 using namespace twinarm;
