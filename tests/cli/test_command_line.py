@@ -5,6 +5,7 @@
 """
 import json
 import pathlib
+import re
 import shutil
 
 from program import ROOT, ProgramTest, main, run
@@ -101,9 +102,8 @@ class CommandLine(ProgramTest):
                  "svg", "csv", "work", "merge", "record", "post-mortem")
         tried = 0
         for command in self.commands():
-            words = run(command, "--help").stdout.split()
-            given = [f"--{name}" for name in files if f"--{name}" in words and
-                     words[words.index(f"--{name}") + 1] == "PATH"]  # not a flag of that name
+            text = run(command, "--help").stdout
+            given = [f"--{name}" for name in files if re.search(rf"--{name} +PATH\b", text)]  # not a flag of that name
             tried += len(given)
             for option in given:
                 self.refused(run(command, option, ""), option, "the name of a file is empty")

@@ -114,7 +114,7 @@ class Limits(CouplingLaws):
         self.assertEqual(found["B"], [[0]])
         found = self.predict(self.scene(coupling("god-object")))
         self.assertEqual([found["modes"], found["K"]], [[], [[0]]])
-        self.assertIn("is a constraint, not a spring", "".join(found["warnings"]))
+        self.assertIn("is a constraint: it has no stiffness", "".join(found["warnings"]))
         self.assertEqual(found["joint_errors"]["start"], {"hinge": 0})
 
     def test_a_delay_leaves_the_limit_as_it_is(self):
@@ -123,7 +123,7 @@ class Limits(CouplingLaws):
         late = self.predict(self.scene(coupling("torsional", "explicit", target="paper", delay=0.03,
                                                 **keys)))
         self.assertEqual(late["scene"]["largest_step"], now["scene"]["largest_step"])
-        self.assertIn("0.03 s late", "".join(late["warnings"]))
+        self.assertIn("a target delay of 0.03 s", "".join(late["warnings"]))
 
     def test_the_matched_law_has_the_stiffness_of_its_targets_pose(self):
         """J at the KVR: a point of the lower link, 0.25 m from the elbow."""

@@ -96,7 +96,7 @@ class CouplingTypes(RobotCommand):
         self.assertLess(offsets[-1], 1e-3)
         far = tip(0.071, "--post-mortem", self.folder / "last.twinrec", code=3)
         words = " ".join(far["post_mortem"]["words"])
-        found = re.search(r"coupling 'tip', .* passed its geometric limit at step (\d+), .* about "
+        found = re.search(r"coupling 'tip', .* exceeded its geometric limit at step (\d+), .* axis of "
                           r"joint '(joint\d+)'", words)
         self.assertTrue(found, words)
         self.assertLess(int(found.group(1)), 10)

@@ -90,7 +90,7 @@ class FullDisk(Case):
         done = self.run_it([program.PROGRAM, *words],
                            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit)))
         self.told_well("recording", done)
-        self.assertIn("has room", done.stderr)
+        self.assertIn("free space", done.stderr)
         self.assertFalse((self.folder / "run").exists())
         kinds = [kind for kind, _, _ in recorded_blocks((self.folder / "run.part").read_bytes())]
         self.assertGreater(kinds.count("F"), 2)

@@ -158,7 +158,7 @@ class Pages(Case):
             port = taken.getsockname()[1]
             told = self.refused("lab", PENDULUM, "--port", port, "--no-browser")
         self.assertIn(str(port), told)
-        self.assertIn("leave --port out", told)
+        self.assertIn("omit --port", told)
         _, url = self.lab("--port", str(port))  # it is free now
         self.assertIn(f":{port}/", url)
 

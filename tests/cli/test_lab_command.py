@@ -313,7 +313,7 @@ class LabEnds(ProgramTest):
                     known = len(live.wait_for("state")["notes"])
                     live.do("hand", source="device", spec=spec)
                     notes = live.wait_for("state", lambda s: len(s["notes"]) > known)["notes"]
-                    self.assertEqual("other machines" in notes[-1]["text"], is_refused, notes[-1])
+                    self.assertEqual("with --listen this is not allowed" in notes[-1]["text"], is_refused, notes[-1])
                 live.do("hand", source="device", spec="virtual:synthetic")
                 live.wait_for("state", lambda s: s["hand"]["spec"] == "virtual:synthetic")
             running.end()
@@ -338,7 +338,7 @@ class LabEnds(ProgramTest):
                     ("e.toml", body.format('texture = "/nowhere/secret.png"'))):
                 reply = lab.upload(name, text, live)
                 self.assertEqual(reply.status, 422, name)
-                self.assertIn("is not among those that this scene may read", reply.body.decode(), name)
+                self.assertIn("this scene may not read the file", reply.body.decode(), name)
                 self.assertNotIn("of this machine", reply.body.decode())
             mesh = f'<mesh filename="{path}/secret.png"/>'
             self.assertEqual(lab.upload("f.urdf", re.sub('<box.*?/>', mesh, ROD), live).status, 200)
@@ -352,7 +352,7 @@ class LabEnds(ProgramTest):
             known = live.wait_for("state", lambda s: s["name"] == "h")["notes"]
             live.do("set", changes=[f"body[0].texture={path}/secret.png"])
             notes = live.wait_for("state", lambda s: len(s["notes"]) > len(known))["notes"]
-            self.assertIn("is not among those", notes[-1]["text"])
+            self.assertIn("may not read the file", notes[-1]["text"])
         running.end()
 
 

@@ -139,13 +139,15 @@ class LabProtocol(LabTest):
             name = fields.pop("do")[1][0].strip("'")
             said[name] = {key: absent or key == "stamp" for key, (absent, _) in fields.items()}
         source = (ROOT / "app/lab/session/lab_command.cpp").read_text()
-        field = r'"(\w+)", *"[^"]*", *[\w<>\' ,]+?(, true)?'
+        made = r'(?:field|whole_number|angle)\(\s*"(\w+)"[^()]*?(, true)?\)'
         shared = {name: (key, bool(absent))
-                  for name, key, absent in re.findall(r"const Field (\w+)\{" + field + r"\}", source)}
+                  for name, key, absent in re.findall(r"const Field (\w+) *= *" + made, source)}
+        shared |= {name: (key, False) for name, key in re.findall(r'const Field (\w+)\{"(\w+)"', source)}
         table = source[source.index("static const std::vector<Form> all"):source.index("return all;")]
         read = {}
-        for name, rest in re.findall(r'\{"(\w+)",\s*Spoken::\w+,\s*\w+,(.*?)(?=\{"\w+",\s*Spoken|\Z)', table, re.S):
-            own = {key: bool(absent) for key, absent in re.findall(r"\{" + field + r"\}", rest)}
+        for name, rest in re.findall(r'\{"(\w+)",\s*Verb::\w+,\s*\w+,(.*?)(?=\{"\w+",\s*Verb|\Z)', table, re.S):
+            own = {key: bool(absent) for key, absent in re.findall(made, rest)}
+            own |= {"body": flag == "true" for flag in re.findall(r"body\((true|false)\)", rest)}
             also = dict(shared[word] for word in re.findall(r"[{\s](\w+)[,}]", rest) if word in shared)
             read[name] = own | also
         self.assertEqual(said, read)

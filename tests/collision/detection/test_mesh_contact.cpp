@@ -157,7 +157,7 @@ TEST_CASE("invalid meshes are rejected: empty, open, flipped, degenerate, in mil
   CHECK(MeshShape{open, true}.fault().empty());
   says(inverted, "inverted");
   says(thin, "no area", true);
-  says(wild, "corner 99");
+  says(wild, "vertex index 99");
   says(nowhere, "not finite");
   says(moved(good, origin, 500), "millimetres");
   CollisionWorld world;

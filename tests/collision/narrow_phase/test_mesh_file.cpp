@@ -174,7 +174,7 @@ TEST_CASE("files whose surface does not bound a solid: each is read, and the err
   for (auto& t : flipped.triangles) std::swap(t[0], t[1]);
   CHECK(mentions(fault_of(flipped), "inverted"));
   std::swap(one_turned.triangles[4][0], one_turned.triangles[4][1]);
-  CHECK(mentions(fault_of(one_turned), "3 edges have triangles that disagree"));
+  CHECK(mentions(fault_of(one_turned), "3 edges have triangles of opposite orientation"));
   doubled.triangles.push_back(doubled.triangles[0]);
   doubled.triangles.push_back({good.triangles[5][1], good.triangles[5][2], good.triangles[5][0]});
   CHECK(mentions(fault_of(doubled), "2 triangles are duplicates"));
@@ -185,7 +185,7 @@ TEST_CASE("files whose surface does not bound a solid: each is read, and the err
   thin.triangles.pop_back();
   thin.triangles[0] = thin.triangles[1];
   thin.triangles.push_back({0, 1, 8});
-  for (const char* part : {"no area", "twice", "not closed"}) CHECK(mentions(fault_of(thin), part));
+  for (const char* part : {"no area", "duplicates", "not closed"}) CHECK(mentions(fault_of(thin), part));
 }
 
 TEST_CASE(

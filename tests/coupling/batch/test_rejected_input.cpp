@@ -52,8 +52,8 @@ TEST_CASE("couplings of joint coordinates reject joints of several degrees of fr
     spec.springs = {{"s", 1, Vector3::Zero(), 10, 1}};
     CHECK(refusal([&] { make_coupling(spec, model, kvr); }) == "");
     for (const auto& [body, words] :
-         {std::pair{2, "joint 'plate': the joint has 0 degrees of freedom, not one"},
-          std::pair{3, "joint 'ball': the joint has 3 degrees of freedom, not one"}}) {
+         {std::pair{2, "joint 'plate': the joint has 0 degrees of freedom, must have one"},
+          std::pair{3, "joint 'ball': the joint has 3 degrees of freedom, must have one"}}) {
       spec.springs[0].body = body;
       const std::string text = refusal([&] { make_coupling(spec, model, kvr); });
       CAPTURE(text);
