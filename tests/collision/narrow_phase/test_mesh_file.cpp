@@ -185,7 +185,8 @@ TEST_CASE("files whose surface does not bound a solid: each is read, and the err
   thin.triangles.pop_back();
   thin.triangles[0] = thin.triangles[1];
   thin.triangles.push_back({0, 1, 8});
-  for (const char* part : {"no area", "duplicates", "not closed"}) CHECK(mentions(fault_of(thin), part));
+  for (const char* part : {"no area", "duplicates", "not closed"})
+    CHECK(mentions(fault_of(thin), part));
 }
 
 TEST_CASE(
