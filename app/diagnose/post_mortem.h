@@ -1,4 +1,4 @@
-// Why a run diverged: first non-finite quantity, violated stability limits, the row of the energy
+// Cause of divergence of a run: first non-finite quantity, violated stability limits, the row of the energy
 // balance that grew, and suggested fixes. The last steps are recomputed from a checkpoint and
 // recorded, at no cost to other runs.
 #pragma once

@@ -1,3 +1,4 @@
+// Contact of the study alone (scenes: contact_constraints.h, solver/impulses/impulse_law.h).
 // Contact of moving links with fixed obstacles: Hunt-Crossley normal force and regularised Coulomb
 // friction, both evaluated at the end of the step: stable at any stiffness
 // (solver/forces/spring.h).

@@ -1,4 +1,5 @@
-// Geometry and limits of the Phantom Omni (now: Touch). Sources: docs/understand/phantom_omni.md.
+// Forward and inverse kinematics, geometry and limits of the Phantom Omni (now: Touch). Sources:
+// docs/understand/phantom_omni.md.
 //
 // Six joints: theta1 (waist), theta2 (upper arm) and theta3 (forearm, relative to the upper arm)
 // have encoders and motors; theta4..theta6 (yaw, pitch, roll of the stylus) encoders only. Device

@@ -84,6 +84,7 @@ void project(const ImpulseConstraint& c, double radius, Vec& p, Mat* D) {
   }
 }
 
+// Compliant contact: Hunt-Crossley normal force, bristle friction (impulse_problem.h).
 void compliant_impulse(const ImpulseConstraint& c, double bound, const Vec& u, Vec& p, Mat& D) {
   D = {}, p = {};
   const double s = -u[0], depth = c.depth + c.h * s, damping = 1 + c.c * s;

@@ -1,4 +1,5 @@
-// Forces of all bilateral constraints: mimic joints (mimic.h) and loop closures (loop_closure.h).
+// Constraint forces (Lagrange multipliers) of all bilateral constraints:
+// mimic joints (mimic.h) and loop closures (loop_closure.h).
 //
 // With A the rows of both (RBDA sections 8.2, 8.3) and C the joint-space bias force:
 //   M qdd = tau - C + A^T lambda,   A qdd = -gamma   (gamma = 0 for mimic joints),

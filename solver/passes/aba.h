@@ -1,4 +1,4 @@
-// Forward dynamics by the articulated-body algorithm, RBDA section 7.3, table 7.1.
+// Forward dynamics by the articulated-body algorithm (ABA), RBDA section 7.3, table 7.1.
 //
 //   qdd = M^-1 (tau - C(q, qd, f_ext)),  in O(n).
 //

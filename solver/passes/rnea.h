@@ -1,4 +1,4 @@
-// Inverse dynamics by the recursive Newton-Euler algorithm, RBDA section 5.3, table 5.1.
+// Inverse dynamics by the recursive Newton-Euler algorithm (RNEA), RBDA section 5.3, table 5.1.
 //
 //   tau = M qdd + C(q, qd, f_ext),  in O(n), in body axes:
 //
