@@ -1,6 +1,6 @@
-// Cause of divergence of a run: first non-finite quantity, violated stability limits, the row of the energy
-// balance that grew, and suggested fixes. The last steps are recomputed from a checkpoint and
-// recorded, at no cost to other runs.
+// Cause of divergence of a run: first non-finite quantity, violated stability limits, the row of
+// the energy balance that grew, and suggested fixes. The last steps are recomputed from a
+// checkpoint and recorded, at no cost to other runs.
 #pragma once
 
 #include <filesystem>
