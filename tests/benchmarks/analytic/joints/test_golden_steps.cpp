@@ -62,7 +62,8 @@ TEST_CASE("error proportional to h^order over four halvings, all integrators") {
     const TrajectoryCase c = case_at(name, time);
     for (const IntegratorFacts& facts : all_integrators) {
       if (facts.integrator == Integrator::dopri5) continue;
-      CAPTURE(std::string(name));
+      const std::string case_name(name);  // clang 14 captures no structured binding
+      CAPTURE(case_name);
       CAPTURE(std::string(facts.name));
       const double h = time / std::round(time / (first_order_h * facts.order));
       const double coarse = run_trajectory(c, {facts.integrator, h}).error;
