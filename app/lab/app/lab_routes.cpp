@@ -16,10 +16,7 @@ namespace {
 constexpr double kMaxPixels = 1920;
 
 HttpReply reply_of(int status, const std::string& text) {
-  HttpReply reply;
-  reply.status = status;
-  reply.body = shared_bytes(text + "\n");
-  return reply;
+  return {.status = status, .body = shared_bytes(text + "\n")};
 }
 
 HttpReply not_found() {
@@ -27,11 +24,7 @@ HttpReply not_found() {
 }
 
 HttpReply file_of(const std::string& type, Bytes body, const std::string& download_name = "") {
-  HttpReply reply;
-  reply.type = type;
-  reply.body = std::move(body);
-  reply.file_name = download_name;
-  return reply;
+  return {.type = type, .body = std::move(body), .file_name = download_name};
 }
 
 // Exceptions of `work` become the answer.

@@ -121,10 +121,7 @@ void Connection::serve() {
     core_.handlers.http(parsed, answer);
   } catch (...) {
     log_exception("http");
-    HttpReply reply;
-    reply.status = 500;
-    reply.body = shared_bytes("internal error of the lab\n");
-    answer(std::move(reply));
+    answer({.status = 500, .body = shared_bytes("internal error of the lab\n")});
   }
 }
 
@@ -158,13 +155,12 @@ void Connection::answer(std::uint64_t request_number, HttpReply reply) {
 }
 
 void Connection::refuse(int status, const std::string& why) {
-  ResponseHead head;
   const Bytes body = shared_bytes("twinarm lab: " + why + "\n");
-  head.status = status;
-  head.type = "text/plain; charset=utf-8";
-  head.size = body->size();
-  head.keeps_alive = false;
-  write(head, body);
+  write({.status = status,
+         .type = "text/plain; charset=utf-8",
+         .size = body->size(),
+         .keeps_alive = false},
+        body);
 }
 
 void Connection::write(const ResponseHead& head, Bytes body) {

@@ -8,6 +8,7 @@
 #include <array>
 #include <boost/beast/http/status.hpp>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace twinarm {
@@ -33,6 +34,19 @@ std::optional<std::string> unescaped(std::string_view text, bool plus_is_space) 
   return plain;
 }
 
+// Of "a=1; b": the text after the name and '='.
+std::optional<std::string_view> value_in(std::string_view pairs, char separator,
+                                         std::string_view name) {
+  while (!pairs.empty()) {
+    std::string_view pair = pairs.substr(0, pairs.find(separator));
+    pairs.remove_prefix(std::min(pairs.size(), pair.size() + 1));
+    pair.remove_prefix(std::min(pair.size(), pair.find_first_not_of(' ')));
+    const std::size_t end = std::min(pair.find('='), pair.size());
+    if (pair.substr(0, end) == name) return pair.substr(std::min(end + 1, pair.size()));
+  }
+  return {};
+}
+
 bool is_numeric(std::string_view host) {
   std::string text(host);
   std::array<unsigned char, 16> bytes{};
@@ -52,25 +66,12 @@ std::string header_text(std::string_view text) {
 }  // namespace
 
 bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto lead = static_cast<unsigned char>(text[i]);
-    const std::size_t more = lead < 0x80   ? 0
-                             : lead < 0xc2 ? 9
-                             : lead < 0xe0 ? 1
-                             : lead < 0xf0 ? 2
-                                           : 3;
-    if (lead > 0xf4 || more > 3 || i + more >= text.size()) return false;
-    std::uint32_t code = more == 0 ? lead : lead & (0x3fu >> more);
-    for (std::size_t k = 1; k <= more; ++k) {
-      const auto next = static_cast<unsigned char>(text[i + k]);
-      if ((next & 0xc0) != 0x80) return false;
-      code = code << 6 | (next & 0x3f);
-    }
-    if ((more == 2 && code < 0x800) || (more == 3 && code < 0x10000)) return false;
-    if ((code >= 0xd800 && code < 0xe000) || code > 0x10ffff) return false;
-    i += more + 1;
+  try {
+    (void)nlohmann::json(std::string(text)).dump();
+    return true;
+  } catch (const nlohmann::json::exception&) {
+    return false;
   }
-  return true;
 }
 
 std::optional<std::string> decoded_path(std::string_view path) {
@@ -81,14 +82,8 @@ std::optional<std::string> decoded_path(std::string_view path) {
 }
 
 std::optional<std::string> query_value(std::string_view query, std::string_view name) {
-  while (!query.empty()) {
-    const std::string_view pair = query.substr(0, query.find('&'));
-    query.remove_prefix(std::min(query.size(), pair.size() + 1));
-    const std::size_t equals = pair.find('=');
-    if (pair.substr(0, equals) == name)
-      return unescaped(equals == pair.npos ? "" : pair.substr(equals + 1), true);
-  }
-  return {};
+  const std::optional<std::string_view> value = value_in(query, '&', name);
+  return value ? unescaped(*value, true) : std::nullopt;
 }
 
 bool is_secret(std::string_view given, std::string_view secret) {
@@ -100,14 +95,7 @@ bool is_secret(std::string_view given, std::string_view secret) {
 }
 
 std::string_view cookie_value(std::string_view cookies, std::string_view name) {
-  while (!cookies.empty()) {
-    std::string_view pair = cookies.substr(0, cookies.find(';'));
-    cookies.remove_prefix(std::min(cookies.size(), pair.size() + 1));
-    pair.remove_prefix(std::min(pair.size(), pair.find_first_not_of(' ')));
-    const std::size_t equals = pair.find('=');
-    if (equals != pair.npos && pair.substr(0, equals) == name) return pair.substr(equals + 1);
-  }
-  return {};
+  return value_in(cookies, ';', name).value_or("");
 }
 
 HostNames::HostNames(const std::string& address, std::uint16_t port, bool is_loopback, bool is_any)

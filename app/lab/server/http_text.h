@@ -37,12 +37,12 @@ class HostNames {
 
 struct ResponseHead {
   int status = 200;
-  std::string_view type;
+  std::string_view type = {};
   std::size_t size = 0;
-  std::string etag;  // quoted; empty: the content may change
-  std::string_view file_name;
-  std::string cookie;      // "name=value"
-  bool is_packed = false;  // gzip
+  std::string etag = {};  // quoted; empty: the content may change
+  std::string_view file_name = {};
+  std::string cookie = {};  // "name=value"
+  bool is_packed = false;   // gzip
   bool keeps_alive = true;
 };
 std::string to_string(const ResponseHead& head);

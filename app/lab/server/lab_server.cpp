@@ -1,5 +1,6 @@
 #include "app/lab/server/lab_server.h"
 
+#include <fmt/format.h>
 #include <pthread.h>
 #include <sys/random.h>
 
@@ -172,12 +173,7 @@ std::string random_token() {
   std::array<unsigned char, 16> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))
     throw std::runtime_error("getrandom: no random bytes");
-  std::string token;
-  for (const unsigned char byte : bytes) {
-    token += "0123456789abcdef"[byte >> 4];
-    token += "0123456789abcdef"[byte & 15];
-  }
-  return token;
+  return fmt::format("{:02x}", fmt::join(bytes, ""));
 }
 
 }  // namespace twinarm

@@ -36,9 +36,9 @@ struct HttpRequest {
 struct HttpReply {
   int status = 200;
   std::string type = "text/plain; charset=utf-8";
-  Bytes body;
-  bool lasts = false;     // never changes: its name is the hash of its content
-  std::string file_name;  // not empty: offered as a download
+  Bytes body = {};
+  bool lasts = false;          // never changes: its name is the hash of its content
+  std::string file_name = {};  // not empty: offered as a download
 };
 
 struct ServerOptions {
