@@ -81,16 +81,12 @@ void show_mouse_spring(SceneView& view, const Snapshot& snapshot) {
 }  // namespace
 
 Overlays couplings_overlay() {
-  return {{.place = 40,
-           .name = "couplings",
-           .what = "spring-dampers, coloured by force",
-           .add = show_couplings,
-           .shown = Overlay::Shown::everywhere},
-          {.place = 220,
-           .name = "pull",
-           .what = "mouse spring on a body",
-           .add = show_mouse_spring,
-           .is_live = true}};
+  return {{40,
+           "couplings",
+           "spring-dampers, coloured by force",
+           show_couplings,
+           {.shown = Overlay::Shown::everywhere}},
+          {220, "pull", "mouse spring on a body", show_mouse_spring, {.is_live = true}}};
 }
 
 }  // namespace twinarm

@@ -84,16 +84,13 @@ void show_device_force(SceneView& view, const Snapshot& snapshot) {
 }  // namespace
 
 Overlays device_overlay() {
-  return {{.place = 20,
-           .name = "device",
-           .what = "input device that moves the target robot",
-           .add = show_device,
-           .seen_through = false},
-          {.place = 210,
-           .name = "felt",
-           .what = "force feedback of the input device",
-           .add = show_device_force,
-           .is_live = true}};
+  return {
+      {20,
+       "device",
+       "input device that moves the target robot",
+       show_device,
+       {.seen_through = false}},
+      {210, "felt", "force feedback of the input device", show_device_force, {.is_live = true}}};
 }
 
 }  // namespace twinarm

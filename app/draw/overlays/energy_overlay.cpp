@@ -48,7 +48,7 @@ void show_energy(SceneView& view, const Snapshot& snapshot) {
 }  // namespace
 
 Overlays energy_overlay() {
-  return {{.place = 150, .name = "energy", .what = "energy bars", .add = show_energy}};
+  return {{150, "energy", "energy bars", show_energy}};
 }
 
 }  // namespace twinarm

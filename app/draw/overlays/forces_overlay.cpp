@@ -92,17 +92,13 @@ void show_contacts(SceneView& view, const Snapshot& snapshot) {
 }  // namespace
 
 Overlays forces_overlay() {
-  return {{.place = 60,
-           .name = "forces",
-           .what = "contact forces by pair of bodies, with values",
-           .add = show_forces},
-          {.place = 70, .name = "gravity", .what = "weights", .add = show_gravity},
-          {.place = 50,
-           .name = "contacts",
-           .what = "contact points, normals, friction cones",
-           .add = show_contacts,
-           .seen_through = false,
-           .shown = Overlay::Shown::on_pages}};
+  return {{60, "forces", "contact forces by pair of bodies, with values", show_forces},
+          {70, "gravity", "weights", show_gravity},
+          {50,
+           "contacts",
+           "contact points, normals, friction cones",
+           show_contacts,
+           {.seen_through = false, .shown = Overlay::Shown::on_pages}}};
 }
 
 }  // namespace twinarm

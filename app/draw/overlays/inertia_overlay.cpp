@@ -121,19 +121,11 @@ void show_momentum(SceneView& view, const Snapshot& snapshot) {
 }  // namespace
 
 Overlays inertia_overlay() {
-  return {{.place = 120,
-           .name = "inertia",
-           .what = "inertia ellipsoids of bodies",
-           .add = show_inertia},
-          {.place = 130,
-           .name = "articulated",
-           .what = "articulated-body inertia: apparent mass of links",
-           .add = show_articulated},
-          {.place = 100, .name = "com", .what = "centres of mass", .add = show_com},
-          {.place = 110,
-           .name = "momentum",
-           .what = "total linear and angular momentum",
-           .add = show_momentum}};
+  return {
+      {120, "inertia", "inertia ellipsoids of bodies", show_inertia},
+      {130, "articulated", "articulated-body inertia: apparent mass of links", show_articulated},
+      {100, "com", "centres of mass", show_com},
+      {110, "momentum", "total linear and angular momentum", show_momentum}};
 }
 
 }  // namespace twinarm

@@ -65,9 +65,9 @@ void show_labels(SceneView& view, const Snapshot& snapshot) {
 }  // namespace
 
 Overlays joints_overlay() {
-  return {{.place = 80, .name = "joints", .what = "joint axes", .add = show_joints},
-          {.place = 90, .name = "frames", .what = "frames of links and bodies", .add = show_frames},
-          {.place = 140, .name = "labels", .what = "names of bodies", .add = show_labels}};
+  return {{80, "joints", "joint axes", show_joints},
+          {90, "frames", "frames of links and bodies", show_frames},
+          {140, "labels", "names of bodies", show_labels}};
 }
 
 }  // namespace twinarm

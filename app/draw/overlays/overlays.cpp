@@ -17,7 +17,7 @@ Overlays in_order(bool is_live) {
   Overlays found;
   for (const Overlays& of_file : overlays_of_files())
     for (const Overlay& overlay : of_file)
-      if (overlay.is_live == is_live) found.push_back(overlay);
+      if (overlay.options.is_live == is_live) found.push_back(overlay);
   std::ranges::sort(found, [](const Overlay& a, const Overlay& b) { return a.place < b.place; });
   return found;
 }
@@ -37,7 +37,7 @@ const Overlays& live_overlays() {
 std::vector<std::string> usual_overlays(Overlay::Shown at_least) {
   std::vector<std::string> names;
   for (const Overlay& overlay : all_overlays())
-    if (overlay.shown >= at_least) names.emplace_back(overlay.name);
+    if (overlay.options.shown >= at_least) names.emplace_back(overlay.name);
   return names;
 }
 
@@ -57,7 +57,7 @@ std::vector<Drawn> draw(SceneView& view, const Snapshot& snapshot,
       drawn.push_back({&overlay, first, list.labels.size(), list.legend.size()});
       overlay.add(view, snapshot);
       for (std::size_t i = first; i < list.instances.size(); ++i)
-        list.instances[i].seen_through = overlay.seen_through;
+        list.instances[i].seen_through = overlay.options.seen_through;
     }
   return drawn;
 }

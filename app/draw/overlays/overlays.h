@@ -10,15 +10,19 @@
 
 namespace twinarm {
 
-struct Overlay {
+struct OverlayOptions {
   enum class Shown { no, on_pages, everywhere };
+  bool seen_through = true;  // faintly visible through bodies
+  Shown shown = Shown::no;   // by default
+  bool is_live = false;      // of the lab only: recordings lack its data
+};
+struct Overlay {
+  using Shown = OverlayOptions::Shown;
   int place = 0;          // order of drawing and of the legend
   const char* name = "";  // of --show
   const char* what = "";  // in the help
   void (*add)(SceneView& view, const Snapshot& snapshot) = nullptr;
-  bool seen_through = true;  // faintly visible through bodies
-  Shown shown = Shown::no;   // by default
-  bool is_live = false;      // of the lab only: recordings lack its data
+  OverlayOptions options = {};
 };
 using Overlays = std::vector<Overlay>;
 const std::vector<Overlays>& overlays_of_files();

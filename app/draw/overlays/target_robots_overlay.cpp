@@ -88,23 +88,17 @@ void show_trails(SceneView& view, const Snapshot& snapshot) {
 }  // namespace
 
 Overlays target_robots_overlay() {
-  return {{.place = 10,
-           .name = "ghost",
-           .what = "target robot that the couplings follow",
-           .add = show_targets,
-           .seen_through = false,
-           .shown = Overlay::Shown::everywhere},
-          {.place = 230,
-           .name = "before",
-           .what = "bodies of the previous branch",
-           .add = show_before,
-           .seen_through = false,
-           .is_live = true},
-          {.place = 30,
-           .name = "trails",
-           .what = "trails of bodies",
-           .add = show_trails,
-           .seen_through = false}};
+  return {{10,
+           "ghost",
+           "target robot that the couplings follow",
+           show_targets,
+           {.seen_through = false, .shown = Overlay::Shown::everywhere}},
+          {230,
+           "before",
+           "bodies of the previous branch",
+           show_before,
+           {.seen_through = false, .is_live = true}},
+          {30, "trails", "trails of bodies", show_trails, {.seen_through = false}}};
 }
 
 }  // namespace twinarm
