@@ -90,9 +90,9 @@ std::vector<double> momenta_by_row(const RecordedFrame& frame, std::size_t rows)
   return momenta;
 }
 
-std::uint64_t hash_of(const std::string& bytes) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
+std::uint64_t hash_of(const std::string& bytes, std::uint64_t basis) {
+  std::uint64_t hash = basis;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
   return hash;
 }
 
@@ -200,23 +200,16 @@ void read_list(const Json& list, std::vector<T>& items, F from_json) {
   for (const Json& item : list) items.push_back(from_json(item));
 }
 
-Json option_json(bool flag) {
-  return flag;
-}
-Json option_json(const std::optional<double>& number) {
-  return number_json(number);
-}
-Json option_json(const std::string& text) {
-  return text_json(text);
-}
-Json option_json(const std::filesystem::path& path) {
-  return text_json(path.string());
-}
-
 Json run_json(const RecordedRun& run) {
   Json json = Json::object();
-  for_each_option(run,
-                  [&](const char* name, const auto& option) { json[name] = option_json(option); });
+  for_each_option(run, [&]<class T>(const char* name, const T& option) {
+    if constexpr (std::is_same_v<T, bool>)
+      json[name] = option;
+    else if constexpr (std::is_same_v<T, std::optional<double>>)
+      json[name] = number_json(option);
+    else
+      json[name] = text_json(option);
+  });
   return json;
 }
 

@@ -66,7 +66,8 @@ std::string name_of_pair(const std::vector<std::string>& geometries, int a, int 
 std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows);
 std::vector<double> momenta_by_row(const RecordedFrame& frame, std::size_t rows);
 
-std::uint64_t hash_of(const std::string& bytes);  // FNV-1a, 64 bits
+// FNV-1a, 64 bits; `basis`: its offset basis.
+std::uint64_t hash_of(const std::string& bytes, std::uint64_t basis = 0xcbf29ce484222325u);
 
 // The header as JSON, with the layout of frames; the contents of files follow in their own blocks.
 // Parsing ignores unknown keys and throws std::runtime_error if a key is missing or invalid, or

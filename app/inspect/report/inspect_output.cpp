@@ -77,19 +77,6 @@ std::string inspect_text(const Inspection& in, const InspectView& view,
 
 namespace {
 
-std::vector<double> list_of(const Eigen::MatrixXd& column) {
-  return {column.data(), column.data() + column.size()};
-}
-
-// A number, a list of numbers, a list of columns (S, U), or a matrix by rows.
-void write_value(JsonWriter& json, const DisplayedQuantity& shown) {
-  using By = Quantity::By;
-  const Eigen::MatrixXd& m = shown.value;
-  if (m.cols() == 1) return json.number_or_list(list_of(m));
-  if (shown.quantity.by != By::velocity) return json.matrix(m);
-  json.matrix(m.transpose());
-}
-
 void write_balances(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.list(view.bodies, [&](const std::size_t body) {
     const BodyBalance balance = balance_of(in, body, view.from);
@@ -159,14 +146,22 @@ void write_checks(JsonWriter& json, const std::vector<Check>& checks) {
 
 }  // namespace
 
+void write_value(JsonWriter& json, const Eigen::MatrixXd& m, bool by_columns) {
+  if (m.cols() == 1)
+    json.number_or_list({m.data(), m.data() + m.size()});
+  else
+    json.matrix(by_columns ? Eigen::MatrixXd(m.transpose()) : m);
+}
+
 void write_quantities(JsonWriter& json, const std::vector<DisplayedQuantity>& quantities) {
   json.list(quantities, [&](const DisplayedQuantity& shown) {
+    const bool by_columns = shown.quantity.by == Quantity::By::velocity;
     json.object({{"name", shown.quantity.name},
                  {"meaning", shown.quantity.meaning},
                  {"unit", shown.quantity.unit},
                  {"frame", shown.frame},
                  {"equation", shown.quantity.equation},
-                 {"value", [&] { write_value(json, shown); }}});
+                 {"value", [&] { write_value(json, shown.value, by_columns); }}});
   });
 }
 

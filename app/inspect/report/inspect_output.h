@@ -67,6 +67,8 @@ void write_inspection(JsonWriter& json, const Inspection& in, const InspectView&
 // The list of "passes", in the order of aba().
 void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>& passes,
                   const std::vector<std::size_t>& bodies);
+// A number, a list of numbers, a matrix by rows, or by columns (S, U: one for each velocity).
+void write_value(JsonWriter& json, const Eigen::MatrixXd& m, bool by_columns);
 void write_quantities(JsonWriter& json, const std::vector<DisplayedQuantity>& quantities);
 std::string inspect_json(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks);

@@ -187,12 +187,10 @@ double MessageStreamer::send_frame(const LabNow& now, double per_second) {
   frames_.take(time, per_second);
   sent_frame_ = std::move(wanted);
   view_->name_rows(*now.rows);
-  FrameFacts facts;
-  facts.number = ++frame_;
-  facts.paused = sent_frame_.paused;
-  facts.looked_back = sent_frame_.looked_back;
-  facts.stopped = sent_frame_.stopped;
-  facts.input_age = now.frame->input_stamp != 0 ? as_seconds(Clock::now() - now.input_came) : 0.0;
+  const double input_age =
+      now.frame->input_stamp != 0 ? as_seconds(Clock::now() - now.input_came) : 0.0;
+  const FrameFacts facts{++frame_, sent_frame_.paused, sent_frame_.looked_back, sent_frame_.stopped,
+                         input_age};
   std::unique_lock drawing(view_mutex_);
   std::string frame = view_->frame(*now.frame, now.before.get(), sent_frame_.layers, facts);
   drawing.unlock();

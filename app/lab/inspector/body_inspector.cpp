@@ -25,20 +25,12 @@ bool acts_on(const AppliedForce& force, const Model<double>& model, std::size_t 
          std::ranges::any_of(force.joints, is_of_body);
 }
 
-// A 6 x n matrix by columns, one for each velocity of the joint.
-void write_terms(JsonWriter& json, const Eigen::MatrixXd& value, bool by_columns) {
-  if (value.cols() == 1)
-    json.number_or_list({value.data(), value.data() + value.size()});
-  else
-    json.matrix(by_columns ? Eigen::MatrixXd(value.transpose()) : value);
-}
-
 void write_equations(JsonWriter& json, const Inspection& in, std::size_t body) {
   json.begin_array();
   for (const int pass : {1, 2, 3})
     for (const Equation& equation : equations_of(in, pass, body)) {
       const auto write_value_of = [&](const auto& of) {
-        return [&] { write_terms(json, of.value, equation.by_columns); };
+        return [&] { write_value(json, of.value, equation.by_columns); };
       };
       const auto write_term = [&](const EquationTerm& term) {
         json.object({{"symbol", term.symbol},

@@ -106,16 +106,8 @@ LabParameter contact_parameter(const SceneDescription& scene) {
   return parameter;
 }
 
-const char* name_of(ParameterLimit::State state) {
-  return state == ParameterLimit::State::ok     ? "ok"
-         : state == ParameterLimit::State::near ? "near"
-                                                : "beyond";
-}
-
-const char* name_of(LabParameter::Form form) {
-  constexpr const char* kWords[] = {"log", "linear", "choice", "number"};
-  return kWords[static_cast<std::size_t>(form)];
-}
+constexpr const char* kStateNames[] = {"ok", "near", "beyond"};
+constexpr const char* kFormNames[] = {"log", "linear", "choice", "number"};
 
 }  // namespace
 
@@ -157,15 +149,16 @@ void write_parameters(const std::vector<LabParameter>& parameters, JsonWriter& j
                                                  : json.put("value", parameter.number);
     if (parameter.initial) json.key("start").text(*parameter.initial);
     json.members({{"unit", parameter.unit},
-                  {"form", name_of(parameter.form)},
+                  {"form", kFormNames[static_cast<std::size_t>(parameter.form)]},
                   {"low", parameter.low},
                   {"high", parameter.high},
                   {"choices", parameter.choices},
                   {"meaning", parameter.description}});
     if (parameter.limit)
-      json.key("limit").object({{"value", parameter.limit->value},
-                                {"words", parameter.limit->words},
-                                {"state", name_of(parameter.limit->state)}});
+      json.key("limit").object(
+          {{"value", parameter.limit->value},
+           {"words", parameter.limit->words},
+           {"state", kStateNames[static_cast<std::size_t>(parameter.limit->state)]}});
     if (!parameter.tracking_error.empty()) json.put("lag", parameter.tracking_error);
     json.put("restarts", parameter.resets_state);
     json.end_object();

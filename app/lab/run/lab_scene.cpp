@@ -94,10 +94,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
   faults.check();
   try {
     SimulateOptions options = files_->options(others);
-    options.step = changed.step;
-    options.tolerance = changed.tolerance;
-    options.integrator = changed.integrator;
-    options.contact = changed.contact;
+    static_cast<RunSettings&>(options) = changed;
     options.robot.gravity = changed.robot.gravity;
     options.has_hand = true;
     options.robot.roots = roots_;

@@ -165,11 +165,8 @@ Timeline::Frame SessionCommands::start_of(const BuildRequest& request) {
   Timeline::Frame from = s_.timeline.branch(request.at);
   if (!from) return nullptr;
   s_.loop.repeat_inputs(s_.timeline.known_input(from->recorded.step).goes_on);
-  LabBranch branch;
-  branch.from = from->recorded.t;
-  branch.changes = request.changes;
-  branch.number = s_.status.branch ? s_.status.branch->number + 1 : 1;
-  s_.status.branch = std::move(branch);
+  const int number = s_.status.branch ? s_.status.branch->number + 1 : 1;
+  s_.status.branch = LabBranch{from->recorded.t, request.changes, number};
   s_.status.at.reset();
   s_.status.playing = true;
   return from;

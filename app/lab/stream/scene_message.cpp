@@ -9,6 +9,7 @@
 #include "app/draw/overlays/overlays.h"
 #include "app/film/filmed_run.h"
 #include "app/page/page_layers.h"
+#include "app/record/recording.h"
 
 namespace twinarm {
 namespace {
@@ -74,11 +75,6 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
   json.end_array();
 }
 
-template <class T>
-void append_values(std::string& bytes, const std::vector<T>& values) {
-  bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
-}
-
 // u32 vertices, indices, flags (1: two-sided, 2: has uv), 0; then positions, normals, uv, indices.
 std::string mesh_bytes(const DrawMesh& mesh) {
   const std::vector<std::uint32_t> head{static_cast<std::uint32_t>(mesh.positions.size()),
@@ -86,24 +82,17 @@ std::string mesh_bytes(const DrawMesh& mesh) {
                                         (mesh.two_sided ? 1u : 0u) | (mesh.uv.empty() ? 0u : 2u),
                                         0u};
   std::string bytes;
-  append_values(bytes, head);
-  append_values(bytes, mesh.positions);
-  append_values(bytes, mesh.normals);
-  append_values(bytes, mesh.uv);
-  append_values(bytes, mesh.triangles);
+  const auto append = [&](const auto&... all) {  // in this order
+    (bytes.append(reinterpret_cast<const char*>(all.data()), all.size() * sizeof(*all.data())),
+     ...);
+  };
+  append(head, mesh.positions, mesh.normals, mesh.uv, mesh.triangles);
   return bytes;
-}
-
-// FNV-1a, 64 bits.
-std::uint64_t fnv(const std::string& bytes, std::uint64_t hash) {
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
 }
 
 // 128 bits in hexadecimal.
 std::string content_name(const std::string& bytes) {
-  return fmt::format("{:016x}{:016x}", fnv(bytes, 0xcbf29ce484222325u),
-                     fnv(bytes, 0x9ae16a3b2f90404fu));
+  return fmt::format("{:016x}{:016x}", hash_of(bytes), hash_of(bytes, 0x9ae16a3b2f90404fu));
 }
 
 std::string keep(std::map<std::string, std::shared_ptr<const std::string>>& files,

@@ -1,8 +1,9 @@
 #include "app/render/text/overlay.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
-#include <cstdio>
+#include <cstring>
 #include <optional>
 #include <vector>
 
@@ -175,13 +176,10 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
 
 // At the bottom right.
 void draw_grid_scale(Image& image, const Ground& ground, Lettering& lettering, double size_px) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), "grid %g m, bold %g m", ground.cell,
-                ground.cell * ground.cells_per_major);
-  const double width = lettering.width(text.data(), size_px);
-  lettering.draw(image, text.data(),
-                 {image.width - 1.4 * size_px - width, image.height - 1.4 * size_px}, size_px,
-                 kInk);
+  const std::string text =
+      fmt::format("grid {:g} m, bold {:g} m", ground.cell, ground.cell * ground.cells_per_major);
+  const double right = image.width - 1.4 * size_px - lettering.width(text, size_px);
+  lettering.draw(image, text, {right, image.height - 1.4 * size_px}, size_px, kInk);
 }
 
 // At the top left, reduced to the picture's width. Returns its lower end.
@@ -197,9 +195,8 @@ double draw_title(Image& image, const std::string& title, Lettering& lettering, 
 }  // namespace
 
 LabelMemory::Place* LabelMemory::find_or_add(const std::string& words) {
-  std::string name;
-  for (const char c : words)
-    if (std::string("0123456789.-+kMm").find(c) == std::string::npos) name += c;
+  std::string name = words;
+  std::erase_if(name, [](char c) { return std::strchr("0123456789.-+kMm", c) != nullptr; });
   name += '#' + std::to_string(seen_[name]++);
   return &places_[name];
 }

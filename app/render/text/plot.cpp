@@ -1,9 +1,10 @@
 #include "app/render/text/plot.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -16,12 +17,6 @@ using Eigen::Vector2d;
 
 const Color kPlotInk{0.10f, 0.12f, 0.15f, 1.0f}, kPlotPaper{0.965f, 0.97f, 0.975f, 1.0f};
 const Color kPlotGrid{0.80f, 0.82f, 0.84f, 1.0f}, kCursor{0.80f, 0.16f, 0.14f, 1.0f};
-
-std::string tick_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.4g", value);
-  return text.data();
-}
 
 // Linear interpolation; empty outside, or beside a gap.
 std::optional<double> value_at(const Plot& plot, const PlotCurve& curve, double t) {
@@ -140,7 +135,7 @@ PlotStrip::PlotStrip(std::vector<Plot> plots, int width, int height)
     for (const double y : round_ticks(range.y_low, range.y_high, 4)) {
       const Vector2d at = frame.pixel(range.t_low, y);
       draw_line(ground_, at, {frame.high.x(), at.y()}, 1, kPlotGrid);
-      const std::string text = tick_text(y);
+      const std::string text = fmt::format("{:.4g}", y);
       letters.draw(ground_, text,
                    at + Vector2d(-0.5 * size_px_ - letters.width(text, tick_px), 0.35 * tick_px),
                    tick_px, kPlotInk);
@@ -148,7 +143,7 @@ PlotStrip::PlotStrip(std::vector<Plot> plots, int width, int height)
     for (const double t : round_ticks(range.t_low, range.t_high, 6)) {
       const Vector2d at = frame.pixel(t, range.y_low);
       draw_line(ground_, at, {at.x(), frame.low.y()}, 1, kPlotGrid);
-      const std::string text = tick_text(t) + " s";
+      const std::string text = fmt::format("{:.4g} s", t);
       letters.draw(ground_, text, at + Vector2d(-0.5 * letters.width(text, tick_px), 1.3 * tick_px),
                    tick_px, kPlotInk);
     }
