@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "app/diagnose/post_mortem.h"
-#include "app/lab/run/input_override.h"
 #include "app/record/record_run.h"
 #include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"
@@ -35,7 +34,6 @@ LabRun::LabRun(std::unique_ptr<LabScene::Plan> plan_of_changes, OperatorInput& o
   SimulateInput& input = plan_->prepared.input;
   override_ =
       std::make_unique<InputOverride>(input.scene.get(), operator_, plan_->prepared.run.step);
-  make_couplings();
   const RobotInput& robot = input.robot;
   max_energy_ = kMaxGrowth *
                 std::max({1.0, kinetic_energy(robot.model, robot.state.x), weight_of(robot.model)});
@@ -61,18 +59,14 @@ LabRun::LabRun(std::unique_ptr<LabScene::Plan> plan_of_changes, OperatorInput& o
   warnings_.insert(warnings_.end(), robot.warnings.begin(), robot.warnings.end());
 }
 
-LabRun::~LabRun() = default;
-
-void LabRun::make_couplings() {
-  SimulateInput& input = plan_->prepared.input;
-  if (!input.scene) return;
-  input.couplings = std::make_unique<SceneCouplings>(*input.scene, plan_->prepared.run.step,
-                                                     nullptr, override_->in_place());
-  override_->attach(*input.couplings);
-}
-
 void LabRun::begin(const RunStart* start) {
-  const SimulatePlan& prepared = plan_->prepared;
+  SimulatePlan& prepared = plan_->prepared;
+  SimulateInput& input = prepared.input;
+  if (input.scene) {
+    input.couplings = std::make_unique<SceneCouplings>(*input.scene, prepared.run.step, nullptr,
+                                                       override_->in_place());
+    override_->attach(*input.couplings);
+  }
   spring_ = std::make_unique<MouseSpring>(prepared.input.robot.model, prepared.run);
   run_ = std::make_unique<SteppedRun>(prepared.input, prepared.run, watch_, start, spring_.get());
 }
@@ -87,7 +81,6 @@ void LabRun::restart(const LabFrame& from) {
     throw InputError({{"", 0, "change", "the change gives the scene other joints",
                        "reset the run to its start first", "change.joints"}});
   }
-  make_couplings();
   RunStart start;
   start.anew = true;
   start.step = from.recorded.step;
@@ -101,34 +94,28 @@ void LabRun::carry_over_energy(const LabFrame& from, const LabNames& names) {
     earlier.push_back(
         {EnergyRowKind::earlier, names.rows[from.recorded.rows[i]], from.recorded.works[i]});
   // Targets as in the frame: the balance contains the couplings' elastic energy.
-  if (from.hand) override_->restore(*from.hand, from.recorded.t, step_length());
+  if (from.hand) override_->restore(*from.hand, from.recorded.t, plan_->prepared.run.step);
   run_->keep_books(earlier);
 }
 
-bool LabRun::take_step() {
+bool LabRun::step(const LabInput* replayed) {
+  if (stopped_) return false;
+  const Simulation& simulation = run_->simulation();
+  const double h = plan_->prepared.run.step;
+  if (replayed) {
+    input_ = *replayed;
+    override_->replay_step(input_.hand);
+  } else {
+    const State<double>& x = simulation.state();
+    input_ = {0, override_->before_step(x, x.t, h), mouse_, operator_.stamp()};
+  }
+  input_.step = run_->step() + 1;
   spring_->set(input_.mouse);
   const bool goes_on = run_->advance();
-  const Simulation& simulation = run_->simulation();
-  override_->after_step(simulation, step_length(), goes_on);
+  override_->after_step(simulation, h, goes_on);
   stopped_ = !goes_on || run_->result().alarm ||
              kinetic_energy(simulation.mechanism().model, simulation.state()) > max_energy_;
   return !stopped_;
-}
-
-bool LabRun::step() {
-  if (stopped_) return false;
-  const State<double>& x = run_->simulation().state();
-  input_ = {run_->step() + 1, override_->before_step(x, x.t, step_length()), mouse_,
-            operator_.stamp()};
-  return take_step();
-}
-
-bool LabRun::step(const LabInput& replayed) {
-  if (stopped_) return false;
-  input_ = replayed;
-  input_.step = run_->step() + 1;
-  override_->replay_step(input_.hand);
-  return take_step();
 }
 
 bool LabRun::drag(int body, const Vector3& p_L, const Vector3& goal_W, double stamp) {

@@ -7,14 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "app/lab/run/history.h"
-#include "app/lab/run/lab_inputs.h"
+#include "app/lab/run/input_override.h"
 #include "app/lab/run/lab_scene.h"
 #include "app/run/stepped_run.h"
 
 namespace twinarm {
-
-class InputOverride;
 
 class LabRun {
  public:
@@ -25,12 +22,10 @@ class LabRun {
   // faults; the input is then unchanged.
   LabRun(std::unique_ptr<LabScene::Plan> plan, OperatorInput& input,
          const LabFrame* from = nullptr);
-  ~LabRun();
 
-  // One step with the present input. False: the run has stopped, see post_mortem().
-  bool step();
-  // One step with earlier input, bit for bit; live input continues after it without a jump.
-  bool step(const LabInput& replayed);
+  // One step with the present input, or with earlier input, bit for bit; live input continues after
+  // it without a jump. False: the run has stopped, see post_mortem().
+  bool step(const LabInput* replayed = nullptr);
   const LabInput& input() const { return input_; }  // of the last step
 
   // Mouse spring from a point of a body (link axes) to a goal in the world; a second call with the
@@ -38,8 +33,6 @@ class LabRun {
   bool drag(int body, const Vector3& p_L, const Vector3& goal_W, double stamp);
   void release_mouse() { mouse_.reset(); }
 
-  double time() const { return run_->time(); }
-  double step_length() const { return plan_->prepared.run.step; }
   // With energy balance, checkpoint and hash; new rows are added to `names`.
   LabFrame frame(LabNames& names);
 
@@ -47,7 +40,7 @@ class LabRun {
   void carry_over_energy(const LabFrame& from, const LabNames& names);
 
   const SimulatePlan& prepared() const { return plan_->prepared; }
-  SteppedRun& view() { return *run_; }
+  SteppedRun& view() const { return *run_; }
   const InputOverride& input_override() const { return *override_; }
   // Why the checkpoint could not be restored; empty: it was.
   const std::string& restart_reason() const { return restart_reason_; }
@@ -59,9 +52,7 @@ class LabRun {
 
  private:
   void begin(const RunStart* start);
-  void make_couplings();
   void restart(const LabFrame& from);
-  bool take_step();
 
   OperatorInput& operator_;
   std::unique_ptr<LabScene::Plan> plan_;

@@ -45,12 +45,12 @@ LabVariants::LabVariants(const VariantSet& set, std::vector<std::unique_ptr<LabS
 void LabVariants::follow(const LabRun& run) {
   for (Variant& variant : variants_) {
     if (variant.stopped) continue;
-    const double h = variant.run->step_length();
-    while (variant.run->time() + 0.5 * h < run.time()) {
+    const double h = variant.run->prepared().run.step;
+    while (variant.run->view().time() + 0.5 * h < run.view().time()) {
       LabInput input = run.input();
       const double t = variant.run->view().simulation().state().t;
       if (input.hand) input.hand = shifted_to(t, h, *input.hand);
-      if (variant.run->step(input)) continue;
+      if (variant.run->step(&input)) continue;
       stop(variant);
       break;
     }
@@ -62,7 +62,8 @@ void LabVariants::stop(Variant& variant) {
   const PostMortem* found = variant.run->post_mortem();
   const std::string why = found ? found->reason : "";
   warnings_.push_back(fmt::format("variant {} stopped at {:.4g} s{}{}; the others continue",
-                                  variant.name, variant.run->time(), why.empty() ? "" : ": ", why));
+                                  variant.name, variant.run->view().time(), why.empty() ? "" : ": ",
+                                  why));
 }
 
 void LabVariants::add_to(LabFrame& frame, LabNames& names) {

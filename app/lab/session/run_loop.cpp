@@ -28,8 +28,8 @@ LabFrame RunLoop::frame() {
 bool RunLoop::take_steps(const std::function<void()>& after) {
   const Clock::time_point begin = Clock::now();
   const double due = has_single_steps() ? HUGE_VAL : pace_.due(begin);
-  const double h = run_->step_length();
-  while (run_->time() + 0.5 * h < due) {
+  const double h = run_->prepared().run.step;
+  while (run_->view().time() + 0.5 * h < due) {
     const double cpu = thread_cpu_time();
     if (!take_step()) return false;
     const double taken = thread_cpu_time() - cpu;
@@ -40,7 +40,7 @@ bool RunLoop::take_steps(const std::function<void()>& after) {
     if (steps_left_ > 0 && --steps_left_ == 0) return true;
     if (Clock::now() - begin > kMaxBurst) break;
   }
-  pace_.limit_backlog(Clock::now(), run_->time(), kMaxCatchUp);
+  pace_.limit_backlog(Clock::now(), run_->view().time(), kMaxCatchUp);
   return true;
 }
 
@@ -49,7 +49,7 @@ bool RunLoop::take_step() {
   if (repeats_) {
     const Timeline::Known known = timeline_.known_input(run_->view().step() + 1);
     repeats_ = known.goes_on;
-    goes_on = run_->step(known.input);
+    goes_on = run_->step(&known.input);
   } else {
     goes_on = run_->step();
   }

@@ -104,8 +104,8 @@ class RunLoop {
   LabFrame frame();  // of the run and its variants
   std::vector<std::string> take_warnings() { return variants_.take_warnings(); }
 
-  void set_pace(double speed) { pace_.begin(Clock::now(), run_->time(), speed); }
-  double pace_factor() { return pace_.factor(Clock::now(), run_->time()); }
+  void set_pace(double speed) { pace_.begin(Clock::now(), run_->view().time(), speed); }
+  double pace_factor() { return pace_.factor(Clock::now(), run_->view().time()); }
   void request_steps(long count) { steps_left_ = count; }
   bool has_single_steps() const { return steps_left_ > 0; }
   // Whether steps repeat the inputs of the run that was left, while they are known.

@@ -1,6 +1,5 @@
 #include "app/lab/session/session_commands.h"
 
-#include "app/lab/run/input_override.h"
 #include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 
@@ -41,7 +40,8 @@ void SessionCommands::act(const LabCommand& command) {
     case Do::set:
       return change(command.names, {});
     case Do::branch:
-      return change(command.names, command.at ? command.at : std::optional(s_.loop.run().time()));
+      return change(command.names,
+                    command.at ? command.at : std::optional(s_.loop.run().view().time()));
     case Do::preset:
       return open_preset(command.name);
     case Do::scene:
@@ -200,7 +200,7 @@ void SessionCommands::adopt(BuildResult built) {
                     run->input_override().couplings());
   s_.loop.begin(std::move(run), std::move(variants));
   ++s_.change_number;
-  s_.changed_at = s_.loop.run().time();
+  s_.changed_at = s_.loop.run().view().time();
   s_.status.failure.reset();
   s_.is_stale = s_.has_news = true;
   s_.loop.set_pace(s_.status.speed);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/lab/run/input_override.h"
-
 namespace twinarm {
 namespace {
 
@@ -16,7 +14,7 @@ constexpr auto kStatusEvery = std::chrono::milliseconds(250);
 // before. n is smaller where the run does not keep up.
 bool StatusReporter::is_frame_due() const {
   const LabStatus& status = state_.status;
-  const double steps = status.speed * frame_interval_ / state_.loop.run().step_length();
+  const double steps = status.speed * frame_interval_ / state_.loop.run().prepared().run.step;
   long apart = std::max(1L, static_cast<long>(steps));
   while (apart > 1 && status.pace < 0.75 * static_cast<double>(apart) / steps) apart /= 2;
   return state_.loop.run().view().step() % apart == 0;
@@ -81,7 +79,7 @@ OperatorStatus StatusReporter::operator_status() const {
   shown.mapping = kMappingNames[static_cast<std::size_t>(hand.mapping().kind)];
   shown.device = hand.description();
   shown.q = driven.q();
-  const std::optional<OperatorFrame> now = driven.frame(state_.loop.run().time());
+  const std::optional<OperatorFrame> now = driven.frame(state_.loop.run().view().time());
   if (now && hand.device()) shown.mode = kModes[now->mode];
   const bool is_users = source == Source::drag || source == Source::joints;
   shown.gripper_closed = is_users ? hand.gripper_closed() : now && now->gripper_closed;
@@ -90,8 +88,8 @@ OperatorStatus StatusReporter::operator_status() const {
 
 void StatusReporter::show(bool with_status) {
   LabStatus& status = state_.status;
-  status.time = state_.loop.run().time();
-  status.step = state_.loop.run().step_length();
+  status.time = state_.loop.run().view().time();
+  status.step = state_.loop.run().prepared().run.step;
   if (with_status) status.hand = operator_status();
   Timeline::View view = state_.timeline.view(status.at);
   status.first = view.first;

@@ -43,7 +43,7 @@ TEST_CASE("lab run: steps equal those of `simulate` bit for bit, after its files
         CHECK(run.view().memory() == memories[static_cast<std::size_t>(n / 100)]);
       REQUIRE(run.step());
     }
-    CHECK(run.time() == doctest::Approx(1.5).epsilon(1e-12));
+    CHECK(run.view().time() == doctest::Approx(1.5).epsilon(1e-12));
   }
 }
 
