@@ -84,7 +84,7 @@ void VrpnDevice::Link::run() {
     if (first) return report_start(trouble);
     if (!wait(0)) return;
     ++broken_;
-    report_trouble(trouble);
+    warn_once(trouble.kind, trouble.problem + "; retrying (reported once, counted)");
     retry = poses_ > before ? settings_.first_retry : std::min(2 * retry, settings_.longest_retry);
   } while (wait(retry));
 }
@@ -101,10 +101,6 @@ void VrpnDevice::Link::warn_once(unsigned kind, const std::string& text) {
   if ((warned_ >> kind & 1u) != 0) return;
   warned_ |= 1u << kind;
   settings_.say(name_ + ": " + text);
-}
-
-void VrpnDevice::Link::report_trouble(const Trouble& trouble) {
-  warn_once(trouble.kind, trouble.problem + "; retrying (reported once, counted)");
 }
 
 VrpnDevice::Link::Trouble VrpnDevice::Link::connect_and_run() {

@@ -55,7 +55,6 @@ class VrpnDevice::Link {
   void send_force();
   std::optional<Trouble> timeout_trouble(const VrpnStream& stream) const;
   void report_start(std::optional<Trouble> trouble);
-  void report_trouble(const Trouble& trouble);
   void warn_once(unsigned kind, const std::string& text);
   bool wait(double seconds) const;  // false: stop requested
 

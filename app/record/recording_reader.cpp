@@ -115,7 +115,14 @@ void Recording::take(char kind, std::size_t begin, std::string_view payload) {
   using namespace recording_format;
   if (kind == kHeader) {
     if (has_header_) throw std::runtime_error("there is a second header");
-    take_header(payload);
+    if (version_ == 2) {
+      StateArchive memory{std::string(payload)};
+      visit_version_2(memory, header_);
+      files_ = header_.files.size();
+    } else {
+      header_ = parse_header(payload);
+    }
+    has_header_ = true;
   } else if (kind == kFile) {
     if (files_ == header_.files.size()) throw std::runtime_error("there is a file without a path");
     header_.files[files_++].bytes = payload;
@@ -130,17 +137,6 @@ void Recording::take(char kind, std::size_t begin, std::string_view payload) {
   } else if (kind == kFrame) {
     take_frame(begin, payload);
   }
-}
-
-void Recording::take_header(std::string_view payload) {
-  if (version_ == 2) {
-    StateArchive memory{std::string(payload)};
-    visit_version_2(memory, header_);
-    files_ = header_.files.size();
-  } else {
-    header_ = parse_header(payload);
-  }
-  has_header_ = true;
 }
 
 void Recording::take_text(std::string_view text, std::vector<std::string>& texts) {

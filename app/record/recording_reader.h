@@ -39,7 +39,6 @@ class Recording {
   };
   void read_blocks();
   void take(char kind, std::size_t begin, std::string_view payload);
-  void take_header(std::string_view payload);
   void take_text(std::string_view text, std::vector<std::string>& texts);
   void take_frame(std::size_t begin, std::string_view payload);
 

@@ -52,12 +52,6 @@ class SceneInspector::FirstStep {
       input_.robot.state = given_;
       set_pose(input_.robot, sim_.state());
     }
-    actors_.clear();
-    return take();
-  }
-
- private:
-  Inspected take() {
     Inspected inspected;
     inspected.warnings = input_.robot.warnings;
     x_ = sim_.state();
@@ -90,6 +84,7 @@ class SceneInspector::FirstStep {
     return inspected;
   }
 
+ private:
   void add_couplings() {
     for (std::size_t c = 0; c < input_.couplings->size(); ++c) {
       ForceSource* source = input_.couplings->source(c);

@@ -63,7 +63,12 @@ void MessageStreamer::work() {
       take_scene(now);
       do_jobs();
       greet_new_clients();
-      left = stream(now);
+      const double rate = greeted_.size() > kManyClients ? kSlowRate : kRate;
+      session_.set_rate(rate);
+      update_limits(now);
+      send_state(now);
+      left = send_frame(now, kRateMargin * rate);
+      send_inspections(now);
     } catch (const std::exception& error) {
       show_failure(error.what());
     }
@@ -73,16 +78,6 @@ void MessageStreamer::work() {
     }
     session_.shown().wait(now, std::min(left, kIdle));
   }
-}
-
-double MessageStreamer::stream(const LabNow& now) {
-  const double rate = greeted_.size() > kManyClients ? kSlowRate : kRate;
-  session_.set_rate(rate);
-  update_limits(now);
-  send_state(now);
-  const double left = send_frame(now, kRateMargin * rate);
-  send_inspections(now);
-  return left;
 }
 
 // A failure may repeat with each frame: it is shown every kFailureEvery.

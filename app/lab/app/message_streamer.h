@@ -70,7 +70,6 @@ class MessageStreamer {
   using Clock = std::chrono::steady_clock;
 
   void work();
-  double stream(const LabNow& now);
   void show_failure(const std::string& why);
   void do_jobs();
   void greet_new_clients();

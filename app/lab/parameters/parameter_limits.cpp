@@ -110,7 +110,9 @@ class Limits {
     if (step_.is_empty()) return;
     for (LabParameter& parameter : parameters_) {
       if (parameter.path == "step") add_step(parameter);
-      if (!parameter.coupling || is_soft_limit(*parameter.coupling)) continue;
+      if (!parameter.coupling) continue;
+      const auto coupling = static_cast<std::size_t>(*parameter.coupling);
+      if (*parameter.coupling >= 0 && scene_.couplings[coupling].outside) continue;  // a soft limit
       if (parameter.key == "rate") add_rate(parameter, *parameter.coupling);
       for (const GainKey& gain : kGains)
         if (parameter.key == gain.key) add_gain(parameter, *parameter.coupling, gain);
@@ -176,11 +178,6 @@ class Limits {
     Limit limit{std::nullopt, stable_now_, true};
     if (good && bad) limit.value = 1 / (good * step_.step());
     parameter.limit = described(limit, rate, "Hz", " with these gains");
-  }
-
-  // Not in the prediction: inactive in the nominal pose.
-  bool is_soft_limit(int coupling) const {
-    return coupling >= 0 && scene_.couplings[static_cast<std::size_t>(coupling)].outside;
   }
 
   const SceneDescription& scene_;

@@ -122,12 +122,6 @@ void InputOverride::move_towards(const std::vector<double>& goal, double h) {
   }
 }
 
-void InputOverride::follow_tip() {
-  if (!input_.gestures() || !input_.tip_goal()) return;
-  if (const auto stylus = loop_->mapping().stylus_for(*input_.tip_goal()))
-    input_.gestures()->place(*stylus);
-}
-
 // A target robot caches its state of the last time that was evaluated. The cached state at t is
 // wrong after the motion was replaced; evaluating another time removes it.
 void InputOverride::invalidate_targets(double t) {
@@ -155,7 +149,9 @@ std::optional<HandStep> InputOverride::before_step(const State<double>& x, doubl
       return std::nullopt;
     }
   } else if (loop_) {
-    follow_tip();
+    if (input_.gestures() && input_.tip_goal())
+      if (const auto stylus = loop_->mapping().stylus_for(*input_.tip_goal()))
+        input_.gestures()->place(*stylus);
     // First with the device as it was at the take-over, so that the target does not move.
     target_ = loop_->before_step(x, input_.tick(is_fresh_ ? 0 : h), h);
     is_fresh_ = false;

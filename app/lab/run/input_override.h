@@ -76,7 +76,6 @@ class InputOverride {
   void take_over(double t, double h);
   void make_loop(double h);
   void move_towards(const std::vector<double>& goal, double h);
-  void follow_tip();
   void invalidate_targets(double t);
   void end_restored();
 

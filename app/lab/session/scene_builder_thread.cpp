@@ -79,13 +79,6 @@ std::optional<BuildRequest> SceneBuilderThread::submit(BuildRequest request) {
   return replaced;
 }
 
-// Pending changes that were refused with an earlier request.
-void SceneBuilderThread::leave_out_refused(BuildRequest& request) const {
-  std::erase_if(request.pending, [this](const PendingChange& pending) {
-    return std::ranges::find(refused_, pending.number) != refused_.end();
-  });
-}
-
 // One invalid change of several must not prevent the others. Nothing if all are invalid.
 std::optional<BuildResult> SceneBuilderThread::build_one_by_one(const BuildRequest& request) {
   std::optional<BuildResult> built;
@@ -124,7 +117,10 @@ void SceneBuilderThread::work() {
       request = std::move(*next_);
       next_.reset();
     }
-    leave_out_refused(request);
+    // Without pending changes that were refused with an earlier request.
+    std::erase_if(request.pending, [this](const PendingChange& pending) {
+      return std::ranges::find(refused_, pending.number) != refused_.end();
+    });
     try {
       try {
         inbox_.push(build(request));

@@ -72,7 +72,6 @@ class SceneBuilderThread {
 
  private:
   void work();
-  void leave_out_refused(BuildRequest& request) const;
   std::optional<BuildResult> build_one_by_one(const BuildRequest& request);
   void push_refused(const BuildRequest& request);
 

@@ -121,24 +121,21 @@ void set_live_view(SceneView& stage, const Snapshot& start, bool has_device) {
   set_first_scales(stage, start);
 }
 
-bool grow_scales(SceneView& stage, const Snapshot& snapshot) {
+void grow_scales(SceneView& stage, const Snapshot& snapshot) {
   Scales seen;
   seen.widen_run(*stage.model, snapshot);
   seen.widen_contacts(snapshot);
   if (snapshot.grip) seen.force = std::max(seen.force, snapshot.grip->force_W.norm());
-  bool any = false;
   for (double Scales::*scale_of :
        {&Scales::contact_force, &Scales::force, &Scales::couple, &Scales::momentum,
         &Scales::angular, &Scales::kinetic, &Scales::elastic}) {
     double& scale = stage.scales.*scale_of;
     if (!(seen.*scale_of > scale) || !std::isfinite(seen.*scale_of)) continue;
     scale = scale > 0 ? round_up(1.5 * scale) : round_up(seen.*scale_of);
-    any = true;
   }
   seen.kinetic = seen.elastic = seen.contact_force = seen.force = seen.couple = 0;
   seen.momentum = seen.angular = 0;
   stage.scales.widen(seen);  // potential energies, for the bars
-  return any;
 }
 
 void extend_trails(SceneView& stage, const Snapshot& snapshot) {

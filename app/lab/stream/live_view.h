@@ -13,8 +13,8 @@ void extend_by_reach(SceneView& stage, const RobotInput& robots, const Snapshot&
 // Camera, ground, first scales, and the input device's place, which is in view if `has_device`.
 void set_live_view(SceneView& stage, const Snapshot& start, bool has_device);
 
-// Scales for the snapshot; each grows at most one round step (1, 2, 5). True: one did.
-bool grow_scales(SceneView& stage, const Snapshot& snapshot);
+// Scales for the snapshot; each grows at most one round step (1, 2, 5).
+void grow_scales(SceneView& stage, const Snapshot& snapshot);
 
 // Adds the bodies' centres of mass to the trails: the last 10 s are drawn, ten minutes are stored.
 // Removes points later than the snapshot.

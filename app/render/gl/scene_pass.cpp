@@ -115,10 +115,6 @@ void ScenePass::draw(const LightSample& sample) {
   draw_solids(sample);
   if (list_->ground.visible) draw_floor(sample);
   draw_background(sample);
-  draw_blended(sample);
-}
-
-void ScenePass::draw_blended(const LightSample& sample) const {
   const auto is_blended = [](const Item& item) { return item.translucent || item.seen_through; };
   if (std::ranges::none_of(items_, is_blended)) return;
   gl_.Enable(GL_FRAMEBUFFER_SRGB);

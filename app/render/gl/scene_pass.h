@@ -110,7 +110,6 @@ class ScenePass {
   void set_floor(const Program& program, const LightSample& sample) const;
   std::vector<FloorTiles> shadow_tiles(const LightSample& sample) const;
   void draw_background(const LightSample& sample) const;
-  void draw_blended(const LightSample& sample) const;
   void draw_hidden(const LightSample& sample) const;
   void draw_translucent(const LightSample& sample) const;
   void set_backdrop(const Program& program) const;
