@@ -111,8 +111,9 @@ class Limits {
     for (LabParameter& parameter : parameters_) {
       if (parameter.path == "step") add_step(parameter);
       if (!parameter.coupling) continue;
+      // Soft limits are not in the prediction: inactive in the nominal pose.
       const auto coupling = static_cast<std::size_t>(*parameter.coupling);
-      if (*parameter.coupling >= 0 && scene_.couplings[coupling].outside) continue;  // a soft limit
+      if (*parameter.coupling >= 0 && scene_.couplings[coupling].outside) continue;
       if (parameter.key == "rate") add_rate(parameter, *parameter.coupling);
       for (const GainKey& gain : kGains)
         if (parameter.key == gain.key) add_gain(parameter, *parameter.coupling, gain);
