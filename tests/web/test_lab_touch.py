@@ -25,7 +25,7 @@ VIEW = """(() => {
   const {x, y, width, height} = %s.getBoundingClientRect(), {live, state} = twinarm.page;
   const over = document.elementFromPoint(x + width / 2, y + height / 2)?.outerHTML.slice(0, 200);
   return JSON.stringify({x, y, width, height, over, camera: live.stage.camera.position,
-    geometries: live.stage.geometries.length, time: state.time}); })()""" % CANVAS
+    geometries: live.stage.painter.geometries.length, time: state.time}); })()""" % CANVAS
 SMALL = """[...document.querySelectorAll('button, select, input, summary, a, label')].flatMap(at => {
   if (!at.checkVisibility({visibilityProperty: true}) || at.closest('svg, [aria-hidden=true]')) return [];
   if (document.querySelector('dialog:modal') && !at.closest('dialog')) return [];

@@ -34,7 +34,6 @@ function tipToTail(vectors: number[][], plane: Plane): Segment[] {
   });
 }
 
-
 function arrow({ from, to, number }: Segment): SVGElement[] {
   const color = `var(--c${number % 8})`;
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];

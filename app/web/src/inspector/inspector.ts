@@ -36,7 +36,7 @@ export class Inspector implements Panel {
   private readonly heading = element('div.heading');
   private readonly stepper = new Stepper((step) => this.go(step), (pass) => this.goPass(pass));
   private readonly place = element('output.place');
-  private readonly content = element('div.content');
+  private readonly content = element('div.content', { click: (event: Event) => this.click(event) });
   private steps: Step[] = [];
   private bodies: string[] = []; // from number 1 on
   private body = 1;
@@ -54,7 +54,6 @@ export class Inspector implements Panel {
       this.place,
     );
     this.root.append(this.heading, this.stepper.root, walk, this.content);
-    this.content.addEventListener('click', (event) => this.click(event));
     const move = (by: number) => () => this.isSeen && this.move(by);
     listen([key(', .', 'previous, next step of the call', { ',': move(-1), '.': move(1) })]);
     // Requests data only while visible.

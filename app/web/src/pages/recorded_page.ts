@@ -88,8 +88,7 @@ export abstract class RecordedPage {
     const instant = this.before();
     this.stale = false; // a move of the camera by before() is drawn now
     const shown = this.shownLayers;
-    this.stage.paint(this.parts(shown, instant));
-    this.stage.draw();
+    this.stage.draw(this.parts(shown, instant));
     const labels = shown.map((layer) => ({ columns: layer.labels, frame: instant.a }));
     this.stage.labels.paint(this.stage.project, this.data.texts, labels);
   }

@@ -8,7 +8,11 @@ const MESHES = /\.(stl|obj|dae|ply|gltf|glb|bin|png|jpe?g|mtl)$/i; // sent befor
 const ROBOTS = '.urdf,.xml,.xacro,.toml,.twinrec,.stl,.obj,.dae,.ply,.gltf,.glb,.mtl,.png,.jpg,.jpeg';
 
 export class Gallery implements Panel {
-  readonly root = element('dialog.card-dialog.gallery', { 'aria-label': 'scenes' });
+  readonly root = element('dialog.card-dialog.gallery', {
+    'aria-label': 'scenes',
+    keydown: (event: KeyboardEvent) => this.press(event),
+    click: (event: Event) => event.target === this.root && this.root.close(),
+  });
   private readonly cards = element('div.cards');
   private readonly zone = element('div.zone');
   private readonly message = element('div.message', { role: 'status' });
@@ -28,10 +32,6 @@ export class Gallery implements Panel {
     );
     const close = button('×', 'close (Escape)', () => this.root.close(), 'close');
     this.root.append(element('header', element('h2', 'Scenes'), close), this.message, this.cards, this.zone);
-    this.root.addEventListener('click', (event) => {
-      if (event.target === this.root) this.root.close();
-    });
-    this.root.addEventListener('keydown', (event) => this.press(event));
     this.acceptDrops();
   }
 
@@ -41,14 +41,10 @@ export class Gallery implements Panel {
 
   private card({ name, title, look }: StateMessage['gallery'][number]): HTMLElement {
     const src = `/gallery/${encodeURIComponent(name)}.png`;
-    const image = element('img', { src, alt: '', loading: 'lazy' });
-    image.addEventListener('error', () => image.remove());
-    const head = element('b', title);
-    const card = element('button.card', { type: 'button', 'data-scene': name }, image, head, bullets(look));
-    card.addEventListener('click', () => {
-      if (this.page.send({ do: 'scene', name })) this.root.close();
-    });
-    return card;
+    const image = element('img', { src, alt: '', loading: 'lazy', error: () => image.remove() });
+    const click = () => this.page.send({ do: 'scene', name }) && this.root.close();
+    const attributes = { type: 'button', 'data-scene': name, click };
+    return element('button.card', attributes, image, element('b', title), bullets(look));
   }
 
   // Arrow keys move between the cards.

@@ -15,10 +15,9 @@ export class SaveMenu {
 
   constructor() {
     const links = FILES.map(([address, name, what]) => {
+      const click = () => (this.root.open = false);
       const text = [element('b', name), element('span.fine', what)];
-      const link = element('a', { href: address, download: '' }, ...text);
-      link.addEventListener('click', () => (this.root.open = false));
-      return link;
+      return element('a', { href: address, download: '', click }, ...text);
     });
     this.root.append(element('summary', { title: 'save, share' }, 'Save'), element('div.sheet', ...links));
     closeOutside(this.root);

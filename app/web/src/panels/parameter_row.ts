@@ -112,13 +112,17 @@ class NumberRow extends ParameterRow {
       placeholder: '–',
       'aria-label': `${this.fullName}${unit && unit !== '1' ? ` in ${unit}` : ''}`,
       title: `${parameter.meaning}. Enter: set, Escape: cancel, arrow keys: change`,
+      focus: () => this.select(),
+      input: () => this.field.setCustomValidity(''),
+      blur: () => this.show(this.parameter.value),
     });
     const { scale } = this;
     const slide = (place: number) => this.put(valueAt(scale!, place));
     this.slider = scale && new Slider(this.fullName, slide, this.mark);
     const number = element('div.number', this.field, element('span.unit', unitText(unit)));
     this.head(this.slider ? [this.slider.root, number] : [number], id);
-    this.listen();
+    for (const at of [this.slider?.input, this.field])
+      at?.addEventListener('keydown', (event) => this.press(event));
     this.begin();
   }
 
@@ -148,15 +152,9 @@ class NumberRow extends ParameterRow {
     this.set(String(value));
   }
 
-  private listen(): void {
-    const { slider, field } = this;
-    field.addEventListener('focus', () => {
-      if (!Number.isNaN(this.value)) field.value = String(this.value); // all digits
-      field.select();
-    });
-    field.addEventListener('input', () => field.setCustomValidity(''));
-    field.addEventListener('blur', () => this.show(this.parameter.value));
-    for (const at of [slider?.input, field]) at?.addEventListener('keydown', (event) => this.press(event));
+  private select(): void {
+    if (!Number.isNaN(this.value)) this.field.value = String(this.value); // all digits
+    this.field.select();
   }
 
   private press(event: KeyboardEvent): void {
@@ -208,11 +206,10 @@ class ChoiceRow extends ParameterRow {
       this.control = new Segments(this.fullName, choices, '', (name) => this.set(name));
       this.head([this.control.root]);
     } else {
-      const attributes = { 'aria-label': this.fullName, title: parameter.meaning };
-      const list = element('select', attributes, this.left, ...choices.map((name) => option(name)));
-      list.addEventListener('change', () => this.set(list.value));
-      this.control = list;
-      this.head([list]);
+      const change = () => this.set((this.control as HTMLSelectElement).value);
+      const attributes = { 'aria-label': this.fullName, title: parameter.meaning, change };
+      this.control = element('select', attributes, this.left, ...choices.map((name) => option(name)));
+      this.head([this.control]);
     }
     this.root.classList.add('choice');
     this.begin();

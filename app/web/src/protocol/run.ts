@@ -103,12 +103,17 @@ export interface Run extends PageData {
 
 // The last frame at or before t.
 export function frameAt(times: Float64Array, t: number): number {
+  return Math.max(0, firstAfter(times, t + 1e-9) - 1);
+}
+
+// Index of the first time later than t, in ascending times; their number: none.
+export function firstAfter(times: Float64Array, t: number): number {
   let low = 0;
-  let high = times.length - 1;
+  let high = times.length;
   while (low < high) {
-    const middle = (low + high + 1) >> 1;
-    if (times[middle] <= t + 1e-9) low = middle;
-    else high = middle - 1;
+    const middle = (low + high) >> 1;
+    if (times[middle] <= t) low = middle + 1;
+    else high = middle;
   }
   return low;
 }

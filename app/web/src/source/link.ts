@@ -1,17 +1,12 @@
 // WebSocket of the lab. Only the newest message of each kind is kept, and decoded when the next picture is
 // drawn: a slow page skips frames but adds no delay. Reconnects until the connection is open.
-import { decodeFrame, type Frame } from '../protocol/frame';
+import { decodeFrame } from '../protocol/frame';
 import type { BodyInspection, Command, SceneMessage, StateMessage } from '../protocol/messages';
 
 export * from '../protocol/frame';
 export * from '../protocol/messages';
 
-export interface News {
-  scene: SceneMessage | null;
-  state: StateMessage | null;
-  inspection: BodyInspection | null;
-  frame: Frame | null;
-}
+export type News = ReturnType<Link['take']>;
 
 const FIRST_PAUSE = 250; // [ms]
 const LONGEST_PAUSE = 2000;
@@ -42,14 +37,14 @@ export class Link {
   }
 
   // The newest message of each kind, once; null: none since the last call.
-  take(): News {
+  take() {
     const text = <T>(kind: string) => {
       const found = this.texts.get(kind);
       return found === undefined ? null : (JSON.parse(found) as T);
     };
     const state = text<StateMessage>('state');
     if (state) state.holder ||= null; // 0: no client
-    const news: News = {
+    const news = {
       scene: text<SceneMessage>('scene'),
       state,
       inspection: text<BodyInspection>('glass'),

@@ -3,17 +3,12 @@ import type { MeshData } from '../protocol/run';
 
 const TWO_SIDED = 1;
 const HAS_UV = 2;
-const NOTHING: MeshData = {
-  position: new Float32Array(),
-  normal: new Float32Array(),
-  index: new Uint32Array(),
-  uv: new Float32Array(),
-  twoSided: false,
-};
+const HEAD = 16; // [bytes]
+const NOTHING = decodeMesh(new ArrayBuffer(HEAD));
 
 export function decodeMesh(buffer: ArrayBuffer): MeshData {
   const [vertices, indices, flags] = new Uint32Array(buffer, 0, 3);
-  let at = 16;
+  let at = HEAD;
   const floats = (count: number) => {
     const made = new Float32Array(buffer, at, count);
     at += 4 * count;

@@ -1,3 +1,5 @@
+import { firstAfter } from '../protocol/run';
+
 // Ring buffer of columns over increasing time; drops the oldest rows when full. Each column is one array with
 // space for 25 % more than its capacity; when that is full, the kept rows move to its front.
 export class Store {
@@ -48,15 +50,7 @@ export class Store {
 
   // The first row later than a time.
   after(time: number): number {
-    const times = this.times;
-    let low = 0;
-    let high = this.length;
-    while (low < high) {
-      const middle = (low + high) >> 1;
-      if (times[middle] <= time) low = middle + 1;
-      else high = middle;
-    }
-    return low;
+    return firstAfter(this.times, time);
   }
 
   // Removes rows after a time.

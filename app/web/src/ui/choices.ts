@@ -25,17 +25,14 @@ export class Tabs {
 
   add(title: string, ...content: Node[]): void {
     const at = this.tabs.length;
-    const tab = element(
-      'button',
-      { type: 'button', role: 'tab', title: definition(title), id: `tab-${at}`, 'aria-controls': `panel-${at}` },
-      title,
-    );
+    const ids = { id: `tab-${at}`, 'aria-controls': `panel-${at}` };
+    const click = () => this.show(at);
+    const tab = element('button', { type: 'button', role: 'tab', title: definition(title), ...ids, click }, title);
     const panel = element(
       'div',
       { role: 'tabpanel', id: `panel-${at}`, 'aria-labelledby': tab.id },
       ...content,
     );
-    tab.addEventListener('click', () => this.show(at));
     this.tabs.push(tab);
     this.panels.push(panel);
     this.list.append(tab);

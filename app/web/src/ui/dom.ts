@@ -3,17 +3,20 @@ type TagOf<T extends string> = T extends `${infer Tag}.${string}` ? Tag : T;
 type Made<T extends string> =
   TagOf<T> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<T>] : never;
 
+// Attributes; functions are listeners to the event of that name.
+type Attributes = Record<string, string | ((event: never) => void)>;
+
 // element('p.hint.small', { title: 'attribute' }, 'text', child). Strings become text nodes, never HTML.
-export function element<T extends string>(
-  tag: T,
-  ...parts: (Record<string, string> | Node | string)[]
-): Made<T> {
+export function element<T extends string>(tag: T, ...parts: (Attributes | Node | string)[]): Made<T> {
   const [name, ...classes] = tag.split('.');
   const made = document.createElement(name);
   if (classes.length > 0) made.className = classes.join(' ');
   for (const part of parts) {
     if (typeof part === 'string' || part instanceof Node) made.append(part);
-    else for (const [key, value] of Object.entries(part)) made.setAttribute(key, value);
+    else
+      for (const [key, value] of Object.entries(part))
+        if (typeof value === 'string') made.setAttribute(key, value);
+        else made.addEventListener(key, value as EventListener);
   }
   return made as Made<T>;
 }
@@ -24,10 +27,9 @@ export function button(
   act: () => void,
   className = '',
 ): HTMLButtonElement {
-  const made = element('button', { type: 'button', title, class: className }, ...[label].flat());
+  const made = element('button', { type: 'button', title, class: className, click: act }, ...[label].flat());
   const isReadable = Array.isArray(label) || (typeof label === 'string' && label.length >= 3);
   if (!isReadable) made.setAttribute('aria-label', title);
-  made.addEventListener('click', act);
   return made;
 }
 

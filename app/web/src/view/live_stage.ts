@@ -51,7 +51,7 @@ export class LiveStage {
       this.store.images(scene.textures),
     ]);
     if (this.scene !== scene) return; // replaced meanwhile
-    this.stage.add(meshes.slice(this.meshes), textures.slice(this.textures));
+    this.stage.painter.add(meshes.slice(this.meshes), textures.slice(this.textures));
     this.meshes = meshes.length;
     this.textures = textures.length;
     this.changed();
@@ -82,8 +82,7 @@ export class LiveStage {
       const outline = { color: this.dark ? DARK_RIM : RIM, of: (i: number) => frame.body[i] === selected };
       marked.push({ columns: frame, a: 0, b: 0, share: 0, outline });
     }
-    stage.paint(marked);
-    stage.draw();
+    stage.draw(marked);
     if (this.isReady && !this.isSeen) {
       this.isSeen = true;
       setTimeout(() => stage.addShadows(), SHADOWS_AFTER);
@@ -132,20 +131,18 @@ function isSoftware(gl: WebGL2RenderingContext): boolean {
 }
 
 const EVERY = 200; // [ms]
+const ALT = 'the robot, rendered by the server';
 const NO_WEBGL =
   'WebGL is unavailable: showing images rendered by the server, 5 per second, from a fixed view. The ' +
   'keyboard still moves the robot.';
 
 // Without WebGL: images rendered by the server. At most one request at a time.
 export class Picture {
-  private readonly image = element('img', { alt: 'the robot, rendered by the server' });
+  private readonly done = () => (this.loading = false);
+  private readonly image = element('img', { alt: ALT, load: this.done, error: this.done });
   readonly root = element('figure.picture', this.image, element('figcaption', NO_WEBGL));
   private asked = 0;
   private loading = false;
-
-  constructor() {
-    for (const end of ['load', 'error']) this.image.addEventListener(end, () => (this.loading = false));
-  }
 
   tick(now: number): void {
     if (this.loading || now - this.asked < EVERY) return;

@@ -31,7 +31,7 @@ export function pick(stage: Stage, frame: Frame, layer: number, at: Pixel): Hit 
   rayAt(stage, at);
   let nearest: Hit | null = null;
   for (let i = frame.first[layer]; i < frame.first[layer + 1]; ++i) {
-    const geometry = stage.geometries[frame.mesh[i]];
+    const geometry = stage.painter.geometries[frame.mesh[i]];
     if (frame.body[i] === NO_BODY || !geometry) continue;
     probe.geometry = geometry;
     pose.read(frame, i).compose(probe.matrixWorld);

@@ -43,7 +43,7 @@ export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
   readonly labels = new Labels();
   private readonly scene = new THREE.Scene();
-  private painter!: Painter;
+  painter!: Painter;
   private ground!: Ground;
   arrows!: Arrows;
   private readonly sun = new THREE.DirectionalLight(0xffffff, 2.2);
@@ -82,7 +82,7 @@ export class Stage {
     this.controls.addEventListener('change', changed);
     this.scene.add(this.sky, this.sun, this.sun.target);
     this.furnish(view);
-    this.add(data.meshes, data.textures);
+    this.painter.add(data.meshes, data.textures);
     this.look('start');
     new ResizeObserver(() => this.resize()).observe(host);
     this.resize();
@@ -94,11 +94,6 @@ export class Stage {
     this.ground.remove();
     this.arrows.remove();
     this.furnish(view);
-  }
-
-  // Appends to the meshes.
-  add(meshes: MeshData[], textures: ImageBitmap[]): void {
-    this.painter.add(meshes, textures);
   }
 
   // Later on slow machines, which take time to compile the shadow shaders.
@@ -120,10 +115,6 @@ export class Stage {
     this.resize();
   }
 
-  get geometries(): THREE.BufferGeometry[] {
-    return this.painter.geometries;
-  }
-
   private furnish(view: View): void {
     this.view = view;
     this.camera.fov = (view.fieldOfView * 180) / Math.PI;
@@ -139,11 +130,8 @@ export class Stage {
     this.painter = new Painter(this.scene, 0.03 * view.radius, this.isPlain ? plainly : glossy);
   }
 
-  paint(parts: Part[]): void {
+  draw(parts: Part[]): void {
     this.painter.paint(parts);
-  }
-
-  draw(): void {
     this.renderer.render(this.scene, this.camera);
   }
 
