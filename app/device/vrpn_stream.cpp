@@ -95,67 +95,60 @@ VrpnStream::Error VrpnStream::read_messages() {
       fault = Error::goodbye;
       break;
     }
-    take(message);
+    if (!take(message)) ++malformed_;
   }
   pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(at));
   return fault;
 }
 
-void VrpnStream::take(const Message& message) {
+// Each take() returns whether the payload is valid.
+bool VrpnStream::take(const Message& message) {
   if (message.type == -1) return take_name(message, senders_);
   if (message.type == -2) return take_name(message, types_);
-  if (message.type < 0 || !senders_.is(message.sender, device_.c_str())) return;
+  if (message.type < 0 || !senders_.is(message.sender, device_.c_str())) return true;
   if (types_.is(message.type, "vrpn_Tracker Pos_Quat")) return take_pose(message);
   if (types_.is(message.type, "vrpn_Button Change")) return take_button(message);
-  if (types_.is(message.type, "vrpn_Button States")) return take_states(message);
+  return !types_.is(message.type, "vrpn_Button States") || take_states(message);
 }
 
-void VrpnStream::take_name(const Message& message, Names& names) {
+bool VrpnStream::take_name(const Message& message, Names& names) {
   const std::uint32_t length = message.size >= 4 ? read_u32(message.payload) : 0;
   const bool fits = length >= 1 && length <= kVrpnMaxName && message.size >= 4 + length;
-  if (!fits || message.sender < 0 || message.sender >= kVrpnMaxNames) {
-    ++malformed_;
-    return;
-  }
+  if (!fits || message.sender < 0 || message.sender >= kVrpnMaxNames) return false;
   std::string name(reinterpret_cast<const char*>(message.payload) + 4, length);
   names.of[message.sender] = name.substr(0, name.find('\0'));
+  return true;
 }
 
-void VrpnStream::take_pose(const Message& message) {
-  if (message.size != 64) {
-    ++malformed_;
-    return;
-  }
-  if (read_i32(message.payload) != 0) return;  // another sensor
+bool VrpnStream::take_pose(const Message& message) {
+  if (message.size != 64) return false;
+  if (read_i32(message.payload) != 0) return true;  // another sensor
   std::array<double, 7> x{};
   for (std::size_t n = 0; n < 7; ++n) x[n] = read_f64(message.payload + 8 + 8 * n);
   const Eigen::Quaterniond rotation(x[6], x[3], x[4], x[5]);
   const bool finite = std::ranges::all_of(x, [](double v) { return std::isfinite(v); });
   if (!finite || std::abs(rotation.norm() - 1) > 0.1) {
     ++not_finite_;
-    return;
+    return true;
   }
   pose_ = {rotation.normalized().toRotationMatrix(), {x[0], x[1], x[2]}};
   ++poses_;
+  return true;
 }
 
-void VrpnStream::take_button(const Message& message) {
-  if (message.size != 8) {
-    ++malformed_;
-    return;
-  }
+bool VrpnStream::take_button(const Message& message) {
+  if (message.size != 8) return false;
   const std::uint32_t button = read_u32(message.payload);
   if (button < buttons_.size()) buttons_[button] = read_u32(message.payload + 4) != 0;
+  return true;
 }
 
-void VrpnStream::take_states(const Message& message) {
+bool VrpnStream::take_states(const Message& message) {
   const std::uint32_t count = message.size >= 4 ? read_u32(message.payload) : 0;
-  if (message.size < 4 || (message.size - 4) / 4 != count) {
-    ++malformed_;
-    return;
-  }
+  if (message.size < 4 || (message.size - 4) / 4 != count) return false;
   for (std::size_t n = 0; n < buttons_.size() && n < count; ++n)
     buttons_[n] = read_u32(message.payload + 4 + 4 * n) != 0;
+  return true;
 }
 
 void VrpnWriter::cookie(VrpnBytes& out) const {

@@ -58,11 +58,11 @@ class VrpnStream {
   };
   Error read_cookie();
   Error read_messages();
-  void take(const Message& message);
-  void take_name(const Message& message, Names& names);
-  void take_pose(const Message& message);
-  void take_button(const Message& message);
-  void take_states(const Message& message);
+  bool take(const Message& message);
+  bool take_name(const Message& message, Names& names);
+  bool take_pose(const Message& message);
+  bool take_button(const Message& message);
+  bool take_states(const Message& message);
 
   std::string device_, version_;
   VrpnBytes pending_;

@@ -12,26 +12,6 @@
 namespace twinarm {
 namespace {
 
-// Surface of revolution about z of a profile (radius, z), upwards, with its ends on the axis.
-TriangleMesh revolved(const std::vector<Eigen::Vector2d>& profile) {
-  constexpr int kAround = 48;
-  TriangleMesh mesh;
-  const auto row = [](std::size_t i) { return static_cast<int>(i) * kAround; };
-  for (const Eigen::Vector2d& p : profile)
-    for (int k = 0; k < kAround; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kAround;
-      mesh.vertices.emplace_back(p.x() * std::cos(angle), p.x() * std::sin(angle), p.y());
-    }
-  for (std::size_t i = 0; i + 1 < profile.size(); ++i)
-    for (int k = 0; k < kAround; ++k) {
-      const int next = (k + 1) % kAround;
-      const int a = row(i) + k, b = row(i) + next, c = row(i + 1) + next, d = row(i + 1) + k;
-      mesh.triangles.push_back({a, b, c});
-      mesh.triangles.push_back({a, c, d});
-    }
-  return mesh;  // triangles without area, at the poles, are dropped where normals are made
-}
-
 DrawMesh capsule(double radius, double length) {
   constexpr int kArc = 12;  // of a quarter circle
   std::vector<Eigen::Vector2d> profile;
@@ -43,7 +23,8 @@ DrawMesh capsule(double radius, double length) {
       profile.emplace_back(on_axis ? 0 : radius * std::cos(latitude),
                            side * length + radius * std::sin(latitude));
     }
-  const TriangleMesh mesh = revolved(profile);
+  // Triangles without area, at the poles, are dropped where normals are made.
+  const TriangleMesh mesh = surface_of_revolution(profile);
   const auto down = [&](const Vector3& p) { return 0.5 - p.z() / (length + 2 * radius); };
   return make_draw_mesh(mesh, places_around_z(mesh, down));
 }

@@ -81,29 +81,16 @@ struct QuantityConverter {
 
   template <class T>
   DisplayedQuantity of(const Quantity& quantity, const std::vector<T>& field) const {
-    switch (quantity.by) {
-      case Quantity::By::velocity:
-        return by_velocity(quantity, field);
-      case Quantity::By::square:
-        if constexpr (std::is_same_v<T, double>) return {quantity, kJointFrame, axes.square(field)};
-        [[fallthrough]];
-      case Quantity::By::body:
-        break;
+    using By = Quantity::By;
+    if constexpr (std::is_same_v<T, double>) {
+      if (quantity.by == By::square) return {quantity, kJointFrame, axes.square(field)};
+      return {quantity, kJointFrame, axes.joint(field)};
+    } else {
+      if constexpr (std::is_same_v<T, Motion<double>> || std::is_same_v<T, Force<double>>)
+        if (quantity.by == By::velocity) return {quantity, kLinkFrame, axes.columns(field)};
+      const bool is_transform = std::is_same_v<T, Transform<double>>;
+      return {quantity, is_transform ? kParentToLinkFrame : kLinkFrame, axes.show(field[body])};
     }
-    if constexpr (std::is_same_v<T, double>)
-      return {quantity, kJointFrame, axes.joint(field)};
-    else
-      return {quantity, std::is_same_v<T, Transform<double>> ? kParentToLinkFrame : kLinkFrame,
-              axes.show(field[body])};
-  }
-  template <class T>
-  DisplayedQuantity by_velocity(const Quantity& quantity, const std::vector<T>& field) const {
-    if constexpr (std::is_same_v<T, double>)
-      return {quantity, kJointFrame, axes.joint(field)};
-    else if constexpr (std::is_same_v<T, Motion<double>> || std::is_same_v<T, Force<double>>)
-      return {quantity, kLinkFrame, axes.columns(field)};
-    else
-      return {quantity, kLinkFrame, {}};
   }
 };
 

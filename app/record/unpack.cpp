@@ -1,7 +1,7 @@
 #include "app/record/unpack.h"
 
-#include <fmt/format.h>
 #include <sys/stat.h>
+
 #include <algorithm>
 #include <fstream>
 #include <string>

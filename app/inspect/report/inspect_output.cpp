@@ -170,13 +170,12 @@ void write_passes(JsonWriter& json, const Inspection& in, const std::vector<int>
   json.list(passes, [&](const int pass) {
     std::vector<std::size_t> order = bodies;
     if (pass == 2) order.assign(bodies.rbegin(), bodies.rend());
-    for (const std::size_t body : order) {
+    for (const std::size_t body : order)
       json.object(
           {{"pass", pass},
            {"body", in.model.body_name[body]},
            {"joint", in.model.joint_name[body]},
            {"quantities", [&] { write_quantities(json, shown_quantities(in, pass, body)); }}});
-    }
   });
 }
 

@@ -124,13 +124,12 @@ void MessageStreamer::take_scene(const LabNow& now) {
                                       now.scene->header, now.scene->request.words,
                                       ViewVariants{variants, std::move(variant_plans)});
     last_frame_.reset();
-  } else {
-    view_->change(plan, std::move(variant_plans));
-  }
-  if (now.scene_number != scene_number_)
     unchanged_ = now.scene->request.changes.empty()
                      ? parameters_of(*plan)
                      : parameters_of(now.scene->scene->plan()->prepared);
+  } else {
+    view_->change(plan, std::move(variant_plans));
+  }
   inspector_.reset();
   parameters_ = parameters_of(*plan);
   set_initial_values(unchanged_, parameters_);

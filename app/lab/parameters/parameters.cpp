@@ -1,9 +1,6 @@
 #include "app/lab/parameters/parameters.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
 
 #include "app/lab/parameters/parameter_makers.h"
 #include "app/scene/forces/add_contacts.h"
@@ -54,7 +51,6 @@ LabParameter step_parameter(const SimulatePlan& plan) {
                                ? slider("step", {"step h", 1e-5, 0.02, meaning}, step, "s")
                                : choice("step", "step h", number_text(step), steps, meaning);
   parameter.unit = "s";
-  parameter.group = "time";
   return parameter;
 }
 
@@ -80,7 +76,6 @@ LabParameter integrator_parameter(const SimulatePlan& plan) {
       integrators_for(plan.input.scene.get(), plan.run.integrator),
       "Rule by which a step is taken. Integrators that do not support the scene's contacts or "
       "implicit couplings are not listed.");
-  parameter.group = "time";
   parameter.resets_state = true;
   return parameter;
 }
@@ -89,9 +84,7 @@ LabParameter gravity_parameter(const Vector3& gravity) {
   const SliderRow row{"gravity along z", -25, 25,
                       "Gravitational acceleration along z: Earth -9.81, Moon -1.62, none 0.",
                       SliderRow::linear};
-  LabParameter parameter = slider("gravity[2]", row, gravity.z(), "m/s²");
-  parameter.group = "world";
-  return parameter;
+  return slider("gravity[2]", row, gravity.z(), "m/s²");
 }
 
 LabParameter contact_parameter(const SceneDescription& scene) {
@@ -101,7 +94,6 @@ LabParameter contact_parameter(const SceneDescription& scene) {
       "contact", "contact law", kContactModes[static_cast<std::size_t>(scene.contact)], names,
       "rigid: unilateral constraints, solved for impulses; compliant: a spring-damper "
       "at each contact point.");
-  parameter.group = "world";
   parameter.resets_state = true;
   return parameter;
 }
@@ -131,9 +123,11 @@ void set_initial_values(const std::vector<LabParameter>& unchanged,
 std::vector<LabParameter> parameters_of(const SimulatePlan& plan) {
   std::vector<LabParameter> parameters{step_parameter(plan), integrator_parameter(plan)};
   const SceneModel* scene = plan.input.scene.get();
+  if (scene) parameters.push_back(gravity_parameter(scene->description.gravity));
+  if (scene && scene->may_touch()) parameters.push_back(contact_parameter(scene->description));
+  for (std::size_t i = 0; i < parameters.size(); ++i)
+    parameters[i].group = i < 2 ? "time" : "world";
   if (!scene) return parameters;
-  parameters.push_back(gravity_parameter(scene->description.gravity));
-  if (scene->may_touch()) parameters.push_back(contact_parameter(scene->description));
   add_couplings(scene->description, plan.run, parameters);
   add_masses(scene->description, parameters);
   if (scene->may_touch()) add_surfaces(*scene, parameters);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "app/servo/haptic_loop.h"
@@ -140,17 +141,10 @@ std::shared_ptr<const BuildResult> Timeline::scene() const {
 }
 
 void Timeline::save(const std::filesystem::path& file) const {
-  LabHistory history;
-  std::shared_ptr<const BuildResult> scene;
-  LabNames names;
-  std::vector<std::size_t> driven;
-  {
+  const auto [history, scene, names, driven] = [this] {
     const std::lock_guard lock(mutex_);
-    history = history_;
-    scene = scene_;
-    names = names_;
-    driven = driven_;
-  }
+    return std::tuple(history_, scene_, names_, driven_);
+  }();
   history.save(*scene->scene, names, driven, file);
 }
 

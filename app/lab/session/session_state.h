@@ -4,7 +4,6 @@
 #include <chrono>
 #include <deque>
 
-#include "app/lab/run/lab_run.h"
 #include "app/lab/session/lab_command.h"
 #include "app/lab/session/run_loop.h"
 

@@ -207,17 +207,13 @@ void VariantViews::values(const LabFrame& frame, const Snapshot& run,
                           const std::vector<std::string>& rows, std::vector<double>& values) const {
   std::size_t at = first_channel_;
   for (std::size_t variant = 0; variant < set_.values.size(); ++variant) {
-    const bool is_known =
-        variant == 0 || (variant <= seen_.size() && !seen_[variant - 1].frame.stopped);
-    const Snapshot* snapshot = variant == 0 ? &run
-                               : is_known   ? &seen_[variant - 1].snapshot
-                                            : nullptr;
+    const Seen* other = variant > 0 && variant <= seen_.size() ? &seen_[variant - 1] : nullptr;
+    if (other && other->frame.stopped) other = nullptr;
+    const Snapshot* snapshot = variant == 0 ? &run : other ? &other->snapshot : nullptr;
+    const LabFrame* own = variant == 0 ? &frame : other ? other->frame.frame.get() : nullptr;
     for (const NamedJoint& joint : joints_)
       values[at++] = snapshot ? coordinates_of(joint, snapshot->x).front() : kNone;
     values[at++] = snapshot ? energy_of(*snapshot) : kNone;
-    const LabFrame* own = variant == 0 ? &frame
-                          : is_known   ? seen_[variant - 1].frame.frame.get()
-                                       : nullptr;
     values[at++] = own ? residual_of(*own, rows) : kNone;
   }
 }

@@ -11,7 +11,6 @@
 #include "app/lab/session/scene_builder_thread.h"
 #include "app/lab/stream/lab_snapshot.h"
 #include "app/render/list/draw_list.h"
-#include "app/render/list/draw_mesh.h"
 
 namespace twinarm {
 

@@ -35,9 +35,8 @@ class Library {
   template <class Function>
   void load(Function& function, const char* name) const {
     function = reinterpret_cast<Function>(dlsym(handle_, name));
-    if (function == nullptr) {
+    if (function == nullptr)
       fail(file_, std::string("has no function ") + name, "install the version of Debian 12");
-    }
   }
 
  private:
@@ -68,9 +67,8 @@ class OsMesaContext final : public OffscreenContext {
     destroy_(context_);
   }
   void make_current() override {
-    if (!make_current_(context_, surface_.data(), GL_UNSIGNED_BYTE, kSide, kSide)) {
+    if (!make_current_(context_, surface_.data(), GL_UNSIGNED_BYTE, kSide, kSide))
       throw std::runtime_error("OSMesaMakeCurrent failed");
-    }
   }
   void release() override { make_current_(nullptr, nullptr, 0, 0, 0); }
   void* proc(const char* name) override { return reinterpret_cast<void*>(proc_(name)); }
@@ -103,9 +101,8 @@ class EglContext final : public OffscreenContext {
   void make_current() override {
     // The API is bound by thread.
     bind_api_(EGL_OPENGL_API);
-    if (!make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) {
+    if (!make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
       throw std::runtime_error("eglMakeCurrent failed");
-    }
   }
   void release() override {
     make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -118,12 +115,10 @@ class EglContext final : public OffscreenContext {
     library_.load(initialize, "eglInitialize");
     const auto get_display =
         reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(proc_("eglGetPlatformDisplayEXT"));
-    if (get_display != nullptr) {
+    if (get_display != nullptr)
       display_ = get_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-    }
-    if (display_ == EGL_NO_DISPLAY || !initialize(display_, nullptr, nullptr)) {
+    if (display_ == EGL_NO_DISPLAY || !initialize(display_, nullptr, nullptr))
       fail("EGL", "has no surfaceless display", "install libegl-mesa0, or use osmesa");
-    }
   }
 
   void create_context() {

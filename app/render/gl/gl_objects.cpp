@@ -44,10 +44,9 @@ void set_attribute(const GlTable& gl, GLuint index, GLint numbers) {
 }
 
 void check_framebuffer(const GlTable& gl, const std::string& what) {
-  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
     throw InputError({Diagnostic{"", 0, "renderer", "cannot allocate " + what,
                                  "use a smaller picture or free memory", "render.memory"}});
-  }
 }
 
 }  // namespace
@@ -65,9 +64,8 @@ Program::Program(const GlTable& gl, const ShaderSource& source) : gl_(gl), id_(g
     gl.GetProgramInfoLog(id_, static_cast<GLsizei>(log.size()), nullptr, log.data());
     throw std::logic_error("program does not link: " + std::string(log.data()));
   }
-  for (std::size_t i = 0; i < location_.size(); ++i) {
+  for (std::size_t i = 0; i < location_.size(); ++i)
     location_[i] = gl.GetUniformLocation(id_, kUniformNames[i]);
-  }
 }
 
 GpuMesh::GpuMesh(const GlTable& gl, const DrawMesh& mesh)

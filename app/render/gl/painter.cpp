@@ -158,9 +158,8 @@ class Painter::Impl {
       const CurrentContext current(*context_);
       pass_->prepare(list);
       draw_samples(towards_key(list), image.rgba);
-      if (const GLenum error = gl_.GetError()) {
+      if (const GLenum error = gl_.GetError())
         throw std::logic_error("OpenGL error " + std::to_string(error) + " in Painter::paint");
-      }
     }
     flip_vertically(image);
     draw_overlay(image, list, pass_->clip_from_world(), lettering_, is_next ? &labels_ : nullptr);

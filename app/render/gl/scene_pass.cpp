@@ -92,11 +92,10 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
   item.seen_through = instance.seen_through;
   if (item.world_from_mesh.allFinite() && item.normal_from_mesh.allFinite()) {
     items_.push_back(item);
-    if (!item.translucent && !cached.box.isEmpty()) {
+    if (!item.translucent && !cached.box.isEmpty())
       casters_.push_back(
           {{instance.X_WM.R, instance.X_WM * scale.cwiseProduct(cached.box.center())},
            0.5 * scale.cwiseProduct(cached.box.sizes())});
-    }
   }
 }
 

@@ -62,9 +62,8 @@ std::vector<Facet> make_facets(const TriangleMesh& mesh) {
     const double twice_area = facet.normal.norm();
     if (!(twice_area > 0) || !std::isfinite(twice_area)) continue;
     facet.normal /= twice_area;
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
       facet.weight[k] = twice_area * angle_between(p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-    }
     facets.push_back(facet);
   }
   return facets;
@@ -78,9 +77,8 @@ std::vector<std::vector<Corner>> corners_by_vertex(const std::vector<Facet>& fac
                                                    std::size_t vertex_count) {
   std::vector<std::vector<Corner>> around(vertex_count);
   for (std::size_t f = 0; f < facets.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
       around[static_cast<std::size_t>(facets[f].vertex[k])].push_back({f, k});
-    }
   }
   return around;
 }
@@ -113,9 +111,8 @@ void set_bounds(DrawMesh& mesh, const std::vector<Vector3>& vertices) {
   Eigen::AlignedBox3d box;
   for (const Vector3& p : vertices) box.extend(p);
   mesh.bound_center = box.center();
-  for (const Vector3& p : vertices) {
+  for (const Vector3& p : vertices)
     mesh.bound_radius = std::max(mesh.bound_radius, (p - mesh.bound_center).norm());
-  }
 }
 
 using Corners = std::array<Vector3, 3>;

@@ -48,6 +48,9 @@ enum class UnitShape {
 // With texture coordinates (below), except the cone.
 DrawMesh make_unit_mesh(UnitShape shape);
 
+// Surface of revolution about z of a profile (radius, z), upwards; open at its ends.
+TriangleMesh surface_of_revolution(const std::vector<Eigen::Vector2d>& profile);
+
 // A helical spring along z from 0 to 1, coil radius 1, with straight ends on the axis. Its wire is
 // flattened so that it is round when the spring is scaled to `aspect` = length / coil radius.
 DrawMesh make_unit_spring(double aspect);

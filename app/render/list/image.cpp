@@ -30,11 +30,10 @@ void check(const Image& image) {
   const std::size_t bytes = sized ? std::size_t{4} * static_cast<std::size_t>(image.width) *
                                         static_cast<std::size_t>(image.height)
                                   : 0;
-  if (!sized || image.rgba.size() != bytes) {
+  if (!sized || image.rgba.size() != bytes)
     fail("has " + std::to_string(image.rgba.size()) + " bytes for " + std::to_string(image.width) +
              " x " + std::to_string(image.height) + " pixels",
          "give 4 bytes for each pixel and at least one pixel");
-  }
 }
 
 bool is_opaque(const Image& image) {
@@ -135,9 +134,8 @@ Image make_image(int width, int height, std::uint8_t byte) {
 std::string encode_png(const Image& image) {
   check(image);
   PngWriter writer;
-  if (!encode(writer, image, is_opaque(image))) {
+  if (!encode(writer, image, is_opaque(image)))
     fail("libpng could not encode it", "use a smaller picture or free memory");
-  }
   return std::move(writer.bytes);
 }
 

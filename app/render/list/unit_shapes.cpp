@@ -65,16 +65,14 @@ int add_ring(TriangleMesh& mesh, double radius, double z) {
 
 TriangleMesh sphere() {
   constexpr int kRings = kSegments / 2;  // from pole to pole
-  TriangleMesh mesh;
-  int below = -1;
+  std::vector<Eigen::Vector2d> profile;
   for (int j = 1; j < kRings; ++j) {
     const double latitude = kPi * j / kRings - kPi / 2;
-    const int ring = add_ring(mesh, std::cos(latitude), std::sin(latitude));
-    if (below >= 0) add_band(mesh, below, ring, kSegments);
-    below = ring;
+    profile.emplace_back(std::cos(latitude), std::sin(latitude));
   }
+  TriangleMesh mesh = surface_of_revolution(profile);
   add_fan(mesh, 0, kSegments, -Vector3::UnitZ(), false);
-  add_fan(mesh, below, kSegments, Vector3::UnitZ(), true);
+  add_fan(mesh, (kRings - 2) * kSegments, kSegments, Vector3::UnitZ(), true);
   return mesh;
 }
 
@@ -145,6 +143,17 @@ TriangleMesh spring(double length) {
 }
 
 }  // namespace
+
+TriangleMesh surface_of_revolution(const std::vector<Eigen::Vector2d>& profile) {
+  TriangleMesh mesh;
+  int below = -1;
+  for (const Eigen::Vector2d& p : profile) {
+    const int ring = add_ring(mesh, p.x(), p.y());
+    if (below >= 0) add_band(mesh, below, ring, kSegments);
+    below = ring;
+  }
+  return mesh;
+}
 
 DrawMesh make_unit_mesh(UnitShape shape) {
   switch (shape) {

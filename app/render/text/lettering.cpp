@@ -179,10 +179,9 @@ class Lettering::Impl {
     // Whole pixels by the bitmap's position, the fraction of x by the outline's.
     const double column = std::floor(at_px.x()), row = std::round(at_px.y());
     FT_Vector remainder{to_26_6(at_px.x() - column), 0};
-    if (FT_Glyph_To_Bitmap(&glyph, FT_RENDER_MODE_NORMAL, &remainder, 1) == 0) {
+    if (FT_Glyph_To_Bitmap(&glyph, FT_RENDER_MODE_NORMAL, &remainder, 1) == 0)
       blend_bitmap(image, reinterpret_cast<FT_BitmapGlyph>(glyph), static_cast<int>(column),
                    static_cast<int>(row), color, halo ? kHaloCover : 1.0f);
-    }
     FT_Done_Glyph(glyph);
   }
 

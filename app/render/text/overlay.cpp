@@ -157,9 +157,8 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
   const double row = 1.6 * size_px, margin = 1.4 * size_px, padding = 0.75 * size_px;
   const double swatch = 0.85 * size_px, text_x = swatch + 0.7 * size_px;
   double width = 0;
-  for (const LegendLine& line : list.legend) {
+  for (const LegendLine& line : list.legend)
     width = std::max(width, text_x + lettering.width(line.words(), size_px));
-  }
   const double height = row * static_cast<double>(list.legend.size());
   const Vector2d low(margin, image.height - margin - height - 2 * padding);
   const Vector2d high = low + Vector2d(width + 2 * padding, height + 2 * padding);
@@ -217,9 +216,8 @@ void draw_overlay(Image& image, const DrawList& list, const Eigen::Matrix4d& cli
     const Label label = scaled(unscaled, scale);
     if (label.anchor == Label::Anchor::screen) continue;
     const auto anchor_px = project(clip_from_world, label.p_W, image.width, image.height);
-    if (anchor_px && is_inside(image, *anchor_px)) {
+    if (anchor_px && is_inside(image, *anchor_px))
       draw_world_label(image, lettering, label, top_px, *anchor_px, occupied, memory);
-    }
   }
   if (list.ground.visible) draw_grid_scale(image, list.ground, lettering, 0.9 * size_px);
 }
