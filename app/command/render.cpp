@@ -145,7 +145,7 @@ RenderPlan read_render_options(const RenderOptions& options) {
                        {Quality::draft, Quality::normal, Quality::studio}, plan.picture.quality,
                        faults);
   choose_word<Background>("--background", options.background, {"studio", "sky", "white"},
-                          {studio_background(), sky_background(), white_background()},
+                          {Background(), sky_background(), white_background()},
                           plan.picture.background, faults);
   choose_word<Backend>("--gl", options.gl, {"osmesa", "egl"}, {Backend::osmesa, Backend::egl},
                        plan.picture.backend, faults);

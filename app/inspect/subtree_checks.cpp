@@ -13,44 +13,6 @@
 namespace twinarm {
 namespace {
 
-// Equations of motion by CRBA and RNEA, implicit terms included:
-//   M = M_crba + sum J^T impedance J + armature,   h = RNEA at qdd = 0 with f - impedance a_0.
-class CrbaRneaReference {
- public:
-  explicit CrbaRneaReference(const Inspection& in);
-
-  const Eigen::MatrixXd& M() const { return M_; }
-
-  struct Result {
-    Eigen::VectorXd tau;            // by velocity
-    std::vector<Motion<double>> a;  // by body
-    std::vector<Force<double>> f;   // through each joint
-  };
-  // Inverse dynamics tau = M qdd + h. With `subtree` = i > 0, of the subtree of body i for a parent
-  // motion such that a_i = S qdd_i: its rigid acceleration is subtracted.
-  Result inverse(const Eigen::VectorXd& qdd, std::size_t subtree = 0);
-  // At rest, without gravity or forces: tau = M qdd.
-  Result inertial(const Eigen::VectorXd& qdd);
-
-  // Velocity indices of joint i, and of its descendants.
-  struct Rows {
-    std::vector<Eigen::Index> own, below;
-  };
-  Rows rows_of(std::size_t body) const;
-  bool is_below(std::size_t body, std::size_t ancestor) const;  // or the same
-
- private:
-  void add_implicit();
-  Result run(const Model<double>& model, const State<double>& x, const Eigen::VectorXd& qdd,
-             const std::vector<Force<double>>& f_ext);
-
-  const Inspection& in_;
-  Model<double> weightless_;
-  State<double> rest_;
-  Workspace<double> w_;
-  Eigen::MatrixXd M_;
-};
-
 std::vector<double> as_list(const Eigen::VectorXd& v) {
   return {v.data(), v.data() + v.size()};
 }
@@ -62,91 +24,117 @@ State<double> at_rest(State<double> x) {
   return x;
 }
 
-CrbaRneaReference::CrbaRneaReference(const Inspection& in)
-    : in_(in), weightless_(in.model), rest_(at_rest(in.x)), w_(in.model) {
-  weightless_.gravity = {};
-  const auto nv = static_cast<Eigen::Index>(in.model.nv);
-  M_.resize(nv, nv);
-  crba(in.model, in.x, w_, {M_.data(), in.model.nv * in.model.nv});
-  add_implicit();
-}
+// Equations of motion by CRBA and RNEA, implicit terms included:
+//   M = M_crba + sum J^T impedance J + armature,   h = RNEA at qdd = 0 with f - impedance a_0.
+class CrbaRneaReference {
+ public:
+  explicit CrbaRneaReference(const Inspection& in)
+      : in_(in), weightless_(in.model), rest_(at_rest(in.x)), w_(in.model) {
+    weightless_.gravity = {};
+    const auto nv = static_cast<Eigen::Index>(in.model.nv);
+    M_.resize(nv, nv);
+    crba(in.model, in.x, w_, {M_.data(), in.model.nv * in.model.nv});
+    add_implicit();
+  }
 
-// J of body b in its own axes has the columns X S_j of its ancestors' joints, X from j to b.
-void CrbaRneaReference::add_implicit() {
-  for (std::size_t dof = 0; dof < in_.model.nv; ++dof)
-    M_(static_cast<Eigen::Index>(dof), static_cast<Eigen::Index>(dof)) += in_.forces.armature[dof];
-  if (!in_.forces.has_impedance) return;
-  std::vector<std::pair<std::size_t, Motion<double>>> columns;
-  for (std::size_t b = 1; b < in_.body_count(); ++b) {
-    columns.clear();
-    Transform<double> X;
-    for (std::size_t j = b; j > 0; j = in_.parent(j)) {
-      for (std::size_t dof = in_.model.iv[j]; dof < in_.model.iv[j] + in_.model.dofs(j); ++dof)
-        columns.emplace_back(dof, X * w_.S_[dof]);
-      X = X * w_.Xup[j];
+  const Eigen::MatrixXd& M() const { return M_; }
+
+  struct Result {
+    Eigen::VectorXd tau;            // by velocity
+    std::vector<Motion<double>> a;  // by body
+    std::vector<Force<double>> f;   // through each joint
+  };
+  // Inverse dynamics tau = M qdd + h. With `subtree` = i > 0, of the subtree of body i for a parent
+  // motion such that a_i = S qdd_i: its rigid acceleration is subtracted.
+  Result inverse(const Eigen::VectorXd& qdd, std::size_t subtree = 0) {
+    Result first = run(in_.model, in_.x, qdd, in_.forces.f_ext);
+    if (subtree == 0 && !in_.forces.has_impedance) return first;
+    std::vector<Force<double>> f_ext = in_.forces.f_ext;
+    std::vector<Motion<double>> rigid(in_.body_count());  // of the subtree, with body i
+    if (subtree > 0) {
+      rigid[subtree] = first.a[subtree];
+      for (std::size_t dof = in_.model.iv[subtree];
+           dof < in_.model.iv[subtree] + in_.model.dofs(subtree); ++dof)
+        rigid[subtree] += -qdd[static_cast<Eigen::Index>(dof)] * w_.S_[dof];
     }
-    for (const auto& [row, J_row] : columns)
-      for (const auto& [col, J_col] : columns)
-        M_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col)) +=
-            dot(J_row, in_.forces.impedance[b] * J_col);
+    for (std::size_t b = 1; b < in_.body_count(); ++b) {
+      if (subtree > 0 && b > subtree && is_below(b, subtree))
+        rigid[b] = w_.Xup[b] * rigid[in_.parent(b)];
+      f_ext[b] += in_.model.I[b] * rigid[b];
+      if (in_.forces.has_impedance)
+        f_ext[b] += -(in_.forces.impedance[b] * (first.a[b] - rigid[b]));
+    }
+    return run(in_.model, in_.x, qdd, f_ext);
   }
-}
-
-CrbaRneaReference::Result CrbaRneaReference::run(const Model<double>& model, const State<double>& x,
-                                                 const Eigen::VectorXd& qdd,
-                                                 const std::vector<Force<double>>& f_ext) {
-  rnea(model, x, as_list(qdd), f_ext, w_);
-  Result result{Eigen::Map<const Eigen::VectorXd>(w_.tau.data(), qdd.size()), w_.a, w_.f};
-  for (Eigen::Index k = 0; k < qdd.size(); ++k)
-    result.tau[k] += in_.forces.armature[static_cast<std::size_t>(k)] * qdd[k];
-  return result;
-}
-
-CrbaRneaReference::Result CrbaRneaReference::inverse(const Eigen::VectorXd& qdd,
-                                                     std::size_t subtree) {
-  Result first = run(in_.model, in_.x, qdd, in_.forces.f_ext);
-  if (subtree == 0 && !in_.forces.has_impedance) return first;
-  std::vector<Force<double>> f_ext = in_.forces.f_ext;
-  std::vector<Motion<double>> rigid(in_.body_count());  // of the subtree, with body i
-  if (subtree > 0) {
-    rigid[subtree] = first.a[subtree];
-    for (std::size_t dof = in_.model.iv[subtree];
-         dof < in_.model.iv[subtree] + in_.model.dofs(subtree); ++dof)
-      rigid[subtree] += -qdd[static_cast<Eigen::Index>(dof)] * w_.S_[dof];
+  // At rest, without gravity or forces: tau = M qdd.
+  Result inertial(const Eigen::VectorXd& qdd) {
+    const std::vector<Force<double>> none(in_.body_count());
+    Result result = run(weightless_, rest_, qdd, none);
+    if (!in_.forces.has_impedance) return result;
+    std::vector<Force<double>> implicit(in_.body_count());
+    for (std::size_t b = 1; b < in_.body_count(); ++b)
+      implicit[b] = -(in_.forces.impedance[b] * result.a[b]);
+    return run(weightless_, rest_, qdd, implicit);
   }
-  for (std::size_t b = 1; b < in_.body_count(); ++b) {
-    if (subtree > 0 && b > subtree && is_below(b, subtree))
-      rigid[b] = w_.Xup[b] * rigid[in_.parent(b)];
-    f_ext[b] += in_.model.I[b] * rigid[b];
-    if (in_.forces.has_impedance) f_ext[b] += -(in_.forces.impedance[b] * (first.a[b] - rigid[b]));
+
+  // Velocity indices of joint i, and of its descendants.
+  struct Rows {
+    std::vector<Eigen::Index> own, below;
+  };
+  Rows rows_of(std::size_t body) const {
+    Rows rows;
+    for (std::size_t j = body; j < in_.body_count(); ++j) {
+      if (!is_below(j, body)) continue;
+      for (std::size_t dof = in_.model.iv[j]; dof < in_.model.iv[j] + in_.model.dofs(j); ++dof)
+        (j == body ? rows.own : rows.below).push_back(static_cast<Eigen::Index>(dof));
+    }
+    return rows;
   }
-  return run(in_.model, in_.x, qdd, f_ext);
-}
 
-CrbaRneaReference::Result CrbaRneaReference::inertial(const Eigen::VectorXd& qdd) {
-  const std::vector<Force<double>> none(in_.body_count());
-  Result result = run(weightless_, rest_, qdd, none);
-  if (!in_.forces.has_impedance) return result;
-  std::vector<Force<double>> implicit(in_.body_count());
-  for (std::size_t b = 1; b < in_.body_count(); ++b)
-    implicit[b] = -(in_.forces.impedance[b] * result.a[b]);
-  return run(weightless_, rest_, qdd, implicit);
-}
-
-bool CrbaRneaReference::is_below(std::size_t body, std::size_t ancestor) const {
-  while (body > ancestor) body = in_.parent(body);
-  return body == ancestor;
-}
-
-CrbaRneaReference::Rows CrbaRneaReference::rows_of(std::size_t body) const {
-  Rows rows;
-  for (std::size_t j = body; j < in_.body_count(); ++j) {
-    if (!is_below(j, body)) continue;
-    for (std::size_t dof = in_.model.iv[j]; dof < in_.model.iv[j] + in_.model.dofs(j); ++dof)
-      (j == body ? rows.own : rows.below).push_back(static_cast<Eigen::Index>(dof));
+ private:
+  // Whether it is a descendant of the ancestor, or the same body.
+  bool is_below(std::size_t body, std::size_t ancestor) const {
+    while (body > ancestor) body = in_.parent(body);
+    return body == ancestor;
   }
-  return rows;
-}
+
+  // J of body b in its own axes has the columns X S_j of its ancestors' joints, X from j to b.
+  void add_implicit() {
+    for (std::size_t dof = 0; dof < in_.model.nv; ++dof)
+      M_(static_cast<Eigen::Index>(dof), static_cast<Eigen::Index>(dof)) +=
+          in_.forces.armature[dof];
+    if (!in_.forces.has_impedance) return;
+    std::vector<std::pair<std::size_t, Motion<double>>> columns;
+    for (std::size_t b = 1; b < in_.body_count(); ++b) {
+      columns.clear();
+      Transform<double> X;
+      for (std::size_t j = b; j > 0; j = in_.parent(j)) {
+        for (std::size_t dof = in_.model.iv[j]; dof < in_.model.iv[j] + in_.model.dofs(j); ++dof)
+          columns.emplace_back(dof, X * w_.S_[dof]);
+        X = X * w_.Xup[j];
+      }
+      for (const auto& [row, J_row] : columns)
+        for (const auto& [col, J_col] : columns)
+          M_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col)) +=
+              dot(J_row, in_.forces.impedance[b] * J_col);
+    }
+  }
+
+  Result run(const Model<double>& model, const State<double>& x, const Eigen::VectorXd& qdd,
+             const std::vector<Force<double>>& f_ext) {
+    rnea(model, x, as_list(qdd), f_ext, w_);
+    Result result{Eigen::Map<const Eigen::VectorXd>(w_.tau.data(), qdd.size()), w_.a, w_.f};
+    for (Eigen::Index k = 0; k < qdd.size(); ++k)
+      result.tau[k] += in_.forces.armature[static_cast<std::size_t>(k)] * qdd[k];
+    return result;
+  }
+
+  const Inspection& in_;
+  Model<double> weightless_;
+  State<double> rest_;
+  Workspace<double> w_;
+  Eigen::MatrixXd M_;
+};
 
 Vector6 as_vector(const Force<double>& f) {
   return (Vector6() << f.n.x, f.n.y, f.n.z, f.f.x, f.f.y, f.f.z).finished();

@@ -126,16 +126,17 @@ std::uint32_t number_in(std::vector<std::string>& names, const std::string& name
   return static_cast<std::uint32_t>(place);
 }
 
+using recording_format::kMomentumName, recording_format::kName;
+
 // Rows of the balances, by the indices of their names.
-template <class NumberOf, class MomentumNumberOf>
-void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_of,
-              const MomentumNumberOf& momentum_number_of) {
+template <class NumberOf>
+void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_of) {
   for (const EnergyRow& row : run.ledger()) {
-    frame.rows.push_back(number_of(row.name));
+    frame.rows.push_back(number_of(kName, row.name));
     frame.works.push_back(row.work);
   }
   for (const MomentumRow& row : run.momentum()) {
-    frame.momentum_rows.push_back(momentum_number_of(row.name));
+    frame.momentum_rows.push_back(number_of(kMomentumName, row.name));
     frame.momenta.insert(frame.momenta.end(), {row.linear, row.angular});
   }
 }
@@ -187,9 +188,9 @@ RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
 
 void add_ledgers(const RunView& run, std::vector<std::string>& names,
                  std::vector<std::string>& momentum_names, RecordedFrame& frame) {
-  add_rows(
-      run, frame, [&](const std::string& name) { return number_in(names, name); },
-      [&](const std::string& name) { return number_in(momentum_names, name); });
+  add_rows(run, frame, [&](char kind, const std::string& name) {
+    return number_in(kind == kName ? names : momentum_names, name);
+  });
 }
 
 RunRecorder::RunRecorder(const std::filesystem::path& file, RecordingHeader header,
@@ -206,9 +207,8 @@ void RunRecorder::look(RunView& run) {
 
 void RunRecorder::write(RunView& run) {
   RecordedFrame frame = frame_of(run, prepared_);
-  add_rows(
-      run, frame, [&](const std::string& name) { return writer_.number_of(name); },
-      [&](const std::string& name) { return writer_.momentum_number_of(name); });
+  add_rows(run, frame,
+           [&](char kind, const std::string& name) { return writer_.number_of(kind, name); });
   writer_.write(frame);
 }
 

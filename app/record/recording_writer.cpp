@@ -42,15 +42,8 @@ RecordingWriter::RecordingWriter(std::filesystem::path file, RecordingHeader hea
   flush();
 }
 
-std::uint32_t RecordingWriter::number_of(const std::string& row) {
-  return number_in(names_, recording_format::kName, row);
-}
-
-std::uint32_t RecordingWriter::momentum_number_of(const std::string& row) {
-  return number_in(momentum_names_, recording_format::kMomentumName, row);
-}
-
-std::uint32_t RecordingWriter::number_in(Names& names, char kind, const std::string& row) {
+std::uint32_t RecordingWriter::number_of(char kind, const std::string& row) {
+  std::map<std::string, std::uint32_t>& names = names_[kind];
   const auto [place, is_new] = names.try_emplace(row, static_cast<std::uint32_t>(names.size()));
   if (is_new) block(kind, row);
   return place->second;

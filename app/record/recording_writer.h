@@ -16,9 +16,9 @@ class RecordingWriter {
  public:
   // Throws InputError if the file cannot be written.
   RecordingWriter(std::filesystem::path file, RecordingHeader header);
-  // Indices of rows of the balances; writes new names.
-  std::uint32_t number_of(const std::string& row);
-  std::uint32_t momentum_number_of(const std::string& row);
+  // Index of a row of the energy or momentum balance (`kind`: kName or kMomentumName of
+  // recording_format); writes new names.
+  std::uint32_t number_of(char kind, const std::string& row);
   void alarm(const std::string& words);
   void write(RecordedFrame& frame);
   // Writes how the run ended and renames the file. Throws InputError.
@@ -33,9 +33,7 @@ class RecordingWriter {
   std::ofstream out_;
   std::string waiting_;
   std::chrono::steady_clock::time_point flushed_;
-  using Names = std::map<std::string, std::uint32_t>;
-  std::uint32_t number_in(Names& names, char kind, const std::string& row);
-  Names names_, momentum_names_;
+  std::map<char, std::map<std::string, std::uint32_t>> names_;  // by kind
 };
 
 std::filesystem::path part_of(const std::filesystem::path& file);

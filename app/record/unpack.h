@@ -24,8 +24,6 @@ class UnpackedRun {
  public:
   // Throws InputError if a file cannot be written, or would be outside the folder.
   explicit UnpackedRun(RecordingHeader header);
-  UnpackedRun(const UnpackedRun&) = delete;
-  UnpackedRun& operator=(const UnpackedRun&) = delete;
 
   const RecordingHeader& header() const { return header_; }
   const std::filesystem::path& folder() const { return folder_.path; }

@@ -20,8 +20,6 @@ class LabRoutes {
   LabRoutes(LabSession& session, MessageStreamer& streamer, const Clients& clients,
             const std::vector<GalleryScene>& gallery, std::string page, std::string missing);
   ~LabRoutes();  // removes uploaded files
-  LabRoutes(const LabRoutes&) = delete;
-  LabRoutes& operator=(const LabRoutes&) = delete;
 
   void end() { tasks_.end(); }
   // From the server's thread. Longer work is answered later: by the streamer's thread if it needs

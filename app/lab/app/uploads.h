@@ -54,8 +54,6 @@ class TaskQueue {
   explicit TaskQueue(std::function<void(const std::string& why)> failed)
       : failed_(std::move(failed)), thread_([this] { work(); }) {}
   ~TaskQueue() { end(); }
-  TaskQueue(const TaskQueue&) = delete;
-  TaskQueue& operator=(const TaskQueue&) = delete;
 
   // From any thread. False: too many are waiting.
   bool add(std::function<void()> task) {

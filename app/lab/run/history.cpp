@@ -133,6 +133,7 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
   if (empty())
     throw InputError({{file.string(), 0, "save", "the run has no frames yet", "let it run",
                        "lab.nothing-saved"}});
+  using recording_format::kMomentumName, recording_format::kName;
   const long first = first_step_to_save();
   RecordingHeader header = scene.header(segments_.back().changes, {driven, operator_log()});
   // Half a step beyond the last one, which then ends on the time grid.
@@ -145,9 +146,9 @@ LabHistory::Saved LabHistory::save(const LabScene& scene, const LabNames& names,
     RecordedFrame frame = one->recorded;
     frame.memory.resize(frame.memory.size() - one->outside_bytes);
     frame.hash = hash_of(frame.memory);
-    for (std::uint32_t& row : frame.rows) row = writer.number_of(names.rows[row]);
+    for (std::uint32_t& row : frame.rows) row = writer.number_of(kName, names.rows[row]);
     for (std::uint32_t& row : frame.momentum_rows)
-      row = writer.momentum_number_of(names.momentum_rows[row]);
+      row = writer.number_of(kMomentumName, names.momentum_rows[row]);
     if (saved.frames++ == 0) saved.from = frame.t;
     saved.to = frame.t;
     writer.write(frame);

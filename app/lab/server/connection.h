@@ -42,7 +42,8 @@ class Connection;
 
 // Shared by all connections.
 struct Core : std::enable_shared_from_this<Core> {
-  Core(const ServerOptions& given, ServerHandlers called);
+  Core(const ServerOptions& given, ServerHandlers called)
+      : options(given), handlers(std::move(called)) {}
   Clock::duration patience(double part = 1) const {
     return std::chrono::duration_cast<Clock::duration>(
         std::chrono::duration<double>(part * options.patience));

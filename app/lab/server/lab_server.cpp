@@ -24,9 +24,6 @@ void log_exception(const char* where) {
   }
 }
 
-Core::Core(const ServerOptions& given, ServerHandlers called)
-    : options(given), handlers(std::move(called)) {}
-
 Bytes Core::packed(const Bytes& body) {
   if (plain_.lock() != body) {
     packed_ = shared_bytes(gzipped(*body));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "app/draw/cameras.h"
 #include "app/robot/coordinates.h"
@@ -130,11 +131,10 @@ void grow_scales(SceneView& stage, const Snapshot& snapshot) {
        {&Scales::contact_force, &Scales::force, &Scales::couple, &Scales::momentum,
         &Scales::angular, &Scales::kinetic, &Scales::elastic}) {
     double& scale = stage.scales.*scale_of;
-    if (!(seen.*scale_of > scale) || !std::isfinite(seen.*scale_of)) continue;
-    scale = scale > 0 ? round_up(1.5 * scale) : round_up(seen.*scale_of);
+    const double value = std::exchange(seen.*scale_of, 0);
+    if (value > scale && std::isfinite(value))
+      scale = scale > 0 ? round_up(1.5 * scale) : round_up(value);
   }
-  seen.kinetic = seen.elastic = seen.contact_force = seen.force = seen.couple = 0;
-  seen.momentum = seen.angular = 0;
   stage.scales.widen(seen);  // potential energies, for the bars
 }
 

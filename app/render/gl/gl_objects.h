@@ -102,7 +102,6 @@ class GpuMesh {
   GpuMesh(const GlTable& gl, const DrawMesh& mesh);
   ~GpuMesh();
   GpuMesh(const GpuMesh&) = delete;
-  GpuMesh& operator=(const GpuMesh&) = delete;
   void draw() const;
 
  private:
@@ -118,7 +117,6 @@ class GpuTexture {
   GpuTexture(const GlTable& gl, const Image& image);
   ~GpuTexture();
   GpuTexture(const GpuTexture&) = delete;
-  GpuTexture& operator=(const GpuTexture&) = delete;
   GLuint id() const { return id_; }
 
  private:

@@ -124,7 +124,6 @@ class CurrentContext {
   }
   ~CurrentContext() { context_.release(); }
   CurrentContext(const CurrentContext&) = delete;
-  CurrentContext& operator=(const CurrentContext&) = delete;
 
  private:
   OffscreenContext& context_;
@@ -148,8 +147,6 @@ class Painter::Impl {
     const CurrentContext current(*context_);
     pass_.reset();
   }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
 
   Image paint(const DrawList& list, bool is_next) {
     check_camera(list.camera);

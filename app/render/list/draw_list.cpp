@@ -24,10 +24,6 @@ bool has_length(const Vector3& from_W, const Vector3& to_W) {
 
 }  // namespace
 
-Background studio_background() {
-  return {};
-}
-
 Background sky_background() {
   return {.kind = Background::Kind::landscape,
           .bottom = {0.86f, 0.89f, 0.92f, 1.0f},

@@ -84,8 +84,8 @@ struct Ground {
   int cells_per_major = 5;  // between strong lines
 };
 
-// A room: a gradient from the bottom to the top of the picture, also on the floor. A landscape: sky
-// and ground with haze at the horizon.
+// A room (by default): a gradient from the bottom to the top of the picture, also on the floor. A
+// landscape: sky and ground with haze at the horizon.
 struct Background {
   enum class Kind { room, landscape };
   Kind kind = Kind::room;
@@ -93,7 +93,6 @@ struct Background {
   Color top{0.56f, 0.595f, 0.635f, 1.0f};    // zenith
   Color ground{0.62f, 0.63f, 0.63f, 1.0f};   // fully lit; of a landscape only
 };
-Background studio_background();
 Background sky_background();
 Background white_background();
 
@@ -132,7 +131,6 @@ class OfBody {
     for (std::size_t i = first_; i < list_.instances.size(); ++i) list_.instances[i].body = body_;
   }
   OfBody(const OfBody&) = delete;
-  OfBody& operator=(const OfBody&) = delete;
 
  private:
   DrawList& list_;

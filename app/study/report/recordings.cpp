@@ -171,7 +171,6 @@ void paint_pictures(const StudyResults& results, const std::filesystem::path& fo
     PictureWish wish;
     wish.width = 1280;
     wish.height = 720;
-    wish.background = studio_background();
     if (portrait) wish.quality = Quality::studio;
     wish.camera = camera;
     if (!portrait && !paper_view) wish.overlays = {"ghost", "couplings"};
