@@ -111,11 +111,6 @@ void LabView::name_rows(const std::vector<std::string>& rows) {
   ++revision_;
 }
 
-std::string LabView::scene_message() const {
-  return twinarm::scene_message({columns_.scene, *plan_, words_, snapshots_, stage_, store_,
-                                 legends_, channels_.all(), rows_});
-}
-
 std::string LabView::frame(const LabFrame& now, const LabFrame* before,
                            const std::vector<std::string>& layers, const FrameFacts& facts) {
   Snapshot snapshot = snapshots_.of(now);

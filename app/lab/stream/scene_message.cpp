@@ -8,6 +8,7 @@
 
 #include "app/draw/overlays/overlays.h"
 #include "app/film/filmed_run.h"
+#include "app/lab/stream/lab_view.h"
 #include "app/page/page_layers.h"
 #include "app/record/recording.h"
 
@@ -113,25 +114,25 @@ const std::vector<std::string>& layer_names() {
   return names;
 }
 
-std::string scene_message(const SceneFacts& facts) {
+std::string LabView::scene_message() const {
   JsonWriter json;
   json.begin_object();
   json.members({{"kind", "scene"},
-                {"scene", facts.number},
-                {"title", facts.words.title.empty() ? facts.stage.name : facts.words.title},
-                {"file", facts.words.file},
-                {"look", facts.words.look},
-                {"meshes", facts.store.meshes()},
-                {"textures", facts.store.textures()}});
-  write_layers(json, facts.legends);
-  write_channels(json, facts.channels);
-  json.key("ledger").texts(facts.rows);
-  write_bodies(json, facts.plan);
-  const InputOverride* input = facts.snapshots.input_override();
-  write_joints(json, facts.plan.input.robot, input ? input->driven() : std::vector<int>{});
+                {"scene", columns_.scene},
+                {"title", words_.title.empty() ? stage_.name : words_.title},
+                {"file", words_.file},
+                {"look", words_.look},
+                {"meshes", store_.meshes()},
+                {"textures", store_.textures()}});
+  write_layers(json, legends_);
+  write_channels(json, channels_.all());
+  json.key("ledger").texts(rows_);
+  write_bodies(json, *plan_);
+  const InputOverride* input = snapshots_.input_override();
+  write_joints(json, plan_->input.robot, input ? input->driven() : std::vector<int>{});
   if (const auto tip = input ? input->tip() : std::nullopt)
     json.key("tip").object({{"body", tip->first}, {"p", tip->second}});
-  write_view(json, facts.stage);
+  write_view(json, stage_);
   json.end_object();
   return json.str();
 }

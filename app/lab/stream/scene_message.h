@@ -1,15 +1,11 @@
-// The message `scene` (docs/reference/lab_protocol.md): names for the numbers in frames.
+// Names for the numbers in frames, for the message `scene` (docs/reference/lab_protocol.md).
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "app/draw/scene_view.h"
-#include "app/lab/session/scene_builder_thread.h"
-#include "app/lab/stream/lab_snapshot.h"
 #include "app/render/list/draw_list.h"
 
 namespace twinarm {
@@ -35,18 +31,5 @@ class MeshStore {
 
 // Of all layers, in the order of their numbers in frames.
 const std::vector<std::string>& layer_names();
-
-struct SceneFacts {
-  std::uint32_t number = 0;
-  const SimulatePlan& plan;
-  const SceneWords& words;
-  const LabSnapshots& snapshots;
-  const SceneView& stage;
-  const MeshStore& store;
-  const std::vector<std::vector<LegendLine>>& legends;  // by layer
-  const std::vector<RunColumn>& channels;
-  const std::vector<std::string>& rows;
-};
-std::string scene_message(const SceneFacts& facts);
 
 }  // namespace twinarm
