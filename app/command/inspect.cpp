@@ -86,8 +86,9 @@ Reading read_all(const InspectOptions& options, bool is_recorded) {
     read_bodies(options, input.robot.model, view, faults);
     inspected = attempt(faults, [&] {
       if (!input.scene) return inspect_robot(input.robot);
-      return is_recorded ? inspect_scene(input, run.step, &instant->memory, run.integrator)
-                         : inspect_scene(input, run.step);
+      return is_recorded
+                 ? SceneInspector(input, run.step, {}, run.integrator).look(&instant->memory)
+                 : SceneInspector(input, run.step).look();
     });
   }
   if (inspected) read_forces(options, inspected->actors, view, faults);

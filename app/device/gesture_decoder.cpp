@@ -104,11 +104,8 @@ JoystickDecoder::JoystickDecoder(std::vector<std::uint8_t> axis_codes)
   has_right_stick_ = std::ranges::find(codes_, ABS_RX) != codes_.end();
 }
 
-double JoystickDecoder::tilt(int code) const {
-  return value_[static_cast<std::size_t>(code)];
-}
-
 void JoystickDecoder::send_axes(DesktopInput& input) const {
+  const auto tilt = [this](int code) { return value_[static_cast<std::size_t>(code)]; };
   const double toward = has_right_stick_ ? tilt(ABS_RY) : tilt(ABS_RZ);
   const double yaw = has_right_stick_ ? tilt(ABS_RX) : tilt(ABS_Z);
   // Triggers rest at -1 each; their difference is used.

@@ -61,7 +61,6 @@ class JoystickDecoder final : public GestureDecoder {
   void forget() override;
 
  private:
-  double tilt(int code) const;
   void send_axes(DesktopInput& input) const;
 
   std::vector<std::uint8_t> codes_;

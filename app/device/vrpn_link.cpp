@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "app/support/files.h"
 #include "app/support/progress.h"
@@ -198,22 +199,18 @@ std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::timeout_trouble(
                  "switch on the device, calibrate it, and move its stylus"};
 }
 
-// Sends our names after the server sent its own, which come before the first pose: names sent
-// earlier would create new devices in the server.
-void VrpnDevice::Link::describe_device(const VrpnStream& stream) {
-  if (described_) return;
-  described_ = true;
-  const bool takes_rates = stream.knows_type(VrpnWriter::kRateName);
-  takes_forces_ = stream.knows_type(VrpnWriter::kForceName);
-  writer_.describe(outbox_, address_.device, takes_forces_, takes_rates);
-  if (takes_rates) writer_.request_rate(outbox_, settings_.rate);
-}
-
 void VrpnDevice::Link::take(const VrpnStream& stream) {
   count_skipped(stream);
   const bool moved = stream.poses() > poses_taken_;
+  // Sends our names after the server sent its own, which come before the first pose: names sent
+  // earlier would create new devices in the server.
+  if (moved && !std::exchange(described_, true)) {
+    const bool takes_rates = stream.knows_type(VrpnWriter::kRateName);
+    takes_forces_ = stream.knows_type(VrpnWriter::kForceName);
+    writer_.describe(outbox_, address_.device, takes_forces_, takes_rates);
+    if (takes_rates) writer_.request_rate(outbox_, settings_.rate);
+  }
   if (moved) {
-    describe_device(stream);
     poses_ += stream.poses() - poses_taken_;
     poses_taken_ = stream.poses();
     last_pose_ = report_.arrival = steady_seconds();

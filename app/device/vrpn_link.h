@@ -49,7 +49,6 @@ class VrpnDevice::Link {
   Trouble run_connection(int socket);
   std::optional<Trouble> receive(int socket, VrpnStream& stream);
   std::optional<Trouble> send_pending(int socket);
-  void describe_device(const VrpnStream& stream);
   void take(const VrpnStream& stream);
   void count_skipped(const VrpnStream& stream);
   void send_force();

@@ -77,14 +77,12 @@ void add_companions(std::vector<RecordedFile>& files, const std::filesystem::pat
   }
 }
 
-void add_mesh_file(std::vector<RecordedFile>& files, const std::filesystem::path& file) {
-  const std::size_t before = files.size();
-  add_decoded(files, file, [](const std::filesystem::path& mesh) { read_model(mesh); });
-  if (files.size() > before) add_companions(files, file);
-}
-
 void add_mesh(std::vector<RecordedFile>& files, const ShapeDescription& geometry) {
-  if (const auto* mesh = std::get_if<MeshGeometry>(&geometry)) add_mesh_file(files, mesh->file);
+  const auto* mesh = std::get_if<MeshGeometry>(&geometry);
+  if (!mesh) return;
+  const std::size_t before = files.size();
+  add_decoded(files, mesh->file, [](const std::filesystem::path& file) { read_model(file); });
+  if (files.size() > before) add_companions(files, mesh->file);
 }
 
 void add_meshes_of(const RobotDescription& robot, std::vector<RecordedFile>& files) {

@@ -21,20 +21,6 @@ void visit_all(StateArchive& memory, std::vector<T>& items, std::size_t min_byte
 }
 constexpr std::size_t kMinText = 8, kVector = 24, kMinContact = 16 + 4 * kVector;  // [bytes]
 
-void visit_path(StateArchive& memory, std::filesystem::path& path) {
-  std::string text = path.string();
-  memory.visit(text);
-  path = text;
-}
-
-void visit_number(StateArchive& memory, std::optional<double>& number) {
-  bool given = number.has_value();
-  double value = number.value_or(0);
-  memory.visit(given);
-  memory.visit(value);
-  number = given ? std::optional(value) : std::nullopt;
-}
-
 // Calls f(name, member) for all options of a run, in the order of the file.
 template <class Run, class F>
 void for_each_option(Run& run, const F& f) {
@@ -55,12 +41,19 @@ void for_each_option(Run& run, const F& f) {
 
 void visit_run(StateArchive& memory, RecordedRun& run) {
   for_each_option(run, [&]<class T>(const char*, T& option) {
-    if constexpr (std::is_same_v<T, std::filesystem::path>)
-      visit_path(memory, option);
-    else if constexpr (std::is_same_v<T, std::optional<double>>)
-      visit_number(memory, option);
-    else
+    if constexpr (std::is_same_v<T, std::filesystem::path>) {
+      std::string text = option.string();
+      memory.visit(text);
+      option = text;
+    } else if constexpr (std::is_same_v<T, std::optional<double>>) {
+      bool given = option.has_value();
+      double value = option.value_or(0);
+      memory.visit(given);
+      memory.visit(value);
+      option = given ? std::optional(value) : std::nullopt;
+    } else {
       memory.visit(option);
+    }
   });
 }
 

@@ -26,12 +26,6 @@ void draw_axis(SceneView& view, const Snapshot& snapshot, std::size_t body) {
   add_label(view.list, p + reach * z, view.model->joint_name[body], {10, -8}, 13);
 }
 
-void draw_frame(DrawList& list, const Pose& X_W, double length, double radius) {
-  for (int c = 0; c < 3; ++c)
-    add_arrow(list, X_W.p, X_W.p + length * X_W.R.col(c), radius,
-              palette::kAxes[static_cast<std::size_t>(c)]);
-}
-
 void show_joints(SceneView& view, const Snapshot& snapshot) {
   bool any_rotational = false, any_translational = false;
   for (std::size_t i = 1; i < view.model->parent.size(); ++i) {
@@ -49,7 +43,10 @@ void show_frames(SceneView& view, const Snapshot& snapshot) {
   const double length = 0.12 * view.scales.length, radius = 0.45 * view.scales.radius();
   for (std::size_t i = 1; i < view.model->parent.size(); ++i) {
     const OfBody mark(view.list, i);
-    draw_frame(view.list, snapshot.k.X_WL[i], length, radius);
+    const Pose& X_WL = snapshot.k.X_WL[i];
+    for (int c = 0; c < 3; ++c)
+      add_arrow(view.list, X_WL.p, X_WL.p + length * X_WL.R.col(c), radius,
+                palette::kAxes[static_cast<std::size_t>(c)]);
   }
   const char* names[] = {"x", "y", "z"};
   for (std::size_t c = 0; c < 3; ++c)

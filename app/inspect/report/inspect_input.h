@@ -53,10 +53,6 @@ class SceneInspector {
   std::unique_ptr<FirstStep> step_;
 };
 
-// SceneInspector of one instant.
-Inspected inspect_scene(SimulateInput& input, double h, StateArchive* memory = nullptr,
-                        Integrator of_run = Integrator::semi_implicit);
-
 // Torques and wrenches of the state file.
 std::vector<AppliedForce> given_actors(const RobotInput& input);
 // Adds a force "BEFORE joint AFTER" for each joint with nonzero tau (by velocity).

@@ -254,8 +254,4 @@ Inspected SceneInspector::look(StateArchive* memory) {
   return step_->look(memory);
 }
 
-Inspected inspect_scene(SimulateInput& input, double h, StateArchive* memory, Integrator of_run) {
-  return SceneInspector(input, h, {}, of_run).look(memory);
-}
-
 }  // namespace twinarm

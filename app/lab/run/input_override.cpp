@@ -92,14 +92,6 @@ std::vector<double> InputOverride::own_q(double t, double toward) const {
   return q;
 }
 
-void InputOverride::take_over(double t, double h) {
-  if (!std::exchange(continues_, false)) {
-    target_.q = own_q(t, t + h);
-    target_.gripper_closed = own_->sample(t, t + h).button;
-  }
-  std::ranges::fill(target_.qd, 0.0);
-}
-
 void InputOverride::make_loop(double h) {
   loop_revision_ = input_.revision();
   is_live_ = true;
@@ -135,7 +127,11 @@ std::optional<HandStep> InputOverride::before_step(const State<double>& x, doubl
   if (!active_ && !continues_ && source == OperatorInput::Source::scene) return std::nullopt;
   const bool begins = !active_;
   if (begins) {
-    take_over(t, h);
+    if (!std::exchange(continues_, false)) {
+      target_.q = own_q(t, t + h);
+      target_.gripper_closed = own_->sample(t, t + h).button;
+    }
+    std::ranges::fill(target_.qd, 0.0);
     invalidate_targets(t);
   }
   if (!is_live_ || loop_revision_ != input_.revision()) make_loop(h);

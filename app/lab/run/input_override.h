@@ -73,7 +73,6 @@ class InputOverride {
   void select_couplings();
   const OperatorMotion* substitute_at(double t, double toward) const;
   std::vector<double> own_q(double t, double toward) const;
-  void take_over(double t, double h);
   void make_loop(double h);
   void move_towards(const std::vector<double>& goal, double h);
   void invalidate_targets(double t);

@@ -70,7 +70,10 @@ void LabSession::work() {
     } catch (const std::exception& error) {
       show_failure(error.what());
     }
-    sleep();
+    if (state_.loop.has_single_steps()) continue;
+    // Until the next step is due, or the inbox has something.
+    state_.inbox.sleep_until(state_.status.playing ? next_tick_ : Clock::now() + kIdle);
+    next_tick_ = std::max(next_tick_ + kTick, Clock::now());
   }
 }
 
@@ -145,13 +148,6 @@ void LabSession::show_end() {
     });
   });
   state_.status.failure = std::move(end);
-}
-
-// Until the next step is due, or the inbox has something.
-void LabSession::sleep() {
-  if (state_.loop.has_single_steps()) return;
-  state_.inbox.sleep_until(state_.status.playing ? next_tick_ : Clock::now() + kIdle);
-  next_tick_ = std::max(next_tick_ + kTick, Clock::now());
 }
 
 }  // namespace twinarm

@@ -43,7 +43,6 @@ class LabSession {
   void pause();
   void show_failure(const std::string& why);
   void show_end();
-  void sleep();
 
   SessionState state_;
   SessionCommands commands_;

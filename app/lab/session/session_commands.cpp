@@ -187,7 +187,14 @@ void SessionCommands::adopt(BuildResult built) {
   for (const std::string& warning : run->warnings())
     if (!goes_on) s_.inbox.note("warning", warning);
   if (!run->restart_reason().empty()) s_.inbox.note("note", run->restart_reason());
-  if (!goes_on) clear_history();
+  if (!goes_on) {
+    s_.timeline.clear();
+    s_.loop.names() = {};
+    s_.loop.repeat_inputs(false);
+    s_.status.branch.reset();
+    s_.status.at.reset();
+    s_.status.playing = true;
+  }
   if (request.what == BuildRequest::What::open) {
     s_.pending.clear();
     ++s_.status.scene;
@@ -204,15 +211,6 @@ void SessionCommands::adopt(BuildResult built) {
   s_.status.failure.reset();
   s_.is_stale = s_.has_news = true;
   s_.loop.set_pace(s_.status.speed);
-}
-
-void SessionCommands::clear_history() {
-  s_.timeline.clear();
-  s_.loop.names() = {};
-  s_.loop.repeat_inputs(false);
-  s_.status.branch.reset();
-  s_.status.at.reset();
-  s_.status.playing = true;
 }
 
 }  // namespace twinarm

@@ -31,7 +31,6 @@ class SessionCommands {
   void open_from_gallery(const std::string& name);
   void request(BuildRequest::What what, double at = 0);
   Timeline::Frame start_of(const BuildRequest& request);
-  void clear_history();
 
   SessionState& s_;
   const std::vector<GalleryScene>& gallery_;

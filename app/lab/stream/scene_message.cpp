@@ -32,12 +32,6 @@ void write_layers(JsonWriter& json, const std::vector<std::vector<LegendLine>>& 
   json.end_array();
 }
 
-void write_channels(JsonWriter& json, const std::vector<RunColumn>& channels) {
-  json.key("channels").list(channels, [&](const RunColumn& channel) {
-    json.object([&] { write_channel(json, channel); });
-  });
-}
-
 void write_bodies(JsonWriter& json, const SimulatePlan& plan) {
   const Model<double>& model = plan.input.robot.model;
   const int links = plan.input.scene ? plan.input.scene->robot_bodies : model.body_count() - 1;
@@ -125,7 +119,9 @@ std::string LabView::scene_message() const {
                 {"meshes", store_.meshes()},
                 {"textures", store_.textures()}});
   write_layers(json, legends_);
-  write_channels(json, channels_.all());
+  json.key("channels").list(channels_.all(), [&](const RunColumn& channel) {
+    json.object([&] { write_channel(json, channel); });
+  });
   json.key("ledger").texts(rows_);
   write_bodies(json, *plan_);
   const InputOverride* input = snapshots_.input_override();

@@ -22,10 +22,6 @@ namespace {
 constexpr int kStudioSamples = 64;
 constexpr double kKeyDiscRadius = 0.05;  // tangent of the key light's half angle
 
-ShaderVariant variant_of(Quality quality) {
-  return {quality == Quality::normal, quality == Quality::studio};
-}
-
 void check_camera(const Camera& camera) {
   const auto refuse = [](const std::string& problem, const std::string& fix) {
     throw InputError({Diagnostic{"", 0, "camera", problem, fix, "render.camera"}});
@@ -140,8 +136,9 @@ class Painter::Impl {
         quality_(quality) {
     const CurrentContext current(*context_);
     gl_.load([this](const char* name) { return context_->proc(name); });
-    pass_ = std::make_unique<ScenePass>(gl_, width, height, variant_of(quality),
-                                        quality == Quality::normal);
+    const bool is_normal = quality == Quality::normal;
+    const ShaderVariant variant{is_normal, quality == Quality::studio};
+    pass_ = std::make_unique<ScenePass>(gl_, width, height, variant, is_normal);
   }
   ~Impl() {
     const CurrentContext current(*context_);

@@ -118,15 +118,12 @@ void ScenePass::set_floor(const Program& program, const LightSample& sample) con
   set(Uniform::per_grid, {1 / ground.cell, 1 / strong, 1 / floor_radius_, 1 / fade});
 }
 
-// The margin is the filter radius of 2.5 texels and the normal offset.
-std::vector<FloorTiles> ScenePass::shadow_tiles(const LightSample& sample) const {
-  const double texel = 2.02 * bounds_.solid.radius / used_side(key_map_);
-  return floor_tiles(casters_, {sample.key_W, list_->ground.height, 2.5 * texel + normal_offset()},
-                     shifted_clip(sample), width_, height_);
-}
-
 void ScenePass::draw_floor(const LightSample& sample) const {
-  const std::vector<FloorTiles> tiles = shadow_tiles(sample);
+  // The margin is the filter radius of 2.5 texels and the normal offset.
+  const double texel = 2.02 * bounds_.solid.radius / used_side(key_map_);
+  const std::vector<FloorTiles> tiles =
+      floor_tiles(casters_, {sample.key_W, list_->ground.height, 2.5 * texel + normal_offset()},
+                  shifted_clip(sample), width_, height_);
   gl_.Enable(GL_SCISSOR_TEST);
   gl_.BindVertexArray(no_vertices_);
   for (const bool shadowed : {false, true}) {

@@ -62,7 +62,9 @@ void ScenePass::prepare(const DrawList& list) {
                               {gl_, floor_shader(with(&ShaderVariant::key_shadow, false, variant))},
                               {gl_, background_shader(variant)}});
   }
-  forget_unused();
+  const auto is_unused = [](const auto& entry) { return entry.second.source.use_count() == 1; };
+  std::erase_if(cache_, is_unused);
+  std::erase_if(textures_, is_unused);
   items_.clear();
   casters_.clear();
   for (const Instance& instance : list.instances) add_item(list, instance);
@@ -97,12 +99,6 @@ void ScenePass::add_item(const DrawList& list, const Instance& instance) {
           {{instance.X_WM.R, instance.X_WM * scale.cwiseProduct(cached.box.center())},
            0.5 * scale.cwiseProduct(cached.box.sizes())});
   }
-}
-
-void ScenePass::forget_unused() {
-  const auto is_unused = [](const auto& entry) { return entry.second.source.use_count() == 1; };
-  std::erase_if(cache_, is_unused);
-  std::erase_if(textures_, is_unused);
 }
 
 void ScenePass::draw(const LightSample& sample) {

@@ -108,7 +108,6 @@ class ScenePass {
   void draw_solids(const LightSample& sample) const;
   void draw_floor(const LightSample& sample) const;
   void set_floor(const Program& program, const LightSample& sample) const;
-  std::vector<FloorTiles> shadow_tiles(const LightSample& sample) const;
   void draw_background(const LightSample& sample) const;
   void draw_hidden(const LightSample& sample) const;
   void draw_translucent(const LightSample& sample) const;
@@ -116,7 +115,6 @@ class ScenePass {
   const Backdrop& backdrop() const { return *backdrops_[has_horizon() ? 1 : 0]; }
   bool has_horizon() const { return list_->background.kind == Background::Kind::landscape; }
   Eigen::Matrix4d shifted_clip(const LightSample& sample) const;
-  void forget_unused();
 
   const GlTable& gl_;
   int width_, height_;

@@ -33,12 +33,6 @@ std::optional<double> value_at(const Plot& plot, const PlotCurve& curve, double 
   return y;
 }
 
-void draw_curve(Image& image, const std::vector<Vector2d>& points, const Color& color) {
-  for (std::size_t i = 0; i + 1 < points.size(); ++i)
-    if (points[i].allFinite() && points[i + 1].allFinite())
-      draw_line(image, points[i], points[i + 1], 2, color);
-}
-
 Image blank(int width, int height) {
   Image image = make_image(width, height);
   for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
@@ -148,10 +142,10 @@ PlotStrip::PlotStrip(std::vector<Plot> plots, int width, int height)
                    tick_px, kPlotInk);
     }
     for (const PlotCurve& curve : plots_[p].curves) {
-      std::vector<Vector2d> points;
-      for (std::size_t i = 0; i < plots_[p].t.size(); ++i)
-        points.push_back(frame.pixel(plots_[p].t[i], curve.y[i]));
-      draw_curve(ground_, points, curve.color);
+      const auto point = [&](std::size_t i) { return frame.pixel(plots_[p].t[i], curve.y[i]); };
+      for (std::size_t i = 0; i + 1 < plots_[p].t.size(); ++i)
+        if (point(i).allFinite() && point(i + 1).allFinite())
+          draw_line(ground_, point(i), point(i + 1), 2, curve.color);
     }
     draw_heading(ground_, letters, plots_[p], frame.low, frame.high, size_px_);
     frames_.push_back(frame);

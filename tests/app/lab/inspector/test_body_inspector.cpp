@@ -93,7 +93,7 @@ TEST_CASE("inspector: values equal those of `inspect`; the energy balance is the
   InspectedRun sample(file, 50);
   SimulatePlan& plan = sample.plan;
   StateArchive memory = simulation_memory(sample.frame.recorded.memory);
-  Inspected inspected = inspect_scene(plan.input, plan.run.step, &memory);
+  Inspected inspected = SceneInspector(plan.input, plan.run.step).look(&memory);
   const Inspection in(plan.input.robot.model, inspected.x, inspected.actors, inspected.loops);
   JsonWriter json;
   json.begin_object();
