@@ -17,7 +17,10 @@ export abstract class RecordedPage {
   readonly stage: Stage;
   readonly theme = new Theme(() => this.recolor());
   protected readonly tabs = new Tabs();
-  protected readonly views = new Views((name) => this.look(name), () => this.release());
+  protected readonly views = new Views((name) => this.look(name), () => {
+    this.stage.follow(null);
+    this.touch();
+  });
   private stale = true; // the 3-D view
 
   constructor(private readonly data: PageData, private readonly layers = data.layers, hasNumbers = true) {
@@ -75,10 +78,6 @@ export abstract class RecordedPage {
   protected look(name: ViewName): void {
     this.views.body = null;
     this.stage.look(name);
-  }
-  private release(): void {
-    this.stage.follow(null);
-    this.touch();
   }
   protected touch(): void {
     this.stale = true;

@@ -84,7 +84,7 @@ class Page extends RecordedPage {
   }
 
   protected tick(now: number): void {
-    this.player.tick(now);
+    this.player.advance(now, this.player.end);
     for (const panel of this.panels) if (!panel.root.closest('[hidden]')) panel.draw?.();
   }
 

@@ -97,8 +97,7 @@ export class BranchDialog {
       changes.push(`${path}=${value}`);
     }
     this.root.close();
-    this.rewind.look(null);
-    this.page.send({ do: 'branch', at: this.at, changes });
+    this.rewind.branch(this.at, changes);
   }
 }
 

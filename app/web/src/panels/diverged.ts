@@ -70,8 +70,9 @@ export class Diverged implements Panel {
     };
     const remedies = dead.remedies.map(({ words, changes }, i) => {
       const title = `rewinds ${back} and sets ${changes.join(', ')}`;
-      return changing(words, title, () => this.branch(from, changes), i === 0 ? 'main' : '');
+      return changing(words, title, () => this.rewind.branch(from, changes), i === 0 ? 'main' : '');
     });
+    const heading = element('h3', `Stable settings (rewinds ${back})`);
     const replay = () => this.rewind.play(from, SLOW, dead.time);
     return [
       element(
@@ -82,18 +83,12 @@ export class Diverged implements Panel {
       ),
       ...rest.map((line) => element('p', line)),
       element('dl', ...facts),
-      ...(remedies.length > 0 ? [element('h3', `Stable settings (rewinds ${back})`)] : []),
-      ...(remedies.length > 0 ? [element('div.remedies', ...remedies)] : []),
+      ...(remedies.length > 0 ? [heading, element('div.remedies', ...remedies)] : []),
       element(
         'div.ends',
         button(`Replay the last second at ${SLOW}×`, 'slow motion up to the divergence', replay),
         changing('Restart', 'with the same parameters', () => this.page.send({ do: 'reset' })),
       ),
     ];
-  }
-
-  private branch(at: number, changes: string[]): void {
-    this.rewind.look(null);
-    this.page.send({ do: 'branch', at, changes }); // and plays
   }
 }

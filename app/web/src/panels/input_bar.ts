@@ -37,7 +37,9 @@ export class InputBar implements Panel {
   private readonly force = element('meter', { 'aria-label': 'device force in newtons', optimum: '0' });
   private readonly number = element('output.newtons', { 'aria-live': 'off' });
   private readonly warning = element('div.warning.fine');
-  private readonly gripper = button('', 'gripper (g)', () => this.toggleGripper());
+  private readonly gripper = button('', 'gripper (g)', () => {
+    this.page.operator.button(0, !this.page.operator.isGripperClosed);
+  });
   private column = -1;
   private newest: Frame | null = null;
   private drawn = '';
@@ -64,10 +66,6 @@ export class InputBar implements Panel {
       this.facts,
       this.control,
     );
-  }
-
-  private toggleGripper(): void {
-    this.page.operator.button(0, !this.page.operator.isGripperClosed);
   }
 
   // Channel of the device force, if there is one.

@@ -4,7 +4,7 @@ import { BranchDialog } from './branch_dialog';
 import { type Frame, isViewOnly, type StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 import { Rewind } from '../source/playhead';
-import { SaveMenu } from './menus';
+import { saveMenu } from './menus';
 import { putMark } from '../ui/slider';
 import { type Clock, speedText, TimeBar } from './time_bar';
 
@@ -32,7 +32,7 @@ export class LabTimeBar implements Panel, Clock {
   constructor(private readonly page: LabPage, private readonly changes: () => string[]) {
     this.root.append(this.dialog.root);
     this.bar.slider.root.append(this.branchMark, this.end);
-    this.bar.ends.append(this.branch, this.present, new SaveMenu().root);
+    this.bar.ends.append(this.branch, this.present, saveMenu());
     this.bar.slider.input.addEventListener('keydown', (event) => {
       const way = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 }[event.key];
       if (!way) return;

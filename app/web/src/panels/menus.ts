@@ -10,18 +10,16 @@ const FILES: [string, string, string][] = [
   ['/scene', 'Scene', 'with the current parameters (.toml)'],
 ];
 
-export class SaveMenu {
-  readonly root = element('details.menu');
-
-  constructor() {
-    const links = FILES.map(([address, name, what]) => {
-      const click = () => (this.root.open = false);
-      const text = [element('b', name), element('span.fine', what)];
-      return element('a', { href: address, download: '', click }, ...text);
-    });
-    this.root.append(element('summary', { title: 'save, share' }, 'Save'), element('div.sheet', ...links));
-    closeOutside(this.root);
-  }
+export function saveMenu(): HTMLElement {
+  const click = () => (menu.open = false);
+  const links = FILES.map(([address, name, what]) => {
+    const text = [element('b', name), element('span.fine', what)];
+    return element('a', { href: address, download: '', click }, ...text);
+  });
+  const summary = element('summary', { title: 'save, share' }, 'Save');
+  const menu = element('details.menu', summary, element('div.sheet', ...links));
+  closeOutside(menu);
+  return menu;
 }
 
 // Closed by Escape and by a press elsewhere.

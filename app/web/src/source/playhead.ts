@@ -105,10 +105,6 @@ export class Player extends Playhead implements RunSource, Clock {
     this.look(this.start + share * (this.end - this.start));
   }
 
-  tick(now: number): void {
-    this.advance(now, this.end);
-  }
-
   protected put(time: number): void {
     this.at = Math.min(this.end, Math.max(this.start, time));
     this.changed();
@@ -127,6 +123,12 @@ export class Rewind extends Playhead {
 
   constructor(private readonly page: LabPage) {
     super(null);
+  }
+
+  // Continues from that instant with these changes, and plays.
+  branch(at: number, changes: string[]): void {
+    this.look(null);
+    this.page.send({ do: 'branch', at, changes });
   }
 
   // Takes the instant of the lab's state, unless a request of this page is pending.
