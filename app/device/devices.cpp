@@ -32,6 +32,22 @@ std::shared_ptr<const OperatorMotion> synthetic_motion(const std::string& seed) 
   return std::make_shared<SyntheticOperator>(*number);
 }
 
+// "name:rest" at the first colon.
+std::pair<std::string, std::string> split_at_colon(const std::string& spec) {
+  const auto colon = spec.find(':');
+  if (colon == std::string::npos) return {spec, ""};
+  return {spec.substr(0, colon), spec.substr(colon + 1)};
+}
+
+template <class Entry>
+const Entry& entry_named(const std::vector<Entry>& entries, const std::string& name,
+                         const std::string& kind) {
+  for (const Entry& entry : entries)
+    if (entry.name == name) return entry;
+  refuse_spec(name, fmt::format("unknown {}", kind),
+              name_remedy(name, names_of(entries), kind + "s"));
+}
+
 }  // namespace
 
 const std::vector<ScriptedMotion>& scripted_motions() {
@@ -64,26 +80,6 @@ const std::vector<ScriptedMotion>& scripted_motions() {
        }}};
   return motions;
 }
-
-namespace {
-
-// "name:rest" at the first colon.
-std::pair<std::string, std::string> split_at_colon(const std::string& spec) {
-  const auto colon = spec.find(':');
-  if (colon == std::string::npos) return {spec, ""};
-  return {spec.substr(0, colon), spec.substr(colon + 1)};
-}
-
-template <class Entry>
-const Entry& entry_named(const std::vector<Entry>& entries, const std::string& name,
-                         const std::string& kind) {
-  for (const Entry& entry : entries)
-    if (entry.name == name) return entry;
-  refuse_spec(name, fmt::format("unknown {}", kind),
-              name_remedy(name, names_of(entries), kind + "s"));
-}
-
-}  // namespace
 
 const std::vector<DeviceKind>& device_kinds() {
   static const std::vector<DeviceKind> kinds = [] {

@@ -26,6 +26,27 @@ int connect_error(int socket, double patience, int stop) {
   return getsockopt(socket, SOL_SOCKET, SO_ERROR, &error, &size) == 0 ? error : errno;
 }
 
+// Accessible to the signal handler.
+constexpr std::array<int, 4> kSignals{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+volatile sig_atomic_t raw_fd = -1;
+termios original;
+struct sigaction handlers_before[kSignals.size()];
+
+// Restores the terminal, then calls the previous handler.
+void restore_terminal(int signal_number) {
+  if (raw_fd >= 0) tcsetattr(raw_fd, TCSANOW, &original);  // async-signal-safe
+  for (std::size_t n = 0; n < kSignals.size(); ++n) {
+    if (kSignals[n] != signal_number) continue;
+    const auto before = handlers_before[n].sa_handler;
+    if (before == SIG_DFL) {
+      signal(signal_number, SIG_DFL);
+      raise(signal_number);
+    } else if (before != SIG_IGN) {
+      before(signal_number);
+    }
+  }
+}
+
 }  // namespace
 
 TcpPeer::TcpPeer(const std::string& host, int port) {
@@ -57,31 +78,6 @@ OwnedFd TcpPeer::connect(double patience, int stop, std::string& why_not) const 
   }
   return OwnedFd();
 }
-
-namespace {
-
-// Accessible to the signal handler.
-constexpr std::array<int, 4> kSignals{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
-volatile sig_atomic_t raw_fd = -1;
-termios original;
-struct sigaction handlers_before[kSignals.size()];
-
-// Restores the terminal, then calls the previous handler.
-void restore_terminal(int signal_number) {
-  if (raw_fd >= 0) tcsetattr(raw_fd, TCSANOW, &original);  // async-signal-safe
-  for (std::size_t n = 0; n < kSignals.size(); ++n) {
-    if (kSignals[n] != signal_number) continue;
-    const auto before = handlers_before[n].sa_handler;
-    if (before == SIG_DFL) {
-      signal(signal_number, SIG_DFL);
-      raise(signal_number);
-    } else if (before != SIG_IGN) {
-      before(signal_number);
-    }
-  }
-}
-
-}  // namespace
 
 RawTerminal::RawTerminal(int fd) {
   if (raw_fd >= 0 || tcgetattr(fd, &original) != 0) return;

@@ -24,6 +24,32 @@ namespace {
 constexpr int kGestureTick = 20;   // for the release of keys [ms]
 constexpr int kReopenEvery = 500;  // [ms]
 
+OwnedFd open_to_read(const std::string& path) {
+  return OwnedFd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
+}
+
+std::string first_joystick() {
+  for (int n = 0; n < 32; ++n) {
+    const std::string path = fmt::format("/dev/input/js{}", n);
+    if (std::filesystem::exists(path)) return path;
+  }
+  return "/dev/input/js0";
+}
+
+OwnedFd open_socket(const std::string& path) {
+  sockaddr_un name{};
+  name.sun_family = AF_UNIX;
+  if (path.size() >= sizeof name.sun_path) {
+    errno = ENAMETOOLONG;
+    return OwnedFd();
+  }
+  std::memcpy(name.sun_path, path.c_str(), path.size() + 1);
+  OwnedFd fd(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (connect(fd.get(), reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0)
+    return OwnedFd();
+  return fd;
+}
+
 }  // namespace
 
 GestureDevice::GestureDevice(GestureSource source, const VirtualOmniSettings& settings)
@@ -75,36 +101,6 @@ bool GestureDevice::read_some() {
 }
 
 // No library: SDL requires libGL, which conflicts with OSMesa; libspnav requires X11.
-
-namespace {
-
-OwnedFd open_to_read(const std::string& path) {
-  return OwnedFd(open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
-}
-
-std::string first_joystick() {
-  for (int n = 0; n < 32; ++n) {
-    const std::string path = fmt::format("/dev/input/js{}", n);
-    if (std::filesystem::exists(path)) return path;
-  }
-  return "/dev/input/js0";
-}
-
-OwnedFd open_socket(const std::string& path) {
-  sockaddr_un name{};
-  name.sun_family = AF_UNIX;
-  if (path.size() >= sizeof name.sun_path) {
-    errno = ENAMETOOLONG;
-    return OwnedFd();
-  }
-  std::memcpy(name.sun_path, path.c_str(), path.size() + 1);
-  OwnedFd fd(socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  if (connect(fd.get(), reinterpret_cast<const sockaddr*>(&name), sizeof name) != 0)
-    return OwnedFd();
-  return fd;
-}
-
-}  // namespace
 
 GestureSource open_keyboard(const std::string& path) {
   const std::string terminal = path.empty() ? "/dev/tty" : path;

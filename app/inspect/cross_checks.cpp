@@ -28,48 +28,6 @@ Check worst_of(const Inspection& in, const char* name, const char* meaning, cons
   return check;
 }
 
-}  // namespace
-
-Errors balance_errors(const Inspection& in) {
-  Errors errors(in.body_count());
-  for (std::size_t i = 1; i < in.body_count(); ++i) errors[i] = balance_of(in, i).residual;
-  for (const JointBalance& joint : joint_balances(in))
-    errors[joint.body] = std::max(errors[joint.body], as_error(joint.residual));
-  return errors;
-}
-
-std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& tolerances) {
-  const SubtreeErrors subtree = subtree_errors(in);
-  const WholeErrors whole = whole_errors(in);
-  std::vector<Check> checks;
-  const auto add = [&](const char* name, const char* meaning, const Errors& errors,
-                       double tolerance) {
-    checks.push_back(worst_of(in, name, meaning, errors, tolerance));
-  };
-  const double algebra = tolerances.algebra;
-  add("v", "rate of the poses, by dual numbers", velocity_errors(in), algebra);
-  add("D", "Schur complement of M: descendants free (CRBA)", subtree.D, algebra);
-  add("U", "wrench for unit qdd, descendants free (CRBA, RNEA)", subtree.U, algebra);
-  add("pA", "wrench for a = 0, descendants free (CRBA, RNEA)", subtree.pA, algebra);
-  add("u", "net joint force for a = 0 (CRBA, RNEA)", subtree.u, algebra);
-  add("qdd", "M qdd + h = tau (CRBA, RNEA)", whole.qdd, algebra);
-  add("a", "accelerations from qdd (RNEA)", whole.a, algebra);
-  add("tau", "joint forces from qdd (RNEA)", whole.tau, algebra);
-  add("f", "wrenches through joints, IA a + pA (RNEA)", whole.f, algebra);
-  add("balance", "sum of the wrenches on each body is zero", balance_errors(in), algebra);
-  add("momentum", "rate of momentum of each body, by differences", momentum_errors(in),
-      tolerances.momentum);
-  const std::vector<NamedError> loops = loop_errors(in);
-  if (loops.empty()) return checks;
-  Check closed{"loops", "loop closure g'' = 0, by differences of poses", 0, tolerances.loops, ""};
-  for (const auto& [name, error] : loops)
-    if (as_error(error) > closed.error) closed.error = as_error(error), closed.worst = name;
-  checks.push_back(std::move(closed));
-  return checks;
-}
-
-namespace {
-
 // Curve with the velocity and the acceleration of the motion at s = 0.
 State<double> state_along_motion(const Inspection& in, double s) {
   State<double> x = in.x;
@@ -115,6 +73,44 @@ double step_of(const Inspection& in) {
 }
 
 }  // namespace
+
+Errors balance_errors(const Inspection& in) {
+  Errors errors(in.body_count());
+  for (std::size_t i = 1; i < in.body_count(); ++i) errors[i] = balance_of(in, i).residual;
+  for (const JointBalance& joint : joint_balances(in))
+    errors[joint.body] = std::max(errors[joint.body], as_error(joint.residual));
+  return errors;
+}
+
+std::vector<Check> run_checks(const Inspection& in, const CheckTolerances& tolerances) {
+  const SubtreeErrors subtree = subtree_errors(in);
+  const WholeErrors whole = whole_errors(in);
+  std::vector<Check> checks;
+  const auto add = [&](const char* name, const char* meaning, const Errors& errors,
+                       double tolerance) {
+    checks.push_back(worst_of(in, name, meaning, errors, tolerance));
+  };
+  const double algebra = tolerances.algebra;
+  add("v", "rate of the poses, by dual numbers", velocity_errors(in), algebra);
+  add("D", "Schur complement of M: descendants free (CRBA)", subtree.D, algebra);
+  add("U", "wrench for unit qdd, descendants free (CRBA, RNEA)", subtree.U, algebra);
+  add("pA", "wrench for a = 0, descendants free (CRBA, RNEA)", subtree.pA, algebra);
+  add("u", "net joint force for a = 0 (CRBA, RNEA)", subtree.u, algebra);
+  add("qdd", "M qdd + h = tau (CRBA, RNEA)", whole.qdd, algebra);
+  add("a", "accelerations from qdd (RNEA)", whole.a, algebra);
+  add("tau", "joint forces from qdd (RNEA)", whole.tau, algebra);
+  add("f", "wrenches through joints, IA a + pA (RNEA)", whole.f, algebra);
+  add("balance", "sum of the wrenches on each body is zero", balance_errors(in), algebra);
+  add("momentum", "rate of momentum of each body, by differences", momentum_errors(in),
+      tolerances.momentum);
+  const std::vector<NamedError> loops = loop_errors(in);
+  if (loops.empty()) return checks;
+  Check closed{"loops", "loop closure g'' = 0, by differences of poses", 0, tolerances.loops, ""};
+  for (const auto& [name, error] : loops)
+    if (as_error(error) > closed.error) closed.error = as_error(error), closed.worst = name;
+  checks.push_back(std::move(closed));
+  return checks;
+}
 
 Errors velocity_errors(const Inspection& in) {
   using D = Dual<8>;

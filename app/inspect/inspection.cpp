@@ -34,6 +34,30 @@ Forces<double> sum_of(const Model<double>& model, const std::vector<AppliedForce
   return sum;
 }
 
+Matrix3 link_from_body(const Model<double>& model, std::size_t body) {
+  return to_eigen(model.turn[body]).transpose();
+}
+
+struct QuantityConverter {
+  const Inspection& in;
+  std::size_t body;
+  LinkAxes axes;
+
+  template <class T>
+  DisplayedQuantity of(const Quantity& quantity, const std::vector<T>& field) const {
+    using By = Quantity::By;
+    if constexpr (std::is_same_v<T, double>) {
+      if (quantity.by == By::square) return {quantity, kJointFrame, axes.square(field)};
+      return {quantity, kJointFrame, axes.joint(field)};
+    } else {
+      if constexpr (std::is_same_v<T, Motion<double>> || std::is_same_v<T, Force<double>>)
+        if (quantity.by == By::velocity) return {quantity, kLinkFrame, axes.columns(field)};
+      const bool is_transform = std::is_same_v<T, Transform<double>>;
+      return {quantity, is_transform ? kParentToLinkFrame : kLinkFrame, axes.show(field[body])};
+    }
+  }
+};
+
 }  // namespace
 
 AppliedForce actor_of(std::string source, const Forces<double>& added) {
@@ -67,34 +91,6 @@ std::vector<std::size_t> Inspection::children(std::size_t i) const {
     if (parent(j) == i) found.push_back(j);
   return found;
 }
-
-namespace {
-
-Matrix3 link_from_body(const Model<double>& model, std::size_t body) {
-  return to_eigen(model.turn[body]).transpose();
-}
-
-struct QuantityConverter {
-  const Inspection& in;
-  std::size_t body;
-  LinkAxes axes;
-
-  template <class T>
-  DisplayedQuantity of(const Quantity& quantity, const std::vector<T>& field) const {
-    using By = Quantity::By;
-    if constexpr (std::is_same_v<T, double>) {
-      if (quantity.by == By::square) return {quantity, kJointFrame, axes.square(field)};
-      return {quantity, kJointFrame, axes.joint(field)};
-    } else {
-      if constexpr (std::is_same_v<T, Motion<double>> || std::is_same_v<T, Force<double>>)
-        if (quantity.by == By::velocity) return {quantity, kLinkFrame, axes.columns(field)};
-      const bool is_transform = std::is_same_v<T, Transform<double>>;
-      return {quantity, is_transform ? kParentToLinkFrame : kLinkFrame, axes.show(field[body])};
-    }
-  }
-};
-
-}  // namespace
 
 LinkFrame::LinkFrame(const Model<double>& model, std::size_t body)
     : R_LB_(link_from_body(model, body)),

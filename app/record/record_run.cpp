@@ -139,6 +139,45 @@ void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_o
   }
 }
 
+Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan& prepared) {
+  const RecordedFrame begin = recording.frame(first);
+  const RecordedFrame last = recording.frame(recording.size() - 1);
+  Replay found;
+  found.step = begin.step;
+  found.from = found.to = begin.t;
+  found.first = first;
+  found.hash = begin.hash;
+  if (prepared.input.scene)
+    for (int b = prepared.input.scene->robot_bodies + 1;
+         b < prepared.input.robot.model.body_count(); ++b)
+      found.bodies.push_back(prepared.input.robot.model.body_name[static_cast<std::size_t>(b)]);
+  std::size_t next = first;
+  RunWatch watch;
+  watch.look = [&](RunView& run) {
+    if (next >= recording.size()) return;
+    const RecordedFrame recorded = recording.frame(next);
+    if (run.step() != recorded.step) return;
+    RecordedFrame frame = frame_of(run, prepared);
+    found.to = frame.t;
+    if (next == first) {
+      found.hash_again = frame.hash;
+    } else {
+      ++found.compared;
+      const bool same = frame.hash == recorded.hash && frame.memory == recorded.memory;
+      found.equal += same ? 1 : 0;
+      if (!same && found.first_different < 0) found.first_different = frame.t;
+    }
+    frame.memory.clear();
+    add_ledgers(run, found.rows, found.momentum_rows, frame);
+    found.frames.push_back(std::move(frame));
+    ++next;
+  };
+  watch.tick = [](double) { check_interrupt(); };
+  const RunStart start{begin.memory, last.step};
+  run_plan(prepared.input, prepared.run, watch, &start);
+  return found;
+}
+
 }  // namespace
 
 void describe_frames(const SimulatePlan& prepared, RecordingHeader& header) {
@@ -209,49 +248,6 @@ void RunRecorder::write(RunView& run) {
            [&](char kind, const std::string& name) { return writer_.number_of(kind, name); });
   writer_.write(frame);
 }
-
-namespace {
-
-Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan& prepared) {
-  const RecordedFrame begin = recording.frame(first);
-  const RecordedFrame last = recording.frame(recording.size() - 1);
-  Replay found;
-  found.step = begin.step;
-  found.from = found.to = begin.t;
-  found.first = first;
-  found.hash = begin.hash;
-  if (prepared.input.scene)
-    for (int b = prepared.input.scene->robot_bodies + 1;
-         b < prepared.input.robot.model.body_count(); ++b)
-      found.bodies.push_back(prepared.input.robot.model.body_name[static_cast<std::size_t>(b)]);
-  std::size_t next = first;
-  RunWatch watch;
-  watch.look = [&](RunView& run) {
-    if (next >= recording.size()) return;
-    const RecordedFrame recorded = recording.frame(next);
-    if (run.step() != recorded.step) return;
-    RecordedFrame frame = frame_of(run, prepared);
-    found.to = frame.t;
-    if (next == first) {
-      found.hash_again = frame.hash;
-    } else {
-      ++found.compared;
-      const bool same = frame.hash == recorded.hash && frame.memory == recorded.memory;
-      found.equal += same ? 1 : 0;
-      if (!same && found.first_different < 0) found.first_different = frame.t;
-    }
-    frame.memory.clear();
-    add_ledgers(run, found.rows, found.momentum_rows, frame);
-    found.frames.push_back(std::move(frame));
-    ++next;
-  };
-  watch.tick = [](double) { check_interrupt(); };
-  const RunStart start{begin.memory, last.step};
-  run_plan(prepared.input, prepared.run, watch, &start);
-  return found;
-}
-
-}  // namespace
 
 Replay replay(const Recording& recording, std::size_t first, const std::vector<Change>& changes) {
   const UnpackedRun files(recording.header());

@@ -57,85 +57,6 @@ void visit_run(StateArchive& memory, RecordedRun& run) {
   });
 }
 
-}  // namespace
-
-std::string name_of_pair(const std::vector<std::string>& geometries, int a, int b) {
-  const auto name = [&](int id) {
-    const auto i = static_cast<std::size_t>(id);
-    return i < geometries.size() ? geometries[i] : std::to_string(id);
-  };
-  return name(a) + "-" + name(b);
-}
-
-std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows) {
-  std::vector<double> works(rows, 0);
-  for (std::size_t i = 0; i < std::min(frame.rows.size(), frame.works.size()); ++i)
-    if (frame.rows[i] < rows) works[frame.rows[i]] = frame.works[i];
-  return works;
-}
-
-std::vector<double> momenta_by_row(const RecordedFrame& frame, std::size_t rows) {
-  std::vector<double> momenta(6 * rows, 0);
-  for (std::size_t i = 0; i < frame.momentum_rows.size(); ++i)
-    for (std::size_t c = 0; c < 6; ++c)
-      momenta.at(6 * frame.momentum_rows[i] + c) =
-          frame.momenta.at(2 * i + c / 3)[static_cast<Eigen::Index>(c % 3)];
-  return momenta;
-}
-
-std::uint64_t hash_of(const std::string& bytes, std::uint64_t basis) {
-  std::uint64_t hash = basis;
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
-}
-
-std::uint32_t checksum(const char* bytes, std::size_t count) {
-  return static_cast<std::uint32_t>(
-      crc32_z(0, reinterpret_cast<const unsigned char*>(bytes), count));
-}
-
-void visit_version_2(StateArchive& memory, RecordingHeader& header) {
-  memory.visit(header.program);
-  visit_all(memory, header.command, kMinText, [&](std::string& word) { memory.visit(word); });
-  visit_all(memory, header.files, 2 * kMinText, [&](RecordedFile& file) {
-    memory.visit(file.path);
-    memory.visit(file.bytes);
-  });
-  visit_run(memory, header.run);
-  memory.visit(header.integrator);
-  memory.visit(header.step);
-  memory.visit(header.duration);
-  memory.visit(header.seed);
-  visit_all(memory, header.columns, 2 * kMinText, [&](RecordedColumn& column) {
-    memory.visit(column.name);
-    memory.visit(column.unit);
-  });
-  visit_all(memory, header.couplings, kMinText, [&](std::string& name) { memory.visit(name); });
-  visit_all(memory, header.geometries, kMinText, [&](std::string& name) { memory.visit(name); });
-}
-
-void visit(StateArchive& memory, RecordedFrame& frame) {
-  memory.visit(frame.step);
-  memory.visit(frame.t);
-  memory.visit(frame.hash);
-  memory.visit(frame.values);
-  visit_all(memory, frame.pulls, kVector, [&](Vector3& force) { memory.visit(force); });
-  visit_all(memory, frame.contacts, kMinContact, [&](RecordedContact& contact) {
-    memory.visit(contact.a);
-    memory.visit(contact.b);
-    memory.visit(contact.depth);
-    for (Vector3* v : {&contact.point, &contact.normal, &contact.force, &contact.couple})
-      memory.visit(*v);
-  });
-  memory.visit(frame.rows);
-  memory.visit(frame.works);
-  memory.visit(frame.momentum_rows);
-  visit_all(memory, frame.momenta, kVector, [&](Vector3& momentum) { memory.visit(momentum); });
-  memory.visit(frame.memory);
-}
-
-namespace {
-
 using Json = nlohmann::ordered_json;
 
 // Fields of a frame: name, type, unit; [] after a count of 8 bytes.
@@ -242,6 +163,81 @@ RecordingHeader header_from(const Json& json) {
 }
 
 }  // namespace
+
+std::string name_of_pair(const std::vector<std::string>& geometries, int a, int b) {
+  const auto name = [&](int id) {
+    const auto i = static_cast<std::size_t>(id);
+    return i < geometries.size() ? geometries[i] : std::to_string(id);
+  };
+  return name(a) + "-" + name(b);
+}
+
+std::vector<double> works_by_row(const RecordedFrame& frame, std::size_t rows) {
+  std::vector<double> works(rows, 0);
+  for (std::size_t i = 0; i < std::min(frame.rows.size(), frame.works.size()); ++i)
+    if (frame.rows[i] < rows) works[frame.rows[i]] = frame.works[i];
+  return works;
+}
+
+std::vector<double> momenta_by_row(const RecordedFrame& frame, std::size_t rows) {
+  std::vector<double> momenta(6 * rows, 0);
+  for (std::size_t i = 0; i < frame.momentum_rows.size(); ++i)
+    for (std::size_t c = 0; c < 6; ++c)
+      momenta.at(6 * frame.momentum_rows[i] + c) =
+          frame.momenta.at(2 * i + c / 3)[static_cast<Eigen::Index>(c % 3)];
+  return momenta;
+}
+
+std::uint64_t hash_of(const std::string& bytes, std::uint64_t basis) {
+  std::uint64_t hash = basis;
+  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+std::uint32_t checksum(const char* bytes, std::size_t count) {
+  return static_cast<std::uint32_t>(
+      crc32_z(0, reinterpret_cast<const unsigned char*>(bytes), count));
+}
+
+void visit_version_2(StateArchive& memory, RecordingHeader& header) {
+  memory.visit(header.program);
+  visit_all(memory, header.command, kMinText, [&](std::string& word) { memory.visit(word); });
+  visit_all(memory, header.files, 2 * kMinText, [&](RecordedFile& file) {
+    memory.visit(file.path);
+    memory.visit(file.bytes);
+  });
+  visit_run(memory, header.run);
+  memory.visit(header.integrator);
+  memory.visit(header.step);
+  memory.visit(header.duration);
+  memory.visit(header.seed);
+  visit_all(memory, header.columns, 2 * kMinText, [&](RecordedColumn& column) {
+    memory.visit(column.name);
+    memory.visit(column.unit);
+  });
+  visit_all(memory, header.couplings, kMinText, [&](std::string& name) { memory.visit(name); });
+  visit_all(memory, header.geometries, kMinText, [&](std::string& name) { memory.visit(name); });
+}
+
+void visit(StateArchive& memory, RecordedFrame& frame) {
+  memory.visit(frame.step);
+  memory.visit(frame.t);
+  memory.visit(frame.hash);
+  memory.visit(frame.values);
+  visit_all(memory, frame.pulls, kVector, [&](Vector3& force) { memory.visit(force); });
+  visit_all(memory, frame.contacts, kMinContact, [&](RecordedContact& contact) {
+    memory.visit(contact.a);
+    memory.visit(contact.b);
+    memory.visit(contact.depth);
+    for (Vector3* v : {&contact.point, &contact.normal, &contact.force, &contact.couple})
+      memory.visit(*v);
+  });
+  memory.visit(frame.rows);
+  memory.visit(frame.works);
+  memory.visit(frame.momentum_rows);
+  visit_all(memory, frame.momenta, kVector, [&](Vector3& momentum) { memory.visit(momentum); });
+  memory.visit(frame.memory);
+}
 
 std::string header_text(const RecordingHeader& header) {
   const Json json{

@@ -56,27 +56,6 @@ void write_ledger(std::vector<EnergyRow> rows, Sheet& sheet) {
   sheet.line(wrapped(text + fmt::format(" sum = change of kinetic energy {}", cell(change))));
 }
 
-}  // namespace
-
-std::string inspect_text(const Inspection& in, const InspectView& view,
-                         const std::vector<Check>& checks) {
-  Sheet sheet;
-  sheet.line(view.title);
-  if (!view.forces_alone) {
-    sheet.line("Spatial vectors: angular | linear, in the link's axes, about the link's origin.");
-    const SubtreeErrors errors = subtree_errors(in);
-    for (const int pass : view.passes) write_bodies(in, view, pass, errors, sheet);
-    write_balances(in, view, sheet);
-  }
-  write_named_forces(in, view, sheet);
-  if (!view.forces_alone) write_ledger(view.ledger, sheet);
-  write_checks(checks, sheet);
-  for (const std::string& warning : view.warnings) sheet.line(wrapped("warning: " + warning));
-  return sheet.str();
-}
-
-namespace {
-
 void write_balances(JsonWriter& json, const Inspection& in, const InspectView& view) {
   json.list(view.bodies, [&](const std::size_t body) {
     const BodyBalance balance = balance_of(in, body, view.from);
@@ -145,6 +124,23 @@ void write_checks(JsonWriter& json, const std::vector<Check>& checks) {
 }
 
 }  // namespace
+
+std::string inspect_text(const Inspection& in, const InspectView& view,
+                         const std::vector<Check>& checks) {
+  Sheet sheet;
+  sheet.line(view.title);
+  if (!view.forces_alone) {
+    sheet.line("Spatial vectors: angular | linear, in the link's axes, about the link's origin.");
+    const SubtreeErrors errors = subtree_errors(in);
+    for (const int pass : view.passes) write_bodies(in, view, pass, errors, sheet);
+    write_balances(in, view, sheet);
+  }
+  write_named_forces(in, view, sheet);
+  if (!view.forces_alone) write_ledger(view.ledger, sheet);
+  write_checks(checks, sheet);
+  for (const std::string& warning : view.warnings) sheet.line(wrapped("warning: " + warning));
+  return sheet.str();
+}
 
 void write_value(JsonWriter& json, const Eigen::MatrixXd& m, bool by_columns) {
   if (m.cols() == 1)

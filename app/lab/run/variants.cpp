@@ -21,6 +21,20 @@ HandStep shifted_to(double t, double h, HandStep step) {
   return step;
 }
 
+std::vector<std::string> split_values(const std::string& text) {
+  std::vector<std::string> values(1);
+  int depth = 0;
+  for (const char c : text) {
+    if (c == '[') ++depth;
+    if (c == ']') --depth;
+    if (c == ',' && depth == 0)
+      values.emplace_back();
+    else
+      values.back() += c;
+  }
+  return values;
+}
+
 }  // namespace
 
 LabVariants::LabVariants(const VariantSet& set, std::vector<std::unique_ptr<LabScene::Plan>> plans,
@@ -78,24 +92,6 @@ void LabVariants::add_to(LabFrame& frame, LabNames& names) {
 std::vector<std::string> LabVariants::take_warnings() {
   return std::exchange(warnings_, {});
 }
-
-namespace {
-
-std::vector<std::string> split_values(const std::string& text) {
-  std::vector<std::string> values(1);
-  int depth = 0;
-  for (const char c : text) {
-    if (c == '[') ++depth;
-    if (c == ']') --depth;
-    if (c == ',' && depth == 0)
-      values.emplace_back();
-    else
-      values.back() += c;
-  }
-  return values;
-}
-
-}  // namespace
 
 VariantSet parse_lanes(const std::string& text) {
   const std::size_t equals = text.find('=');

@@ -42,6 +42,22 @@ bool is_near(const Vector3& v) {
   return v.cwiseAbs().maxCoeff() < kMaxDistance && v.allFinite();
 }
 
+constexpr double kSpacing = 1.25;  // offset of variants over the width of the scene
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+double energy_of(const Snapshot& snapshot) {
+  return snapshot.kinetic + snapshot.potential + snapshot.elastic;
+}
+
+// Residual of the energy balance; NaN without a balance.
+double residual_of(const LabFrame& frame, const std::vector<std::string>& rows) {
+  const RecordedFrame& recorded = frame.recorded;
+  for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
+    if (recorded.rows[i] < rows.size() && rows[recorded.rows[i]] == kNumericalRow)
+      return recorded.works[i];
+  return kNone;
+}
+
 }  // namespace
 
 void FrameColumns::clear_entries() {
@@ -114,26 +130,6 @@ std::string history_bytes(const HistoryColumns& history) {
   block.put_all(history.time, history.channels, history.works);
   return block.take();
 }
-
-namespace {
-
-constexpr double kSpacing = 1.25;  // offset of variants over the width of the scene
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-
-double energy_of(const Snapshot& snapshot) {
-  return snapshot.kinetic + snapshot.potential + snapshot.elastic;
-}
-
-// Residual of the energy balance; NaN without a balance.
-double residual_of(const LabFrame& frame, const std::vector<std::string>& rows) {
-  const RecordedFrame& recorded = frame.recorded;
-  for (std::size_t i = 0; i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
-    if (recorded.rows[i] < rows.size() && rows[recorded.rows[i]] == kNumericalRow)
-      return recorded.works[i];
-  return kNone;
-}
-
-}  // namespace
 
 VariantViews::VariantViews(ViewVariants variants, const SimulateInput& input, LabChannels& channels)
     : set_(std::move(variants.set)) {
