@@ -19,21 +19,6 @@ bool is_zero(const ArticulatedInertia<double>& a) {
          dot(a.H.r0, a.H.r0) + dot(a.H.r1, a.H.r1) + dot(a.H.r2, a.H.r2) == 0;
 }
 
-Forces<double> sum_of(const Model<double>& model, const std::vector<AppliedForce>& actors) {
-  Forces<double> sum(model);
-  for (const AppliedForce& actor : actors) {
-    for (const AppliedForce::OnBody& on : actor.bodies) {
-      sum.f_ext[on.body] += on.f;
-      if (!is_zero(on.impedance)) sum.add_impedance(on.body, on.impedance);
-    }
-    for (const AppliedForce::OnJoint& on : actor.joints) {
-      sum.tau[on.dof] += on.tau;
-      sum.armature[on.dof] += on.armature;
-    }
-  }
-  return sum;
-}
-
 Matrix3 link_from_body(const Model<double>& model, std::size_t body) {
   return to_eigen(model.turn[body]).transpose();
 }
@@ -59,6 +44,21 @@ struct QuantityConverter {
 };
 
 }  // namespace
+
+Forces<double> sum_of(const Model<double>& model, const std::vector<AppliedForce>& actors) {
+  Forces<double> sum(model);
+  for (const AppliedForce& actor : actors) {
+    for (const AppliedForce::OnBody& on : actor.bodies) {
+      sum.f_ext[on.body] += on.f;
+      if (!is_zero(on.impedance)) sum.add_impedance(on.body, on.impedance);
+    }
+    for (const AppliedForce::OnJoint& on : actor.joints) {
+      sum.tau[on.dof] += on.tau;
+      sum.armature[on.dof] += on.armature;
+    }
+  }
+  return sum;
+}
 
 AppliedForce actor_of(std::string source, const Forces<double>& added) {
   AppliedForce actor{std::move(source), {}, {}};

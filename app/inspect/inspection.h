@@ -39,6 +39,8 @@ struct AppliedForce {
 // From what a force source has added to zero forces.
 AppliedForce actor_of(std::string source, const Forces<double>& added);
 
+Forces<double> sum_of(const Model<double>& model, const std::vector<AppliedForce>& actors);
+
 struct Inspection {
   const Model<double>& model;
   State<double> x;

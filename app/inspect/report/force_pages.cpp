@@ -157,13 +157,9 @@ std::vector<AppliedForce> given_actors(const RobotInput& input) {
 Inspected inspect_robot(const RobotInput& input) {
   const Model<double>& model = input.model;
   Inspected inspected{input.state.x, given_actors(input), input.warnings, {}, {}};
-  Forces<double> forces(model);
-  for (const AppliedForce& actor : inspected.actors) {
-    for (const AppliedForce::OnBody& on : actor.bodies) forces.f_ext[on.body] += on.f;
-    for (const AppliedForce::OnJoint& on : actor.joints) forces.tau[on.dof] += on.tau;
-  }
   ForwardDynamics dynamics(model);
   Workspace<double> w(model);
+  Forces<double> forces = sum_of(model, inspected.actors);
   dynamics(inspected.x, forces, w);
   add_by_joint(model, dynamics.torques().damping, "joint/", "/damping", inspected.actors);
   add_by_joint(model, dynamics.torques().coulomb, "joint/", "/friction", inspected.actors);

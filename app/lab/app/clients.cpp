@@ -105,12 +105,6 @@ void write_changes(JsonWriter& json, const std::vector<Change>& changes) {
       changes, [&](const Change& change) { json.text(change.path + "=" + change.value); });
 }
 
-void write_clients(JsonWriter& json, const Clients::View& clients) {
-  const auto holder = clients.controller != 0 ? std::optional(clients.controller) : std::nullopt;
-  json.members(
-      {{"holder", holder}, {"clients", clients.clients.size()}, {"asked", clients.waiting}});
-}
-
 void write_time(JsonWriter& json, const LabStatus& status) {
   json.members({{"playing", status.playing},
                 {"speed", status.speed},
@@ -175,12 +169,6 @@ void write_end(JsonWriter& json, const LabStatus& status) {
   });
 }
 
-void write_notes(JsonWriter& json, const std::vector<LabNote>& notes) {
-  json.key("notes").list(notes, [&](const LabNote& note) {
-    json.object({{"n", note.number}, {"level", note.level}, {"text", note.text}});
-  });
-}
-
 }  // namespace
 
 std::string state_message(const LabStatus& status, const Clients::View& clients,
@@ -193,14 +181,19 @@ std::string state_message(const LabStatus& status, const Clients::View& clients,
                   {"building", status.building}});
     write_changes(json, status.changes);
     write_lanes(json, status);
-    write_clients(json, clients);
+    json.members(
+        {{"holder", clients.controller != 0 ? std::optional(clients.controller) : std::nullopt},
+         {"clients", clients.clients.size()},
+         {"asked", clients.waiting}});
     write_time(json, status);
     write_hand(json, status.hand);
     write_parameters(parameters, json.key("knobs"));
     write_presets(json.key("presets"));
     write_gallery(gallery, json.key("gallery"));
     write_end(json, status);
-    write_notes(json, status.notes);
+    json.key("notes").list(status.notes, [&](const LabNote& note) {
+      json.object({{"n", note.number}, {"level", note.level}, {"text", note.text}});
+    });
   });
 }
 
