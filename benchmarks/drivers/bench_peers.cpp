@@ -188,7 +188,7 @@ std::vector<Row> rows_of(const SceneCase& c, const std::vector<Peer>& peers,
                          const Options& options) {
   std::vector<Row> rows;
   for (const Peer& peer : peers) {
-    if (!chosen(options.engines, peer.name)) continue;
+    if (!chosen(options.engines, peer.name) || !peer.engine->refusal(c.scene).empty()) continue;
     for (const Scheme& scheme : peer.engine->schemes(c.scene)) {
       const auto add = [&](double h) {
         rows.push_back({peer.engine.get(), peer.name, &c, scheme, h});

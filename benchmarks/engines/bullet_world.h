@@ -13,7 +13,7 @@
 #include <memory>
 #include <utility>
 
-#include "benchmarks/scenes/eigen.h"
+#include "benchmarks/scenes/scene.h"
 
 namespace twinarm::bench {
 
@@ -74,7 +74,7 @@ inline std::unique_ptr<btMultiBody> make_tree(const Scene& scene,
       R_PPr = frames[index(b.parent)].R_BP.transpose();
       parent_com = vector3(scene.bodies[index(b.parent)].com);
     }
-    const Eigen::Matrix3d R = R_PPr * matrix3(b.rotation) * frame.R_BP;
+    const Eigen::Matrix3d R = R_PPr * b.rotation * frame.R_BP;
     const btQuaternion to_this = bt(Eigen::Quaterniond(R.transpose()));
     const btVector3 from_com = bt(R_PPr * (vector3(b.position) - parent_com));
     const btVector3 com = bt(frame.R_BP.transpose() * vector3(b.com));

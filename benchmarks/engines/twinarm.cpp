@@ -11,26 +11,24 @@
 namespace twinarm::bench {
 namespace {
 
-// The number of situations in an S, and one of them.
+// The number of situations in an S, and number k of them.
 template <class S>
 constexpr std::size_t lanes = 1;
-template <class S>
-void set_lane(S& all, std::size_t, double value) {
-  all = static_cast<S>(value);
-}
-template <class S>
-double lane(const S& all, std::size_t) {
-  return static_cast<double>(all);
-}
 template <int N>
 constexpr std::size_t lanes<Batch<N>> = N;
-template <int N>
-void set_lane(Batch<N>& all, std::size_t k, double value) {
-  all.set(static_cast<int>(k), value);
+template <class S>
+void set_lane(S& all, std::size_t k, double value) {
+  if constexpr (lanes < S >> 1)
+    all.set(static_cast<int>(k), value);
+  else
+    all = static_cast<S>(value);
 }
-template <int N>
-double lane(const Batch<N>& all, std::size_t k) {
-  return all[static_cast<int>(k)];
+template <class S>
+double lane(const S& all, std::size_t k) {
+  if constexpr (lanes < S >> 1)
+    return all[static_cast<int>(k)];
+  else
+    return static_cast<double>(all);
 }
 
 template <class S>
@@ -161,7 +159,7 @@ class Twinarm final : public TwinarmPasses<double> {
     q = run_->simulation.state().q, v = run_->simulation.state().qd;
   }
   std::optional<SolverReading> watched_step() override {
-    WatchedContacts& watch = *run_->watch;
+    WatchedContacts& watch = *run_->contacts;
     watch.watched = true;
     watch.detection = watch.solver = 0;
     const double start = thread_seconds();
@@ -211,12 +209,9 @@ Engines variants() {
 }
 
 }  // namespace
-}  // namespace twinarm::bench
 
-namespace twinarm {
-
-bench::EngineKind twinarm_engine() {
-  return {"twinarm", 0, bench::variants};
+EngineKind twinarm_engine() {
+  return {"twinarm", 0, variants};
 }
 
-}  // namespace twinarm
+}  // namespace twinarm::bench

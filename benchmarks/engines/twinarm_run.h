@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "benchmarks/engines/engine.h"
-#include "benchmarks/scenes/eigen.h"
 #include "benchmarks/scenes/mechanisms.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/stepping/simulation.h"
@@ -54,39 +53,29 @@ class ScenePushes final : public ForceSource {
 };
 
 // Contacts with timers around detection and around the solver's part between add and take.
-class WatchedContacts final : public ConstraintSource {
+class WatchedContacts final : public ContactConstraints {
  public:
-  explicit WatchedContacts(ContactConstraints& contacts) : contacts_(contacts) {}
+  using ContactConstraints::ContactConstraints;
   bool watched = false;
   double detection = 0, solver = 0;  // since last reset [s]
 
   void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override {
     const double start = now();
-    contacts_.begin_step(k, x, h);
+    ContactConstraints::begin_step(k, x, h);
     detection += now() - start;
   }
-  bool has_closing_contact(const ConstraintFrame& frame) noexcept override {
-    return contacts_.has_closing_contact(frame);
-  }
-  bool extend_detection(const Kinematics& k, double h) noexcept override {
-    return contacts_.extend_detection(k, h);
-  }
-  bool needs_position_correction() const noexcept override {
-    return contacts_.needs_position_correction();
-  }
   void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
-    contacts_.add(frame, problem);
+    ContactConstraints::add(frame, problem);
     added_ = now();
   }
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override {
     solver += now() - added_;
-    contacts_.take(frame, problem, first);
+    ContactConstraints::take(frame, problem, first);
   }
 
  private:
   double now() const { return watched ? thread_seconds() : 0; }
-  ContactConstraints& contacts_;
   double added_ = 0;
 };
 
@@ -95,14 +84,9 @@ struct TwinarmRun {
       : scene(s), model(model_of(s)), simulation(model, start()), pushes(scene) {
     if (scene.has_contacts()) {
       contacts.emplace(model, ContactResponse::rigid);
-      watch.emplace(*contacts);
       add_shapes();
-      if (scheme.name == kLocated) {
-        simulation.add(*contacts);
-        simulation.locate_events();
-      } else {
-        simulation.add(*watch);
-      }
+      simulation.add(*contacts);
+      if (scheme.name == kLocated) simulation.locate_events();
     } else {
       simulation.set_integrator(find_integrator(scheme.name).value(), h);
     }
@@ -127,14 +111,14 @@ struct TwinarmRun {
                               {Matrix3::Identity(), vector3(scene.obstacle->centre)},
                               Box{2 * vector3(scene.obstacle->half)},
                               fixed});
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const Body& b = scene.bodies[i];
+    int number = 0;
+    for (const Body& b : scene.bodies) {
+      ++number;
       const Pose X_LG{Matrix3::Identity(), vector3(b.form_at)};
       if (b.form == Form::sphere)
-        contacts->bodies().add({"body", static_cast<int>(i) + 1, X_LG, Sphere{b.half[0]}, body});
+        contacts->bodies().add({"body", number, X_LG, Sphere{b.half[0]}, body});
       if (b.form == Form::box)
-        contacts->bodies().add(
-            {"body", static_cast<int>(i) + 1, X_LG, Box{2 * vector3(b.half)}, body});
+        contacts->bodies().add({"body", number, X_LG, Box{2 * vector3(b.half)}, body});
     }
   }
 
@@ -142,8 +126,7 @@ struct TwinarmRun {
   Model<double> model;
   Simulation simulation;
   ScenePushes pushes;
-  std::optional<ContactConstraints> contacts;
-  std::optional<WatchedContacts> watch;
+  std::optional<WatchedContacts> contacts;
 };
 
 }  // namespace twinarm::bench
