@@ -18,10 +18,6 @@
 namespace twinarm::bench {
 namespace {
 
-constexpr std::array kTreatments{Discretization::explicit_, Discretization::semi_implicit,
-                                 Discretization::implicit};
-constexpr std::array kTreatmentNames{"explicit", "semi-implicit", "implicit"};
-
 struct MapBenchOptions {
   bool quick = false, json = false, passes = true, throughput = true;
 };
@@ -85,8 +81,9 @@ void compare_with_passes(const MapBenchOptions& options) {
   PassesAlone<N> alone(ModelWithoutFixedJoints(locked_s103()).model);
   for (const bool energy : {false, true})
     for (const MapLaw& law : kMapLaws)
-      for (std::size_t t = 0; t < kTreatments.size(); ++t) {
-        MapRuns map(law, kTreatments[t], energy, 4 * N, 1, 1.0);
+      for (const auto treatment :
+           {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
+        MapRuns map(law, treatment, energy, 4 * N, 1, 1.0);
         const std::vector<Timing> times =
             time_interleaved({[&] { map.run(); }, [&] { alone.run(); }}, options.quick ? 3 : 9,
                              options.quick ? 0.01 : 0.05);
@@ -94,7 +91,7 @@ void compare_with_passes(const MapBenchOptions& options) {
         const double aba = times[1].ns / alone.kStates;
         rows.add(
             R"({"law": "%s", "treatment": "%s", "energies": %s, "ns": %.3f, "aba_ns": %.3f, "ratio": %.4f})",
-            "%-7s %-14s %-13s %7.1f %7.1f  ratio %.2f\n", law.name, kTreatmentNames[t],
+            "%-7s %-14s %-13s %7.1f %7.1f  ratio %.2f\n", law.name, name_of(treatment),
             options.json ? (energy ? "true" : "false") : (energy ? "with energies" : ""), step, aba,
             step / aba);
       }
@@ -150,8 +147,7 @@ void measure_throughput(const MapBenchOptions& options) {
 
 int measure(const MapBenchOptions& options) {
   const Isa isa = best_isa();
-  const char* name = isa == Isa::v4 ? "v4" : isa == Isa::v3 ? "v3" : "generic";
-  if (options.json) std::printf("{\"isa\": \"%s\"", name);
+  if (options.json) std::printf("{\"isa\": \"%s\"", name_of(isa));
   if (options.passes) {
     if (isa == Isa::v4)
       compare_with_passes<8>(options);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -34,19 +35,19 @@ Number positive(const std::string& text) {
 
 // An empty list contains all names.
 inline bool chosen(const std::vector<std::string>& list, std::string_view name) {
-  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+  return list.empty() || std::ranges::find(list, name) != list.end();
 }
 
 // NAN of no values.
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return NAN;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 // (longest - shortest) / median.
 inline double spread_of(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return (*high - *low) / median_of(values);
+  const auto [low, high] = std::ranges::minmax(values);
+  return (high - low) / median_of(values);
 }
 
 // Options by name. Exit codes: 2 for a bad option, 4 if the program fails.
@@ -57,15 +58,14 @@ class CommandLine {
     flag("--help", help_), flag("-h", help_);
   }
   void list(const std::string& name, std::vector<std::string>& values) {
-    options_.push_back({name, true, [&](const std::string& text) { values = split(text); }});
+    options_[name] = {true, [&](const std::string& text) { values = split(text); }};
   }
   template <class Number>
   void number(const std::string& name, Number& value) {
-    options_.push_back(
-        {name, true, [&](const std::string& text) { value = positive<Number>(text); }});
+    options_[name] = {true, [&](const std::string& text) { value = positive<Number>(text); }};
   }
   void flag(const std::string& name, std::function<void()> set) {
-    options_.push_back({name, false, [set = std::move(set)](const std::string&) { set(); }});
+    options_[name] = {false, [set = std::move(set)](const std::string&) { set(); }};
   }
   void flag(const std::string& name, bool& value) {
     flag(name, [&value] { value = true; });
@@ -76,7 +76,14 @@ class CommandLine {
       int argc, char** argv, const std::function<int()>& program,
       const std::function<void()>& check = [] {}) const {
     try {
-      for (int i = 1; i < argc; ++i) i += read(argv[i], i + 1 < argc ? argv[i + 1] : nullptr);
+      for (int i = 1; i < argc; ++i) {
+        const std::string name = argv[i];
+        const auto option = options_.find(name);
+        if (option == options_.end()) throw std::invalid_argument("unknown option " + name);
+        if (option->second.has_value && ++i == argc)
+          throw std::invalid_argument(name + " needs a value");
+        option->second.set(argv[i]);
+      }
       check();
     } catch (const std::exception& fault) {
       std::cerr << program_ << ": " << fault.what() << "; see --help\n";
@@ -96,25 +103,13 @@ class CommandLine {
 
  private:
   struct Option {
-    std::string name;
     bool has_value;
     std::function<void(const std::string&)> set;
   };
-  // Returns the number of words of the value.
-  int read(const std::string& name, const char* next) const {
-    for (const Option& option : options_) {
-      if (option.name != name) continue;
-      if (option.has_value && !next) throw std::invalid_argument(name + " needs a value");
-      option.set(option.has_value ? next : "");
-      return option.has_value ? 1 : 0;
-    }
-    throw std::invalid_argument("unknown option " + name);
-  }
-
   std::string program_;
   const char* usage_;
   bool help_ = false;
-  std::vector<Option> options_;
+  std::map<std::string, Option> options_;
 };
 
 // Throws if a wanted name is unknown.
@@ -122,7 +117,7 @@ inline void check_known(const std::vector<std::string>& wanted,
                         const std::vector<std::string>& known, const std::string& what,
                         const std::string& fix) {
   for (const std::string& name : wanted)
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (std::ranges::find(known, name) == known.end())
       throw std::invalid_argument("no " + what + " " + name + fix);
 }
 
