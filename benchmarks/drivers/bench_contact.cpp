@@ -230,12 +230,12 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   Options o;
-  CommandLine line("bench_contact", usage);
-  line.list("--models", o.models);
-  line.list("--engines", o.engines);
-  line.number("--repetitions", o.repetitions);
-  line.flag("--quick", [&] { o.quick = true, o.repetitions = 1; });
-  line.flag("--list", o.list);
-  return line.run(
-      argc, argv, [&] { return run(o); }, [&] { check(o); });
+  return run_program(
+      "bench_contact", usage, argc, argv,
+      {{"--models", &o.models},
+       {"--engines", &o.engines},
+       {"--repetitions", &o.repetitions},
+       {"--quick", [&] { o.quick = true, o.repetitions = 1; }},
+       {"--list", &o.list}},
+      [&] { return run(o); }, [&] { check(o); });
 }

@@ -271,14 +271,14 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   Options o;
-  CommandLine line("bench_peers", usage);
-  line.list("--cases", o.cases);
-  line.list("--engines", o.engines);
-  line.flag("--work-precision", o.work_precision);
-  line.number("--repetitions", o.repetitions);
-  line.number("--budget", o.budget);
-  line.flag("--quick", [&] { o.repetitions = 1, o.budget = 0.2; });
-  line.flag("--list", o.list);
-  return line.run(
-      argc, argv, [&] { return run(o); }, [&] { check(o); });
+  return run_program(
+      "bench_peers", usage, argc, argv,
+      {{"--cases", &o.cases},
+       {"--engines", &o.engines},
+       {"--work-precision", &o.work_precision},
+       {"--repetitions", &o.repetitions},
+       {"--budget", &o.budget},
+       {"--quick", [&] { o.repetitions = 1, o.budget = 0.2; }},
+       {"--list", &o.list}},
+      [&] { return run(o); }, [&] { check(o); });
 }

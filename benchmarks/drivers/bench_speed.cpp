@@ -186,14 +186,14 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   Options o;
-  CommandLine line("bench_speed", usage);
-  line.list("--models", o.models);
-  line.list("--engines", o.engines);
-  line.list("--algorithms", o.wanted);
-  line.number("--repetitions", o.repetitions);
-  line.number("--seconds", o.seconds);
-  line.flag("--quick", [&] { o.repetitions = 3, o.seconds = 0.003; });
-  line.flag("--list", o.list);
-  return line.run(
-      argc, argv, [&] { return run(o); }, [&] { check(o); });
+  return run_program(
+      "bench_speed", usage, argc, argv,
+      {{"--models", &o.models},
+       {"--engines", &o.engines},
+       {"--algorithms", &o.wanted},
+       {"--repetitions", &o.repetitions},
+       {"--seconds", &o.seconds},
+       {"--quick", [&] { o.repetitions = 3, o.seconds = 0.003; }},
+       {"--list", &o.list}},
+      [&] { return run(o); }, [&] { check(o); });
 }

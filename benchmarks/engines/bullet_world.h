@@ -34,12 +34,7 @@ inline void write(const btQuaternion& R, double* q) {
 }
 
 inline bool all_free(const Scene& scene) {
-  return std::all_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& b) { return b.joint == Joint::free; });
-}
-inline bool has_boxes(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& b) { return b.form == Form::box; });
+  return std::ranges::count(scene.bodies, Joint::free, &Body::joint) == std::ssize(scene.bodies);
 }
 
 // Bullet requires body frames at the com along the principal axes of inertia.
@@ -134,7 +129,8 @@ struct BulletWorld {
   void add_floor(const Scene& scene) {
     const double friction =
         scene.friction > 0 ? scene.floor_friction / std::sqrt(scene.friction) : 0;
-    if (has_boxes(scene) && sizeof(btScalar) == sizeof(double))
+    if (std::ranges::count(scene.bodies, Form::box, &Body::form) > 0 &&
+        sizeof(btScalar) == sizeof(double))
       add_fixed(std::make_unique<btBoxShape>(btVector3(100, 100, 1)), btVector3(0, 0, -1), friction,
                 scene.restitution);
     else

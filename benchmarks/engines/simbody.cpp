@@ -19,9 +19,6 @@
 namespace twinarm::bench {
 namespace {
 
-SimTK::Vec3 vec3(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 SimTK::Vec3 vec3(const double* v) {
   return {v[0], v[1], v[2]};
 }
@@ -44,13 +41,13 @@ std::vector<double> numbers_of(const SimTK::Vector& v) {
 
 struct SimbodySystem {
   explicit SimbodySystem(const Scene& scene)
-      : gravity(forces, matter, vec3(vector3(scene.gravity))), applied(forces, matter) {
+      : gravity(forces, matter, vec3(scene.gravity.data())), applied(forces, matter) {
     for (const Body& b : scene.bodies) links.push_back(add(b));
     system.realizeTopology();
   }
   SimTK::MobilizedBody add(const Body& b) {
     const auto& [xx, yy, zz, xy, xz, yz] = b.inertia;
-    const SimTK::Vec3 com = vec3(vector3(b.com));
+    const SimTK::Vec3 com = vec3(b.com.data());
     const SimTK::Inertia about_com(xx, yy, zz, xy, xz, yz);
     const SimTK::Body::Rigid body(
         SimTK::MassProperties(b.mass, com, about_com.shiftFromMassCenter(com, b.mass)));
@@ -60,7 +57,7 @@ struct SimbodySystem {
     const Eigen::Matrix3d to_axis = b.joint == Joint::revolute
                                         ? rotation_taking_z_to(axis_of(b))
                                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-    const SimTK::Transform place(rotation_of(b.rotation * to_axis), vec3(vector3(b.position)));
+    const SimTK::Transform place(rotation_of(b.rotation * to_axis), vec3(b.position.data()));
     const SimTK::Transform in_body(rotation_of(to_axis));
     if (b.joint == Joint::revolute) return SimTK::MobilizedBody::Pin(parent, place, body, in_body);
     if (b.joint == Joint::spherical)
