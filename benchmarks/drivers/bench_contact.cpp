@@ -24,18 +24,16 @@ class ContactMeasure {
  public:
   explicit ContactMeasure(const TimedScene& timed) : timed_(timed), model_(model_of(timed.scene)) {
     const Scene& scene = timed_.scene;
-    X_WG_.emplace_back();
-    if (scene.obstacle) {
+    if (scene.obstacle)
       world_.add({"obstacle", Box{2 * vector3(scene.obstacle->half)}, 0, true});
-      X_WG_.front().p = vector3(scene.obstacle->centre);
-    } else {
+    else
       world_.add({"floor", HalfSpace{}, 0, true});
-    }
     for (const Body& b : scene.bodies) {
       if (b.form == Form::sphere) world_.add({"ball", Sphere{b.half[0]}});
       if (b.form == Form::box) world_.add({"box", Box{2 * vector3(b.half)}});
     }
     X_WG_.resize(static_cast<std::size_t>(world_.size()));
+    if (scene.obstacle) X_WG_.front().p = vector3(scene.obstacle->centre);
   }
 
   // After each step; q as in Scene.

@@ -40,7 +40,7 @@ class Mjcf {
 
  private:
   static std::string surface(double friction) {
-    return " condim=\"" + std::string(friction > 0 ? "3" : "1") + "\" friction=\"" +
+    return std::string(" condim=\"") + (friction > 0 ? '3' : '1') + "\" friction=\"" +
            mjcf(std::array{friction}) + "\"/>";
   }
   std::string children(int parent, int depth) {

@@ -12,15 +12,11 @@
 namespace twinarm::bench {
 namespace {
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double operator()(double low = 0, double high = 1) { return low + (high - low) * unit_(engine_); }
-
- private:
-  std::mt19937 engine_;
-  std::uniform_real_distribution<double> unit_{0, 1};
-};
+// Uniform random numbers.
+auto seeded(unsigned seed) {
+  return [engine = std::mt19937(seed), unit = std::uniform_real_distribution<double>(0, 1)](
+             double low = 0, double high = 1) mutable { return low + (high - low) * unit(engine); };
+}
 
 // Roll about x, pitch about y, yaw about z, fixed axes, in this order.
 Eigen::Matrix3d rotation(const Numbers3& rpy) {
@@ -85,7 +81,7 @@ Scene puma6() {
 // models.
 Scene chain(int n) {
   Scene chain;
-  Random random(7);
+  auto random = seeded(7);
   for (int i = 0; i < n; ++i) {
     Body b = link(i - 1, static_cast<std::size_t>(i % 3), {0, 0, 0}, 0, {}, {});
     b.com[2] = 0.01 * random();
@@ -105,7 +101,7 @@ Scene chain(int n) {
 
 Scene humanoid30() {
   Scene body;
-  Random random(11);
+  auto random = seeded(11);
   // A link of about this mass, height of the com and radius of gyration.
   const auto add = [&](int parent, std::size_t axis, const Numbers3& position, double mass,
                        double height, double radius) {
@@ -216,7 +212,7 @@ Scene mechanism(const std::string& name) {
 }
 
 std::vector<Situation> situations(const Scene& mechanism, std::size_t count) {
-  Random random(42);
+  auto random = seeded(42);
   const bool floats = mechanism.floats();
   const std::size_t joints = mechanism.bodies.size() - (floats ? 1 : 0);
   // Base: linear before angular; then in the order of Joint.
