@@ -103,9 +103,11 @@ class Dart final : public PeerEngine<DartState> {
  private:
   template <class JointType>
   dd::BodyNode* make(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent,
-                     typename JointType::Properties properties) {
+                     const Eigen::Isometry3d& placed,
+                     typename JointType::Properties properties = typename JointType::Properties()) {
     const std::string number = std::to_string(bodies_.size());  // unique, otherwise DART renames it
     properties.mName = "joint " + number;
+    properties.mT_ParentBodyToJoint = placed;
     const dd::BodyNode::AspectProperties named("body " + number);
     return skeleton->createJointAndBodyNodePair<JointType>(parent, properties, named).second;
   }
@@ -125,14 +127,11 @@ class Dart final : public PeerEngine<DartState> {
     if (b.joint == Joint::revolute) {
       dd::RevoluteJoint::Properties revolute;
       revolute.mAxis = axis_of(b);
-      revolute.mT_ParentBodyToJoint = placed;
-      body = make<dd::RevoluteJoint>(skeleton, parent, revolute);
+      body = make<dd::RevoluteJoint>(skeleton, parent, placed, revolute);
     } else if (b.joint == Joint::spherical) {
-      dd::BallJoint::Properties ball;
-      ball.mT_ParentBodyToJoint = placed;
-      body = make<dd::BallJoint>(skeleton, parent, ball);
+      body = make<dd::BallJoint>(skeleton, parent, placed);
     } else {
-      body = make<dd::FreeJoint>(skeleton, parent, {});
+      body = make<dd::FreeJoint>(skeleton, parent, Eigen::Isometry3d::Identity());
     }
     body->setInertia({b.mass, vector3(b.com), inertia3(b.inertia)});
     if (b.form == Form::sphere)
@@ -150,8 +149,7 @@ class Dart final : public PeerEngine<DartState> {
   // The detector has no half-space; a large box instead.
   void add_floor() {
     const dd::SkeletonPtr floor = dd::Skeleton::create("floor");
-    dd::WeldJoint::Properties below;
-    below.mT_ParentBodyToJoint.translation() = Eigen::Vector3d(0, 0, -1);
+    const Eigen::Isometry3d below(Eigen::Translation3d(0, 0, -1));
     add_shape(make<dd::WeldJoint>(floor, nullptr, below),
               std::make_shared<dd::BoxShape>(Eigen::Vector3d(200, 200, 2)), scene_.floor_friction);
     world_->addSkeleton(floor);
