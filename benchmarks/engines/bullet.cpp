@@ -124,7 +124,7 @@ class Bullet final : public PeerEngine<BulletState> {
       const btRigidBody& body = *world_->bodies[i];
       const btTransform& X = body.getCenterOfMassTransform();
       const btVector3 w = quatRotate(X.getRotation().inverse(), body.getAngularVelocity());
-      std::copy_n(&X.getOrigin()[0], 3, q), write(X.getRotation(), q + 3);
+      std::copy_n(&X.getOrigin()[0], 3, q), write_quaternion(X.getRotation(), q + 3);
       std::copy_n(&w[0], 3, v), std::copy_n(&body.getLinearVelocity()[0], 3, v + 3);
       return;
     }
@@ -132,7 +132,7 @@ class Bullet final : public PeerEngine<BulletState> {
     if (joint == Joint::revolute)
       q[0] = p[0];
     else
-      write(btQuaternion(p[0], p[1], p[2], p[3]), q);
+      write_quaternion(btQuaternion(p[0], p[1], p[2], p[3]), q);
     std::copy_n(world_->tree->getJointVelMultiDof(static_cast<int>(i)), velocities_of(joint), v);
   }
 

@@ -29,9 +29,6 @@ inline btVector3 bt(const Numbers3& v) {
 inline btQuaternion bt(const Eigen::Quaterniond& q) {
   return {bt(q.x()), bt(q.y()), bt(q.z()), bt(q.w())};
 }
-inline void write(const btQuaternion& R, double* q) {
-  q[0] = R.w(), q[1] = R.x(), q[2] = R.y(), q[3] = R.z();
-}
 
 inline bool all_free(const Scene& scene) {
   return std::ranges::count(scene.bodies, Joint::free, &Body::joint) == std::ssize(scene.bodies);

@@ -112,7 +112,8 @@ inline Eigen::Vector3d axis_of(const Body& b) {
 inline Eigen::Quaterniond quaternion(const double* q) {
   return {q[0], q[1], q[2], q[3]};
 }
-inline void write_quaternion(const Eigen::Quaterniond& R, double* q) {
+template <class Quaternion>
+void write_quaternion(const Quaternion& R, double* q) {
   q[0] = R.w(), q[1] = R.x(), q[2] = R.y(), q[3] = R.z();
 }
 inline std::size_t index(int body) {
