@@ -11,7 +11,6 @@
 #include "benchmarks/drivers/command_line.h"
 #include "benchmarks/drivers/timing.h"
 #include "benchmarks/engines/engine.h"
-#include "benchmarks/scenes/eigen.h"
 #include "benchmarks/scenes/mechanisms.h"
 #include "collision/detection/collision_world.h"
 #include "solver/dynamics/kinematics.h"
@@ -25,18 +24,16 @@ class ContactMeasure {
  public:
   explicit ContactMeasure(const TimedScene& timed) : timed_(timed), model_(model_of(timed.scene)) {
     const Scene& scene = timed_.scene;
-    if (scene.obstacle) {
+    if (scene.obstacle)
       world_.add({"obstacle", Box{2 * vector3(scene.obstacle->half)}, 0, true});
-      X_WG_.push_back({Matrix3::Identity(), vector3(scene.obstacle->centre)});
-    } else {
+    else
       world_.add({"floor", HalfSpace{}, 0, true});
-      X_WG_.emplace_back();
-    }
     for (const Body& b : scene.bodies) {
       if (b.form == Form::sphere) world_.add({"ball", Sphere{b.half[0]}});
       if (b.form == Form::box) world_.add({"box", Box{2 * vector3(b.half)}});
     }
     X_WG_.resize(static_cast<std::size_t>(world_.size()));
+    if (scene.obstacle) X_WG_.front().p = vector3(scene.obstacle->centre);
   }
 
   // After each step; q as in Scene.
@@ -117,18 +114,14 @@ Engines engines_of_build() {
 
 void check(const Options& o) {
   for (const std::string& model : o.models) timed_scene(model);
-  std::vector<std::string> names;
-  for (const auto& engine : engines_of_build()) names.push_back(engine->name());
-  check_known(o.engines, names, "engine", " in this build; see --list");
+  check_known(o.engines, names_of(engines_of_build()), "engine", " in this build; see --list");
 }
 
 // Of one engine in one scene.
 struct Row {
   std::string engine, model;
   std::vector<double> whole, settling, rest;  // by repetition: mean time of a step [s]
-  double penetration = 0, max_penetration = 0, drift = 0;
-  std::optional<SolverReading> solver;  // largest residual, mean times of a step
-  int unconverged = 0;                  // steps
+  Json observed;                              // contact quality, and of the solver where known
 };
 
 void start(Engine& engine, const TimedScene& timed) {
@@ -136,25 +129,34 @@ void start(Engine& engine, const TimedScene& timed) {
 }
 
 // A separate run for the results, not timed.
-void observe(Engine& engine, const TimedScene& timed, Row& row) {
+Json observe(Engine& engine, const TimedScene& timed) {
   start(engine, timed);
   ContactMeasure measure(timed);
+  std::optional<SolverReading> solver;  // largest residual, mean times of a step
+  int unconverged = 0;                  // steps
   std::vector<double> q, v;
   for (int step = 0; step < timed.steps; ++step) {
     if (const std::optional<SolverReading> now = engine.watched_step()) {
-      if (!row.solver) row.solver.emplace();
-      row.solver->residual = std::max(row.solver->residual, now->residual);
-      row.solver->detection += now->detection / timed.steps;
-      row.solver->solver += now->solver / timed.steps;
-      row.solver->whole += now->whole / timed.steps;
-      row.unconverged += now->converged ? 0 : 1;
+      if (!solver) solver.emplace();
+      solver->residual = std::max(solver->residual, now->residual);
+      solver->detection += now->detection / timed.steps;
+      solver->solver += now->solver / timed.steps;
+      solver->whole += now->whole / timed.steps;
+      unconverged += now->converged ? 0 : 1;
     }
     engine.read(q, v);
     measure.measure(step, q);
   }
-  row.penetration = measure.penetration;
-  row.max_penetration = measure.max_penetration;
-  row.drift = measure.drift;
+  Json json = {{"penetration", measure.penetration},
+               {"largest_penetration", measure.max_penetration},
+               {"drift", measure.drift}};
+  if (solver) {
+    json["residual"] = solver->residual;
+    json["unconverged"] = unconverged;
+    json["part_detection"] = solver->detection / solver->whole;
+    json["part_solver"] = solver->solver / solver->whole;
+  }
+  return json;
 }
 
 void repeat(Engines& engines, const TimedScene& timed, std::vector<Row>& rows) {
@@ -184,7 +186,7 @@ std::vector<Row> measure(const Options& options, const std::string& model, Stage
   for (std::size_t i = 0; i < engines.size(); ++i) {
     rows[i].engine = engines[i]->name(), rows[i].model = model;
     stages.begin(model + ", " + rows[i].engine + ": contact quality", 1.0 / count);
-    observe(*engines[i], timed, rows[i]);
+    rows[i].observed = observe(*engines[i], timed);
   }
   for (int repetition = 0; repetition < options.repetitions; ++repetition) {
     stages.begin(model + ", all engines in turns");
@@ -200,22 +202,14 @@ Json json_of(const Row& row) {
                {"ns", ns_per_s * median_of(row.whole)},
                {"spread", spread_of(row.whole)},
                {"ns_settling", ns_per_s * median_of(row.settling)},
-               {"ns_rest", ns_per_s * median_of(row.rest)},
-               {"penetration", row.penetration},
-               {"largest_penetration", row.max_penetration},
-               {"drift", row.drift}};
-  if (const auto& s = row.solver) {
-    json["residual"] = s->residual;
-    json["unconverged"] = row.unconverged;
-    json["part_detection"] = s->detection / s->whole;
-    json["part_solver"] = s->solver / s->whole;
-  }
+               {"ns_rest", ns_per_s * median_of(row.rest)}};
+  json.update(row.observed);
   return json;
 }
 
 int run(const Options& options) {
   if (options.list) {
-    for (const auto& engine : engines_of_build()) std::cout << engine->name() << '\n';
+    for (const std::string& name : names_of(engines_of_build())) std::cout << name << '\n';
     return 0;
   }
   Stages stages("bench_contact",
@@ -234,12 +228,12 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   Options o;
-  CommandLine line("bench_contact", usage);
-  line.list("--models", o.models);
-  line.list("--engines", o.engines);
-  line.number("--repetitions", o.repetitions);
-  line.flag("--quick", [&] { o.quick = true, o.repetitions = 1; });
-  line.flag("--list", o.list);
-  return line.run(
-      argc, argv, [&] { return run(o); }, [&] { check(o); });
+  return run_program(
+      "bench_contact", usage, argc, argv,
+      {{"--models", &o.models},
+       {"--engines", &o.engines},
+       {"--repetitions", &o.repetitions},
+       {"--quick", [&] { o.quick = true, o.repetitions = 1; }},
+       {"--list", &o.list}},
+      [&] { return run(o); }, [&] { check(o); });
 }

@@ -29,16 +29,16 @@ std::string number(double value) {
   return bench::mjcf(std::array{value});
 }
 
-std::string option(double h, const char* integrator) {
-  return "<option gravity=\"0 0 0\" timestep=\"" + number(h) + "\" integrator=\"" + integrator +
-         "\"/>";
+// One body on this joint; `bodies` before it, `rest` after the world.
+std::string scene(double h, const std::string& integrator, const std::string& joint,
+                  const std::string& rest = "", const std::string& bodies = "") {
+  return "<mujoco><option gravity=\"0 0 0\" timestep=\"" + number(h) + "\" integrator=\"" +
+         integrator + "\"/><worldbody>" + bodies + "<body name=\"link\"><joint name=\"j\" " +
+         joint + "/><inertial pos=\"0 0 0\" mass=\"" + number(kInertia) + "\" diaginertia=\"" +
+         number(kInertia) + number(kInertia) + number(kInertia) + "\"/></body></worldbody>" + rest +
+         "</mujoco>";
 }
-
-std::string body(const std::string& joint, const std::string& more = "") {
-  return "<body name=\"link\"><joint name=\"j\" " + joint + "/><inertial pos=\"0 0 0\" mass=\"" +
-         number(kInertia) + "\" diaginertia=\"" + number(kInertia) + number(kInertia) +
-         number(kInertia) + "\"/>" + more + "</body>";
-}
+const std::string hinge = "type=\"hinge\" axis=\"0 0 1\"";
 
 struct Row {
   SteppingScheme scheme;
@@ -46,22 +46,19 @@ struct Row {
   bool actuator;
 };
 
-std::string hinge(const Row& row, double k, double b) {
-  const std::string axis = "type=\"hinge\" axis=\"0 0 1\"";
-  std::string xml = "<mujoco>" + option(kStep, row.integrator) + "<worldbody>";
+std::string spring_damper(const Row& row, double k, double b) {
   if (!row.actuator)
-    return xml + body(axis + " stiffness=\"" + number(k) + "\" damping=\"" + number(b) + "\"") +
-           "</worldbody></mujoco>";
-  return xml + body(axis) +
-         "</worldbody><actuator><general joint=\"j\" gainprm=\"0\" biastype=\"affine\" "
-         "biasprm=\"0 " +
-         number(-k) + number(-b) + "\"/></actuator></mujoco>";
+    return scene(kStep, row.integrator,
+                 hinge + " stiffness=\"" + number(k) + "\" damping=\"" + number(b) + "\"");
+  return scene(kStep, row.integrator, hinge,
+               "<actuator><general joint=\"j\" gainprm=\"0\" biastype=\"affine\" biasprm=\"0 " +
+                   number(-k) + number(-b) + "\"/></actuator>");
 }
 
 bool grows(const Row& row, double wh, double zeta) {
   const double w = wh / kStep;
   const SpringGains gains = gains_of(SpringResponse{w, zeta}, kInertia);
-  MuJoCo engine(hinge(row, gains.k, gains.b));
+  MuJoCo engine(spring_damper(row, gains.k, gains.b));
   engine.q() = 1e-9;
   double early = 0, late = 0;
   constexpr int steps = 4000;
@@ -115,11 +112,10 @@ bool constraints() {
       const double h = 1e-5;
       // solimp: dmin, dmax and a width with which d = dmin for errors of this size.
       const std::string solimp = number(impedance.d) + number(impedance.d_max) + "1e6 0.5 2";
-      MuJoCo engine("<mujoco>" + option(h, "RK4") + "<worldbody>" +
-                    body("type=\"hinge\" axis=\"0 0 1\"") +
-                    "</worldbody><equality><joint joint1=\"j\" polycoef=\"0 0 0 0 0\" solref=\"" +
-                    number(solref.first) + number(solref.second) + "\" solimp=\"" + solimp +
-                    "\"/></equality></mujoco>");
+      MuJoCo engine(scene(h, "RK4", hinge,
+                          "<equality><joint joint1=\"j\" polycoef=\"0 0 0 0 0\" solref=\"" +
+                              number(solref.first) + number(solref.second) + "\" solimp=\"" +
+                              solimp + "\"/></equality>"));
       engine.q() = 0.01;
       const double r = response.omega * std::sqrt(std::abs(1 - response.zeta * response.zeta));
       const double zw = response.zeta * response.omega;
@@ -142,11 +138,10 @@ bool constraints() {
 
 bool weld_error() {
   const double timeconst = 0.05, v = 0.3, h = 1e-4;
-  MuJoCo engine("<mujoco>" + option(h, "Euler") +
-                "<worldbody><body name=\"hand\" mocap=\"true\"/>" +
-                body("type=\"slide\" axis=\"1 0 0\"") +
-                "</worldbody><equality><weld body1=\"hand\" body2=\"link\" solref=\"" +
-                number(timeconst) + "1\" solimp=\"0.95 0.95 0.001 0.5 2\"/></equality></mujoco>");
+  MuJoCo engine(scene(h, "Euler", "type=\"slide\" axis=\"1 0 0\"",
+                      "<equality><weld body1=\"hand\" body2=\"link\" solref=\"" +
+                          number(timeconst) + "1\" solimp=\"0.95 0.95 0.001 0.5 2\"/></equality>",
+                      "<body name=\"hand\" mocap=\"true\"/>"));
   for (int n = 1; n <= 20000; ++n) {
     engine.data->mocap_pos[0] = v * n * h;
     engine.step();

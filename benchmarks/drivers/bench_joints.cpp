@@ -1,11 +1,10 @@
 // Time per body by joint type: forward dynamics of chains of 16 bodies, every joint type in every
 // scalar, ns per body (and per state, for batches). Prints a table.
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/drivers/command_line.h"
@@ -36,33 +35,26 @@ Model<double> chain_of(JointType type) {
 
 // Forward dynamics in one scalar.
 template <class S>
-std::function<void()> forward_dynamics_of(const Model<double>& model) {
-  struct Work {
-    Model<S> model;
-    State<S> x;
-    Forces<S> forces;
-    Workspace<S> w;
-    explicit Work(const Model<double>& m)
-        : model(convert<S>(m)), x(model), forces(model), w(model) {
-      std::vector<S> shift;
-      for (std::size_t k = 0; k < model.nv; ++k) {
-        shift.push_back(S(0.1 * static_cast<double>(k % 7)));
-        x.qd[k] = S(0.2), forces.tau[k] = S(0.5);
-      }
-      for (std::size_t i = 1; i < model.parent.size(); ++i)
-        visit_joint(model, i, [&](auto joint) {
-          joint.integrate(x.q.data() + model.iq[i], shift.data() + model.iv[i],
-                          x.q.data() + model.iq[i]);
-        });
-    }
-  };
-  return
-      [work = std::make_shared<Work>(model)] { aba(work->model, work->x, work->forces, work->w); };
+std::function<void()> forward_dynamics_of(const Model<double>& in_double) {
+  const Model<S> model = convert<S>(in_double);
+  State<S> x(model);
+  Forces<S> forces(model);
+  std::vector<S> shift;
+  for (std::size_t k = 0; k < model.nv; ++k) {
+    shift.push_back(S(0.1 * static_cast<double>(k % 7)));
+    x.qd[k] = S(0.2), forces.tau[k] = S(0.5);
+  }
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
+    visit_joint(model, i, [&](auto joint) {
+      joint.integrate(x.q.data() + model.iq[i], shift.data() + model.iv[i],
+                      x.q.data() + model.iq[i]);
+    });
+  return [=, w = Workspace<S>(model)]() mutable { aba(model, x, forces, w); };
 }
 
 int run(int repetitions, double seconds) {
-  const std::array<const char*, 5> scalars{"double", "float", "batch4", "batch8", "dual8"};
-  const std::array<double, 5> states{1, 1, 4, 8, 1};
+  constexpr std::pair<const char*, double> scalars[] = {
+      {"double", 1}, {"float", 1}, {"batch4", 4}, {"batch8", 8}, {"dual8", 1}};  // name, states
   std::vector<std::function<void()>> jobs;
   for (const JointType type : all_joint_types) {
     const Model<double> model = chain_of(type);
@@ -75,12 +67,13 @@ int run(int repetitions, double seconds) {
   const std::vector<Timing> times = time_interleaved(jobs, repetitions, seconds);
 
   std::printf("aba(), ns per body and state, chains of %d bodies\n%-12s", kBodies, "joint");
-  for (const char* scalar : scalars) std::printf("%9s", scalar);
+  for (const auto& [name, states] : scalars) std::printf("%9s", name);
   std::printf("\n");
   std::size_t next = 0;
   for (const JointType type : all_joint_types) {
     std::printf("%-12s", name_of(type));
-    for (const double count : states) std::printf("%9.1f", times[next++].ns / kBodies / count);
+    for (const auto& [name, states] : scalars)
+      std::printf("%9.1f", times[next++].ns / kBodies / states);
     std::printf("\n");
   }
   return 0;
@@ -92,7 +85,7 @@ int run(int repetitions, double seconds) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   bool quick = false;
-  CommandLine line("bench_joints", "Time per body by joint type.\n\n  bench_joints [--quick]\n");
-  line.flag("--quick", quick);
-  return line.run(argc, argv, [&] { return quick ? run(1, 1e-4) : run(7, 0.01); });
+  return run_program("bench_joints", "Time per body by joint type.\n\n  bench_joints [--quick]\n",
+                     argc, argv, {{"--quick", &quick}},
+                     [&] { return quick ? run(1, 1e-4) : run(7, 0.01); });
 }

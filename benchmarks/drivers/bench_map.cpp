@@ -18,10 +18,6 @@
 namespace twinarm::bench {
 namespace {
 
-constexpr std::array kTreatments{Discretization::explicit_, Discretization::semi_implicit,
-                                 Discretization::implicit};
-constexpr std::array kTreatmentNames{"explicit", "semi-implicit", "implicit"};
-
 struct MapBenchOptions {
   bool quick = false, json = false, passes = true, throughput = true;
 };
@@ -48,53 +44,40 @@ class Rows {
   bool json_, first_ = true;
 };
 
-// Forward dynamics of the batch with the lanes of the map: one call for each state.
-template <int N>
-class PassesAlone {
- public:
-  explicit PassesAlone(const Model<double>& lumped)
-      : model_(convert<Batch<N>>(lumped)), w_(model_), forces_(model_) {
-    for (int k = 0; k < kCalls; ++k) {
-      State<Batch<N>> x(model_);
-      for (std::size_t d = 0; d < x.q.size(); ++d)
-        for (int lane = 0; lane < N; ++lane) {
-          x.q[d].set(lane, std::sin(1.0 + k + 0.7 * static_cast<double>(d) + 0.3 * lane));
-          x.qd[d].set(lane, std::cos(2.0 + k + 0.7 * static_cast<double>(d) + 0.3 * lane));
-        }
-      states_.push_back(x);
-    }
-  }
-  static constexpr int kCalls = 8, kStates = kCalls * N;
-  void run() {
-    for (const State<Batch<N>>& x : states_) passes<Batch<N>>().aba(model_, x, forces_, w_);
-  }
-
- private:
-  Model<Batch<N>> model_;
-  Workspace<Batch<N>> w_;
-  Forces<Batch<N>> forces_;
-  std::vector<State<Batch<N>>> states_;
-};
-
-// All laws and discretizations, alternating with the passes alone.
+// All laws and discretizations, alternating with forward dynamics of the batch alone, with the
+// lanes of the map: one call for each state.
 template <int N>
 void compare_with_passes(const MapBenchOptions& options) {
   if (!options.json)
     std::printf("ns per step of a cell and of the batch's aba() alone, one core, %d lanes\n", N);
   Rows rows("passes", options.json);
-  PassesAlone<N> alone(ModelWithoutFixedJoints(locked_s103()).model);
+  using S = Batch<N>;
+  const auto model = convert<S>(ModelWithoutFixedJoints(locked_s103()).model);
+  Workspace<S> w(model);
+  const Forces<S> forces(model);
+  std::vector<State<S>> states(8, State<S>(model));
+  for (std::size_t k = 0; k < states.size(); ++k)
+    for (std::size_t d = 0; d < model.nq; ++d)
+      for (int lane = 0; lane < N; ++lane) {
+        const double phase = 0.7 * static_cast<double>(d) + 0.3 * lane;
+        states[k].q[d].set(lane, std::sin(1.0 + static_cast<double>(k) + phase));
+        states[k].qd[d].set(lane, std::cos(2.0 + static_cast<double>(k) + phase));
+      }
+  const auto aba_alone = [&] {
+    for (const State<S>& x : states) passes<S>().aba(model, x, forces, w);
+  };
   for (const bool energy : {false, true})
     for (const MapLaw& law : kMapLaws)
-      for (std::size_t t = 0; t < kTreatments.size(); ++t) {
-        MapRuns map(law, kTreatments[t], energy, 4 * N, 1, 1.0);
-        const std::vector<Timing> times =
-            time_interleaved({[&] { map.run(); }, [&] { alone.run(); }}, options.quick ? 3 : 9,
-                             options.quick ? 0.01 : 0.05);
+      for (const auto treatment :
+           {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
+        MapRuns map(law, treatment, energy, 4 * N, 1, 1.0);
+        const std::vector<Timing> times = time_interleaved(
+            {[&] { map.run(); }, aba_alone}, options.quick ? 3 : 9, options.quick ? 0.01 : 0.05);
         const double step = times[0].ns / static_cast<double>(map.steps());
-        const double aba = times[1].ns / alone.kStates;
+        const double aba = times[1].ns / static_cast<double>(states.size() * N);
         rows.add(
             R"({"law": "%s", "treatment": "%s", "energies": %s, "ns": %.3f, "aba_ns": %.3f, "ratio": %.4f})",
-            "%-7s %-14s %-13s %7.1f %7.1f  ratio %.2f\n", law.name, kTreatmentNames[t],
+            "%-7s %-14s %-13s %7.1f %7.1f  ratio %.2f\n", law.name, name_of(treatment),
             options.json ? (energy ? "true" : "false") : (energy ? "with energies" : ""), step, aba,
             step / aba);
       }
@@ -150,8 +133,7 @@ void measure_throughput(const MapBenchOptions& options) {
 
 int measure(const MapBenchOptions& options) {
   const Isa isa = best_isa();
-  const char* name = isa == Isa::v4 ? "v4" : isa == Isa::v3 ? "v3" : "generic";
-  if (options.json) std::printf("{\"isa\": \"%s\"", name);
+  if (options.json) std::printf("{\"isa\": \"%s\"", name_of(isa));
   if (options.passes) {
     if (isa == Isa::v4)
       compare_with_passes<8>(options);
@@ -169,12 +151,13 @@ int measure(const MapBenchOptions& options) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   MapBenchOptions options;
-  CommandLine line("bench_map",
-                   "Time of a step of a map, and steps per second.\n\n"
-                   "  bench_map [--quick] [--json] [--passes | --throughput]\n");
-  line.flag("--quick", options.quick);
-  line.flag("--json", options.json);
-  line.flag("--passes", [&] { options.throughput = false; });
-  line.flag("--throughput", [&] { options.passes = false; });
-  return line.run(argc, argv, [&] { return measure(options); });
+  return run_program("bench_map",
+                     "Time of a step of a map, and steps per second.\n\n"
+                     "  bench_map [--quick] [--json] [--passes | --throughput]\n",
+                     argc, argv,
+                     {{"--quick", &options.quick},
+                      {"--json", &options.json},
+                      {"--passes", [&] { options.throughput = false; }},
+                      {"--throughput", [&] { options.passes = false; }}},
+                     [&] { return measure(options); });
 }

@@ -55,10 +55,10 @@ std::string text_of(std::vector<double> ratios) {
 }
 
 // Ratios of hooked to bare, and of bare to itself; all alternate in each round.
-void measure(const char* what, const std::string& model,
-             const std::function<void(const NoTracePasses&)>& job, int rounds, double seconds) {
+void measure(const char* what, const char* model, Work& work,
+             void (Work::*job)(const NoTracePasses&), int rounds, double seconds) {
   const NoTracePasses hooked = hooked_passes(), bare = bare_passes();
-  const auto run = [&](const NoTracePasses& text) { return [&] { job(text); }; };
+  const auto run = [&](const NoTracePasses& text) { return [&] { (work.*job)(text); }; };
   std::vector<double> hook, same;
   for (int round = 0; round < rounds; ++round) {
     const std::vector<Timing> t =
@@ -68,8 +68,7 @@ void measure(const char* what, const std::string& model,
     hook.push_back(t[h].ns / t[b].ns);
     same.push_back(t[c].ns / t[b].ns);
   }
-  std::printf("%-6s %-9s  %s     %s\n", what, model.c_str(), text_of(hook).c_str(),
-              text_of(same).c_str());
+  std::printf("%-6s %-9s  %s     %s\n", what, model, text_of(hook).c_str(), text_of(same).c_str());
 }
 
 void run_all(int rounds, double seconds) {
@@ -79,10 +78,8 @@ void run_all(int rounds, double seconds) {
       rounds);
   for (const char* name : {"scara3", "puma6", "chain32"}) {
     Work work(mechanism(name));
-    const auto passes = [&](const NoTracePasses& text) { work.passes(text); };
-    const auto steps = [&](const NoTracePasses& text) { work.steps(text); };
-    measure("aba", name, passes, rounds, seconds);
-    measure("step", name, steps, rounds, seconds);
+    measure("aba", name, work, &Work::passes, rounds, seconds);
+    measure("step", name, work, &Work::steps, rounds, seconds);
   }
 }
 
@@ -100,15 +97,16 @@ int main(int argc, char** argv) {
   using namespace twinarm::bench;
   bool quick = false;
   std::string text;
-  CommandLine line("bench_no_trace", "bench_no_trace [--quick | --only-bare | --only-hooked]\n");
-  line.flag("--quick", quick);
-  line.flag("--only-bare", [&] { text = "bare"; });
-  line.flag("--only-hooked", [&] { text = "hooked"; });
-  return line.run(argc, argv, [&] {
-    if (!text.empty())
-      only(text, 2000);
-    else
-      run_all(quick ? 1 : 21, quick ? 0.001 : 0.01);
-    return 0;
-  });
+  return run_program("bench_no_trace", "bench_no_trace [--quick | --only-bare | --only-hooked]\n",
+                     argc, argv,
+                     {{"--quick", &quick},
+                      {"--only-bare", [&] { text = "bare"; }},
+                      {"--only-hooked", [&] { text = "hooked"; }}},
+                     [&] {
+                       if (!text.empty())
+                         only(text, 2000);
+                       else
+                         run_all(quick ? 1 : 21, quick ? 0.001 : 0.01);
+                       return 0;
+                     });
 }

@@ -24,7 +24,8 @@ struct Row {
   std::string name;  // of its kind
   const SceneCase* test;
   Scheme scheme;
-  double h;  // or the tolerance
+  double h;         // or the tolerance
+  double expected;  // CPU time of the first run [s]
   double error = NAN;
   long steps = 0;                 // of a fixed step; 0: adaptive
   std::vector<double> seconds{};  // by repetition: CPU time of the whole run
@@ -88,18 +89,9 @@ std::string name_of(const Row& row) {
   return row.test->name + ", " + row.name + ' ' + row.scheme.name;
 }
 
-// Estimated CPU time of the first run [s]: 1 us per step and body, 10 us with contacts.
-double expected_seconds(const Row& row, double budget) {
-  constexpr double kAdaptive = 0.05;
-  if (row.scheme.adaptive) return kAdaptive;
-  const Scene& scene = row.test->scene;
-  const double step = (scene.floor ? 1e-5 : 1e-6) * static_cast<double>(scene.bodies.size());
-  return std::min(row.test->duration / row.h * step, budget);
-}
-
-double expected_of_all(const Row& row, int repetitions, double budget) {
-  const double once = expected_seconds(row, budget);
-  return repetitions > 1 && once < kOnceIsEnough ? once * (1 + repetitions) : once;
+double expected_of_all(const Row& row, int repetitions) {
+  return repetitions > 1 && row.expected < kOnceIsEnough ? row.expected * (1 + repetitions)
+                                                         : row.expected;
 }
 
 // One run of each row for its error, then `repetitions` for its time; in each repetition all rows
@@ -111,21 +103,20 @@ void measure(std::vector<Row>& rows, int repetitions, double budget, Stages& sta
   };
   std::vector<Row*> repeated;
   for (Row& row : rows) {
-    const double once = expected_seconds(row, budget);
-    stages.begin(name_of(row), once);
+    stages.begin(name_of(row), row.expected);
     try {
       observe(row, budget);
     } catch (const std::exception& fault) {
       row.stopped = fault.what(), row.error = NAN;
     }
     if (worth_repeating(row)) repeated.push_back(&row);
-    const double remaining = worth_repeating(row) ? repetitions * once : 0;
-    stages.skip(expected_of_all(row, repetitions, budget) - once - remaining);
+    const double remaining = worth_repeating(row) ? repetitions * row.expected : 0;
+    stages.skip(expected_of_all(row, repetitions) - row.expected - remaining);
   }
   for (Row* row : repeated) row->seconds.clear();  // with cold caches
   for (int n = 0; n < repetitions && repetitions > 1; ++n)
     for (Row* row : repeated) {
-      stages.begin_seldom(name_of(*row) + ", again", expected_seconds(*row, budget));
+      stages.begin_seldom(name_of(*row) + ", again", row->expected);
       repeat(*row);
     }
 }
@@ -187,11 +178,16 @@ void check(const Options& o) {
 std::vector<Row> rows_of(const SceneCase& c, const std::vector<Peer>& peers,
                          const Options& options) {
   std::vector<Row> rows;
+  // Estimate: 1 us per step and body, 10 us with contacts; 0.05 s for adaptive steps.
+  const double step =
+      (c.scene.floor ? 1e-5 : 1e-6) * static_cast<double>(c.scene.bodies.size());  // [s]
   for (const Peer& peer : peers) {
-    if (!chosen(options.engines, peer.name)) continue;
+    if (!chosen(options.engines, peer.name) || !peer.engine->refusal(c.scene).empty()) continue;
     for (const Scheme& scheme : peer.engine->schemes(c.scene)) {
       const auto add = [&](double h) {
-        rows.push_back({peer.engine.get(), peer.name, &c, scheme, h});
+        const double expected =
+            scheme.adaptive ? 0.05 : std::min(c.duration / h * step, options.budget);
+        rows.push_back({peer.engine.get(), peer.name, &c, scheme, h, expected});
       };
       if (!options.work_precision) add(scheme.adaptive ? 1e-10 : c.step);
       for (int k = 0; options.work_precision && k < 9; ++k)
@@ -251,8 +247,7 @@ int run(const Options& options) {
   double expected = 0;                 // [s]
   for (const SceneCase& c : cases) {
     rows.push_back(rows_of(c, peers, options));
-    for (const Row& row : rows.back())
-      expected += expected_of_all(row, options.repetitions, options.budget);
+    for (const Row& row : rows.back()) expected += expected_of_all(row, options.repetitions);
   }
   Stages stages("bench_peers", expected, StageLines::redrawn);
   Json& list = answer[options.work_precision ? "work_precision" : "rows"] = Json::array();
@@ -271,14 +266,14 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   Options o;
-  CommandLine line("bench_peers", usage);
-  line.list("--cases", o.cases);
-  line.list("--engines", o.engines);
-  line.flag("--work-precision", o.work_precision);
-  line.number("--repetitions", o.repetitions);
-  line.number("--budget", o.budget);
-  line.flag("--quick", [&] { o.repetitions = 1, o.budget = 0.2; });
-  line.flag("--list", o.list);
-  return line.run(
-      argc, argv, [&] { return run(o); }, [&] { check(o); });
+  return run_program(
+      "bench_peers", usage, argc, argv,
+      {{"--cases", &o.cases},
+       {"--engines", &o.engines},
+       {"--work-precision", &o.work_precision},
+       {"--repetitions", &o.repetitions},
+       {"--budget", &o.budget},
+       {"--quick", [&] { o.repetitions = 1, o.budget = 0.2; }},
+       {"--list", &o.list}},
+      [&] { return run(o); }, [&] { check(o); });
 }

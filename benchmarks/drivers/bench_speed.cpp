@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "benchmarks/drivers/command_line.h"
@@ -32,15 +31,11 @@ Example: bench_speed --models puma6,chain32 --algorithms fd
 Exit codes: 0 done; 1 results of an engine differ from twinarm's (its rows are omitted); 2 bad option.
 )";
 
-struct NamedAlgorithm {
-  Algorithm algorithm;
-  const char* name;
-};
-constexpr std::array<NamedAlgorithm, 5> algorithms = {{{Algorithm::forward_dynamics, "fd"},
-                                                       {Algorithm::inverse_dynamics, "id"},
-                                                       {Algorithm::mass_matrix, "crba"},
-                                                       {Algorithm::kinematics, "fk"},
-                                                       {Algorithm::step, "step"}}};
+constexpr std::pair<Algorithm, const char*> algorithms[] = {{Algorithm::forward_dynamics, "fd"},
+                                                            {Algorithm::inverse_dynamics, "id"},
+                                                            {Algorithm::mass_matrix, "crba"},
+                                                            {Algorithm::kinematics, "fk"},
+                                                            {Algorithm::step, "step"}};
 
 struct Options {
   std::vector<std::string> models = {"scara3",  "puma6",    "chain7",
@@ -52,14 +47,11 @@ struct Options {
 };
 
 Engines engines_of_build() {
-  Engines engines = all_engines();
-  std::erase_if(engines, [](const auto& e) { return !e->has(Algorithm::forward_dynamics); });
+  Engines engines;
+  for (const EngineKind& kind : kinds_in_order())
+    for (auto& engine : kind.make())
+      if (engine->has(Algorithm::forward_dynamics)) engines.push_back(std::move(engine));
   return engines;
-}
-std::vector<std::string> names_of(const Engines& engines) {
-  std::vector<std::string> names;
-  for (const auto& engine : engines) names.push_back(engine->name());
-  return names;
 }
 
 void check(const Options& o) {
@@ -84,26 +76,17 @@ using Results = std::vector<std::vector<double>>;  // by situation
 double relative_error(const Results& mine, const Results& reference) {
   double worst = 0;
   for (std::size_t k = 0; k < reference.size(); ++k) {
-    if (mine[k].size() != reference[k].size()) return std::numeric_limits<double>::infinity();
-    double difference = 0, size = 0;
-    for (std::size_t i = 0; i < reference[k].size(); ++i) {
-      const double d = std::abs(mine[k][i] - reference[k][i]);
-      if (!std::isfinite(d)) return std::numeric_limits<double>::infinity();
-      difference = std::max(difference, d);
-      size = std::max(size, std::abs(reference[k][i]));
-    }
-    worst = std::max(worst, size > 0 ? difference / size : difference);
+    const auto n = static_cast<Eigen::Index>(reference[k].size());
+    const Eigen::Map<const Eigen::VectorXd> exact(reference[k].data(), n), given(mine[k].data(), n);
+    if (mine[k].size() != reference[k].size() || !(given - exact).allFinite()) return HUGE_VAL;
+    const double size = exact.lpNorm<Eigen::Infinity>();
+    worst = std::max(worst, (given - exact).lpNorm<Eigen::Infinity>() / (size > 0 ? size : 1));
   }
   return worst;
 }
 
-// Entries of the revolute joints.
-std::vector<double> joints_of(const Scene& mechanism, const std::vector<double>& all) {
-  return {all.begin() + (mechanism.floats() ? 6 : 0), all.end()};
-}
-
 // Largest error over all situations of every engine, against the first. The engines are loaded.
-std::vector<Agreement> compare(Engines& engines, const Scene& mechanism,
+std::vector<Agreement> compare(Engines& engines, const std::string& model, const Scene& mechanism,
                                const std::vector<Situation>& situations) {
   std::vector<Agreement> all;
   Results first_qdd, first_tau;
@@ -111,11 +94,12 @@ std::vector<Agreement> compare(Engines& engines, const Scene& mechanism,
     Results qdd, tau;
     for (std::size_t k = 0; k < situations.size(); ++k) {
       qdd.push_back(engine->qdd(k));
-      if (engine->has(Algorithm::inverse_dynamics))
-        tau.push_back(joints_of(mechanism, engine->tau(k)));
+      if (!engine->has(Algorithm::inverse_dynamics)) continue;
+      const std::vector<double> forces = engine->tau(k);
+      tau.emplace_back(forces.begin() + (mechanism.floats() ? 6 : 0), forces.end());  // of joints
     }
     if (first_qdd.empty()) first_qdd = qdd, first_tau = tau;
-    all.push_back({engine->name(), mechanism.name, relative_error(qdd, first_qdd),
+    all.push_back({engine->name(), model, relative_error(qdd, first_qdd),
                    tau.empty() ? 0 : relative_error(tau, first_tau), engine->tolerance(mechanism)});
   }
   return all;
@@ -128,21 +112,21 @@ void measure(const Options& options, const std::string& model, Stages& stages, J
   const Scene mechanism = bench::mechanism(model);
   const auto given = situations(mechanism, mechanism.bodies.size() > 200 ? 16 : 64);
   Engines engines = engines_of_build();
-  // Keeps the first one, the reference.
-  for (std::size_t i = engines.size(); i-- > 1;)
-    if (!chosen(options.engines, engines[i]->name()))
-      engines.erase(engines.begin() + static_cast<std::ptrdiff_t>(i));
+  std::erase_if(engines, [&](const auto& engine) {  // but the first one, the reference
+    return &engine != engines.data() && !chosen(options.engines, engine->name());
+  });
   for (const auto& engine : engines) {
     engine->load_mechanism(mechanism);
     engine->set_situations(given);
   }
-  const std::vector<Agreement> agreed = compare(engines, mechanism, given);
-  agreement.insert(agreement.end(), agreed.begin(), agreed.end());
-  for (const Agreement& a : agreed)
+  const std::vector<Agreement> agreed = compare(engines, model, mechanism, given);
+  for (const Agreement& a : agreed) {
+    agreement.push_back(a);
     if (!a.holds())
       std::cerr << "bench_speed: " << a.engine << " disagrees on " << model
                 << ": relative error of qdd " << a.error << ", of tau " << a.error_inverse
                 << ", allowed " << a.tolerance << "; it is omitted\n";
+  }
 
   for (const auto& [algorithm, name] : algorithms) {
     if (!chosen(options.wanted, name)) continue;
@@ -169,11 +153,13 @@ void measure(const Options& options, const std::string& model, Stages& stages, J
 }
 
 Json json_of(const Agreement& a) {
-  // JSON has no infinity
-  const auto number = [](double x) { return x <= 1e300 ? x : 1e300; };
-  return {{"engine", a.engine},       {"model", a.model},
-          {"error", number(a.error)}, {"error_inverse", number(a.error_inverse)},
-          {"tolerance", a.tolerance}, {"pass", a.holds()}};
+  constexpr double kMax = 1e300;  // JSON has no infinity
+  return {{"engine", a.engine},
+          {"model", a.model},
+          {"error", std::min(kMax, a.error)},
+          {"error_inverse", std::min(kMax, a.error_inverse)},
+          {"tolerance", a.tolerance},
+          {"pass", a.holds()}};
 }
 
 int run(const Options& options) {
@@ -182,7 +168,7 @@ int run(const Options& options) {
     return 0;
   }
   const auto of_a_model = std::ranges::count_if(
-      algorithms, [&](const auto& each) { return chosen(options.wanted, each.name); });
+      algorithms, [&](const auto& each) { return chosen(options.wanted, each.second); });
   Stages stages("bench_speed",
                 static_cast<double>(options.models.size()) * static_cast<double>(of_a_model));
   Json result = {{"rows", Json::array()}, {"agreement", Json::array()}};
@@ -200,14 +186,14 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace twinarm::bench;
   Options o;
-  CommandLine line("bench_speed", usage);
-  line.list("--models", o.models);
-  line.list("--engines", o.engines);
-  line.list("--algorithms", o.wanted);
-  line.number("--repetitions", o.repetitions);
-  line.number("--seconds", o.seconds);
-  line.flag("--quick", [&] { o.repetitions = 3, o.seconds = 0.003; });
-  line.flag("--list", o.list);
-  return line.run(
-      argc, argv, [&] { return run(o); }, [&] { check(o); });
+  return run_program(
+      "bench_speed", usage, argc, argv,
+      {{"--models", &o.models},
+       {"--engines", &o.engines},
+       {"--algorithms", &o.wanted},
+       {"--repetitions", &o.repetitions},
+       {"--seconds", &o.seconds},
+       {"--quick", [&] { o.repetitions = 3, o.seconds = 0.003; }},
+       {"--list", &o.list}},
+      [&] { return run(o); }, [&] { check(o); });
 }

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
-#include <utility>
+#include <variant>
 #include <vector>
 
 namespace twinarm::bench {
@@ -34,95 +35,78 @@ Number positive(const std::string& text) {
 
 // An empty list contains all names.
 inline bool chosen(const std::vector<std::string>& list, std::string_view name) {
-  return list.empty() || std::find(list.begin(), list.end(), name) != list.end();
+  return list.empty() || std::ranges::find(list, name) != list.end();
 }
 
 // NAN of no values.
 inline double median_of(std::vector<double> values) {
   if (values.empty()) return NAN;
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 // (longest - shortest) / median.
 inline double spread_of(const std::vector<double>& values) {
-  const auto [low, high] = std::minmax_element(values.begin(), values.end());
-  return (*high - *low) / median_of(values);
+  const auto [low, high] = std::ranges::minmax(values);
+  return (high - low) / median_of(values);
 }
 
-// Options by name. Exit codes: 2 for a bad option, 4 if the program fails.
-class CommandLine {
- public:
-  CommandLine(std::string program, const char* usage)
-      : program_(std::move(program)), usage_(usage) {
-    flag("--help", help_), flag("-h", help_);
-  }
-  void list(const std::string& name, std::vector<std::string>& values) {
-    options_.push_back({name, true, [&](const std::string& text) { values = split(text); }});
-  }
-  template <class Number>
-  void number(const std::string& name, Number& value) {
-    options_.push_back(
-        {name, true, [&](const std::string& text) { value = positive<Number>(text); }});
-  }
-  void flag(const std::string& name, std::function<void()> set) {
-    options_.push_back({name, false, [set = std::move(set)](const std::string&) { set(); }});
-  }
-  void flag(const std::string& name, bool& value) {
-    flag(name, [&value] { value = true; });
-  }
+// What an option sets: a list, a positive number, a flag; or what a flag does.
+using Option = std::variant<std::vector<std::string>*, int*, double*, bool*, std::function<void()>>;
 
-  // Reads and checks the options, and runs the program.
-  int run(
-      int argc, char** argv, const std::function<int()>& program,
-      const std::function<void()>& check = [] {}) const {
-    try {
-      for (int i = 1; i < argc; ++i) i += read(argv[i], i + 1 < argc ? argv[i + 1] : nullptr);
-      check();
-    } catch (const std::exception& fault) {
-      std::cerr << program_ << ": " << fault.what() << "; see --help\n";
-      return 2;
-    }
-    if (help_) {
-      std::cout << usage_;
-      return 0;
-    }
-    try {
-      return program();
-    } catch (const std::exception& fault) {
-      std::cerr << program_ << ": " << fault.what() << '\n';
-      return 4;
-    }
+inline void read_options(int argc, char** argv, const std::map<std::string, Option>& options) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string name = argv[i];
+    const auto found = options.find(name);
+    if (found == options.end()) throw std::invalid_argument("unknown option " + name);
+    const Option& option = found->second;
+    if (const auto* action = std::get_if<std::function<void()>>(&option))
+      (*action)();
+    else if (auto* const* flag = std::get_if<bool*>(&option))
+      **flag = true;
+    else if (++i == argc)
+      throw std::invalid_argument(name + " needs a value");
+    else if (auto* const* list = std::get_if<std::vector<std::string>*>(&option))
+      **list = split(argv[i]);
+    else if (auto* const* whole = std::get_if<int*>(&option))
+      **whole = positive<int>(argv[i]);
+    else
+      *std::get<double*>(option) = positive<double>(argv[i]);
   }
+}
 
- private:
-  struct Option {
-    std::string name;
-    bool has_value;
-    std::function<void(const std::string&)> set;
-  };
-  // Returns the number of words of the value.
-  int read(const std::string& name, const char* next) const {
-    for (const Option& option : options_) {
-      if (option.name != name) continue;
-      if (option.has_value && !next) throw std::invalid_argument(name + " needs a value");
-      option.set(option.has_value ? next : "");
-      return option.has_value ? 1 : 0;
-    }
-    throw std::invalid_argument("unknown option " + name);
+// Reads the options, checks them, and runs the program. Returns its exit code; 2 for a bad option,
+// 4 if the program fails.
+inline int run_program(
+    const std::string& program, const char* usage, int argc, char** argv,
+    std::map<std::string, Option> options, const std::function<int()>& run,
+    const std::function<void()>& check = [] {}) {
+  bool help = false;
+  options["--help"] = options["-h"] = &help;
+  try {
+    read_options(argc, argv, options);
+    check();
+  } catch (const std::exception& fault) {
+    std::cerr << program << ": " << fault.what() << "; see --help\n";
+    return 2;
   }
-
-  std::string program_;
-  const char* usage_;
-  bool help_ = false;
-  std::vector<Option> options_;
-};
+  if (help) {
+    std::cout << usage;
+    return 0;
+  }
+  try {
+    return run();
+  } catch (const std::exception& fault) {
+    std::cerr << program << ": " << fault.what() << '\n';
+    return 4;
+  }
+}
 
 // Throws if a wanted name is unknown.
 inline void check_known(const std::vector<std::string>& wanted,
                         const std::vector<std::string>& known, const std::string& what,
                         const std::string& fix) {
   for (const std::string& name : wanted)
-    if (std::find(known.begin(), known.end(), name) == known.end())
+    if (std::ranges::find(known, name) == known.end())
       throw std::invalid_argument("no " + what + " " + name + fix);
 }
 

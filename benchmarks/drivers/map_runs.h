@@ -2,16 +2,46 @@
 // robot through the paper's motion, by three springs whose gains differ from cell to cell.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <memory>
+#include <thread>
 #include <vector>
 
+#include "benchmarks/engines/engine.h"
 #include "coupling/batch/batch_run.h"
 #include "coupling/target/operator_motion.h"
+#include "solver/dynamics/model_builder.h"
 
 namespace twinarm::bench {
 
 // assets/robots/s103 without meshes; the gripper at its upper limit, one body with the quill.
-Model<double> locked_s103();
+inline Model<double> locked_s103() {
+  const auto inertia = [](double m, double x, double z, double xx, double xz, double yy,
+                          double zz) {
+    BodyInertia body{m, {x, 0, z}, Matrix3::Zero()};
+    body.inertia << xx, 0, xz, 0, yy, 0, xz, 0, zz;
+    return body;
+  };
+  ModelBuilder builder;
+  const auto hinge = [&](const char* name, const char* joint, int parent, double x, double z,
+                         const BodyInertia& body) {
+    return builder.add_body(name, parent, joint, JointType::revolute,
+                            {Matrix3::Identity(), {x, 0, z}}, Vector3::UnitZ(), body);
+  };
+  const int arm1 =
+      hinge("arm1", "joint1", 0, 0, 0.25,
+            inertia(5.011098, 0.0702135, 0.2152552, 0.0751362, -0.0242963, 0.1473617, 0.0832843));
+  const int arm2 =
+      hinge("arm2", "joint2", arm1, 0.25, 0.365,
+            inertia(2.981285, 0.1612192, 0.0704552, 0.0196957, 0.0038870, 0.0668750, 0.0523253));
+  const int quill = hinge("quill", "joint3", arm2, 0.35, 0.31625,
+                          inertia(0.45, 0.0000325, -0.2742602, 0.0113, 0, 0.0113, 0.00006));
+  builder.add_body("gripper", quill, "gripper_lift", JointType::fixed, {}, Vector3::UnitZ(),
+                   inertia(0.14, 0, -0.5337274, 0.0002, 0, 0.0002, 0.0001));
+  return builder.build();
+}
 
 struct MapLaw {
   const char* name;
@@ -29,22 +59,106 @@ inline constexpr std::array<MapLaw, 3> kMapLaws{
 class MapRuns {
  public:
   MapRuns(const MapLaw& law, Discretization treatment, bool energy, std::size_t cells,
-          std::size_t threads, double duration);
+          std::size_t threads, double duration)
+      : results_(cells) {
+    setup_.model = &model_;
+    setup_.start = State<double>(model_);
+    BatchTarget target{&hand_, mapping_, {{"joint1", "joint2", "joint3"}, "", 0, 0}, setup_.start};
+    const TargetRobot kvr(model_, hand_, mapping_, target.joints);
+    setup_.start.q = kvr.start().x.q;
+    setup_.targets = {target};
+    for (const int body : {1, 2, 3})
+      setup_.springs.push_back({law.type, law.measure, treatment, false, 0, body});
+    setup_.duration = duration;
+    setup_.energy = energy;
+    setup_.measured = {0, 1, 2};
+    for (std::size_t c = 0; c < cells; ++c) {
+      const double share = static_cast<double>(c) / static_cast<double>(cells);
+      const double k = law.k * (0.5 + share), b = law.b * (1 - 0.5 * share);
+      BatchCell cell;
+      cell.springs = {{k, b, {0.2, 0, 0.3}},
+                      {k, b, {0.3, 0, 0.1}},
+                      {k * law.quill, b * law.quill, {0.05, 0, -0.3}}};
+      cells_.push_back(cell);
+    }
+    for (std::size_t t = 0; t < threads; ++t) runs_.emplace_back(setup_);
+  }
   MapRuns(const MapRuns&) = delete;
 
-  void run();        // batched; only the first call tabulates the motion of the target
-  void run_fresh();  // batched, with the tables, as in a map
-  void run_alone();  // one cell at a time, each with its own target robot; errors but no energies
+  // Batched; only the first call tabulates the motion of the target.
+  void run() {
+    share_out([&](std::size_t t, std::size_t first, std::size_t n) {
+      runs_[t].run({cells_.data() + first, n}, {results_.data() + first, n});
+    });
+  }
+  // Batched, with the tables, as in a map.
+  void run_fresh() {
+    share_out([&](std::size_t, std::size_t first, std::size_t n) {
+      BatchRun fresh(setup_);
+      fresh.run({cells_.data() + first, n}, {results_.data() + first, n});
+    });
+  }
+  // One cell at a time, each with its own target robot; errors but no energies.
+  void run_alone() {
+    share_out([&](std::size_t, std::size_t first, std::size_t n) {
+      for (std::size_t c = first; c < first + n; ++c) results_[c].steps = run_one(cells_[c]);
+    });
+  }
   std::size_t steps() const { return steps_; }  // of the last call, all cells
   // Largest CPU time of a thread [s]: the wall time of an idle machine.
-  double busiest() const;
+  double busiest() const { return *std::ranges::max_element(seconds_); }
   std::size_t lanes() const { return runs_.front().lanes(); }
 
  private:
   // Calls part(thread, first cell, number of cells) in all threads.
   template <class Part>
-  void share_out(const Part& part);
-  std::size_t run_one(const BatchCell& cell) const;
+  void share_out(const Part& part) {
+    const std::size_t threads = runs_.size(), share = (cells_.size() + threads - 1) / threads;
+    const auto of_thread = [&](std::size_t t) {
+      const double began = thread_seconds();
+      const std::size_t first = std::min(t * share, cells_.size());
+      part(t, first, std::min(share, cells_.size() - first));
+      seconds_[t] = thread_seconds() - began;
+    };
+    seconds_.assign(threads, 0);
+    std::vector<std::thread> workers;
+    for (std::size_t t = 1; t < threads; ++t) workers.emplace_back(of_thread, t);
+    of_thread(0);
+    for (std::thread& worker : workers) worker.join();
+    steps_ = 0;
+    for (const BatchResult& result : results_) steps_ += result.steps;
+  }
+  std::size_t run_one(const BatchCell& cell) const {
+    const BatchTarget& target = setup_.targets.front();
+    TargetRobot kvr(model_, hand_, mapping_, target.joints);
+    kvr.set_pose(target.rest);
+    std::vector<std::unique_ptr<Coupling>> couplings;
+    Simulation simulation(model_, setup_.start);
+    for (std::size_t s = 0; s < setup_.springs.size(); ++s) {
+      const BatchSpring& spring = setup_.springs[s];
+      const BatchCell::Gains& gains = cell.springs[s];
+      CouplingSpec spec;
+      spec.type = spring.type;
+      spec.measure = spring.measure;
+      spec.treatment = spring.treatment;
+      spec.springs = {{"spring", spring.body, gains.p_L, gains.k, gains.b}};
+      couplings.push_back(make_coupling(spec, model_, kvr));
+      simulation.add(*couplings.back());
+    }
+    std::array<double, 3> largest{}, sum{};
+    std::size_t steps = 0;
+    for (; simulation.state().t < setup_.duration - 0.5 * cell.h; ++steps) {
+      simulation.step(cell.h);
+      for (std::size_t j = 0; j < 3; ++j) {
+        const double e = std::abs(kvr.end().x.q[j] - simulation.state().q[j]);
+        largest[j] = std::max(largest[j], e);
+        sum[j] += e;
+      }
+    }
+    // Uses the errors, so that the compiler cannot remove them.
+    return std::isfinite(largest[0] + sum[0] + largest[1] + sum[1] + largest[2] + sum[2]) ? steps
+                                                                                          : 0;
+  }
 
   Model<double> model_ = locked_s103();
   HandMapping mapping_;

@@ -2,6 +2,7 @@
 // CMake has removed the line of the hook (TWINARM_ISA = bare).
 #include "benchmarks/drivers/no_trace_passes.h"
 
+#include "solver/model/configuration.h"
 #include "solver/passes/aba.h"
 
 namespace twinarm::bench {
@@ -19,11 +20,7 @@ void step(const Model<double>& model, const State<double>& x, const Forces<doubl
     next.qd[k] = x.qd[k] + h * w.qdd[k];
     shift[k] = h * next.qd[k];
   }
-  for (std::size_t i = 1; i < model.parent.size(); ++i)
-    visit_joint(model, i, [&](auto joint) {
-      joint.integrate(x.q.data() + model.iq[i], shift.data() + model.iv[i],
-                      next.q.data() + model.iq[i]);
-    });
+  integrate_coordinates(model, x.q, shift, next.q);
 }
 
 }  // namespace

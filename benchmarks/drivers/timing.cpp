@@ -30,17 +30,15 @@ std::vector<benchmark::BenchmarkReporter::Run> run_registered(std::size_t expect
   return collector.runs;
 }
 
-void repeat(benchmark::State& state, const std::function<void()>& job) {
-  for (auto _ : state) job();
-}
-
 }  // namespace
 
 std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& jobs,
                                      int repetitions, double seconds) {
   if (jobs.empty()) return {};
   const auto add = [](const std::function<void()>& job) {
-    return benchmark::RegisterBenchmark("all", [&job](benchmark::State& s) { repeat(s, job); });
+    return benchmark::RegisterBenchmark("all", [&job](benchmark::State& state) {
+      for (auto _ : state) job();
+    });
   };
 
   // The first run warms up and determines the number of calls; its time is not used.

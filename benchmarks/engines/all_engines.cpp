@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <sstream>
 
 #include "benchmarks/engines/engine.h"
 
@@ -7,23 +6,18 @@ namespace twinarm::bench {
 
 std::vector<EngineKind> kinds_in_order() {
   std::vector<EngineKind> kinds = engine_kinds();
-  std::stable_sort(kinds.begin(), kinds.end(),
-                   [](const EngineKind& a, const EngineKind& b) { return a.order < b.order; });
+  std::ranges::sort(kinds, {}, &EngineKind::order);
   return kinds;
 }
 
-Engines all_engines() {
-  Engines engines;
-  for (const EngineKind& kind : kinds_in_order())
-    for (auto& engine : kind.make()) engines.push_back(std::move(engine));
-  return engines;
+std::vector<std::string> missing_engines() {
+  return {TWINARM_MISSING};
 }
 
-std::vector<std::string> missing_engines() {
-  std::vector<std::string> missing;
-  std::istringstream in(TWINARM_MISSING);
-  for (std::string name; std::getline(in, name, ',');) missing.push_back(name);
-  return missing;
+std::vector<std::string> names_of(const Engines& engines) {
+  std::vector<std::string> names;
+  for (const auto& engine : engines) names.push_back(engine->name());
+  return names;
 }
 
 }  // namespace twinarm::bench

@@ -19,11 +19,17 @@
 namespace twinarm::bench {
 namespace {
 
-class Bullet final : public FixedStepEngine {
+// State and torques of the joints; of the base at the com, world axes.
+struct BulletState {
+  std::vector<btScalar> q, v, tau;
+  btVector3 position, velocity, omega, force, torque;
+  btQuaternion world_to_base;
+};
+
+class Bullet final : public PeerEngine<BulletState> {
  public:
   std::string name() const override { return "bullet"; }
   std::vector<Scheme> schemes(const Scene& scene) const override {
-    if (!refusal(scene).empty()) return {};
     if (all_free(scene)) return {{"semi-implicit"}};
     return {{"semi-implicit"}, {"RK4"}};
   }
@@ -37,19 +43,10 @@ class Bullet final : public FixedStepEngine {
   bool is_timed_with_contacts() const override { return true; }
 
   void load(const Scene& scene, const Scheme& scheme, double h) override {
-    begin(h);
-    scene_ = scene;
+    begin(scene, h);
     world_.reset();
     world_ = std::make_unique<BulletWorld>(scene);
-    const double *q = scene.q.data(), *v = scene.v.data();
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-      const Joint joint = scene.bodies[i].joint;
-      if (joint == Joint::free)
-        place(*world_->bodies[i], q, v);
-      else
-        set_joint(static_cast<int>(i), joint, q, v);
-      q += coordinates_of(joint), v += velocities_of(joint);
-    }
+    set_joints();
     if (!world_->tree) return;
     world_->tree->useRK4Integration(scheme.name == "RK4");
     world_->update_transforms();
@@ -65,25 +62,6 @@ class Bullet final : public FixedStepEngine {
                                          world_->tree->getJointVel(j))));
     world_->world.stepSimulation(bt(h_), 0);  // one step of this length
   }
-  void read(std::vector<double>& q, std::vector<double>& v) override {
-    q.resize(scene_.q.size()), v.resize(scene_.v.size());
-    double *at = q.data(), *rate = v.data();
-    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      const Joint joint = scene_.bodies[i].joint;
-      if (joint == Joint::free) {
-        read_body(*world_->bodies[i], at, rate);
-      } else {
-        const int link = static_cast<int>(i);
-        const btScalar* p = world_->tree->getJointPosMultiDof(link);
-        if (joint == Joint::revolute)
-          at[0] = p[0];
-        else
-          write(btQuaternion(p[0], p[1], p[2], p[3]), at);
-        std::copy_n(world_->tree->getJointVelMultiDof(link), velocities_of(joint), rate);
-      }
-      at += coordinates_of(joint), rate += velocities_of(joint);
-    }
-  }
 
   bool has(Algorithm algorithm) const override {
     return algorithm != Algorithm::inverse_dynamics && algorithm != Algorithm::mass_matrix;
@@ -98,18 +76,10 @@ class Bullet final : public FixedStepEngine {
     for (int i = 0; i < tree_->getNumLinks(); ++i)
       tree_->addLinkForce(i, weight(index(i) + first_));
   }
-  void set_situations(const std::vector<Situation>& situations) override {
-    situations_ = situations;
-    states_.clear();
-    for (const Situation& s : situations) states_.push_back(convert(s));
-  }
-  void run(Algorithm algorithm) override {
-    for (const State& s : states_) run(algorithm, s);
-  }
   // Bullet gives accelerations only as velocities after a step; hence a step of 1 s.
   std::vector<double> qdd(std::size_t k) override {
-    set_position(states_[k]);
-    set_velocity(states_[k]);
+    set_position(converted_[k]);
+    set_velocity(converted_[k]);
     accelerate(1);
     const btScalar* v = tree_->getVelocityVector();
     const Situation& s = situations_[k];
@@ -125,47 +95,50 @@ class Bullet final : public FixedStepEngine {
       const Eigen::Vector3d alpha_B = base.R.conjugate() * alpha;
       qdd = {alpha_B.x(), alpha_B.y(), alpha_B.z(), a.x(), a.y(), a.z()};
     }
-    const std::size_t n = states_[k].v.size();
+    const std::size_t n = converted_[k].v.size();
     for (std::size_t j = 0; j < n; ++j) qdd.push_back(v[6 + j] - s.v[s.v.size() - n + j]);
     return qdd;
   }
 
  private:
-  struct State {
-    std::vector<btScalar> q, v, tau;  // of the joints
-    // Base: of and at the com, world axes.
-    btVector3 position, velocity, omega, force, torque;
-    btQuaternion world_to_base;
-  };
-
-  static void place(btRigidBody& body, const double* q, const double* v) {
-    const btQuaternion R = bt(quaternion(q + 3));
-    body.setCenterOfMassTransform(btTransform(R, {bt(q[0]), bt(q[1]), bt(q[2])}));
-    body.setAngularVelocity(quatRotate(R, {bt(v[0]), bt(v[1]), bt(v[2])}));
-    body.setLinearVelocity({bt(v[3]), bt(v[4]), bt(v[5])});
-  }
-  static void read_body(const btRigidBody& body, double* q, double* v) {
-    const btTransform& X = body.getCenterOfMassTransform();
-    const btVector3 w = quatRotate(X.getRotation().inverse(), body.getAngularVelocity());
-    for (int k = 0; k < 3; ++k) {
-      q[k] = X.getOrigin()[k], v[k] = w[k];
-      v[3 + k] = body.getLinearVelocity()[k];
+  void set_joint(std::size_t i, const double* q, const double* v) override {
+    const Joint joint = scene_.bodies[i].joint;
+    if (joint == Joint::free) {
+      const btQuaternion R = bt(quaternion(q + 3));
+      btRigidBody& body = *world_->bodies[i];
+      body.setCenterOfMassTransform(btTransform(R, {bt(q[0]), bt(q[1]), bt(q[2])}));
+      body.setAngularVelocity(quatRotate(R, {bt(v[0]), bt(v[1]), bt(v[2])}));
+      body.setLinearVelocity({bt(v[3]), bt(v[4]), bt(v[5])});
+      return;
     }
-    write(X.getRotation(), q + 3);
-  }
-  void set_joint(int link, Joint joint, const double* q, const double* v) const {
-    const btScalar rate[] = {bt(v[0]), joint == Joint::revolute ? bt(0) : bt(v[1]),
-                             joint == Joint::revolute ? bt(0) : bt(v[2])};
-    btScalar p[4] = {bt(q[0])};
+    btScalar p[4] = {bt(q[0])}, rate[3] = {};
     if (joint == Joint::spherical)
       for (int k = 0; k < 4; ++k) p[k] = bt(q[(k + 1) % 4]);
-    world_->tree->setJointPosMultiDof(link, p);
-    world_->tree->setJointVelMultiDof(link, rate);
+    std::transform(v, v + velocities_of(joint), rate, [](double x) { return bt(x); });
+    world_->tree->setJointPosMultiDof(static_cast<int>(i), p);
+    world_->tree->setJointVelMultiDof(static_cast<int>(i), rate);
+  }
+  void read_joint(std::size_t i, double* q, double* v) override {
+    const Joint joint = scene_.bodies[i].joint;
+    if (joint == Joint::free) {
+      const btRigidBody& body = *world_->bodies[i];
+      const btTransform& X = body.getCenterOfMassTransform();
+      const btVector3 w = quatRotate(X.getRotation().inverse(), body.getAngularVelocity());
+      std::copy_n(&X.getOrigin()[0], 3, q), write_quaternion(X.getRotation(), q + 3);
+      std::copy_n(&w[0], 3, v), std::copy_n(&body.getLinearVelocity()[0], 3, v + 3);
+      return;
+    }
+    const btScalar* p = world_->tree->getJointPosMultiDof(static_cast<int>(i));
+    if (joint == Joint::revolute)
+      q[0] = p[0];
+    else
+      write_quaternion(btQuaternion(p[0], p[1], p[2], p[3]), q);
+    std::copy_n(world_->tree->getJointVelMultiDof(static_cast<int>(i)), velocities_of(joint), v);
   }
 
-  State convert(const Situation& s) const {
+  BulletState convert(const Situation& s) const override {
     const auto n = static_cast<std::ptrdiff_t>(scene_.bodies.size() - first_);
-    State state;
+    BulletState state;
     state.q.assign(s.q.end() - n, s.q.end());
     state.v.assign(s.v.end() - n, s.v.end());
     state.tau.assign(s.tau.end() - n, s.tau.end());
@@ -183,7 +156,7 @@ class Bullet final : public FixedStepEngine {
     return {0, 0, bt(-standard_gravity * scene_.bodies[i].mass)};
   }
 
-  void set_position(const State& s) {
+  void set_position(const BulletState& s) {
     if (scene_.floats()) {
       tree_->setBasePos(s.position);
       tree_->setWorldToBaseRot(s.world_to_base);
@@ -191,7 +164,7 @@ class Bullet final : public FixedStepEngine {
     for (std::size_t j = 0; j < s.q.size(); ++j)
       tree_->setJointPosMultiDof(static_cast<int>(j), s.q.data() + j);
   }
-  void set_velocity(const State& s) {
+  void set_velocity(const BulletState& s) {
     if (scene_.floats()) {
       tree_->setBaseVel(s.velocity);
       tree_->setBaseOmega(s.omega);
@@ -208,7 +181,7 @@ class Bullet final : public FixedStepEngine {
     tree_->computeAccelerationsArticulatedBodyAlgorithmMultiDof(h, numbers_, vectors_, matrices_,
                                                                 false, false, false);
   }
-  void run(Algorithm algorithm, const State& s) {
+  void run_one(Algorithm algorithm, const BulletState& s) override {
     set_position(s);
     if (algorithm == Algorithm::kinematics) {
       tree_->forwardKinematics(quaternions_, vectors_);
@@ -219,13 +192,10 @@ class Bullet final : public FixedStepEngine {
     if (algorithm == Algorithm::step) tree_->stepPositionsMultiDof(bt(step_length));
   }
 
-  Scene scene_;
   std::unique_ptr<BulletWorld> world_;
   std::size_t first_ = 0;  // first body on a joint, of a mechanism
   std::vector<Principal> frames_;
   std::unique_ptr<btMultiBody> tree_;
-  std::vector<Situation> situations_;
-  std::vector<State> states_;
   btAlignedObjectArray<btScalar> numbers_;
   btAlignedObjectArray<btVector3> vectors_;
   btAlignedObjectArray<btMatrix3x3> matrices_;
@@ -233,12 +203,9 @@ class Bullet final : public FixedStepEngine {
 };
 
 }  // namespace
-}  // namespace twinarm::bench
 
-namespace twinarm {
-
-bench::EngineKind bullet_engine() {
-  return {"bullet", 2, bench::one_engine<bench::Bullet>};
+EngineKind bullet_engine() {
+  return {"bullet", 2, one_engine<Bullet>};
 }
 
-}  // namespace twinarm
+}  // namespace twinarm::bench

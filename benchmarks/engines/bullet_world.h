@@ -13,7 +13,7 @@
 #include <memory>
 #include <utility>
 
-#include "benchmarks/scenes/eigen.h"
+#include "benchmarks/scenes/scene.h"
 
 namespace twinarm::bench {
 
@@ -29,17 +29,9 @@ inline btVector3 bt(const Numbers3& v) {
 inline btQuaternion bt(const Eigen::Quaterniond& q) {
   return {bt(q.x()), bt(q.y()), bt(q.z()), bt(q.w())};
 }
-inline void write(const btQuaternion& R, double* q) {
-  q[0] = R.w(), q[1] = R.x(), q[2] = R.y(), q[3] = R.z();
-}
 
 inline bool all_free(const Scene& scene) {
-  return std::all_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& b) { return b.joint == Joint::free; });
-}
-inline bool has_boxes(const Scene& scene) {
-  return std::any_of(scene.bodies.begin(), scene.bodies.end(),
-                     [](const Body& b) { return b.form == Form::box; });
+  return std::ranges::count(scene.bodies, Joint::free, &Body::joint) == std::ssize(scene.bodies);
 }
 
 // Bullet requires body frames at the com along the principal axes of inertia.
@@ -74,7 +66,7 @@ inline std::unique_ptr<btMultiBody> make_tree(const Scene& scene,
       R_PPr = frames[index(b.parent)].R_BP.transpose();
       parent_com = vector3(scene.bodies[index(b.parent)].com);
     }
-    const Eigen::Matrix3d R = R_PPr * matrix3(b.rotation) * frame.R_BP;
+    const Eigen::Matrix3d R = R_PPr * b.rotation * frame.R_BP;
     const btQuaternion to_this = bt(Eigen::Quaterniond(R.transpose()));
     const btVector3 from_com = bt(R_PPr * (vector3(b.position) - parent_com));
     const btVector3 com = bt(frame.R_BP.transpose() * vector3(b.com));
@@ -134,7 +126,8 @@ struct BulletWorld {
   void add_floor(const Scene& scene) {
     const double friction =
         scene.friction > 0 ? scene.floor_friction / std::sqrt(scene.friction) : 0;
-    if (has_boxes(scene) && sizeof(btScalar) == sizeof(double))
+    if (std::ranges::count(scene.bodies, Form::box, &Body::form) > 0 &&
+        sizeof(btScalar) == sizeof(double))
       add_fixed(std::make_unique<btBoxShape>(btVector3(100, 100, 1)), btVector3(0, 0, -1), friction,
                 scene.restitution);
     else

@@ -23,7 +23,6 @@
 #include <iostream>
 
 #include "benchmarks/engines/engine.h"
-#include "benchmarks/scenes/eigen.h"
 
 namespace twinarm::bench {
 namespace {
@@ -43,14 +42,20 @@ class ReportsOnStderr {
   std::streambuf* out_;
 };
 
-class Dart final : public FixedStepEngine {
+// DART's coordinates: of the base the rotation vector and position; velocities, accelerations and
+// forces are twists and wrenches in body axes, angular part first.
+struct DartState {
+  Eigen::VectorXd q, v, tau, qdd;
+};
+
+class Dart final : public PeerEngine<DartState> {
  public:
   std::string name() const override { return "dart"; }
   std::vector<Scheme> schemes(const Scene&) const override { return {{"semi-implicit"}}; }
 
   void load(const Scene& scene, const Scheme&, double h) override {
     const ReportsOnStderr quiet;
-    begin(h);
+    begin(scene, h);
     static const double its_own = ContactConstraint::getErrorReductionParameter();
     ContactConstraint::setErrorReductionParameter(scene.uncorrected ? 0 : its_own);
     world_ = std::make_shared<dart::simulation::World>();
@@ -58,8 +63,8 @@ class Dart final : public FixedStepEngine {
     world_->setTimeStep(h);
     world_->getConstraintSolver()->setCollisionDetector(
         dart::collision::DARTCollisionDetector::create());
-    add_bodies(scene);
-    set_state();
+    add_bodies();
+    set_joints();
     for (const dd::BodyNodePtr& body : bodies_)
       if (body->getParentBodyNode() == nullptr) world_->addSkeleton(body->getSkeleton());
     if (scene.floor) add_floor();
@@ -70,47 +75,17 @@ class Dart final : public FixedStepEngine {
         bodies_[i]->setExtForce(vector3(scene_.bodies[i].push));
     world_->step();
   }
-  void read(std::vector<double>& q, std::vector<double>& v) override {
-    q.resize(scene_.q.size()), v.resize(scene_.v.size());
-    double *at = q.data(), *rate = v.data();
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const dd::Joint* joint = bodies_[i]->getParentJoint();
-      const Eigen::VectorXd p = joint->getPositions(), u = joint->getVelocities();
-      const Joint type = scene_.bodies[i].joint;
-      if (type == Joint::revolute) {
-        at[0] = p[0], rate[0] = u[0];
-      } else if (type == Joint::spherical) {
-        write_quaternion(Eigen::Quaterniond(dd::BallJoint::convertToRotation(p)), at);
-        Eigen::Vector3d::Map(rate) = u;
-      } else {  // velocities are a twist in body axes
-        const Eigen::Isometry3d X = dd::FreeJoint::convertToTransform(p);
-        Eigen::Vector3d::Map(at) = X.translation();
-        write_quaternion(Eigen::Quaterniond(X.linear()), at + 3);
-        Eigen::Vector3d::Map(rate) = u.head<3>();
-        Eigen::Vector3d::Map(rate + 3) = X.linear() * u.tail<3>();
-      }
-      at += coordinates_of(type), rate += velocities_of(type);
-    }
-  }
 
-  bool has(Algorithm) const override { return true; }
   void load_mechanism(const Scene& mechanism) override {
     const ReportsOnStderr quiet;
-    add_bodies(mechanism);
+    scene_ = mechanism;
+    add_bodies();
     skeleton_ = bodies_[0]->getSkeleton();
     skeleton_->setGravity(vector3(mechanism.gravity));
     skeleton_->setTimeStep(step_length);
   }
-  void set_situations(const std::vector<Situation>& situations) override {
-    states_.clear();
-    for (const Situation& s : situations) states_.push_back(convert(s));
-    situations_ = situations;
-  }
-  void run(Algorithm algorithm) override {
-    for (const State& state : states_) run(algorithm, state);
-  }
   std::vector<double> qdd(std::size_t k) override {
-    run(Algorithm::forward_dynamics, states_[k]);
+    run_one(Algorithm::forward_dynamics, converted_[k]);
     Eigen::VectorXd a = skeleton_->getAccelerations();
     if (scene_.floats()) {  // (alpha; spatial acceleration of the origin), both in body axes
       const Base base(situations_[k]);
@@ -120,30 +95,25 @@ class Dart final : public FixedStepEngine {
     return {a.begin(), a.end()};
   }
   std::vector<double> tau(std::size_t k) override {
-    run(Algorithm::inverse_dynamics, states_[k]);
+    run_one(Algorithm::inverse_dynamics, converted_[k]);
     const Eigen::VectorXd tau = skeleton_->getForces();
     return {tau.begin(), tau.end()};
   }
 
  private:
-  // DART's coordinates: of the base the rotation vector and position; velocities, accelerations and
-  // forces are twists and wrenches in body axes, angular part first.
-  struct State {
-    Eigen::VectorXd q, v, tau, qdd;
-  };
-
   template <class JointType>
   dd::BodyNode* make(const dd::SkeletonPtr& skeleton, dd::BodyNode* parent,
-                     typename JointType::Properties properties) {
+                     const Eigen::Isometry3d& placed,
+                     typename JointType::Properties properties = typename JointType::Properties()) {
     const std::string number = std::to_string(bodies_.size());  // unique, otherwise DART renames it
     properties.mName = "joint " + number;
+    properties.mT_ParentBodyToJoint = placed;
     const dd::BodyNode::AspectProperties named("body " + number);
     return skeleton->createJointAndBodyNodePair<JointType>(parent, properties, named).second;
   }
-  void add_bodies(const Scene& scene) {
-    scene_ = scene;
+  void add_bodies() {
     bodies_.clear();
-    for (const Body& b : scene.bodies) bodies_.push_back(add(b));
+    for (const Body& b : scene_.bodies) bodies_.push_back(add(b));
   }
   dd::BodyNodePtr add(const Body& b) {
     dd::BodyNode* parent = b.parent < 0 ? nullptr : bodies_[index(b.parent)].get();
@@ -151,20 +121,17 @@ class Dart final : public FixedStepEngine {
         parent ? parent->getSkeleton()
                : dd::Skeleton::create("of " + std::to_string(bodies_.size()));
     Eigen::Isometry3d placed = Eigen::Isometry3d::Identity();
-    placed.linear() = matrix3(b.rotation);
+    placed.linear() = b.rotation;
     placed.translation() = vector3(b.position);
     dd::BodyNode* body = nullptr;
     if (b.joint == Joint::revolute) {
       dd::RevoluteJoint::Properties revolute;
       revolute.mAxis = axis_of(b);
-      revolute.mT_ParentBodyToJoint = placed;
-      body = make<dd::RevoluteJoint>(skeleton, parent, revolute);
+      body = make<dd::RevoluteJoint>(skeleton, parent, placed, revolute);
     } else if (b.joint == Joint::spherical) {
-      dd::BallJoint::Properties ball;
-      ball.mT_ParentBodyToJoint = placed;
-      body = make<dd::BallJoint>(skeleton, parent, ball);
+      body = make<dd::BallJoint>(skeleton, parent, placed);
     } else {
-      body = make<dd::FreeJoint>(skeleton, parent, {});
+      body = make<dd::FreeJoint>(skeleton, parent, Eigen::Isometry3d::Identity());
     }
     body->setInertia({b.mass, vector3(b.com), inertia3(b.inertia)});
     if (b.form == Form::sphere)
@@ -182,30 +149,42 @@ class Dart final : public FixedStepEngine {
   // The detector has no half-space; a large box instead.
   void add_floor() {
     const dd::SkeletonPtr floor = dd::Skeleton::create("floor");
-    dd::WeldJoint::Properties below;
-    below.mT_ParentBodyToJoint.translation() = Eigen::Vector3d(0, 0, -1);
+    const Eigen::Isometry3d below(Eigen::Translation3d(0, 0, -1));
     add_shape(make<dd::WeldJoint>(floor, nullptr, below),
               std::make_shared<dd::BoxShape>(Eigen::Vector3d(200, 200, 2)), scene_.floor_friction);
     world_->addSkeleton(floor);
   }
-  void set_state() {
-    const double *q = scene_.q.data(), *v = scene_.v.data();
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      dd::Joint* joint = bodies_[i]->getParentJoint();
-      const Joint type = scene_.bodies[i].joint;
-      if (type == Joint::revolute) {
-        joint->setPosition(0, q[0]), joint->setVelocity(0, v[0]);
-      } else if (type == Joint::spherical) {
-        joint->setPositions(dd::BallJoint::convertToPositions(quaternion(q).toRotationMatrix()));
-        joint->setVelocities(Eigen::Vector3d(v));
-      } else {
-        joint->setPositions(free_positions(q));
-        Eigen::Matrix<double, 6, 1> twist;
-        twist << Eigen::Vector3d(v),
-            quaternion(q + 3).toRotationMatrix().transpose() * Eigen::Vector3d(v + 3);
-        joint->setVelocities(twist);
-      }
-      q += coordinates_of(type), v += velocities_of(type);
+  void set_joint(std::size_t i, const double* q, const double* v) override {
+    dd::Joint* joint = bodies_[i]->getParentJoint();
+    const Joint type = scene_.bodies[i].joint;
+    if (type == Joint::revolute) {
+      joint->setPosition(0, q[0]), joint->setVelocity(0, v[0]);
+    } else if (type == Joint::spherical) {
+      joint->setPositions(dd::BallJoint::convertToPositions(quaternion(q).toRotationMatrix()));
+      joint->setVelocities(Eigen::Vector3d(v));
+    } else {
+      joint->setPositions(free_positions(q));
+      Eigen::Matrix<double, 6, 1> twist;
+      twist << Eigen::Vector3d(v),
+          quaternion(q + 3).toRotationMatrix().transpose() * Eigen::Vector3d(v + 3);
+      joint->setVelocities(twist);
+    }
+  }
+  void read_joint(std::size_t i, double* q, double* v) override {
+    const dd::Joint* joint = bodies_[i]->getParentJoint();
+    const Eigen::VectorXd p = joint->getPositions(), u = joint->getVelocities();
+    const Joint type = scene_.bodies[i].joint;
+    if (type == Joint::revolute) {
+      q[0] = p[0], v[0] = u[0];
+    } else if (type == Joint::spherical) {
+      write_quaternion(Eigen::Quaterniond(dd::BallJoint::convertToRotation(p)), q);
+      Eigen::Vector3d::Map(v) = u;
+    } else {  // velocities are a twist in body axes
+      const Eigen::Isometry3d X = dd::FreeJoint::convertToTransform(p);
+      Eigen::Vector3d::Map(q) = X.translation();
+      write_quaternion(Eigen::Quaterniond(X.linear()), q + 3);
+      Eigen::Vector3d::Map(v) = u.head<3>();
+      Eigen::Vector3d::Map(v + 3) = X.linear() * u.tail<3>();
     }
   }
   static Eigen::Matrix<double, 6, 1> free_positions(const double* q) {
@@ -215,12 +194,12 @@ class Dart final : public FixedStepEngine {
     return dd::FreeJoint::convertToPositions(X);
   }
 
-  State convert(const Situation& s) const {
+  DartState convert(const Situation& s) const override {
     const auto eigen = [](const std::vector<double>& v) {
       return Eigen::VectorXd(
           Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size())));
     };
-    State state{eigen(s.q), eigen(s.v), eigen(s.tau), eigen(s.qdd)};
+    DartState state{eigen(s.q), eigen(s.v), eigen(s.tau), eigen(s.qdd)};
     if (!scene_.floats()) return state;
     const Base base(s);
     const Eigen::Quaterniond R_BW = base.R.conjugate();
@@ -234,7 +213,7 @@ class Dart final : public FixedStepEngine {
     return state;
   }
 
-  void run(Algorithm algorithm, const State& state) {
+  void run_one(Algorithm algorithm, const DartState& state) override {
     skeleton_->setPositions(state.q);
     switch (algorithm) {
       case Algorithm::mass_matrix:
@@ -259,21 +238,15 @@ class Dart final : public FixedStepEngine {
     }
   }
 
-  Scene scene_;
   dart::simulation::WorldPtr world_;
   std::vector<dd::BodyNodePtr> bodies_;  // each keeps its skeleton alive
   dd::SkeletonPtr skeleton_;             // of a mechanism
-  std::vector<State> states_;
-  std::vector<Situation> situations_;
 };
 
 }  // namespace
-}  // namespace twinarm::bench
 
-namespace twinarm {
-
-bench::EngineKind dart_engine() {
-  return {"dart", 3, bench::one_engine<bench::Dart>};
+EngineKind dart_engine() {
+  return {"dart", 3, one_engine<Dart>};
 }
 
-}  // namespace twinarm
+}  // namespace twinarm::bench

@@ -47,10 +47,10 @@ class Engine {
   virtual std::string name() const = 0;
 
   // ---- scenes ----
-  // Integrations that can run the scene, the engine's default first; empty: see refusal().
-  virtual std::vector<Scheme> schemes(const Scene&) const { return {}; }
   virtual std::string refusal(const Scene&) const { return {}; }  // why the scene is not supported
-  virtual bool is_timed_with_contacts() const { return false; }   // in bench_contact
+  // Integrations of a scene that is supported, the engine's default first.
+  virtual std::vector<Scheme> schemes(const Scene&) const { return {}; }
+  virtual bool is_timed_with_contacts() const { return false; }  // in bench_contact
   virtual void load(const Scene&, const Scheme&, double /*step_or_tolerance*/) {}
   virtual void step() {}                 // timed; adaptive schemes choose its size
   virtual void advance(double /*t*/) {}  // timed; to a multiple of the step
@@ -75,17 +75,51 @@ class Engine {
   virtual std::vector<double> tau(std::size_t /*k*/) { return {}; }
 };
 
-// Fixed-step integration, the common case.
+// Fixed steps, and coordinates joint by joint: the common case of a peer.
 class FixedStepEngine : public Engine {
  public:
   void advance(double t) override {
     while (t - static_cast<double>(steps_) * h_ > 0.5 * h_) step(), ++steps_;
   }
+  void read(std::vector<double>& q, std::vector<double>& v) override {
+    q.resize(scene_.q.size()), v.resize(scene_.v.size());
+    for_each_joint(scene_, q.data(), v.data(), [&](auto... joint) { read_joint(joint...); });
+  }
 
  protected:
-  void begin(double h) { h_ = h, steps_ = 0; }
+  void begin(const Scene& scene, double h) { scene_ = scene, h_ = h, steps_ = 0; }
+  void set_joints() {
+    for_each_joint(scene_, scene_.q.data(), scene_.v.data(),
+                   [&](auto... joint) { set_joint(joint...); });
+  }
+  // q and v of the joint of a body, as in Scene.
+  virtual void set_joint(std::size_t /*body*/, const double* /*q*/, const double* /*v*/) {}
+  virtual void read_joint(std::size_t /*body*/, double* /*q*/, double* /*v*/) {}
+
+  Scene scene_;  // or mechanism
   double h_ = 0;
   long steps_ = 0;
+};
+
+// Also with algorithms, on situations in coordinates of the engine.
+template <class Converted>
+class PeerEngine : public FixedStepEngine {
+ public:
+  bool has(Algorithm) const override { return true; }
+  void set_situations(const std::vector<Situation>& situations) override {
+    situations_ = situations, converted_.clear();
+    for (const Situation& s : situations) converted_.push_back(convert(s));
+  }
+  void run(Algorithm algorithm) override {
+    for (const Converted& s : converted_) run_one(algorithm, s);
+  }
+
+ protected:
+  virtual Converted convert(const Situation&) const = 0;
+  virtual void run_one(Algorithm, const Converted&) = 0;
+
+  std::vector<Situation> situations_;
+  std::vector<Converted> converted_;
 };
 
 using Engines = std::vector<std::unique_ptr<Engine>>;
@@ -102,9 +136,10 @@ Engines one_engine() {
   return engines;
 }
 
-std::vector<EngineKind> kinds_in_order();    // in this build
-Engines all_engines();                       // all variants
-std::vector<std::string> missing_engines();  // libraries not found
+const std::vector<EngineKind>& engine_kinds();  // made by twinarm_registry()
+std::vector<EngineKind> kinds_in_order();       // in this build
+std::vector<std::string> missing_engines();     // libraries not found
+std::vector<std::string> names_of(const Engines& engines);
 
 inline double thread_seconds() {  // CPU time of this thread [s]
   timespec now{};
@@ -113,9 +148,3 @@ inline double thread_seconds() {  // CPU time of this thread [s]
 }
 
 }  // namespace twinarm::bench
-
-namespace twinarm {
-
-const std::vector<bench::EngineKind>& engine_kinds();  // made by twinarm_registry()
-
-}  // namespace twinarm

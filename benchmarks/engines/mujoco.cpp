@@ -11,7 +11,6 @@
 // only add time): the minimum time of MuJoCo for the result.
 #include "benchmarks/engines/engine.h"
 #include "benchmarks/engines/mujoco_model.h"
-#include "benchmarks/scenes/eigen.h"
 
 namespace twinarm::bench {
 namespace {
@@ -21,77 +20,71 @@ namespace {
 class Mjcf {
  public:
   Mjcf(const Scene& scene, const std::string& integrator, double h) : scene_(scene) {
-    std::ostringstream xml;
-    xml.precision(17);
-    xml << "<mujoco><compiler angle=\"radian\"/><size njmax=\"3000\" nconmax=\"1000\"/>"
-        << "<option timestep=\"" << h << "\" gravity=\"" << mjcf(scene.gravity)
-        << "\" integrator=\"" << integrator << "\" solver=\"Newton\" cone=\"elliptic\">"
-        << (scene.has_contacts() ? "" : "<flag constraint=\"disable\" contact=\"disable\"/>")
-        << "</option><worldbody>";
+    std::string xml =
+        "<mujoco><compiler angle=\"radian\"/><size njmax=\"3000\" nconmax=\"1000\"/>"
+        "<option timestep=\"" +
+        mjcf(std::array{h}) + "\" gravity=\"" + mjcf(scene.gravity) + "\" integrator=\"" +
+        integrator + "\" solver=\"Newton\" cone=\"elliptic\">" +
+        (scene.has_contacts() ? "" : "<flag constraint=\"disable\" contact=\"disable\"/>") +
+        "</option><worldbody>";
     // Friction of a pair is the maximum, unless one surface has priority.
     if (scene.floor)
-      xml << "<geom type=\"plane\" size=\"50 50 1\" priority=\"1\"" << surface(scene.floor_friction)
-          << "/>";
-    write_children(xml, -1, 1);
+      xml += "<geom type=\"plane\" size=\"50 50 1\" priority=\"1\"" + surface(scene.floor_friction);
+    xml += children(-1, 1);
     if (scene.obstacle)
-      xml << "<geom type=\"box\" pos=\"" << mjcf(scene.obstacle->centre) << "\" size=\""
-          << mjcf(scene.obstacle->half) << "\"" << surface(scene.friction) << "/>";
-    xml << "</worldbody></mujoco>";
-    files.emplace_back("model.xml", xml.str());
+      xml += "<geom type=\"box\" pos=\"" + mjcf(scene.obstacle->centre) + "\" size=\"" +
+             mjcf(scene.obstacle->half) + "\"" + surface(scene.friction);
+    files.emplace_back("model.xml", xml + "</worldbody></mujoco>");
   }
   std::vector<std::pair<std::string, std::string>> files;  // name and text; the model is last
 
  private:
   static std::string surface(double friction) {
-    std::ostringstream xml;
-    xml.precision(17);
-    xml << " condim=\"" << (friction > 0 ? 3 : 1) << "\" friction=\"" << friction << "\"";
-    return xml.str();
+    return std::string(" condim=\"") + (friction > 0 ? '3' : '1') + "\" friction=\"" +
+           mjcf(std::array{friction}) + "\"/>";
   }
-  void write_children(std::ostream& xml, int parent, int depth) {
+  std::string children(int parent, int depth) {
+    std::string xml;
     for (auto i = static_cast<std::size_t>(parent + 1); i < scene_.bodies.size(); ++i) {
       if (scene_.bodies[i].parent != parent) continue;
       if (depth % 80 != 0) {
-        write_body(xml, i, depth);
+        xml += body(i, depth);
         continue;
       }
-      std::ostringstream part;
-      part << "<mujocoinclude>";
-      write_body(part, i, depth);
-      part << "</mujocoinclude>";
       const std::string name = "from" + std::to_string(i) + ".xml";
-      files.emplace_back(name, part.str());
-      xml << "<include file=\"" << name << "\"/>";
+      const std::string part = "<mujocoinclude>" + body(i, depth) + "</mujocoinclude>";
+      files.emplace_back(name, part);
+      xml += "<include file=\"" + name + "\"/>";
     }
+    return xml;
   }
-  void write_body(std::ostream& xml, std::size_t i, int depth) {
+  std::string body(std::size_t i, int depth) {
     const Body& b = scene_.bodies[i];
-    const Eigen::Quaterniond R(matrix3(b.rotation));
-    xml << "<body pos=\"" << mjcf(b.position) << "\" quat=\""
-        << mjcf(std::array{R.w(), R.x(), R.y(), R.z()}) << "\">";
+    const Eigen::Quaterniond R(b.rotation);
+    std::string xml = "<body pos=\"" + mjcf(b.position) + "\" quat=\"" +
+                      mjcf(std::array{R.w(), R.x(), R.y(), R.z()}) + "\">";
     if (b.joint == Joint::free)
-      xml << "<freejoint/>";
+      xml += "<freejoint/>";
     else if (b.joint == Joint::spherical)
-      xml << "<joint type=\"ball\"/>";
+      xml += "<joint type=\"ball\"/>";
     else
-      xml << "<joint type=\"hinge\" axis=\"" << mjcf(axis_of(b)) << "\"/>";
-    xml << "<inertial pos=\"" << mjcf(b.com) << "\" mass=\"" << mjcf(std::array{b.mass})
-        << "\" fullinertia=\"" << mjcf(b.inertia) << "\"/>";
+      xml += "<joint type=\"hinge\" axis=\"" + mjcf(axis_of(b)) + "\"/>";
+    xml += "<inertial pos=\"" + mjcf(b.com) + "\" mass=\"" + mjcf(std::array{b.mass}) +
+           "\" fullinertia=\"" + mjcf(b.inertia) + "\"/>";
     if (b.form != Form::none)
-      xml << "<geom type=\"" << (b.form == Form::box ? "box" : "sphere") << "\" size=\""
-          << mjcf(b.half) << "\" pos=\"" << mjcf(b.form_at) << "\"" << surface(scene_.friction)
-          << "/>";
-    write_children(xml, static_cast<int>(i), depth + 1);
-    xml << "</body>";
+      xml += std::string("<geom type=\"") + (b.form == Form::box ? "box" : "sphere") +
+             "\" size=\"" + mjcf(b.half) + "\" pos=\"" + mjcf(b.form_at) + "\"" +
+             surface(scene_.friction);
+    return xml + children(static_cast<int>(i), depth + 1) + "</body>";
   }
   const Scene& scene_;
 };
 
-class MuJoCo final : public FixedStepEngine {
+// Situations are converted to the order of MuJoCo's coordinates.
+class MuJoCo final : public PeerEngine<Situation> {
  public:
   std::string name() const override { return "mujoco"; }
-  std::vector<Scheme> schemes(const Scene& scene) const override {
-    if (!refusal(scene).empty()) return {};
+  std::vector<Scheme> schemes(const Scene&) const override {
     return {{"Euler"}, {"RK4"}, {"implicit"}};
   }
   std::string refusal(const Scene& scene) const override {
@@ -100,8 +93,7 @@ class MuJoCo final : public FixedStepEngine {
   bool is_timed_with_contacts() const override { return true; }
 
   void load(const Scene& scene, const Scheme& scheme, double h) override {
-    begin(h);
-    scene_ = scene;
+    begin(scene, h);
     run_ = MujocoRun(Mjcf(scene, scheme.name, h).files);
     std::copy(scene.q.begin(), scene.q.end(), data()->qpos);
     const std::vector<double> v = swapped(scene.v);
@@ -121,7 +113,6 @@ class MuJoCo final : public FixedStepEngine {
     v = of_velocities(data()->qvel);
   }
 
-  bool has(Algorithm) const override { return true; }
   // It stores principal axes of inertia as a quaternion, found by iteration to about 1e-8: with
   // inertias that are not diagonal its mechanism differs by that much.
   double tolerance(const Scene& mechanism) const override {
@@ -135,20 +126,12 @@ class MuJoCo final : public FixedStepEngine {
     scene_ = mechanism;
     run_ = MujocoRun(Mjcf(mechanism, "Euler", step_length).files);
   }
-  void set_situations(const std::vector<Situation>& situations) override {
-    situations_ = situations;
-    for (Situation& s : situations_)
-      for (auto* each : {&s.v, &s.tau, &s.qdd}) *each = swapped(*each);
-  }
-  void run(Algorithm algorithm) override {
-    for (const Situation& s : situations_) run(algorithm, s);
-  }
   std::vector<double> qdd(std::size_t k) override {
-    run(Algorithm::forward_dynamics, situations_[k]);
+    run_one(Algorithm::forward_dynamics, converted_[k]);
     return of_velocities(data()->qacc_smooth);
   }
   std::vector<double> tau(std::size_t k) override {
-    run(Algorithm::inverse_dynamics, situations_[k]);
+    run_one(Algorithm::inverse_dynamics, converted_[k]);
     return of_velocities(data()->qfrc_inverse);
   }
 
@@ -168,7 +151,10 @@ class MuJoCo final : public FixedStepEngine {
     return swapped({v, v + run_.model->nv});
   }
 
-  void run(Algorithm algorithm, const Situation& s) {
+  Situation convert(const Situation& s) const override {
+    return {s.q, swapped(s.v), swapped(s.tau), swapped(s.qdd)};
+  }
+  void run_one(Algorithm algorithm, const Situation& s) override {
     const mjModel* m = run_.model.get();
     mjData* d = data();
     std::copy(s.q.begin(), s.q.end(), d->qpos);
@@ -209,18 +195,13 @@ class MuJoCo final : public FixedStepEngine {
     mj_comPos(m, d);  // also computes the com-based inertias and motion axes of crb and rne
   }
 
-  Scene scene_;
   MujocoRun run_;
-  std::vector<Situation> situations_;
 };
 
 }  // namespace
-}  // namespace twinarm::bench
 
-namespace twinarm {
-
-bench::EngineKind mujoco_engine() {
-  return {"mujoco", 1, bench::one_engine<bench::MuJoCo>};
+EngineKind mujoco_engine() {
+  return {"mujoco", 1, one_engine<MuJoCo>};
 }
 
-}  // namespace twinarm
+}  // namespace twinarm::bench

@@ -12,7 +12,6 @@
 #include <cmath>
 
 #include "benchmarks/engines/engine.h"
-#include "benchmarks/scenes/eigen.h"
 
 namespace twinarm::bench {
 namespace {
@@ -23,7 +22,7 @@ struct Place {  // pose and velocity of a body in the world
 };
 // Of a body with these joint coordinates and this parent.
 Place place_of(const Body& b, const Place& parent, const double* q, const double* v) {
-  const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(matrix3(b.rotation));
+  const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(b.rotation);
   const Eigen::Vector3d arm = parent.R * vector3(b.position);
   Place place{at_zero, parent.p + arm, parent.v + parent.w.cross(arm), parent.w};
   if (b.joint == Joint::revolute) {
@@ -40,7 +39,7 @@ Place place_of(const Body& b, const Place& parent, const double* q, const double
 }
 // The inverse; hinge angles within half a turn.
 void joint_of(const Body& b, const Place& parent, const Place& body, double* q, double* v) {
-  const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(matrix3(b.rotation));
+  const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(b.rotation);
   const Eigen::Quaterniond turn = at_zero.conjugate() * body.R;
   const Eigen::Vector3d w_B = body.R.conjugate() * (body.w - parent.w);
   if (b.joint == Joint::revolute) {
@@ -66,22 +65,15 @@ class Ode final : public FixedStepEngine {
   std::vector<Scheme> schemes(const Scene&) const override { return {{"step"}, {"quick"}}; }
 
   void load(const Scene& scene, const Scheme& scheme, double h) override {
-    begin(h);
+    begin(scene, h);
     clear();
-    scene_ = scene;
     quick_ = scheme.name == "quick";
     world_ = dWorldCreate();
     space_ = dHashSpaceCreate(nullptr);
     contacts_ = dJointGroupCreate(0);
     dWorldSetGravity(world_, scene.gravity[0], scene.gravity[1], scene.gravity[2]);
     if (scene.uncorrected) dWorldSetERP(world_, 0), dWorldSetCFM(world_, 0);
-    std::vector<Place> places;
-    const double *q = scene.q.data(), *v = scene.v.data();
-    for (const Body& b : scene.bodies) {
-      places.push_back(place_of(b, b.parent < 0 ? Place{} : places[index(b.parent)], q, v));
-      add(b, places.back());
-      q += coordinates_of(b.joint), v += velocities_of(b.joint);
-    }
+    set_joints();
     if (scene.floor) dCreatePlane(space_, 0, 0, 1, 0);
   }
   void step() override {
@@ -96,37 +88,24 @@ class Ode final : public FixedStepEngine {
       dWorldStep(world_, h_);
     dJointGroupEmpty(contacts_);
   }
-  void read(std::vector<double>& q, std::vector<double>& v) override {
-    q.resize(scene_.q.size()), v.resize(scene_.v.size());
-    double *at = q.data(), *rate = v.data();
-    std::vector<Place> places;
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Body& b = scene_.bodies[i];
-      const dReal *R = dBodyGetQuaternion(bodies_[i]), *p = dBodyGetPosition(bodies_[i]);
-      Place place{quaternion(R), Eigen::Vector3d(p), Eigen::Vector3d(dBodyGetLinearVel(bodies_[i])),
-                  Eigen::Vector3d(dBodyGetAngularVel(bodies_[i]))};
-      const Eigen::Vector3d com = place.R * vector3(b.com);
-      place.p -= com, place.v -= place.w.cross(com);
-      places.push_back(place);
-      joint_of(b, b.parent < 0 ? Place{} : places[index(b.parent)], place, at, rate);
-      at += coordinates_of(b.joint), rate += velocities_of(b.joint);
-    }
-  }
 
  private:
   // ODE bodies are positioned at their centre of mass.
-  void add(const Body& b, const Place& place) {
+  void set_joint(std::size_t i, const double* q, const double* v) override {
+    const Body& b = scene_.bodies[i];
+    const Place place =
+        places_.emplace_back(place_of(b, b.parent < 0 ? Place{} : places_[index(b.parent)], q, v));
     const dBodyID body = bodies_.emplace_back(dBodyCreate(world_));
     dMass mass;
     const auto& [xx, yy, zz, xy, xz, yz] = b.inertia;
     dMassSetParameters(&mass, b.mass, 0, 0, 0, xx, yy, zz, xy, xz, yz);
     dBodySetMass(body, &mass);
-    const Eigen::Vector3d c = place.R * vector3(b.com), p = place.p + c;
-    const Eigen::Vector3d v = place.v + place.w.cross(c);
+    const Eigen::Vector3d c = place.R * vector3(b.com), p_C = place.p + c;
+    const Eigen::Vector3d v_C = place.v + place.w.cross(c);
     const dQuaternion turn = {place.R.w(), place.R.x(), place.R.y(), place.R.z()};
-    dBodySetPosition(body, p.x(), p.y(), p.z());
+    dBodySetPosition(body, p_C.x(), p_C.y(), p_C.z());
     dBodySetQuaternion(body, turn);
-    dBodySetLinearVel(body, v.x(), v.y(), v.z());
+    dBodySetLinearVel(body, v_C.x(), v_C.y(), v_C.z());
     dBodySetAngularVel(body, place.w.x(), place.w.y(), place.w.z());
     if (b.form != Form::none) {
       const dGeomID shape = b.form == Form::sphere
@@ -147,6 +126,20 @@ class Ode final : public FixedStepEngine {
       dJointSetBallAnchor(ball, place.p.x(), place.p.y(), place.p.z());
     }
   }
+  Place present_place(int i) const {  // of a body; of the world for -1
+    if (i < 0) return {};
+    const dBodyID body = bodies_[index(i)];
+    Place place{quaternion(dBodyGetQuaternion(body)), Eigen::Vector3d(dBodyGetPosition(body)),
+                Eigen::Vector3d(dBodyGetLinearVel(body)),
+                Eigen::Vector3d(dBodyGetAngularVel(body))};
+    const Eigen::Vector3d com = place.R * vector3(scene_.bodies[index(i)].com);
+    place.p -= com, place.v -= place.w.cross(com);
+    return place;
+  }
+  void read_joint(std::size_t i, double* q, double* v) override {
+    const Body& b = scene_.bodies[i];
+    joint_of(b, present_place(b.parent), present_place(static_cast<int>(i)), q, v);
+  }
   static void near(void* self, dGeomID a, dGeomID b) {
     Ode& ode = *static_cast<Ode*>(self);
     constexpr int kMax = 8;
@@ -164,7 +157,7 @@ class Ode final : public FixedStepEngine {
     }
   }
   void clear() {
-    bodies_.clear();
+    bodies_.clear(), places_.clear();
     if (world_ == nullptr) return;
     dJointGroupDestroy(contacts_);
     dSpaceDestroy(space_);
@@ -172,21 +165,18 @@ class Ode final : public FixedStepEngine {
     world_ = nullptr;
   }
 
-  Scene scene_;
   bool quick_ = false;
   dWorldID world_ = nullptr;
   dSpaceID space_ = nullptr;
   dJointGroupID contacts_ = nullptr;
   std::vector<dBodyID> bodies_;
+  std::vector<Place> places_;  // at the start
 };
 
 }  // namespace
-}  // namespace twinarm::bench
 
-namespace twinarm {
-
-bench::EngineKind ode_engine() {
-  return {"ode", 5, bench::one_engine<bench::Ode>};
+EngineKind ode_engine() {
+  return {"ode", 5, one_engine<Ode>};
 }
 
-}  // namespace twinarm
+}  // namespace twinarm::bench

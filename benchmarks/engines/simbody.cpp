@@ -14,15 +14,11 @@
 #include <algorithm>
 
 #include "benchmarks/engines/engine.h"
-#include "benchmarks/scenes/eigen.h"
 #include "solver/spatial/rotation_to_axis.h"
 
 namespace twinarm::bench {
 namespace {
 
-SimTK::Vec3 vec3(const Eigen::Vector3d& v) {
-  return {v.x(), v.y(), v.z()};
-}
 SimTK::Vec3 vec3(const double* v) {
   return {v[0], v[1], v[2]};
 }
@@ -37,16 +33,21 @@ SimTK::Rotation rotation_of(const Eigen::Matrix3d& R) {
 SimTK::Vector vector_of(const std::vector<double>& v) {
   return SimTK::Vector(static_cast<int>(v.size()), v.data());
 }
+std::vector<double> numbers_of(const SimTK::Vector& v) {
+  std::vector<double> numbers;
+  for (int i = 0; i < v.size(); ++i) numbers.push_back(v[i]);
+  return numbers;
+}
 
 struct SimbodySystem {
   explicit SimbodySystem(const Scene& scene)
-      : gravity(forces, matter, vec3(vector3(scene.gravity))), applied(forces, matter) {
+      : gravity(forces, matter, vec3(scene.gravity.data())), applied(forces, matter) {
     for (const Body& b : scene.bodies) links.push_back(add(b));
     system.realizeTopology();
   }
   SimTK::MobilizedBody add(const Body& b) {
     const auto& [xx, yy, zz, xy, xz, yz] = b.inertia;
-    const SimTK::Vec3 com = vec3(vector3(b.com));
+    const SimTK::Vec3 com = vec3(b.com.data());
     const SimTK::Inertia about_com(xx, yy, zz, xy, xz, yz);
     const SimTK::Body::Rigid body(
         SimTK::MassProperties(b.mass, com, about_com.shiftFromMassCenter(com, b.mass)));
@@ -56,8 +57,7 @@ struct SimbodySystem {
     const Eigen::Matrix3d to_axis = b.joint == Joint::revolute
                                         ? rotation_taking_z_to(axis_of(b))
                                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-    const SimTK::Transform place(rotation_of(matrix3(b.rotation) * to_axis),
-                                 vec3(vector3(b.position)));
+    const SimTK::Transform place(rotation_of(b.rotation * to_axis), vec3(b.position.data()));
     const SimTK::Transform in_body(rotation_of(to_axis));
     if (b.joint == Joint::revolute) return SimTK::MobilizedBody::Pin(parent, place, body, in_body);
     if (b.joint == Joint::spherical)
@@ -73,11 +73,16 @@ struct SimbodySystem {
   std::vector<SimTK::MobilizedBody> links;
 };
 
-class Simbody final : public Engine {
+// Simbody's coordinates: of a base the quaternion and position; velocities and forces in world
+// axes, angular part first.
+struct SimbodyState {
+  SimTK::Vector q, u, tau, udot;
+};
+
+class Simbody final : public PeerEngine<SimbodyState> {
  public:
   std::string name() const override { return "simbody"; }
-  std::vector<Scheme> schemes(const Scene& scene) const override {
-    if (!refusal(scene).empty()) return {};
+  std::vector<Scheme> schemes(const Scene&) const override {
     return {{"RungeKuttaMerson", true}, {"Verlet"}, {"SemiExplicitEuler"}};
   }
   std::string refusal(const Scene& scene) const override {
@@ -85,11 +90,11 @@ class Simbody final : public Engine {
   }
 
   void load(const Scene& scene, const Scheme& scheme, double h) override {
-    scene_ = scene;
+    begin(scene, h);
     integrator_.reset();
     run_ = std::make_unique<SimbodySystem>(scene);
-    SimTK::State state = run_->system.getDefaultState();
-    write(scene.q.data(), scene.v.data(), state);
+    state_ = run_->system.getDefaultState();
+    set_joints();
     if (scheme.adaptive) {
       integrator_ = std::make_unique<SimTK::RungeKuttaMersonIntegrator>(run_->system);
       integrator_->setAccuracy(h);
@@ -99,37 +104,14 @@ class Simbody final : public Engine {
     } else {
       integrator_ = std::make_unique<SimTK::SemiExplicitEulerIntegrator>(run_->system, h);
     }
-    integrator_->initialize(state);
+    integrator_->initialize(state_);
   }
   void step() override { integrator_->stepBy(SimTK::Infinity); }
   // Declared as an event; otherwise a state between two steps is interpolated.
   void advance(double t) override {
     while (integrator_->getTime() < t - 1e-12) integrator_->stepTo(t, t);
   }
-  void read(std::vector<double>& q, std::vector<double>& v) override {
-    const SimTK::State& state = integrator_->getState();
-    q.clear(), v.clear();
-    for (std::size_t i = 0; i < run_->links.size(); ++i) {
-      const SimTK::MobilizedBody& link = run_->links[i];
-      const Joint joint = scene_.bodies[i].joint;
-      if (joint == Joint::revolute) {
-        q.push_back(link.getOneQ(state, 0)), v.push_back(link.getOneU(state, 0));
-        continue;
-      }
-      const int free = joint == Joint::free ? 3 : 0;
-      for (int k = 0; k < free; ++k) q.push_back(link.getOneQ(state, 4 + k));
-      const SimTK::Vec4 turn = SimTK::Vec4(link.getOneQ(state, 0), link.getOneQ(state, 1),
-                                           link.getOneQ(state, 2), link.getOneQ(state, 3))
-                                   .normalize();
-      for (int k = 0; k < 4; ++k) q.push_back(turn[k]);
-      const SimTK::Vec3 w(link.getOneU(state, 0), link.getOneU(state, 1), link.getOneU(state, 2));
-      const SimTK::Vec3 in_body = ~rotation_of(&turn[0]) * w;
-      for (int k = 0; k < 3; ++k) v.push_back(in_body[k]);
-      for (int k = 0; k < free; ++k) v.push_back(link.getOneU(state, 3 + k));
-    }
-  }
 
-  bool has(Algorithm) const override { return true; }
   void load_mechanism(const Scene& mechanism) override {
     scene_ = mechanism;
     run_ = std::make_unique<SimbodySystem>(mechanism);
@@ -137,18 +119,9 @@ class Simbody final : public Engine {
     run_->system.realizeModel(state_);
     run_->system.realize(state_, SimTK::Stage::Instance);
   }
-  void set_situations(const std::vector<Situation>& situations) override {
-    situations_ = situations;
-    states_.clear();
-    for (const Situation& s : situations) states_.push_back(convert(s));
-  }
-  void run(Algorithm algorithm) override {
-    for (const Converted& s : states_) run(algorithm, s);
-  }
   std::vector<double> qdd(std::size_t k) override {
-    run(Algorithm::forward_dynamics, states_[k]);
-    std::vector<double> qdd;
-    for (int i = 0; i < state_.getNU(); ++i) qdd.push_back(state_.getUDot()[i]);
+    run_one(Algorithm::forward_dynamics, converted_[k]);
+    std::vector<double> qdd = numbers_of(state_.getUDot());
     if (scene_.floats()) {  // angular acceleration, world axes
       const Eigen::Vector3d alpha =
           Base(situations_[k]).R.conjugate() * Eigen::Vector3d(qdd.data());
@@ -157,40 +130,47 @@ class Simbody final : public Engine {
     return qdd;
   }
   std::vector<double> tau(std::size_t k) override {
-    run(Algorithm::inverse_dynamics, states_[k]);
-    std::vector<double> tau;
-    for (int i = 0; i < residual_.size(); ++i) tau.push_back(residual_[i]);
-    return tau;
+    run_one(Algorithm::inverse_dynamics, converted_[k]);
+    return numbers_of(residual_);
   }
 
  private:
-  // Simbody's coordinates: of a base the quaternion and position; velocities and forces in world
-  // axes, angular part first.
-  struct Converted {
-    SimTK::Vector q, u, tau, udot;
-  };
-
   // Spherical and free joints: quaternion first, velocities in parent axes.
-  void write(const double* q, const double* v, SimTK::State& state) const {
-    for (std::size_t i = 0; i < run_->links.size(); ++i) {
-      const SimTK::MobilizedBody& link = run_->links[i];
-      const Joint joint = scene_.bodies[i].joint;
-      if (joint == Joint::revolute) {
-        link.setOneQ(state, 0, q[0]), link.setOneU(state, 0, v[0]);
-      } else {
-        const double* turn = joint == Joint::free ? q + 3 : q;
-        const SimTK::Vec3 w = rotation_of(turn) * vec3(v);
-        for (int k = 0; k < 4; ++k) link.setOneQ(state, k, turn[k]);
-        for (int k = 0; k < 3; ++k) link.setOneU(state, k, w[k]);
-        for (int k = 0; joint == Joint::free && k < 3; ++k)
-          link.setOneQ(state, 4 + k, q[k]), link.setOneU(state, 3 + k, v[3 + k]);
-      }
-      q += coordinates_of(joint), v += velocities_of(joint);
+  void set_joint(std::size_t i, const double* q, const double* v) override {
+    const SimTK::MobilizedBody& link = run_->links[i];
+    const Joint joint = scene_.bodies[i].joint;
+    if (joint == Joint::revolute) {
+      link.setOneQ(state_, 0, q[0]), link.setOneU(state_, 0, v[0]);
+      return;
     }
+    const double* turn = joint == Joint::free ? q + 3 : q;
+    const SimTK::Vec3 w = rotation_of(turn) * vec3(v);
+    for (int k = 0; k < 4; ++k) link.setOneQ(state_, k, turn[k]);
+    for (int k = 0; k < 3; ++k) link.setOneU(state_, k, w[k]);
+    for (int k = 0; joint == Joint::free && k < 3; ++k)
+      link.setOneQ(state_, 4 + k, q[k]), link.setOneU(state_, 3 + k, v[3 + k]);
+  }
+  void read_joint(std::size_t i, double* q, double* v) override {
+    const SimTK::State& state = integrator_->getState();
+    const SimTK::MobilizedBody& link = run_->links[i];
+    const Joint joint = scene_.bodies[i].joint;
+    if (joint == Joint::revolute) {
+      q[0] = link.getOneQ(state, 0), v[0] = link.getOneU(state, 0);
+      return;
+    }
+    SimTK::Vec4 turn;
+    SimTK::Vec3 w;
+    for (int k = 0; k < 4; ++k) turn[k] = link.getOneQ(state, k);
+    for (int k = 0; k < 3; ++k) w[k] = link.getOneU(state, k);
+    turn = turn.normalize();
+    w = ~rotation_of(&turn[0]) * w;
+    for (int k = 0; joint == Joint::free && k < 3; ++k)
+      *q++ = link.getOneQ(state, 4 + k), v[3 + k] = link.getOneU(state, 3 + k);
+    std::copy_n(&turn[0], 4, q), std::copy_n(&w[0], 3, v);
   }
 
-  Converted convert(const Situation& s) const {
-    Converted c{vector_of(s.q), vector_of(s.v), vector_of(s.tau), vector_of(s.qdd)};
+  SimbodyState convert(const Situation& s) const override {
+    SimbodyState c{vector_of(s.q), vector_of(s.v), vector_of(s.tau), vector_of(s.qdd)};
     if (!scene_.floats()) return c;
     const Base base(s);
     const Eigen::Vector3d w_W = base.R * base.w_B, t_W = base.R * base.t_B;
@@ -206,7 +186,7 @@ class Simbody final : public Engine {
     return c;
   }
 
-  void run(Algorithm algorithm, const Converted& s) {
+  void run_one(Algorithm algorithm, const SimbodyState& s) override {
     using SimTK::Stage;
     const SimTK::MultibodySystem& system = run_->system;
     state_.updQ() = s.q;
@@ -237,23 +217,17 @@ class Simbody final : public Engine {
     }
   }
 
-  Scene scene_;
   std::unique_ptr<SimbodySystem> run_;
   std::unique_ptr<SimTK::Integrator> integrator_;
   SimTK::State state_;
-  std::vector<Situation> situations_;
-  std::vector<Converted> states_;
   SimTK::Vector no_forces_, residual_;
   SimTK::Matrix M_;
 };
 
 }  // namespace
-}  // namespace twinarm::bench
 
-namespace twinarm {
-
-bench::EngineKind simbody_engine() {
-  return {"simbody", 4, bench::one_engine<bench::Simbody>};
+EngineKind simbody_engine() {
+  return {"simbody", 4, one_engine<Simbody>};
 }
 
-}  // namespace twinarm
+}  // namespace twinarm::bench

@@ -1,40 +1,42 @@
 // twinarm: scenes and algorithms through its public interface. S is double, float or Batch<N>; a
 // batch takes N situations per call.
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <type_traits>
 
-#include "benchmarks/engines/twinarm_run.h"
+#include "benchmarks/engines/engine.h"
+#include "benchmarks/engines/twinarm_sources.h"
+#include "benchmarks/scenes/mechanisms.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/model/convert_model.h"
 
 namespace twinarm::bench {
 namespace {
 
-// The number of situations in an S, and one of them.
+// The number of situations in an S, and number k of them.
 template <class S>
 constexpr std::size_t lanes = 1;
-template <class S>
-void set_lane(S& all, std::size_t, double value) {
-  all = static_cast<S>(value);
-}
-template <class S>
-double lane(const S& all, std::size_t) {
-  return static_cast<double>(all);
-}
 template <int N>
 constexpr std::size_t lanes<Batch<N>> = N;
-template <int N>
-void set_lane(Batch<N>& all, std::size_t k, double value) {
-  all.set(static_cast<int>(k), value);
+template <class S>
+void set_lane(S& all, std::size_t k, double value) {
+  if constexpr (lanes < S >> 1)
+    all.set(static_cast<int>(k), value);
+  else
+    all = static_cast<S>(value);
 }
-template <int N>
-double lane(const Batch<N>& all, std::size_t k) {
-  return all[static_cast<int>(k)];
+template <class S>
+double lane(const S& all, std::size_t k) {
+  if constexpr (lanes < S >> 1)
+    return all[static_cast<int>(k)];
+  else
+    return static_cast<double>(all);
 }
 
 template <class S>
-class TwinarmPasses : public Engine {
+class TwinarmPasses : public FixedStepEngine {
  public:
   TwinarmPasses(std::string name, Isa isa) : name_(std::move(name)), passes_(passes<S>(isa)) {}
 
@@ -133,51 +135,100 @@ class TwinarmPasses : public Engine {
   std::vector<S> shift_;
 };
 
-// The variant that runs scenes.
+// The variant that runs scenes, with every integrator; contacts by the rigid response, with fixed
+// steps and with located impacts.
 class Twinarm final : public TwinarmPasses<double> {
  public:
   Twinarm() : TwinarmPasses("twinarm double", best_isa()) {}
-  std::vector<Scheme> schemes(const Scene& scene) const override { return twinarm_schemes(scene); }
+  std::vector<Scheme> schemes(const Scene& scene) const override {
+    constexpr std::size_t kMaxLocated = 50;  // bodies; larger piles have too many impacts to locate
+    std::vector<Scheme> all{{"semi-implicit"}};
+    if (scene.has_contacts()) {
+      if (scene.bodies.size() <= kMaxLocated) all.push_back({kLocated});
+      return all;
+    }
+    for (const IntegratorFacts& facts : all_integrators)
+      if (facts.integrator != Integrator::semi_implicit)
+        all.push_back({facts.name, facts.integrator == Integrator::dopri5});
+    return all;
+  }
   bool is_timed_with_contacts() const override { return true; }
   void load(const Scene& scene, const Scheme& scheme, double h) override {
-    run_.reset();
-    run_.emplace(scene, scheme, h);
-    scheme_ = scheme, h_ = h, steps_ = 0, until_ = 0;
+    simulation_.reset();
+    begin(scene, h);
+    scheme_ = scheme, until_ = 0;
+    model_ = model_of(scene);
+    State<double> start(model_);
+    start.q = scene.q, start.qd = scene.v;
+    simulation_.emplace(model_, start);
+    if (scene.has_contacts()) {
+      contacts_.emplace(model_, ContactResponse::rigid);
+      add_shapes();
+      simulation_->add(*contacts_);
+      if (scheme.name == kLocated) simulation_->locate_events();
+    } else {
+      simulation_->set_integrator(find_integrator(scheme.name).value(), h);
+    }
+    if (pushes_.is_needed()) simulation_->add(pushes_);
   }
   void step() override {
     const double h = scheme_.adaptive ? std::min(0.1, until_ - t()) : h_;
-    const StepReport report = run_->simulation.step(h, scheme_.adaptive);
+    const StepReport report = simulation_->step(h, scheme_.adaptive);
     if (!report.ok()) throw std::runtime_error("the run stopped by itself");
-    ++steps_;
   }
   void advance(double t_end) override {
+    if (!scheme_.adaptive) return FixedStepEngine::advance(t_end);
     until_ = t_end;
-    if (scheme_.adaptive)
-      while (until_ - t() > 1e-10) step();
-    else
-      while (t_end - static_cast<double>(steps_) * h_ > 0.5 * h_) step();
+    while (until_ - t() > 1e-10) step();
   }
   void read(std::vector<double>& q, std::vector<double>& v) override {
-    q = run_->simulation.state().q, v = run_->simulation.state().qd;
+    q = simulation_->state().q, v = simulation_->state().qd;
   }
   std::optional<SolverReading> watched_step() override {
-    WatchedContacts& watch = *run_->watch;
+    WatchedContacts& watch = *contacts_;
     watch.watched = true;
     watch.detection = watch.solver = 0;
     const double start = thread_seconds();
     step();
     const double whole = thread_seconds() - start;
     watch.watched = false;
-    const ImpulseReport& report = run_->simulation.constraints().report().step;
+    const ImpulseReport& report = simulation_->constraints().report().step;
     return SolverReading{report.residual, report.converged, watch.detection, watch.solver, whole};
   }
 
  private:
-  double t() const { return run_->simulation.state().t; }
-  std::optional<TwinarmRun> run_;
+  // Friction of a pair is the geometric mean, restitution the product.
+  void add_shapes() {
+    ContactSurface body, fixed;
+    body.friction = fixed.friction = scene_.friction;
+    if (scene_.floor && scene_.floor_friction != scene_.friction)
+      fixed.friction = scene_.floor_friction * scene_.floor_friction / scene_.friction;
+    body.restitution = fixed.restitution = std::sqrt(scene_.restitution);
+    if (scene_.floor) contacts_->bodies().add({"floor", 0, {}, HalfSpace{}, fixed});
+    if (scene_.obstacle)
+      contacts_->bodies().add({"obstacle",
+                               0,
+                               {Matrix3::Identity(), vector3(scene_.obstacle->centre)},
+                               Box{2 * vector3(scene_.obstacle->half)},
+                               fixed});
+    int number = 0;
+    for (const Body& b : scene_.bodies) {
+      ++number;
+      const Pose X_LG{Matrix3::Identity(), vector3(b.form_at)};
+      if (b.form == Form::sphere)
+        contacts_->bodies().add({"body", number, X_LG, Sphere{b.half[0]}, body});
+      if (b.form == Form::box)
+        contacts_->bodies().add({"body", number, X_LG, Box{2 * vector3(b.half)}, body});
+    }
+  }
+  double t() const { return simulation_->state().t; }
+
+  static constexpr const char* kLocated = "located";  // the scheme that locates contact events
+  ScenePushes pushes_{scene_};
+  std::optional<WatchedContacts> contacts_;
+  std::optional<Simulation> simulation_;
   Scheme scheme_;
-  double h_ = 0, until_ = 0;
-  long steps_ = 0;
+  double until_ = 0;
 };
 
 // Forward dynamics with a full trace: the cost of tracing.
@@ -211,12 +262,9 @@ Engines variants() {
 }
 
 }  // namespace
-}  // namespace twinarm::bench
 
-namespace twinarm {
-
-bench::EngineKind twinarm_engine() {
-  return {"twinarm", 0, bench::variants};
+EngineKind twinarm_engine() {
+  return {"twinarm", 0, variants};
 }
 
-}  // namespace twinarm
+}  // namespace twinarm::bench

@@ -13,25 +13,9 @@ namespace {
 constexpr double kRadius = 0.1;
 using Values = std::vector<double>;
 
-Body ball(double mass, double radius) {
-  Body b;
-  b.mass = mass, b.form = Form::sphere, b.half = {radius, radius, radius};
-  const double I = 0.4 * mass * radius * radius;
-  b.inertia = {I, I, I, 0, 0, 0};
-  return b;
-}
-Body cube(double mass, double edge) {
-  Body b;
-  b.mass = mass, b.form = Form::box, b.half = {edge / 2, edge / 2, edge / 2};
-  const double I = mass * edge * edge / 6;
-  b.inertia = {I, I, I, 0, 0, 0};
-  return b;
-}
-// At rest except for a linear velocity.
-void add(Scene& scene, const Body& b, const Numbers3& p, const Numbers3& v = {}) {
-  scene.bodies.push_back(b);
-  scene.q.insert(scene.q.end(), {p[0], p[1], p[2], 1, 0, 0, 0});
-  scene.v.insert(scene.v.end(), {0, 0, 0, v[0], v[1], v[2]});
+Scene with(Scene scene, const Body& body, const Numbers3& p, const Numbers3& v = {}) {
+  add_free_body(scene, body, p, v);
+  return scene;
 }
 Scene floored(double friction, double restitution = 0) {
   Scene scene;
@@ -54,24 +38,20 @@ std::function<Judge()> at_the_end(Error error) {
   };
 }
 // Angular velocity of body 0 in world axes.
-Numbers3 turning(const Values& q, const Values& v) {
-  const Numbers3 u{q[4], q[5], q[6]}, w{v[0], v[1], v[2]};
-  const auto cross = [](const Numbers3& a, const Numbers3& b) {
-    return Numbers3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                    a[0] * b[1] - a[1] * b[0]};
-  };
-  const Numbers3 t = cross(u, w), s = cross(u, t);
-  Numbers3 out{};
-  for (std::size_t k = 0; k < 3; ++k) out[k] = w[k] + 2 * (q[3] * t[k] + s[k]);
-  return out;
+Eigen::Vector3d turning(const Values& q, const Values& v) {
+  const Eigen::Vector3d u(&q[4]), w(v.data()), t = u.cross(w);
+  return w + 2 * (q[3] * t + u.cross(t));
+}
+
+SceneCase contact_case(const std::string& name, const std::string& what, const std::string& unit,
+                       Scene scene, double duration, std::function<Judge()> judge) {
+  SceneCase c{name, "contact", what, unit, std::move(scene)};
+  c.duration = duration, c.judge = std::move(judge);
+  return c;
 }
 
 SceneCase bouncing_ball() {
-  SceneCase c{"E1", "contact", "ball from 1 m, e = 0.8: heights of three bounces", "m",
-              floored(0, 0.8)};
-  add(c.scene, ball(1, kRadius), {0, 0, 1 + kRadius});
-  c.duration = 2.2;
-  c.judge = [] {
+  const auto judge = [] {
     std::vector<double> tops;
     double last = 1, before = 1;
     return [=](double, const Values& q, const Values&) mutable {
@@ -86,31 +66,29 @@ SceneCase bouncing_ball() {
       return worst;
     };
   };
-  return c;
+  return contact_case("E1", "ball from 1 m, e = 0.8: heights of three bounces", "m",
+                      with(floored(0, 0.8), solid_ball(1, kRadius), {0, 0, 1 + kRadius}), 2.2,
+                      judge);
 }
 
 SceneCase block(const std::string& name, const std::string& what, double friction, double duration,
                 double exact) {
-  SceneCase c{name, "contact", what, "m", inclined(30, friction)};
-  add(c.scene, cube(2, 0.2), {0, 0, 0.1});
-  c.duration = duration;
-  c.judge = at_the_end(
-      [exact](const Values& q, const Values&) { return std::hypot(q[0] - exact, q[1]); });
-  return c;
+  return contact_case(name, what, "m",
+                      with(inclined(30, friction), solid_cube(2, 0.2), {0, 0, 0.1}), duration,
+                      at_the_end([exact](const Values& q, const Values&) {
+                        return std::hypot(q[0] - exact, q[1]);
+                      }));
 }
 
 SceneCase heading(int degrees) {
-  SceneCase c{"E2-" + std::to_string(degrees), "contact",
-              "block launched at 3 m/s, heading " + std::to_string(degrees) + " degrees, mu = 0.4",
-              "m", floored(0.4)};
-  const double a = degrees * std::numbers::pi / 180;
-  add(c.scene, cube(2, 0.2), {0, 0, 0.1}, {3 * std::cos(a), 3 * std::sin(a), 0});
-  c.duration = 1;
-  const double far = 9 / (2 * 0.4 * standard_gravity);
-  c.judge = at_the_end([a, far](const Values& q, const Values&) {
-    return std::hypot(q[0] - far * std::cos(a), q[1] - far * std::sin(a));
-  });
-  return c;
+  const std::string angle = std::to_string(degrees);
+  const double a = degrees * std::numbers::pi / 180, far = 9 / (2 * 0.4 * standard_gravity);
+  return contact_case(
+      "E2-" + angle, "block launched at 3 m/s, heading " + angle + " degrees, mu = 0.4", "m",
+      with(floored(0.4), solid_cube(2, 0.2), {0, 0, 0.1}, {3 * std::cos(a), 3 * std::sin(a), 0}), 1,
+      at_the_end([a, far](const Values& q, const Values&) {
+        return std::hypot(q[0] - far * std::cos(a), q[1] - far * std::sin(a));
+      }));
 }
 
 // A ball on the floor: speed along x, and the surface speed R w.
@@ -120,62 +98,47 @@ std::function<Judge()> speed_and_spin(double radius, double v_x, double spin) {
   });
 }
 
-SceneCase rolling_sphere() {
-  SceneCase c{"E4", "contact", "sphere rolls down 20 degrees, mu = 0.5: its speed after 1 s", "m/s",
-              inclined(20, 0.5)};
-  add(c.scene, ball(1, kRadius), {0, 0, kRadius});
-  c.duration = 1;
-  c.judge = at_the_end([](const Values&, const Values& v) { return v[3] - 2.396584004303436; });
-  return c;
-}
-
-SceneCase slipping_sphere() {
-  SceneCase c{"E4-slip", "contact", "sphere slips down 20 degrees, mu = 0.05: v, R w after 1 s",
-              "m/s", inclined(20, 0.05)};
-  add(c.scene, ball(1, kRadius), {0, 0, kRadius});
-  c.duration = 1;
-  c.judge = speed_and_spin(kRadius, 2.894298375529322, 1.15229807623872);
-  return c;
+SceneCase sphere_downhill(const std::string& name, const std::string& what, double friction,
+                          std::function<Judge()> judge) {
+  return contact_case(name, what, "m/s",
+                      with(inclined(20, friction), solid_ball(1, kRadius), {0, 0, kRadius}), 1,
+                      std::move(judge));
 }
 
 // Rolls at (5 v + 2 R w)/7 of the initial values.
 SceneCase billiard(const std::string& name, const std::string& what, double top_spin) {
   constexpr double kBilliard = 0.0286, kSpeed = 2;
-  SceneCase c{name, "contact", what, "m/s", floored(0.2)};
-  add(c.scene, ball(0.17, kBilliard), {0, 0, kBilliard}, {kSpeed, 0, 0});
-  c.scene.v[1] = top_spin / kBilliard;
-  c.duration = 0.5;
+  Scene scene = with(floored(0.2), solid_ball(0.17, kBilliard), {0, 0, kBilliard}, {kSpeed, 0, 0});
+  scene.v[1] = top_spin / kBilliard;
   const double rolls = (5 * kSpeed + 2 * top_spin) / 7;
-  c.judge = speed_and_spin(kBilliard, rolls, rolls);
-  return c;
+  return contact_case(name, what, "m/s", scene, 0.5, speed_and_spin(kBilliard, rolls, rolls));
 }
 
 // Balls in a row along x without gravity, the first with a velocity; final velocities.
 SceneCase in_a_row(const std::string& name, const std::string& what, double restitution,
                    const Values& masses, double speed, const Values& exact) {
   constexpr double kGap = 0.01;
-  SceneCase c{name, "contact", what, "m/s", floored(0, restitution)};
-  c.scene.gravity = {};
+  Scene scene = floored(0, restitution);
+  scene.gravity = {};
   for (std::size_t i = 0; i < masses.size(); ++i)
-    add(c.scene, ball(masses[i], kRadius), {(2 * kRadius + kGap) * static_cast<double>(i), 0, 1},
-        {i == 0 ? speed : 0, 0, 0});
-  c.duration = 0.2;
-  c.judge = at_the_end([exact](const Values&, const Values& v) {
-    double worst = 0;
-    for (std::size_t i = 0; i < exact.size(); ++i)
-      worst = nan_max(worst, std::hypot(v[6 * i + 3] - exact[i], v[6 * i + 4], v[6 * i + 5]));
-    return worst;
-  });
-  return c;
+    add_free_body(scene, solid_ball(masses[i], kRadius),
+                  {(2 * kRadius + kGap) * static_cast<double>(i), 0, 1},
+                  {i == 0 ? speed : 0, 0, 0});
+  return contact_case(
+      name, what, "m/s", scene, 0.2, at_the_end([exact](const Values&, const Values& v) {
+        double worst = 0;
+        for (std::size_t i = 0; i < exact.size(); ++i)
+          worst = nan_max(worst, std::hypot(v[6 * i + 3] - exact[i], v[6 * i + 4], v[6 * i + 5]));
+        return worst;
+      }));
 }
 
 SceneCase stack() {
-  SceneCase c{"E11", "contact", "ten boxes stand for 10 s: the farthest that one moves", "m",
-              floored(0.5)};
+  Scene scene = floored(0.5);
   for (int i = 0; i < 10; ++i)
-    add(c.scene, cube(1, 0.2), {0.01 * std::sin(3 * i), 0.01 * std::cos(2 * i), (i + 0.5) * 0.2});
-  c.duration = 10;
-  c.judge = [start = c.scene.q] {
+    add_free_body(scene, solid_cube(1, 0.2),
+                  {0.01 * std::sin(3 * i), 0.01 * std::cos(2 * i), (i + 0.5) * 0.2});
+  const auto judge = [start = scene.q] {
     double worst = 0;
     return [=](double, const Values& q, const Values&) mutable {
       for (std::size_t i = 0; i < q.size(); i += 7)
@@ -184,19 +147,19 @@ SceneCase stack() {
       return worst;
     };
   };
-  return c;
+  return contact_case("E11", "ten boxes stand for 10 s: the farthest that one moves", "m", scene,
+                      10, judge);
 }
 
 SceneCase oblique(const std::string& name, const std::string& what, double friction, double v_x,
                   double spin) {
-  SceneCase c{name, "contact", what, "m/s", floored(friction, 0.8)};
-  c.scene.gravity = {};
-  add(c.scene, ball(1, kRadius), {0, 0, kRadius + 0.1}, {2, 0, -3});
-  c.duration = 0.1;
-  c.judge = at_the_end([=](const Values& q, const Values& v) {
-    return std::hypot(v[3] - v_x, v[5] - 2.4, kRadius * turning(q, v)[1] - spin);
-  });
-  return c;
+  Scene scene =
+      with(floored(friction, 0.8), solid_ball(1, kRadius), {0, 0, kRadius + 0.1}, {2, 0, -3});
+  scene.gravity = {};
+  return contact_case(
+      name, what, "m/s", scene, 0.1, at_the_end([=](const Values& q, const Values& v) {
+        return std::hypot(v[3] - v_x, v[5] - 2.4, kRadius * turning(q, v)[1] - spin);
+      }));
 }
 
 }  // namespace
@@ -208,8 +171,11 @@ std::vector<SceneCase> contact_cases() {
       block("E2-creep", "block on 30 degrees, mu = 0.6, holds 10 s", 0.6, 10, 0),
       heading(0),
       heading(45),
-      rolling_sphere(),
-      slipping_sphere(),
+      sphere_downhill(
+          "E4", "sphere rolls down 20 degrees, mu = 0.5: its speed after 1 s", 0.5,
+          at_the_end([](const Values&, const Values& v) { return v[3] - 2.396584004303436; })),
+      sphere_downhill("E4-slip", "sphere slips down 20 degrees, mu = 0.05: v, R w after 1 s", 0.05,
+                      speed_and_spin(kRadius, 2.894298375529322, 1.15229807623872)),
       billiard("E5", "billiard ball at 2 m/s, mu = 0.2: speed and R w when it rolls", 0),
       billiard("E5-top", "billiard ball at 2 m/s with top spin of 4 m/s, mu = 0.2", 4),
       in_a_row("E6-two", "1 kg at 2 m/s hits 3 kg, e = 0.6: speeds", 0.6, {1, 3}, 2, {-0.4, 0.8}),

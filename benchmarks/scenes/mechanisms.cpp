@@ -7,50 +7,34 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmarks/scenes/eigen.h"
 #include "solver/dynamics/model_builder.h"
 
 namespace twinarm::bench {
 namespace {
 
-class Random {
- public:
-  explicit Random(unsigned seed) : engine_(seed) {}
-  double operator()(double low = 0, double high = 1) { return low + (high - low) * unit_(engine_); }
-
- private:
-  std::mt19937 engine_;
-  std::uniform_real_distribution<double> unit_{0, 1};
-};
-
-Numbers9 product(const Numbers9& A, const Numbers9& B) {
-  Numbers9 C{};
-  for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      for (std::size_t k = 0; k < 3; ++k) C[3 * i + j] += A[3 * i + k] * B[3 * k + j];
-  return C;
-}
-
-Numbers9 transpose(const Numbers9& A) {
-  return {A[0], A[3], A[6], A[1], A[4], A[7], A[2], A[5], A[8]};
+// Uniform random numbers.
+auto seeded(unsigned seed) {
+  return [engine = std::mt19937(seed), unit = std::uniform_real_distribution<double>(0, 1)](
+             double low = 0, double high = 1) mutable { return low + (high - low) * unit(engine); };
 }
 
 // Roll about x, pitch about y, yaw about z, fixed axes, in this order.
-Numbers9 rotation(const Numbers3& rpy) {
+Eigen::Matrix3d rotation(const Numbers3& rpy) {
   using std::cos, std::sin;
   const auto [roll, pitch, yaw] = rpy;
-  const Numbers9 X = {1, 0, 0, 0, cos(roll), -sin(roll), 0, sin(roll), cos(roll)};
-  const Numbers9 Y = {cos(pitch), 0, sin(pitch), 0, 1, 0, -sin(pitch), 0, cos(pitch)};
-  const Numbers9 Z = {cos(yaw), -sin(yaw), 0, sin(yaw), cos(yaw), 0, 0, 0, 1};
-  return product(product(Z, Y), X);
+  Eigen::Matrix3d X, Y, Z;
+  X << 1, 0, 0, 0, cos(roll), -sin(roll), 0, sin(roll), cos(roll);
+  Y << cos(pitch), 0, sin(pitch), 0, 1, 0, -sin(pitch), 0, cos(pitch);
+  Z << cos(yaw), -sin(yaw), 0, sin(yaw), cos(yaw), 0, 0, 0, 1;
+  return Z * Y * X;
 }
 
 // With these principal moments, about axes rotated by R against the body axes.
 Numbers6 inertia(const Numbers3& principal, const Numbers3& rpy = {0, 0, 0}) {
-  const Numbers9 R = rotation(rpy);
-  const Numbers9 D = {principal[0], 0, 0, 0, principal[1], 0, 0, 0, principal[2]};
-  const Numbers9 I = product(product(R, D), transpose(R));
-  return {I[0], I[4], I[8], I[1], I[2], I[5]};
+  const Eigen::Matrix3d R = rotation(rpy);
+  Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) I += principal[index(k)] * R.col(k) * R.col(k).transpose();
+  return {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
 }
 
 constexpr std::size_t about_x = 0, about_y = 1, about_z = 2;
@@ -63,26 +47,24 @@ Body link(int parent, std::size_t axis, const Numbers3& position, double mass, c
   b.mass = mass, b.com = com, b.inertia = inertia;
   return b;
 }
-Scene of_links(const std::string& name, std::vector<Body> links) {
+Scene of_links(std::vector<Body> links) {
   Scene scene;
-  scene.name = name;
   scene.bodies = std::move(links);
   return scene;
 }
 
 Scene scara3() {
-  return of_links("scara3", {link(-1, about_z, {0, 0, 0.10}, 1.2, {0.05, 0.002, 0.01},
-                                  inertia({1.0e-3, 2.2e-3, 2.5e-3})),
-                             link(0, about_z, {0.10, 0, 0.02}, 1.0, {0.06, -0.001, 0.005},
-                                  inertia({0.8e-3, 1.9e-3, 2.1e-3})),
-                             link(1, about_z, {0.12, 0, 0.01}, 0.7, {0.07, 0.001, -0.01},
-                                  inertia({0.5e-3, 1.4e-3, 1.5e-3}))});
+  return of_links(
+      {link(-1, about_z, {0, 0, 0.10}, 1.2, {0.05, 0.002, 0.01}, inertia({1.0e-3, 2.2e-3, 2.5e-3})),
+       link(0, about_z, {0.10, 0, 0.02}, 1.0, {0.06, -0.001, 0.005},
+            inertia({0.8e-3, 1.9e-3, 2.1e-3})),
+       link(1, about_z, {0.12, 0, 0.01}, 0.7, {0.07, 0.001, -0.01},
+            inertia({0.5e-3, 1.4e-3, 1.5e-3}))});
 }
 
 Scene puma6() {
   const Numbers3 forward{std::numbers::pi / 2, 0, 0}, back{-std::numbers::pi / 2, 0, 0};
   return of_links(
-      "puma6",
       {link(-1, about_z, {0, 0, 0.67}, 10.0, {0, 0.03, -0.05}, inertia({0.25, 0.25, 0.35})),
        link(0, about_z, {0, 0.15, 0}, 17.4, {0.068, 0.006, -0.016}, inertia({0.13, 0.524, 0.539}),
             back),
@@ -98,8 +80,8 @@ Scene puma6() {
 // Random numbers of a link are drawn last property first, as in the published timings of these
 // models.
 Scene chain(int n) {
-  Scene chain = of_links("chain" + std::to_string(n), {});
-  Random random(7);
+  Scene chain;
+  auto random = seeded(7);
   for (int i = 0; i < n; ++i) {
     Body b = link(i - 1, static_cast<std::size_t>(i % 3), {0, 0, 0}, 0, {}, {});
     b.com[2] = 0.01 * random();
@@ -118,8 +100,8 @@ Scene chain(int n) {
 }
 
 Scene humanoid30() {
-  Scene body = of_links("humanoid30", {});
-  Random random(11);
+  Scene body;
+  auto random = seeded(11);
   // A link of about this mass, height of the com and radius of gyration.
   const auto add = [&](int parent, std::size_t axis, const Numbers3& position, double mass,
                        double height, double radius) {
@@ -161,22 +143,11 @@ Scene humanoid30() {
   return body;
 }
 
-// Free cubes of 1 kg and 0.1 m on the floor, at rest.
-constexpr double box_edge = 0.1, box_mass = 1, contact_friction = 0.6;
-
-void add_box(Scene& scene, const Numbers3& centre) {
-  Body b;
-  b.mass = box_mass, b.form = Form::box, b.half = {box_edge / 2, box_edge / 2, box_edge / 2};
-  const double I = box_mass * box_edge * box_edge / 6;
-  b.inertia = {I, I, I, 0, 0, 0};
-  scene.bodies.push_back(b);
-  scene.q.insert(scene.q.end(), {centre[0], centre[1], centre[2], 1, 0, 0, 0});
-  scene.v.insert(scene.v.end(), 6, 0.0);
-}
+// Cubes of 1 kg.
+constexpr double box_edge = 0.1, contact_friction = 0.6;
 
 Scene pushing_scara() {
   Scene scene = scara3();
-  scene.name = "scara";
   Body& last = scene.bodies.back();
   last.form = Form::sphere, last.half = {0.02, 0.02, 0.02}, last.form_at = {0.14, 0, 0};
   scene.obstacle = {{0.2206, 0.3053, 0.13}, {box_edge / 2, box_edge / 2, box_edge / 2}};
@@ -187,20 +158,40 @@ Scene pushing_scara() {
 
 }  // namespace
 
+Body solid_ball(double mass, double radius) {
+  Body b;
+  b.mass = mass, b.form = Form::sphere, b.half = {radius, radius, radius};
+  const double I = 0.4 * mass * radius * radius;
+  b.inertia = {I, I, I, 0, 0, 0};
+  return b;
+}
+Body solid_cube(double mass, double edge) {
+  Body b;
+  b.mass = mass, b.form = Form::box, b.half = {edge / 2, edge / 2, edge / 2};
+  const double I = mass * edge * edge / 6;
+  b.inertia = {I, I, I, 0, 0, 0};
+  return b;
+}
+void add_free_body(Scene& scene, const Body& body, const Numbers3& p, const Numbers3& v) {
+  scene.bodies.push_back(body);
+  scene.q.insert(scene.q.end(), {p[0], p[1], p[2], 1, 0, 0, 0});
+  scene.v.insert(scene.v.end(), {0, 0, 0, v[0], v[1], v[2]});
+}
+
 TimedScene timed_scene(const std::string& name) {
   TimedScene timed{{}, 2e-3, 2000};
   Scene& scene = timed.scene;
-  scene.name = name;
-  const auto height = [](int row) { return 0.055 + 0.101 * row; };
+  const auto add_box = [&](int row, double x) {
+    add_free_body(scene, solid_cube(1, box_edge), {x, 0, 0.055 + 0.101 * row});
+  };
   if (name == "scara") {
     timed = {pushing_scara(), 1e-3, 5000};
   } else if (name == "wall100") {
     for (int column = 0; column < 10; ++column)
-      for (int row = 0; row < 10; ++row) add_box(scene, {0.15 * (column - 4.5), 0, height(row)});
+      for (int row = 0; row < 10; ++row) add_box(row, 0.15 * (column - 4.5));
   } else if (name == "pyr55") {
     for (int row = 0; row < 10; ++row)
-      for (int i = 0; i < 10 - row; ++i)
-        add_box(scene, {0.11 * (i - (9 - row) / 2.0), 0, height(row)});
+      for (int i = 0; i < 10 - row; ++i) add_box(row, 0.11 * (i - (9 - row) / 2.0));
   } else {
     throw std::invalid_argument("no scene " + name + ": there are wall100, pyr55, scara");
   }
@@ -221,7 +212,7 @@ Scene mechanism(const std::string& name) {
 }
 
 std::vector<Situation> situations(const Scene& mechanism, std::size_t count) {
-  Random random(42);
+  auto random = seeded(42);
   const bool floats = mechanism.floats();
   const std::size_t joints = mechanism.bodies.size() - (floats ? 1 : 0);
   // Base: linear before angular; then in the order of Joint.
@@ -257,9 +248,8 @@ Model<double> model_of(const Scene& scene) {
                            : b.joint == Joint::spherical ? JointType::spherical
                                                          : JointType::free;
     const std::string name = std::to_string(++number);
-    builder.add_body(name, b.parent + 1, "joint " + name, type,
-                     {matrix3(b.rotation), vector3(b.position)}, axis_of(b),
-                     {b.mass, vector3(b.com), inertia3(b.inertia)});
+    builder.add_body(name, b.parent + 1, "joint " + name, type, {b.rotation, vector3(b.position)},
+                     axis_of(b), {b.mass, vector3(b.com), inertia3(b.inertia)});
   }
   return builder.build();
 }

@@ -1,7 +1,9 @@
-// A mechanism or a scene in plain numbers, converted by every engine. C++17 without types of
-// engines or of twinarm, as Simbody's headers require C++17.
+// A mechanism or a scene in plain numbers, converted by every engine, and their Eigen types. C++17
+// without types of engines or of twinarm, as Simbody's headers require C++17.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
 #include <functional>
@@ -14,7 +16,6 @@ namespace twinarm::bench {
 
 using Numbers3 = std::array<double, 3>;
 using Numbers6 = std::array<double, 6>;
-using Numbers9 = std::array<double, 9>;  // a 3x3 matrix, row by row
 
 inline constexpr double standard_gravity = 9.81;  // [m/s^2]
 
@@ -30,11 +31,11 @@ struct Body {
   int parent = -1;  // index of an earlier body; -1: the world
   Joint joint = Joint::free;
   Numbers3 position{};  // of the body's origin in the parent at q = 0 [m]
-  Numbers9 rotation = {1, 0, 0, 0, 1, 0, 0, 0, 1};  // body axes to parent axes at q = 0
-  std::size_t axis = 2;                             // a revolute is about x (0), y (1) or z (2)
-  double mass = 1;                                  // [kg]
-  Numbers3 com{};                                   // from the origin, body axes [m]
-  Numbers6 inertia{};  // xx, yy, zz, xy, xz, yz about the com, body axes [kg m^2]
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // body to parent axes at q = 0
+  std::size_t axis = 2;  // a revolute is about x (0), y (1) or z (2)
+  double mass = 1;       // [kg]
+  Numbers3 com{};        // from the origin, body axes [m]
+  Numbers6 inertia{};    // xx, yy, zz, xy, xz, yz about the com, body axes [kg m^2]
   Form form = Form::none;
   Numbers3 half{};     // radius of a sphere three times, half edges of a box [m]
   Numbers3 form_at{};  // centre of the shape, body axes [m]
@@ -51,7 +52,6 @@ struct Control {
 };
 
 struct Scene {
-  std::string name;
   Numbers3 gravity{0, 0, -standard_gravity};
   std::vector<Body> bodies;
   std::vector<double> q, v;                 // initial, body by body in the order of Joint
@@ -75,12 +75,67 @@ inline std::size_t coordinates_of(Joint joint) {
 inline std::size_t velocities_of(Joint joint) {
   return joint == Joint::revolute ? 1 : joint == Joint::spherical ? 3 : 6;
 }
+// Calls each(body, q of its joint, v of its joint) for all bodies.
+template <class Number, class Each>
+void for_each_joint(const Scene& scene, Number* q, Number* v, Each each) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    each(i, q, v);
+    q += coordinates_of(scene.bodies[i].joint), v += velocities_of(scene.bodies[i].joint);
+  }
+}
+
+// Uniform solids, and a free body at p, at rest except for the velocity v.
+Body solid_ball(double mass, double radius);
+Body solid_cube(double mass, double edge);
+void add_free_body(Scene& scene, const Body& body, const Numbers3& p, const Numbers3& v = {});
 
 // State and forces of a mechanism, body by body in the order of Joint: tau are generalised forces
 // conjugate to v, the force of a free body at its origin; qdd = dv/dt, for inverse dynamics.
 struct Situation {
   std::vector<double> q, v, tau, qdd;
 };
+
+// ---- as Eigen types ----
+
+inline Eigen::Vector3d vector3(const Numbers3& v) {
+  return Eigen::Vector3d(v.data());
+}
+inline Eigen::Matrix3d inertia3(const Numbers6& inertia) {
+  const auto& [xx, yy, zz, xy, xz, yz] = inertia;
+  Eigen::Matrix3d I;
+  I << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+  return I;
+}
+inline Eigen::Vector3d axis_of(const Body& b) {
+  return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(b.axis));
+}
+inline Eigen::Quaterniond quaternion(const double* q) {
+  return {q[0], q[1], q[2], q[3]};
+}
+template <class Quaternion>
+void write_quaternion(const Quaternion& R, double* q) {
+  q[0] = R.w(), q[1] = R.x(), q[2] = R.y(), q[3] = R.z();
+}
+inline std::size_t index(int body) {
+  return static_cast<std::size_t>(body);
+}
+
+// A floating base: coordinates, velocities and forces.
+struct Base {
+  explicit Base(const Situation& s)
+      : p(s.q.data()),
+        R(quaternion(&s.q[3])),
+        w_B(s.v.data()),
+        v_W(s.v.data() + 3),
+        t_B(s.tau.data()),
+        f_W(s.tau.data() + 3) {}
+  Eigen::Vector3d p;         // of its origin, world
+  Eigen::Quaterniond R;      // body axes to world axes
+  Eigen::Vector3d w_B, v_W;  // angular velocity, body axes; velocity of the origin, world axes
+  Eigen::Vector3d t_B, f_W;  // torque, body axes; force at the origin, world axes
+};
+
+// ---- cases ----
 
 // Scenes that are run in every engine, and their error measures, computed from the coordinates
 // returned by the engine.

@@ -21,7 +21,7 @@
 
 namespace twinarm {
 
-class ContactConstraints final : public ConstraintSource, public Checkpointable {
+class ContactConstraints : public ConstraintSource, public Checkpointable {
  public:
   ContactConstraints(const Model<double>& model, ContactResponse response);
   ContactConstraints(const ContactConstraints&) = delete;  // parts hold references to each other

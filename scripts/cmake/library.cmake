@@ -36,14 +36,17 @@ function(twinarm_library_of_objects)
   target_link_libraries(${name} PUBLIC $<BUILD_INTERFACE:twinarm_flags> Eigen3::Eigen ${uses})
 endfunction()
 
-# twinarm_registry(HEADER FILE TYPE TYPE FUNCTION NAME SUFFIX TEXT [FILES GLOB ..])
+# twinarm_registry(HEADER FILE TYPE TYPE FUNCTION NAME SUFFIX TEXT [NAMESPACE twinarm] [FILES GLOB ..])
 # One file, one entry: each file of this folder that matches FILES (*.cpp) defines `TYPE STEM_SUFFIX()`,
 # and the made function `const std::vector<TYPE>& NAME()`, declared in HEADER, lists them in the order of
 # their names. So a new file of the folder is registered by being there. Called after twinarm_library().
 function(twinarm_registry)
-  cmake_parse_arguments(R "" "HEADER;TYPE;FUNCTION;SUFFIX" "FILES" ${ARGN})
+  cmake_parse_arguments(R "" "HEADER;TYPE;FUNCTION;SUFFIX;NAMESPACE" "FILES" ${ARGN})
   if(NOT R_FILES)
     set(R_FILES *.cpp)
+  endif()
+  if(NOT R_NAMESPACE)
+    set(R_NAMESPACE twinarm)
   endif()
   file(GLOB files CONFIGURE_DEPENDS RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} ${R_FILES})
   list(SORT files)
@@ -58,7 +61,7 @@ function(twinarm_registry)
   file(CONFIGURE OUTPUT ${made} CONTENT "// Made by twinarm_registry() from the files of a folder.
 #include \"${R_HEADER}\"
 
-namespace twinarm {
+namespace ${R_NAMESPACE} {
 
 ${declarations}
 const std::vector<${R_TYPE}>& ${R_FUNCTION}() {
@@ -66,7 +69,7 @@ const std::vector<${R_TYPE}>& ${R_FUNCTION}() {
   return all;
 }
 
-}  // namespace twinarm
+}  // namespace ${R_NAMESPACE}
 ")
   file(RELATIVE_PATH folder ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   string(REPLACE / _ name twinarm_${folder})

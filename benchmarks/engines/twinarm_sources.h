@@ -1,0 +1,65 @@
+// Sources of forces and contacts of a scene in twinarm.
+#pragma once
+
+#include <algorithm>
+
+#include "benchmarks/engines/engine.h"
+#include "benchmarks/scenes/mechanisms.h"
+#include "collision/contact/contact_constraints.h"
+#include "solver/stepping/simulation.h"
+
+namespace twinarm::bench {
+
+// Constant forces on bodies, and the control torques.
+class ScenePushes final : public ForceSource {
+ public:
+  explicit ScenePushes(const Scene& scene) : scene_(scene) {}
+  bool is_needed() const {
+    return scene_.control ||
+           std::ranges::any_of(scene_.bodies, [](const Body& b) { return b.push != Numbers3{}; });
+  }
+  void add_forces(const State<double>& x, const Kinematics& k,
+                  Forces<double>& f) noexcept override {
+    if (scene_.control) {
+      for (std::size_t j = 0; j < f.tau.size(); ++j)
+        f.tau[j] += scene_.control->torque(j, x.q[j], x.qd[j]);
+      return;
+    }
+    for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
+      const Vector3 F_B = k.R_WB[i + 1].transpose() * vector3(scene_.bodies[i].push);
+      f.f_ext[i + 1].f += from_eigen(F_B);
+    }
+  }
+
+ private:
+  const Scene& scene_;
+};
+
+// Contacts with timers around detection and around the solver's part between add and take.
+class WatchedContacts final : public ContactConstraints {
+ public:
+  using ContactConstraints::ContactConstraints;
+  bool watched = false;
+  double detection = 0, solver = 0;  // since last reset [s]
+
+  void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override {
+    const double start = now();
+    ContactConstraints::begin_step(k, x, h);
+    detection += now() - start;
+  }
+  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
+    ContactConstraints::add(frame, problem);
+    added_ = now();
+  }
+  void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
+            std::size_t first) noexcept override {
+    solver += now() - added_;
+    ContactConstraints::take(frame, problem, first);
+  }
+
+ private:
+  double now() const { return watched ? thread_seconds() : 0; }
+  double added_ = 0;
+};
+
+}  // namespace twinarm::bench
