@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/page/pages.h"
 #include "app/record/recording_reader.h"
@@ -164,15 +162,12 @@ struct ExportOptions {
   bool json = false, csv = false;
 };
 
-void add_options(CLI::App& command, ExportOptions& options) {
-  add_file_option(command, "recording", options.recording,
-                  "recording of `twinarm simulate --record`")
-      ->required();
-  add_file_option(command, "page", options.page,
-                  "write one HTML file: animation, plots, energy balance, settings");
-  begin_group(command, "Output on stdout");
-  add_json_option(command, options.json);
-  command.add_flag("--csv", options.csv, "print one CSV row per frame");
+void add_options(const OptionAdder& add, ExportOptions& options) {
+  add("recording", options.recording, "recording of `twinarm simulate --record`")->required();
+  add("page", options.page, "write one HTML file: animation, plots, energy balance, settings");
+  add.group("Output on stdout");
+  add.json(options.json);
+  add("--csv", options.csv, "print one CSV row per frame");
 }
 
 int export_page(const ExportOptions& options) {

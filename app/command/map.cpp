@@ -1,10 +1,8 @@
 // `twinarm map`: sweeps two scene parameters (docs/use/parameter_maps.md).
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/map/map_results.h"
 #include "app/plot/gnuplot.h"
@@ -18,42 +16,35 @@
 namespace twinarm {
 namespace {
 
-void add_options(CLI::App& command, MapOptions& options) {
-  add_input_option(command, "scene", options.scene,
-                   "scene (TOML); default with --merge: its scene");
-  begin_group(command, "Parameters");
-  command.add_option(
-      "--x", options.x,
+void add_options(const OptionAdder& add, MapOptions& options) {
+  add.input("scene", options.scene, "scene (TOML); default with --merge: its scene");
+  add.group("Parameters");
+  add("--x", options.x,
       "PATH:MIN:MAX:N[:log]: parameter of the scene along x, range, number of cells");
-  command.add_option("--y", options.y, "PATH:MIN:MAX:N[:log]: parameter along y, upward");
-  command.add_option(
-      "--measure", options.measure,
+  add("--y", options.y, "PATH:MIN:MAX:N[:log]: parameter along y, upward");
+  add("--measure", options.measure,
       "result to print and draw: stable, max_error, mean_error, energy or passivity");
-  command.add_option("--of", options.of,
-                     "coupling whose tracking error is measured; default: the first");
-  begin_group(command, "Run");
-  command.add_option("--duration", options.duration, "[s]; default: the scene's");
-  add_scene_step_options(command, options.step, options.integrator);
-  command.add_flag("--alone", options.alone, "run cells one at a time, not in SIMD batches");
-  command.add_option("--threads", options.threads, "number of threads; default: all processors")
-      ->default_str("");
-  begin_group(command, "Output");
-  add_file_option(command, "--svg", options.svg, "write the map as SVG, with predicted limits");
-  add_file_option(command, "--png", options.png, "write the map as PNG, with predicted limits");
-  add_file_option(command, "--csv", options.csv, "write one row per cell with all measures");
-  command.add_flag("--force", options.force, "overwrite existing files");
-  add_json_option(command, options.json);
-  begin_group(command, "One cell");
-  command.add_option("--cell", options.cell, "IX,IY: index of a cell, from 0");
-  add_file_option(command, "--record", options.record,
-                  "write the recording of that cell, and its scene beside it");
-  begin_group(command, "Resume and share");
-  add_file_option(command, "--work", options.work,
-                  "checkpoint file, from which an interrupted map resumes; default: in out/map");
-  command.add_option("--tiles", options.tiles, "number of jobs that share the map")
-      ->default_str("");
-  command.add_option("--tile", options.tile, "index of this job, from 0")->default_str("");
-  add_file_option(command, "--merge", options.merge, "merge these files of --tile");
+  add("--of", options.of, "coupling whose tracking error is measured; default: the first");
+  add.group("Run");
+  add("--duration", options.duration, "[s]; default: the scene's");
+  add.scene_step(options.step, options.integrator);
+  add("--alone", options.alone, "run cells one at a time, not in SIMD batches");
+  add("--threads", options.threads, "number of threads; default: all processors")->default_str("");
+  add.group("Output");
+  add("--svg", options.svg, "write the map as SVG, with predicted limits");
+  add("--png", options.png, "write the map as PNG, with predicted limits");
+  add("--csv", options.csv, "write one row per cell with all measures");
+  add("--force", options.force, "overwrite existing files");
+  add.json(options.json);
+  add.group("One cell");
+  add("--cell", options.cell, "IX,IY: index of a cell, from 0");
+  add("--record", options.record, "write the recording of that cell, and its scene beside it");
+  add.group("Resume and share");
+  add("--work", options.work,
+      "checkpoint file, from which an interrupted map resumes; default: in out/map");
+  add("--tiles", options.tiles, "number of jobs that share the map")->default_str("");
+  add("--tile", options.tile, "index of this job, from 0")->default_str("");
+  add("--merge", options.merge, "merge these files of --tile");
 }
 
 bool file_exists(const std::filesystem::path& file) {

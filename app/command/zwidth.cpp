@@ -1,10 +1,8 @@
 // `twinarm zwidth`: measures the Z-width of a device (docs/understand/haptic_rendering.md).
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
@@ -25,23 +23,23 @@ struct ZwidthOptions {
   bool csv = false, json = false;
 };
 
-void add_options(CLI::App& command, ZwidthOptions& options) {
-  begin_group(command, "Device");
-  command.add_option("--mass", options.mass, "effective mass at the handle [kg]");
-  command.add_option("--damping", options.damping, "viscous friction [N s/m]");
-  command.add_option("--friction", options.friction, "Coulomb friction [N]");
-  command.add_option("--resolution", options.resolution, "resolution of the encoder [m]");
-  command.add_option("--rate", options.rate, "rate of the haptic loop [Hz]");
-  command.add_option("--delay", options.delay, "delay from sensor to motor [ticks]");
-  begin_group(command, "Measurement");
-  command.add_option("--wall-damping", options.wall_damping,
-                     "wall damping B for which the maximum stiffness is measured [N s/m]");
-  command.add_option("--seed", options.seed, "random seed of network and operator motion");
-  begin_group(command, "Output");
-  add_file_option(command, "--svg", options.svg, "write the K-B plane and the energies as SVG");
-  add_file_option(command, "--png", options.png, "write the K-B plane and the energies as PNG");
-  command.add_flag("--csv", options.csv, "print the walls as CSV on stdout");
-  add_json_option(command, options.json);
+void add_options(const OptionAdder& add, ZwidthOptions& options) {
+  add.group("Device");
+  add("--mass", options.mass, "effective mass at the handle [kg]");
+  add("--damping", options.damping, "viscous friction [N s/m]");
+  add("--friction", options.friction, "Coulomb friction [N]");
+  add("--resolution", options.resolution, "resolution of the encoder [m]");
+  add("--rate", options.rate, "rate of the haptic loop [Hz]");
+  add("--delay", options.delay, "delay from sensor to motor [ticks]");
+  add.group("Measurement");
+  add("--wall-damping", options.wall_damping,
+      "wall damping B for which the maximum stiffness is measured [N s/m]");
+  add("--seed", options.seed, "random seed of network and operator motion");
+  add.group("Output");
+  add("--svg", options.svg, "write the K-B plane and the energies as SVG");
+  add("--png", options.png, "write the K-B plane and the energies as PNG");
+  add("--csv", options.csv, "print the walls as CSV on stdout");
+  add.json(options.json);
 }
 
 void check(const ZwidthOptions& options, DiagnosticList& faults) {

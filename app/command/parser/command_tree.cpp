@@ -1,6 +1,5 @@
 #include "app/command/parser/command_tree.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "app/command/parser/shared_options.h"
