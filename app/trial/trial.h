@@ -8,7 +8,6 @@
 
 #include "app/scene/model/scene_model.h"
 #include "app/servo/servo_loop.h"
-#include "solver/spatial/pose.h"
 
 namespace twinarm {
 
@@ -56,37 +55,5 @@ std::string trial_json(const TrialReport& report);
 void add_last_to_csv(const TrialReport& report, const std::filesystem::path& file);
 // The first of "S1", "S2", .. that is not in the file.
 std::string next_subject(const std::filesystem::path& file);
-
-// Task: bring an object from one place of the table to another, in the horizontal plane.
-//
-// The gripper picks the object if the button is pressed within `reach` of it, and carries it while
-// the button is held. Released within `reach` of the goal it is placed, elsewhere dropped. The
-// object has no mass: the task measures positioning.
-class PickAndPlace {
- public:
-  struct Places {
-    Vector3 object{0.42, 0.28, 0}, goal{0.42, -0.28, 0};  // world [m]; z is ignored
-    double reach = 0.03;                                  // [m]
-  };
-  struct Progress {
-    Vector3 object;
-    bool is_carried = false, is_placed = false;
-    int picks = 0, drops = 0;               // drop: outside the goal
-    double picked_at = -1, placed_at = -1;  // first time [s]; negative: never
-  };
-  explicit PickAndPlace(const Places& places) : places_(places), progress_{places.object} {}
-
-  // Once a tick, at its time [s].
-  void tick(double t, const Vector3& gripper, bool closed);
-
-  const Places& places() const { return places_; }
-  const Progress& progress() const { return progress_; }
-  double off() const;  // distance of the object from the goal [m]
-
- private:
-  Places places_;
-  Progress progress_;
-  bool closed_ = false;
-};
 
 }  // namespace twinarm

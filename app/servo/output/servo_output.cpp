@@ -155,31 +155,16 @@ State<double> record_again(const std::filesystem::path& scene,
   options.record = recording;
   SimulatePlan plan = prepare_simulation(options);
   plan.run.times.clear();
-  RunRecorder recorder(
-      recording,
-      header_of(options, plan,
-                {"twinarm", "simulate", scene.string(), "--record", recording.string()}),
-      plan);
   Progress progress(isatty(STDERR_FILENO) == 0);
   progress.stage("record", 1);
   State<double> end = plan.input.robot.state.x;
   RunWatch watch;
-  watch.look = [&](RunView& run) {
-    recorder.look(run);
-    end = run.simulation().state();
-  };
-  watch.interrupted = is_interrupted;
+  watch.look = [&](RunView& run) { end = run.simulation().state(); };
   watch.tick = [&](double t) {
     check_interrupt();
     progress.advance(t / plan.run.duration);
   };
-  try {
-    const SimulateResult result = run_plan(plan.input, plan.run, watch);
-    recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
-  } catch (const Interrupted&) {
-    recorder.finish("interrupted");
-    throw;
-  }
+  record_plan(options, plan, watch);
   progress.finish();
   return end;
 }
