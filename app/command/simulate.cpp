@@ -1,5 +1,4 @@
 // `twinarm simulate`.
-#include <fmt/format.h>
 
 #include "app/command/command.h"
 #include "app/diagnose/post_mortem.h"

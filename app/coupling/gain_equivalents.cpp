@@ -1,8 +1,6 @@
 #include "app/coupling/gain_equivalents.h"
 
 #include <fmt/format.h>
-#include <array>
-#include <cmath>
 #include <numbers>
 
 #include "app/coupling/posed_couplings.h"
