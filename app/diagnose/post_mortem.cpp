@@ -48,8 +48,7 @@ std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const Ru
   const State<double>& x = simulation.state();
   for (std::size_t c = 0; couplings && c < couplings->size(); ++c) {
     const SceneCoupling& spec = couplings->spec(c);
-    if (spec.treatment != Discretization::implicit || !spec.is_external() ||
-        spec.type != CouplingDescription::Type::linear)
+    if (spec.treatment != Discretization::implicit || !spec.is_external() || !spec.is_linear())
       continue;
     const TargetRadius radius =
         nearest_target_radius(simulation.mechanism().model, x, simulation.kinematics(),

@@ -72,11 +72,9 @@ struct LaneRunner {
                         c.driven.gripper == measured.driven.gripper && c.trace == measured.trace &&
                         c.rest.q == measured.rest.q;
       if (!same) add_target(c);
-      setup.springs.push_back({c.type == CouplingDescription::Type::linear
-                                   ? CouplingSpec::Type::linear
-                                   : CouplingSpec::Type::torsional,
-                               c.measure, c.treatment, c.absolute_damper,
-                               same ? 0 : setup.targets.size() - 1, c.spring.body});
+      setup.springs.push_back(
+          {c.is_linear() ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional, c.measure,
+           c.treatment, c.absolute_damper, same ? 0 : setup.targets.size() - 1, c.spring.body});
     }
     if (!batch_faults(setup).empty() || !find_limits()) return false;
     runs = std::make_unique<BatchRun>(setup);
@@ -166,7 +164,7 @@ struct LaneRunner {
     for (std::size_t c = 0; c < couplings.size(); ++c) {
       const SceneCoupling& spec = couplings.spec(c);
       const Vector3& p = cell.springs[c].p_L;
-      const Vector3 offset = spec.type == CouplingDescription::Type::linear
+      const Vector3 offset = spec.is_linear()
                                  ? Vector3(couplings.target(c, 0).k.position(spec.spring.body, p) -
                                            k.position(spec.spring.body, p))
                                  : couplings.ends(c, start, k).offset;

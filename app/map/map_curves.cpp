@@ -47,8 +47,7 @@ bool is_stable_at_start(const SimulatePlan& plan) {
 }
 
 bool is_implicit_point(const SceneCoupling& coupling) {
-  return coupling.type == CouplingDescription::Type::linear &&
-         coupling.treatment == Discretization::implicit;
+  return coupling.is_linear() && coupling.treatment == Discretization::implicit;
 }
 
 bool is_stable_along_motion(const SimulatePlan& plan) {

@@ -23,7 +23,7 @@ std::pair<int, Vector3> controlled_point(const SceneModel& scene,
   const std::vector<int> bodies = driven_bodies(scene, scene.couplings[driven.front()].driven);
   std::pair<int, Vector3> point{bodies.back(), Vector3::Zero()};
   for (const std::size_t c : driven)
-    if (scene.couplings[c].type == CouplingDescription::Type::linear)
+    if (scene.couplings[c].is_linear())
       point = {scene.couplings[c].spring.body, scene.couplings[c].spring.p_L};
   return point;
 }
