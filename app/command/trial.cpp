@@ -166,7 +166,6 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
   }
   if (is_shown) task.show = TerminalShow(task.seconds);
   const std::unique_ptr<HandDevice> device = open_device(options.device);
-  task.is_stopped = is_interrupted;
   const std::string name = step.condition->name + (step.pick ? "_pick" : "_free");
   return run_task(*step.condition, *device, mapping, task, folder / (name + ".csv"));
 }

@@ -14,6 +14,8 @@
 namespace twinarm {
 namespace {
 
+constexpr long kLastSteps = 1000;
+
 using Works = std::map<std::string, double>;  // by row
 
 Works works_of(const std::vector<EnergyRow>& rows) {

@@ -145,7 +145,6 @@ CellValues record_cell(const MapJob& job, const OpenedCell& cell,
   const SimulatePlan plan = prepare_simulation(options);
   CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
   RunWatch watch;
-  watch.sample = [](double, const State<double>&) {};
   watch.look = [&](RunView& run) { measure.look(run); };
   watch.tick = [](double) { check_interrupt(); };
   return measure.values(record_plan(options, plan, watch));

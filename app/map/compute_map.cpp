@@ -31,7 +31,6 @@ using MapTask = std::vector<MapCell>;
 CellValues run_cell(const MapJob& job, const SimulatePlan& plan) {
   CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
   RunWatch watch;
-  watch.sample = [](double, const State<double>&) {};
   watch.interrupted = is_interrupted;
   watch.tick = [](double) { check_interrupt(); };
   watch.look = [&](RunView& run) { measure.look(run); };

@@ -140,6 +140,50 @@ constexpr double kMaxCells = 4096;  // along an axis
 const char* const kAxisForm =
     "write PATH:MIN:MAX:N[:log], as in coupling[0].stiffness:100:1e5:64:log";
 
+// PATH:MIN:MAX:N[:log], or nothing and diagnostics of the option.
+std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
+                                  DiagnosticList& faults) {
+  bool good = true;
+  const auto fault = [&](const std::string& problem, const std::string& fix,
+                         std::string_view code) {
+    faults.add({"", 0, option, problem, fix, code});
+    good = false;
+  };
+  const std::vector<std::string> parts = split(text, ':');
+  if (parts.size() < 4 || parts.size() > 5 || parts[0].empty()) {
+    fault("'" + text + "' is not an axis", kAxisForm, "axis.form");
+    return std::nullopt;
+  }
+  MapAxis axis;
+  axis.path = parts[0];
+  const auto number = [&](std::size_t i, const char* name) {
+    const auto value = parse_number(parts[i]);
+    if (!value)
+      fault(std::string(name) + " '" + parts[i] + "' is not a finite number", kAxisForm,
+            "axis.number");
+    return value.value_or(0);
+  };
+  axis.from = number(1, "MIN");
+  axis.to = number(2, "MAX");
+  const double count = number(3, "N");
+  if (good && !(axis.from < axis.to))
+    fault("MIN " + parts[1] + " is not below MAX " + parts[2], "give the smaller value first",
+          "axis.order");
+  if (good && (count < 2 || count > kMaxCells || count != std::floor(count)))
+    fault("has " + parts[3] + " cells", "give a whole number of them, from 2 to 4096",
+          "axis.count");
+  axis.log = parts.size() == 5;
+  if (axis.log && parts[4] != "log")
+    fault("'" + parts[4] + "' is not known", "write log, or leave it out for a linear axis",
+          "axis.scale");
+  if (good && axis.log && !(axis.from > 0))
+    fault("a logarithmic axis starts at " + parts[1], "start above 0, or leave ':log' out",
+          "axis.log-from-zero");
+  axis.count = static_cast<int>(good ? count : 0);
+  if (!good) return std::nullopt;
+  return axis;
+}
+
 }  // namespace
 
 void set_parameters(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults) {
@@ -218,49 +262,6 @@ double MapAxis::place_of(double value) const {
 std::string MapAxis::text() const {
   return path + ":" + number_text(from) + ":" + number_text(to) + ":" + std::to_string(count) +
          (log ? ":log" : "");
-}
-
-std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
-                                  DiagnosticList& faults) {
-  bool good = true;
-  const auto fault = [&](const std::string& problem, const std::string& fix,
-                         std::string_view code) {
-    faults.add({"", 0, option, problem, fix, code});
-    good = false;
-  };
-  const std::vector<std::string> parts = split(text, ':');
-  if (parts.size() < 4 || parts.size() > 5 || parts[0].empty()) {
-    fault("'" + text + "' is not an axis", kAxisForm, "axis.form");
-    return std::nullopt;
-  }
-  MapAxis axis;
-  axis.path = parts[0];
-  const auto number = [&](std::size_t i, const char* name) {
-    const auto value = parse_number(parts[i]);
-    if (!value)
-      fault(std::string(name) + " '" + parts[i] + "' is not a finite number", kAxisForm,
-            "axis.number");
-    return value.value_or(0);
-  };
-  axis.from = number(1, "MIN");
-  axis.to = number(2, "MAX");
-  const double count = number(3, "N");
-  if (good && !(axis.from < axis.to))
-    fault("MIN " + parts[1] + " is not below MAX " + parts[2], "give the smaller value first",
-          "axis.order");
-  if (good && (count < 2 || count > kMaxCells || count != std::floor(count)))
-    fault("has " + parts[3] + " cells", "give a whole number of them, from 2 to 4096",
-          "axis.count");
-  axis.log = parts.size() == 5;
-  if (axis.log && parts[4] != "log")
-    fault("'" + parts[4] + "' is not known", "write log, or leave it out for a linear axis",
-          "axis.scale");
-  if (good && axis.log && !(axis.from > 0))
-    fault("a logarithmic axis starts at " + parts[1], "start above 0, or leave ':log' out",
-          "axis.log-from-zero");
-  axis.count = static_cast<int>(good ? count : 0);
-  if (!good) return std::nullopt;
-  return axis;
 }
 
 }  // namespace twinarm

@@ -43,10 +43,6 @@ struct MapAxis {
   std::string text() const;             // PATH:MIN:MAX:N[:log] in the fewest digits
 };
 
-// PATH:MIN:MAX:N[:log], or nothing and diagnostics of the option.
-std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
-                                  DiagnosticList& faults);
-
 // Values of MapJob::identity. They are part of the file format: do not change them.
 namespace identity {
 inline constexpr const char* kAsScene = "as the scene says";

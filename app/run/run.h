@@ -89,11 +89,12 @@ struct SimulateResult {
 };
 
 struct RunWatch {
-  std::function<void(const std::string&)> warn;                // before the run; also in the result
-  std::function<void(double t, const State<double>&)> sample;  // times of the plan, in their order
-  std::function<void(RunView&)> look;                          // at the start and after each step
-  std::function<std::string(const Alarm&)> alarm;              // at most once; returns its text
-  std::function<void(double t)> tick;                          // after each step; may throw
+  std::function<void(const std::string&)> warn;  // before the run; also in the result
+  // At the times of the plan, in their order.
+  std::function<void(double t, const State<double>&)> sample = [](double, const State<double>&) {};
+  std::function<void(RunView&)> look;              // at the start and after each step
+  std::function<std::string(const Alarm&)> alarm;  // at most once; returns its text
+  std::function<void(double t)> tick;              // after each step; may throw
   // Called within long steps; true ends the step, and tick(), which must throw, is called.
   bool (*interrupted)() = nullptr;
 };

@@ -5,6 +5,7 @@
 
 #include "app/scene/read/read_scene.h"
 #include "app/servo/output/servo_output.h"
+#include "app/support/progress.h"
 #include "solver/dynamics/kinematics.h"
 
 namespace twinarm {
@@ -185,7 +186,7 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
     }
     log.flush();
     if (any && task.show) task.show(watch.picture(newest, pick), reached);
-    stopped = stopped || (task.is_stopped && task.is_stopped());
+    stopped = stopped || is_interrupted();
     if (stopped || progress.is_placed) done = true;
   });
   log.finish();

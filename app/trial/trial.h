@@ -31,12 +31,11 @@ struct TrialTask {
   bool is_pick_and_place = false;
   double seconds = 20;  // of free motion; timeout of pick-and-place
   bool real_time = true;
-  bool (*is_stopped)() = nullptr;  // polled; true ends the task early, its results are kept
   // Called about twenty times a second with a top view in characters. May be empty.
   std::function<void(const std::string& picture, double t)> show;
 };
 
-// One task under one condition. Throws InputError.
+// One task under one condition; Ctrl-C ends it early, its results are kept. Throws InputError.
 TrialResult run_task(const TrialCondition& condition, HandDevice& device,
                      const MappingSpec& mapping, const TrialTask& task,
                      const std::filesystem::path& log);
