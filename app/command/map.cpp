@@ -147,7 +147,7 @@ void write_results(const MapOptions& options, const MapJob& job, const TileFile&
   if (!options.svg.empty()) write_result("--svg", options.svg, map_svg(job, file, curves));
   if (!options.png.empty()) write_result("--png", options.png, map_png(job, file, curves));
   if (options.json)
-    fmt::print("{}", map_json(job, file, curves));
+    fmt::print("{}\n", map_json(job, file, curves));
   else
     fmt::print("{}", map_words(job, file));
 }

@@ -65,6 +65,10 @@ struct MapJob {
 
   int nx() const { return x.count; }
   int ny() const { return y.count; }
+  std::size_t index(int ix, int iy) const {  // of a cell, row by row
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx()) +
+           static_cast<std::size_t>(ix);
+  }
 };
 
 // Reads the scene. Throws InputError with all diagnostics of options, axes, and of the scene at the

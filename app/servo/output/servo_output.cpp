@@ -65,12 +65,6 @@ void write_figures(JsonWriter& json, const char* name, const TickFigures& figure
                          {"slipped", figures.slipped}});
 }
 
-void write_files(JsonWriter& json, const LiveSummary& summary) {
-  json.key("log").text(summary.log);
-  if (summary.recording.empty()) return;
-  json.members({{"recording", summary.recording}, {"same_bits", summary.same_bits}});
-}
-
 }  // namespace
 
 std::string live_table(const LiveSummary& summary) {
@@ -83,10 +77,8 @@ std::string live_table(const LiveSummary& summary) {
   text += "\n\n";
   TextTable tracking({"|q_K - q_D| [deg]", "maximum", "mean"});
   for (std::size_t j = 0; j < summary.joints.size(); ++j)
-    tracking.add(
-        {summary.joints[j], fmt::format("{:.3f}", summary.max_error[j] / kDegree),
-         fmt::format("{:.3f}", summary.sum_error[j] /
-                                   static_cast<double>(std::max(1L, summary.ticks)) / kDegree)});
+    tracking.add({summary.joints[j], fmt::format("{:.3f}", summary.max_error[j] / kDegree),
+                  fmt::format("{:.3f}", summary.mean_error(j) / kDegree)});
   text += tracking.str();
   text += fmt::format("\nmaximum torque of motors 1, 2, 3: {:.1f}, {:.1f}, {:.1f} mN m\n",
                       1e3 * summary.max_torque[0], 1e3 * summary.max_torque[1],
@@ -104,34 +96,33 @@ std::string live_table(const LiveSummary& summary) {
 }
 
 std::string live_json(const LiveSummary& summary) {
-  JsonWriter json;
-  json.begin_object();
-  json.members({{"scene", summary.scene},
-                {"device", summary.device},
-                {"mapping", summary.mapping},
-                {"step", summary.step},
-                {"duration", summary.duration},
-                {"ticks", summary.ticks},
-                {"silences", summary.silences},
-                {"held", summary.held},
-                {"released", summary.released}});
-  json.key("tracking").begin_object();
-  for (std::size_t j = 0; j < summary.joints.size(); ++j)
-    json.key(summary.joints[j])
-        .object(
-            {{"max", summary.max_error[j]},
-             {"mean", summary.sum_error[j] / static_cast<double>(std::max(1L, summary.ticks))}});
-  json.end_object();
-  json.key("largest_torque").numbers({summary.max_torque.begin(), summary.max_torque.end()});
-  if (summary.real_time) {
-    json.key("span").number(summary.servo.span);
-    write_figures(json, "timing", summary.servo.run);
-    if (summary.servo.empty.cpu.count() > 0) write_figures(json, "empty_loop", summary.servo.empty);
-  }
-  json.key("finite").boolean(summary.servo.finite);
-  write_files(json, summary);
-  json.end_object();
-  return json.str();
+  return json_text([&](JsonWriter& json) {
+    json.members({{"scene", summary.scene},
+                  {"device", summary.device},
+                  {"mapping", summary.mapping},
+                  {"step", summary.step},
+                  {"duration", summary.duration},
+                  {"ticks", summary.ticks},
+                  {"silences", summary.silences},
+                  {"held", summary.held},
+                  {"released", summary.released}});
+    json.key("tracking").object([&] {
+      for (std::size_t j = 0; j < summary.joints.size(); ++j)
+        json.key(summary.joints[j])
+            .object({{"max", summary.max_error[j]}, {"mean", summary.mean_error(j)}});
+    });
+    json.put("largest_torque", summary.max_torque);
+    if (summary.real_time) {
+      json.put("span", summary.servo.span);
+      write_figures(json, "timing", summary.servo.run);
+      if (summary.servo.empty.cpu.count() > 0)
+        write_figures(json, "empty_loop", summary.servo.empty);
+    }
+    json.put("finite", summary.servo.finite);
+    json.put("log", summary.log);
+    if (!summary.recording.empty())
+      json.members({{"recording", summary.recording}, {"same_bits", summary.same_bits}});
+  });
 }
 
 void write_scene_of_log(const std::filesystem::path& scene, const std::filesystem::path& log,
