@@ -199,7 +199,7 @@ MapOptions with_merged(MapOptions options) {
 
 int compute(const MapOptions& options, const MapJob& job) {
   const TileFile empty = empty_tile_file(job);
-  const MapBlocks blocks = blocks_of(job);
+  const MapBlocks blocks{job.nx(), job.ny()};
   const std::filesystem::path work = work_file(options, empty);
   if (!options.merge.empty()) {
     const TileFile file = merge_tile_files(options.merge, empty, blocks);
@@ -213,7 +213,7 @@ int compute(const MapOptions& options, const MapJob& job) {
   const auto is_finished = [&](int block) { return file.has_all_of(blocks[block]); };
   if (!std::ranges::all_of(wanted, is_finished)) require_writable_folder(folder_of(work), "--work");
   try {
-    compute_blocks(job, wanted, work, {options.threads, false}, file);
+    compute_blocks(job, wanted, work, options.threads, file);
   } catch (const Interrupted&) {
     say("twinarm: {} of {} blocks of cells are finished, in {}; the same command resumes\n",
         std::ranges::count_if(wanted, is_finished), wanted.size(), work.string());

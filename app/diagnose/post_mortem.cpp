@@ -101,6 +101,12 @@ void find_row(const Works& since, const Works& now, PostMortem& found) {
   }
 }
 
+void add_growth(PostMortem& found, const std::string& period) {
+  if (!found.row.empty())
+    found.words.push_back(fmt::format("Largest growth in the energy balance: row '{}', {} J{}",
+                                      found.row, short_number_text(found.row_growth), period));
+}
+
 std::string limit_text(const StabilityViolation& s, const char* relation) {
   return fmt::format("{}: omega h = {:.4g} {} the stability limit {:.4g} ({})", s.name, s.product,
                      relation, s.limit, s.scheme);
@@ -187,9 +193,7 @@ void explain_at_once(const SimulatePlan& prepared, const RunView& run,
   add_first_words(prepared, result);
   add_violations(found, prepared.run.step, passed_radius(prepared, run));
   if (!before.empty()) find_row(works_of(before), works_of(result.ledger), found);
-  if (!found.row.empty())
-    found.words.push_back(fmt::format("Largest growth in the energy balance: row '{}', {} J",
-                                      found.row, short_number_text(found.row_growth)));
+  add_growth(found, "");
 }
 
 void explain(const SimulatePlan& prepared, RecordingHeader header,
@@ -209,10 +213,7 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
     return;
   }
   find_row(again->before, again->after, found);
-  if (!found.row.empty())
-    found.words.push_back(
-        fmt::format("Largest growth in the energy balance: row '{}', {} J in the last {}",
-                    found.row, short_number_text(found.row_growth), again->text()));
+  add_growth(found, " in the last " + again->text());
   found.recording = file.string();
   found.words.push_back(
       fmt::format("Recording of the last {}: {}; see `twinarm inspect {} --at {}`", again->text(),

@@ -169,7 +169,7 @@ std::pair<int, int> parse_cell(const std::string& text, const MapJob& job) {
 }
 
 OpenedCell open_cell(const MapJob& job, int ix, int iy, const std::filesystem::path& recording) {
-  OpenedCell cell{ix, iy, job.x.at(ix), job.y.at(iy), {}, recording, ""};
+  OpenedCell cell{job.x.at(ix), job.y.at(iy), {}, recording, ""};
   cell.scene.replace_extension(".toml");
   write_whole_file(cell.scene, fmt::format("# Cell {},{} of a map of {}: {} = {}, {} = {}\n", ix,
                                            iy, job.run.robot.model.filename().string(), job.x.path,

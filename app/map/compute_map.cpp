@@ -41,7 +41,7 @@ class MapWork {
  public:
   // The cells of the blocks that the file does not have.
   MapWork(const MapJob& job, const std::vector<int>& numbers, const TileFile& file) : job_(job) {
-    const MapBlocks blocks = blocks_of(job);
+    const MapBlocks blocks{job.nx(), job.ny()};
     std::map<std::pair<int, int>, MapTask> groups;  // by group, or by block and row
     for (const int b : numbers) {
       const MapBlocks::Block block = blocks[b];
@@ -145,15 +145,14 @@ class FileUpdater {
 }  // namespace
 
 void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
-                    const std::filesystem::path& work, const ComputeOptions& options,
-                    TileFile& file) {
+                    const std::filesystem::path& work, unsigned threads, TileFile& file) {
   std::vector<int> missing = wanted;
-  const MapBlocks blocks = blocks_of(job);
+  const MapBlocks blocks{job.nx(), job.ny()};
   std::erase_if(missing, [&](int b) { return file.has_all_of(blocks[b]); });
   if (missing.empty()) return;
   MapWork cells(job, missing, file);
   FileUpdater updater(file, work);
-  Progress progress(options.quiet);
+  Progress progress(false);
   progress.stage(
       missing.size() == wanted.size()
           ? fmt::format("map, {} blocks of cells", wanted.size())
@@ -169,7 +168,7 @@ void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
           progress.advance(static_cast<double>(done) / static_cast<double>(cells.tasks()));
           updater.update(false);
         },
-        options.threads);
+        threads);
   } catch (...) {  // finished cells are written first
     failure = std::current_exception();
   }

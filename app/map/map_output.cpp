@@ -23,14 +23,15 @@ std::string or_empty(double value) {
   return std::isfinite(value) ? number_text(value) : "";
 }
 
-}  // namespace
-
+// One measure of all cells, by MapJob::index().
 std::vector<double> values_of(const MapJob& job, const TileFile& file, MapMeasure measure) {
   std::vector<double> values(job.index(0, job.ny()));
   for (const auto& [place, cell] : file.cells)
     values[job.index(place.second, place.first)] = cell[static_cast<std::size_t>(measure)];
   return values;
 }
+
+}  // namespace
 
 std::string map_json(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
   return json_text([&](JsonWriter& json) {

@@ -16,10 +16,6 @@
 namespace twinarm {
 namespace {
 
-bool is_free_joint(const NamedJoint& joint) {
-  return joint.type == JointType::free;
-}
-
 // "base" for the free joint of a floating base.
 std::string name_of_part(const SimulateInput& input, const NamedJoint& joint) {
   const Coordinates& coordinates = input.robot.coordinates;
@@ -66,7 +62,7 @@ std::vector<std::string> names_of_velocities(const std::string& name, const Name
   for (const JointComponent& c : joint.components()) {
     if (c.v < 0) continue;
     const auto v = static_cast<std::size_t>(c.v);
-    names[is_free_joint(joint) ? (v + 3) % 6 : v] = *c.label ? name + "/" + c.label : name;
+    names[joint.type == JointType::free ? (v + 3) % 6 : v] = *c.label ? name + "/" + c.label : name;
   }
   return names;
 }

@@ -138,10 +138,6 @@ std::string drift_warning(const Simulation& simulation, const RunPlan& plan);
 
 std::string deep_start_warning(const SceneContacts& contacts, ContactMode mode);
 
-// Steps whose implicit equation did not converge, and steps with events that were not located.
-std::string unsolved_warning(long unsolved, long steps);
-std::string unlocated_warning(long unlocated, long steps);
-
 // Times that differ by less than this fraction of a step are equal.
 inline constexpr double kSameTime = 1e-9;
 

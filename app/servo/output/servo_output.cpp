@@ -162,20 +162,16 @@ State<double> record_again(const std::filesystem::path& scene,
 
 namespace {
 
-struct Columns {
-  std::vector<double> at, share;  // [us], [%] of all ticks
-};
-
-// In bins of a quarter octave.
-Columns columns_of(const TickTimes& times) {
+// Duration [us] and share [%] of all ticks, in bins of a quarter octave.
+std::vector<std::vector<double>> columns_of(const TickTimes& times) {
   constexpr int kTogether = 4;
-  Columns columns;
+  std::vector<std::vector<double>> columns(2);
   for (int bin = 0; bin + kTogether <= TickTimes::kBins; bin += kTogether) {
     long count = 0;
     for (int i = 0; i < kTogether; ++i) count += times.count(bin + i);
-    columns.at.push_back(1e6 * TickTimes::upper_edge(bin + kTogether / 2));
-    columns.share.push_back(100.0 * static_cast<double>(count) /
-                            static_cast<double>(std::max(1L, times.count())));
+    columns[0].push_back(1e6 * TickTimes::upper_edge(bin + kTogether / 2));
+    columns[1].push_back(100.0 * static_cast<double>(count) /
+                         static_cast<double>(std::max(1L, times.count())));
   }
   return columns;
 }
@@ -183,7 +179,6 @@ Columns columns_of(const TickTimes& times) {
 // One panel: bars for the run and for the empty loop.
 std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& run,
                   const TickTimes& empty, double limit, const std::string& limit_name) {
-  const Columns measured = columns_of(run), control = columns_of(empty);
   std::string script = fmt::format(
       "set xlabel {}\nset ylabel 'share of all ticks [%]'\nset logscale xy\n"
       "set xrange [0.1:20000]\nset yrange [{}:150]\nset format y '%g'\nset format x '%g'\n",
@@ -195,12 +190,12 @@ std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& r
   script += fmt::format(
       "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title "
       "'with the robot'",
-      gnuplot.data({measured.at, measured.share}), palette::dvr);
+      gnuplot.data(columns_of(run)), palette::dvr);
   if (empty.count() > 0)
     script += fmt::format(
         ", {} using ($1*1.06):($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' "
         "title 'an empty loop'",
-        gnuplot.data({control.at, control.share}), palette::kvr);
+        gnuplot.data(columns_of(empty)), palette::kvr);
   return script + "\nunset arrow 1\nunset label 1\n";
 }
 
