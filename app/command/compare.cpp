@@ -1,4 +1,3 @@
-// `twinarm compare`.
 #include <fmt/format.h>
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,3 @@
-// `twinarm dynamics`.
-
 #include <fmt/format.h>
 
 #include <cmath>

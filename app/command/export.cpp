@@ -143,8 +143,7 @@ void print_recording_csv(const Recording& recording) {
 }
 
 void print_recording_json(const Recording& recording) {
-  JsonWriter json;
-  json.object([&] {
+  const auto write = [&](JsonWriter& json) {
     write_header(json, recording);
     json.key("frames").begin_array();
     for (std::size_t n = 0; n < recording.size(); ++n) {
@@ -152,8 +151,8 @@ void print_recording_json(const Recording& recording) {
       write_frame(json, recording, recording.frame(n));
     }
     json.end_array();
-  });
-  fmt::print("{}\n", json.str());
+  };
+  fmt::print("{}\n", json_text(write));
 }
 
 struct ExportOptions {

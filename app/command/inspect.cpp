@@ -1,4 +1,3 @@
-// `twinarm inspect`.
 #include <fmt/format.h>
 #include <optional>
 

@@ -1,4 +1,3 @@
-// `twinarm make-robot`.
 #include <fmt/format.h>
 
 #include "app/command/command.h"

@@ -1,5 +1,3 @@
-// `twinarm simulate`.
-
 #include "app/command/command.h"
 #include "app/diagnose/post_mortem.h"
 #include "app/record/record_run.h"

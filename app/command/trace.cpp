@@ -1,4 +1,3 @@
-// `twinarm trace`.
 #include <fmt/format.h>
 
 #include "app/command/command.h"

@@ -42,11 +42,6 @@ double number_or(const Value& table, const char* key, double otherwise) {
   return value ? value->number : otherwise;
 }
 
-bool is_moving(const SceneCoupling& coupling) {
-  return coupling.target == CouplingTarget::Kind::paper ||
-         coupling.target == CouplingTarget::Kind::trace;
-}
-
 struct Limits {
   double lower = -HUGE_VAL, upper = HUGE_VAL;
 };
@@ -137,7 +132,8 @@ struct LaneRunner {
         for (std::size_t i = 0; i < 3; ++i)
           gains.p_L[static_cast<Eigen::Index>(i)] = point->items[i].number;
       cell.springs.push_back(gains);
-      if (!is_moving(base.input.scene->couplings[c])) continue;
+      const CouplingTarget::Kind target = base.input.scene->couplings[c].target;
+      if (target != CouplingTarget::Kind::paper && target != CouplingTarget::Kind::trace) continue;
       const double speed = number_or(table, "speed", 1), delay = number_or(table, "delay", 0);
       if (has_motion && (speed != cell.speed || delay != cell.delay)) return std::nullopt;
       cell.speed = speed;

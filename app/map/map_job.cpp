@@ -20,12 +20,6 @@ namespace {
 constexpr int kLineOfX = -1, kLineOfY = -2;
 constexpr double kMaxMapCells = 4.2e6, kMaxSteps = 1e8;  // of a map, of a cell
 
-MapMeasure parse_measure(const std::string& name, DiagnosticList& faults) {
-  const std::vector<std::string> names(kMapMeasures.begin(), kMapMeasures.end());
-  return static_cast<MapMeasure>(
-      choose("--measure", name, names, "measures", faults, "map.measure").value_or(0));
-}
-
 InputError attributed_to_axes(const InputError& error, const MapJob& job, double x, double y) {
   std::vector<Diagnostic> faults = error.faults();
   for (Diagnostic& fault : faults) {
@@ -221,7 +215,10 @@ MapJob read_map_job(const MapOptions& options) {
   };
   axis("--x", options.x, job.x);
   axis("--y", options.y, job.y);
-  job.measure = parse_measure(options.measure, faults);
+  const std::vector<std::string> measures(kMapMeasures.begin(), kMapMeasures.end());
+  job.measure = static_cast<MapMeasure>(
+      choose("--measure", options.measure, measures, "measures", faults, "map.measure")
+          .value_or(0));
   job.run.robot.model = options.scene;
   job.run.duration = options.duration;
   job.run.step = options.step;
