@@ -9,11 +9,6 @@
 namespace twinarm {
 namespace {
 
-// A velocity that is the rate of change of a coordinate.
-bool is_rate(JointType type) {
-  return facts_of(type).quaternion < 0;
-}
-
 double dot(const Eigen::VectorXd& rows, const NamedJoint& joint,
            const std::vector<double>& values) {
   double sum = 0;
@@ -48,7 +43,7 @@ void EnergyBalance::find_rows(Integrator integrator, bool others_want_inner) {
   const auto& joints = input_.coordinates.all();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!input_.state.has_tau[j]) continue;
-    actuators_.push_back({&joints[j], is_rate(joints[j].type)});
+    actuators_.push_back({&joints[j], facts_of(joints[j].type).quaternion < 0});
     if (!actuators_.back().is_exact)
       integrals_.push_back({EnergyRowKind::actuator, "actuator/" + joints[j].name});
   }

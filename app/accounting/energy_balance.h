@@ -50,7 +50,7 @@ class EnergyBalance {
  private:
   struct Actuator {
     const NamedJoint* joint;
-    bool is_exact;
+    bool is_exact;  // its velocity is the rate of its coordinate
   };
   struct Friction {
     std::string joint;

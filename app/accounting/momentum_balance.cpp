@@ -137,7 +137,7 @@ namespace {
 void add_coupling_force(double part, const SceneCoupling& spec, const Vector3& force,
                         const Kinematics& k, EnergyMomentum& sum) {
   if (!spec.is_external()) return;
-  if (spec.type == CouplingDescription::Type::linear)
+  if (spec.is_linear())
     sum.add_wrench(part, k.position(spec.spring.body, spec.spring.p_L), force, Vector3::Zero());
   else
     sum.add_wrench(part, Vector3::Zero(), Vector3::Zero(), force);

@@ -8,9 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "app/command/parser/shared_options.h"
 
 namespace twinarm {
 
@@ -20,12 +18,12 @@ struct Command {
   // `add` adds the options. `run(options)` or `run(options, words)` returns the exit code; it
   // throws InputError for bad input and Interrupted after Ctrl-C.
   template <class Options, class... Typed>
-  Command(int at, std::string called, std::string text, void (*add)(CLI::App&, Options&),
+  Command(int at, std::string called, std::string text, void (*add)(const OptionAdder&, Options&),
           int (*run)(const Options&, Typed...))
       : place(at), name(std::move(called)), help(std::move(text)) {
     prepare = [add, run](CLI::App& command) {
       const auto options = std::make_shared<Options>();
-      add(command, *options);
+      add(OptionAdder{command}, *options);
       return [options, run]([[maybe_unused]] const Words& words) {
         if constexpr (sizeof...(Typed) == 0)
           return run(*options);

@@ -1,11 +1,8 @@
-// `twinarm compare`.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <numeric>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/compare/compare.h"
 #include "app/compare/page/page.h"
 #include "app/support/files.h"
@@ -25,26 +22,25 @@ struct CompareOptions {
   bool json = false;
 };
 
-void add_options(CLI::App& command, CompareOptions& options) {
-  begin_group(command, "Cases");
-  command.add_option("case", options.cases,
-                     "case names, or prefixes (E1 for E1-.., E for all of E), or a group name; "
-                     "default: all cases");
-  command.add_option("--group", options.group, "run all cases of this group");
-  begin_group(command, "Run");
-  command
-      .add_option("--integrator", options.integrators,
-                  "also run cases with a known motion with these integrators: NAME,..; of: " +
-                      integrator_names())
+void add_options(const OptionAdder& add, CompareOptions& options) {
+  add.group("Cases");
+  add("case", options.cases,
+      "case names, or prefixes (E1 for E1-.., E for all of E), or a group name; default: all "
+      "cases");
+  add("--group", options.group, "run all cases of this group");
+  add.group("Run");
+  add("--integrator", options.integrators,
+      "also run cases with a known motion with these integrators: NAME,..; of: " +
+          integrator_names())
       ->delimiter(',')
       ->allow_extra_args(false);
-  command.add_option("--step", options.steps, "also run them with these steps: h1,h2,.. [s]")
+  add("--step", options.steps, "also run them with these steps: h1,h2,.. [s]")
       ->delimiter(',')
       ->allow_extra_args(false);
-  begin_group(command, "Output");
-  add_file_option(command, "--html", options.html,
-                  "write the page compare.html into this folder: statements, figures, code");
-  add_json_option(command, options.json);
+  add.group("Output");
+  add("--html", options.html,
+      "write the page compare.html into this folder: statements, figures, code");
+  add.json(options.json);
 }
 
 // Runs all cases. Their durations are not known before: each counts equally in the progress bar.

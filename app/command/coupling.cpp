@@ -1,13 +1,11 @@
 // `twinarm coupling predict` and `twinarm coupling gains`.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/coupling/gain_equivalents.h"
 #include "app/coupling/prediction.h"
 #include "app/data/value.h"
@@ -29,27 +27,25 @@ struct CouplingPredictOptions {
   bool json = false;
 };
 
-void add_options(CLI::App& command, CouplingPredictOptions& options) {
-  add_robot_options(command, options.robot,
-                    "scene (TOML) with couplings; or URDF with --link and --stiffness");
-  begin_group(command, "Coupling of a URDF");
-  command.add_option("--type", options.type, "type of the coupling, as in a scene");
-  command.add_option("--link", options.link, "link on which the coupling acts");
-  command.add_option("--point", options.point, "point x,y,z in link axes [m]; default 0,0,0");
-  command.add_option("--measure", options.measure, "torsional coupling: world or joint");
-  command.add_option("--treatment", options.treatment,
-                     "discretization: explicit, semi-implicit or implicit");
-  command.add_option("--stiffness", options.stiffness, "stiffness [N/m or N m/rad]");
-  command.add_option("--damping", options.damping, "damping [N s/m or N m s/rad]");
-  begin_group(command, "Prediction");
-  add_scene_step_options(command, options.step, options.integrator);
-  command.add_option("--turn", options.turn, "move of the target [deg, or mm]");
-  command.add_option("--time", options.time, "duration of the move [s]");
-  command.add_option("--along", options.along,
-                     "joint=factor,..: factor of the move for each joint; default: 1 for all");
-  command.add_option("--wall", options.wall, "stiffness of a wall that the robot touches [N/m]");
-  begin_group(command, "Output");
-  add_json_option(command, options.json);
+void add_options(const OptionAdder& add, CouplingPredictOptions& options) {
+  add.robot(options.robot, "scene (TOML) with couplings; or URDF with --link and --stiffness");
+  add.group("Coupling of a URDF");
+  add("--type", options.type, "type of the coupling, as in a scene");
+  add("--link", options.link, "link on which the coupling acts");
+  add("--point", options.point, "point x,y,z in link axes [m]; default 0,0,0");
+  add("--measure", options.measure, "torsional coupling: world or joint");
+  add("--treatment", options.treatment, "discretization: explicit, semi-implicit or implicit");
+  add("--stiffness", options.stiffness, "stiffness [N/m or N m/rad]");
+  add("--damping", options.damping, "damping [N s/m or N m s/rad]");
+  add.group("Prediction");
+  add.scene_step(options.step, options.integrator);
+  add("--turn", options.turn, "move of the target [deg, or mm]");
+  add("--time", options.time, "duration of the move [s]");
+  add("--along", options.along,
+      "joint=factor,..: factor of the move for each joint; default: 1 for all");
+  add("--wall", options.wall, "stiffness of a wall that the robot touches [N/m]");
+  add.group("Output");
+  add.json(options.json);
 }
 
 struct CouplingGainsOptions {
@@ -61,25 +57,23 @@ struct CouplingGainsOptions {
   bool json = false;
 };
 
-void add_options(CLI::App& command, CouplingGainsOptions& options) {
-  begin_group(command, "Scene");
-  add_input_option(command, "model", options.robot.model,
-                   "scene (TOML) with couplings; default: gains from the options below");
-  add_input_option(command, "--state", options.robot.state, "state file (JSON): q");
-  begin_group(command, "Gains");
-  command.add_option("--frequency", options.frequency, "natural frequency [Hz]");
-  command.add_option("--damping-ratio", options.damping_ratio, "damping ratio");
-  command.add_option("--inertia", options.inertia,
-                     "inertia that the spring moves, without a scene [kg or kg m^2]");
-  command.add_option("--stiffness", options.stiffness,
-                     "stiffness, without a scene [N/m or N m/rad]");
-  command.add_option("--damping", options.damping, "damping, without a scene [N s/m or N m s/rad]");
-  command.add_option("--solref", options.solref,
-                     "MuJoCo solref, without a scene: timeconst,dampratio or -stiffness,-damping");
-  command.add_option("--impedance", options.impedance,
-                     "MuJoCo impedance d, or d,dmax; default 0.95");
-  begin_group(command, "Output");
-  add_json_option(command, options.json);
+void add_options(const OptionAdder& add, CouplingGainsOptions& options) {
+  add.group("Scene");
+  add.input("model", options.robot.model,
+            "scene (TOML) with couplings; default: gains from the options below");
+  add.input("--state", options.robot.state, "state file (JSON): q");
+  add.group("Gains");
+  add("--frequency", options.frequency, "natural frequency [Hz]");
+  add("--damping-ratio", options.damping_ratio, "damping ratio");
+  add("--inertia", options.inertia,
+      "inertia that the spring moves, without a scene [kg or kg m^2]");
+  add("--stiffness", options.stiffness, "stiffness, without a scene [N/m or N m/rad]");
+  add("--damping", options.damping, "damping, without a scene [N s/m or N m s/rad]");
+  add("--solref", options.solref,
+      "MuJoCo solref, without a scene: timeconst,dampratio or -stiffness,-damping");
+  add("--impedance", options.impedance, "MuJoCo impedance d, or d,dmax; default 0.95");
+  add.group("Output");
+  add.json(options.json);
 }
 
 void check_not_negative(const std::string& option, double value, DiagnosticList& faults) {

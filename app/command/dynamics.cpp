@@ -1,13 +1,9 @@
-// `twinarm dynamics`.
-
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <string>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/data/tables.h"
 #include "app/robot/dynamics.h"
 #include "app/robot/robot_input.h"
@@ -132,10 +128,10 @@ struct DynamicsOptions {
   bool json = false;
 };
 
-void add_options(CLI::App& command, DynamicsOptions& options) {
-  add_robot_options(command, options.robot, "robot (URDF)");
-  begin_group(command, "Output");
-  add_json_option(command, options.json);
+void add_options(const OptionAdder& add, DynamicsOptions& options) {
+  add.robot(options.robot, "robot (URDF)");
+  add.group("Output");
+  add.json(options.json);
 }
 
 // The largest input, with its name: the usual cause of overflow.

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <utility>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/page/pages.h"
 #include "app/record/recording_reader.h"
@@ -145,8 +143,7 @@ void print_recording_csv(const Recording& recording) {
 }
 
 void print_recording_json(const Recording& recording) {
-  JsonWriter json;
-  json.object([&] {
+  const auto write = [&](JsonWriter& json) {
     write_header(json, recording);
     json.key("frames").begin_array();
     for (std::size_t n = 0; n < recording.size(); ++n) {
@@ -154,8 +151,8 @@ void print_recording_json(const Recording& recording) {
       write_frame(json, recording, recording.frame(n));
     }
     json.end_array();
-  });
-  fmt::print("{}\n", json.str());
+  };
+  fmt::print("{}\n", json_text(write));
 }
 
 struct ExportOptions {
@@ -164,15 +161,12 @@ struct ExportOptions {
   bool json = false, csv = false;
 };
 
-void add_options(CLI::App& command, ExportOptions& options) {
-  add_file_option(command, "recording", options.recording,
-                  "recording of `twinarm simulate --record`")
-      ->required();
-  add_file_option(command, "page", options.page,
-                  "write one HTML file: animation, plots, energy balance, settings");
-  begin_group(command, "Output on stdout");
-  add_json_option(command, options.json);
-  command.add_flag("--csv", options.csv, "print one CSV row per frame");
+void add_options(const OptionAdder& add, ExportOptions& options) {
+  add("recording", options.recording, "recording of `twinarm simulate --record`")->required();
+  add("page", options.page, "write one HTML file: animation, plots, energy balance, settings");
+  add.group("Output on stdout");
+  add.json(options.json);
+  add("--csv", options.csv, "print one CSV row per frame");
 }
 
 int export_page(const ExportOptions& options) {

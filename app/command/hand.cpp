@@ -1,14 +1,12 @@
 // `twinarm hand`: runs a scene with an input device in real time (docs/use/haptic_loop.md).
 #include <fmt/format.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <optional>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/device/devices.h"
 #include "app/plot/gnuplot.h"
 #include "app/robot/robot_input.h"
@@ -32,36 +30,31 @@ struct HandOptions {
   bool json = false;
 };
 
-void add_options(CLI::App& command, HandOptions& options) {
-  add_input_option(command, "scene", options.scene,
-                   "scene (TOML) with couplings whose target is \"device\"");
-  begin_group(command, "Device");
-  command.add_option("--device", options.device, "input device; `--device list` lists them");
-  command.add_option("--mapping", options.mapping,
-                     "device to joints: paper (theta1, 4, 6), arm (theta1, 2, 3) or cartesian");
-  command
-      .add_option("--scale", options.scale,
-                  "motion scaling of the cartesian mapping, robot over device; default 4")
+void add_options(const OptionAdder& add, HandOptions& options) {
+  add.input("scene", options.scene, "scene (TOML) with couplings whose target is \"device\"");
+  add.group("Device");
+  add("--device", options.device, "input device; `--device list` lists them");
+  add("--mapping", options.mapping,
+      "device to joints: paper (theta1, 4, 6), arm (theta1, 2, 3) or cartesian");
+  add("--scale", options.scale,
+      "motion scaling of the cartesian mapping, robot over device; default 4")
       ->check(above_zero());
-  command
-      .add_option("--force-scale", options.force_scale, "scaling of the force feedback; default 1")
+  add("--force-scale", options.force_scale, "scaling of the force feedback; default 1")
       ->check(zero_or_more());
-  begin_group(command, "Run");
-  command.add_option("--duration", options.duration, "[s]; default: until Ctrl-C");
-  command.add_option("--step", options.step, "step [s], 1e-6 to 0.1; default: the scene's")
-      ->check(above_zero());
-  command.add_flag("--simulated", options.simulated,
-                   "run without real-time pacing: reproducible, for simulated devices");
-  command.add_flag("--fifo", options.fifo,
-                   "request SCHED_FIFO and locked memory; continue if they are refused");
-  command.add_flag("--control", options.control,
-                   "alternate each second with an empty loop, to measure the machine's jitter");
-  begin_group(command, "Output");
-  command.add_flag("--timing", options.picture, "write OUT/timing.svg: histograms of the ticks");
-  command.add_flag("--record", options.record,
-                   "simulate again from the log and write the recording OUT/run.twinrec");
-  add_file_option(command, "--out", options.out, "folder of the log hand.csv and of other output");
-  add_json_option(command, options.json);
+  add.group("Run");
+  add("--duration", options.duration, "[s]; default: until Ctrl-C");
+  add("--step", options.step, "step [s], 1e-6 to 0.1; default: the scene's")->check(above_zero());
+  add("--simulated", options.simulated,
+      "run without real-time pacing: reproducible, for simulated devices");
+  add("--fifo", options.fifo, "request SCHED_FIFO and locked memory; continue if they are refused");
+  add("--control", options.control,
+      "alternate each second with an empty loop, to measure the machine's jitter");
+  add.group("Output");
+  add("--timing", options.picture, "write OUT/timing.svg: histograms of the ticks");
+  add("--record", options.record,
+      "simulate again from the log and write the recording OUT/run.twinrec");
+  add("--out", options.out, "folder of the log hand.csv and of other output");
+  add.json(options.json);
 }
 
 MappingSpec mapping_of(const HandOptions& options, DiagnosticList& faults) {

@@ -1,13 +1,10 @@
 // `twinarm help`: help of a command, a glossary entry, manual, completion.
 #include <fmt/format.h>
-
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <regex>
 
 #include "app/command/command.h"
 #include "app/command/parser/command_tree.h"
-#include "app/command/parser/shared_options.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
@@ -26,20 +23,16 @@ struct HelpOptions {
   bool man = false, completion = false, scene_numbers = false;
 };
 
-void add_options(CLI::App& command, HelpOptions& options) {
-  options.program = command.get_parent();
-  command.add_option("word", options.words,
-                     "a command, or a term of the glossary; default: the list of commands");
-  begin_group(command, "Instead");
-  CLI::Option* man = command.add_flag("--man", options.man, "print the man page, for man -l -");
-  CLI::Option* completion =
-      command
-          .add_flag("--completion", options.completion,
-                    "print the completion script for bash: commands, options, files")
-          ->excludes(man);
-  command
-      .add_flag("--scene-numbers", options.scene_numbers,
-                "print tables of the numbers in a scene file: units, defaults, ranges, meanings")
+void add_options(const OptionAdder& add, HelpOptions& options) {
+  options.program = add.command.get_parent();
+  add("word", options.words, "a command, or a term of the glossary; default: the list of commands");
+  add.group("Instead");
+  CLI::Option* man = add("--man", options.man, "print the man page, for man -l -");
+  CLI::Option* completion = add("--completion", options.completion,
+                                "print the completion script for bash: commands, options, files")
+                                ->excludes(man);
+  add("--scene-numbers", options.scene_numbers,
+      "print tables of the numbers in a scene file: units, defaults, ranges, meanings")
       ->excludes(man)
       ->excludes(completion);
 }

@@ -1,10 +1,7 @@
-// `twinarm inspect`.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <optional>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/inspect/report/inspect_input.h"
 #include "app/inspect/report/inspect_output.h"
 #include "app/page/pages.h"
@@ -15,24 +12,23 @@
 namespace twinarm {
 namespace {
 
-void add_options(CLI::App& command, InspectOptions& options) {
-  add_robot_options(command, options.robot, "robot (URDF), scene (TOML) or recording");
-  command.add_option("--at", options.at, "time in a recording [s]; default: its end");
-  command.add_option("--step", options.step, "step of a scene [s]; default: the scene's");
-  begin_group(command, "Selection");
-  command.add_option("--pass", options.passes, "passes of ABA: 1, 2 or 3; default: all");
-  command.add_option("--body", options.bodies, "names of links and bodies; default: all");
-  command.add_option("--axes", options.axes,
-                     "axes of the wrenches: world, link (each body's own), or the name of a body");
-  command.add_option(
-      "--about", options.about,
-      "reference point of torques: origin or com (each body's own), the name of a body, "
-      "or a point x,y,z of the world");
-  command.add_option("--force", options.forces,
-                     "show only these forces: coupling/NAME, contact/A-B, constraint/NAME ..");
-  begin_group(command, "Output");
-  add_file_option(command, "--html", options.html, "write a page that steps through the passes");
-  add_json_option(command, options.json);
+void add_options(const OptionAdder& add, InspectOptions& options) {
+  add.robot(options.robot, "robot (URDF), scene (TOML) or recording");
+  add("--at", options.at, "time in a recording [s]; default: its end");
+  add("--step", options.step, "step of a scene [s]; default: the scene's");
+  add.group("Selection");
+  add("--pass", options.passes, "passes of ABA: 1, 2 or 3; default: all");
+  add("--body", options.bodies, "names of links and bodies; default: all");
+  add("--axes", options.axes,
+      "axes of the wrenches: world, link (each body's own), or the name of a body");
+  add("--about", options.about,
+      "reference point of torques: origin or com (each body's own), the name of a body, or a point "
+      "x,y,z of the world");
+  add("--force", options.forces,
+      "show only these forces: coupling/NAME, contact/A-B, constraint/NAME ..");
+  add.group("Output");
+  add("--html", options.html, "write a page that steps through the passes");
+  add.json(options.json);
 }
 
 constexpr int kFailed = 1;

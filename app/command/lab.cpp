@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
-#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <thread>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/device/devices.h"
 #include "app/lab/app/lab_routes.h"
 #include "app/lab/app/message_streamer.h"
@@ -29,28 +27,25 @@ struct LabOptions {
   bool no_browser = false, json = false;
 };
 
-void add_options(CLI::App& command, LabOptions& options) {
-  add_input_option(command, "scene", options.scene,
-                   "scene, URDF or recording; default: the first scene of the gallery");
-  begin_group(command, "Run");
-  command
-      .add_option("--lanes", options.lanes,
-                  "run variants side by side, one per value: PATH=VALUE,VALUE.., such as "
-                  "integrator=semi-implicit,rk4 or coupling.stiffness=500,2000")
+void add_options(const OptionAdder& add, LabOptions& options) {
+  add.input("scene", options.scene,
+            "scene, URDF or recording; default: the first scene of the gallery");
+  add.group("Run");
+  add("--lanes", options.lanes,
+      "run variants side by side, one per value: PATH=VALUE,VALUE.., such as "
+      "integrator=semi-implicit,rk4 or coupling.stiffness=500,2000")
       ->type_name("PATH=VALUES");
-  command
-      .add_option("--remember", options.remember,
-                  "memory for the timeline [MB]; 256 MB hold some minutes")
+  add("--remember", options.remember, "memory for the timeline [MB]; 256 MB hold some minutes")
       ->check(between(1, 65536));
-  begin_group(command, "Server");
-  command.add_option("--port", options.port, "port of the server; default: any free port")
+  add.group("Server");
+  add("--port", options.port, "port of the server; default: any free port")
       ->check(between(0, 65535))
       ->default_str("");
-  command.add_option("--listen", options.listen,
-                     "address to bind; anything but loopback can be reached by others who have the "
-                     "page's address with its token");
-  command.add_flag("--no-browser", options.no_browser, "only print the address");
-  command.add_flag("--json", options.json, "print {\"url\": \"..\"} as the first line");
+  add("--listen", options.listen,
+      "address to bind; anything but loopback can be reached by others who have the page's address "
+      "with its token");
+  add("--no-browser", options.no_browser, "only print the address");
+  add("--json", options.json, "print {\"url\": \"..\"} as the first line");
 }
 
 // A scene of the gallery by name or file, or any other file; default: the first of the gallery.

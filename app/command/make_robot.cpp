@@ -1,10 +1,6 @@
-// `twinarm make-robot`.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
-
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "collision/import/recipe/robot_recipe.h"
 
 namespace twinarm {
@@ -14,8 +10,8 @@ struct MakeRobotOptions {
   std::filesystem::path recipe;
 };
 
-void add_options(CLI::App& command, MakeRobotOptions& options) {
-  add_file_option(command, "recipe", options.recipe, "recipe of the robot (TOML)")->required();
+void add_options(const OptionAdder& add, MakeRobotOptions& options) {
+  add("recipe", options.recipe, "recipe of the robot (TOML)")->required();
 }
 
 int run_make_robot(const MakeRobotOptions& options) {

@@ -1,10 +1,8 @@
 // `twinarm map`: sweeps two scene parameters (docs/use/parameter_maps.md).
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/map/map_results.h"
 #include "app/plot/gnuplot.h"
@@ -18,42 +16,35 @@
 namespace twinarm {
 namespace {
 
-void add_options(CLI::App& command, MapOptions& options) {
-  add_input_option(command, "scene", options.scene,
-                   "scene (TOML); default with --merge: its scene");
-  begin_group(command, "Parameters");
-  command.add_option(
-      "--x", options.x,
+void add_options(const OptionAdder& add, MapOptions& options) {
+  add.input("scene", options.scene, "scene (TOML); default with --merge: its scene");
+  add.group("Parameters");
+  add("--x", options.x,
       "PATH:MIN:MAX:N[:log]: parameter of the scene along x, range, number of cells");
-  command.add_option("--y", options.y, "PATH:MIN:MAX:N[:log]: parameter along y, upward");
-  command.add_option(
-      "--measure", options.measure,
+  add("--y", options.y, "PATH:MIN:MAX:N[:log]: parameter along y, upward");
+  add("--measure", options.measure,
       "result to print and draw: stable, max_error, mean_error, energy or passivity");
-  command.add_option("--of", options.of,
-                     "coupling whose tracking error is measured; default: the first");
-  begin_group(command, "Run");
-  command.add_option("--duration", options.duration, "[s]; default: the scene's");
-  add_scene_step_options(command, options.step, options.integrator);
-  command.add_flag("--alone", options.alone, "run cells one at a time, not in SIMD batches");
-  command.add_option("--threads", options.threads, "number of threads; default: all processors")
-      ->default_str("");
-  begin_group(command, "Output");
-  add_file_option(command, "--svg", options.svg, "write the map as SVG, with predicted limits");
-  add_file_option(command, "--png", options.png, "write the map as PNG, with predicted limits");
-  add_file_option(command, "--csv", options.csv, "write one row per cell with all measures");
-  command.add_flag("--force", options.force, "overwrite existing files");
-  add_json_option(command, options.json);
-  begin_group(command, "One cell");
-  command.add_option("--cell", options.cell, "IX,IY: index of a cell, from 0");
-  add_file_option(command, "--record", options.record,
-                  "write the recording of that cell, and its scene beside it");
-  begin_group(command, "Resume and share");
-  add_file_option(command, "--work", options.work,
-                  "checkpoint file, from which an interrupted map resumes; default: in out/map");
-  command.add_option("--tiles", options.tiles, "number of jobs that share the map")
-      ->default_str("");
-  command.add_option("--tile", options.tile, "index of this job, from 0")->default_str("");
-  add_file_option(command, "--merge", options.merge, "merge these files of --tile");
+  add("--of", options.of, "coupling whose tracking error is measured; default: the first");
+  add.group("Run");
+  add("--duration", options.duration, "[s]; default: the scene's");
+  add.scene_step(options.step, options.integrator);
+  add("--alone", options.alone, "run cells one at a time, not in SIMD batches");
+  add("--threads", options.threads, "number of threads; default: all processors")->default_str("");
+  add.group("Output");
+  add("--svg", options.svg, "write the map as SVG, with predicted limits");
+  add("--png", options.png, "write the map as PNG, with predicted limits");
+  add("--csv", options.csv, "write one row per cell with all measures");
+  add("--force", options.force, "overwrite existing files");
+  add.json(options.json);
+  add.group("One cell");
+  add("--cell", options.cell, "IX,IY: index of a cell, from 0");
+  add("--record", options.record, "write the recording of that cell, and its scene beside it");
+  add.group("Resume and share");
+  add("--work", options.work,
+      "checkpoint file, from which an interrupted map resumes; default: in out/map");
+  add("--tiles", options.tiles, "number of jobs that share the map")->default_str("");
+  add("--tile", options.tile, "index of this job, from 0")->default_str("");
+  add("--merge", options.merge, "merge these files of --tile");
 }
 
 bool file_exists(const std::filesystem::path& file) {
@@ -156,7 +147,7 @@ void write_results(const MapOptions& options, const MapJob& job, const TileFile&
   if (!options.svg.empty()) write_result("--svg", options.svg, map_svg(job, file, curves));
   if (!options.png.empty()) write_result("--png", options.png, map_png(job, file, curves));
   if (options.json)
-    fmt::print("{}", map_json(job, file, curves));
+    fmt::print("{}\n", map_json(job, file, curves));
   else
     fmt::print("{}", map_words(job, file));
 }
@@ -208,7 +199,7 @@ MapOptions with_merged(MapOptions options) {
 
 int compute(const MapOptions& options, const MapJob& job) {
   const TileFile empty = empty_tile_file(job);
-  const MapBlocks blocks = blocks_of(job);
+  const MapBlocks blocks{job.nx(), job.ny()};
   const std::filesystem::path work = work_file(options, empty);
   if (!options.merge.empty()) {
     const TileFile file = merge_tile_files(options.merge, empty, blocks);
@@ -222,7 +213,7 @@ int compute(const MapOptions& options, const MapJob& job) {
   const auto is_finished = [&](int block) { return file.has_all_of(blocks[block]); };
   if (!std::ranges::all_of(wanted, is_finished)) require_writable_folder(folder_of(work), "--work");
   try {
-    compute_blocks(job, wanted, work, {options.threads, false}, file);
+    compute_blocks(job, wanted, work, options.threads, file);
   } catch (const Interrupted&) {
     say("twinarm: {} of {} blocks of cells are finished, in {}; the same command resumes\n",
         std::ranges::count_if(wanted, is_finished), wanted.size(), work.string());

@@ -1,9 +1,7 @@
 // `twinarm modes`: modes of the linearised system of a robot or a scene.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/modes/modes.h"
 #include "app/robot/robot_input.h"
 
@@ -15,10 +13,10 @@ struct ModesOptions {
   bool json = false;
 };
 
-void add_options(CLI::App& command, ModesOptions& options) {
-  add_robot_options(command, options.robot, "robot (URDF) or scene (TOML)");
-  begin_group(command, "Output");
-  add_json_option(command, options.json);
+void add_options(const OptionAdder& add, ModesOptions& options) {
+  add.robot(options.robot, "robot (URDF) or scene (TOML)");
+  add.group("Output");
+  add.json(options.json);
 }
 
 int run_modes(const ModesOptions& options) {

@@ -1,11 +1,9 @@
 // `twinarm render`: pictures and videos of a recording, a scene or a robot.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/draw/overlays/overlays.h"
 #include "app/film/film.h"
@@ -33,40 +31,33 @@ struct RenderOptions {
   bool json = false;
 };
 
-void add_options(CLI::App& command, RenderOptions& options) {
-  add_robot_options(command, options.robot, "recording, scene (TOML) or robot (URDF)");
-  begin_group(command, "Output (one of)");
-  add_file_option(command, "--png", options.png, "write one picture to this file");
-  add_file_option(command, "--frames", options.frames,
-                  "write a video as numbered PNG files into this folder");
-  add_file_option(command, "--mp4", options.mp4, "write an MP4 video (needs ffmpeg)");
-  add_file_option(command, "--gif", options.gif, "write an animated GIF (needs ffmpeg)");
-  begin_group(command, "Time");
-  command.add_option("--at", options.at,
-                     "time of the picture [s]; default: end of a recording, else the start");
-  command.add_option("--from", options.from, "start of the video [s]; default: the start");
-  command.add_option("--to", options.to, "end of the video [s]; default: the end");
-  command.add_option("--slow", options.slow, "slow-motion factor");
-  command.add_option("--fps", options.fps, "frames per second; default 30, GIF 25");
-  begin_group(command, "Content");
-  command.add_option("--camera", options.camera,
-                     "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] "
-                     "[deg, m]");
-  command.add_option(
-      "--show", options.show,
+void add_options(const OptionAdder& add, RenderOptions& options) {
+  add.robot(options.robot, "recording, scene (TOML) or robot (URDF)");
+  add.group("Output (one of)");
+  add("--png", options.png, "write one picture to this file");
+  add("--frames", options.frames, "write a video as numbered PNG files into this folder");
+  add("--mp4", options.mp4, "write an MP4 video (needs ffmpeg)");
+  add("--gif", options.gif, "write an animated GIF (needs ffmpeg)");
+  add.group("Time");
+  add("--at", options.at, "time of the picture [s]; default: end of a recording, else the start");
+  add("--from", options.from, "start of the video [s]; default: the start");
+  add("--to", options.to, "end of the video [s]; default: the end");
+  add("--slow", options.slow, "slow-motion factor");
+  add("--fps", options.fps, "frames per second; default 30, GIF 25");
+  add.group("Content");
+  add("--camera", options.camera,
+      "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] [deg, m]");
+  add("--show", options.show,
       fmt::format("none, all, or some of: {}", fmt::join(names_of(all_overlays()), ", ")));
-  command.add_option(
-      "--plot", options.plot,
-      "curves below the picture: none, or some of: energy, forces, couples, contacts, "
-      "lag");
-  add_file_option(command, "--beside", options.beside,
-                  "second recording, shown to the right of the first in sync");
-  begin_group(command, "Picture");
-  command.add_option("--size", options.size, "size [pixels]");
-  command.add_option("--quality", options.quality, "draft, normal or studio");
-  command.add_option("--background", options.background, "studio, sky or white");
-  command.add_option("--gl", options.gl, "OpenGL back end: osmesa or egl");
-  add_json_option(command, options.json);
+  add("--plot", options.plot,
+      "curves below the picture: none, or some of: energy, forces, couples, contacts, lag");
+  add("--beside", options.beside, "second recording, shown to the right of the first in sync");
+  add.group("Picture");
+  add("--size", options.size, "size [pixels]");
+  add("--quality", options.quality, "draft, normal or studio");
+  add("--background", options.background, "studio, sky or white");
+  add("--gl", options.gl, "OpenGL back end: osmesa or egl");
+  add.json(options.json);
 }
 
 struct RenderPlan {

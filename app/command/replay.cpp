@@ -1,11 +1,9 @@
 // `twinarm replay`: replays a recorded run bit by bit; or computes a branch with changed
 // parameters.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <array>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/data/json_writer.h"
 #include "app/record/branch_view.h"
 #include "app/support/files.h"
@@ -21,19 +19,15 @@ struct ReplayOptions {
   bool json = false;
 };
 
-void add_options(CLI::App& command, ReplayOptions& options) {
-  add_file_option(command, "recording", options.recording,
-                  "recording of `twinarm simulate --record`")
-      ->required();
-  begin_group(command, "Branch");
-  command.add_option("--from", options.from, "time of the first step [s]; default: the start");
-  command
-      .add_option("--set", options.changes,
-                  "PATH=VALUE: change this parameter of the scene; may be repeated")
+void add_options(const OptionAdder& add, ReplayOptions& options) {
+  add("recording", options.recording, "recording of `twinarm simulate --record`")->required();
+  add.group("Branch");
+  add("--from", options.from, "time of the first step [s]; default: the start");
+  add("--set", options.changes, "PATH=VALUE: change this parameter of the scene; may be repeated")
       ->allow_extra_args(false);
-  begin_group(command, "Output");
-  add_file_option(command, "--plot", options.plot, "write an SVG of recording and branch");
-  add_json_option(command, options.json);
+  add.group("Output");
+  add("--plot", options.plot, "write an SVG of recording and branch");
+  add.json(options.json);
 }
 
 constexpr int kDiffers = 1;

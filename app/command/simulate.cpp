@@ -1,9 +1,4 @@
-// `twinarm simulate`.
-#include <fmt/format.h>
-#include <CLI/CLI.hpp>
-
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/diagnose/post_mortem.h"
 #include "app/record/record_run.h"
 #include "app/run/output/simulate_output.h"
@@ -14,32 +9,29 @@
 namespace twinarm {
 namespace {
 
-void add_options(CLI::App& command, SimulateOptions& options) {
-  add_robot_options(command, options.robot, "robot (URDF) or scene (TOML)");
-  begin_group(command, "Run");
-  command.add_option("--duration", options.duration, "[s]; default: the scene's");
-  command.add_option("--step", options.step,
-                     "step [s]; default: the scene's, or 0.001; of dopri5 the longest step");
-  command.add_option("--integrator", options.integrator,
-                     "default: the scene's, or semi-implicit; one of: " + integrator_names());
-  command.add_option("--contact", options.contact,
-                     "contact model: rigid, compliant or event; default: the scene's");
-  command.add_option("--tolerance", options.tolerance,
-                     "relative and absolute tolerance of dopri5; default 1e-9");
-  command.add_option(
-      "--energy-bound", options.energy_bound,
-      "stop when the kinetic energy exceeds this [J]; inf: never; default 1e12 times "
-      "the start's");
-  begin_group(command, "Output");
-  command.add_option("--every", options.every, "output interval [s]; default: start and end");
-  command.add_option("--at", options.at, "output times: t1,t2,.. [s]");
-  add_json_option(command, options.json);
-  command.add_flag("--csv", options.csv, "print one CSV row per output time");
-  add_file_option(command, "--record", options.record, "write a recording of the run");
-  command.add_option("--record-every", options.record_every,
-                     "interval between recorded frames [s]; default: each step");
-  add_file_option(command, "--post-mortem", options.post_mortem,
-                  "file for the last 1,000 steps of a diverged run; default: in out/post_mortem");
+void add_options(const OptionAdder& add, SimulateOptions& options) {
+  add.robot(options.robot, "robot (URDF) or scene (TOML)");
+  add.group("Run");
+  add("--duration", options.duration, "[s]; default: the scene's");
+  add("--step", options.step,
+      "step [s]; default: the scene's, or 0.001; of dopri5 the longest step");
+  add("--integrator", options.integrator,
+      "default: the scene's, or semi-implicit; one of: " + integrator_names());
+  add("--contact", options.contact,
+      "contact model: rigid, compliant or event; default: the scene's");
+  add("--tolerance", options.tolerance, "relative and absolute tolerance of dopri5; default 1e-9");
+  add("--energy-bound", options.energy_bound,
+      "stop when the kinetic energy exceeds this [J]; inf: never; default 1e12 times the start's");
+  add.group("Output");
+  add("--every", options.every, "output interval [s]; default: start and end");
+  add("--at", options.at, "output times: t1,t2,.. [s]");
+  add.json(options.json);
+  add("--csv", options.csv, "print one CSV row per output time");
+  add("--record", options.record, "write a recording of the run");
+  add("--record-every", options.record_every,
+      "interval between recorded frames [s]; default: each step");
+  add("--post-mortem", options.post_mortem,
+      "file for the last 1,000 steps of a diverged run; default: in out/post_mortem");
 }
 
 std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const SimulateInput& input,

@@ -1,9 +1,7 @@
 // `twinarm study`: runs the paper's experiments and writes a report (docs/use/run_the_study.md).
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/device/devices.h"
 #include "app/plot/gnuplot.h"
 #include "app/servo/servo_loop.h"
@@ -35,30 +33,26 @@ struct StudyOptions {
   std::string ask;               // "ROW/LAW/RATE": only this identification, and no study
 };
 
-void add_options(CLI::App& command, StudyOptions& options) {
-  begin_group(command, "Operator motion of E1 and E2");
-  command.add_option("--device", options.device,
-                     "synthetic, trace, or a device of `twinarm hand --device list`; default: the "
-                     "trace if one is given, else synthetic");
-  command.add_option("--seed", options.seed,
-                     "random seed of the synthetic motion; default: the settings'");
-  add_input_option(command, "--trace", options.trace, "recorded operator motion (CSV)");
-  begin_group(command, "Calibration");
-  command.add_flag("--recalibrate", options.recalibrate,
-                   "re-run the gain calibration and overwrite assets/study/calibration.json "
-                   "(minutes)");
-  command.add_flag("--identify", options.identify,
-                   "re-run the parameter identification of Table 2 and overwrite "
-                   "assets/study/identification.json (10 min)");
-  command.add_option(
-      "--ask", options.ask,
+void add_options(const OptionAdder& add, StudyOptions& options) {
+  add.group("Operator motion of E1 and E2");
+  add("--device", options.device,
+      "synthetic, trace, or a device of `twinarm hand --device list`; default: the trace if one is "
+      "given, else synthetic");
+  add("--seed", options.seed, "random seed of the synthetic motion; default: the settings'");
+  add.input("--trace", options.trace, "recorded operator motion (CSV)");
+  add.group("Calibration");
+  add("--recalibrate", options.recalibrate,
+      "re-run the gain calibration and overwrite assets/study/calibration.json (minutes)");
+  add("--identify", options.identify,
+      "re-run the parameter identification of Table 2 and overwrite "
+      "assets/study/identification.json (10 min)");
+  add("--ask", options.ask,
       "ROW/LAW/RATE, such as E4/linear/60: print one identification as JSON and stop");
-  begin_group(command, "Output");
-  add_file_option(command, "--out", options.out, "folder for report, figures, CSV");
-  command.add_flag("--paper-view", options.paper_view,
-                   "hide the target robot in pictures, as the paper does");
-  add_json_option(command, options.json);
-  add_assets_option(command, options.assets);
+  add.group("Output");
+  add("--out", options.out, "folder for report, figures, CSV");
+  add("--paper-view", options.paper_view, "hide the target robot in pictures, as the paper does");
+  add.json(options.json);
+  add.assets(options.assets);
 }
 
 // Records a device for the duration of the synthetic motion, as OUT/hand.csv, a valid trace.
@@ -167,7 +161,7 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
   fmt::print("\nTable 2, in degrees: measured (published)\n\n");
   fmt::print("{:24}", "");
   for (const RunResult& result : results.reproduction) fmt::print("{:>18}", result.spec.name);
-  const auto line = [&](const char* title, auto measured, auto published) {
+  const auto line = [&](const std::string& title, auto measured, auto published) {
     fmt::print("\n  {:22}", title);
     for (const RunResult& result : results.reproduction)
       fmt::print("{:>18}", fmt::format("{:.2f} ({:.1f})", measured(result),
@@ -175,13 +169,11 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
   };
   for (std::size_t j = 0; j < 2; ++j)
     line(
-        j == 0 ? "maximum, joint 1" : "maximum, joint 2",
-        [j](const RunResult& r) { return r.max_deg[j]; },
+        fmt::format("maximum, joint {}", j + 1), [j](const RunResult& r) { return r.max_deg[j]; },
         [j](const PaperRow& p) { return p.max_deg[j]; });
   for (std::size_t j = 0; j < 2; ++j)
     line(
-        j == 0 ? "mean, joint 1" : "mean, joint 2",
-        [j](const RunResult& r) { return r.mean_deg[j]; },
+        fmt::format("mean, joint {}", j + 1), [j](const RunResult& r) { return r.mean_deg[j]; },
         [j](const PaperRow& p) { return p.mean_deg[j]; });
   fmt::print(
       "\n\n  E3, E4: calibrated gains. E1, E2: the same gains, with another operator motion than "

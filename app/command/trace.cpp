@@ -1,9 +1,6 @@
-// `twinarm trace`.
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "coupling/target/recorded_trace.h"
 #include "coupling/target/synthetic_operator.h"
 
@@ -16,12 +13,12 @@ struct TraceOptions {
   std::filesystem::path out;
 };
 
-void add_options(CLI::App& command, TraceOptions& options) {
-  begin_group(command, "Motion");
-  command.add_option("--seed", options.seed, "random seed of the motion");
-  command.add_option("--duration", options.duration, "[s]")->check(above_zero());
-  command.add_option("--rate", options.rate, "sampling rate [Hz]")->check(above_zero());
-  add_file_option(command, "--out", options.out, "CSV file to write")->required();
+void add_options(const OptionAdder& add, TraceOptions& options) {
+  add.group("Motion");
+  add("--seed", options.seed, "random seed of the motion");
+  add("--duration", options.duration, "[s]")->check(above_zero());
+  add("--rate", options.rate, "sampling rate [Hz]")->check(above_zero());
+  add("--out", options.out, "CSV file to write")->required();
 }
 
 int run_trace(const TraceOptions& options) {

@@ -1,7 +1,6 @@
 // `twinarm trial`: runs a user study (docs/use/user_study.md).
 #include <fmt/format.h>
 #include <unistd.h>
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -9,7 +8,6 @@
 #include <thread>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/device/devices.h"
 #include "app/study/calibration/calibration.h"
 #include "app/study/findings/variants.h"
@@ -34,32 +32,24 @@ struct TrialOptions {
   std::filesystem::path out = "out/trial", assets;
 };
 
-void add_options(CLI::App& command, TrialOptions& options) {
-  begin_group(command, "Device");
-  command.add_option("--device", options.device,
-                     "input device, as in `twinarm hand --device list`");
-  command.add_option("--mapping", options.mapping,
-                     "device to joints: paper (theta1, 4, 6) or arm (theta1, 2, 3)");
-  command.add_flag("--feel", options.feel,
-                   "force feedback, on a device with motors (the paper has none)");
-  command.add_flag("--simulated", options.simulated,
-                   "run without countdown and pacing, for a virtual device");
-  begin_group(command, "Protocol");
-  command.add_option("--conditions", options.conditions, "conditions, in this order");
-  command.add_option("--tasks", options.tasks, "tasks for each condition");
-  command.add_option("--seed", options.seed,
-                     "randomise the order of the conditions with this seed");
-  command.add_option("--subject", options.subject,
-                     "anonymous code of the participant; default: S1, S2, ...");
-  command.add_option("--seconds", options.seconds, "duration of free motion [s]")
-      ->check(above_zero());
-  command.add_option("--most", options.most, "time limit of pick-and-place [s]")
-      ->check(above_zero());
-  command.add_flag("--yes", options.yes, "start without waiting for Enter");
-  begin_group(command, "Output");
-  add_file_option(command, "--out", options.out, "folder of results.csv and of the logs");
-  add_json_option(command, options.json);
-  add_assets_option(command, options.assets);
+void add_options(const OptionAdder& add, TrialOptions& options) {
+  add.group("Device");
+  add("--device", options.device, "input device, as in `twinarm hand --device list`");
+  add("--mapping", options.mapping, "device to joints: paper (theta1, 4, 6) or arm (theta1, 2, 3)");
+  add("--feel", options.feel, "force feedback, on a device with motors (the paper has none)");
+  add("--simulated", options.simulated, "run without countdown and pacing, for a virtual device");
+  add.group("Protocol");
+  add("--conditions", options.conditions, "conditions, in this order");
+  add("--tasks", options.tasks, "tasks for each condition");
+  add("--seed", options.seed, "randomise the order of the conditions with this seed");
+  add("--subject", options.subject, "anonymous code of the participant; default: S1, S2, ...");
+  add("--seconds", options.seconds, "duration of free motion [s]")->check(above_zero());
+  add("--most", options.most, "time limit of pick-and-place [s]")->check(above_zero());
+  add("--yes", options.yes, "start without waiting for Enter");
+  add.group("Output");
+  add("--out", options.out, "folder of results.csv and of the logs");
+  add.json(options.json);
+  add.assets(options.assets);
 }
 
 const std::vector<std::string> kConditions{"torsional", "linear", "kinematic"};
@@ -176,7 +166,6 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
   }
   if (is_shown) task.show = TerminalShow(task.seconds);
   const std::unique_ptr<HandDevice> device = open_device(options.device);
-  task.is_stopped = is_interrupted;
   const std::string name = step.condition->name + (step.pick ? "_pick" : "_free");
   return run_task(*step.condition, *device, mapping, task, folder / (name + ".csv"));
 }

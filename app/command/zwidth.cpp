@@ -1,10 +1,8 @@
 // `twinarm zwidth`: measures the Z-width of a device (docs/understand/haptic_rendering.md).
 #include <fmt/format.h>
-#include <CLI/CLI.hpp>
 #include <cmath>
 
 #include "app/command/command.h"
-#include "app/command/parser/shared_options.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
@@ -15,49 +13,47 @@ namespace twinarm {
 namespace {
 
 struct ZwidthOptions {
-  double mass = 0.045, damping = 0.1;           // of the device [kg], [N s/m]
-  double friction = 0.26, resolution = 5.5e-5;  // [N], [m]
-  double rate = 1000;                           // [Hz]
-  int delay = 0;                                // [ticks]
-  double wall_damping = 1;                      // [N s/m]
+  SampledDevice device{.friction = 0.26, .resolution = 5.5e-5};
+  double wall_damping = 1;  // [N s/m]
   unsigned seed = 1;
   std::filesystem::path svg, png;  // empty: none
   bool csv = false, json = false;
 };
 
-void add_options(CLI::App& command, ZwidthOptions& options) {
-  begin_group(command, "Device");
-  command.add_option("--mass", options.mass, "effective mass at the handle [kg]");
-  command.add_option("--damping", options.damping, "viscous friction [N s/m]");
-  command.add_option("--friction", options.friction, "Coulomb friction [N]");
-  command.add_option("--resolution", options.resolution, "resolution of the encoder [m]");
-  command.add_option("--rate", options.rate, "rate of the haptic loop [Hz]");
-  command.add_option("--delay", options.delay, "delay from sensor to motor [ticks]");
-  begin_group(command, "Measurement");
-  command.add_option("--wall-damping", options.wall_damping,
-                     "wall damping B for which the maximum stiffness is measured [N s/m]");
-  command.add_option("--seed", options.seed, "random seed of network and operator motion");
-  begin_group(command, "Output");
-  add_file_option(command, "--svg", options.svg, "write the K-B plane and the energies as SVG");
-  add_file_option(command, "--png", options.png, "write the K-B plane and the energies as PNG");
-  command.add_flag("--csv", options.csv, "print the walls as CSV on stdout");
-  add_json_option(command, options.json);
+void add_options(const OptionAdder& add, ZwidthOptions& options) {
+  add.group("Device");
+  add("--mass", options.device.mass, "effective mass at the handle [kg]");
+  add("--damping", options.device.damping, "viscous friction [N s/m]");
+  add("--friction", options.device.friction, "Coulomb friction [N]");
+  add("--resolution", options.device.resolution, "resolution of the encoder [m]");
+  add("--rate", options.device.rate, "rate of the haptic loop [Hz]");
+  add("--delay", options.device.delay, "delay from sensor to motor [ticks]");
+  add.group("Measurement");
+  add("--wall-damping", options.wall_damping,
+      "wall damping B for which the maximum stiffness is measured [N s/m]");
+  add("--seed", options.seed, "random seed of network and operator motion");
+  add.group("Output");
+  add("--svg", options.svg, "write the K-B plane and the energies as SVG");
+  add("--png", options.png, "write the K-B plane and the energies as PNG");
+  add("--csv", options.csv, "print the walls as CSV on stdout");
+  add.json(options.json);
 }
 
 void check(const ZwidthOptions& options, DiagnosticList& faults) {
+  const SampledDevice& device = options.device;
   const auto number = [&](const char* name, double value, bool positive) {
     if (std::isfinite(value) && (positive ? value > 0 : value >= 0)) return;
     faults.add(name, fmt::format("is {}, must be {}", value, positive ? "positive" : "0 or more"),
                "", "option.range");
   };
-  number("--mass", options.mass, true);
-  number("--damping", options.damping, false);
-  number("--friction", options.friction, false);
-  number("--resolution", options.resolution, false);
-  number("--rate", options.rate, true);
+  number("--mass", device.mass, true);
+  number("--damping", device.damping, false);
+  number("--friction", device.friction, false);
+  number("--resolution", device.resolution, false);
+  number("--rate", device.rate, true);
   number("--wall-damping", options.wall_damping, false);
-  if (options.delay < 0 || options.delay > 1000)
-    faults.add("--delay", fmt::format("is {} ticks", options.delay), "give a number from 0 to 1000",
+  if (device.delay < 0 || device.delay > 1000)
+    faults.add("--delay", fmt::format("is {} ticks", device.delay), "give a number from 0 to 1000",
                "option.range");
   for (const auto* file : {&options.svg, &options.png})
     if (!file->empty()) check_place(*file, faults);
@@ -78,13 +74,7 @@ int run_zwidth(const ZwidthOptions& options) {
   check(options, faults);
   faults.check();
   if (!options.svg.empty() || !options.png.empty()) require_gnuplot();
-  SampledDevice device;
-  device.mass = options.mass;
-  device.damping = options.damping;
-  device.friction = options.friction;
-  device.resolution = options.resolution;
-  device.rate = options.rate;
-  device.delay = options.delay;
+  const SampledDevice& device = options.device;
   const std::filesystem::path assets = find_assets();
   Progress progress(false, Progress::kPatience);
   const Tell advance = [&](double part) {
@@ -104,7 +94,7 @@ int run_zwidth(const ZwidthOptions& options) {
   result.follows = measure_follows(assets, options.seed, advance);
   if (!options.svg.empty()) write_whole_file(options.svg, zwidth_svg(result));
   if (!options.png.empty()) write_whole_file(options.png, zwidth_png(result));
-  fmt::print("{}", options.json  ? zwidth_json(result)
+  fmt::print("{}", options.json  ? zwidth_json(result) + "\n"
                    : options.csv ? zwidth_csv(result)
                                  : zwidth_table(result));
   return 0;

@@ -1,8 +1,6 @@
 #include "app/coupling/gain_equivalents.h"
 
 #include <fmt/format.h>
-#include <array>
-#include <cmath>
 #include <numbers>
 
 #include "app/coupling/posed_couplings.h"
@@ -60,13 +58,13 @@ std::string one_table(const Equivalents& e, double step) {
   return text;
 }
 
-void write_gains(JsonWriter& json, const SpringGains& gains) {
-  json.object({{"stiffness", gains.k}, {"damping", gains.b}});
-}
-
 void write_one(JsonWriter& json, const Equivalents& e) {
   const auto gains = [&json](const std::optional<SpringGains>& of) {
-    return [&json, of] { json.or_null(of, [&](const SpringGains& is) { write_gains(json, is); }); };
+    return [&json, of] {
+      json.or_null(of, [&](const SpringGains& is) {
+        json.object({{"stiffness", is.k}, {"damping", is.b}});
+      });
+    };
   };
   const auto solref = [&json](const std::optional<Solref>& of) {
     return [&json, of] {

@@ -15,7 +15,7 @@ namespace {
 
 std::string kind_of(const SceneCoupling& spec) {
   const char* law = facts_of(spec.law, spec.printed).name;
-  if (spec.type == CouplingDescription::Type::linear) return law;
+  if (spec.is_linear()) return law;
   return std::string(law) + (spec.measure == SpringSpace::world ? ", world" : ", joint");
 }
 
@@ -54,7 +54,7 @@ MatrixXd PosedCouplings::joint_damping() const {
 MatrixXd PosedCouplings::jacobian(std::size_t c) const {
   const SceneCoupling& spec = input_.couplings->spec(c);
   const int body = spec.spring.body;
-  if (spec.type == CouplingDescription::Type::linear) {
+  if (spec.is_linear()) {
     const Kinematics& k =
         spec.law == CouplingSpec::Type::matched ? input_.couplings->target(c, x_.t).k : k_;
     return point_jacobian(model_, k, body, k.position(body, spec.spring.p_L));
@@ -108,10 +108,8 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   PredictedCoupling found;
   static_cast<CouplingTraits&>(found) = spec;
   found.kind = kind_of(spec);
-  found.is_linear = spec.type == CouplingDescription::Type::linear;
   const auto body = static_cast<std::size_t>(spec.spring.body);
-  found.is_length = found.is_linear ||
-                    (spec.measure == SpringSpace::joint && is_translational(model_.joint[body]));
+  found.is_length = spec.is_linear() || (spec.at_joint() && is_translational(model_.joint[body]));
   found.gains = {spec.spring.k, spec.spring.b};
   const MatrixXd J = jacobian(c) * P_, square = J.transpose() * J;
   found.K = found.K_zero = spec.spring.k * square;
@@ -137,7 +135,7 @@ PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
     const Index last = modes.size() - 1;
     found.alone = {modes.omega(last), modes.zeta(last)};
   }
-  if (found.is_linear && !matched) add_arms(spec, offset, h, found);
+  if (found.is_linear() && !matched) add_arms(spec, offset, h, found);
   return found;
 }
 

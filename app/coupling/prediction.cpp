@@ -204,7 +204,7 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
           "'{}' is a constraint: it has no stiffness, frequency or stability limit; each step it "
           "reaches its target unless blocked by a contact",
           c.name));
-    if (c.printed && !c.is_linear)
+    if (c.printed && !c.is_linear())
       warn(fmt::format("'{}': the torsional damper as printed has no linear part and is left out",
                        c.name));
     if (c.absolute_damper && c.gains.b > 0)
@@ -241,7 +241,7 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
     if (input.couplings->spec(c).outside) continue;  // soft limits are inactive in the nominal pose
     found.couplings.push_back(posed.coupling(c, found.step));
     PredictedCoupling& coupling = found.couplings.back();
-    if (task.wall && coupling.is_linear)
+    if (task.wall && coupling.is_linear())
       coupling.with_wall = series_stiffness(coupling.gains.k, *task.wall);
     found.K += coupling.K;
     found.B += coupling.B;

@@ -39,7 +39,6 @@ struct SpringArm {
 
 struct PredictedCoupling : CouplingTraits {
   std::string kind;
-  bool is_linear = true;            // between points
   bool is_length = true;            // its error is a length: between points, or a prismatic joint
   SpringGains gains;                // N/m, N s/m of lengths; else N m/rad, N m s/rad
   double offset = 0;                // of the target [m or rad]

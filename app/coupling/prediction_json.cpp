@@ -68,36 +68,34 @@ void write_mode(JsonWriter& json, const Predicted& found, const PredictedMode& m
 }  // namespace
 
 std::string predicted_json(const Predicted& found, const PredictTask& task) {
-  JsonWriter json;
-  json.begin_object();
-  json.put("rows", found.rows);
-  json.key("couplings").list(found.couplings, [&](const PredictedCoupling& c) {
-    write_coupling(json, c);
+  return json_text([&](JsonWriter& json) {
+    json.put("rows", found.rows);
+    json.key("couplings").list(found.couplings, [&](const PredictedCoupling& c) {
+      write_coupling(json, c);
+    });
+    json.members({{"K", found.K}, {"B", found.B}, {"mass_matrix", found.M}});
+    json.key("target").object({{"distance", task.distance}, {"time", task.time}});
+    json.key("modes").list(found.modes,
+                           [&](const PredictedMode& mode) { write_mode(json, found, mode); });
+    json.key("joint_errors").or_null(found.errors, [&](const RowErrors& errors) {
+      write_errors(json, found, errors);
+    });
+    json.key("limits").list(found.limits, [&](const SchemeLimit& limit) {
+      json.object({{"scheme", name_of(limit.scheme)},
+                   {"largest_step", limit.max_step},
+                   {"stiffness_factor_same_ratio", limit.by_ratio},
+                   {"stiffness_factor_same_zeta", limit.by_zeta},
+                   {"is_the_scenes", limit.is_the_scenes}});
+    });
+    json.key("scene").object({{"stepped", found.stepped},
+                              {"integrator", integrator_name(found.integrator)},
+                              {"step", found.step},
+                              {"largest_step", found.max_step},
+                              {"growth_per_step", found.growth},
+                              {"stable", found.growth <= 1 + 1e-9}});
+    write_by_rows(json.key("sag"), found, found.sag);
+    json.key("warnings").texts(found.warnings);
   });
-  json.members({{"K", found.K}, {"B", found.B}, {"mass_matrix", found.M}});
-  json.key("target").object({{"distance", task.distance}, {"time", task.time}});
-  json.key("modes").list(found.modes,
-                         [&](const PredictedMode& mode) { write_mode(json, found, mode); });
-  json.key("joint_errors").or_null(found.errors, [&](const RowErrors& errors) {
-    write_errors(json, found, errors);
-  });
-  json.key("limits").list(found.limits, [&](const SchemeLimit& limit) {
-    json.object({{"scheme", name_of(limit.scheme)},
-                 {"largest_step", limit.max_step},
-                 {"stiffness_factor_same_ratio", limit.by_ratio},
-                 {"stiffness_factor_same_zeta", limit.by_zeta},
-                 {"is_the_scenes", limit.is_the_scenes}});
-  });
-  json.key("scene").object({{"stepped", found.stepped},
-                            {"integrator", integrator_name(found.integrator)},
-                            {"step", found.step},
-                            {"largest_step", found.max_step},
-                            {"growth_per_step", found.growth},
-                            {"stable", found.growth <= 1 + 1e-9}});
-  write_by_rows(json.key("sag"), found, found.sag);
-  json.key("warnings").texts(found.warnings);
-  json.end_object();
-  return json.str();
 }
 
 }  // namespace twinarm

@@ -34,8 +34,10 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
   TreeBuilder(const std::filesystem::path& file, const int& line)
       : file_(file.string()), line_(line) {}
 
-  bool null() override { return add(Value::Kind::null, 0); }
-  bool boolean(bool value) override { return add(Value::Kind::boolean, value ? 1 : 0); }
+  bool null() override { return add({.kind = Value::Kind::null}); }
+  bool boolean(bool value) override {
+    return add({.kind = Value::Kind::boolean, .number = value ? 1.0 : 0.0});
+  }
   bool number_integer(std::int64_t value) override { return number(static_cast<double>(value)); }
   bool number_unsigned(std::uint64_t value) override { return number(static_cast<double>(value)); }
   bool number_float(double value, const std::string&) override { return number(value); }
@@ -66,11 +68,6 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
 
  private:
   bool number(double value) { return add(Value::of(value)); }
-  bool add(Value::Kind kind, double value) {
-    Value item = Value::of(value);
-    item.kind = kind;
-    return add(std::move(item));
-  }
   bool add(Value item) {
     if (item.line == 0) item.line = value_line_;
     if (open_.empty()) {

@@ -34,9 +34,6 @@ void JsonWriter::number(double value) {
   if (digits.find_first_of(".e") == std::string::npos) digits += ".0";
   write(digits);
 }
-void JsonWriter::count(long value) {
-  write(std::to_string(value));
-}
 void JsonWriter::text(std::string_view value) {
   write(quoted(value));
 }

@@ -81,14 +81,18 @@ class JsonWriter {
       text(what);
     else if constexpr (std::is_invocable_v<const T&>)
       what();
-    else if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>)
-      numbers_of(what);
+    else if constexpr (requires { what.has_value(); })
+      what ? value(*what) : null();
+    else if constexpr (!std::is_base_of_v<Eigen::EigenBase<T>, T>)
+      list(what, [&](const auto& item) { value(item); });
+    else if constexpr (T::IsVectorAtCompileTime)
+      vector(what);
     else
-      range_or_optional(what);
+      matrix(what);
   }
 
   void number(double value);
-  void count(long value);
+  void count(long value) { write(std::to_string(value)); }
   void text(std::string_view value);
   void boolean(bool value) { write(value ? "true" : "false"); }
   void null() { write("null"); }
@@ -119,22 +123,6 @@ class JsonWriter {
   const std::string& str() const { return text_; }
 
  private:
-  template <class Derived>
-  void numbers_of(const Eigen::MatrixBase<Derived>& values) {
-    if constexpr (Derived::IsVectorAtCompileTime)
-      vector(values);
-    else
-      matrix(values);
-  }
-  template <class T>
-  void range_or_optional(const std::optional<T>& what) {
-    what ? value(*what) : null();
-  }
-  template <class Range>
-  void range_or_optional(const Range& range) {
-    list(range, [&](const auto& item) { value(item); });
-  }
-
   void open(char bracket);
   void close(char bracket);
   void separate();  // comma before all but the first item

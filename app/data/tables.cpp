@@ -8,6 +8,12 @@
 namespace twinarm {
 namespace {
 
+constexpr std::size_t kWidth = 98, kColumn = 11, kLabel = 22;
+
+double scale_of(const Eigen::MatrixXd& m) {
+  return m.size() == 0 ? 1 : std::max(m.lpNorm<Eigen::Infinity>(), 1e-300);
+}
+
 // Columns on the screen: continuation bytes of UTF-8 have none.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(
@@ -39,16 +45,6 @@ std::string cell(double value) {
   constexpr double kRounding = 1e-14;
   return std::abs(value) < kRounding ? "0" : fmt::format("{:.6g}", value);
 }
-
-namespace {
-
-constexpr std::size_t kWidth = 98, kColumn = 11, kLabel = 22;
-
-double scale_of(const Eigen::MatrixXd& m) {
-  return m.size() == 0 ? 1 : std::max(m.lpNorm<Eigen::Infinity>(), 1e-300);
-}
-
-}  // namespace
 
 std::string short_number(double value, double scale) {
   constexpr double kRounding = 1e-13;

@@ -11,27 +11,6 @@
 
 namespace twinarm {
 
-Value Value::of(double number) {
-  Value value;
-  value.kind = Kind::number;
-  value.number = number;
-  return value;
-}
-
-Value Value::of(std::string text) {
-  Value value;
-  value.kind = Kind::text;
-  value.text = std::move(text);
-  return value;
-}
-
-Value Value::list(std::vector<Value> items) {
-  Value value;
-  value.kind = Kind::list;
-  value.items = std::move(items);
-  return value;
-}
-
 const Value* Value::find(const std::string& name) const {
   for (const Value& member : members)
     if (member.key == name) return &member;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace twinarm {
@@ -11,15 +12,17 @@ struct Value {
   // table: a JSON object; date: a TOML date or time.
   enum class Kind { null, boolean, number, text, list, table, date };
   Kind kind = Kind::table;
-  std::string key;    // of a member of a table
+  std::string key{};  // of a member of a table
   int line = 0;       // of the key or the opening bracket
   double number = 0;  // boolean: 0 or 1
-  std::string text;
-  std::vector<Value> items, members;  // of a list, of a table in the order of its keys
+  std::string text{};
+  std::vector<Value> items{}, members{};  // of a list, of a table in the order of its keys
 
-  static Value of(double number);
-  static Value of(std::string text);
-  static Value list(std::vector<Value> items);
+  static Value of(double number) { return {.kind = Kind::number, .number = number}; }
+  static Value of(std::string text) { return {.kind = Kind::text, .text = std::move(text)}; }
+  static Value list(std::vector<Value> items) {
+    return {.kind = Kind::list, .items = std::move(items)};
+  }
 
   bool is_number() const { return kind == Kind::number; }
   bool is_text() const { return kind == Kind::text; }

@@ -33,8 +33,7 @@ CoupledStep::CoupledStep(const SimulatePlan& plan)
     const PredictedCoupling found = posed.about_zero(c);
     Component component;
     component.coupling = static_cast<int>(spec.description);
-    component.is_bushing_torsional = spec.law == CouplingSpec::Type::bushing &&
-                                     spec.type == CouplingDescription::Type::torsional;
+    component.is_bushing_torsional = spec.law == CouplingSpec::Type::bushing && !spec.is_linear();
     component.absolute_damper = spec.absolute_damper;
     component.k = spec.spring.k;
     component.b = spec.spring.b;

@@ -14,6 +14,8 @@
 namespace twinarm {
 namespace {
 
+constexpr long kLastSteps = 1000;
+
 using Works = std::map<std::string, double>;  // by row
 
 Works works_of(const std::vector<EnergyRow>& rows) {
@@ -48,8 +50,7 @@ std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const Ru
   const State<double>& x = simulation.state();
   for (std::size_t c = 0; couplings && c < couplings->size(); ++c) {
     const SceneCoupling& spec = couplings->spec(c);
-    if (spec.treatment != Discretization::implicit || !spec.is_external() ||
-        spec.type != CouplingDescription::Type::linear)
+    if (spec.treatment != Discretization::implicit || !spec.is_external() || !spec.is_linear())
       continue;
     const TargetRadius radius =
         nearest_target_radius(simulation.mechanism().model, x, simulation.kinematics(),
@@ -98,6 +99,12 @@ void find_row(const Works& since, const Works& now, PostMortem& found) {
     if (growth > found.row_growth || (std::isnan(growth) && found.row.empty()))
       found.row = name, found.row_growth = growth;
   }
+}
+
+void add_growth(PostMortem& found, const std::string& period) {
+  if (!found.row.empty())
+    found.words.push_back(fmt::format("Largest growth in the energy balance: row '{}', {} J{}",
+                                      found.row, short_number_text(found.row_growth), period));
 }
 
 std::string limit_text(const StabilityViolation& s, const char* relation) {
@@ -186,9 +193,7 @@ void explain_at_once(const SimulatePlan& prepared, const RunView& run,
   add_first_words(prepared, result);
   add_violations(found, prepared.run.step, passed_radius(prepared, run));
   if (!before.empty()) find_row(works_of(before), works_of(result.ledger), found);
-  if (!found.row.empty())
-    found.words.push_back(fmt::format("Largest growth in the energy balance: row '{}', {} J",
-                                      found.row, short_number_text(found.row_growth)));
+  add_growth(found, "");
 }
 
 void explain(const SimulatePlan& prepared, RecordingHeader header,
@@ -208,10 +213,7 @@ void explain(const SimulatePlan& prepared, RecordingHeader header,
     return;
   }
   find_row(again->before, again->after, found);
-  if (!found.row.empty())
-    found.words.push_back(
-        fmt::format("Largest growth in the energy balance: row '{}', {} J in the last {}",
-                    found.row, short_number_text(found.row_growth), again->text()));
+  add_growth(found, " in the last " + again->text());
   found.recording = file.string();
   found.words.push_back(
       fmt::format("Recording of the last {}: {}; see `twinarm inspect {} --at {}`", again->text(),

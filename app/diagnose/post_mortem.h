@@ -14,8 +14,6 @@
 
 namespace twinarm {
 
-constexpr long kLastSteps = 1000;
-
 // Completes result.post_mortem and writes the last steps to `file`. That it cannot be written is
 // reported in the words.
 void explain(const SimulatePlan& prepared, RecordingHeader header,

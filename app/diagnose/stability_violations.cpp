@@ -101,8 +101,7 @@ std::string rate_fix(const SteppedCoupling& c, double max_step) {
 
 std::string gain_fix(const SteppedCoupling& c, const StabilityViolation& s) {
   if (!(s.max_gain > 0)) return "";
-  const bool is_linear = c.spec->type == CouplingDescription::Type::linear;
-  const char *force = is_linear ? "N" : "N m", *per = is_linear ? "m" : "rad";
+  const char *force = c.spec->is_linear() ? "N" : "N m", *per = c.spec->is_linear() ? "m" : "rad";
   if (c.is_weld())
     return fmt::format("time_constant >= {} s", short_number_text(s.max_gain / kMargin));
   if (!c.is_spring())

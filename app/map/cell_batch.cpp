@@ -42,28 +42,150 @@ double number_or(const Value& table, const char* key, double otherwise) {
   return value ? value->number : otherwise;
 }
 
-bool is_moving(const SceneCoupling& coupling) {
-  return coupling.target == CouplingTarget::Kind::paper ||
-         coupling.target == CouplingTarget::Kind::trace;
-}
-
 struct Limits {
   double lower = -HUGE_VAL, upper = HUGE_VAL;
 };
 
-}  // namespace
+struct LaneRunner {
+  explicit LaneRunner(const MapJob& of) : job(of), base(prepare_simulation(of.run)) {}
 
-struct CellBatch::Parts {
-  explicit Parts(const MapJob& of) : job(of), base(prepare_simulation(of.run)) {}
+  bool can_run() {
+    for (const MapAxis* axis : {&job.x, &job.y})
+      if (axis->path != "step" && !varies_couplings(axis->path)) return false;
+    if (!is_plain(base)) return false;
+    const SceneModel& scene = *base.input.scene;
+    joints = measured_joints(scene, job.measured_coupling);
+    const SceneCoupling& measured = scene.couplings[job.measured_coupling];
+    setup.model = &base.input.robot.model;
+    setup.start = base.input.robot.state.x;
+    setup.duration = base.run.duration;
+    setup.measured = joints.iq;
+    setup.energy = true;
+    add_target(measured);
+    for (const SceneCoupling& c : scene.couplings) {
+      const bool same = c.target == measured.target && c.driven.turned == measured.driven.turned &&
+                        c.driven.gripper == measured.driven.gripper && c.trace == measured.trace &&
+                        c.rest.q == measured.rest.q;
+      if (!same) add_target(c);
+      setup.springs.push_back(
+          {c.is_linear() ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional, c.measure,
+           c.treatment, c.absolute_damper, same ? 0 : setup.targets.size() - 1, c.spring.body});
+    }
+    if (!batch_faults(setup).empty() || !find_limits()) return false;
+    runs = std::make_unique<BatchRun>(setup);
+    return true;
+  }
 
-  bool can_run();
-  bool find_limits();
-  void add_target(const SceneCoupling& coupling);
-  std::optional<BatchCell> cell_at(const Place& place) const;
-  double target_energy(const Place& place, const BatchCell& cell);
-  double spring_energy(const BatchCell& cell);
-  std::optional<CellValues> values_of(const Place& place, const BatchCell& cell,
-                                      const BatchResult& result);
+  std::vector<std::optional<CellValues>> run(std::span<const CellPlace> places) {
+    std::vector<std::size_t> which;
+    std::vector<BatchCell> cells;
+    for (std::size_t i = 0; i < places.size(); ++i)
+      if (auto cell = cell_at(places[i])) {
+        which.push_back(i);
+        cells.push_back(std::move(*cell));
+      }
+    std::vector<BatchResult> results(cells.size());
+    runs->run(cells, results);
+    std::vector<std::optional<CellValues>> values(places.size());
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      values[which[i]] = values_of(places[which[i]], cells[i], results[i]);
+    return values;
+  }
+
+  // The target of the measured coupling is the first.
+  void add_target(const SceneCoupling& coupling) {
+    hands.push_back(motion_of(coupling));
+    setup.targets.push_back({hands.back().get(), HandMapping{}, coupling.driven, coupling.rest});
+  }
+
+  // False if a joint with active limits is not measured.
+  bool find_limits() {
+    const SceneModel& scene = *base.input.scene;
+    limits.assign(joints.names.size(), {});
+    if (!limits_act(scene, base.run.integrator)) return true;
+    const auto& robots = scene.description.robots;
+    for (std::size_t r = 0; r < robots.size(); ++r)
+      for (const JointDescription& joint : robots[r].description.joints) {
+        if (!joint.is_limited()) continue;
+        const std::string name = name_in_scene(scene.description, r, joint.name);
+        const auto found = std::find(joints.names.begin(), joints.names.end(), name);
+        if (found == joints.names.end()) return false;
+        limits[static_cast<std::size_t>(found - joints.names.begin())] = {joint.lower, joint.upper};
+      }
+    return true;
+  }
+
+  // Nothing if couplings have different speeds or delays.
+  std::optional<BatchCell> cell_at(const CellPlace& place) const {
+    Value scene = job.scene;
+    DiagnosticList faults;
+    set_parameters(job, place.x, place.y, scene, faults);
+    BatchCell cell;
+    cell.h = job.run.step.value_or(number_or(scene, "step", base.run.step));
+    const Value* couplings = scene.find("coupling");
+    bool has_motion = false;
+    for (std::size_t c = 0; c < couplings->items.size(); ++c) {
+      const Value& table = couplings->items[c];
+      BatchCell::Gains gains{number_or(table, "stiffness", 0), number_or(table, "damping", 0),
+                             Vector3::Zero()};
+      if (const Value* point = table.find("point"))
+        for (std::size_t i = 0; i < 3; ++i)
+          gains.p_L[static_cast<Eigen::Index>(i)] = point->items[i].number;
+      cell.springs.push_back(gains);
+      const CouplingTarget::Kind target = base.input.scene->couplings[c].target;
+      if (target != CouplingTarget::Kind::paper && target != CouplingTarget::Kind::trace) continue;
+      const double speed = number_or(table, "speed", 1), delay = number_or(table, "delay", 0);
+      if (has_motion && (speed != cell.speed || delay != cell.delay)) return std::nullopt;
+      cell.speed = speed;
+      cell.delay = delay;
+      has_motion = true;
+    }
+    return cell;
+  }
+
+  // A of cell_measure.h without the springs [J], for this speed and delay.
+  double target_energy(const CellPlace& place, const BatchCell& cell) {
+    const auto [found, is_new] = target_energies.try_emplace({cell.speed, cell.delay});
+    if (is_new) found->second = reference_energy(prepare_cell(job, place.x, place.y), false);
+    return found->second;
+  }
+
+  // In the springs at the start [J].
+  double spring_energy(const BatchCell& cell) {
+    const State<double>& start = base.input.robot.state.x;
+    SceneCouplings& couplings = *base.input.couplings;
+    Kinematics k(base.input.robot.model);
+    forward_kinematics(base.input.robot.model, start, k);
+    double energy = 0;
+    for (std::size_t c = 0; c < couplings.size(); ++c) {
+      const SceneCoupling& spec = couplings.spec(c);
+      const Vector3& p = cell.springs[c].p_L;
+      const Vector3 offset = spec.is_linear()
+                                 ? Vector3(couplings.target(c, 0).k.position(spec.spring.body, p) -
+                                           k.position(spec.spring.body, p))
+                                 : couplings.ends(c, start, k).offset;
+      energy += 0.5 * cell.springs[c].k * offset.squaredNorm();
+    }
+    return energy;
+  }
+
+  std::optional<CellValues> values_of(const CellPlace& place, const BatchCell& cell,
+                                      const BatchResult& result) {
+    if (!result.finished ||
+        !is_bounded(result.energy_created, target_energy(place, cell) + spring_energy(cell)))
+      return unstable_cell();
+    CellValues values{1, 0, 0, result.energy_created, result.hand_work_least};
+    for (std::size_t j = 0; j < joints.iq.size(); ++j) {
+      const double error = result.max_error[j];
+      if (!(result.twin_low[j] - error > limits[j].lower))
+        return std::nullopt;  // may reach a limit
+      if (!(result.twin_high[j] + error < limits[j].upper)) return std::nullopt;
+      values[1] = std::max(values[1], result.max_error[j]);
+      values[2] = std::max(values[2], result.mean_error[j]);
+    }
+    if (joints.iq.empty()) values[1] = values[2] = unstable_cell()[1];
+    return values;
+  }
 
   const MapJob& job;
   SimulatePlan base;
@@ -75,151 +197,12 @@ struct CellBatch::Parts {
   std::map<std::pair<double, double>, double> target_energies;  // by speed and delay
 };
 
-// The target of the measured coupling is the first.
-void CellBatch::Parts::add_target(const SceneCoupling& coupling) {
-  hands.push_back(motion_of(coupling));
-  setup.targets.push_back({hands.back().get(), HandMapping{}, coupling.driven, coupling.rest});
-}
+}  // namespace
 
-bool CellBatch::Parts::can_run() {
-  for (const MapAxis* axis : {&job.x, &job.y})
-    if (axis->path != "step" && !varies_couplings(axis->path)) return false;
-  if (!is_plain(base)) return false;
-  const SceneModel& scene = *base.input.scene;
-  joints = measured_joints(scene, job.measured_coupling);
-  const SceneCoupling& measured = scene.couplings[job.measured_coupling];
-  setup.model = &base.input.robot.model;
-  setup.start = base.input.robot.state.x;
-  setup.duration = base.run.duration;
-  setup.measured = joints.iq;
-  setup.energy = true;
-  add_target(measured);
-  for (const SceneCoupling& c : scene.couplings) {
-    const bool same = c.target == measured.target && c.driven.turned == measured.driven.turned &&
-                      c.driven.gripper == measured.driven.gripper && c.trace == measured.trace &&
-                      c.rest.q == measured.rest.q;
-    if (!same) add_target(c);
-    setup.springs.push_back({c.type == CouplingDescription::Type::linear
-                                 ? CouplingSpec::Type::linear
-                                 : CouplingSpec::Type::torsional,
-                             c.measure, c.treatment, c.absolute_damper,
-                             same ? 0 : setup.targets.size() - 1, c.spring.body});
-  }
-  if (!batch_faults(setup).empty() || !find_limits()) return false;
-  runs = std::make_unique<BatchRun>(setup);
-  return true;
-}
-
-// False if a joint with active limits is not measured.
-bool CellBatch::Parts::find_limits() {
-  const SceneModel& scene = *base.input.scene;
-  limits.assign(joints.names.size(), {});
-  if (!limits_act(scene, base.run.integrator)) return true;
-  const auto& robots = scene.description.robots;
-  for (std::size_t r = 0; r < robots.size(); ++r)
-    for (const JointDescription& joint : robots[r].description.joints) {
-      if (!joint.is_limited()) continue;
-      const std::string name = name_in_scene(scene.description, r, joint.name);
-      const auto found = std::find(joints.names.begin(), joints.names.end(), name);
-      if (found == joints.names.end()) return false;
-      limits[static_cast<std::size_t>(found - joints.names.begin())] = {joint.lower, joint.upper};
-    }
-  return true;
-}
-
-// Nothing if couplings have different speeds or delays.
-std::optional<BatchCell> CellBatch::Parts::cell_at(const Place& place) const {
-  Value scene = job.scene;
-  DiagnosticList faults;
-  set_parameters(job, place.x, place.y, scene, faults);
-  BatchCell cell;
-  cell.h = job.run.step.value_or(number_or(scene, "step", base.run.step));
-  const Value* couplings = scene.find("coupling");
-  bool has_motion = false;
-  for (std::size_t c = 0; c < couplings->items.size(); ++c) {
-    const Value& table = couplings->items[c];
-    BatchCell::Gains gains{number_or(table, "stiffness", 0), number_or(table, "damping", 0),
-                           Vector3::Zero()};
-    if (const Value* point = table.find("point"))
-      for (std::size_t i = 0; i < 3; ++i)
-        gains.p_L[static_cast<Eigen::Index>(i)] = point->items[i].number;
-    cell.springs.push_back(gains);
-    if (!is_moving(base.input.scene->couplings[c])) continue;
-    const double speed = number_or(table, "speed", 1), delay = number_or(table, "delay", 0);
-    if (has_motion && (speed != cell.speed || delay != cell.delay)) return std::nullopt;
-    cell.speed = speed;
-    cell.delay = delay;
-    has_motion = true;
-  }
-  return cell;
-}
-
-// A of cell_measure.h without the springs [J], for this speed and delay.
-double CellBatch::Parts::target_energy(const Place& place, const BatchCell& cell) {
-  const auto [found, is_new] = target_energies.try_emplace({cell.speed, cell.delay});
-  if (is_new) found->second = reference_energy(prepare_cell(job, place.x, place.y), false);
-  return found->second;
-}
-
-// In the springs at the start [J].
-double CellBatch::Parts::spring_energy(const BatchCell& cell) {
-  const State<double>& start = base.input.robot.state.x;
-  SceneCouplings& couplings = *base.input.couplings;
-  Kinematics k(base.input.robot.model);
-  forward_kinematics(base.input.robot.model, start, k);
-  double energy = 0;
-  for (std::size_t c = 0; c < couplings.size(); ++c) {
-    const SceneCoupling& spec = couplings.spec(c);
-    const Vector3& p = cell.springs[c].p_L;
-    const Vector3 offset = spec.type == CouplingDescription::Type::linear
-                               ? Vector3(couplings.target(c, 0).k.position(spec.spring.body, p) -
-                                         k.position(spec.spring.body, p))
-                               : couplings.ends(c, start, k).offset;
-    energy += 0.5 * cell.springs[c].k * offset.squaredNorm();
-  }
-  return energy;
-}
-
-std::optional<CellValues> CellBatch::Parts::values_of(const Place& place, const BatchCell& cell,
-                                                      const BatchResult& result) {
-  if (!result.finished ||
-      !is_bounded(result.energy_created, target_energy(place, cell) + spring_energy(cell)))
-    return unstable_cell();
-  CellValues values{1, 0, 0, result.energy_created, result.hand_work_least};
-  for (std::size_t j = 0; j < joints.iq.size(); ++j) {
-    const double error = result.max_error[j];
-    if (!(result.twin_low[j] - error > limits[j].lower)) return std::nullopt;  // may reach a limit
-    if (!(result.twin_high[j] + error < limits[j].upper)) return std::nullopt;
-    values[1] = std::max(values[1], result.max_error[j]);
-    values[2] = std::max(values[2], result.mean_error[j]);
-  }
-  if (joints.iq.empty()) values[1] = values[2] = unstable_cell()[1];
-  return values;
-}
-
-CellBatch::CellBatch(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
-CellBatch::~CellBatch() = default;
-
-std::unique_ptr<CellBatch> CellBatch::of(const MapJob& job) {
-  auto parts = std::make_unique<Parts>(job);
-  if (!parts->can_run()) return nullptr;
-  return std::unique_ptr<CellBatch>(new CellBatch(std::move(parts)));
-}
-
-std::vector<std::optional<CellValues>> CellBatch::run(std::span<const Place> places) {
-  std::vector<std::size_t> which;
-  std::vector<BatchCell> cells;
-  for (std::size_t i = 0; i < places.size(); ++i)
-    if (auto cell = parts_->cell_at(places[i])) {
-      which.push_back(i);
-      cells.push_back(std::move(*cell));
-    }
-  std::vector<BatchResult> results(cells.size());
-  parts_->runs->run(cells, results);
-  std::vector<std::optional<CellValues>> values(places.size());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    values[which[i]] = parts_->values_of(places[which[i]], cells[i], results[i]);
-  return values;
+CellBatch cell_batch(const MapJob& job) {
+  auto runner = std::make_shared<LaneRunner>(job);
+  if (!runner->can_run()) return {};
+  return [runner](std::span<const CellPlace> places) { return runner->run(places); };
 }
 
 }  // namespace twinarm

@@ -6,7 +6,7 @@
 // of couplings. Joint limits are not simulated: cells that could reach one are left to run_cell().
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -16,22 +16,14 @@
 
 namespace twinarm {
 
-class CellBatch {
- public:
-  // Null if the scene or an axis is not supported. Keeps a reference to the job.
-  static std::unique_ptr<CellBatch> of(const MapJob& job);
-  ~CellBatch();
-
-  struct Place {
-    double x = 0, y = 0;
-  };
-  // Nothing for cells that are left to run_cell(). Not thread-safe.
-  std::vector<std::optional<CellValues>> run(std::span<const Place> places);
-
- private:
-  struct Parts;
-  explicit CellBatch(std::unique_ptr<Parts> parts);
-  std::unique_ptr<Parts> parts_;
+struct CellPlace {
+  double x = 0, y = 0;
 };
+// The values of the cells at these places; nothing for cells that are left to run_cell(). Not
+// thread-safe; keeps a reference to the job.
+using CellBatch =
+    std::function<std::vector<std::optional<CellValues>>(std::span<const CellPlace> places)>;
+// Empty if the scene or an axis is not supported.
+CellBatch cell_batch(const MapJob& job);
 
 }  // namespace twinarm

@@ -144,27 +144,10 @@ CellValues record_cell(const MapJob& job, const OpenedCell& cell,
   options.record = recording;
   const SimulatePlan plan = prepare_simulation(options);
   CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
-  RunRecorder recorder(
-      recording,
-      header_of(options, plan,
-                {"twinarm", "simulate", cell.scene.string(), "--record", recording.string()}),
-      plan);
   RunWatch watch;
-  watch.sample = [](double, const State<double>&) {};
-  watch.interrupted = is_interrupted;
-  watch.look = [&](RunView& run) {
-    measure.look(run);
-    recorder.look(run);
-  };
+  watch.look = [&](RunView& run) { measure.look(run); };
   watch.tick = [](double) { check_interrupt(); };
-  try {
-    const SimulateResult result = run_plan(plan.input, plan.run, watch);
-    recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
-    return measure.values(result);
-  } catch (const Interrupted&) {
-    recorder.finish("interrupted");
-    throw;
-  }
+  return measure.values(record_plan(options, plan, watch));
 }
 
 }  // namespace
@@ -186,7 +169,7 @@ std::pair<int, int> parse_cell(const std::string& text, const MapJob& job) {
 }
 
 OpenedCell open_cell(const MapJob& job, int ix, int iy, const std::filesystem::path& recording) {
-  OpenedCell cell{ix, iy, job.x.at(ix), job.y.at(iy), {}, recording, ""};
+  OpenedCell cell{job.x.at(ix), job.y.at(iy), {}, recording, ""};
   cell.scene.replace_extension(".toml");
   write_whole_file(cell.scene, fmt::format("# Cell {},{} of a map of {}: {} = {}, {} = {}\n", ix,
                                            iy, job.run.robot.model.filename().string(), job.x.path,

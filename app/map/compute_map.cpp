@@ -21,7 +21,7 @@ using Clock = std::chrono::steady_clock;
 
 struct MapCell {
   std::pair<int, int> place;  // (iy, ix)
-  CellBatch::Place at;
+  CellPlace at;
 };
 // Work of a thread: a row of a block; with SIMD batches blocks whose cells have the same steps, and
 // so share the table of the target's motion.
@@ -31,7 +31,6 @@ using MapTask = std::vector<MapCell>;
 CellValues run_cell(const MapJob& job, const SimulatePlan& plan) {
   CellMeasure measure(plan, measured_joints(*plan.input.scene, job.measured_coupling));
   RunWatch watch;
-  watch.sample = [](double, const State<double>&) {};
   watch.interrupted = is_interrupted;
   watch.tick = [](double) { check_interrupt(); };
   watch.look = [&](RunView& run) { measure.look(run); };
@@ -42,7 +41,7 @@ class MapWork {
  public:
   // The cells of the blocks that the file does not have.
   MapWork(const MapJob& job, const std::vector<int>& numbers, const TileFile& file) : job_(job) {
-    const MapBlocks blocks = blocks_of(job);
+    const MapBlocks blocks{job.nx(), job.ny()};
     std::map<std::pair<int, int>, MapTask> groups;  // by group, or by block and row
     for (const int b : numbers) {
       const MapBlocks::Block block = blocks[b];
@@ -65,8 +64,8 @@ class MapWork {
 
   void work(std::size_t number) {
     const MapTask& task = tasks_[number];
-    std::unique_ptr<CellBatch> batch = job_.side_by_side ? free_batch() : nullptr;
-    const std::vector<CellValues> values = compute(task, batch.get());
+    CellBatch batch = job_.side_by_side ? free_batch() : nullptr;
+    const std::vector<CellValues> values = compute(task, batch);
     const std::lock_guard held(lock_);
     if (batch) free_.push_back(std::move(batch));
     for (std::size_t i = 0; i < task.size(); ++i) finished_.emplace_back(task[i].place, values[i]);
@@ -81,16 +80,15 @@ class MapWork {
 
  private:
   // At most one per thread is made.
-  std::unique_ptr<CellBatch> free_batch() {
-    {
-      const std::lock_guard held(lock_);
-      if (!free_.empty()) {
-        std::unique_ptr<CellBatch> batch = std::move(free_.back());
-        free_.pop_back();
-        return batch;
-      }
+  CellBatch free_batch() {
+    std::unique_lock held(lock_);
+    if (free_.empty()) {
+      held.unlock();
+      return cell_batch(job_);
     }
-    return CellBatch::of(job_);
+    CellBatch batch = std::move(free_.back());
+    free_.pop_back();
+    return batch;
   }
 
   int group_of(int b, const MapBlocks& blocks) const {
@@ -98,18 +96,18 @@ class MapWork {
     return job_.y.path == "step" ? b / blocks.columns() : b;
   }
 
-  std::vector<CellValues> compute(const MapTask& task, CellBatch* batch) const {
+  std::vector<CellValues> compute(const MapTask& task, const CellBatch& batch) const {
     constexpr std::size_t kAtOnce = 512;  // cells between checks for Ctrl-C
     std::vector<CellValues> values;
     for (std::size_t first = 0; first < task.size(); first += kAtOnce) {
       const std::size_t count = std::min(kAtOnce, task.size() - first);
-      std::vector<CellBatch::Place> places;
+      std::vector<CellPlace> places;
       for (std::size_t i = 0; i < count; ++i) places.push_back(task[first + i].at);
       std::vector<std::optional<CellValues>> found(count);
-      if (batch) found = batch->run(places);
+      if (batch) found = batch(places);
       for (std::size_t i = 0; i < count; ++i) {
         check_interrupt();
-        const CellBatch::Place& at = places[i];
+        const CellPlace& at = places[i];
         values.push_back(found[i] ? *found[i] : run_cell(job_, prepare_cell(job_, at.x, at.y)));
       }
     }
@@ -120,7 +118,7 @@ class MapWork {
   std::vector<MapTask> tasks_;
   std::mutex lock_{};  // of the members below
   std::vector<std::pair<std::pair<int, int>, CellValues>> finished_;
-  std::vector<std::unique_ptr<CellBatch>> free_;
+  std::vector<CellBatch> free_;
 };
 
 // Writes the file if it has new cells: every second, less often if it is large, and at the end.
@@ -147,15 +145,14 @@ class FileUpdater {
 }  // namespace
 
 void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
-                    const std::filesystem::path& work, const ComputeOptions& options,
-                    TileFile& file) {
+                    const std::filesystem::path& work, unsigned threads, TileFile& file) {
   std::vector<int> missing = wanted;
-  const MapBlocks blocks = blocks_of(job);
+  const MapBlocks blocks{job.nx(), job.ny()};
   std::erase_if(missing, [&](int b) { return file.has_all_of(blocks[b]); });
   if (missing.empty()) return;
   MapWork cells(job, missing, file);
   FileUpdater updater(file, work);
-  Progress progress(options.quiet);
+  Progress progress(false);
   progress.stage(
       missing.size() == wanted.size()
           ? fmt::format("map, {} blocks of cells", wanted.size())
@@ -171,7 +168,7 @@ void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
           progress.advance(static_cast<double>(done) / static_cast<double>(cells.tasks()));
           updater.update(false);
         },
-        options.threads);
+        threads);
   } catch (...) {  // finished cells are written first
     failure = std::current_exception();
   }

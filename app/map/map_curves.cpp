@@ -42,13 +42,8 @@ bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
          1 + kRound;
 }
 
-bool is_stable_at_start(const SimulatePlan& plan) {
-  return is_stable_at(plan, plan.input.robot.state.x);
-}
-
 bool is_implicit_point(const SceneCoupling& coupling) {
-  return coupling.type == CouplingDescription::Type::linear &&
-         coupling.treatment == Discretization::implicit;
+  return coupling.is_linear() && coupling.treatment == Discretization::implicit;
 }
 
 bool is_stable_along_motion(const SimulatePlan& plan) {
@@ -144,18 +139,15 @@ class BoundarySearch {
   const MapJob& job_;
 };
 
-bool is_spring_damper(const SceneCoupling& c) {
-  return !c.printed && !c.outside &&
-         (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
-}
-
 bool has_theory(const SimulatePlan& plan) {
   const SceneModel& scene = *plan.input.scene;
   const Integrator integrator = plan.run.integrator;
   if (scene.couplings.empty() || !scene.constraints.empty()) return false;
   if (!is_semi_implicit(integrator) && !is_polynomial(integrator)) return false;
-  return std::all_of(scene.couplings.begin(), scene.couplings.end(),
-                     [](const SceneCoupling& c) { return c.rate == 0 && is_spring_damper(c); });
+  return std::ranges::all_of(scene.couplings, [](const SceneCoupling& c) {
+    return c.rate == 0 && !c.printed && !c.outside &&
+           (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
+  });
 }
 
 std::string scheme_words(const SimulatePlan& plan) {
@@ -183,7 +175,8 @@ std::vector<MapCurve> theory_curves(const MapJob& job) {
     MapCurve curve = search.find(name, good);
     if (!curve.x.empty()) curves.push_back(std::move(curve));
   };
-  add(scheme_words(corner) + ", start pose", is_stable_at_start);
+  add(scheme_words(corner) + ", start pose",
+      [](const SimulatePlan& plan) { return is_stable_at(plan, plan.input.robot.state.x); });
   if (std::any_of(couplings.begin(), couplings.end(),
                   [](const SceneCoupling& c) { return !c.driven.turned.empty(); }))
     add("the same, worst pose of the target", is_stable_along_motion);

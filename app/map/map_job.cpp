@@ -20,12 +20,6 @@ namespace {
 constexpr int kLineOfX = -1, kLineOfY = -2;
 constexpr double kMaxMapCells = 4.2e6, kMaxSteps = 1e8;  // of a map, of a cell
 
-MapMeasure parse_measure(const std::string& name, DiagnosticList& faults) {
-  const std::vector<std::string> names(kMapMeasures.begin(), kMapMeasures.end());
-  return static_cast<MapMeasure>(
-      choose("--measure", name, names, "measures", faults, "map.measure").value_or(0));
-}
-
 InputError attributed_to_axes(const InputError& error, const MapJob& job, double x, double y) {
   std::vector<Diagnostic> faults = error.faults();
   for (Diagnostic& fault : faults) {
@@ -140,86 +134,7 @@ constexpr double kMaxCells = 4096;  // along an axis
 const char* const kAxisForm =
     "write PATH:MIN:MAX:N[:log], as in coupling[0].stiffness:100:1e5:64:log";
 
-}  // namespace
-
-void set_parameters(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults) {
-  set_number(scene, job.x.path, x, kLineOfX, "--x", faults);
-  set_number(scene, job.y.path, y, kLineOfY, "--y", faults);
-}
-
-SimulatePlan prepare_cell(const MapJob& job, double x, double y) {
-  SimulateOptions options = job.run;
-  options.change_scene = [&](Value& scene, DiagnosticList&) {
-    DiagnosticList faults;
-    set_parameters(job, x, y, scene, faults);
-    faults.check();
-  };
-  try {
-    return prepare_simulation(options);
-  } catch (const InputError& error) {
-    throw attributed_to_axes(error, job, x, y);
-  }
-}
-
-MapJob read_map_job(const MapOptions& options) {
-  DiagnosticList faults;
-  MapJob job;
-  if (options.scene.empty())
-    faults.add("command line", "no scene is given", "twinarm map SCENE.toml --x .. --y ..",
-               "map.no-scene");
-  else if (options.scene.extension() != ".toml")
-    faults.add({options.scene.string(), 0, "", "is not a scene",
-                "give a scene (TOML) that contains the robot", "map.no-scene"});
-  const auto axis = [&](const char* name, const std::string& text, MapAxis& into) {
-    if (text.empty())
-      return faults.add(name, "is missing", "give PATH:MIN:MAX:N[:log]", "axis.missing");
-    if (const auto found = parse_axis(name, text, faults)) into = *found;
-  };
-  axis("--x", options.x, job.x);
-  axis("--y", options.y, job.y);
-  job.measure = parse_measure(options.measure, faults);
-  job.run.robot.model = options.scene;
-  job.run.duration = options.duration;
-  job.run.step = options.step;
-  job.run.integrator = options.integrator;
-  faults.check();
-  check_axes(job, options, faults);
-  job.scene = read_toml(options.scene);
-  job.x_unit = unit_of_number(job.scene, job.x.path);
-  job.y_unit = unit_of_number(job.scene, job.y.path);
-  job.identity = {
-      "x " + job.x.text(),
-      "y " + job.y.text(),
-      "of " + (options.of.empty() ? identity::kFirstCoupling : options.of),
-      "duration " + or_scene(options.duration),
-      "step " + or_scene(options.step),
-      "integrator " + (options.integrator.empty() ? identity::kAsScene : options.integrator)};
-  check_scene(job, options.of, faults);
-  check_once(faults);
-  job.side_by_side = !options.alone && CellBatch::of(job);
-  job.identity.push_back(std::string("cells ") +
-                         (job.side_by_side ? identity::kSideBySide : identity::kOneByOne));
-  return job;
-}
-
-double MapAxis::at(double u) const {
-  if (u <= 0) return from;
-  if (u >= count - 1) return to;
-  const double part = u / (count - 1);
-  return log ? from * std::pow(to / from, part) : from + (to - from) * part;
-}
-
-double MapAxis::place_of(double value) const {
-  const double part =
-      log ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
-  return part * (count - 1);
-}
-
-std::string MapAxis::text() const {
-  return path + ":" + number_text(from) + ":" + number_text(to) + ":" + std::to_string(count) +
-         (log ? ":log" : "");
-}
-
+// PATH:MIN:MAX:N[:log], or nothing and diagnostics of the option.
 std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
                                   DiagnosticList& faults) {
   bool good = true;
@@ -261,6 +176,89 @@ std::optional<MapAxis> parse_axis(const std::string& option, const std::string& 
   axis.count = static_cast<int>(good ? count : 0);
   if (!good) return std::nullopt;
   return axis;
+}
+
+}  // namespace
+
+void set_parameters(const MapJob& job, double x, double y, Value& scene, DiagnosticList& faults) {
+  set_number(scene, job.x.path, x, kLineOfX, "--x", faults);
+  set_number(scene, job.y.path, y, kLineOfY, "--y", faults);
+}
+
+SimulatePlan prepare_cell(const MapJob& job, double x, double y) {
+  SimulateOptions options = job.run;
+  options.change_scene = [&](Value& scene, DiagnosticList&) {
+    DiagnosticList faults;
+    set_parameters(job, x, y, scene, faults);
+    faults.check();
+  };
+  try {
+    return prepare_simulation(options);
+  } catch (const InputError& error) {
+    throw attributed_to_axes(error, job, x, y);
+  }
+}
+
+MapJob read_map_job(const MapOptions& options) {
+  DiagnosticList faults;
+  MapJob job;
+  if (options.scene.empty())
+    faults.add("command line", "no scene is given", "twinarm map SCENE.toml --x .. --y ..",
+               "map.no-scene");
+  else if (options.scene.extension() != ".toml")
+    faults.add({options.scene.string(), 0, "", "is not a scene",
+                "give a scene (TOML) that contains the robot", "map.no-scene"});
+  const auto axis = [&](const char* name, const std::string& text, MapAxis& into) {
+    if (text.empty())
+      return faults.add(name, "is missing", "give PATH:MIN:MAX:N[:log]", "axis.missing");
+    if (const auto found = parse_axis(name, text, faults)) into = *found;
+  };
+  axis("--x", options.x, job.x);
+  axis("--y", options.y, job.y);
+  const std::vector<std::string> measures(kMapMeasures.begin(), kMapMeasures.end());
+  job.measure = static_cast<MapMeasure>(
+      choose("--measure", options.measure, measures, "measures", faults, "map.measure")
+          .value_or(0));
+  job.run.robot.model = options.scene;
+  job.run.duration = options.duration;
+  job.run.step = options.step;
+  job.run.integrator = options.integrator;
+  faults.check();
+  check_axes(job, options, faults);
+  job.scene = read_toml(options.scene);
+  job.x_unit = unit_of_number(job.scene, job.x.path);
+  job.y_unit = unit_of_number(job.scene, job.y.path);
+  job.identity = {
+      "x " + job.x.text(),
+      "y " + job.y.text(),
+      "of " + (options.of.empty() ? identity::kFirstCoupling : options.of),
+      "duration " + or_scene(options.duration),
+      "step " + or_scene(options.step),
+      "integrator " + (options.integrator.empty() ? identity::kAsScene : options.integrator)};
+  check_scene(job, options.of, faults);
+  check_once(faults);
+  job.side_by_side = !options.alone && cell_batch(job);
+  job.identity.push_back(std::string("cells ") +
+                         (job.side_by_side ? identity::kSideBySide : identity::kOneByOne));
+  return job;
+}
+
+double MapAxis::at(double u) const {
+  if (u <= 0) return from;
+  if (u >= count - 1) return to;
+  const double part = u / (count - 1);
+  return log ? from * std::pow(to / from, part) : from + (to - from) * part;
+}
+
+double MapAxis::place_of(double value) const {
+  const double part =
+      log ? std::log(value / from) / std::log(to / from) : (value - from) / (to - from);
+  return part * (count - 1);
+}
+
+std::string MapAxis::text() const {
+  return path + ":" + number_text(from) + ":" + number_text(to) + ":" + std::to_string(count) +
+         (log ? ":log" : "");
 }
 
 }  // namespace twinarm

@@ -43,10 +43,6 @@ struct MapAxis {
   std::string text() const;             // PATH:MIN:MAX:N[:log] in the fewest digits
 };
 
-// PATH:MIN:MAX:N[:log], or nothing and diagnostics of the option.
-std::optional<MapAxis> parse_axis(const std::string& option, const std::string& text,
-                                  DiagnosticList& faults);
-
 // Values of MapJob::identity. They are part of the file format: do not change them.
 namespace identity {
 inline constexpr const char* kAsScene = "as the scene says";
@@ -69,6 +65,10 @@ struct MapJob {
 
   int nx() const { return x.count; }
   int ny() const { return y.count; }
+  std::size_t index(int ix, int iy) const {  // of a cell, row by row
+    return static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx()) +
+           static_cast<std::size_t>(ix);
+  }
 };
 
 // Reads the scene. Throws InputError with all diagnostics of options, axes, and of the scene at the

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "app/data/json_writer.h"
 #include "app/map/map_results.h"
@@ -22,55 +23,46 @@ std::string or_empty(double value) {
   return std::isfinite(value) ? number_text(value) : "";
 }
 
-}  // namespace
-
+// One measure of all cells, by MapJob::index().
 std::vector<double> values_of(const MapJob& job, const TileFile& file, MapMeasure measure) {
-  const auto which = static_cast<std::size_t>(measure), nx = static_cast<std::size_t>(job.nx());
-  std::vector<double> values(nx * static_cast<std::size_t>(job.ny()));
-  for (const auto& [place, cell] : file.cells) {
-    const auto [iy, ix] = place;
-    values[static_cast<std::size_t>(iy) * nx + static_cast<std::size_t>(ix)] = cell[which];
-  }
+  std::vector<double> values(job.index(0, job.ny()));
+  for (const auto& [place, cell] : file.cells)
+    values[job.index(place.second, place.first)] = cell[static_cast<std::size_t>(measure)];
   return values;
 }
 
+}  // namespace
+
 std::string map_json(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
-  JsonWriter json;
-  json.begin_object();
-  write_axis(json, "x", job.x, job.x_unit);
-  write_axis(json, "y", job.y, job.y_unit);
-  json.members({{"measure", name_of(job.measure)}, {"unit", job.unit}});
-  const std::vector<double> values = values_of(job, file, job.measure);
-  json.key("values").begin_array();
-  for (std::size_t iy = 0; iy < static_cast<std::size_t>(job.ny()); ++iy) {
-    const auto row = values.begin() + static_cast<std::ptrdiff_t>(iy * job.x.count);
-    json.numbers({row, row + job.x.count});
-  }
-  json.end_array();
-  json.key("curves").list(curves, [&](const MapCurve& curve) {
-    json.object({{"name", curve.name}, {"x", curve.x}, {"y", curve.y}});
+  return json_text([&](JsonWriter& json) {
+    write_axis(json, "x", job.x, job.x_unit);
+    write_axis(json, "y", job.y, job.y_unit);
+    json.members({{"measure", name_of(job.measure)}, {"unit", job.unit}});
+    const std::vector<double> values = values_of(job, file, job.measure);
+    json.key("values").begin_array();
+    for (int iy = 0; iy < job.ny(); ++iy)
+      json.value(std::span(values).subspan(job.index(0, iy), job.index(0, 1)));
+    json.end_array();
+    json.key("curves").list(curves, [&](const MapCurve& curve) {
+      json.object({{"name", curve.name}, {"x", curve.x}, {"y", curve.y}});
+    });
   });
-  json.end_object();
-  return json.str() + "\n";
 }
 
 std::string map_csv(const MapJob& job, const TileFile& file) {
   const auto with = [](const std::string& name, const std::string& unit) {
     return name + "[" + unit + "]";
   };
-  const std::string error_unit = job.error_unit;
   std::string text = with(job.x.path, job.x_unit) + "," + with(job.y.path, job.y_unit) +
-                     ",stable[1]," + with("max_error", error_unit) + "," +
-                     with("mean_error", error_unit) + ",energy[J],passivity[J]\n";
+                     ",stable[1]," + with("max_error", job.error_unit) + "," +
+                     with("mean_error", job.error_unit) + ",energy[J],passivity[J]\n";
   std::vector<std::vector<double>> measures;
   for (std::size_t m = 0; m < kMapMeasures.size(); ++m)
     measures.push_back(values_of(job, file, static_cast<MapMeasure>(m)));
   for (int iy = 0; iy < job.ny(); ++iy)
     for (int ix = 0; ix < job.nx(); ++ix) {
       text += number_text(job.x.at(ix)) + "," + number_text(job.y.at(iy));
-      const auto cell = static_cast<std::size_t>(iy) * static_cast<std::size_t>(job.nx()) +
-                        static_cast<std::size_t>(ix);
-      for (const auto& measure : measures) text += "," + or_empty(measure[cell]);
+      for (const auto& measure : measures) text += "," + or_empty(measure[job.index(ix, iy)]);
       text += "\n";
     }
   return text;
@@ -175,9 +167,7 @@ std::string cells(Gnuplot& gnuplot, const MapJob& job, const std::vector<double>
   std::vector<double> x, y, v;
   for (int iy = 0; iy < job.ny(); ++iy)
     for (int ix = 0; ix < job.nx(); ++ix) {
-      const double value =
-          values[static_cast<std::size_t>(iy) * static_cast<std::size_t>(job.nx()) +
-                 static_cast<std::size_t>(ix)];
+      const double value = values[job.index(ix, iy)];
       x.push_back(ix);
       y.push_back(iy);
       v.push_back(std::isfinite(value) ? std::clamp(range.scaled(value), range.low, range.high)

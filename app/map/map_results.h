@@ -11,17 +11,11 @@
 
 namespace twinarm {
 
-struct ComputeOptions {
-  unsigned threads = 0;  // 0: as many as there are processors
-  bool quiet = false;    // no progress
-};
-
 // Adds the missing cells of the blocks `wanted` to the file, and writes it to `work` about every
 // second and at the end, also if Interrupted or InputError is thrown. The values do not depend on
-// the number of threads, nor on existing cells.
+// the number of threads (0: one per processor), nor on existing cells.
 void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
-                    const std::filesystem::path& work, const ComputeOptions& options,
-                    TileFile& file);
+                    const std::filesystem::path& work, unsigned threads, TileFile& file);
 
 struct MapCurve {
   std::string name;
@@ -40,9 +34,6 @@ struct MapCurve {
 // along columns, to 1e-4 of the axis.
 std::vector<MapCurve> theory_curves(const MapJob& job);
 
-// One measure of all cells, [iy * nx + ix].
-std::vector<double> values_of(const MapJob& job, const TileFile& file, MapMeasure measure);
-
 std::string map_json(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves);
 std::string map_csv(const MapJob& job, const TileFile& file);
 // Numbers of cells and of stable cells, range of the measure.
@@ -53,7 +44,6 @@ std::string map_svg(const MapJob& job, const TileFile& file, const std::vector<M
 std::string map_png(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves);
 
 struct OpenedCell {
-  int ix = 0, iy = 0;
   double x = 0, y = 0;
   CellValues values{};
   std::filesystem::path scene;  // the scene with both parameters set

@@ -81,10 +81,6 @@ bool TileFile::has_all_of(const MapBlocks::Block& block) const {
   return true;
 }
 
-MapBlocks blocks_of(const MapJob& job) {
-  return {job.nx(), job.ny()};
-}
-
 TileFile empty_tile_file(const MapJob& job) {
   TileFile file;
   file.head = {std::string("program ") + kProgramVersion,

@@ -41,7 +41,6 @@ struct TileFile {
 
 // Without cells.
 TileFile empty_tile_file(const MapJob& job);
-MapBlocks blocks_of(const MapJob& job);
 
 std::string to_text(const TileFile& file);
 // Throws InputError if it is another kind of file, or damaged.

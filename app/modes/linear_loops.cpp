@@ -1,24 +1,21 @@
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "app/modes/linear_system.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/constrained_dynamics.h"
+#include "solver/model/configuration.h"
 #include "solver/model/mimic.h"
 
 namespace twinarm {
 namespace {
 
-using Index = Eigen::Index;
+using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kDependentRows = 1e-9;  // relative to the largest pivot
 
-Index signed_index(std::size_t i) {
-  return static_cast<Index>(i);
-}
 VectorXd as_vector(const std::vector<double>& v) {
   return Eigen::Map<const VectorXd>(v.data(), signed_index(v.size()));
 }
@@ -26,11 +23,7 @@ VectorXd as_vector(const std::vector<double>& v) {
 State<double> moved(const Model<double>& model, const State<double>& x, const VectorXd& dq,
                     const VectorXd& dqd) {
   State<double> to = x;
-  for (std::size_t i = 1; i < model.parent.size(); ++i)
-    visit_joint(model, i, [&](auto joint) {
-      double* q = to.q.data() + model.iq[i];
-      joint.integrate(q, dq.data() + model.iv[i], q);
-    });
+  integrate_coordinates(model, x.q, {dq.data(), dq.data() + dq.size()}, to.q);
   for (std::size_t dof = 0; dof < model.nv; ++dof) to.qd[dof] += dqd[signed_index(dof)];
   return to;
 }
@@ -50,21 +43,15 @@ class LoopConditions {
   struct Rates {
     VectorXd velocity, acceleration;
   };
-  // Central differences with Richardson extrapolation to order 6.
   Rates along(const VectorXd& dq, const VectorXd& dqd) {
     const double size = std::max({dq.lpNorm<Eigen::Infinity>(), dqd.lpNorm<Eigen::Infinity>()});
     if (size == 0) return difference(dq, dqd, 1);
-    const double s = 4e-2 / size;
-    std::array<Rates, 3> rate{difference(dq, dqd, s), difference(dq, dqd, s / 2),
-                              difference(dq, dqd, s / 4)};
-    double factor = 4;
-    for (std::size_t last = 2; last > 0; --last, factor *= 4)
-      for (std::size_t k = 0; k < last; ++k) {
-        const double c = 1 / (factor - 1);
-        rate[k].velocity = (1 + c) * rate[k + 1].velocity - c * rate[k].velocity;
-        rate[k].acceleration = (1 + c) * rate[k + 1].acceleration - c * rate[k].acceleration;
-      }
-    return rate[0];
+    return extrapolated_rate(
+        4e-2 / size, [&](double s) { return difference(dq, dqd, s); },
+        [](const Rates& a, double by_a, Rates& b, double by_b) {
+          b.velocity = by_a * a.velocity + by_b * b.velocity;
+          b.acceleration = by_a * a.acceleration + by_b * b.acceleration;
+        });
   }
 
  private:
@@ -175,7 +162,7 @@ LoopedSystem linearise_with_loops(const Model<double>& model, const State<double
                                   const std::vector<std::size_t>& still) {
   const LoopClosures loops(model, closures);
   Held held = hold_at(model, x, push, loops);
-  const LinearSystem free = linearise(model, x, held.push, model.nv);
+  const LinearSystem free = linearise(model, x, held.push);
   const Index n = signed_index(free.dofs.size());
   const MatrixXd G = mimic_projection(model);
 
@@ -226,12 +213,7 @@ LoopedSystem linearise_with_loops(const Model<double>& model, const State<double
 }
 
 Mode by_all_velocities(const LoopedSystem& looped, const Mode& mode) {
-  Mode all{mode.eigenvalue, looped.Z.cast<std::complex<double>>() * mode.shape};
-  if (all.shape.size() == 0) return all;
-  Index largest = 0;
-  all.shape.cwiseAbs().maxCoeff(&largest);
-  if (std::abs(all.shape[largest]) > 0) all.shape /= std::complex<double>(all.shape[largest]);
-  return all;
+  return scaled({mode.eigenvalue, looped.Z.cast<std::complex<double>>() * mode.shape});
 }
 
 }  // namespace twinarm

@@ -6,16 +6,13 @@
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
+#include "solver/model/configuration.h"
 #include "solver/model/mimic.h"
 
 namespace twinarm {
 namespace {
 
-using Index = Eigen::Index;
-
-Index index(std::size_t i) {
-  return static_cast<Index>(i);
-}
+using Eigen::Index;
 
 // Derivatives of the applied forces (f_ext; tau) at x along one velocity.
 class ForceRates {
@@ -24,18 +21,9 @@ class ForceRates {
       : model_(model), x_(x), push_(push), k_(model) {}
 
   Forces<double> along(std::size_t dof, bool of_velocity) {
-    constexpr int kLevels = 3;
-    std::array<Forces<double>, kLevels> rate{difference(dof, of_velocity, 4e-2),
-                                             difference(dof, of_velocity, 2e-2),
-                                             difference(dof, of_velocity, 1e-2)};
-    double factor = 4;
-    for (int last = kLevels - 1; last > 0; --last, factor *= 4)
-      for (int k = 0; k < last; ++k) {
-        const double c = 1 / (factor - 1);
-        combine(rate[static_cast<std::size_t>(k) + 1], 1 + c, rate[static_cast<std::size_t>(k)],
-                -c);
-      }
-    return rate[0];
+    return extrapolated_rate(
+        4e-2, [&](double s) { return difference(dof, of_velocity, s); },
+        [&](const auto& a, double by_a, auto& b, double by_b) { combine(a, by_a, b, by_b); });
   }
 
  private:
@@ -52,11 +40,7 @@ class ForceRates {
     } else {
       std::vector<double> shift(model_.nv);
       shift[dof] = s;
-      for (std::size_t i = 1; i < model_.parent.size(); ++i)
-        visit_joint(model_, i, [&](auto joint) {
-          double* q = x.q.data() + model_.iq[i];
-          joint.integrate(q, shift.data() + model_.iv[i], q);
-        });
+      integrate_coordinates(model_, x_.q, shift, x.q);
     }
     forward_kinematics(model_, x, k_);
     Forces<double> forces(model_);
@@ -80,7 +64,7 @@ void add_turning(const Model<double>& model, const State<double>& x, Eigen::Matr
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (facts_of(model.joint[i]).quaternion < 0 || model.dofs(i) == 0) continue;
     const double* w = x.qd.data() + model.iv[i];
-    const Index at = index(model.iv[i]);
+    const Index at = signed_index(model.iv[i]);
     W.block<3, 3>(at, at) << 0, w[2], -w[1], -w[2], 0, w[0], w[1], -w[0], 0;
   }
 }
@@ -88,8 +72,8 @@ void add_turning(const Model<double>& model, const State<double>& x, Eigen::Matr
 }  // namespace
 
 LinearSystem linearise(const Model<double>& model, const State<double>& x,
-                       const AppliedForces& push, std::size_t dof_count) {
-  const Index nv = index(model.nv);
+                       const AppliedForces& push) {
+  const Index nv = signed_index(model.nv);
   Kinematics k(model);
   forward_kinematics(model, x, k);
   Forces<double> forces(model);
@@ -105,26 +89,18 @@ LinearSystem linearise(const Model<double>& model, const State<double>& x,
     for (const bool of_velocity : {false, true}) {
       const Forces<double> rate = rates.along(dof, of_velocity);
       minv_times(model, rate.tau, rate.f_ext, w);
-      (of_velocity ? by_qd : by_q).col(index(dof)) +=
+      (of_velocity ? by_qd : by_q).col(signed_index(dof)) +=
           Eigen::Map<const Eigen::VectorXd>(w.y.data(), nv);
     }
 
   // Without mimic joints: y of qd = G y, with M_y = G^T M G.
   const Eigen::MatrixXd M = mass_matrix(model, x);
-  const Eigen::MatrixXd all_G = mimic_projection(model);
-  LinearSystem system;
-  for (const std::size_t dof : independent_dofs(model))
-    if (dof < dof_count) system.dofs.push_back(dof);
-  const Index n = index(system.dofs.size());
-  const Eigen::MatrixXd G = all_G.leftCols(n);
-  const Eigen::MatrixXd M_y = G.transpose() * M * G;
-  system.A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
-  system.B = Eigen::MatrixXd::Zero(2 * n, n);
+  const Eigen::MatrixXd G = mimic_projection(model), M_y = G.transpose() * M * G;
+  const Index n = G.cols();
+  LinearSystem system{independent_dofs(model), Eigen::MatrixXd::Zero(2 * n, 2 * n),
+                      Eigen::MatrixXd::Zero(2 * n, n)};
   if (n == 0) return system;
-  for (Index r = 0; r < n; ++r)
-    for (Index c = 0; c < n; ++c)
-      system.A(r, c) = W(index(system.dofs[static_cast<std::size_t>(r)]),
-                         index(system.dofs[static_cast<std::size_t>(c)]));
+  system.A.topLeftCorner(n, n) = W(system.dofs, system.dofs);
   system.A.topRightCorner(n, n).setIdentity();
   system.A.bottomLeftCorner(n, n) = solve_symmetric(M_y, G.transpose() * M * by_q * G);
   system.A.bottomRightCorner(n, n) = solve_symmetric(M_y, G.transpose() * M * by_qd * G);
@@ -154,14 +130,19 @@ Mode mode_of(std::complex<double> eigenvalue, const Eigen::VectorXcd& vector) {
   Eigen::VectorXcd shape = vector.head(n);
   if (shape.lpNorm<Eigen::Infinity>() < kNothing * vector.lpNorm<Eigen::Infinity>())
     shape = vector.tail(n);  // drift: the velocity gives the direction
-  Index largest = 0;
-  shape.cwiseAbs().maxCoeff(&largest);
-  if (shape.size() > 0 && std::abs(shape[largest]) > 0)
-    shape /= std::complex<double>(shape[largest]);
-  return {eigenvalue, shape};
+  return scaled({eigenvalue, shape});
 }
 
 }  // namespace
+
+Mode scaled(Mode mode) {
+  if (mode.shape.size() == 0) return mode;
+  Index largest = 0;
+  mode.shape.cwiseAbs().maxCoeff(&largest);
+  const std::complex<double> scale = mode.shape[largest];
+  if (std::abs(scale) > 0) mode.shape /= scale;
+  return mode;
+}
 
 // The null space Z of A is deflated first: a drift (double eigenvalue 0, one eigenvector) would
 // lose half of the digits. With its complement Q, A = (0 Z^T A Q; 0 Q^T A Q).

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <complex>
 #include <functional>
 #include <vector>
@@ -26,9 +27,24 @@ struct LinearSystem {
   std::vector<std::size_t> dofs;  // velocity index of each row of dq
   Eigen::MatrixXd A, B;           // 2n x 2n, 2n x n
 };
-// Of the first `dof_count` velocities, which inertia does not couple to the others.
 LinearSystem linearise(const Model<double>& model, const State<double>& x,
-                       const AppliedForces& push, std::size_t dof_count);
+                       const AppliedForces& push);
+
+inline Eigen::Index signed_index(std::size_t i) {
+  return static_cast<Eigen::Index>(i);
+}
+
+// Richardson extrapolation of central differences with steps s, s/2 and s/4, to order 6.
+// combine(a, by_a, b, by_b) sets b = by_a a + by_b b.
+template <class Difference, class Combine>
+auto extrapolated_rate(double s, const Difference& difference, const Combine& combine) {
+  std::array rate{difference(s), difference(s / 2), difference(s / 4)};
+  double factor = 4;
+  for (std::size_t last = 2; last > 0; --last, factor *= 4)
+    for (std::size_t k = 0; k < last; ++k)
+      combine(rate[k + 1], 1 + 1 / (factor - 1), rate[k], -1 / (factor - 1));
+  return rate[0];
+}
 
 struct Mode {
   std::complex<double> eigenvalue;  // imaginary part >= 0: one for each pair [1/s]
@@ -37,6 +53,7 @@ struct Mode {
   // -Re / |eigenvalue|, 0 for an eigenvalue of 0.
   double damping_ratio() const;
 };
+Mode scaled(Mode mode);  // its largest component to 1
 // By ascending frequency. Eigenvalues that vanish by the rank of A are exactly zero.
 std::vector<Mode> modes_of(const Eigen::MatrixXd& A);
 

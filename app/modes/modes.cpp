@@ -11,12 +11,23 @@
 #include "app/data/json_writer.h"
 #include "app/data/tables.h"
 #include "app/scene/forces/add_contacts.h"
+#include "app/scene/forces/given_forces.h"
 
 namespace twinarm {
 namespace {
 
-bool is_free_joint(const NamedJoint& joint) {
-  return joint.type == JointType::free;
+// "base" for the free joint of a floating base.
+std::string name_of_part(const SimulateInput& input, const NamedJoint& joint) {
+  const Coordinates& coordinates = input.robot.coordinates;
+  const bool is_base = coordinates.floating() && joint.body == coordinates.base().body;
+  return is_base ? "base" : joint.name;
+}
+
+// The mode's components of a joint's velocities, in the coordinates of the command line.
+std::vector<double> shape_part(const SimulateInput& input, const NamedJoint& joint,
+                               const Eigen::VectorXd& by_velocity) {
+  return from_solver(joint, input.robot.state.x,
+                     {by_velocity.data(), by_velocity.data() + by_velocity.size()});
 }
 
 // Loops of the scene's constraints; projects the input's velocities on them.
@@ -51,7 +62,7 @@ std::vector<std::string> names_of_velocities(const std::string& name, const Name
   for (const JointComponent& c : joint.components()) {
     if (c.v < 0) continue;
     const auto v = static_cast<std::size_t>(c.v);
-    names[is_free_joint(joint) ? (v + 3) % 6 : v] = *c.label ? name + "/" + c.label : name;
+    names[joint.type == JointType::free ? (v + 3) % 6 : v] = *c.label ? name + "/" + c.label : name;
   }
   return names;
 }
@@ -82,38 +93,36 @@ std::vector<std::string> warnings_of(const SimulateInput& input,
   return warnings;
 }
 
+// Differentiable applied forces: given torques and wrenches, joint damping, and couplings with
+// fixed targets.
+class SmoothForces {
+ public:
+  explicit SmoothForces(SimulateInput& input)
+      : input_(input),
+        model_(input.robot.model),
+        torques_(model_, input.robot.coordinates, input.robot.state.tau) {
+    Kinematics k(model_);
+    forward_kinematics(model_, input.robot.state.x, k);
+    for (const Wrench& wrench : input.robot.state.wrenches) wrenches_.emplace_back(wrench, k);
+  }
+  void operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces) {
+    torques_.add_forces(x, k, forces);
+    for (GivenWrench& wrench : wrenches_) wrench.add_forces(x, k, forces);
+    for (std::size_t dof = 0; dof < model_.nv; ++dof)
+      forces.tau[dof] -= model_.damping[dof] * x.qd[dof];
+    if (!input_.couplings) return;
+    for (std::size_t c = 0; c < input_.couplings->size(); ++c)
+      input_.couplings->hold_still(c, x, k, forces);
+  }
+
+ private:
+  SimulateInput& input_;
+  const Model<double>& model_;
+  GivenTorques torques_;
+  std::vector<GivenWrench> wrenches_;
+};
+
 }  // namespace
-
-SmoothForces::SmoothForces(SimulateInput& input)
-    : input_(input),
-      model_(input.robot.model),
-      torques_(model_, input.robot.coordinates, input.robot.state.tau) {
-  Kinematics k(model_);
-  forward_kinematics(model_, input.robot.state.x, k);
-  for (const Wrench& wrench : input.robot.state.wrenches) wrenches_.emplace_back(wrench, k);
-}
-
-void SmoothForces::operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces) {
-  torques_.add_forces(x, k, forces);
-  for (GivenWrench& wrench : wrenches_) wrench.add_forces(x, k, forces);
-  for (std::size_t dof = 0; dof < model_.nv; ++dof)
-    forces.tau[dof] -= model_.damping[dof] * x.qd[dof];
-  if (!input_.couplings) return;
-  for (std::size_t c = 0; c < input_.couplings->size(); ++c)
-    input_.couplings->hold_still(c, x, k, forces);
-}
-
-std::string name_of_part(const SimulateInput& input, const NamedJoint& joint) {
-  const Coordinates& coordinates = input.robot.coordinates;
-  const bool is_base = coordinates.floating() && joint.body == coordinates.base().body;
-  return is_base ? "base" : joint.name;
-}
-
-std::vector<double> shape_part(const SimulateInput& input, const NamedJoint& joint,
-                               const Eigen::VectorXd& by_velocity) {
-  return from_solver(joint, input.robot.state.x,
-                     {by_velocity.data(), by_velocity.data() + by_velocity.size()});
-}
 
 ModesOf find_modes(SimulateInput& input) {
   const std::vector<LoopClosure> loops = take_loops(input);

@@ -6,23 +6,8 @@
 
 #include "app/modes/linear_system.h"
 #include "app/run/simulate_input.h"
-#include "app/scene/forces/given_forces.h"
 
 namespace twinarm {
-
-// Differentiable applied forces: given torques and wrenches, joint damping, and couplings with
-// fixed targets.
-class SmoothForces {
- public:
-  explicit SmoothForces(SimulateInput& input);
-  void operator()(const State<double>& x, const Kinematics& k, Forces<double>& forces);
-
- private:
-  SimulateInput& input_;
-  const Model<double>& model_;
-  GivenTorques torques_;
-  std::vector<GivenWrench> wrenches_;
-};
 
 struct ModesOf {
   LoopedSystem looped;
@@ -33,13 +18,6 @@ struct ModesOf {
 };
 // At the state of the input, its velocities projected on the constraints.
 ModesOf find_modes(SimulateInput& input);
-
-// The mode's components of a joint's velocities, in the coordinates of the command line.
-std::vector<double> shape_part(const SimulateInput& input, const NamedJoint& joint,
-                               const Eigen::VectorXd& by_velocity);
-
-// "base" for the free joint of a floating base.
-std::string name_of_part(const SimulateInput& input, const NamedJoint& joint);
 
 std::string modes_json(const SimulateInput& input, const ModesOf& found);
 std::string modes_table(const SimulateInput& input, const ModesOf& found);

@@ -249,6 +249,26 @@ void RunRecorder::write(RunView& run) {
   writer_.write(frame);
 }
 
+SimulateResult record_plan(const SimulateOptions& options, const SimulatePlan& prepared,
+                           RunWatch watch) {
+  const std::vector<std::string> command{"twinarm", "simulate", options.robot.model.string(),
+                                         "--record", options.record.string()};
+  RunRecorder recorder(options.record, header_of(options, prepared, command), prepared);
+  watch.interrupted = is_interrupted;
+  watch.look = [&, look = std::move(watch.look)](RunView& run) {
+    look(run);
+    recorder.look(run);
+  };
+  try {
+    SimulateResult result = run_plan(prepared.input, prepared.run, watch);
+    recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
+    return result;
+  } catch (const Interrupted&) {
+    recorder.finish("interrupted");
+    throw;
+  }
+}
+
 Replay replay(const Recording& recording, std::size_t first, const std::vector<Change>& changes) {
   const UnpackedRun files(recording.header());
   SimulateOptions options = files.options(changes);

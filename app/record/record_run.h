@@ -43,6 +43,11 @@ class RunRecorder {
   double every_, next_ = 0;
 };
 
+// Runs the plan and records it into options.record, as `twinarm simulate --record`; also if it is
+// interrupted, before Interrupted is thrown again. `watch` needs `look`, and `tick` for interrupts.
+SimulateResult record_plan(const SimulateOptions& options, const SimulatePlan& prepared,
+                           RunWatch watch);
+
 // A run resumed at a recorded step.
 struct Replay {
   long step = 0;            // first step

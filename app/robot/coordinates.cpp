@@ -20,6 +20,13 @@ Mat3<double> rotation_of(const NamedJoint& joint, const State<double>& x) {
   return quaternion_E(x.q.data() + joint.iq + 3);
 }
 
+std::vector<std::string> moving_joints(const RobotDescription& robot) {
+  std::vector<std::string> names;
+  for (const JointDescription& joint : robot.joints)
+    if (joint.dofs() > 0 && !joint.mimic) names.push_back(joint.name);
+  return names;
+}
+
 }  // namespace
 
 // A quaternion's x, y, z are paired with the angular velocity; its w with none.
@@ -103,17 +110,6 @@ void to_solver(const NamedJoint& joint, const State<double>& x, const double* va
   y[0] = w.x, y[1] = w.y, y[2] = w.z;
   std::copy_n(values, 3, y + 3);
 }
-
-namespace {
-
-std::vector<std::string> moving_joints(const RobotDescription& robot) {
-  std::vector<std::string> names;
-  for (const JointDescription& joint : robot.joints)
-    if (joint.dofs() > 0 && !joint.mimic) names.push_back(joint.name);
-  return names;
-}
-
-}  // namespace
 
 void normalise(TableReader& table, const std::string& key, std::span<double, 4> q,
                std::vector<std::string>* warnings) {

@@ -106,17 +106,13 @@ RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) 
 
 namespace {
 
-class StateReader {
- public:
-  StateReader(const std::filesystem::path& file, const RobotDescription& robot,
-              const Model<double>& model, const Coordinates& coordinates, const GivenState& start,
-              DiagnosticList& faults)
-      : file_(file.string()),
-        robot_(robot),
-        model_(model),
-        coordinates_(coordinates),
-        faults_(faults),
-        state_(start) {}
+struct StateReader {
+  const std::string file_;
+  const RobotDescription& robot_;
+  const Model<double>& model_;
+  const Coordinates& coordinates_;
+  DiagnosticList& faults_;
+  GivenState state_;
 
   GivenState read(const Value& json) {
     if (!json.is_table()) {
@@ -225,13 +221,6 @@ class StateReader {
   std::vector<std::string> link_names() const {
     return {model_.body_name.begin() + 1, model_.body_name.end()};
   }
-
-  std::string file_;
-  const RobotDescription& robot_;
-  const Model<double>& model_;
-  const Coordinates& coordinates_;
-  DiagnosticList& faults_;
-  GivenState state_;
 };
 
 }  // namespace
@@ -249,7 +238,7 @@ GivenState read_state(const Value& json, const std::filesystem::path& file,
                       const RobotDescription& robot, const Model<double>& model,
                       const Coordinates& coordinates, const GivenState& start,
                       DiagnosticList& faults) {
-  return StateReader(file, robot, model, coordinates, start, faults).read(json);
+  return StateReader{file.string(), robot, model, coordinates, faults, start}.read(json);
 }
 
 }  // namespace twinarm

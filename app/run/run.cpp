@@ -11,7 +11,6 @@
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/model/non_finite.h"
-#include "solver/stepping/event_driven_step.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -225,21 +224,6 @@ std::string deep_start_warning(const SceneContacts& contacts, ContactMode mode) 
       mode == ContactMode::compliant
           ? "contact springs accelerate them; move them apart, or give --contact rigid"
           : "bodies that overlap are separated at 0.5 m/s or less");
-}
-
-std::string unsolved_warning(long unsolved, long steps) {
-  if (unsolved == 0) return "";
-  return fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
-                     unsolved, steps);
-}
-
-std::string unlocated_warning(long unlocated, long steps) {
-  if (unlocated == 0) return "";
-  return fmt::format(
-      "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
-      "step "
-      "is first-order accurate; give --contact rigid, or a shorter --step",
-      unlocated, steps, EventStep::kMaxLaws);
 }
 
 }  // namespace twinarm

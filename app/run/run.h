@@ -89,11 +89,12 @@ struct SimulateResult {
 };
 
 struct RunWatch {
-  std::function<void(const std::string&)> warn;                // before the run; also in the result
-  std::function<void(double t, const State<double>&)> sample;  // times of the plan, in their order
-  std::function<void(RunView&)> look;                          // at the start and after each step
-  std::function<std::string(const Alarm&)> alarm;              // at most once; returns its text
-  std::function<void(double t)> tick;                          // after each step; may throw
+  std::function<void(const std::string&)> warn;  // before the run; also in the result
+  // At the times of the plan, in their order.
+  std::function<void(double t, const State<double>&)> sample = [](double, const State<double>&) {};
+  std::function<void(RunView&)> look;              // at the start and after each step
+  std::function<std::string(const Alarm&)> alarm;  // at most once; returns its text
+  std::function<void(double t)> tick;              // after each step; may throw
   // Called within long steps; true ends the step, and tick(), which must throw, is called.
   bool (*interrupted)() = nullptr;
 };
@@ -136,10 +137,6 @@ PostMortem examine_end(const StepReport& report, const Simulation& simulation,
 std::string drift_warning(const Simulation& simulation, const RunPlan& plan);
 
 std::string deep_start_warning(const SceneContacts& contacts, ContactMode mode);
-
-// Steps whose implicit equation did not converge, and steps with events that were not located.
-std::string unsolved_warning(long unsolved, long steps);
-std::string unlocated_warning(long unlocated, long steps);
 
 // Times that differ by less than this fraction of a step are equal.
 inline constexpr double kSameTime = 1e-9;

@@ -24,13 +24,6 @@ void reject_robot_options(const RobotOptions& options, DiagnosticList& faults) {
     faults.add("--strict", "applies to a URDF only", "leave it out", "option.useless");
 }
 
-// `scene` is null if it could not be read.
-void choose_contact(const std::string& name, SceneDescription* scene, DiagnosticList& faults) {
-  if (name.empty()) return;
-  const auto mode = choose("--contact", name, kContactModes, "possible", faults);
-  if (mode && scene) scene->contact = static_cast<ContactMode>(*mode);
-}
-
 void check_treatments(const SceneModel& scene, const RunPlan& plan, DiagnosticList& faults) {
   for (const SceneCoupling& coupling : scene.couplings) {
     if (!coupling.leads()) continue;
@@ -121,7 +114,10 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
     if (options.change_scene) options.change_scene(tree, faults);
     return read_scene(tree, options.robot.model, options.robot.roots);
   });
-  choose_contact(options.contact, description ? &*description : nullptr, faults);
+  if (!options.contact.empty()) {
+    const auto mode = choose("--contact", options.contact, kContactModes, "possible", faults);
+    if (mode && description) description->contact = static_cast<ContactMode>(*mode);
+  }
   const RunPlan plan =
       plan_run(options, description ? defaults_of(*description) : RunDefaults{1.0}, faults);
   if (!options.robot.gravity.empty())

@@ -7,6 +7,7 @@
 
 #include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"
+#include "solver/stepping/event_driven_step.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -121,9 +122,15 @@ std::string SteppedRun::memory() {
 SimulateResult SteppedRun::finish() {
   if (!result_.post_mortem && result_.steps < last_step_)  // samples at the end
     for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
-  for (const std::string& text :
-       {unsolved_warning(unsolved_, result_.steps), unlocated_warning(unlocated_, result_.steps)})
-    if (!text.empty()) result_.warnings.push_back(text);
+  if (unsolved_ > 0)
+    result_.warnings.push_back(
+        fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
+                    unsolved_, result_.steps));
+  if (unlocated_ > 0)
+    result_.warnings.push_back(fmt::format(
+        "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
+        "step is first-order accurate; give --contact rigid, or a shorter --step",
+        unlocated_, result_.steps, EventStep::kMaxLaws));
   result_.ledger = ledger();
   result_.momentum = momentum();
   if (contacts_) result_.contacts = contacts_->contact_count();

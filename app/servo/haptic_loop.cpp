@@ -11,6 +11,17 @@
 #include <ctime>
 
 namespace twinarm {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;
+
+std::int64_t nanoseconds_of(clockid_t clock) noexcept {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return time.tv_sec * kSecond + time.tv_nsec;
+}
+
+}  // namespace
 
 std::vector<int> driven_bodies(const SceneModel& scene, const DrivenJoints& joints) {
   std::vector<int> bodies;
@@ -23,7 +34,7 @@ std::pair<int, Vector3> controlled_point(const SceneModel& scene,
   const std::vector<int> bodies = driven_bodies(scene, scene.couplings[driven.front()].driven);
   std::pair<int, Vector3> point{bodies.back(), Vector3::Zero()};
   for (const std::size_t c : driven)
-    if (scene.couplings[c].type == CouplingDescription::Type::linear)
+    if (scene.couplings[c].is_linear())
       point = {scene.couplings[c].spring.body, scene.couplings[c].spring.p_L};
   return point;
 }
@@ -76,18 +87,6 @@ const DeviceForce& HapticLoop::after_step(const Simulation& simulation, double h
   device_.render(rendered_);
   return rendered_;
 }
-
-namespace {
-
-constexpr std::int64_t kSecond = 1'000'000'000;
-
-std::int64_t nanoseconds_of(clockid_t clock) noexcept {
-  timespec time{};
-  clock_gettime(clock, &time);
-  return time.tv_sec * kSecond + time.tv_nsec;
-}
-
-}  // namespace
 
 ServoClock::ServoClock(double period)
     : period_(static_cast<std::int64_t>(std::llround(1e9 * period))) {}

@@ -22,6 +22,12 @@ std::filesystem::path library_of_this_code() {
   return is_known && found.dli_fname ? found.dli_fname : "";
 }
 
+InputError cannot_write(const std::filesystem::path& path, const std::string& why,
+                        const char* option) {
+  return InputError({{path.string(), 0, "", "cannot be written" + why,
+                      std::string("choose a writable folder with ") + option, "file.unwritable"}});
+}
+
 }  // namespace
 
 std::filesystem::path find_assets(const std::filesystem::path& given) {
@@ -59,16 +65,6 @@ std::filesystem::path find_input(const std::filesystem::path& name) {
     return name;
   }
 }
-
-namespace {
-
-InputError cannot_write(const std::filesystem::path& path, const std::string& why,
-                        const char* option) {
-  return InputError({{path.string(), 0, "", "cannot be written" + why,
-                      std::string("choose a writable folder with ") + option, "file.unwritable"}});
-}
-
-}  // namespace
 
 void require_writable_folder(const std::filesystem::path& folder, const char* option) {
   std::error_code error;

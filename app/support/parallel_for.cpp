@@ -20,17 +20,22 @@ struct SharedWork {
   std::exception_ptr failure{};  // stops the loop
 };
 
+template <class Call>
+std::exception_ptr failure_of(const Call& call) {
+  try {
+    call();
+    return nullptr;
+  } catch (...) {
+    return std::current_exception();
+  }
+}
+
 void work_off(std::size_t count, const std::function<void(std::size_t)>& one, SharedWork& work) {
   std::unique_lock held(work.lock);
   while (!work.failure && work.next < count) {
     const std::size_t mine = work.next++;
     held.unlock();
-    std::exception_ptr failure;
-    try {
-      one(mine);
-    } catch (...) {
-      failure = std::current_exception();
-    }
+    const std::exception_ptr failure = failure_of([&] { one(mine); });
     held.lock();
     if (!failure)
       ++work.done;
@@ -57,12 +62,7 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& one
     const std::size_t done = work.done;
     if (!work.failure) {
       held.unlock();
-      std::exception_ptr failure;
-      try {
-        tick(done);
-      } catch (...) {
-        failure = std::current_exception();
-      }
+      const std::exception_ptr failure = failure_of([&] { tick(done); });
       held.lock();
       if (!work.failure) work.failure = failure;
     }

@@ -1,18 +1,86 @@
 #include "app/trial/trial.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 
 #include "app/scene/read/read_scene.h"
 #include "app/servo/output/servo_output.h"
-#include "app/trial/trial_output.h"
+#include "app/support/progress.h"
 #include "solver/dynamics/kinematics.h"
 
 namespace twinarm {
 namespace {
 
 constexpr std::size_t kMeasured = 2;  // joints, as in the paper
+
+// Task: bring an object from one place of the table to another, in the horizontal plane.
+//
+// The gripper picks the object if the button is pressed within kReach of it, and carries it while
+// the button is held. Released within kReach of the goal it is placed, elsewhere dropped. The
+// object has no mass: the task measures positioning.
+struct PickAndPlace {
+  static constexpr double kReach = 0.03;  // [m]
+  const Vector3 goal{0.42, -0.28, 0};     // world [m]; z is ignored
+  Vector3 object{0.42, 0.28, 0};
+  bool is_carried = false, is_placed = false;
+  int picks = 0, drops = 0;               // drop: outside the goal
+  double picked_at = -1, placed_at = -1;  // first time [s]; negative: never
+
+  // Once a tick, at its time [s].
+  void tick(double t, const Vector3& gripper, bool closed) {
+    const bool closes = closed && !was_closed_, opens = !closed && was_closed_;
+    was_closed_ = closed;
+    if (is_placed) return;
+    if (closes && horizontal_distance(gripper, object) <= kReach) {
+      is_carried = true;
+      ++picks;
+      if (picked_at < 0) picked_at = t;
+    }
+    if (is_carried) object.head<2>() = gripper.head<2>();
+    if (!is_carried || !opens) return;
+    is_carried = false;
+    is_placed = off() <= kReach;
+    if (is_placed)
+      placed_at = t;
+    else
+      ++drops;
+  }
+  double off() const { return horizontal_distance(object, goal); }  // from the goal [m]
+
+ private:
+  static double horizontal_distance(const Vector3& a, const Vector3& b) {
+    return (a - b).head<2>().norm();
+  }
+  bool was_closed_ = false;
+};
+
+// Top view of the table in characters, x to the right, y up: robot, target robot, object and goal.
+// World coordinates; later marks cover earlier ones.
+class TopView {
+ public:
+  void point(const Vector3& p, char mark) {
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e3) return;
+    const double column = std::floor((p.x() + kHalf) / (2 * kHalf) * kColumns);
+    const double row = std::floor((kHalf - p.y()) / (2 * kHalf) * kRows);
+    if (column < 0 || column >= kColumns || row < 0 || row >= kRows) return;
+    lines_[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = mark;
+  }
+  void line(const Vector3& a, const Vector3& b, char mark) {
+    const int steps = 2 * kColumns;  // two points per character
+    for (int i = 0; i <= steps; ++i) point(a + (b - a) * i / steps, mark);
+  }
+  std::string text() const {  // lines in a frame
+    const std::string edge = "+" + std::string(kColumns, '-') + "+\n";
+    std::string all = edge;
+    for (const std::string& line : lines_) all += "|" + line + "|\n";
+    return all + edge;
+  }
+
+ private:
+  static constexpr double kHalf = 0.66;                      // from the middle to each side [m]
+  static constexpr int kColumns = 66, kRows = kColumns / 2;  // a character is twice as high as wide
+  std::vector<std::string> lines_ = std::vector<std::string>(kRows, std::string(kColumns, ' '));
+};
 
 // Poses and tracking errors of the robot and its target robot from the ticks.
 class TaskWatch {
@@ -36,18 +104,16 @@ class TaskWatch {
   }
   std::string picture(const TickResult& tick, const PickAndPlace* task) {
     TopView table;
-    if (task) {
-      const PickAndPlace::Places& places = task->places();
-      for (const double side : {-1.0, 1.0})
-        table.point(places.goal + Vector3(side * places.reach, 0, 0), side < 0 ? '[' : ']');
-    }
+    for (const double side : {-1.0, 1.0})
+      if (task)
+        table.point(task->goal + Vector3(side * PickAndPlace::kReach, 0, 0), side < 0 ? '[' : ']');
     pose(tick, true);
     draw(table, is_kinematic_ ? '#' : '.');
     if (!is_kinematic_) {
       pose(tick, false);
       draw(table, '#');
     }
-    if (task) table.point(task->progress().object, task->progress().is_carried ? '@' : 'o');
+    if (task) table.point(task->object, task->is_carried ? '@' : 'o');
     return table.text();
   }
   void finish(TrialResult& result) const {
@@ -99,9 +165,8 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
   if (condition.is_kinematic) options.mapping.force_scale = 0;
   LiveRun run(scene, device, options);
   TaskWatch watch(scene, scene.couplings[run.leader()].driven, condition.is_kinematic);
-  PickAndPlace places{{}};
-  PickAndPlace* const pick = task.is_pick_and_place ? &places : nullptr;
-  const PickAndPlace::Progress& progress = places.progress();
+  PickAndPlace progress;
+  PickAndPlace* const pick = task.is_pick_and_place ? &progress : nullptr;
   LiveLog log(log_file);
   ServoPlan plan;
   plan.duration = task.seconds;
@@ -121,7 +186,7 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
     }
     log.flush();
     if (any && task.show) task.show(watch.picture(newest, pick), reached);
-    stopped = stopped || (task.is_stopped && task.is_stopped());
+    stopped = stopped || is_interrupted();
     if (stopped || progress.is_placed) done = true;
   });
   log.finish();
@@ -135,43 +200,11 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
     result.picks = progress.picks;
     result.drops = progress.drops;
     result.picked_at = progress.picked_at;
-    result.off_mm = 1e3 * pick->off();
+    result.off_mm = 1e3 * progress.off();
   }
   result.log = log_file.string();
   watch.finish(result);
   return result;
-}
-
-namespace {
-
-double horizontal_distance(const Vector3& a, const Vector3& b) {
-  return (a - b).head<2>().norm();
-}
-
-}  // namespace
-
-void PickAndPlace::tick(double t, const Vector3& gripper, bool closed) {
-  const bool closes = closed && !closed_, opens = !closed && closed_;
-  closed_ = closed;
-  Progress& p = progress_;
-  if (p.is_placed) return;
-  if (closes && horizontal_distance(gripper, p.object) <= places_.reach) {
-    p.is_carried = true;
-    ++p.picks;
-    if (p.picked_at < 0) p.picked_at = t;
-  }
-  if (p.is_carried) p.object.head<2>() = gripper.head<2>();
-  if (!p.is_carried || !opens) return;
-  p.is_carried = false;
-  p.is_placed = off() <= places_.reach;
-  if (p.is_placed)
-    p.placed_at = t;
-  else
-    ++p.drops;
-}
-
-double PickAndPlace::off() const {
-  return horizontal_distance(progress_.object, places_.goal);
 }
 
 }  // namespace twinarm

@@ -8,7 +8,6 @@
 
 #include "app/scene/model/scene_model.h"
 #include "app/servo/servo_loop.h"
-#include "solver/spatial/pose.h"
 
 namespace twinarm {
 
@@ -32,12 +31,11 @@ struct TrialTask {
   bool is_pick_and_place = false;
   double seconds = 20;  // of free motion; timeout of pick-and-place
   bool real_time = true;
-  bool (*is_stopped)() = nullptr;  // polled; true ends the task early, its results are kept
   // Called about twenty times a second with a top view in characters. May be empty.
   std::function<void(const std::string& picture, double t)> show;
 };
 
-// One task under one condition. Throws InputError.
+// One task under one condition; Ctrl-C ends it early, its results are kept. Throws InputError.
 TrialResult run_task(const TrialCondition& condition, HandDevice& device,
                      const MappingSpec& mapping, const TrialTask& task,
                      const std::filesystem::path& log);
@@ -56,37 +54,5 @@ std::string trial_json(const TrialReport& report);
 void add_last_to_csv(const TrialReport& report, const std::filesystem::path& file);
 // The first of "S1", "S2", .. that is not in the file.
 std::string next_subject(const std::filesystem::path& file);
-
-// Task: bring an object from one place of the table to another, in the horizontal plane.
-//
-// The gripper picks the object if the button is pressed within `reach` of it, and carries it while
-// the button is held. Released within `reach` of the goal it is placed, elsewhere dropped. The
-// object has no mass: the task measures positioning.
-class PickAndPlace {
- public:
-  struct Places {
-    Vector3 object{0.42, 0.28, 0}, goal{0.42, -0.28, 0};  // world [m]; z is ignored
-    double reach = 0.03;                                  // [m]
-  };
-  struct Progress {
-    Vector3 object;
-    bool is_carried = false, is_placed = false;
-    int picks = 0, drops = 0;               // drop: outside the goal
-    double picked_at = -1, placed_at = -1;  // first time [s]; negative: never
-  };
-  explicit PickAndPlace(const Places& places) : places_(places), progress_{places.object} {}
-
-  // Once a tick, at its time [s].
-  void tick(double t, const Vector3& gripper, bool closed);
-
-  const Places& places() const { return places_; }
-  const Progress& progress() const { return progress_; }
-  double off() const;  // distance of the object from the goal [m]
-
- private:
-  Places places_;
-  Progress progress_;
-  bool closed_ = false;
-};
 
 }  // namespace twinarm

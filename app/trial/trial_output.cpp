@@ -1,9 +1,6 @@
-#include "app/trial/trial_output.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 #include "app/data/json_writer.h"
@@ -65,25 +62,24 @@ std::string trial_table(const TrialReport& report) {
 
 std::string trial_json(const TrialReport& report) {
   JsonWriter json;
-  json.begin_object();
-  json.members(
-      {{"subject", report.subject}, {"device", report.device}, {"mapping", report.mapping}});
-  json.key("results").list(report.results, [&](const TrialResult& r) {
-    json.begin_object();
-    json.members({{"condition", r.condition},
-                  {"task", r.task},
-                  {"done", r.is_done},
-                  {"seconds", r.seconds},
-                  {"picks", r.picks},
-                  {"drops", r.drops}});
-    json.key("picked_at");
-    r.picked_at < 0 ? json.null() : json.number(r.picked_at);
-    json.members(
-        {{"off_mm", r.off_mm}, {"max_deg", r.max_deg}, {"mean_deg", r.mean_deg}, {"log", r.log}});
-    json.end_object();
-  });
-  json.key("csv").text(report.csv);
-  json.end_object();
+  const auto write_result = [&](const TrialResult& r) {
+    json.object({{"condition", r.condition},
+                 {"task", r.task},
+                 {"done", r.is_done},
+                 {"seconds", r.seconds},
+                 {"picks", r.picks},
+                 {"drops", r.drops},
+                 {"picked_at", r.picked_at < 0 ? std::nullopt : std::optional(r.picked_at)},
+                 {"off_mm", r.off_mm},
+                 {"max_deg", r.max_deg},
+                 {"mean_deg", r.mean_deg},
+                 {"log", r.log}});
+  };
+  json.object({{"subject", report.subject},
+               {"device", report.device},
+               {"mapping", report.mapping},
+               {"results", [&] { json.list(report.results, write_result); }},
+               {"csv", report.csv}});
   return json.str();
 }
 
@@ -99,39 +95,6 @@ std::string next_subject(const std::filesystem::path& file) {
     const std::string code = fmt::format("S{}", n);
     if (std::find(known.begin(), known.end(), code) == known.end()) return code;
   }
-}
-
-TopView::TopView(double half, int columns)
-    : half_(half),
-      columns_(columns),
-      rows_(std::max(1, columns / 2)),
-      lines_(static_cast<std::size_t>(rows_), std::string(static_cast<std::size_t>(columns), ' ')) {
-}
-
-int TopView::column(double x) const {
-  return static_cast<int>(std::floor((x + half_) / (2 * half_) * columns_));
-}
-int TopView::row(double y) const {
-  return static_cast<int>(std::floor((half_ - y) / (2 * half_) * rows_));
-}
-
-void TopView::point(const Vector3& p, char mark) {
-  if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e3) return;
-  const int c = column(p.x()), r = row(p.y());
-  if (c < 0 || c >= columns_ || r < 0 || r >= rows_) return;
-  lines_[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)] = mark;
-}
-
-void TopView::line(const Vector3& a, const Vector3& b, char mark) {
-  const int steps = 2 * columns_;  // two points per character
-  for (int i = 0; i <= steps; ++i) point(a + (b - a) * i / steps, mark);
-}
-
-std::string TopView::text() const {
-  const std::string edge = "+" + std::string(static_cast<std::size_t>(columns_), '-') + "+\n";
-  std::string all = edge;
-  for (const std::string& line : lines_) all += "|" + line + "|\n";
-  return all + edge;
 }
 
 }  // namespace twinarm

@@ -172,28 +172,20 @@ void run_delay(const SampledDevice& device, unsigned seed, DelayRow& row) {
 }  // namespace
 
 std::vector<DelayRow> measure_delays(const SampledDevice& device, unsigned seed, const Tell& tell) {
-  struct Link {
-    const char* name;
-    double delay, jitter, loss;
-  };
-  const Link links[] = {{"none", 0, 0, 0},
-                        {"10 ms", 0.01, 0, 0},
-                        {"50 ms", 0.05, 0, 0},
-                        {"100 ms", 0.1, 0, 0},
-                        {"jitter", 0.08, 0.04, 0},
-                        {"loss", 0.1, 0, 0.3},
-                        {"jitter and loss", 0.08, 0.04, 0.3}};
+  const DelayRow links[] = {
+      {.name = "none"},
+      {.name = "10 ms", .delay = 0.01},
+      {.name = "50 ms", .delay = 0.05},
+      {.name = "100 ms", .delay = 0.1},
+      {.name = "jitter", .delay = 0.08, .jitter = 0.04},
+      {.name = "loss", .delay = 0.1, .loss = 0.3},
+      {.name = "jitter and loss", .delay = 0.08, .jitter = 0.04, .loss = 0.3}};
   std::vector<DelayRow> rows;
-  for (const Link& link : links)
+  for (const DelayRow& link : links)
     for (const bool control : {false, true}) {
-      DelayRow row;
-      row.name = link.name;
-      row.delay = link.delay;
-      row.jitter = link.jitter;
-      row.loss = link.loss;
+      DelayRow& row = rows.emplace_back(link);
       row.control = control;
       run_delay(device, seed, row);
-      rows.push_back(std::move(row));
       tell(static_cast<double>(rows.size()) / 14);
     }
   return rows;

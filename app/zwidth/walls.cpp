@@ -5,6 +5,7 @@
 
 #include "app/zwidth/zwidth.h"
 #include "coupling/analysis/joint_space_stiffness.h"
+#include "coupling/device/device_motion.h"
 #include "coupling/device/force_feedback.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/forces/spring.h"
@@ -56,25 +57,18 @@ class SoftWall final : public ForceSource {
   double k_;
 };
 
-class FixedMotion final : public OperatorMotion {
- public:
-  explicit FixedMotion(double angle) : angle_(angle) {}
-  HandSample sample(double, double) const override {
-    HandSample hand;
-    HandMapping{}.set_robot_angle(hand, 0, angle_, 0);
-    return hand;
-  }
-  double duration() const override { return 1; }
-  std::string description() const override { return "still"; }
-
- private:
-  double angle_;
-};
+DeviceMotion motion_at(double angle) {
+  HandStep step{0, 1, {}};
+  HandMapping{}.set_robot_angle(step.hand, 0, angle, 0);
+  DeviceMotion motion(1);
+  motion.set(step);
+  return motion;
+}
 
 // Force on the device at the link's end, at rest [N].
 double force_at_rest(double k_c, double k_e, double angle) {
   const Model<double> model = pressed_link();
-  const FixedMotion hand(angle);
+  const DeviceMotion hand = motion_at(angle);
   TargetRobot kvr(model, hand, HandMapping{}, {{"joint"}, "", 0, 0});
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::linear;

@@ -39,7 +39,7 @@ struct DelayRow {
   double amplitude = 0;                       // peak to peak, of the device in the last second [m]
   double force = 0;                           // mean while pressed [N]
   bool is_passive() const { return lowest >= -tick_work; }
-  std::vector<double> t, energy, position;  // every 10 ms
+  std::vector<double> t{}, energy{}, position{};  // every 10 ms
 };
 // Tracking error of a joint, all joints of the robot coupled.
 struct TrackingRow {

@@ -131,18 +131,16 @@ std::string zwidth_table(const ZwidthResult& result) {
 }
 
 std::string zwidth_json(const ZwidthResult& result) {
-  JsonWriter json;
-  json.begin_object();
-  write_all(json, "walls", result.walls);
-  json.key("plane").object({{"stable_B", result.plane.stable_B},
-                            {"stable_K", result.plane.stable_K},
-                            {"passive_B", result.plane.passive_B},
-                            {"passive_K", result.plane.passive_K}});
-  write_all(json, "series", result.series);
-  write_all(json, "delays", result.delays);
-  write_all(json, "following", result.follows);
-  json.end_object();
-  return json.str() + "\n";
+  return json_text([&](JsonWriter& json) {
+    write_all(json, "walls", result.walls);
+    json.key("plane").object({{"stable_B", result.plane.stable_B},
+                              {"stable_K", result.plane.stable_K},
+                              {"passive_B", result.plane.passive_B},
+                              {"passive_K", result.plane.passive_K}});
+    write_all(json, "series", result.series);
+    write_all(json, "delays", result.delays);
+    write_all(json, "following", result.follows);
+  });
 }
 
 std::string zwidth_csv(const ZwidthResult& result) {
@@ -167,17 +165,15 @@ namespace {
 
 constexpr int kPlotWidth = 1200, kPlotHeight = 560;
 
-struct LawCurve {
-  std::vector<double> B, K;
-};
+using LawCurve = std::vector<std::vector<double>>;  // B, K
 template <class Law>
 LawCurve law_curve(double from, double to, Law&& law) {
-  LawCurve curve;
+  LawCurve curve(2);
   for (int n = 0; n <= 200; ++n) {
     const double B = from * std::pow(to / from, n / 200.0), K = law(B);
     if (!(K > 0)) continue;
-    curve.B.push_back(B);
-    curve.K.push_back(K);
+    curve[0].push_back(B);
+    curve[1].push_back(K);
   }
   return curve;
 }
@@ -189,7 +185,6 @@ std::string plane_script(Gnuplot& gnuplot, const WallPlane& plane) {
       law_curve(from, d.damping, [&](double B) { return colgate_stiffness(d, B); });
   const LawCurve uncoupled =
       law_curve(from, to, [&](double B) { return uncoupled_stiffness(d, B); });
-  const auto curve = [&](const LawCurve& c) { return gnuplot.data({c.B, c.K}); };
   double top = 100, bottom = 1e9;
   for (const double K : plane.stable_K) top = std::max(top, K);
   for (const double K : plane.passive_K) bottom = std::min(bottom, K);
@@ -200,15 +195,15 @@ std::string plane_script(Gnuplot& gnuplot, const WallPlane& plane) {
       "set xlabel 'wall damping B [N s/m]'\nset ylabel 'wall stiffness K [N/m]'\n"
       "set format '%g'\nset key bottom right Left reverse\nplot ",
       d.damping, 1e3 * d.mass, d.rate, from, to * 1.3, bottom / 2, top * 4);
-  if (!colgate.B.empty())
+  if (!colgate[0].empty())
     text += fmt::format(
         "{} with filledcurves x1 fc '#CFE3F2' notitle, {} with lines lw 2 lc '{}' title "
         "'Colgate: b = K T/2 + |B|', ",
-        curve(colgate), curve(colgate), palette::linear);
+        gnuplot.data(colgate), gnuplot.data(colgate), palette::linear);
   text += fmt::format(
       "{} with lines lw 2 dt 2 lc '{}' title 'K = (b + B)/(T/2 + t_d)', "
       "{} with points pt 7 ps 0.8 lc '{}' title 'stability limit (runs)'",
-      curve(uncoupled), palette::torsional, gnuplot.data({plane.stable_B, plane.stable_K}),
+      gnuplot.data(uncoupled), palette::torsional, gnuplot.data({plane.stable_B, plane.stable_K}),
       palette::dvr);
   if (!plane.passive_B.empty())
     text += fmt::format(", {} with points pt 5 ps 0.8 lc '{}' title 'passivity limit (runs)'",
@@ -216,25 +211,20 @@ std::string plane_script(Gnuplot& gnuplot, const WallPlane& plane) {
   return text + "\n";
 }
 
-constexpr double kDrawnDelay = 0.1;  // [s]
-
-bool has_no_delay(const DelayRow& row) {
-  return row.delay == 0;
-}
-
 std::string delay_script(Gnuplot& gnuplot, const std::vector<DelayRow>& delays) {
   std::string text =
       "unset logscale\nset autoscale\nset title 'Energy put in, with a delay of 100 ms each "
       "way'\nset xlabel 'time [s]'\nset ylabel 'energy put in by the operator [mJ]'\n"
       "set key bottom right Left reverse\nset xrange [0:8]\n";
-  double top = 1;  // growing curves leave the picture
+  constexpr double kDrawnDelay = 0.1;  // [s]
+  double top = 1;                      // growing curves leave the picture
   for (const DelayRow& row : delays)
-    if (has_no_delay(row))
+    if (row.delay == 0)
       for (const double E : row.energy) top = std::max(top, 1e3 * E);
   text += fmt::format("set yrange [{:.5g}:{:.5g}]\n", -3 * top, 1.5 * top) +
           "plot 0 with lines lc '#9A9A9A' notitle";
   for (const DelayRow& row : delays) {
-    const bool late = !has_no_delay(row);
+    const bool late = row.delay != 0;
     if (late && (row.delay != kDrawnDelay || row.jitter > 0 || row.loss > 0)) continue;
     std::vector<double> energy;
     for (const double E : row.energy) energy.push_back(1e3 * E);

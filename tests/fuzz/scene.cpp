@@ -35,7 +35,6 @@ void scene(Bytes bytes) {
   goes_through([&] {
     const SimulatePlan plan = prepare_simulation(options);
     RunWatch watch;
-    watch.sample = [](double, const State<double>&) {};
     RunStart start;
     start.anew = true;
     start.last_step = 2;

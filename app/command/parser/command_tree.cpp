@@ -1,6 +1,5 @@
 #include "app/command/parser/command_tree.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "app/command/parser/shared_options.h"
@@ -16,6 +15,25 @@ std::vector<std::string> paragraphs(const std::string& text) {
     from = end + 2;
   }
   return found;
+}
+
+// Separates the type from the checks in CLI11's type name: "FLOAT:above 0".
+constexpr char kSeparator = ':';
+
+// NUMBER, N, TEXT, PATH; empty: a flag.
+std::string value_word(const CLI::Option& option) {
+  if (option.get_items_expected_max() == 0) return "";
+  const std::string full = option.get_type_name(), type = full.substr(0, full.find(kSeparator));
+  if (type == "FLOAT") return "NUMBER";
+  if (type == "INT" || type == "UINT") return "N";
+  return type;
+}
+
+// "above 0"; may be empty.
+std::string value_limits(const CLI::Option& option) {
+  const std::string full = option.get_type_name();
+  const std::size_t at = full.find(kSeparator);
+  return at == std::string::npos ? "" : full.substr(at + 1);
 }
 
 // "[]" is that of an empty list.
@@ -63,19 +81,6 @@ void add_to_tree(CLI::App& command, const std::string& name, std::vector<Command
     add_to_tree(*below, (name.empty() ? "" : name + " ") + below->get_name(), tree);
 }
 
-}  // namespace
-
-std::vector<CommandInfo> command_tree(CLI::App& program) {
-  std::vector<CommandInfo> tree;
-  add_to_tree(program, "", tree);
-  return tree;
-}
-
-namespace {
-
-// Separates the type from the checks in CLI11's type name: "FLOAT:above 0".
-constexpr char kSeparator = ':';
-
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -101,18 +106,10 @@ class HelpFormatter : public CLI::Formatter {
 
 }  // namespace
 
-std::string value_word(const CLI::Option& option) {
-  if (option.get_items_expected_max() == 0) return "";
-  const std::string full = option.get_type_name(), type = full.substr(0, full.find(kSeparator));
-  if (type == "FLOAT") return "NUMBER";
-  if (type == "INT" || type == "UINT") return "N";
-  return type;
-}
-
-std::string value_limits(const CLI::Option& option) {
-  const std::string full = option.get_type_name();
-  const std::size_t at = full.find(kSeparator);
-  return at == std::string::npos ? "" : full.substr(at + 1);
+std::vector<CommandInfo> command_tree(CLI::App& program) {
+  std::vector<CommandInfo> tree;
+  add_to_tree(program, "", tree);
+  return tree;
 }
 
 std::shared_ptr<CLI::FormatterBase> help_formatter() {

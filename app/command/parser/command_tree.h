@@ -8,7 +8,6 @@
 namespace CLI {
 class App;
 class FormatterBase;
-class Option;
 }  // namespace CLI
 
 namespace twinarm {
@@ -37,9 +36,7 @@ std::vector<CommandInfo> command_tree(CLI::App& program);
 std::string man_page(CLI::App& program, const std::string& version);
 std::string shell_completion(CLI::App& program);
 
-// Value and range of an option, as help and manual print them: "--port N", "(0 to 65535)".
-std::string value_word(const CLI::Option& option);    // NUMBER, N, TEXT, PATH; empty: a flag
-std::string value_limits(const CLI::Option& option);  // "above 0"; may be empty
+// Prints value and range of an option: "--port N", "(0 to 65535)".
 std::shared_ptr<CLI::FormatterBase> help_formatter();
 
 }  // namespace twinarm

@@ -14,15 +14,10 @@ std::string roff(const std::string& text) {
   for (const char c : text) {
     const bool starts_line = out.empty() || out.back() == '\n';
     if (starts_line && (c == '.' || c == '\'')) out += "\\&";
-    if (c == '\\') {
-      out += "\\e";
-    } else if (c == '-') {
-      out += "\\-";  // minus, not hyphen: can be copied
-    } else if (c == '`') {
-      out += "\\(ga";
-    } else {
-      out += c;
-    }
+    out += c == '\\'  ? "\\e"
+           : c == '-' ? "\\-"  // minus, not hyphen: can be copied
+           : c == '`' ? "\\(ga"
+                      : std::string(1, c);
   }
   return out;
 }

@@ -1,48 +1,56 @@
-// Options that several commands share; file arguments.
+// Adds the options of a command; the ranges of their numbers.
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
-
-namespace CLI {
-class App;
-class Option;
-class Validator;
-}  // namespace CLI
 
 namespace twinarm {
 
 struct RobotOptions;
 
-inline constexpr const char* kFileWord = "PATH";  // their values in help texts
+inline constexpr const char* kFileWord = "PATH";  // value of a file option in help texts
 
-// The options added after this call appear under this heading in the help, with their defaults.
-void begin_group(CLI::App& command, const char* heading);
+struct OptionAdder {
+  CLI::App& command;
 
-// An option or positional argument that names a file or folder. An empty name is an error: an unset
-// shell variable.
-CLI::Option* add_file_option(CLI::App& command, const char* name, std::filesystem::path& file,
-                             const char* help);
-CLI::Option* add_file_option(CLI::App& command, const char* name,
-                             std::vector<std::filesystem::path>& files, const char* help);
-// An input file; names that begin with assets/ are looked up by find_input().
-CLI::Option* add_input_option(CLI::App& command, const char* name, std::filesystem::path& file,
-                              const char* help);
+  // The options added after this call appear under this heading in the help, with their defaults.
+  void group(const char* heading) const;
+  // By the type of the value: a flag (bool), a file or folder (path), a number or a text.
+  // "--name": an option, "name": a positional argument.
+  template <class T>
+  CLI::Option* operator()(const char* name, T& value, const std::string& help) const {
+    if constexpr (std::is_same_v<T, bool>)
+      return command.add_flag(name, value, help);
+    else if constexpr (std::is_same_v<T, std::filesystem::path> ||
+                       std::is_same_v<T, std::vector<std::filesystem::path>>)
+      return as_file(command.add_option(name, value, help));
+    else
+      return command.add_option(name, value, help);
+  }
+  // An input file; names that begin with assets/ are looked up by find_input().
+  CLI::Option* input(const char* name, std::filesystem::path& file, const char* help) const;
+
+  // Options that several commands share.
+  void json(bool& value) const;
+  void assets(std::filesystem::path& folder) const;
+  void scene_step(std::optional<double>& step, std::string& integrator) const;
+  // The model, described by `model`, its state, and which of its effects to ignore.
+  void robot(RobotOptions& options, const char* model) const;
+
+ private:
+  // An empty name is an error: an unset shell variable.
+  static CLI::Option* as_file(CLI::Option* option);
+};
 
 // Ranges of numbers, described as in help texts (command_tree.h).
 CLI::Validator above_zero();
 CLI::Validator zero_or_more();
 CLI::Validator between(int min, int max);
 
-void add_json_option(CLI::App& command, bool& json);
-void add_assets_option(CLI::App& command, std::filesystem::path& assets);
-void add_scene_step_options(CLI::App& command, std::optional<double>& step,
-                            std::string& integrator);
 std::string integrator_names();  // "semi-implicit, rk4, .."
-
-// The model, described by `model`, its state, and which of its effects to ignore.
-void add_robot_options(CLI::App& command, RobotOptions& options, const char* model);
 
 }  // namespace twinarm

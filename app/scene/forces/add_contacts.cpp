@@ -7,19 +7,13 @@
 #include "solver/support/number_text.h"
 
 namespace twinarm {
-namespace {
-
-bool has_limits(const SceneModel& scene) {
-  for (const auto& robot : scene.description.robots)
-    for (const JointDescription& joint : robot.description.joints)
-      if (joint.is_limited()) return true;
-  return false;
-}
-
-}  // namespace
 
 bool limits_act(const SceneModel& scene, Integrator integrator) {
-  return integrator == Integrator::semi_implicit && has_limits(scene);
+  const auto has_limits = [](const RobotInScene& robot) {
+    return std::ranges::any_of(robot.description.joints, &JointDescription::is_limited);
+  };
+  return integrator == Integrator::semi_implicit &&
+         std::ranges::any_of(scene.description.robots, has_limits);
 }
 
 bool steps_for_flight(const SceneModel& scene, Integrator integrator) {
@@ -41,23 +35,22 @@ bool locates_events(const SceneModel& scene) {
 
 void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticList& faults) {
   const std::string file = scene.description.file.string();
-  if (scene.description.contact == ContactMode::event)
+  if (locates_events(scene))
     for (const SceneCoupling& coupling : scene.couplings)
       if (coupling.leads() && coupling.needs_semi_implicit())
         faults.add({file, coupling.line, "coupling '" + coupling.coupling + "'",
                     "an implicit coupling cannot be combined with contact = \"event\"",
                     "give treatment = \"explicit\", or contact = \"rigid\"", "scene.treatment"});
-  if (scene.may_touch() && integrator != Integrator::semi_implicit)
+  if (integrator == Integrator::semi_implicit) return;
+  const auto fault = [&](const std::string& what, const char* fix) {
     faults.add({file, 0, "integrator",
-                std::string("contacts need the integrator semi-implicit, not ") +
-                    integrator_name(integrator),
-                "give --integrator semi-implicit, or exclude contacts by groups",
-                "run.integrator"});
-  else if (locates_events(scene) && integrator != Integrator::semi_implicit)
-    faults.add({file, 0, "integrator",
-                std::string("contact = \"event\" needs the integrator semi-implicit, not ") +
-                    integrator_name(integrator),
-                "give --integrator semi-implicit, or --contact rigid", "run.integrator"});
+                what + " the integrator semi-implicit, not " + integrator_name(integrator),
+                std::string("give --integrator semi-implicit, or ") + fix, "run.integrator"});
+  };
+  if (scene.may_touch())
+    fault("contacts need", "exclude contacts by groups");
+  else if (locates_events(scene))
+    fault("contact = \"event\" needs", "--contact rigid");
 }
 
 SceneContacts::SceneContacts(const SceneModel& scene, Simulation& simulation) : scene_(scene) {

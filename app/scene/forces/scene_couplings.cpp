@@ -156,7 +156,7 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
   CouplingEnds ends;
   if (spec.law == CouplingSpec::Type::matched) {
     ends = matched_ends(scene_.model, spec.spring, kvr, x);
-  } else if (spec.type == CouplingDescription::Type::linear) {
+  } else if (spec.is_linear()) {
     const Vector3 p_D = k.position(spec.spring.body, spec.spring.p_L);
     const Vector3 p_K = kvr.k.position(spec.spring.body, spec.spring.p_L);
     ends = {p_K - p_D, k.velocity(spec.spring.body, p_D), kvr.k.velocity(spec.spring.body, p_K)};
@@ -178,9 +178,7 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
 Vector3 SceneCouplings::pull(std::size_t c) const {
   const SceneCoupling& spec = scene_.couplings[c];
   const SpringState& reading = couplings_[c]->source->readings()[spec.reading(c)];
-  const bool at_joint =
-      spec.type == CouplingDescription::Type::torsional && spec.measure == SpringSpace::joint;
-  return at_joint ? Vector3(reading.size, 0, 0) : reading.pull;
+  return spec.at_joint() ? Vector3(reading.size, 0, 0) : reading.pull;
 }
 
 const CouplingSpec& SceneCouplings::law(std::size_t c) const {
@@ -203,7 +201,7 @@ void SceneCouplings::hold_still(std::size_t c, const State<double>& x, const Kin
   const Vector3 along = given.outside ? at.target_velocity : Vector3(Vector3::Zero());
   const Vector3 force = given.spring.k * at.offset - given.spring.b * (at.velocity - along);
   const int body = given.spring.body;
-  if (given.type == CouplingDescription::Type::linear)
+  if (given.is_linear())
     add_point_force(k, body, k.position(body, given.spring.p_L), force, forces);
   else if (given.measure == SpringSpace::world)
     add_couple(k, body, force, forces);

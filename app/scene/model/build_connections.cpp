@@ -58,14 +58,13 @@ class ConstraintBuilder {
   }
 
   void build_gear(const ConstraintDescription& given, SceneConstraint& made) {
-    const auto body_and_velocity = [&](const std::string& name) {
+    const auto child_of = [&](const std::string& name) {
       const JointReference joint = *find_joint(scene_.description, name);
-      const int body = scene_.model.find_joint(
+      return scene_.model.find_joint(
           name_in_scene(scene_.description, joint.robot, joint.joint->name));
-      return std::pair{body, scene_.model.iv[static_cast<std::size_t>(body)]};
     };
-    std::tie(made.a, made.iv_a) = body_and_velocity(given.a);
-    std::tie(made.b, made.iv_b) = body_and_velocity(given.b);
+    made.a = child_of(given.a);
+    made.b = child_of(given.b);
     made.ratio = given.ratio;
     const auto q = [&](int body) {
       return scene_.start.q[scene_.model.iq[static_cast<std::size_t>(body)]];

@@ -62,10 +62,7 @@ struct SceneCoupling : CouplingTraits {
   // Index of this component, number `index`, in Coupling::readings().
   std::size_t reading(std::size_t index) const { return index - leader; }
   // Acts on the link from outside, not as a joint force.
-  bool is_external() const {
-    return law != CouplingSpec::Type::matched &&
-           (type == CouplingDescription::Type::linear || measure == SpringSpace::world);
-  }
+  bool is_external() const { return law != CouplingSpec::Type::matched && !at_joint(); }
   // Discretization or law use the end of a semi-implicit step.
   bool needs_semi_implicit() const;
   // Row of the energy balance for work other than that of spring and damper.
@@ -79,11 +76,10 @@ struct SceneConstraint {
   std::string name;
   int line = 0;
   Type type = Type::weld;
-  int a = 0, b = 0;                // bodies; gear: children of the joints
-  Pose X_AC, X_BC;                 // link axes; distance: between the origins of both
-  double length = 0;               // distance, at the start [m]
-  std::size_t iv_a = 0, iv_b = 0;  // gear: velocity indices
-  double ratio = 1, offset = 0;    // gear: q_a = ratio q_b + offset
+  int a = 0, b = 0;              // bodies; gear: children of the joints
+  Pose X_AC, X_BC;               // link axes; distance: between the origins of both
+  double length = 0;             // distance, at the start [m]
+  double ratio = 1, offset = 0;  // gear: q_a = ratio q_b + offset
 };
 
 struct SceneModel {

@@ -36,9 +36,7 @@ void read_link(TableReader& table, const RobotDescription& robot, CouplingDescri
     return table.fault("link", "there is no link '" + coupling.link + "'",
                        name_remedy(coupling.link, names_of(robot.links), "links"),
                        "scene.unknown-name");
-  const bool at_joint = coupling.type == CouplingDescription::Type::torsional &&
-                        coupling.measure == SpringSpace::joint;
-  if (at_joint && !own_joint(robot, coupling.link))
+  if (coupling.at_joint() && !own_joint(robot, coupling.link))
     table.fault("link", "its joint is a mimic joint, or does not have one degree of freedom",
                 "name the child of a revolute, prismatic or screw joint, or give measure = "
                 "\"world\"",
@@ -77,11 +75,10 @@ void read_treatment(TableReader& table, const CouplingFacts& facts, CouplingDesc
 
 // The numbers that depend on the type, not on the target.
 void read_numbers(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
-  const bool is_torsional = coupling.type == CouplingDescription::Type::torsional;
   for (const CouplingKey& row : coupling_keys()) {
     if (!row.number || row.of_target || !fits(table, row.key, facts)) continue;
     if (row.is_required())
-      table.missing(row.key, std::string("give it in ") + row.unit_of(is_torsional));
+      table.missing(row.key, std::string("give it in ") + row.unit_of(!coupling.is_linear()));
     double& number = row.number(coupling);
     number = read_number(table, row.key, row.range).value_or(number);
   }
@@ -110,9 +107,7 @@ void read_soft_limits(TableReader& table, CouplingDescription& coupling) {
   if (!((*limits)[0] <= (*limits)[1]))
     table.fault("outside", "the first number exceeds the second", "give [lower, upper]",
                 "scene.order");
-  const bool at_joint = coupling.type == CouplingDescription::Type::torsional &&
-                        coupling.measure == SpringSpace::joint;
-  if (!at_joint || coupling.treatment != Discretization::implicit || table.has("target"))
+  if (!coupling.at_joint() || coupling.treatment != Discretization::implicit || table.has("target"))
     table.fault("outside", "needs an implicit torsional coupling at a joint, without a target",
                 "give type = \"torsional\", measure = \"joint\", and no treatment and target",
                 "scene.stop");

@@ -146,19 +146,15 @@ std::optional<std::filesystem::path> SceneReader::find_file(TableReader& table,
 
 namespace {
 
-// Splits "arm/joint1"; the robot is empty if there is no slash.
-std::pair<std::string, std::string> robot_and_item(const std::string& name) {
+// Splits "arm/joint1": index of the robot, or of the only one if there is no slash (-1: none), and
+// the name in it.
+std::pair<int, std::string> robot_and_item(const SceneDescription& scene, const std::string& name) {
   const auto slash = name.find('/');
-  if (slash == std::string::npos) return {"", name};
-  return {name.substr(0, slash), name.substr(slash + 1)};
-}
-
-// Index of the robot, or of the only one if the name is empty; -1: none.
-int find_robot(const SceneDescription& scene, const std::string& name) {
-  if (name.empty()) return scene.robots.size() == 1 ? 0 : -1;
-  for (std::size_t r = 0; r < scene.robots.size(); ++r)
-    if (scene.robots[r].name == name) return static_cast<int>(r);
-  return -1;
+  const std::string robot = slash == std::string::npos ? "" : name.substr(0, slash);
+  const std::string item = name.substr(slash + 1);  // npos + 1 is 0
+  if (robot.empty()) return {scene.robots.size() == 1 ? 0 : -1, item};
+  const auto found = std::ranges::find(scene.robots, robot, &RobotInScene::name);
+  return {found == scene.robots.end() ? -1 : static_cast<int>(found - scene.robots.begin()), item};
 }
 
 }  // namespace
@@ -170,8 +166,7 @@ std::optional<SceneReference> find_reference(const SceneDescription& scene,
     if (scene.bodies[b].name == name) return SceneReference{static_cast<int>(b), -1, ""};
   for (std::size_t r = 0; r < scene.robots.size(); ++r)
     if (scene.robots[r].name == name) return SceneReference{-1, static_cast<int>(r), ""};
-  const auto [robot_name, link] = robot_and_item(name);
-  const int robot = find_robot(scene, robot_name);
+  const auto [robot, link] = robot_and_item(scene, name);
   if (robot < 0 || !find_link(scene.robots[static_cast<std::size_t>(robot)].description, link))
     return std::nullopt;
   return SceneReference{-1, robot, link};
@@ -187,8 +182,7 @@ std::vector<std::string> reference_names(const SceneDescription& scene) {
 }
 
 std::optional<JointReference> find_joint(const SceneDescription& scene, const std::string& name) {
-  const auto [robot_name, joint_name] = robot_and_item(name);
-  const int robot = find_robot(scene, robot_name);
+  const auto [robot, joint_name] = robot_and_item(scene, name);
   if (robot < 0) return std::nullopt;
   const auto r = static_cast<std::size_t>(robot);
   for (const JointDescription& joint : scene.robots[r].description.joints)

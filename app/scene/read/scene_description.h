@@ -111,6 +111,10 @@ struct CouplingTraits {
   double rate = 0;               // of the force evaluation [Hz]; 0: every step
   double delay = 0;              // of the target's motion [s]; before: its start, at rest
   double speed = 1;              // factor on the speed of a motion or trace
+
+  bool is_linear() const { return type == Type::linear; }
+  // A torque about a joint, by its position.
+  bool at_joint() const { return type == Type::torsional && measure == SpringSpace::joint; }
 };
 
 struct CouplingDescription : CouplingTraits {

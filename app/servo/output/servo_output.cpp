@@ -65,12 +65,6 @@ void write_figures(JsonWriter& json, const char* name, const TickFigures& figure
                          {"slipped", figures.slipped}});
 }
 
-void write_files(JsonWriter& json, const LiveSummary& summary) {
-  json.key("log").text(summary.log);
-  if (summary.recording.empty()) return;
-  json.members({{"recording", summary.recording}, {"same_bits", summary.same_bits}});
-}
-
 }  // namespace
 
 std::string live_table(const LiveSummary& summary) {
@@ -83,10 +77,8 @@ std::string live_table(const LiveSummary& summary) {
   text += "\n\n";
   TextTable tracking({"|q_K - q_D| [deg]", "maximum", "mean"});
   for (std::size_t j = 0; j < summary.joints.size(); ++j)
-    tracking.add(
-        {summary.joints[j], fmt::format("{:.3f}", summary.max_error[j] / kDegree),
-         fmt::format("{:.3f}", summary.sum_error[j] /
-                                   static_cast<double>(std::max(1L, summary.ticks)) / kDegree)});
+    tracking.add({summary.joints[j], fmt::format("{:.3f}", summary.max_error[j] / kDegree),
+                  fmt::format("{:.3f}", summary.mean_error(j) / kDegree)});
   text += tracking.str();
   text += fmt::format("\nmaximum torque of motors 1, 2, 3: {:.1f}, {:.1f}, {:.1f} mN m\n",
                       1e3 * summary.max_torque[0], 1e3 * summary.max_torque[1],
@@ -104,34 +96,33 @@ std::string live_table(const LiveSummary& summary) {
 }
 
 std::string live_json(const LiveSummary& summary) {
-  JsonWriter json;
-  json.begin_object();
-  json.members({{"scene", summary.scene},
-                {"device", summary.device},
-                {"mapping", summary.mapping},
-                {"step", summary.step},
-                {"duration", summary.duration},
-                {"ticks", summary.ticks},
-                {"silences", summary.silences},
-                {"held", summary.held},
-                {"released", summary.released}});
-  json.key("tracking").begin_object();
-  for (std::size_t j = 0; j < summary.joints.size(); ++j)
-    json.key(summary.joints[j])
-        .object(
-            {{"max", summary.max_error[j]},
-             {"mean", summary.sum_error[j] / static_cast<double>(std::max(1L, summary.ticks))}});
-  json.end_object();
-  json.key("largest_torque").numbers({summary.max_torque.begin(), summary.max_torque.end()});
-  if (summary.real_time) {
-    json.key("span").number(summary.servo.span);
-    write_figures(json, "timing", summary.servo.run);
-    if (summary.servo.empty.cpu.count() > 0) write_figures(json, "empty_loop", summary.servo.empty);
-  }
-  json.key("finite").boolean(summary.servo.finite);
-  write_files(json, summary);
-  json.end_object();
-  return json.str();
+  return json_text([&](JsonWriter& json) {
+    json.members({{"scene", summary.scene},
+                  {"device", summary.device},
+                  {"mapping", summary.mapping},
+                  {"step", summary.step},
+                  {"duration", summary.duration},
+                  {"ticks", summary.ticks},
+                  {"silences", summary.silences},
+                  {"held", summary.held},
+                  {"released", summary.released}});
+    json.key("tracking").object([&] {
+      for (std::size_t j = 0; j < summary.joints.size(); ++j)
+        json.key(summary.joints[j])
+            .object({{"max", summary.max_error[j]}, {"mean", summary.mean_error(j)}});
+    });
+    json.put("largest_torque", summary.max_torque);
+    if (summary.real_time) {
+      json.put("span", summary.servo.span);
+      write_figures(json, "timing", summary.servo.run);
+      if (summary.servo.empty.cpu.count() > 0)
+        write_figures(json, "empty_loop", summary.servo.empty);
+    }
+    json.put("finite", summary.servo.finite);
+    json.put("log", summary.log);
+    if (!summary.recording.empty())
+      json.members({{"recording", summary.recording}, {"same_bits", summary.same_bits}});
+  });
 }
 
 void write_scene_of_log(const std::filesystem::path& scene, const std::filesystem::path& log,
@@ -155,51 +146,32 @@ State<double> record_again(const std::filesystem::path& scene,
   options.record = recording;
   SimulatePlan plan = prepare_simulation(options);
   plan.run.times.clear();
-  RunRecorder recorder(
-      recording,
-      header_of(options, plan,
-                {"twinarm", "simulate", scene.string(), "--record", recording.string()}),
-      plan);
   Progress progress(isatty(STDERR_FILENO) == 0);
   progress.stage("record", 1);
   State<double> end = plan.input.robot.state.x;
   RunWatch watch;
-  watch.look = [&](RunView& run) {
-    recorder.look(run);
-    end = run.simulation().state();
-  };
-  watch.interrupted = is_interrupted;
+  watch.look = [&](RunView& run) { end = run.simulation().state(); };
   watch.tick = [&](double t) {
     check_interrupt();
     progress.advance(t / plan.run.duration);
   };
-  try {
-    const SimulateResult result = run_plan(plan.input, plan.run, watch);
-    recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
-  } catch (const Interrupted&) {
-    recorder.finish("interrupted");
-    throw;
-  }
+  record_plan(options, plan, watch);
   progress.finish();
   return end;
 }
 
 namespace {
 
-struct Columns {
-  std::vector<double> at, share;  // [us], [%] of all ticks
-};
-
-// In bins of a quarter octave.
-Columns columns_of(const TickTimes& times) {
+// Duration [us] and share [%] of all ticks, in bins of a quarter octave.
+std::vector<std::vector<double>> columns_of(const TickTimes& times) {
   constexpr int kTogether = 4;
-  Columns columns;
+  std::vector<std::vector<double>> columns(2);
   for (int bin = 0; bin + kTogether <= TickTimes::kBins; bin += kTogether) {
     long count = 0;
     for (int i = 0; i < kTogether; ++i) count += times.count(bin + i);
-    columns.at.push_back(1e6 * TickTimes::upper_edge(bin + kTogether / 2));
-    columns.share.push_back(100.0 * static_cast<double>(count) /
-                            static_cast<double>(std::max(1L, times.count())));
+    columns[0].push_back(1e6 * TickTimes::upper_edge(bin + kTogether / 2));
+    columns[1].push_back(100.0 * static_cast<double>(count) /
+                         static_cast<double>(std::max(1L, times.count())));
   }
   return columns;
 }
@@ -207,7 +179,6 @@ Columns columns_of(const TickTimes& times) {
 // One panel: bars for the run and for the empty loop.
 std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& run,
                   const TickTimes& empty, double limit, const std::string& limit_name) {
-  const Columns measured = columns_of(run), control = columns_of(empty);
   std::string script = fmt::format(
       "set xlabel {}\nset ylabel 'share of all ticks [%]'\nset logscale xy\n"
       "set xrange [0.1:20000]\nset yrange [{}:150]\nset format y '%g'\nset format x '%g'\n",
@@ -219,12 +190,12 @@ std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& r
   script += fmt::format(
       "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title "
       "'with the robot'",
-      gnuplot.data({measured.at, measured.share}), palette::dvr);
+      gnuplot.data(columns_of(run)), palette::dvr);
   if (empty.count() > 0)
     script += fmt::format(
         ", {} using ($1*1.06):($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' "
         "title 'an empty loop'",
-        gnuplot.data({control.at, control.share}), palette::kvr);
+        gnuplot.data(columns_of(empty)), palette::kvr);
   return script + "\nunset arrow 1\nunset label 1\n";
 }
 

@@ -26,6 +26,10 @@ struct LiveSummary {
   bool same_bits = false;                    // the re-simulated run ended in the same state
   ServoResult servo;
   bool real_time = true;
+
+  double mean_error(std::size_t joint) const {
+    return sum_error[joint] / static_cast<double>(std::max(1L, ticks));
+  }
 };
 
 std::string live_table(const LiveSummary& summary);

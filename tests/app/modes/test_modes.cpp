@@ -38,7 +38,7 @@ Model<double> cart_and_pole() {
 
 std::vector<Mode> modes_at(const Model<double>& model, const State<double>& x,
                            const AppliedForces& push = nothing) {
-  return modes_of(linearise(model, x, push, model.nv).A);
+  return modes_of(linearise(model, x, push).A);
 }
 
 }  // namespace
@@ -140,7 +140,7 @@ TEST_CASE("A equals differences of aba() at random states of joints with vector 
   const Model<double> model =
       random_tree(random, 5, {JointType::revolute, JointType::prismatic, JointType::universal});
   const State<double> x = random_state(random, model);
-  const LinearSystem system = linearise(model, x, nothing, model.nv);
+  const LinearSystem system = linearise(model, x, nothing);
   const auto n = static_cast<Eigen::Index>(model.nv);
   CHECK((system.A.topRightCorner(n, n) - Eigen::MatrixXd::Identity(n, n)).norm() == 0);
   CHECK(system.A.topLeftCorner(n, n).norm() == 0);

@@ -222,7 +222,7 @@ TEST_CASE("a gear couples two wheels by its ratio; a locked joint makes two link
 TEST_CASE("without loops the result is linearise(); fixed velocities are left out") {
   const Model<double> model = parallelogram();
   const State<double> x(model);
-  const LinearSystem free = linearise(model, x, no_push, model.nv);
+  const LinearSystem free = linearise(model, x, no_push);
   const LoopedSystem none = linearise_with_loops(model, x, no_push, {});
   CHECK((none.system.A - free.A).norm() < 1e-12 * free.A.norm());
   CHECK((none.system.B - free.B).norm() < 1e-12 * free.B.norm());

@@ -33,7 +33,6 @@ inline RunSample sample_of(SimulatePlan plan, long steps) {
   RunSample sample;
   RunWatch watch;
   watch.warn = [](const std::string&) {};
-  watch.sample = [](double, const State<double>&) {};
   watch.look = [&](RunView& view) {
     if (view.step() == steps) {
       RecordedFrame& recorded = sample.frame.recorded;

@@ -14,7 +14,6 @@ std::filesystem::path recorded(const TemporaryFolder& folder, const SimulateOpti
   RunRecorder recorder(file, header_of(options, plan, {}), plan, period);
   RunWatch watch;
   watch.look = [&](RunView& run) { recorder.look(run); };
-  watch.sample = [](double, const State<double>&) {};
   run_plan(plan.input, plan.run, watch);
   recorder.finish("done");
   return file;
@@ -32,7 +31,6 @@ TEST_CASE("lab run: steps equal those of `simulate` bit for bit, after its files
     watch.look = [&](RunView& run) {
       if (run.step() % 100 == 0) memories.push_back(run.memory());
     };
-    watch.sample = [](double, const State<double>&) {};
     run_plan(plan.input, plan.run, watch);
     REQUIRE(memories.size() == 11);
     const LabScene scene = lab_scene(arm_with(target));

@@ -56,10 +56,8 @@ TEST_CASE("scene: constraints are satisfied at the start, at the given point and
   CHECK(scene.constraints[3].length == doctest::Approx(5));
 
   const SceneConstraint& wheels = scene.constraints[4];
-  CHECK(wheels.iv_a ==
-        scene.model.iv[static_cast<std::size_t>(scene.model.find_joint("left/joint1"))]);
-  CHECK(wheels.iv_b ==
-        scene.model.iv[static_cast<std::size_t>(scene.model.find_joint("right/joint2"))]);
+  CHECK(wheels.a == scene.model.find_joint("left/joint1"));
+  CHECK(wheels.b == scene.model.find_joint("right/joint2"));
   CHECK(wheels.ratio == -2);
   CHECK(wheels.offset == doctest::Approx(0.4).epsilon(1e-15));  // q_a = 0.4, q_b = 0
 }
