@@ -64,8 +64,7 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
 
 std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
                              const std::vector<double>& steps, DiagnosticList& faults) {
-  std::vector<std::string> known;
-  for (const IntegratorFacts& facts : all_integrators) known.push_back(facts.name);
+  const std::vector<std::string> known = names_of(all_integrators);
   std::vector<Integrator> found;
   for (const std::string& name : integrators) {
     if (const auto integrator = find_integrator(name))
@@ -111,6 +110,12 @@ CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& integratio
 std::size_t failures(const std::vector<CompareRow>& rows) {
   return static_cast<std::size_t>(std::count_if(
       rows.begin(), rows.end(), [](const CompareRow& r) { return !passes(*r.test, r.result); }));
+}
+
+std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped) {
+  const std::size_t failed = failures(rows);
+  return fmt::format("{} passed, {} failed", rows.size() - failed, failed) +
+         (skipped > 0 ? fmt::format(", {} skipped", skipped) : "");
 }
 
 namespace {
@@ -170,14 +175,11 @@ std::string compare_table(const std::vector<CompareRow>& rows,
           fmt::format("{}: error {} exceeds {}; {}\n", test->name, error_cell(result.error),
                       error_cell(test->tolerance), test->reference);
   }
-  const std::size_t failed = failures(rows);
   std::string text = rows.empty() ? "" : table.str() + "\n";
   if (!failed_cases.empty()) text += failed_cases + "\n";
   for (const SkippedCase* c : skipped) text += fmt::format("skipped {}: {}\n", c->name, c->why);
   if (!skipped.empty()) text += "\n";
-  text += fmt::format("{} passed, {} failed", rows.size() - failed, failed);
-  if (!skipped.empty()) text += fmt::format(", {} skipped", skipped.size());
-  return text + "\n";
+  return text + totals(rows, skipped.size()) + "\n";
 }
 
 // Numbers that are not finite become null.

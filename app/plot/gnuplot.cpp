@@ -34,6 +34,14 @@ std::filesystem::path require_gnuplot() {
                      "install gnuplot-nox (scripts/setup does)", "program.missing"}});
 }
 
+std::pair<double, double> finite_range(const std::vector<const std::vector<double>*>& curves) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const auto* values : curves)
+    for (const double x : *values)
+      if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+  return {low, high};
+}
+
 std::string in_quotes(const std::string& text) {
   return "'" + replaced(text, "'", "''") + "'";
 }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace twinarm {
@@ -52,6 +53,9 @@ class Gnuplot {
   std::filesystem::path folder_, program_, temporary_;
   int files_ = 0;
 };
+
+// Smallest and largest finite value of all curves; {inf, -inf} if there is none.
+std::pair<double, double> finite_range(const std::vector<const std::vector<double>*>& curves);
 
 // Text in a script: in single quotes, inner ones doubled.
 std::string in_quotes(const std::string& text);
