@@ -55,28 +55,24 @@ void PageChannels::add_frame(const RecordedFrame& frame, const Snapshot& snapsho
 
 void PageChannels::write(JsonWriter& json, PageBytes& bytes) const {
   bytes.add(json, "times", times_);
-  json.key("channels").begin_array();
-  for (std::size_t i = 0; i < channels_.all().size(); ++i) {
-    const RunColumn& channel = channels_.all()[i];
-    json.begin_object();
-    write_channel(json, channel);
-    bytes.add(json, "values", values_[i]);
-    json.end_object();
-  }
-  json.end_array();
-  json.key("ledger").begin_object();
-  json.key("rows").texts(run_.recording->rows());
-  json.key("end").list(end_, [&](const double work) { json.text(number_text(work)); });
-  bytes.add(json, "works", works_);
-  json.end_object();
-  json.key("momentum").begin_object();
-  json.key("rows").texts(run_.recording->momentum_rows());
-  bytes.add(json, "values", momenta_);
-  json.end_object();
-  std::vector<std::string> bodies;
-  const Model<double>& model = run_.model();
-  bodies.assign(model.body_name.begin() + 1, model.body_name.end());
-  json.key("bodies").texts(bodies);
+  std::size_t channel = 0;
+  json.key("channels").list(channels_.all(), [&](const RunColumn& column) {
+    json.object([&] {
+      write_channel(json, column);
+      bytes.add(json, "values", values_[channel++]);
+    });
+  });
+  json.key("ledger").object([&] {
+    json.key("rows").texts(run_.recording->rows());
+    json.key("end").list(end_, [&](const double work) { json.text(number_text(work)); });
+    bytes.add(json, "works", works_);
+  });
+  json.key("momentum").object([&] {
+    json.key("rows").texts(run_.recording->momentum_rows());
+    bytes.add(json, "values", momenta_);
+  });
+  const std::vector<std::string>& names = run_.model().body_name;
+  json.key("bodies").texts({names.begin() + 1, names.end()});
 }
 
 namespace {

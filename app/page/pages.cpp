@@ -14,6 +14,7 @@
 #include "app/page/page_facts.h"
 #include "app/page/page_layers.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "app/web/web_bundle.h"
 #include "solver/support/diagnostics.h"
@@ -21,14 +22,7 @@
 namespace twinarm {
 namespace {
 
-std::string without_tags(std::string json) {  // "</script>" in a name would end the block
-  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += 6)
-    json.replace(at, 1, "\\u003c");
-  return json;
-}
-
-}  // namespace
-
+// Throws InputError if the program was built without templates; `instead`: an alternative.
 void require_form(std::string_view form, std::string_view missing, const std::string& instead) {
   if (form.empty())
     throw InputError({{"", 0, "page", "there is no page to fill in",
@@ -37,9 +31,11 @@ void require_form(std::string_view form, std::string_view missing, const std::st
 
 std::string fill_form(std::string_view form, const std::string& title, const JsonWriter& json,
                       const PageBytes& bytes) {
-  const std::vector<std::pair<std::string, std::string>> parts{{"@TITLE@", escaped(title)},
-                                                               {"@RUN@", without_tags(json.str())},
-                                                               {"@BYTES@", bytes.packed()}};
+  // "</script>" in a name would end the block of the JSON.
+  const std::vector<std::pair<std::string, std::string>> parts{
+      {"@TITLE@", escaped(title)},
+      {"@RUN@", replaced(json.str(), "<", "\\u003c")},
+      {"@BYTES@", bytes.packed()}};
   std::string html;
   for (const auto& [mark, text] : parts) {  // each once, in this order
     const std::size_t at = form.find(mark);
@@ -48,6 +44,8 @@ std::string fill_form(std::string_view form, const std::string& title, const Jso
   }
   return html + std::string(form);
 }
+
+}  // namespace
 
 std::string inspect_page(const SimulateInput& input, const State<double>& x,
                          const std::string& inspection, const InspectedJson& words) {
