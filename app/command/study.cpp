@@ -118,17 +118,6 @@ std::string command_of(const StudyOptions& options) {
   return command;
 }
 
-void fill_search_table(const StudySettings& settings, StudyResults& results) {
-  for (double rate : settings.search_rates_hz) {
-    SearchRow row;
-    row.rate = rate;
-    for (const std::string& law : e3_laws())
-      row.e3[law] = &results.calibration.entry(fmt::format("E3/{:g}/{}", rate, law));
-    row.e4 = &results.calibration.entry(fmt::format("E4/{:g}", rate));
-    results.search.push_back(row);
-  }
-}
-
 StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
                      const OperatorMotion& hand, const Calibration& calibration,
                      Progress& progress) {
@@ -140,7 +129,7 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
   results.arm2_mass_scale = calibration.entry("chosen").numbers.at("arm2_mass_scale");
   for (const LinkDescription& link : inputs.s103.links)
     results.link_masses.emplace_back(link.name, link.mass);
-  fill_search_table(inputs.settings, results);
+  results.search_rates = inputs.settings.search_rates_hz;
   results.identifications =
       read_identifications(inputs.settings.assets / "study" / "identification.json");
 

@@ -12,24 +12,10 @@
 namespace twinarm {
 namespace {
 
-// KVR, DVR, studied coupling, auxiliary couplings and joint stops.
+// With joint stops.
 TrackingSeries track(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec) {
-  TrackingSetup setup;
-  setup.kvr_model = &robot.kvr_model();
-  setup.dvr_model = &robot.dvr_model(spec.coupling.type);
-  setup.hand = &hand;
-  setup.joints = robot.joints();
-  setup.kvr_rates = spec.kvr_rates;
-  setup.integrator = spec.integrator;
-  setup.h = spec.step();
-  CouplingSpec main = spec.coupling;
-  main.springs = robot.springs(spec.gains.k1, spec.gains.b1, spec.gains.k2, spec.gains.b2);
-  main.options.hold_steps = spec.held_substeps;
-  if (spec.held_substeps > 1) main.hold_steps = spec.held_substeps;
-  setup.couplings = {main};
-  for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
-  TrackingSystem system(setup);
-  JointStops stops("stops", *setup.dvr_model, robot.stops());
+  TrackingSystem system(tracking_setup(robot, hand, spec));
+  JointStops stops("stops", robot.dvr_model(spec.coupling.type), robot.stops());
   if (!robot.stops().empty()) system.simulation().add(stops);
   return system.run();
 }
@@ -65,6 +51,25 @@ void measure(const TrackingSeries& series, RunResult& result) {
 
 }  // namespace
 
+TrackingSetup tracking_setup(const StudyRobot& robot, const OperatorMotion& hand,
+                             const RunSpec& spec) {
+  TrackingSetup setup;
+  setup.kvr_model = &robot.kvr_model();
+  setup.dvr_model = &robot.dvr_model(spec.coupling.type);
+  setup.hand = &hand;
+  setup.joints = robot.joints();
+  setup.kvr_rates = spec.kvr_rates;
+  setup.integrator = spec.integrator;
+  setup.h = spec.step();
+  CouplingSpec main = spec.coupling;
+  main.springs = robot.springs(spec.gains);
+  main.options.hold_steps = spec.held_substeps;
+  if (spec.held_substeps > 1) main.hold_steps = spec.held_substeps;
+  setup.couplings = {main};
+  for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
+  return setup;
+}
+
 RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec) {
   RunResult result;
   result.spec = spec;
@@ -73,17 +78,13 @@ RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec
   return result;
 }
 
-void predict(const StudyRobot& robot, RunResult& result) {
-  predict(robot, result, robot.start_state());
-}
-
 void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose) {
   const RunSpec& spec = result.spec;
   const Model<double>& model = robot.dvr_model(spec.coupling.type);
   const AutomaticMotion hand{HandMapping{}};
   TargetRobot kvr(robot.kvr_model(), hand, HandMapping{}, robot.joints());
   CouplingSpec main = spec.coupling;
-  main.springs = robot.springs(spec.gains.k1, spec.gains.b1, spec.gains.k2, spec.gains.b2);
+  main.springs = robot.springs(spec.gains);
   const auto coupling = make_coupling(main, model, kvr);
   Kinematics k(model);
   forward_kinematics(model, pose, k);
@@ -122,9 +123,13 @@ ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
   return errors;
 }
 
+std::vector<double> in_degrees(std::vector<double> radians) {
+  for (double& x : radians) x /= kDegree;
+  return radians;
+}
+
 const char* treatment_name(const CouplingSpec& spec) {
-  if (spec.printed) return "as printed";
-  return name_of(spec.treatment);
+  return spec.printed ? "as printed" : name_of(spec.treatment);
 }
 
 std::string coupling_words(const CouplingSpec& spec) {
@@ -203,9 +208,10 @@ StudyRobot StudyRobot::findings(const RobotDescription& description) {
   return robot;
 }
 
-std::vector<Spring> StudyRobot::springs(double k1, double b1, double k2, double b2) const {
+std::vector<Spring> StudyRobot::springs(const Gains& g) const {
   const auto body = [&](std::size_t m) { return kvr_model_.find_body(mounts_.at(m).link); };
-  return {{"joint1", body(0), mounts_[0].p_L, k1, b1}, {"joint2", body(1), mounts_[1].p_L, k2, b2}};
+  return {{"joint1", body(0), mounts_[0].p_L, g.k1, g.b1},
+          {"joint2", body(1), mounts_[1].p_L, g.k2, g.b2}};
 }
 
 State<double> StudyRobot::start_state() const {

@@ -124,9 +124,8 @@ class SceneWriter {
 
   void write_coupling() {
     const CouplingSpec& coupling = scene_.spec.coupling;
-    const Gains& gains = scene_.spec.gains;
     const bool linear = coupling.type == CouplingSpec::Type::linear;
-    for (const Spring& spring : robot_.springs(gains.k1, gains.b1, gains.k2, gains.b2)) {
+    for (const Spring& spring : robot_.springs(scene_.spec.gains)) {
       table("coupling");
       line("name", quoted("pull_" + spring.name));
       line("type", quoted(facts_of(coupling.type, coupling.printed).name));

@@ -32,7 +32,7 @@ std::vector<Parameter> bounds(const StudyRobot& robot, const RunSpec& spec, doub
   RunResult unit;
   unit.spec = spec;
   unit.spec.gains = {1, 0, ratio, 0};
-  predict(robot, unit);
+  predict(robot, unit, robot.start_state());
   const double h = spec.step(), slow = unit.frequency[0], fast = unit.frequency[1];
   const double k_low = std::pow(2 * std::numbers::pi * kMinFrequency / slow, 2);
   const double k_high = 4 / std::pow(h * fast, 2), b_high = 2 / (h * fast * fast);
@@ -160,8 +160,8 @@ CalibrationEntry choose(const Calibration& calibration, const std::vector<double
   chosen.name = "chosen";
   chosen.objective = HUGE_VAL;
   for (double rate : rates) {
-    const CalibrationEntry& e3 = calibration.entry(fmt::format("E3/{:g}/world-", rate));
-    const CalibrationEntry& e4 = calibration.entry(fmt::format("E4/{:g}", rate));
+    const CalibrationEntry& e3 = calibration.e3("world-", rate);
+    const CalibrationEntry& e4 = calibration.e4(rate);
     const double worst = std::max(e3.objective, e4.objective);
     if (worst >= chosen.objective) continue;
     chosen.objective = worst;
@@ -187,9 +187,7 @@ Calibration calibrate(const StudyInputs& inputs, Progress& progress) {
 
   progress.stage("calibration: published linear law on E4", 0.25);
   for (auto rate = s.search_rates_hz.rbegin(); rate != s.search_rates_hz.rend(); ++rate)
-    jobs.push_back(
-        e4_job(inputs, *rate,
-               calibration.entry(fmt::format("E3/{:g}/world-", *rate)).value("arm2_mass_scale")));
+    jobs.push_back(e4_job(inputs, *rate, calibration.e3("world-", *rate).value("arm2_mass_scale")));
   run_jobs(jobs, calibration, progress);
   calibration.entries["chosen"] = choose(calibration, s.search_rates_hz);
 

@@ -90,6 +90,14 @@ const CalibrationEntry& Calibration::entry(const std::string& name) const {
   return found->second;
 }
 
+const CalibrationEntry& Calibration::e3(const std::string& law, double rate) const {
+  return entry(fmt::format("E3/{:g}/{}", rate, law));
+}
+
+const CalibrationEntry& Calibration::e4(double rate) const {
+  return entry(fmt::format("E4/{:g}", rate));
+}
+
 Calibration read_calibration(const std::filesystem::path& file) {
   return read_file(file, "a", "calibration", "--recalibrate", [](const nlohmann::json& root) {
     Calibration calibration;

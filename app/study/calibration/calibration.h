@@ -44,6 +44,8 @@ struct Calibration {
 
   // Throws InputError if there is no such entry.
   const CalibrationEntry& entry(const std::string& name) const;
+  const CalibrationEntry& e3(const std::string& law, double rate) const;
+  const CalibrationEntry& e4(double rate) const;
 };
 
 Calibration read_calibration(const std::filesystem::path& file);

@@ -22,7 +22,7 @@ constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
 
 // Gains of welds at the points of the linear springs, at the start pose.
 Gains weld_gains(const StudyRobot& robot, const CouplingSpec& weld) {
-  std::vector<Spring> springs = robot.springs(0, 0, 0, 0);
+  std::vector<Spring> springs = robot.springs({});
   for (Spring& spring : springs)
     spring = weld_spring(spring.name, robot.dvr_model(weld.type), robot.start_state(), spring.body,
                          spring.p_L, weld.reference);

@@ -25,7 +25,7 @@ double mode_ratio(const StudyRobot& robot, const std::string& law) {
   CouplingSpec spec;
   spec.type = law == "linear" ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
   spec.measure = law == "joint" ? SpringSpace::joint : SpringSpace::world;
-  spec.springs = robot.springs(1, 1, 1, 1);
+  spec.springs = robot.springs(Gains::both(1, 1));
   const Eigen::VectorXd squares =
       squared_frequencies(mass_matrix(model, x), make_coupling(spec, model, kvr)->joint_space(k).K);
   return squares(squares.size() - 1) / squares(0);

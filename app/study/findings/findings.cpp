@@ -8,6 +8,7 @@
 #include "app/data/value.h"
 #include "app/study/findings/variants.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 
@@ -66,29 +67,25 @@ Predictions read_predictions(const std::filesystem::path& assets) {
 void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyResults& results,
               Progress& progress) {
   std::size_t done = 0;
-  for (const auto& item : results.calibration.entries) {
-    const std::string& name = item.first;
-    const CalibrationEntry& entry = item.second;
+  for (const auto& [name, entry] : results.calibration.entries) {
     progress.advance(0.1 + 0.6 * static_cast<double>(++done) /
                                static_cast<double>(results.calibration.entries.size()));
     if (!name.starts_with("row/")) continue;
     check_interrupt();
-    const std::size_t slash = name.find('/', 4), last = name.rfind('/');
-    const std::string robot = name.substr(4, slash - 4);
-    const std::string law = name.substr(slash + 1, last - slash - 1);
-    RunSpec spec = row_spec(law, entry.rate);
+    const std::vector<std::string> parts = split(name, '/');  // row/ROBOT/LAW/RATE
+    const std::string &robot = parts[1], &law = parts[2];
+    const double rate = entry.rate;
+    RunSpec spec = row_spec(law, rate);
     spec.gains = entry.gains();
     const ProtocolErrors errors =
         run_protocol(inputs.findings.at(robot), spec, inputs.settings.sweep_times);
     results.rows[name] = errors;
-    Finding finding{"update rate",
-                    fmt::format("{}, {}, {:g} Hz, best gains", robot_words(robot), law, entry.rate),
-                    fmt::format("{} deg, mean {}", words(errors.max_deg), words(errors.mean_deg)),
-                    true};
-    const auto row =
-        std::find_if(predictions.rows.begin(), predictions.rows.end(), [&](const PredictedRow& p) {
-          return p.robot == robot && p.law == law && p.rate == entry.rate;
-        });
+    Finding finding{
+        "update rate", fmt::format("{}, {}, {:g} Hz, best gains", robot_words(robot), law, rate),
+        fmt::format("{} deg, mean {}", words(errors.max_deg), words(errors.mean_deg)), true};
+    const auto row = std::find_if(
+        predictions.rows.begin(), predictions.rows.end(),
+        [&](const PredictedRow& p) { return p.robot == robot && p.law == law && p.rate == rate; });
     if (row == predictions.rows.end()) continue;  // no claim
     for (std::size_t j = 0; j < 2; ++j) {
       finding.holds = finding.holds && is_near(errors.max_deg[j], row->max_deg[j], 0.1);

@@ -79,28 +79,18 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   const Model<double>& model = robot.dvr_model(type);
   const bool linear = type == CouplingSpec::Type::linear;
   ObstacleRun result;
-  result.name = linear ? "linear" : "torsional";
-  result.treatment = "implicit";
-  result.unit = linear ? "N" : "N m";
-
-  CouplingSpec spec;
-  spec.name = result.name;
-  spec.type = type;
-  spec.treatment = Discretization::implicit;
-  result.gains =
-      gains_from_frequency(robot, spec, o.coupling_frequency_hz, o.coupling_damping_ratio);
-  spec.springs = robot.springs(result.gains.k1, result.gains.b1, result.gains.k2, result.gains.b2);
+  RunSpec& spec = result.spec;
+  spec.coupling.name = linear ? "linear" : "torsional";
+  spec.coupling.type = type;
+  spec.coupling.treatment = Discretization::implicit;
+  spec.name = "obstacle_" + spec.coupling.name;
+  spec.title = spec.coupling.name + ", automatic, with a box";
+  spec.gains =
+      gains_from_frequency(robot, spec.coupling, o.coupling_frequency_hz, o.coupling_damping_ratio);
+  spec.rate = o.rate_hz;
 
   const AutomaticMotion hand{HandMapping{}};
-  TrackingSetup setup;
-  setup.kvr_model = &robot.kvr_model();
-  setup.dvr_model = &model;
-  setup.hand = &hand;
-  setup.joints = robot.joints();
-  setup.couplings = {spec};
-  for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
-  setup.h = 1 / o.rate_hz;
-  TrackingSystem system(setup);
+  TrackingSystem system(tracking_setup(robot, hand, spec));
   JointStops stops("stops", model, robot.stops());
   system.simulation().add(stops);
   ContactForce contact(model, {o.contact_stiffness, o.contact_dissipation, o.friction, 1e-3});
@@ -123,16 +113,16 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
     result.beyond.push_back(beyond);
     result.penetration.push_back(contact.deepest(k));
     if (linear && t > 0)
-      watch_target_radius(system.coupling(0), model, system.simulation().state(), k, setup.h,
+      watch_target_radius(system.coupling(0), model, system.simulation().state(), k, spec.step(),
                           result, nearest);
   });
   result.t = series.t;
-  for (std::size_t n = 0; n < series.t.size(); ++n) {
-    result.q_K_deg.push_back({series.q_K[0][n] / kDegree, series.q_K[1][n] / kDegree});
-    result.q_D_deg.push_back({series.q_D[0][n] / kDegree, series.q_D[1][n] / kDegree});
+  for (std::size_t j = 0; j < 2; ++j) {
+    result.q_K_deg[j] = in_degrees(series.q_K[j]);
+    result.q_D_deg[j] = in_degrees(series.q_D[j]);
   }
   const auto largest = [](const std::vector<double>& v) {
-    return v.empty() ? 0.0 : *std::max_element(v.begin(), v.end());
+    return *std::max_element(v.begin(), v.end());
   };
   result.max_penetration = largest(result.penetration);
   result.max_beyond = largest(result.beyond);

@@ -21,7 +21,7 @@ class Runner {
     spec.name = name;
     spec.title = title;
     results_.push_back(run(robot_, hand_, spec));
-    predict(robot_, results_.back());
+    predict(robot_, results_.back(), robot_.start_state());
     progress_.advance(static_cast<double>(results_.size()) / static_cast<double>(expected_));
   }
   std::vector<RunResult> take() { return std::move(results_); }
@@ -137,8 +137,8 @@ void add_ablations(const Calibration& calibration, Runner& add) {
 
 std::vector<RunSpec> reproduction_specs(const Calibration& calibration) {
   const double rate = calibration.entry("chosen").rate;
-  const Gains e3 = calibration.entry(fmt::format("E3/{:g}/world-", rate)).gains();
-  const Gains e4 = calibration.entry(fmt::format("E4/{:g}", rate)).gains();
+  const Gains e3 = calibration.e3("world-", rate).gains();
+  const Gains e4 = calibration.e4(rate).gains();
   std::vector<RunSpec> specs;
   for (const char* name : {"E1", "E2", "E3", "E4"}) {
     const bool torsional = name[1] == '1' || name[1] == '3', by_user = name[1] < '3';
@@ -161,7 +161,7 @@ std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibrati
     if (by_user && dynamic_cast<const SyntheticOperator*>(&hand))
       spec.title += " (synthetic operator)";
     results.push_back(run(robot, by_user ? hand : automatic, spec));
-    predict(robot, results.back());
+    predict(robot, results.back(), robot.start_state());
   }
   return results;
 }
@@ -184,7 +184,7 @@ Gains gains_from_frequency(const StudyRobot& robot, const CouplingSpec& coupling
   const double w = 2 * std::numbers::pi * frequency_hz;
   double I1 = M(0, 0), I2 = M(1, 1);
   if (coupling.type != CouplingSpec::Type::torsional) {
-    const std::vector<Spring> springs = robot.springs(1, 1, 1, 1);
+    const std::vector<Spring> springs = robot.springs(Gains::both(1, 1));
     I1 /= springs[0].p_L.head<2>().squaredNorm();
     I2 /= springs[1].p_L.head<2>().squaredNorm();
   }

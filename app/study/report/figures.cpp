@@ -7,6 +7,7 @@
 
 #include "app/study/report/figures_detail.h"
 #include "app/study/report/report.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 namespace {
@@ -49,10 +50,9 @@ std::string rate_axis(std::vector<double> rates) {
                      rates.back() * 1.12, tics);
 }
 
-// The part of "group/law/rate" between its slashes.
+// Of "group/law/rate".
 std::string law_of(const std::string& name) {
-  const std::size_t first = name.find('/'), last = name.rfind('/');
-  return first == last ? name.substr(first + 1) : name.substr(first + 1, last - first - 1);
+  return split(name, '/')[1];
 }
 
 double largest(const RunResult& run) {
@@ -69,7 +69,6 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
       by_law[law_of(run.spec.name)].push_back(&run);
       rates.push_back(run.spec.rate);
     }
-  if (rates.empty()) return;
   std::string script =
       "set multiplot\nset logscale y\nset tmargin at screen 0.92\n"
       "set bmargin at screen 0.17\nset xlabel 'update rate [Hz]'\n";
@@ -111,22 +110,23 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
 }
 
 void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
-  if (results.search.empty()) return;
-  std::vector<double> rates, e4;
-  for (const SearchRow& row : results.search) {
-    rates.push_back(row.rate);
-    e4.push_back(row.e4 ? std::max(0.5, 100 * row.e4->objective) : NAN);
-  }
+  const Calibration& c = results.calibration;
+  const std::vector<double>& rates = results.search_rates;
   constexpr double kFloor = 0.5;  // of the drawn values [%]
   double low = 10, high = 30;     // [%]; the range includes 15 %
-  const auto include = [&](const CalibrationEntry* entry) {
-    if (!entry || !(entry->objective > 0)) return;
-    low = std::max(kFloor, std::min(low, 100 * entry->objective));
-    high = std::max(high, 100 * entry->objective);
+  const auto percent_of = [&](const CalibrationEntry& entry) {
+    const double percent = 100 * entry.objective;
+    if (percent > 0) {
+      low = std::max(kFloor, std::min(low, percent));
+      high = std::max(high, percent);
+    }
+    return percent;
   };
-  for (const SearchRow& row : results.search) {
-    include(row.e4);
-    for (const auto& [law, entry] : row.e3) include(entry);
+  std::vector<double> e3[std::size(kFitLaws)], e4;
+  for (const double rate : rates) {
+    for (std::size_t l = 0; l < std::size(kFitLaws); ++l)
+      e3[l].push_back(percent_of(c.e3(kFitLaws[l].name, rate)));
+    e4.push_back(std::max(kFloor, percent_of(c.e4(rate))));
   }
   std::string script =
       rate_axis(rates) +
@@ -140,23 +140,14 @@ void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
       "set arrow from graph 0,first 15 to graph 1,first 15 nohead dt (4,4) lw 1.4 "
       "lc '#333333'\n"
       "set label '15 %' at graph 0.005,first 15 left offset 0,0.6 font ',11.5'\n";
-  const auto chosen = results.calibration.entries.find("chosen");
-  if (chosen != results.calibration.entries.end() && chosen->second.rate > 0)
-    script += fmt::format(
-        "set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 7 lc "
-        "'#EFE6D2' back\nset label 'chosen: {0:g} Hz' at first {0},graph 0.97 "
-        "left offset 0.8,0 font ',11.5'\n",
-        chosen->second.rate);
+  script += fmt::format(
+      "set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 7 lc "
+      "'#EFE6D2' back\nset label 'chosen: {0:g} Hz' at first {0},graph 0.97 "
+      "left offset 0.8,0 font ',11.5'\n",
+      c.entry("chosen").rate);
   std::string plots = "plot ";
-  for (const LawStyle& law : kFitLaws) {
-    std::vector<double> y;
-    for (const SearchRow& row : results.search) {
-      const auto entry = row.e3.find(law.name);
-      y.push_back(entry == row.e3.end() || !entry->second ? NAN : 100 * entry->second->objective);
-    }
-    if (std::any_of(y.begin(), y.end(), [](double v) { return std::isfinite(v); }))
-      plots += gnuplot.data({rates, y}) + " " + line_style(law) + ", ";
-  }
+  for (std::size_t l = 0; l < std::size(kFitLaws); ++l)
+    plots += gnuplot.data({rates, e3[l]}) + " " + line_style(kFitLaws[l]) + ", ";
   const LawStyle linear{"", "E4 linear", palette::linear, 13, "solid"};
   gnuplot.draw("search", "Best fit to the paper's rows against the update rate", 900, 470,
                script + plots + gnuplot.data({rates, e4}) + " " + line_style(linear));
@@ -170,16 +161,12 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
       runs.push_back(&run);
       if (run.stable) high = std::max(high, largest(run));
     }
-  if (runs.empty()) return;
-  if (high == 0) high = 1;
   std::string tics, labels;
   std::vector<double> y[2], x[2], theory[2];
   const auto rows = static_cast<double>(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const double row = rows - static_cast<double>(i);
-    const std::string name =
-        runs[i]->spec.title.empty() ? law_of(runs[i]->spec.name) : runs[i]->spec.title;
-    tics += fmt::format("{}{} {}", i ? ", " : "", in_quotes(name), row);
+    tics += fmt::format("{}{} {}", i ? ", " : "", in_quotes(runs[i]->spec.title), row);
     for (std::size_t j = 0; j < 2; ++j) {
       const double size = runs[i]->stable ? runs[i]->max_deg[j] : 1.05 * high;
       x[j].push_back(size);
@@ -243,7 +230,6 @@ void draw_prediction(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
       plots += fmt::format(", {} with points pt {} ps 0.8 lw 1.4 lc '{}' title '{}'",
                            gnuplot.data({x, y}), group.point, group.colour, group.words);
   }
-  if (plots.empty()) return;
   low /= 1.3;
   high *= 1.3;
   gnuplot.draw("prediction", "Predicted peak after a reversal against the measured maximum", 900,

@@ -152,16 +152,10 @@ void add_identification(const StudyResults& results, Slots& slots) {
 
 namespace {
 
-double number_or(const CalibrationEntry& entry, const char* name, double otherwise) {
-  const auto found = entry.numbers.find(name);
-  return found == entry.numbers.end() ? otherwise : found->second;
-}
-
 // Worst relative error, and in brackets the worst if a gain changes by 0.5 %.
-std::string error_cell(const CalibrationEntry* entry) {
-  if (!entry) return "<td>–</td>";
-  const double nominal = number_or(*entry, "worst_error", entry->objective);
-  const double shifted = number_or(*entry, "worst_error_shifted", entry->objective);
+std::string error_cell(const CalibrationEntry& entry) {
+  const double nominal = entry.numbers.at("worst_error");
+  const double shifted = entry.numbers.at("worst_error_shifted");
   const std::string numbers = fmt::format("{:.1f} ({:.1f})", 100 * nominal, 100 * shifted);
   return std::max(nominal, shifted) <= 0.15 ? "<td><span class=yes>" + numbers + "</span></td>"
                                             : "<td>" + numbers + "</td>";
@@ -221,16 +215,16 @@ std::string versions() {
 void add_search(const StudyResults& results, Slots& slots) {
   const Calibration& c = results.calibration;
   const double rate = c.entry("chosen").rate;
-  for (const SearchRow& row : results.search) {
-    const bool chosen = row.rate == rate;
+  for (const double searched : results.search_rates) {
+    const bool chosen = searched == rate;
     std::string& html = slots["search_rows"];
-    html += fmt::format("<tr{}><td>{:g} Hz{}</td>", chosen ? " class=chosen" : "", row.rate,
+    html += fmt::format("<tr{}><td>{:g} Hz{}</td>", chosen ? " class=chosen" : "", searched,
                         chosen ? ", chosen" : "");
-    for (const std::string& law : e3_laws()) html += error_cell(row.e3.at(law));
-    html += error_cell(row.e4) + "</tr>\n";
+    for (const std::string& law : e3_laws()) html += error_cell(c.e3(law, searched));
+    html += error_cell(c.e4(searched)) + "</tr>\n";
   }
   std::vector<const CalibrationEntry*> used = entries_of(c, fmt::format("E3/{:g}/", rate));
-  used.push_back(&c.entry(fmt::format("E4/{:g}", rate)));
+  used.push_back(&c.e4(rate));
   slots["chosen_rate"] = fmt::format("{:g}", rate);
   slots["chosen_parameters"] = parameter_table(used, true);
   slots["parameters_trial"] = parameter_table(entries_of(c, "trial/"), false);
