@@ -249,17 +249,10 @@ void draw_prediction(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
 
 void write_figures(const StudyResults& results, const std::filesystem::path& folder) {
   Gnuplot gnuplot(folder);
-  const RunResult *e3 = nullptr, *e4 = nullptr;
-  const std::map<std::string, std::string> names{
-      {"E1", "fig6a"}, {"E2", "fig6b"}, {"E3", "fig7c"}, {"E4", "fig7d"}};
-  for (const RunResult& run : results.reproduction) {
-    const auto name = names.find(run.spec.name);
-    if (name == names.end()) continue;
-    draw_angles(gnuplot, name->second, run);
-    if (run.spec.name == "E3") e3 = &run;
-    if (run.spec.name == "E4") e4 = &run;
-  }
-  if (e3 && e4) draw_errors(gnuplot, *e3, *e4);
+  const std::vector<RunResult>& runs = results.reproduction;
+  const char* const names[] = {"fig6a", "fig6b", "fig7c", "fig7d"};
+  for (std::size_t i = 0; i < runs.size(); ++i) draw_angles(gnuplot, names[i], runs[i]);
+  draw_errors(gnuplot, runs[2], runs[3]);
   draw_rates(gnuplot, results.variants);
   draw_search(gnuplot, results);
   draw_ablations(gnuplot, results.variants);
