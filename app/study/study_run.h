@@ -72,6 +72,11 @@ struct RunSpec {
   int held_substeps = 1;  // physics steps per coupling evaluation
   TargetRates kvr_rates = TargetRates::from_hand;
   Integrator integrator = Integrator::semi_implicit;
+  RunSpec with_gains(const Gains& other) const {
+    RunSpec spec = *this;
+    spec.gains = other;
+    return spec;
+  }
   double step() const { return 1 / (rate * held_substeps); }
   const char* pull_unit() const {  // of the coupling
     return coupling.type == CouplingSpec::Type::linear ? "N" : "N m";

@@ -26,29 +26,26 @@ FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type typ
 
 const std::vector<FamilyLaw>& family_laws() {
   using Type = CouplingSpec::Type;
-  static const std::vector<FamilyLaw> laws = [] {
-    std::vector<FamilyLaw> all{
-        {"printed-torsional", "torsional, as published", e3_spec("world-", 0).coupling},
-        {"printed-linear", "linear, as published", e4_spec(0).coupling},
-        consistent("torsional-world", "torsional, world orientation", Type::torsional,
-                   SpringSpace::world, Discretization::explicit_),
-        consistent("torsional-joint", "torsional, joint angle", Type::torsional, SpringSpace::joint,
-                   Discretization::explicit_),
-        consistent("linear", "linear", Type::linear, SpringSpace::world, Discretization::explicit_),
-        consistent("torsional-world-implicit", "torsional, world orientation, implicit",
-                   Type::torsional, SpringSpace::world, Discretization::implicit),
-        consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
-                   SpringSpace::joint, Discretization::implicit),
-        consistent("linear-implicit", "linear, implicit", Type::linear, SpringSpace::world,
-                   Discretization::implicit),
-        consistent("matched", "torsional, full K_q of a linear coupling", Type::matched,
-                   SpringSpace::world, Discretization::explicit_),
-        consistent("stable-pd", "stable PD at the joints", Type::stable_pd, SpringSpace::joint,
-                   Discretization::explicit_),
-        consistent("weld", "weld of the points, as in MuJoCo", Type::weld_like, SpringSpace::world,
-                   Discretization::explicit_)};
-    return all;
-  }();
+  static const std::vector<FamilyLaw> laws{
+      {"printed-torsional", "torsional, as published", e3_spec("world-", 0).coupling},
+      {"printed-linear", "linear, as published", e4_spec(0).coupling},
+      consistent("torsional-world", "torsional, world orientation", Type::torsional,
+                 SpringSpace::world, Discretization::explicit_),
+      consistent("torsional-joint", "torsional, joint angle", Type::torsional, SpringSpace::joint,
+                 Discretization::explicit_),
+      consistent("linear", "linear", Type::linear, SpringSpace::world, Discretization::explicit_),
+      consistent("torsional-world-implicit", "torsional, world orientation, implicit",
+                 Type::torsional, SpringSpace::world, Discretization::implicit),
+      consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
+                 SpringSpace::joint, Discretization::implicit),
+      consistent("linear-implicit", "linear, implicit", Type::linear, SpringSpace::world,
+                 Discretization::implicit),
+      consistent("matched", "torsional, full K_q of a linear coupling", Type::matched,
+                 SpringSpace::world, Discretization::explicit_),
+      consistent("stable-pd", "stable PD at the joints", Type::stable_pd, SpringSpace::joint,
+                 Discretization::explicit_),
+      consistent("weld", "weld of the points, as in MuJoCo", Type::weld_like, SpringSpace::world,
+                 Discretization::explicit_)};
   return laws;
 }
 

@@ -75,8 +75,7 @@ void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyRe
     const std::vector<std::string> parts = split(name, '/');  // row/ROBOT/LAW/RATE
     const std::string &robot = parts[1], &law = parts[2];
     const double rate = entry.rate;
-    RunSpec spec = row_spec(law, rate);
-    spec.gains = entry.gains();
+    const RunSpec spec = row_spec(law, rate).with_gains(entry.gains());
     const ProtocolErrors errors =
         run_protocol(inputs.findings.at(robot), spec, inputs.settings.sweep_times);
     results.rows[name] = errors;

@@ -34,11 +34,6 @@ class Runner {
   std::vector<RunResult> results_;
 };
 
-RunSpec with_gains(RunSpec spec, const Gains& gains) {
-  spec.gains = gains;
-  return spec;
-}
-
 RunSpec consistent(CouplingSpec::Type type, SpringSpace measure, Discretization treatment,
                    double rate) {
   RunSpec spec;
@@ -54,7 +49,7 @@ void add_trials(const StudySettings& s, const Calibration& calibration, Runner& 
     for (double rate : s.rates_hz) {
       const Gains gains = calibration.entry(fmt::format("trial/{}/{:g}", law, rate)).gains();
       add(fmt::format("trial/{}/{:g}", law, rate), law + ", optimal gains",
-          with_gains(trial_spec(law, rate), gains));
+          trial_spec(law, rate).with_gains(gains));
     }
 }
 
@@ -67,7 +62,7 @@ void add_matched(const StudySettings& s, const Calibration& calibration, Runner&
       RunSpec spec = consistent(type, SpringSpace::joint, Discretization::explicit_, rate);
       spec.kvr_rates = TargetRates::backward_difference;
       add(fmt::format("matched/{}/{:g}", name, rate), "the same K_q and B_q",
-          with_gains(spec, gains));
+          spec.with_gains(gains));
     }
   }
 }
@@ -109,7 +104,7 @@ void add_held(const StudySettings& s, const Calibration& calibration, Runner& ad
 void add_ablations(const Calibration& calibration, Runner& add) {
   constexpr double rate = 60;
   const Gains gains = calibration.entry("trial/signed-torsional/60").gains();
-  const RunSpec base = with_gains(trial_spec("signed-torsional", rate), gains);
+  const RunSpec base = trial_spec("signed-torsional", rate).with_gains(gains);
   add("ablation/signed", "signed damper, backward differences", base);
   RunSpec spec = base;
   spec.coupling.options.damper = Damper::folded;
@@ -127,10 +122,10 @@ void add_ablations(const Calibration& calibration, Runner& add) {
   add("ablation/older", "difference one frame older", spec);
   spec = consistent(CouplingSpec::Type::torsional, SpringSpace::world, Discretization::explicit_,
                     rate);
-  add("ablation/true-velocities", "current velocities of both robots", with_gains(spec, gains));
+  add("ablation/true-velocities", "current velocities of both robots", spec.with_gains(gains));
   add("ablation/ratio-0.2", "k2 = 0.2 k1, with its own optimal gains",
-      with_gains(trial_spec("signed-torsional-ratio", rate),
-                 calibration.entry("trial/signed-torsional-ratio/60").gains()));
+      trial_spec("signed-torsional-ratio", rate)
+          .with_gains(calibration.entry("trial/signed-torsional-ratio/60").gains()));
 }
 
 }  // namespace
@@ -143,7 +138,7 @@ std::vector<RunSpec> reproduction_specs(const Calibration& calibration) {
   for (const char* name : {"E1", "E2", "E3", "E4"}) {
     const bool torsional = name[1] == '1' || name[1] == '3', by_user = name[1] < '3';
     RunSpec spec =
-        torsional ? with_gains(e3_spec("world-", rate), e3) : with_gains(e4_spec(rate), e4);
+        torsional ? e3_spec("world-", rate).with_gains(e3) : e4_spec(rate).with_gains(e4);
     spec.name = name;
     spec.title = fmt::format("{}, {}", torsional ? "torsional" : "linear",
                              by_user ? "by user" : "automatic");
