@@ -43,12 +43,12 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
     bool found = false;
     for_each_name([&](const char* one, const char* of) { found |= selects(name, one, of); });
     if (!found)
-      faults.add({"", 0, "command line", fmt::format("unknown case or group '{}'", name),
-                  name_remedy(name, both, "cases and groups"), "compare.unknown"});
+      faults.add("command line", fmt::format("unknown case or group '{}'", name),
+                 name_remedy(name, both, "cases and groups"), "compare.unknown");
   }
   if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
-    faults.add({"", 0, "--group", fmt::format("unknown group '{}'", group),
-                name_remedy(group, groups, "groups"), "option.choice"});
+    faults.add("--group", fmt::format("unknown group '{}'", group),
+               name_remedy(group, groups, "groups"), "option.choice");
 
   const auto chosen = [&](const char* name, const char* of) {
     return (names.empty() && group.empty()) || group == of ||
@@ -70,13 +70,13 @@ std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
     if (const auto integrator = find_integrator(name))
       found.push_back(*integrator);
     else
-      faults.add({"", 0, "--integrator", fmt::format("unknown integrator '{}'", name),
-                  name_remedy(name, known, "integrators"), "option.choice"});
+      faults.add("--integrator", fmt::format("unknown integrator '{}'", name),
+                 name_remedy(name, known, "integrators"), "option.choice");
   }
   for (const double step : steps)
     if (!(step > 0) || !std::isfinite(step))
-      faults.add({"", 0, "--step", fmt::format("step is {} s, must be positive and finite", step),
-                  "for example --step 0.001,0.0005", "option.not-positive"});
+      faults.add("--step", fmt::format("step is {} s, must be positive and finite", step),
+                 "for example --step 0.001,0.0005", "option.not-positive");
 
   std::vector<Lane> integrations;
   if (integrators.empty() && steps.empty()) return integrations;

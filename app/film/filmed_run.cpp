@@ -94,12 +94,6 @@ FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& tim
   return run;
 }
 
-// Last time to simulate [s].
-double end_of(const FilmTimes& times, const SimulatePlan& plan) {
-  if (times.is_film) return times.to.value_or(plan.run.duration);
-  return std::max(times.at.value_or(0), 0.0);
-}
-
 // Replaces --duration of `twinarm simulate` in messages by the option of `render`.
 SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& times) {
   try {
@@ -120,15 +114,14 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
                             const std::string& camera, Progress& progress) {
   SimulateOptions options;
   options.robot = robot;
-  if (times.is_film)
-    options.duration = times.to;
-  else
-    options.duration = times.at && *times.at > 0 ? *times.at : 1.0;
+  options.duration = times.is_film ? times.to : times.at && *times.at > 0 ? *times.at : 1.0;
   FilmedRun run{{}, nullptr, nullptr, prepare_to_film(options, times), {}, {}};
   parse_camera(camera, run.model());  // reports errors before the run
   RunPlan& plan = run.plan.run;
   plan.times.clear();
-  const double end = end_of(times, run.plan), start = times.from.value_or(0);
+  const double start = times.from.value_or(0);
+  const double end =
+      times.is_film ? times.to.value_or(plan.duration) : std::max(times.at.value_or(0), 0.0);
   if (times.is_film) check_piece(start, end);
   if (plan.is_adaptive() && times.is_film) plan.step = std::min(plan.step, times.interval);
   plan.duration = end > 0 ? end : plan.step;  // one step for the forces at the start

@@ -14,9 +14,9 @@
 namespace twinarm {
 
 void PageBytes::write_place(JsonWriter& json, const void* data, std::size_t count, std::size_t size,
-                            const char* type) {
+                            char kind) {
   const std::size_t at = append_array(bytes_, data, count * size);
-  json.object({{"at", at}, {"count", count}, {"type", type}});
+  json.object({{"at", at}, {"count", count}, {"type", kind + std::to_string(8 * size)}});
 }
 
 std::string PageBytes::packed() const {

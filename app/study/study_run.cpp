@@ -46,7 +46,7 @@ void measure(const TrackingSeries& series, RunResult& result) {
     result.max_deg[j] = error.max[j] / kDegree;
     result.mean_deg[j] = error.mean[j] / kDegree;
   }
-  result.stable = series.finite && std::max(result.max_deg[0], result.max_deg[1]) < 180;
+  result.stable = series.finite && result.largest_deg() < 180;
 }
 
 }  // namespace
@@ -201,10 +201,9 @@ StudyRobot StudyRobot::findings(const RobotDescription& description) {
   robot.joints_.turned = {"joint1", "joint2"};
   robot.kvr_model_ = robot.dvr_plain_ = robot.dvr_weighted_ = build_model(description);
   for (const std::string& joint : robot.joints_.turned)
-    for (const JointDescription& j : description.joints)
-      if (j.name == joint)
-        for (const LinkDescription& link : description.links)
-          if (link.name == j.child) robot.mounts_.push_back({link.name, link.com});
+    for (const LinkDescription& link : description.links)
+      if (link.name == links_outward(description, joint)[0])
+        robot.mounts_.push_back({link.name, link.com});
   return robot;
 }
 

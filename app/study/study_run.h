@@ -1,6 +1,7 @@
 // One run of the study: specification, result and prediction.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -88,6 +89,7 @@ struct RunResult {
   TrackingSeries series;
   std::array<double, 2> max_deg{}, mean_deg{};
   bool stable = false;  // finite, and errors below 180 degrees
+  double largest_deg() const { return std::max(max_deg[0], max_deg[1]); }
 
   // Linear theory about a pose, by predict().
   std::array<double, 2> frequency{};  // natural [rad/s], ascending

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <iomanip>
+#include <sstream>
+
 #include "coupling/device/device_motion.h"
 #include "coupling/target/target_robot.h"
 
@@ -9,12 +12,9 @@ namespace twinarm {
 namespace {
 
 std::string quoted(const std::string& text) {
-  std::string all = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') all += '\\';
-    all += c;
-  }
-  return all + "\"";
+  std::ostringstream out;
+  out << std::quoted(text);
+  return out.str();
 }
 
 // All digits, with a decimal point: a TOML float.

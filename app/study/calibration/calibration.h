@@ -1,8 +1,7 @@
 // The paper's unpublished gains, found by search: assets/study/calibration.json.
 //
-// An entry has its optimiser, seed, bounds and evaluations besides the result, so that `twinarm
-// study
-// --recalibrate` can reproduce the file. Gains are not literals in the code.
+// An entry has its bounds and evaluations besides the result, so that `twinarm study --recalibrate`
+// can reproduce the file. Gains are not literals in the code.
 #pragma once
 
 #include <array>
@@ -88,15 +87,7 @@ struct StudyInputs {
 };
 StudyInputs load_inputs(const std::filesystem::path& assets);
 
-// The searches behind assets/study/calibration.json (docs/use/run_the_study.md):
-//
-//   E3/RATE/LAW        published torsional law, one k and b for both links, and the unpublished
-//   mass of
-//                      arm 2: fit to row E3
-//   E4/RATE            published linear law, gains per link, masses of E3: fit to row E4
-//   trial/LAW/RATE     minimum tracking error (the paper found its gains by trial)
-//   row/ROBOT/LAW/RATE the same for a two-link robot
-//   chosen             rate, law and mass of E1 to E4 of the study
+// The searches behind assets/study/calibration.json; entries: docs/reference/study_files.md.
 Calibration calibrate(const StudyInputs& inputs, Progress& progress);
 
 }  // namespace twinarm

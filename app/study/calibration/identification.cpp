@@ -70,19 +70,15 @@ double Identification::threshold() const {
 
 Identification::Interval Identification::interval(const Profile& profile) const {
   const std::vector<ProfilePoint>& points = profile.points;
-  const auto best = static_cast<std::size_t>(
-      std::min_element(points.begin(), points.end(),
-                       [](const auto& a, const auto& b) { return a.misfit < b.misfit; }) -
-      points.begin());
-  const auto end = [&](int step, double& value, bool& open) {
-    std::size_t i = best;
-    for (;; i = static_cast<std::size_t>(static_cast<int>(i) + step)) {
-      open = step < 0 ? i == 0 : i + 1 == points.size();
-      value = points[i].value;
+  const auto best = std::ranges::min_element(points, {}, &ProfilePoint::misfit);
+  const auto end = [&](std::ptrdiff_t step, double& value, bool& open) {
+    for (auto at = best;; at += step) {
+      value = at->value;
+      open = at == (step < 0 ? points.begin() : points.end() - 1);
       if (open) return;
-      const ProfilePoint& next = points[static_cast<std::size_t>(static_cast<int>(i) + step)];
+      const ProfilePoint& next = at[step];
       if (next.misfit <= threshold()) continue;
-      const double inside = std::log(std::max(points[i].misfit, 1e-12));
+      const double inside = std::log(std::max(at->misfit, 1e-12));
       const double share = (std::log(threshold()) - inside) / (std::log(next.misfit) - inside);
       value *= std::pow(next.value / value, std::clamp(share, 0.0, 1.0));
       return;

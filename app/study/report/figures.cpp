@@ -55,10 +55,6 @@ std::string law_of(const std::string& name) {
   return split(name, '/')[1];
 }
 
-double largest(const RunResult& run) {
-  return std::max(run.max_deg[0], run.max_deg[1]);
-}
-
 }  // namespace
 
 void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
@@ -79,7 +75,7 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
       if (run->stable) {
         const double theory[] = {std::abs(run->peak_deg[0]), std::abs(run->peak_deg[1])};
         low = std::min({low, run->max_deg[0], run->max_deg[1], theory[0], theory[1]});
-        high = std::max({high, largest(*run), theory[0], theory[1]});
+        high = std::max({high, run->largest_deg(), theory[0], theory[1]});
       }
   script += fmt::format("set yrange [{}:{}]\n", low / 1.3, high * 1.3);
   for (std::size_t j = 0; j < 2; ++j) {
@@ -159,7 +155,7 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   for (const RunResult& run : variants)
     if (run.spec.name.starts_with("ablation/")) {
       runs.push_back(&run);
-      if (run.stable) high = std::max(high, largest(run));
+      if (run.stable) high = std::max(high, run.largest_deg());
     }
   std::string tics, labels;
   std::vector<double> y[2], x[2], theory[2];
