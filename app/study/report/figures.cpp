@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "app/study/report/figures_detail.h"
 #include "app/study/report/report.h"
@@ -35,9 +36,7 @@ std::string line_style(const LawStyle& law) {
 }
 
 // Tics of a logarithmic rate axis; without a number where they would overlap.
-std::string rate_axis(std::vector<double> rates) {
-  std::sort(rates.begin(), rates.end());
-  rates.erase(std::unique(rates.begin(), rates.end()), rates.end());
+std::string rate_axis(const std::set<double>& rates) {
   std::string tics;
   double last = 0;
   for (double rate : rates) {
@@ -46,8 +45,8 @@ std::string rate_axis(std::vector<double> rates) {
                         in_quotes(apart ? fmt::format("{:g}", rate) : ""), rate);
     if (apart) last = rate;
   }
-  return fmt::format("set logscale x\nset xrange [{}:{}]\nset xtics ({})\n", rates.front() / 1.12,
-                     rates.back() * 1.12, tics);
+  return fmt::format("set logscale x\nset xrange [{}:{}]\nset xtics ({})\n", *rates.begin() / 1.12,
+                     *rates.rbegin() * 1.12, tics);
 }
 
 // Of "group/law/rate".
@@ -59,11 +58,11 @@ std::string law_of(const std::string& name) {
 
 void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   std::map<std::string, std::vector<const RunResult*>> by_law;
-  std::vector<double> rates;
+  std::set<double> rates;
   for (const RunResult& run : variants)
     if (run.spec.name.starts_with("trial/")) {
       by_law[law_of(run.spec.name)].push_back(&run);
-      rates.push_back(run.spec.rate);
+      rates.insert(run.spec.rate);
     }
   std::string script =
       "set multiplot\nset logscale y\nset tmargin at screen 0.92\n"
@@ -125,7 +124,7 @@ void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
     e4.push_back(std::max(kFloor, percent_of(c.e4(rate))));
   }
   std::string script =
-      rate_axis(rates) +
+      rate_axis({rates.begin(), rates.end()}) +
       fmt::format(
           "set logscale y\nset yrange [{}:{}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50, 100, "
           "200, 500)\n",
@@ -175,13 +174,11 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
     }
   }
   const auto bars = [&](std::size_t j, const char* colour) {
-    const std::vector<double> zero(runs.size(), 0.0);
-    std::vector<double> low(y[j]), high_edge(y[j]);
-    for (double& v : low) v -= 0.17;
-    for (double& v : high_edge) v += 0.17;
-    return gnuplot.data({x[j], y[j], zero, x[j], low, high_edge}) +
-           fmt::format(" with boxxyerror fillstyle solid noborder lc '{}' title 'joint {}'", colour,
-                       j + 1);
+    return gnuplot.data({x[j], y[j]}) +
+           fmt::format(
+               " using 1:2:(0):1:($2-0.17):($2+0.17) with boxxyerror fillstyle solid "
+               "noborder lc '{}' title 'joint {}'",
+               colour, j + 1);
   };
   const auto marks = [&](std::size_t j, const char* title) {
     return gnuplot.data({theory[j], y[j]}) +
