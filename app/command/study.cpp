@@ -160,7 +160,7 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
     fmt::print("\n  {:22}", title);
     for (const RunResult& result : results.reproduction)
       fmt::print("{:>18}", fmt::format("{:.2f} ({:.1f})", measured(result),
-                                       published(paper_table().at(result.spec.name))));
+                                       published(kPaperTable.at(result.spec.name))));
   };
   for (std::size_t j = 0; j < 2; ++j)
     line(

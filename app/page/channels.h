@@ -1,7 +1,6 @@
 // Numbers of a page: channels of a run, and their arrays in one deflated block in base64.
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <type_traits>

@@ -1,7 +1,5 @@
 #include "app/page/pages.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -118,11 +116,6 @@ void reduce_contacts(FilmedRun& run, std::size_t entries_a_frame) {
   run.shown = std::move(kept);
 }
 
-std::size_t entries_of(SceneView& view, const Snapshot& snapshot) {
-  draw(view, snapshot, parse_overlays("all"));
-  return view.list.instances.size();
-}
-
 }  // namespace
 
 ReplayPage replay_page(const std::filesystem::path& file) {
@@ -132,7 +125,8 @@ ReplayPage replay_page(const std::filesystem::path& file) {
   FilmedRun run = open_film(file, progress);
   SceneView view = view_of(run);
   set_view(view, {}, kAspect);
-  reduce_contacts(run, entries_of(view, run.snapshot(run.shown.back())));
+  draw(view, run.snapshot(run.shown.back()), parse_overlays("all"));
+  reduce_contacts(run, view.list.instances.size());
   PageLayers layers(view);
   PageChannels channels(run);
   for (const RunInstant& instant : run.shown) {

@@ -7,7 +7,6 @@
 #include "collision/import/robot/robot_model.h"
 #include "coupling/analysis/prediction.h"
 #include "coupling/laws/coupling_spec.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

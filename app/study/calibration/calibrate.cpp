@@ -46,15 +46,15 @@ SharedRobot shared_s103(const StudyInputs& inputs, double arm2_mass_scale) {
 }
 
 // Worst error when one gain of all springs changes by kGainChange.
-double sensitive_error(const StudyRobot& robot, RunSpec spec, const PaperRow& row) {
+double sensitive_error(const StudyRobot& robot, RunSpec spec) {
   const AutomaticMotion hand{HandMapping{}};
   const Gains g = spec.gains;
   double worst = 0;
   for (double factor : {kGainChange, 1 / kGainChange}) {
     spec.gains = {g.k1 * factor, g.b1, g.k2 * factor, g.b2};
-    worst = std::max(worst, worst_relative_error(run(robot, hand, spec), row));
+    worst = std::max(worst, worst_relative_error(run(robot, hand, spec)));
     spec.gains = {g.k1, g.b1 * factor, g.k2, g.b2 * factor};
-    worst = std::max(worst, worst_relative_error(run(robot, hand, spec), row));
+    worst = std::max(worst, worst_relative_error(run(robot, hand, spec)));
   }
   return worst;
 }
@@ -67,19 +67,18 @@ Job fit_job(const std::string& name, std::vector<Parameter> parameters, const Ru
   job.entry.rate = spec.rate;
   job.entry.parameters = std::move(parameters);
   job.evaluations = kFitEvaluations;
-  const PaperRow row = paper_table().at(spec.name);
   const auto result_of = [=](const CalibrationEntry& entry) {
     const AutomaticMotion hand{HandMapping{}};
     return run(*robot(entry), hand, spec.with_gains(entry.gains()));
   };
   job.objective = [=](const CalibrationEntry& entry) {
-    return worst_relative_error(result_of(entry), row);
+    return worst_relative_error(result_of(entry));
   };
   job.finish = [=](CalibrationEntry& entry) {
     const RunResult result = result_of(entry);
     entry.keep(result.max_deg, result.mean_deg);
-    entry.numbers["worst_error"] = worst_relative_error(result, row);
-    entry.numbers["worst_error_shifted"] = sensitive_error(*robot(entry), result.spec, row);
+    entry.numbers["worst_error"] = worst_relative_error(result);
+    entry.numbers["worst_error_shifted"] = sensitive_error(*robot(entry), result.spec);
   };
   return job;
 }
@@ -172,7 +171,7 @@ Calibration calibrate(const StudyInputs& inputs, Progress& progress) {
 
   progress.stage("calibration: published torsional law on E3", 0.45);
   for (auto rate = s.search_rates_hz.rbegin(); rate != s.search_rates_hz.rend(); ++rate)
-    for (const std::string& law : e3_laws()) jobs.push_back(e3_job(inputs, law, *rate));
+    for (const std::string& law : kE3Laws) jobs.push_back(e3_job(inputs, law, *rate));
   run_jobs(jobs, calibration, progress);
 
   progress.stage("calibration: published linear law on E4", 0.25);
@@ -185,7 +184,7 @@ Calibration calibrate(const StudyInputs& inputs, Progress& progress) {
   const StudyRobot s103 =
       StudyRobot::s103(s, inputs.s103, calibration.entry("chosen").numbers.at("arm2_mass_scale"));
   for (auto rate = s.rates_hz.rbegin(); rate != s.rates_hz.rend(); ++rate)
-    for (const std::string& law : trial_laws())
+    for (const std::string& law : kTrialLaws)
       jobs.push_back(trial_job(fmt::format("trial/{}/{:g}", law, *rate), trial_spec(law, *rate),
                                s103, s.sweep_times));
   run_jobs(jobs, calibration, progress);

@@ -55,8 +55,9 @@ const FamilyLaw& family_law(const std::string& name) {
   throw std::out_of_range("unknown law " + name);
 }
 
-double table_misfit(const RunResult& result, const PaperRow& row) {
+double table_misfit(const RunResult& result) {
   if (!result.stable) return 1e5;
+  const PaperRow& row = kPaperTable.at(result.spec.name);
   double worst = 0;
   for (std::size_t j = 0; j < 2; ++j)
     worst = std::max({worst, std::abs(result.max_deg[j] - row.max_deg[j]) / kHalfDigit,

@@ -110,9 +110,7 @@ class IdentificationProblem {
     return run(robot, AutomaticMotion(HandMapping{}, sweep), spec);
   }
 
-  double misfit(const CalibrationEntry& entry) const {
-    return table_misfit(run_with(entry, 1), paper_table().at(row_));
-  }
+  double misfit(const CalibrationEntry& entry) const { return table_misfit(run_with(entry, 1)); }
 
   // d x_i / d log theta_j by central differences, in half digits; also beyond the bounds of the
   // search.

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "app/data/value.h"
@@ -116,7 +115,7 @@ void add_ratios(const StudyInputs& inputs, const StudyResults& results,
 void add_reproduction(const StudyResults& results, std::vector<Finding>& findings) {
   for (const char* name : {"E3", "E4"}) {
     const RunResult* result = find_run(results.reproduction, name);
-    const double worst = worst_relative_error(*result, paper_table().at(name));
+    const double worst = worst_relative_error(*result);
     findings.push_back(
         {"Table 2",
          fmt::format("{}: each of the four published numbers is reproduced within 15 %", name),

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "app/study/findings/variants.h"
@@ -56,22 +54,19 @@ void watch_target_radius(const Coupling& coupling, const Model<double>& model,
   }
 }
 
-// Longest interval with a contact force.
-void find_contact_interval(ObstacleRun& run) {
-  double begin = -1, longest = 0;
-  for (std::size_t n = 0; n < run.t.size(); ++n) {
-    const bool touching = run.contact_force[n] > 0;
-    if (touching && begin < 0) begin = run.t[n];
-    if (touching && run.t[n] - begin > longest) {
-      longest = run.t[n] - begin;
-      run.contact_begin = begin;
-      run.contact_end = run.t[n];
-    }
-    if (!touching) begin = -1;
-  }
-}
-
 }  // namespace
+
+std::vector<std::pair<double, double>> contact_intervals(const ObstacleRun& run, double gap) {
+  std::vector<std::pair<double, double>> intervals;
+  for (std::size_t n = 0; n < run.t.size(); ++n) {
+    if (run.contact_force[n] <= 0) continue;
+    if (!intervals.empty() && run.t[n] - intervals.back().second < gap)
+      intervals.back().second = run.t[n];
+    else
+      intervals.emplace_back(run.t[n], run.t[n]);
+  }
+  return intervals;
+}
 
 ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
                          CouplingSpec::Type type) {
@@ -128,7 +123,13 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   result.max_beyond = largest(result.beyond);
   result.max_coupling = largest(result.coupling);
   result.max_force = largest(result.contact_force);
-  find_contact_interval(result);
+  double longest = 0;
+  for (const auto& [begin, end] : contact_intervals(result, 1.5 * spec.step())) {
+    if (end - begin <= longest) continue;
+    longest = end - begin;
+    result.contact_begin = begin;
+    result.contact_end = end;
+  }
   return result;
 }
 

@@ -20,15 +20,15 @@ struct LawStyle {
   int point;  // gnuplot's number: 7 disc, 5 square, 9 triangle, 13 diamond, 11 triangle down
   const char* dash;
 };
-constexpr LawStyle kTrialLaws[] = {
+constexpr LawStyle kTrialStyles[] = {
     {"printed-torsional", "torsional, as published", palette::torsional, 7, "solid"},
     {"signed-torsional", "torsional, signed damper", "#C58AD0", 5, "solid"},
     {"signed-torsional-ratio", "the same, k2 = 0.2 k1", "#3F6FB5", 9, "(6,4)"},
     {"printed-linear", "linear, as published", palette::linear, 13, "solid"}};
-constexpr LawStyle kFitLaws[] = {{"world-", "E3 world (−)", palette::torsional, 7, "solid"},
-                                 {"world+", "E3 world (+)", "#C58AD0", 5, "solid"},
-                                 {"joint-", "E3 joint (−)", "#3F6FB5", 9, "(6,4)"},
-                                 {"joint+", "E3 joint (+)", "#8DB0DD", 11, "(6,4)"}};
+constexpr LawStyle kFitStyles[] = {{"world-", "E3 world (−)", palette::torsional, 7, "solid"},
+                                   {"world+", "E3 world (+)", "#C58AD0", 5, "solid"},
+                                   {"joint-", "E3 joint (−)", "#3F6FB5", 9, "(6,4)"},
+                                   {"joint+", "E3 joint (+)", "#8DB0DD", 11, "(6,4)"}};
 
 std::string line_style(const LawStyle& law) {
   return fmt::format("with linespoints lw 2 dt {} pt {} ps 0.75 lc '{}' title {}", law.dash,
@@ -86,7 +86,7 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
                  "set key left bottom Left reverse"
                : "unset ylabel\nunset key");
     std::string plots;
-    for (const LawStyle& law : kTrialLaws) {
+    for (const LawStyle& law : kTrialStyles) {
       std::vector<double> x, y, theory;
       for (const RunResult* run : by_law[law.name]) {
         x.push_back(run->spec.rate);
@@ -117,10 +117,10 @@ void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
     }
     return percent;
   };
-  std::vector<double> e3[std::size(kFitLaws)], e4;
+  std::vector<double> e3[std::size(kFitStyles)], e4;
   for (const double rate : rates) {
-    for (std::size_t l = 0; l < std::size(kFitLaws); ++l)
-      e3[l].push_back(percent_of(c.e3(kFitLaws[l].name, rate)));
+    for (std::size_t l = 0; l < std::size(kFitStyles); ++l)
+      e3[l].push_back(percent_of(c.e3(kFitStyles[l].name, rate)));
     e4.push_back(std::max(kFloor, percent_of(c.e4(rate))));
   }
   std::string script =
@@ -141,8 +141,8 @@ void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
       "left offset 0.8,0 font ',11.5'\n",
       c.entry("chosen").rate);
   std::string plots = "plot ";
-  for (std::size_t l = 0; l < std::size(kFitLaws); ++l)
-    plots += gnuplot.data({rates, e3[l]}) + " " + line_style(kFitLaws[l]) + ", ";
+  for (std::size_t l = 0; l < std::size(kFitStyles); ++l)
+    plots += gnuplot.data({rates, e3[l]}) + " " + line_style(kFitStyles[l]) + ", ";
   const LawStyle linear{"", "E4 linear", palette::linear, 13, "solid"};
   gnuplot.draw("search", "Best fit to the paper's rows against the update rate", 900, 470,
                script + plots + gnuplot.data({rates, e4}) + " " + line_style(linear));

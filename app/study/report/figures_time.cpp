@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/study/findings/variants.h"
 #include "app/study/report/figures_detail.h"
 
 namespace twinarm {
@@ -115,20 +116,6 @@ struct ObstaclePanel {
   std::string before;  // its axis
 };
 
-// Intervals with a contact; short gaps are bridged.
-std::vector<std::pair<double, double>> contacts(const ObstacleRun& run) {
-  constexpr double kGap = 0.02;  // [s]
-  std::vector<std::pair<double, double>> intervals;
-  for (std::size_t n = 0; n < run.t.size(); ++n) {
-    if (run.contact_force[n] <= 0) continue;
-    if (!intervals.empty() && run.t[n] - intervals.back().second < kGap)
-      intervals.back().second = run.t[n];
-    else
-      intervals.emplace_back(run.t[n], run.t[n]);
-  }
-  return intervals;
-}
-
 // In millimetres for a logarithmic axis; gaps for values that are not positive.
 std::vector<double> positive_mm(const std::vector<double>& metres) {
   std::vector<double> values;
@@ -172,7 +159,8 @@ std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double lef
   std::string script = fmt::format(
       "reset\n{}set lmargin at screen {}\nset rmargin at screen {}\nset xrange [0:{}]\n",
       kFigureStyle, left, right, run.t.back());
-  for (const auto& [begin, end] : contacts(run))
+  constexpr double kGap = 0.02;  // [s]
+  for (const auto& [begin, end] : contact_intervals(run, kGap))
     script += fmt::format(
         "set object rectangle from {},graph 0 to {},graph 1 behind fillcolor "
         "'#F1EDE4' fillstyle solid noborder\n",

@@ -119,12 +119,9 @@ ordered_json run_json(const RunResult& run) {
 
 ordered_json reproduction_json(const RunResult& run) {
   ordered_json json = run_json(run);
-  const auto row = paper_table().find(run.spec.name);
-  if (row != paper_table().end()) {
-    json["paper"] = {{"max_deg", by_joint(row->second.max_deg)},
-                     {"mean_deg", by_joint(row->second.mean_deg)}};
-    json["worst_relative_error"] = worst_relative_error(run, row->second);
-  }
+  const PaperRow& paper = kPaperTable.at(run.spec.name);
+  json["paper"] = {{"max_deg", by_joint(paper.max_deg)}, {"mean_deg", by_joint(paper.mean_deg)}};
+  json["worst_relative_error"] = worst_relative_error(run);
   json["calibrated"] = run.spec.name == "E3" || run.spec.name == "E4";
   return json;
 }

@@ -143,8 +143,7 @@ double spread(const RunResult& result) {
 
 std::vector<std::string> answer_in_words(const StudyResults& results) {
   const RunResult &e3 = results.reproduction[2], &e4 = results.reproduction[3];
-  const double error = std::max(worst_relative_error(e3, paper_table().at("E3")),
-                                worst_relative_error(e4, paper_table().at("E4")));
+  const double error = std::max(worst_relative_error(e3), worst_relative_error(e4));
   const auto variant = [&](const char* name) -> const RunResult& {
     return *find_run(results.variants, name);
   };

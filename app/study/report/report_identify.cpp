@@ -108,7 +108,7 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
   for (const FamilyLaw& law : family_laws())
     for (const Identification& found : all)
       if (found.row == row && found.law == law.name) rows += law_row(found);
-  const PaperRow& paper = paper_table().at(row);
+  const PaperRow& paper = kPaperTable.at(row);
   const std::string published = "<tr><td class=text><b>published</b></td><td></td><td></td>" +
                                 number_cells(paper.max_deg, paper.mean_deg) +
                                 "<td></td><td></td><td></td></tr>\n";
@@ -220,7 +220,7 @@ void add_search(const StudyResults& results, Slots& slots) {
     std::string& html = slots["search_rows"];
     html += fmt::format("<tr{}><td>{:g} Hz{}</td>", chosen ? " class=chosen" : "", searched,
                         chosen ? ", chosen" : "");
-    for (const std::string& law : e3_laws()) html += error_cell(c.e3(law, searched));
+    for (const std::string& law : kE3Laws) html += error_cell(c.e3(law, searched));
     html += error_cell(c.e4(searched)) + "</tr>\n";
   }
   std::vector<const CalibrationEntry*> used = entries_of(c, fmt::format("E3/{:g}/", rate));

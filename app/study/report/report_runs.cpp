@@ -34,7 +34,7 @@ std::string comparison_table(const std::vector<const RunResult*>& runs) {
     const std::size_t j = row % 2;
     body += fmt::format("<tr><td>{}, joint {}</td>", maximum ? "maximum" : "mean", j + 1);
     for (const RunResult* run : runs) {
-      const PaperRow& paper = paper_table().at(run->spec.name);
+      const PaperRow& paper = kPaperTable.at(run->spec.name);
       const double measured = maximum ? run->max_deg[j] : run->mean_deg[j];
       const double published = maximum ? paper.max_deg[j] : paper.mean_deg[j];
       const double deviation = measured / published - 1;
@@ -162,7 +162,7 @@ std::string rates_rows(const std::vector<RunResult>& variants) {
   std::string html;
   for (const double rate : rates) {
     html += fmt::format("<tr><td>{:g} Hz</td>", rate);
-    for (const std::string& law : trial_laws()) {
+    for (const std::string& law : kTrialLaws) {
       const RunResult& run = *find_run(variants, fmt::format("trial/{}/{:g}", law, rate));
       html += run.stable ? "<td>" + pair_of(run.max_deg) + "<br><small>" +
                                pair_of({std::abs(run.peak_deg[0]), std::abs(run.peak_deg[1])}) +
@@ -237,7 +237,7 @@ void add_reproduction(const StudyResults& results, Slots& slots) {
   slots["table2_automatic"] = comparison_table({&runs.at(2), &runs.at(3)});
   for (const RunResult& run : runs) slots["caption_" + run.spec.name] = angle_caption(run);
   const RunResult &e3 = runs[2], &e4 = runs[3];
-  const PaperRow &paper_e3 = paper_table().at("E3"), &paper_e4 = paper_table().at("E4");
+  const PaperRow &paper_e3 = kPaperTable.at("E3"), &paper_e4 = kPaperTable.at("E4");
   slots["E4_against_text"] = fmt::format("{:+.0f}", 100 * (e4.max_deg[1] / 4.0 - 1));
   for (std::size_t j = 0; j < 2; ++j) {
     const auto put = [&](const char* name, const char* format, double value) {
