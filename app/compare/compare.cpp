@@ -122,10 +122,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string error_cell(double value) {
-  return fmt::format("{:.3g}", value);
-}
-std::string error_cell(const std::optional<double>& value, const char* format) {
+std::string error_cell(const std::optional<double>& value, const char* format = "{:.3g}") {
   return value ? fmt::format(fmt::runtime(format), *value) : "-";
 }
 

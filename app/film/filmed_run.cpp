@@ -225,27 +225,16 @@ SceneView view_of(const FilmedRun& run) {
 
 namespace {
 
-ShownContact shown(const SceneModel& scene, const RecordedContact& c) {
-  const auto body_of_geometry = [&](int g) {
+ShownContact shown(const SceneModel& scene, RecordedContact c) {
+  const auto body = [&](int g) {
     return static_cast<std::size_t>(scene.geometries[static_cast<std::size_t>(g)].body);
   };
-  ShownContact on_b{c.a,
-                    c.b,
-                    body_of_geometry(c.a),
-                    body_of_geometry(c.b),
-                    c.point,
-                    c.normal,
-                    c.force,
-                    c.couple,
-                    scene.surface_of_pair(c.a, c.b).friction};
-  if (!moves_by_forces(scene.model, on_b.body_b) && moves_by_forces(scene.model, on_b.body_a)) {
-    std::swap(on_b.a, on_b.b);
-    std::swap(on_b.body_a, on_b.body_b);
-    on_b.n_W = -on_b.n_W;
-    on_b.force_W = -on_b.force_W;
-    on_b.couple_W = -on_b.couple_W;
+  const double friction = scene.surface_of_pair(c.a, c.b).friction;
+  if (!moves_by_forces(scene.model, body(c.b)) && moves_by_forces(scene.model, body(c.a))) {
+    std::swap(c.a, c.b);
+    for (Vector3* v : {&c.normal, &c.force, &c.couple}) *v = -*v;
   }
-  return on_b;
+  return {c.a, c.b, body(c.a), body(c.b), c.point, c.normal, c.force, c.couple, friction};
 }
 
 }  // namespace

@@ -68,15 +68,14 @@ class SceneWriter {
     line("model", quoted(std::filesystem::absolute(settings_.urdf).lexically_normal().string()));
     line("limits", "false");  // the gripper has stops, below
     if (!scene_.with_obstacle) line("collide", "false");
-    std::string scales, loads;
+    std::vector<std::string> scales, loads;
     for (const auto& [link, factor] : masses.mass_scale)
-      scales += (scales.empty() ? "" : ", ") + quoted(link) + " = " + real(factor);
+      scales.push_back(quoted(link) + " = " + real(factor));
     for (const PointMass& load : masses.added_masses)
-      loads += (loads.empty() ? "" : ", ") + fmt::format("{{ link = {}, point = {}, mass = {} }}",
-                                                         quoted(load.link), list(load.p_L),
-                                                         real(load.mass));
-    if (!scales.empty()) line("mass_scale", "{ " + scales + " }");
-    if (!loads.empty()) line("payload", "[" + loads + "]");
+      loads.push_back(fmt::format("{{ link = {}, point = {}, mass = {} }}", quoted(load.link),
+                                  list(load.p_L), real(load.mass)));
+    if (!scales.empty()) line("mass_scale", fmt::format("{{ {} }}", fmt::join(scales, ", ")));
+    if (!loads.empty()) line("payload", fmt::format("[{}]", fmt::join(loads, ", ")));
     line("q", start());
   }
 
@@ -85,12 +84,11 @@ class SceneWriter {
     const TargetRobot kvr(robot_.kvr_model(), *scene_.hand.source, HandMapping{}, robot_.joints());
     std::vector<std::string> moved = robot_.joints().turned;
     moved.push_back(robot_.joints().gripper);
-    std::string q;
-    for (const std::string& joint : moved) {
+    for (std::string& joint : moved) {
       const auto body = static_cast<std::size_t>(model_.find_joint(joint));
-      q += (q.empty() ? "" : ", ") + quoted(joint) + " = " + real(kvr.start().x.q[model_.iq[body]]);
+      joint = quoted(joint) + " = " + real(kvr.start().x.q[model_.iq[body]]);
     }
-    return "{ " + q + " }";
+    return fmt::format("{{ {} }}", fmt::join(moved, ", "));
   }
 
   void write_obstacle() {

@@ -77,12 +77,10 @@ std::string group_title(std::string group) {
 }
 
 // All digits in an attribute.
-std::string cell(double value, const char* format) {
-  return fmt::format("<td data-value=\"{:.17g}\">{}</td>", value,
-                     fmt::format(fmt::runtime(format), value));
-}
 std::string cell(const std::optional<double>& value, const char* format) {
-  return value ? cell(*value, format) : "<td>–</td>";
+  if (!value) return "<td>–</td>";
+  return fmt::format("<td data-value=\"{:.17g}\">{}</td>", *value,
+                     fmt::format(fmt::runtime(format), *value));
 }
 
 std::string index_row(const CompareRow& row) {
@@ -106,8 +104,7 @@ std::string index_table(const std::vector<CompareRow>& rows,
   std::string html =
       "<table class=index><thead><tr><th>case</th><th class=text>what is checked [unit of error "
       "and tolerance]</th><th>error</th><th>tolerance</th><th></th><th>order</th><th>energy "
-      "drift</th>"
-      "<th>time [s]</th></tr></thead><tbody>\n";
+      "drift</th><th>time [s]</th></tr></thead><tbody>\n";
   std::string group;
   for (const CompareRow& row : rows) {
     if (group != row.test->group) html += group_row(group = row.test->group);
@@ -133,12 +130,11 @@ constexpr const char* kHowToRead =
     "each zero of the reference.</p>\n"
     "<p><b>Error against step.</b> All integrators, with steps that double. On logarithmic axes "
     "the order is the slope, printed after the name. A colour is an order, a mark is a scheme. "
-    "dopri5 "
-    "chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. Implicit "
-    "schemes are run with the longest steps only, because they are slow. The dashed line is the "
-    "tolerance of the case. A slope can exceed the order if the error is mostly one of energy, "
-    "which rk4 has at fifth order, or if the largest terms cancel. A slope has no meaning if the "
-    "error is as large as the motion, or is rounding.</p>\n"
+    "dopri5 chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. "
+    "Implicit schemes are run with the longest steps only, because they are slow. The dashed line "
+    "is the tolerance of the case. A slope can exceed the order if the error is mostly one of "
+    "energy, which rk4 has at fifth order, or if the largest terms cancel. A slope has no meaning "
+    "if the error is as large as the motion, or is rounding.</p>\n"
     "<p><b>The code</b> of all cases is at the end of the page, as compiled. To add a case: "
     "docs/develop/adding_a_case.md. What is measured, and how: "
     "docs/reference/verification_cases.md.</p>\n";

@@ -61,8 +61,7 @@ std::string unit_of(const std::string& reading) {
   return replaced(replaced(unit, "s2", "s²"), "m2", "m²");
 }
 std::string without_unit(const std::string& reading) {
-  const std::size_t open = reading.find(" [");
-  return open == std::string::npos ? reading : reading.substr(0, open);
+  return reading.substr(0, reading.find(" ["));
 }
 
 double largest(const std::vector<double>& values) {

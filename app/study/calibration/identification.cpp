@@ -13,7 +13,7 @@ namespace twinarm {
 namespace {
 
 FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type type,
-                     SpringSpace measure, Discretization treatment) {
+                     SpringSpace measure, Discretization treatment = Discretization::explicit_) {
   FamilyLaw law{name, words, {}};
   law.coupling.name = name;
   law.coupling.type = type;
@@ -26,26 +26,22 @@ FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type typ
 
 const std::vector<FamilyLaw>& family_laws() {
   using Type = CouplingSpec::Type;
+  constexpr auto world = SpringSpace::world, joint = SpringSpace::joint;
+  constexpr auto implicit = Discretization::implicit;
   static const std::vector<FamilyLaw> laws{
       {"printed-torsional", "torsional, as published", e3_spec("world-", 0).coupling},
       {"printed-linear", "linear, as published", e4_spec(0).coupling},
-      consistent("torsional-world", "torsional, world orientation", Type::torsional,
-                 SpringSpace::world, Discretization::explicit_),
-      consistent("torsional-joint", "torsional, joint angle", Type::torsional, SpringSpace::joint,
-                 Discretization::explicit_),
-      consistent("linear", "linear", Type::linear, SpringSpace::world, Discretization::explicit_),
+      consistent("torsional-world", "torsional, world orientation", Type::torsional, world),
+      consistent("torsional-joint", "torsional, joint angle", Type::torsional, joint),
+      consistent("linear", "linear", Type::linear, world),
       consistent("torsional-world-implicit", "torsional, world orientation, implicit",
-                 Type::torsional, SpringSpace::world, Discretization::implicit),
+                 Type::torsional, world, implicit),
       consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
-                 SpringSpace::joint, Discretization::implicit),
-      consistent("linear-implicit", "linear, implicit", Type::linear, SpringSpace::world,
-                 Discretization::implicit),
-      consistent("matched", "torsional, full K_q of a linear coupling", Type::matched,
-                 SpringSpace::world, Discretization::explicit_),
-      consistent("stable-pd", "stable PD at the joints", Type::stable_pd, SpringSpace::joint,
-                 Discretization::explicit_),
-      consistent("weld", "weld of the points, as in MuJoCo", Type::weld_like, SpringSpace::world,
-                 Discretization::explicit_)};
+                 joint, implicit),
+      consistent("linear-implicit", "linear, implicit", Type::linear, world, implicit),
+      consistent("matched", "torsional, full K_q of a linear coupling", Type::matched, world),
+      consistent("stable-pd", "stable PD at the joints", Type::stable_pd, joint),
+      consistent("weld", "weld of the points, as in MuJoCo", Type::weld_like, world)};
   return laws;
 }
 

@@ -132,13 +132,11 @@ void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
       "set xlabel 'update rate [Hz]'\n"
       "set ylabel 'worst relative error of the four numbers [%]' offset 0.8,0\n"
       "set key outside top center horizontal\n"
-      "set arrow from graph 0,first 15 to graph 1,first 15 nohead dt (4,4) lw 1.4 "
-      "lc '#333333'\n"
+      "set arrow from graph 0,first 15 to graph 1,first 15 nohead dt (4,4) lw 1.4 lc '#333333'\n"
       "set label '15 %' at graph 0.005,first 15 left offset 0,0.6 font ',11.5'\n";
   script += fmt::format(
-      "set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 7 lc "
-      "'#EFE6D2' back\nset label 'chosen: {0:g} Hz' at first {0},graph 0.97 "
-      "left offset 0.8,0 font ',11.5'\n",
+      "set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 7 lc '#EFE6D2' back\nset "
+      "label 'chosen: {0:g} Hz' at first {0},graph 0.97 left offset 0.8,0 font ',11.5'\n",
       c.entry("chosen").rate);
   std::string plots = "plot ";
   for (std::size_t l = 0; l < std::size(kFitStyles); ++l)

@@ -95,8 +95,7 @@ void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& 
           std::abs(run->peak_deg[j]), run->series.t.back(), colour);
     for (int reversal = 1; reversal < torsional.series.t.back() - 0.01; ++reversal)
       script += fmt::format(
-          "set arrow from {0},graph 0 to {0},graph 1 nohead dt (4,4) lw 1 "
-          "lc '{1}' back\n",
+          "set arrow from {0},graph 0 to {0},graph 1 nohead dt (4,4) lw 1 lc '{1}' back\n",
           reversal, palette::faint);
     script += fmt::format(
         "plot {} with lines lw 1.8 lc '{}' title 'E3, torsional', {} with lines "
@@ -178,10 +177,9 @@ std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double lef
     script += p + 1 == panels.size()
                   ? "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3 textcolor '#333333'\n"
                   : "set format x ''\nunset xlabel\n";
-    script += fmt::format(
-        "set label 7 {} at graph 0,1.0 offset 0,0.7 font ',12' textcolor "
-        "'#333333'\n",
-        in_quotes(panels[p].label));
+    script +=
+        fmt::format("set label 7 {} at graph 0,1.0 offset 0,0.7 font ',12' textcolor '#333333'\n",
+                    in_quotes(panels[p].label));
     script += panels[p].before + "plot " + panels[p].plots + "\n";
   }
   return script;

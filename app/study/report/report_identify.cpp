@@ -135,8 +135,7 @@ std::string open_sums(const std::vector<Identification>& all) {
     }
     html += fmt::format(
         "<li>{}: {} of {} pairs of law and rate agree with all four printed numbers; in {} of "
-        "these "
-        "a combination of the parameters is not identifiable.</li>\n",
+        "these a combination of the parameters is not identifiable.</li>\n",
         row, agree, all_pairs, open);
   }
   return html;
@@ -227,10 +226,8 @@ void add_search(const StudyResults& results, Slots& slots) {
   used.push_back(&c.e4(rate));
   slots["chosen_rate"] = fmt::format("{:g}", rate);
   slots["chosen_parameters"] = parameter_table(used, true);
-  slots["parameters_trial"] = parameter_table(entries_of(c, "trial/"), false);
-  slots["parameters_E3"] = parameter_table(entries_of(c, "E3/"), true);
-  slots["parameters_E4"] = parameter_table(entries_of(c, "E4/"), true);
-  slots["parameters_row"] = parameter_table(entries_of(c, "row/"), false);
+  for (const std::string group : {"trial", "E3", "E4", "row"})
+    slots["parameters_" + group] = parameter_table(entries_of(c, group + "/"), group[0] == 'E');
   long evaluations = 0;
   for (const auto& [name, entry] : c.entries) evaluations += entry.evaluations;
   slots["evaluations"] = fmt::format("{}", evaluations);
