@@ -27,16 +27,40 @@ void for_each_name(F&& f) {
   for (const SkippedCase& c : skipped_cases()) f(c.name, c.group);
 }
 
+using Json = nlohmann::ordered_json;
+
+std::string error_cell(const std::optional<double>& value, const char* format = "{:.3g}") {
+  return value ? fmt::format(fmt::runtime(format), *value) : "-";
+}
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json integrations_of(const CompareRow& row) {
+  Json integrations = Json::array();
+  for (const IntegrationRow& r : row.integrations) {
+    const bool adaptive = r.integration.integrator == Integrator::dopri5;
+    integrations.push_back({{"integrator", integrator_name(r.integration.integrator)},
+                            {"step", adaptive ? Json(nullptr) : Json(r.integration.step)},
+                            {"tolerance", adaptive ? Json(r.integration.tolerance) : Json(nullptr)},
+                            {"error", r.result.error},
+                            {"order", number_or_null(r.order)},
+                            {"energy_drift", number_or_null(r.result.energy_drift)},
+                            {"seconds", r.result.seconds}});
+  }
+  return integrations;
+}
+
 }  // namespace
 
 CaseSelection select_cases(const std::vector<std::string>& names, const std::string& group,
                            DiagnosticList& faults) {
-  std::vector<std::string> known, groups;
+  std::vector<std::string> both, groups;
   for_each_name([&](const char* name, const char* of) {
-    known.push_back(name);
+    both.push_back(name);
     if (std::find(groups.begin(), groups.end(), of) == groups.end()) groups.push_back(of);
   });
-  std::vector<std::string> both = known;
   both.insert(both.end(), groups.begin(), groups.end());
 
   for (const std::string& name : names) {
@@ -117,35 +141,6 @@ std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped) {
   return fmt::format("{} passed, {} failed", rows.size() - failed, failed) +
          (skipped > 0 ? fmt::format(", {} skipped", skipped) : "");
 }
-
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string error_cell(const std::optional<double>& value, const char* format = "{:.3g}") {
-  return value ? fmt::format(fmt::runtime(format), *value) : "-";
-}
-
-Json number_or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json integrations_of(const CompareRow& row) {
-  Json integrations = Json::array();
-  for (const IntegrationRow& r : row.integrations) {
-    const bool adaptive = r.integration.integrator == Integrator::dopri5;
-    integrations.push_back({{"integrator", integrator_name(r.integration.integrator)},
-                            {"step", adaptive ? Json(nullptr) : Json(r.integration.step)},
-                            {"tolerance", adaptive ? Json(r.integration.tolerance) : Json(nullptr)},
-                            {"error", r.result.error},
-                            {"order", number_or_null(r.order)},
-                            {"energy_drift", number_or_null(r.result.energy_drift)},
-                            {"seconds", r.result.seconds}});
-  }
-  return integrations;
-}
-
-}  // namespace
 
 std::string compare_table(const std::vector<CompareRow>& rows,
                           const std::vector<Lane>& integrations,

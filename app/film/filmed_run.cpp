@@ -163,6 +163,18 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
   return run;
 }
 
+ShownContact shown(const SceneModel& scene, RecordedContact c) {
+  const auto body = [&](int g) {
+    return static_cast<std::size_t>(scene.geometries[static_cast<std::size_t>(g)].body);
+  };
+  const double friction = scene.surface_of_pair(c.a, c.b).friction;
+  if (!moves_by_forces(scene.model, body(c.b)) && moves_by_forces(scene.model, body(c.a))) {
+    std::swap(c.a, c.b);
+    for (Vector3* v : {&c.normal, &c.force, &c.couple}) *v = -*v;
+  }
+  return {c.a, c.b, body(c.a), body(c.b), c.point, c.normal, c.force, c.couple, friction};
+}
+
 }  // namespace
 
 std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
@@ -222,22 +234,6 @@ SceneView view_of(const FilmedRun& run) {
     measure(view, run.snapshot(instant), Measured::of_picture);
   return view;
 }
-
-namespace {
-
-ShownContact shown(const SceneModel& scene, RecordedContact c) {
-  const auto body = [&](int g) {
-    return static_cast<std::size_t>(scene.geometries[static_cast<std::size_t>(g)].body);
-  };
-  const double friction = scene.surface_of_pair(c.a, c.b).friction;
-  if (!moves_by_forces(scene.model, body(c.b)) && moves_by_forces(scene.model, body(c.a))) {
-    std::swap(c.a, c.b);
-    for (Vector3* v : {&c.normal, &c.force, &c.couple}) *v = -*v;
-  }
-  return {c.a, c.b, body(c.a), body(c.b), c.point, c.normal, c.force, c.couple, friction};
-}
-
-}  // namespace
 
 bool moves_by_forces(const Model<double>& model, std::size_t body) {
   for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i])) {

@@ -75,16 +75,6 @@ void PageChannels::write(JsonWriter& json, PageBytes& bytes) const {
   json.key("bodies").texts({names.begin() + 1, names.end()});
 }
 
-namespace {
-
-const char* unit_of_pull(const SimulateInput& input, std::size_t c) {
-  const bool is_couple = input.scene && c < input.scene->couplings.size() &&
-                         kind_of_coupling(*input.scene, c) == ShownCouplingForce::Kind::couple;
-  return is_couple ? "N m" : "N";
-}
-
-}  // namespace
-
 RunChannels::RunChannels(const SimulateInput& input, const RecordingHeader& header)
     : all_(run_columns(input.robot)),
       geometries_(header.geometries),
@@ -93,8 +83,12 @@ RunChannels::RunChannels(const SimulateInput& input, const RecordingHeader& head
   elastic_ = all_.size();
   if (pulls_ > 0) add("elastic_energy", "J", "energy", "springs");
   first_pull_ = all_.size();
-  for (std::size_t c = 0; c < pulls_; ++c)
-    add("coupling/" + header.couplings[c], unit_of_pull(input, c), "coupling", header.couplings[c]);
+  for (std::size_t c = 0; c < pulls_; ++c) {
+    const bool is_couple = input.scene && c < input.scene->couplings.size() &&
+                           kind_of_coupling(*input.scene, c) == ShownCouplingForce::Kind::couple;
+    add("coupling/" + header.couplings[c], is_couple ? "N m" : "N", "coupling",
+        header.couplings[c]);
+  }
 }
 
 std::size_t RunChannels::add(const std::string& name, const std::string& unit,

@@ -71,6 +71,34 @@ void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
   json.end_object();
 }
 
+constexpr std::uint8_t kSeenThrough = 1;
+constexpr int kMaxTextureWidth = 1024;  // [px]; wider ones are halved
+
+std::uint8_t byte_of(float share) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
+}
+
+template <class Vector>
+void append_vector(std::vector<float>& column, const Vector& v) {
+  for (int c = 0; c < 3; ++c) column.push_back(static_cast<float>(v[c]));
+}
+
+// Mean of four pixels each.
+Image halved(const Image& image) {
+  Image half = make_image(std::max(1, image.width / 2), std::max(1, image.height / 2));
+  for (int y = 0; y < half.height; ++y)
+    for (int x = 0; x < half.width; ++x)
+      for (int c = 0; c < 4; ++c) {
+        int sum = 2;
+        for (const int dy : {0, 1})
+          for (const int dx : {0, 1})
+            sum += image.pixel(std::min(2 * x + dx, image.width - 1),
+                               std::min(2 * y + dy, image.height - 1))[c];
+        half.pixel(x, y)[c] = static_cast<std::uint8_t>(sum / 4);
+      }
+  return half;
+}
+
 }  // namespace
 
 PageLayers::PageLayers(SceneView& view) : view_(view) {
@@ -151,38 +179,6 @@ void PageLayers::write(JsonWriter& json, PageBytes& bytes) const {
                           [&](const PageLayer& layer) { write_layer(json, bytes, layer); });
   json.key("texts").texts(texts_);
 }
-
-namespace {
-
-constexpr std::uint8_t kSeenThrough = 1;
-constexpr int kMaxTextureWidth = 1024;  // [px]; wider ones are halved
-
-std::uint8_t byte_of(float share) {
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
-}
-
-template <class Vector>
-void append_vector(std::vector<float>& column, const Vector& v) {
-  for (int c = 0; c < 3; ++c) column.push_back(static_cast<float>(v[c]));
-}
-
-// Mean of four pixels each.
-Image halved(const Image& image) {
-  Image half = make_image(std::max(1, image.width / 2), std::max(1, image.height / 2));
-  for (int y = 0; y < half.height; ++y)
-    for (int x = 0; x < half.width; ++x)
-      for (int c = 0; c < 4; ++c) {
-        int sum = 2;
-        for (const int dy : {0, 1})
-          for (const int dx : {0, 1})
-            sum += image.pixel(std::min(2 * x + dx, image.width - 1),
-                               std::min(2 * y + dy, image.height - 1))[c];
-        half.pixel(x, y)[c] = static_cast<std::uint8_t>(sum / 4);
-      }
-  return half;
-}
-
-}  // namespace
 
 void InstanceColumns::add(const Instance& instance) {
   mesh.push_back(static_cast<std::uint16_t>(instance.mesh));

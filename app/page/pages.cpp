@@ -43,48 +43,10 @@ std::string fill_form(std::string_view form, const std::string& title, const Jso
   return html + std::string(form);
 }
 
-}  // namespace
-
-std::string inspect_page(const SimulateInput& input, const State<double>& x,
-                         const std::string& inspection, const InspectedJson& words) {
-  const WebBundle bundle = web_bundle();
-  require_form(bundle.inspect, bundle.missing, "--json needs none");
-  const SceneModel* scene = input.scene.get();
-  const Model<double>& model = input.robot.model;
-  SceneView view = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
-  const Snapshot snapshot =
-      scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
-  look_ahead(view, snapshot);
-  look_at(view, snapshot);
-  settle(view);
-  measure(view, snapshot, Measured::of_picture);
-  constexpr double kAspect = 1.0;  // of the view
-  set_view(view, {}, kAspect);
-  PageLayers layers(view);
-  layers.add_frame(snapshot);
-  layers.add_apart(snapshot);
-  layers.show_at_first({"joints"});
-
-  JsonWriter json;
-  PageBytes bytes;
-  json.begin_object();
-  json.members({{"title", words.title},
-                {"state", words.state},
-                {"command", command_line(words.command)},
-                {"version", kProgramVersion},
-                {"inspection", inspection}});
-  layers.write(json, bytes);
-  write_view(json, view);
-  json.end_object();
-  return fill_form(bundle.inspect, words.title, json, bytes);
-}
-
-namespace {
-
 constexpr double kMaxRate = 120;     // frames per second: twice what screens show, for slow motion
 constexpr double kMaxFrames = 1500;  // of a page
-constexpr std::size_t kMaxEntries = 400'000;  // of all its draw lists together
-constexpr double kAspect = 1.35;              // of the view
+constexpr std::size_t kMaxEntries = 400'000;                // of all its draw lists together
+constexpr double kInspectAspect = 1, kReplayAspect = 1.35;  // of the views
 
 // Between two frames: the last frame of the recording is included, none is repeated.
 double interval_of(double duration, std::size_t recorded) {
@@ -118,13 +80,46 @@ void reduce_contacts(FilmedRun& run, std::size_t entries_a_frame) {
 
 }  // namespace
 
+std::string inspect_page(const SimulateInput& input, const State<double>& x,
+                         const std::string& inspection, const InspectedJson& words) {
+  const WebBundle bundle = web_bundle();
+  require_form(bundle.inspect, bundle.missing, "--json needs none");
+  const SceneModel* scene = input.scene.get();
+  const Model<double>& model = input.robot.model;
+  SceneView view = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
+  const Snapshot snapshot =
+      scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
+  look_ahead(view, snapshot);
+  look_at(view, snapshot);
+  settle(view);
+  measure(view, snapshot, Measured::of_picture);
+  set_view(view, {}, kInspectAspect);
+  PageLayers layers(view);
+  layers.add_frame(snapshot);
+  layers.add_apart(snapshot);
+  layers.show_at_first({"joints"});
+
+  JsonWriter json;
+  PageBytes bytes;
+  json.begin_object();
+  json.members({{"title", words.title},
+                {"state", words.state},
+                {"command", command_line(words.command)},
+                {"version", kProgramVersion},
+                {"inspection", inspection}});
+  layers.write(json, bytes);
+  write_view(json, view);
+  json.end_object();
+  return fill_form(bundle.inspect, words.title, json, bytes);
+}
+
 ReplayPage replay_page(const std::filesystem::path& file) {
   const WebBundle bundle = web_bundle();
   require_form(bundle.replay, bundle.missing, "--csv and --json need none");
   Progress progress(true);
   FilmedRun run = open_film(file, progress);
   SceneView view = view_of(run);
-  set_view(view, {}, kAspect);
+  set_view(view, {}, kReplayAspect);
   draw(view, run.snapshot(run.shown.back()), parse_overlays("all"));
   reduce_contacts(run, view.list.instances.size());
   PageLayers layers(view);

@@ -48,6 +48,33 @@ void measure(const TrackingSeries& series, RunResult& result) {
   result.stable = series.finite && result.largest_deg() < 180;
 }
 
+// Child link of a joint and its descendants.
+std::vector<std::string> links_outward(const RobotDescription& robot, const std::string& joint) {
+  std::vector<std::string> links;
+  for (const JointDescription& j : robot.joints)
+    if (j.name == joint) links.push_back(j.child);
+  for (std::size_t n = 0; n < links.size(); ++n)
+    for (const JointDescription& j : robot.joints)
+      if (j.parent == links[n]) links.push_back(j.child);
+  return links;
+}
+
+// Implicit spring-damper of a joint coordinate, from frequency and damping ratio with the inertia
+// of that joint, all others locked.
+CouplingSpec joint_hold(const Model<double>& model, const std::string& joint, double frequency_hz,
+                        double damping_ratio) {
+  const int body = model.find_joint(joint);
+  const auto dof = static_cast<Eigen::Index>(model.iv[static_cast<std::size_t>(body)]);
+  const double I = mass_matrix(model, State<double>(model))(dof, dof);
+  const double w = 2 * std::numbers::pi * frequency_hz;
+  CouplingSpec spec;
+  spec.name = joint;
+  spec.measure = SpringSpace::joint;
+  spec.treatment = Discretization::implicit;
+  spec.springs = {{joint, body, Vector3::Zero(), I * w * w, 2 * damping_ratio * I * w}};
+  return spec;
+}
+
 }  // namespace
 
 TrackingSetup tracking_setup(const StudyRobot& robot, const OperatorMotion& hand,
@@ -137,37 +164,6 @@ std::string coupling_words(const CouplingSpec& spec) {
   const SpringSpace measure = spec.printed ? spec.options.measure : spec.measure;
   return measure == SpringSpace::world ? "torsional, world orientation" : "torsional, joint angle";
 }
-
-namespace {
-
-// Child link of a joint and its descendants.
-std::vector<std::string> links_outward(const RobotDescription& robot, const std::string& joint) {
-  std::vector<std::string> links;
-  for (const JointDescription& j : robot.joints)
-    if (j.name == joint) links.push_back(j.child);
-  for (std::size_t n = 0; n < links.size(); ++n)
-    for (const JointDescription& j : robot.joints)
-      if (j.parent == links[n]) links.push_back(j.child);
-  return links;
-}
-
-// Implicit spring-damper of a joint coordinate, from frequency and damping ratio with the inertia
-// of that joint, all others locked.
-CouplingSpec joint_hold(const Model<double>& model, const std::string& joint, double frequency_hz,
-                        double damping_ratio) {
-  const int body = model.find_joint(joint);
-  const auto dof = static_cast<Eigen::Index>(model.iv[static_cast<std::size_t>(body)]);
-  const double I = mass_matrix(model, State<double>(model))(dof, dof);
-  const double w = 2 * std::numbers::pi * frequency_hz;
-  CouplingSpec spec;
-  spec.name = joint;
-  spec.measure = SpringSpace::joint;
-  spec.treatment = Discretization::implicit;
-  spec.springs = {{joint, body, Vector3::Zero(), I * w * w, 2 * damping_ratio * I * w}};
-  return spec;
-}
-
-}  // namespace
 
 StudyRobot StudyRobot::s103(const StudySettings& settings, const RobotDescription& description,
                             double arm2_mass_scale) {

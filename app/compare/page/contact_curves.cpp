@@ -14,7 +14,7 @@ namespace {
 // Result of the recorded case; empty if the recorder was complete before its end.
 std::optional<CaseResult> recorded(const AnalyticCase& c, ContactRecorder& recorder) {
   const struct Attached {
-    explicit Attached(ContactRecorder* recorder) { contact_recorder = recorder; }
+    explicit Attached(ContactRecorder* to) { contact_recorder = to; }
     ~Attached() { contact_recorder = nullptr; }
   } attached(&recorder);
   try {

@@ -22,6 +22,47 @@ FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type typ
   return law;
 }
 
+struct Search {
+  CalibrationEntry& entry;
+  const std::function<double(const CalibrationEntry&)>& objective;
+  std::vector<double> best;  // logarithms
+  double best_value = HUGE_VAL;
+  long evaluations = 0;
+};
+
+double evaluate(const std::vector<double>& x, std::vector<double>&, void* data) {
+  auto& search = *static_cast<Search*>(data);
+  check_interrupt();
+  for (std::size_t i = 0; i < x.size(); ++i) search.entry.parameters[i].value = std::exp(x[i]);
+  ++search.evaluations;
+  const double value = search.objective(search.entry);
+  if (value < search.best_value) {
+    search.best_value = value;
+    search.best = x;
+  }
+  return value;
+}
+
+// One optimisation from x; updates search.best.
+void optimise(nlopt::opt& optimiser, const std::vector<double>& low,
+              const std::vector<double>& high, int evaluations, Search& search,
+              std::vector<double> x) {
+  optimiser.set_lower_bounds(low);
+  optimiser.set_upper_bounds(high);
+  optimiser.set_min_objective(evaluate, &search);
+  optimiser.set_maxeval(evaluations);
+  optimiser.set_xtol_rel(1e-7);
+  double value = 0;
+  try {
+    optimiser.optimize(x, value);
+  } catch (const nlopt::roundoff_limited&) {
+    // The simplex has shrunk to rounding: converged.
+  } catch (const std::exception&) {
+    check_interrupt();  // NLopt replaces exceptions of evaluate() by its own
+    throw;
+  }
+}
+
 }  // namespace
 
 const std::vector<FamilyLaw>& family_laws() {
@@ -86,51 +127,6 @@ Identification::Interval Identification::interval(const Profile& profile) const 
   end(1, found.high, found.open_high);
   return found;
 }
-
-namespace {
-
-struct Search {
-  CalibrationEntry& entry;
-  const std::function<double(const CalibrationEntry&)>& objective;
-  std::vector<double> best;  // logarithms
-  double best_value = HUGE_VAL;
-  long evaluations = 0;
-};
-
-double evaluate(const std::vector<double>& x, std::vector<double>&, void* data) {
-  auto& search = *static_cast<Search*>(data);
-  check_interrupt();
-  for (std::size_t i = 0; i < x.size(); ++i) search.entry.parameters[i].value = std::exp(x[i]);
-  ++search.evaluations;
-  const double value = search.objective(search.entry);
-  if (value < search.best_value) {
-    search.best_value = value;
-    search.best = x;
-  }
-  return value;
-}
-
-// One optimisation from x; updates search.best.
-void optimise(nlopt::opt& optimiser, const std::vector<double>& low,
-              const std::vector<double>& high, int evaluations, Search& search,
-              std::vector<double> x) {
-  optimiser.set_lower_bounds(low);
-  optimiser.set_upper_bounds(high);
-  optimiser.set_min_objective(evaluate, &search);
-  optimiser.set_maxeval(evaluations);
-  optimiser.set_xtol_rel(1e-7);
-  double value = 0;
-  try {
-    optimiser.optimize(x, value);
-  } catch (const nlopt::roundoff_limited&) {
-    // The simplex has shrunk to rounding: converged.
-  } catch (const std::exception&) {
-    check_interrupt();  // NLopt replaces exceptions of evaluate() by its own
-    throw;
-  }
-}
-
-}  // namespace
 
 std::string optimiser_name() {
   int major = 0, minor = 0, fix = 0;

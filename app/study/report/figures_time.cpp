@@ -47,68 +47,6 @@ std::string value_axis(const std::vector<double>& a, const std::vector<double>& 
   return fmt::format("set yrange [0:{}]\nset ytics {}\n", 1.06 * high, step);
 }
 
-}  // namespace
-
-// Marks the largest error, which is the number of Table 2.
-void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run) {
-  const TrackingSeries& series = run.series;
-  std::string script = "set multiplot\n";
-  for (std::size_t j = 0; j < 2; ++j) {
-    const std::vector<double> q_K = in_degrees(series.q_K[j]), q_D = in_degrees(series.q_D[j]);
-    const std::vector<double> error = error_deg(series, j);
-    const auto at = static_cast<std::size_t>(
-        std::distance(error.begin(), std::max_element(error.begin(), error.end())));
-    script += panel(static_cast<int>(j), fmt::format("joint {} [°]", j + 1), series.t.back());
-    script += angle_axis(q_K, q_D);
-    const std::string theory =  // none for E1 and E2
-        run.spec.name < std::string("E3")
-            ? ""
-            : fmt::format("; by linear theory {:.1f}°", run.motion_max_deg[j]);
-    script += fmt::format(
-        "set arrow 1 from {0},{1} to {0},{2} nohead lw 3 lc '#111111' front\n"
-        "set label 1 'largest error {3:.1f}° at {0:.2f} s (black bar){4}' at graph 0,1 left offset "
-        "0,0.6 font ',11.5' textcolor '#111111'\n",
-        series.t[at], q_K[at], q_D[at], error[at], theory);
-    script += fmt::format(
-        "plot {} with lines lw 4.5 lc '{}' title 'KVR (target)', "
-        "{} with lines lw {} lc '{}' title 'DVR (simulated)'\n",
-        gnuplot.curve(series.t, q_K), palette::kvr, gnuplot.curve(series.t, q_D),
-        series.t.back() > 5 ? 1.2 : 1.8, palette::dvr);
-  }
-  gnuplot.draw(name, run.spec.name + ": joint angles of KVR and DVR over time", 900, 470,
-               script + "unset multiplot\n");
-}
-
-void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& linear) {
-  std::string script = "set multiplot\n";
-  for (std::size_t j = 0; j < 2; ++j) {
-    script += panel(static_cast<int>(j), fmt::format("|error|, joint {} [°]", j + 1),
-                    torsional.series.t.back());
-    std::vector<double> shown[] = {error_deg(torsional.series, j), error_deg(linear.series, j)};
-    shown[0].push_back(std::abs(torsional.peak_deg[j]));
-    shown[1].push_back(std::abs(linear.peak_deg[j]));
-    script += "unset arrow\n" + value_axis(shown[0], shown[1]);
-    for (const auto& [run, colour] :
-         {std::pair{&torsional, palette::torsional}, std::pair{&linear, palette::linear}})
-      script += fmt::format(
-          "set arrow from 0,first {0} to {1},first {0} nohead dt (2,3) lw 1.2 lc '{2}'\n",
-          std::abs(run->peak_deg[j]), run->series.t.back(), colour);
-    for (int reversal = 1; reversal < torsional.series.t.back() - 0.01; ++reversal)
-      script += fmt::format(
-          "set arrow from {0},graph 0 to {0},graph 1 nohead dt (4,4) lw 1 lc '{1}' back\n",
-          reversal, palette::faint);
-    script += fmt::format(
-        "plot {} with lines lw 1.8 lc '{}' title 'E3, torsional', {} with lines "
-        "lw 2.6 lc '{}' title 'E4, linear'\n",
-        gnuplot.curve(torsional.series.t, error_deg(torsional.series, j)), palette::torsional,
-        gnuplot.curve(linear.series.t, error_deg(linear.series, j)), palette::linear);
-  }
-  gnuplot.draw("errors", "Absolute error of E3 and E4 over time", 900, 470,
-               script + "unset multiplot\n");
-}
-
-namespace {
-
 struct ObstaclePanel {
   std::string label;
   std::string plots;   // of gnuplot's plot command
@@ -186,6 +124,64 @@ std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double lef
 }
 
 }  // namespace
+
+// Marks the largest error, which is the number of Table 2.
+void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run) {
+  const TrackingSeries& series = run.series;
+  std::string script = "set multiplot\n";
+  for (std::size_t j = 0; j < 2; ++j) {
+    const std::vector<double> q_K = in_degrees(series.q_K[j]), q_D = in_degrees(series.q_D[j]);
+    const std::vector<double> error = error_deg(series, j);
+    const auto at = static_cast<std::size_t>(
+        std::distance(error.begin(), std::max_element(error.begin(), error.end())));
+    script += panel(static_cast<int>(j), fmt::format("joint {} [°]", j + 1), series.t.back());
+    script += angle_axis(q_K, q_D);
+    const std::string theory =  // none for E1 and E2
+        run.spec.name < std::string("E3")
+            ? ""
+            : fmt::format("; by linear theory {:.1f}°", run.motion_max_deg[j]);
+    script += fmt::format(
+        "set arrow 1 from {0},{1} to {0},{2} nohead lw 3 lc '#111111' front\n"
+        "set label 1 'largest error {3:.1f}° at {0:.2f} s (black bar){4}' at graph 0,1 left offset "
+        "0,0.6 font ',11.5' textcolor '#111111'\n",
+        series.t[at], q_K[at], q_D[at], error[at], theory);
+    script += fmt::format(
+        "plot {} with lines lw 4.5 lc '{}' title 'KVR (target)', "
+        "{} with lines lw {} lc '{}' title 'DVR (simulated)'\n",
+        gnuplot.curve(series.t, q_K), palette::kvr, gnuplot.curve(series.t, q_D),
+        series.t.back() > 5 ? 1.2 : 1.8, palette::dvr);
+  }
+  gnuplot.draw(name, run.spec.name + ": joint angles of KVR and DVR over time", 900, 470,
+               script + "unset multiplot\n");
+}
+
+void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& linear) {
+  std::string script = "set multiplot\n";
+  for (std::size_t j = 0; j < 2; ++j) {
+    script += panel(static_cast<int>(j), fmt::format("|error|, joint {} [°]", j + 1),
+                    torsional.series.t.back());
+    std::vector<double> shown[] = {error_deg(torsional.series, j), error_deg(linear.series, j)};
+    shown[0].push_back(std::abs(torsional.peak_deg[j]));
+    shown[1].push_back(std::abs(linear.peak_deg[j]));
+    script += "unset arrow\n" + value_axis(shown[0], shown[1]);
+    for (const auto& [run, colour] :
+         {std::pair{&torsional, palette::torsional}, std::pair{&linear, palette::linear}})
+      script += fmt::format(
+          "set arrow from 0,first {0} to {1},first {0} nohead dt (2,3) lw 1.2 lc '{2}'\n",
+          std::abs(run->peak_deg[j]), run->series.t.back(), colour);
+    for (int reversal = 1; reversal < torsional.series.t.back() - 0.01; ++reversal)
+      script += fmt::format(
+          "set arrow from {0},graph 0 to {0},graph 1 nohead dt (4,4) lw 1 lc '{1}' back\n",
+          reversal, palette::faint);
+    script += fmt::format(
+        "plot {} with lines lw 1.8 lc '{}' title 'E3, torsional', {} with lines "
+        "lw 2.6 lc '{}' title 'E4, linear'\n",
+        gnuplot.curve(torsional.series.t, error_deg(torsional.series, j)), palette::torsional,
+        gnuplot.curve(linear.series.t, error_deg(linear.series, j)), palette::linear);
+  }
+  gnuplot.draw("errors", "Absolute error of E3 and E4 over time", 900, 470,
+               script + "unset multiplot\n");
+}
 
 void draw_obstacle(Gnuplot& gnuplot, const std::vector<ObstacleRun>& runs) {
   std::string script = "set multiplot\n";

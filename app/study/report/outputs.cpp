@@ -68,18 +68,6 @@ std::string obstacle_csv(const ObstacleRun& run) {
               {"beyond[m]", &run.beyond}});
 }
 
-}  // namespace
-
-void write_csv(const StudyResults& results, const std::filesystem::path& folder) {
-  for (const auto* runs : {&results.reproduction, &results.variants})
-    for (const RunResult& run : *runs)
-      write_whole_file(folder / file_name(run.spec.name), run_csv(run));
-  for (const ObstacleRun& run : results.obstacle)
-    write_whole_file(folder / file_name(run.spec.name), obstacle_csv(run));
-}
-
-namespace {
-
 using nlohmann::ordered_json;
 
 // nlohmann writes the shortest text that reads back the same double, and null if it is not finite.
@@ -191,6 +179,14 @@ ordered_json identification_json(const Identification& found) {
 }
 
 }  // namespace
+
+void write_csv(const StudyResults& results, const std::filesystem::path& folder) {
+  for (const auto* runs : {&results.reproduction, &results.variants})
+    for (const RunResult& run : *runs)
+      write_whole_file(folder / file_name(run.spec.name), run_csv(run));
+  for (const ObstacleRun& run : results.obstacle)
+    write_whole_file(folder / file_name(run.spec.name), obstacle_csv(run));
+}
 
 std::string study_json(const StudyResults& results, const std::string& report_path) {
   ordered_json root;

@@ -67,6 +67,23 @@ std::string filled(const std::filesystem::path& file, const Slots& slots) {
   }
 }
 
+using Pair = std::array<double, 2>;
+
+double worst(const Pair& p) {
+  return std::max(p[0], p[1]);
+}
+
+// Comparison of the larger of the two maxima.
+const char* verdict(const Pair& linear, const Pair& torsional) {
+  const double ratio = worst(torsional) / worst(linear);
+  return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
+}
+
+// Ratio of the squared natural frequencies.
+double spread(const RunResult& result) {
+  return std::pow(result.frequency[1] / result.frequency[0], 2);
+}
+
 }  // namespace
 
 std::string rounded(double value, int digits) {
@@ -120,27 +137,6 @@ void write_report(const StudyResults& results, const std::filesystem::path& asse
 
 // Answer to the paper's question. The sentences are derived from the numbers, so that they are
 // correct for other settings too.
-namespace {
-
-using Pair = std::array<double, 2>;
-
-double worst(const Pair& p) {
-  return std::max(p[0], p[1]);
-}
-
-// Comparison of the larger of the two maxima.
-const char* verdict(const Pair& linear, const Pair& torsional) {
-  const double ratio = worst(torsional) / worst(linear);
-  return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
-}
-
-// Ratio of the squared natural frequencies.
-double spread(const RunResult& result) {
-  return std::pow(result.frequency[1] / result.frequency[0], 2);
-}
-
-}  // namespace
-
 std::vector<std::string> answer_in_words(const StudyResults& results) {
   const RunResult &e3 = results.reproduction[2], &e4 = results.reproduction[3];
   const double error = std::max(worst_relative_error(e3), worst_relative_error(e4));

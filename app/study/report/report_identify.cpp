@@ -141,16 +141,6 @@ std::string open_sums(const std::vector<Identification>& all) {
   return html;
 }
 
-}  // namespace
-
-void add_identification(const StudyResults& results, Slots& slots) {
-  const std::vector<Identification>& all = results.identifications;
-  slots["open_sums"] = open_sums(all);
-  for (const char* row : {"E3", "E4"}) slots[std::string("open_") + row] = row_table(all, row);
-}
-
-namespace {
-
 // Worst relative error, and in brackets the worst if a gain changes by 0.5 %.
 std::string error_cell(const CalibrationEntry& entry) {
   const double nominal = entry.numbers.at("worst_error");
@@ -210,6 +200,12 @@ std::string versions() {
 }
 
 }  // namespace
+
+void add_identification(const StudyResults& results, Slots& slots) {
+  const std::vector<Identification>& all = results.identifications;
+  slots["open_sums"] = open_sums(all);
+  for (const char* row : {"E3", "E4"}) slots[std::string("open_") + row] = row_table(all, row);
+}
 
 void add_search(const StudyResults& results, Slots& slots) {
   const Calibration& c = results.calibration;
