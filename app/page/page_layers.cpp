@@ -10,8 +10,7 @@ namespace {
 // Positions in 16 bits of the bounding box, normals in bytes, differences of indices: they
 // compress well.
 void write_mesh(JsonWriter& json, PageBytes& bytes, const DrawMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const auto& p : mesh.positions) box.extend(Eigen::Vector3d(p[0], p[1], p[2]));
+  Eigen::AlignedBox3d box = bounding_box(mesh);
   if (mesh.positions.empty()) box.extend(Eigen::Vector3d::Zero());
   const Eigen::Vector3d low = box.min(), high = box.max(), size = box.sizes();
   std::vector<std::uint16_t> position;
