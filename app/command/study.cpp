@@ -112,17 +112,6 @@ std::string command_of(const StudyOptions& options) {
   return command;
 }
 
-void fill_search_table(const StudySettings& settings, StudyResults& results) {
-  for (double rate : settings.search_rates_hz) {
-    SearchRow row;
-    row.rate = rate;
-    for (const std::string& law : e3_laws())
-      row.e3[law] = &results.calibration.entry(fmt::format("E3/{:g}/{}", rate, law));
-    row.e4 = &results.calibration.entry(fmt::format("E4/{:g}", rate));
-    results.search.push_back(row);
-  }
-}
-
 StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
                      const OperatorMotion& hand, const Calibration& calibration,
                      Progress& progress) {
@@ -134,7 +123,7 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
   results.arm2_mass_scale = calibration.entry("chosen").numbers.at("arm2_mass_scale");
   for (const LinkDescription& link : inputs.s103.links)
     results.link_masses.emplace_back(link.name, link.mass);
-  fill_search_table(inputs.settings, results);
+  results.search_rates = inputs.settings.search_rates_hz;
   results.identifications =
       read_identifications(inputs.settings.assets / "study" / "identification.json");
 
@@ -165,7 +154,7 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
     fmt::print("\n  {:22}", title);
     for (const RunResult& result : results.reproduction)
       fmt::print("{:>18}", fmt::format("{:.2f} ({:.1f})", measured(result),
-                                       published(paper_table().at(result.spec.name))));
+                                       published(kPaperTable.at(result.spec.name))));
   };
   for (std::size_t j = 0; j < 2; ++j)
     line(

@@ -27,28 +27,52 @@ void for_each_name(F&& f) {
   for (const SkippedCase& c : skipped_cases()) f(c.name, c.group);
 }
 
+using Json = nlohmann::ordered_json;
+
+std::string error_cell(const std::optional<double>& value, const char* format = "{:.3g}") {
+  return value ? fmt::format(fmt::runtime(format), *value) : "-";
+}
+
+Json number_or_null(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json integrations_of(const CompareRow& row) {
+  Json integrations = Json::array();
+  for (const IntegrationRow& r : row.integrations) {
+    const bool adaptive = r.integration.integrator == Integrator::dopri5;
+    integrations.push_back({{"integrator", integrator_name(r.integration.integrator)},
+                            {"step", adaptive ? Json(nullptr) : Json(r.integration.step)},
+                            {"tolerance", adaptive ? Json(r.integration.tolerance) : Json(nullptr)},
+                            {"error", r.result.error},
+                            {"order", number_or_null(r.order)},
+                            {"energy_drift", number_or_null(r.result.energy_drift)},
+                            {"seconds", r.result.seconds}});
+  }
+  return integrations;
+}
+
 }  // namespace
 
 CaseSelection select_cases(const std::vector<std::string>& names, const std::string& group,
                            DiagnosticList& faults) {
-  std::vector<std::string> known, groups;
+  std::vector<std::string> both, groups;
   for_each_name([&](const char* name, const char* of) {
-    known.push_back(name);
+    both.push_back(name);
     if (std::find(groups.begin(), groups.end(), of) == groups.end()) groups.push_back(of);
   });
-  std::vector<std::string> both = known;
   both.insert(both.end(), groups.begin(), groups.end());
 
   for (const std::string& name : names) {
     bool found = false;
     for_each_name([&](const char* one, const char* of) { found |= selects(name, one, of); });
     if (!found)
-      faults.add({"", 0, "command line", fmt::format("unknown case or group '{}'", name),
-                  name_remedy(name, both, "cases and groups"), "compare.unknown"});
+      faults.add("command line", fmt::format("unknown case or group '{}'", name),
+                 name_remedy(name, both, "cases and groups"), "compare.unknown");
   }
   if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
-    faults.add({"", 0, "--group", fmt::format("unknown group '{}'", group),
-                name_remedy(group, groups, "groups"), "option.choice"});
+    faults.add("--group", fmt::format("unknown group '{}'", group),
+               name_remedy(group, groups, "groups"), "option.choice");
 
   const auto chosen = [&](const char* name, const char* of) {
     return (names.empty() && group.empty()) || group == of ||
@@ -64,20 +88,19 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
 
 std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
                              const std::vector<double>& steps, DiagnosticList& faults) {
-  std::vector<std::string> known;
-  for (const IntegratorFacts& facts : all_integrators) known.push_back(facts.name);
+  const std::vector<std::string> known = names_of(all_integrators);
   std::vector<Integrator> found;
   for (const std::string& name : integrators) {
     if (const auto integrator = find_integrator(name))
       found.push_back(*integrator);
     else
-      faults.add({"", 0, "--integrator", fmt::format("unknown integrator '{}'", name),
-                  name_remedy(name, known, "integrators"), "option.choice"});
+      faults.add("--integrator", fmt::format("unknown integrator '{}'", name),
+                 name_remedy(name, known, "integrators"), "option.choice");
   }
   for (const double step : steps)
     if (!(step > 0) || !std::isfinite(step))
-      faults.add({"", 0, "--step", fmt::format("step is {} s, must be positive and finite", step),
-                  "for example --step 0.001,0.0005", "option.not-positive"});
+      faults.add("--step", fmt::format("step is {} s, must be positive and finite", step),
+                 "for example --step 0.001,0.0005", "option.not-positive");
 
   std::vector<Lane> integrations;
   if (integrators.empty() && steps.empty()) return integrations;
@@ -113,37 +136,11 @@ std::size_t failures(const std::vector<CompareRow>& rows) {
       rows.begin(), rows.end(), [](const CompareRow& r) { return !passes(*r.test, r.result); }));
 }
 
-namespace {
-
-using Json = nlohmann::ordered_json;
-
-std::string error_cell(double value) {
-  return fmt::format("{:.3g}", value);
+std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped) {
+  const std::size_t failed = failures(rows);
+  return fmt::format("{} passed, {} failed", rows.size() - failed, failed) +
+         (skipped > 0 ? fmt::format(", {} skipped", skipped) : "");
 }
-std::string error_cell(const std::optional<double>& value, const char* format) {
-  return value ? fmt::format(fmt::runtime(format), *value) : "-";
-}
-
-Json number_or_null(const std::optional<double>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json integrations_of(const CompareRow& row) {
-  Json integrations = Json::array();
-  for (const IntegrationRow& r : row.integrations) {
-    const bool adaptive = r.integration.integrator == Integrator::dopri5;
-    integrations.push_back({{"integrator", integrator_name(r.integration.integrator)},
-                            {"step", adaptive ? Json(nullptr) : Json(r.integration.step)},
-                            {"tolerance", adaptive ? Json(r.integration.tolerance) : Json(nullptr)},
-                            {"error", r.result.error},
-                            {"order", number_or_null(r.order)},
-                            {"energy_drift", number_or_null(r.result.energy_drift)},
-                            {"seconds", r.result.seconds}});
-  }
-  return integrations;
-}
-
-}  // namespace
 
 std::string compare_table(const std::vector<CompareRow>& rows,
                           const std::vector<Lane>& integrations,
@@ -170,14 +167,11 @@ std::string compare_table(const std::vector<CompareRow>& rows,
           fmt::format("{}: error {} exceeds {}; {}\n", test->name, error_cell(result.error),
                       error_cell(test->tolerance), test->reference);
   }
-  const std::size_t failed = failures(rows);
   std::string text = rows.empty() ? "" : table.str() + "\n";
   if (!failed_cases.empty()) text += failed_cases + "\n";
   for (const SkippedCase* c : skipped) text += fmt::format("skipped {}: {}\n", c->name, c->why);
   if (!skipped.empty()) text += "\n";
-  text += fmt::format("{} passed, {} failed", rows.size() - failed, failed);
-  if (!skipped.empty()) text += fmt::format(", {} skipped", skipped.size());
-  return text + "\n";
+  return text + totals(rows, skipped.size()) + "\n";
 }
 
 // Numbers that are not finite become null.

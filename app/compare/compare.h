@@ -44,6 +44,8 @@ std::string integration_name(const Lane& integration);  // "rk4 0.001"
 CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& integrations);
 
 std::size_t failures(const std::vector<CompareRow>& rows);
+// "12 passed, 1 failed", and ", 2 skipped" if any.
+std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped);
 
 // A table and the failed cases; one JSON object. `page`: the file of --html, or empty.
 std::string compare_table(const std::vector<CompareRow>& rows,

@@ -2,23 +2,20 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "app/support/program.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "solver/support/diagnostics.h"
-
-extern char** environ;
 
 namespace twinarm {
 namespace {
@@ -61,7 +58,6 @@ std::vector<std::string> ffmpeg_words(const std::string& program, const std::str
   return words;
 }
 
-// ffmpeg in its own process group, so that Ctrl-C does not reach it.
 class FfmpegFilm final : public Film {
  public:
   FfmpegFilm(std::filesystem::path file, const FilmFormat& format)
@@ -74,7 +70,7 @@ class FfmpegFilm final : public Film {
     if (child_ > 0) {  // not finished
       close_pipe();
       kill(child_, SIGKILL);
-      wait_for_child();
+      exit_code_of(child_);
     }
     std::error_code ignored;
     if (!finished_) std::filesystem::remove(part_, ignored);
@@ -96,7 +92,7 @@ class FfmpegFilm final : public Film {
   }
   void finish() override {
     close_pipe();
-    if (wait_for_child() != 0) fail();
+    if (exit_code_of(std::exchange(child_, 0)) != 0) fail();
     std::error_code error;
     std::filesystem::rename(part_, file_, error);
     if (error)
@@ -106,48 +102,21 @@ class FfmpegFilm final : public Film {
   }
 
  private:
-  void start(std::vector<std::string> words) {
+  void start(const std::vector<std::string>& words) {
     std::array<int, 2> ends{};
     if (pipe2(ends.data(), O_CLOEXEC) != 0) fail();
-    posix_spawn_file_actions_t actions;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawnattr_init(&attributes);
-    posix_spawn_file_actions_adddup2(&actions, ends[0], STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-    sigset_t usual;
-    sigemptyset(&usual);
-    sigaddset(&usual, SIGPIPE);
-    posix_spawnattr_setsigdefault(&attributes, &usual);
-    posix_spawnattr_setpgroup(&attributes, 0);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGDEF);
-    std::vector<char*> arguments;
-    for (std::string& word : words) arguments.push_back(word.data());
-    arguments.push_back(nullptr);
-    pid_t child = 0;
-    const int error =
-        posix_spawn(&child, words[0].c_str(), &actions, &attributes, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    posix_spawnattr_destroy(&attributes);
+    child_ = start_program(words, ends[0], STDERR_FILENO, STDERR_FILENO);
+    const int error = errno;
     close(ends[0]);
     pipe_ = ends[1];
-    if (error != 0) {
-      close_pipe();
-      throw InputError({{words[0], 0, "", std::string("cannot be started: ") + strerror(error),
-                         "reinstall ffmpeg, or use --frames DIR", "program.not-started"}});
-    }
-    child_ = child;
+    if (child_ > 0) return;
+    close_pipe();
+    throw InputError({{words[0], 0, "", std::string("cannot be started: ") + strerror(error),
+                       "reinstall ffmpeg, or use --frames DIR", "program.not-started"}});
   }
   void close_pipe() {
     if (pipe_ >= 0) close(pipe_);
     pipe_ = -1;
-  }
-  int wait_for_child() {
-    int status = 0;
-    while (waitpid(child_, &status, 0) < 0 && errno == EINTR) {
-    }
-    child_ = 0;
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   }
   [[noreturn]] void fail() {
     throw InputError(
@@ -172,11 +141,8 @@ std::unique_ptr<Film> ffmpeg_film(const std::filesystem::path& file, const FilmF
 }
 
 std::filesystem::path find_ffmpeg(const char* option) {
-  const char* path = std::getenv("PATH");
-  for (const std::string& folder : split(path ? path : "", ':')) {
-    const std::filesystem::path candidate = std::filesystem::path(folder) / "ffmpeg";
-    if (!folder.empty() && access(candidate.c_str(), X_OK) == 0) return candidate;
-  }
+  const std::filesystem::path program = find_program("ffmpeg");
+  if (!program.empty()) return program;
   throw InputError(
       {{"", 0, option, "needs the program ffmpeg, which is not on the PATH",
         "install it (apt-get install ffmpeg), or use --frames DIR", "program.missing"}});

@@ -94,12 +94,6 @@ FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& tim
   return run;
 }
 
-// Last time to simulate [s].
-double end_of(const FilmTimes& times, const SimulatePlan& plan) {
-  if (times.is_film) return times.to.value_or(plan.run.duration);
-  return std::max(times.at.value_or(0), 0.0);
-}
-
 // Replaces --duration of `twinarm simulate` in messages by the option of `render`.
 SimulatePlan prepare_to_film(const SimulateOptions& options, const FilmTimes& times) {
   try {
@@ -120,15 +114,14 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
                             const std::string& camera, Progress& progress) {
   SimulateOptions options;
   options.robot = robot;
-  if (times.is_film)
-    options.duration = times.to;
-  else
-    options.duration = times.at && *times.at > 0 ? *times.at : 1.0;
+  options.duration = times.is_film ? times.to : times.at && *times.at > 0 ? *times.at : 1.0;
   FilmedRun run{{}, nullptr, nullptr, prepare_to_film(options, times), {}, {}};
   parse_camera(camera, run.model());  // reports errors before the run
   RunPlan& plan = run.plan.run;
   plan.times.clear();
-  const double end = end_of(times, run.plan), start = times.from.value_or(0);
+  const double start = times.from.value_or(0);
+  const double end =
+      times.is_film ? times.to.value_or(plan.duration) : std::max(times.at.value_or(0), 0.0);
   if (times.is_film) check_piece(start, end);
   if (plan.is_adaptive() && times.is_film) plan.step = std::min(plan.step, times.interval);
   plan.duration = end > 0 ? end : plan.step;  // one step for the forces at the start
@@ -168,6 +161,18 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
     take_forces_of_first_step(run.around, *first);
   }
   return run;
+}
+
+ShownContact shown(const SceneModel& scene, RecordedContact c) {
+  const auto body = [&](int g) {
+    return static_cast<std::size_t>(scene.geometries[static_cast<std::size_t>(g)].body);
+  };
+  const double friction = scene.surface_of_pair(c.a, c.b).friction;
+  if (!moves_by_forces(scene.model, body(c.b)) && moves_by_forces(scene.model, body(c.a))) {
+    std::swap(c.a, c.b);
+    for (Vector3* v : {&c.normal, &c.force, &c.couple}) *v = -*v;
+  }
+  return {c.a, c.b, body(c.a), body(c.b), c.point, c.normal, c.force, c.couple, friction};
 }
 
 }  // namespace
@@ -229,33 +234,6 @@ SceneView view_of(const FilmedRun& run) {
     measure(view, run.snapshot(instant), Measured::of_picture);
   return view;
 }
-
-namespace {
-
-ShownContact shown(const SceneModel& scene, const RecordedContact& c) {
-  const auto body_of_geometry = [&](int g) {
-    return static_cast<std::size_t>(scene.geometries[static_cast<std::size_t>(g)].body);
-  };
-  ShownContact on_b{c.a,
-                    c.b,
-                    body_of_geometry(c.a),
-                    body_of_geometry(c.b),
-                    c.point,
-                    c.normal,
-                    c.force,
-                    c.couple,
-                    scene.surface_of_pair(c.a, c.b).friction};
-  if (!moves_by_forces(scene.model, on_b.body_b) && moves_by_forces(scene.model, on_b.body_a)) {
-    std::swap(on_b.a, on_b.b);
-    std::swap(on_b.body_a, on_b.body_b);
-    on_b.n_W = -on_b.n_W;
-    on_b.force_W = -on_b.force_W;
-    on_b.couple_W = -on_b.couple_W;
-  }
-  return on_b;
-}
-
-}  // namespace
 
 bool moves_by_forces(const Model<double>& model, std::size_t body) {
   for (std::size_t i = body; i > 0; i = static_cast<std::size_t>(model.parent[i])) {

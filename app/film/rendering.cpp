@@ -21,9 +21,7 @@ void copy_into(Image& image, const Image& part, int left, int top) {
 }
 
 bool same_legend(const std::vector<LegendLine>& a, const std::vector<LegendLine>& b) {
-  return std::equal(
-      a.begin(), a.end(), b.begin(), b.end(),
-      [](const LegendLine& x, const LegendLine& y) { return x.words() == y.words(); });
+  return std::ranges::equal(a, b, {}, &LegendLine::words, &LegendLine::words);
 }
 
 }  // namespace

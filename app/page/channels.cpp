@@ -14,9 +14,9 @@
 namespace twinarm {
 
 void PageBytes::write_place(JsonWriter& json, const void* data, std::size_t count, std::size_t size,
-                            const char* type) {
+                            char kind) {
   const std::size_t at = append_array(bytes_, data, count * size);
-  json.object({{"at", at}, {"count", count}, {"type", type}});
+  json.object({{"at", at}, {"count", count}, {"type", kind + std::to_string(8 * size)}});
 }
 
 std::string PageBytes::packed() const {
@@ -55,39 +55,25 @@ void PageChannels::add_frame(const RecordedFrame& frame, const Snapshot& snapsho
 
 void PageChannels::write(JsonWriter& json, PageBytes& bytes) const {
   bytes.add(json, "times", times_);
-  json.key("channels").begin_array();
-  for (std::size_t i = 0; i < channels_.all().size(); ++i) {
-    const RunColumn& channel = channels_.all()[i];
-    json.begin_object();
-    write_channel(json, channel);
-    bytes.add(json, "values", values_[i]);
-    json.end_object();
-  }
-  json.end_array();
-  json.key("ledger").begin_object();
-  json.key("rows").texts(run_.recording->rows());
-  json.key("end").list(end_, [&](const double work) { json.text(number_text(work)); });
-  bytes.add(json, "works", works_);
-  json.end_object();
-  json.key("momentum").begin_object();
-  json.key("rows").texts(run_.recording->momentum_rows());
-  bytes.add(json, "values", momenta_);
-  json.end_object();
-  std::vector<std::string> bodies;
-  const Model<double>& model = run_.model();
-  bodies.assign(model.body_name.begin() + 1, model.body_name.end());
-  json.key("bodies").texts(bodies);
+  std::size_t channel = 0;
+  json.key("channels").list(channels_.all(), [&](const RunColumn& column) {
+    json.object([&] {
+      write_channel(json, column);
+      bytes.add(json, "values", values_[channel++]);
+    });
+  });
+  json.key("ledger").object([&] {
+    json.key("rows").texts(run_.recording->rows());
+    json.key("end").list(end_, [&](const double work) { json.text(number_text(work)); });
+    bytes.add(json, "works", works_);
+  });
+  json.key("momentum").object([&] {
+    json.key("rows").texts(run_.recording->momentum_rows());
+    bytes.add(json, "values", momenta_);
+  });
+  const std::vector<std::string>& names = run_.model().body_name;
+  json.key("bodies").texts({names.begin() + 1, names.end()});
 }
-
-namespace {
-
-const char* unit_of_pull(const SimulateInput& input, std::size_t c) {
-  const bool is_couple = input.scene && c < input.scene->couplings.size() &&
-                         kind_of_coupling(*input.scene, c) == ShownCouplingForce::Kind::couple;
-  return is_couple ? "N m" : "N";
-}
-
-}  // namespace
 
 RunChannels::RunChannels(const SimulateInput& input, const RecordingHeader& header)
     : all_(run_columns(input.robot)),
@@ -97,8 +83,12 @@ RunChannels::RunChannels(const SimulateInput& input, const RecordingHeader& head
   elastic_ = all_.size();
   if (pulls_ > 0) add("elastic_energy", "J", "energy", "springs");
   first_pull_ = all_.size();
-  for (std::size_t c = 0; c < pulls_; ++c)
-    add("coupling/" + header.couplings[c], unit_of_pull(input, c), "coupling", header.couplings[c]);
+  for (std::size_t c = 0; c < pulls_; ++c) {
+    const bool is_couple = input.scene && c < input.scene->couplings.size() &&
+                           kind_of_coupling(*input.scene, c) == ShownCouplingForce::Kind::couple;
+    add("coupling/" + header.couplings[c], is_couple ? "N m" : "N", "coupling",
+        header.couplings[c]);
+  }
 }
 
 std::size_t RunChannels::add(const std::string& name, const std::string& unit,

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "app/support/text.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -17,9 +18,7 @@ constexpr std::size_t kLongestFile = 200'000;  // bytes; meshes are in the pictu
 std::string shell_word(const std::string& word) {
   const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
+  return "'" + replaced(word, "'", "'\\''") + "'";
 }
 
 std::string three_numbers(const Vector3& v) {
@@ -53,15 +52,11 @@ void write_pairs(JsonWriter& json, const RecordingHeader& header, const FilmedRu
 void write_table(JsonWriter& json, const std::string& title, const Row& head,
                  const std::vector<Row>& rows) {
   if (rows.empty()) return;
-  json.begin_object();
-  json.members({{"title", title}, {"head", head}});
-  json.key("rows").list(rows, [&](const Row& row) { json.texts(row); });
-  json.end_object();
+  json.object({{"title", title}, {"head", head}, {"rows", rows}});
 }
 
 std::vector<Row> coupling_rows(const SceneModel& scene) {
   const char* targets[] = {"start", "state", "paper", "trace", "device", "synthetic hand"};
-  const char* treatments[] = {"explicit", "semi-implicit", "implicit"};
   std::vector<Row> rows;
   for (const SceneCoupling& c : scene.couplings) {
     const bool is_linear = c.type == CouplingDescription::Type::linear;
@@ -72,8 +67,7 @@ std::vector<Row> coupling_rows(const SceneModel& scene) {
                                                 : c.measure == SpringSpace::joint ? ", joint"
                                                                                   : ", world"),
                     scene.model.body_name[static_cast<std::size_t>(c.spring.body)],
-                    number_text(c.spring.k), number_text(c.spring.b),
-                    treatments[static_cast<std::size_t>(c.treatment)],
+                    number_text(c.spring.k), number_text(c.spring.b), name_of(c.treatment),
                     c.rate > 0 ? number_text(c.rate) + " Hz" : "each step",
                     targets[static_cast<std::size_t>(c.target)]});
   }
@@ -136,12 +130,9 @@ void write_files(JsonWriter& json, const RecordingHeader& header) {
 
 std::string command_line(const std::vector<std::string>& words) {
   std::string line;
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const bool is_program = i == 0;
-    const std::string word =
-        is_program ? std::filesystem::path(words[i]).filename().string() : words[i];
-    line += (is_program ? "" : " ") + shell_word(word);
-  }
+  for (std::size_t i = 0; i < words.size(); ++i)
+    line += i == 0 ? shell_word(std::filesystem::path(words[i]).filename().string())
+                   : " " + shell_word(words[i]);
   return line;
 }
 

@@ -10,21 +10,16 @@ namespace {
 // Positions in 16 bits of the bounding box, normals in bytes, differences of indices: they
 // compress well.
 void write_mesh(JsonWriter& json, PageBytes& bytes, const DrawMesh& mesh) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e30), high = -low;
-  for (const auto& p : mesh.positions)
-    for (int c = 0; c < 3; ++c) {
-      const double value = p[static_cast<std::size_t>(c)];
-      low[c] = std::min(low[c], value);
-      high[c] = std::max(high[c], value);
-    }
-  if (mesh.positions.empty()) low = high = Eigen::Vector3d::Zero();
+  Eigen::AlignedBox3d box = bounding_box(mesh);
+  if (mesh.positions.empty()) box.extend(Eigen::Vector3d::Zero());
+  const Eigen::Vector3d low = box.min(), high = box.max(), size = box.sizes();
   std::vector<std::uint16_t> position;
   std::vector<std::int8_t> normal;
   std::vector<std::uint32_t> index;
   for (const auto& p : mesh.positions)
-    for (int c = 0; c < 3; ++c) {
-      const double size = high[c] - low[c];
-      const double share = size > 0 ? (p[static_cast<std::size_t>(c)] - low[c]) / size : 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto i = static_cast<Eigen::Index>(c);
+      const double share = size[i] > 0 ? (p[c] - low[i]) / size[i] : 0;
       position.push_back(static_cast<std::uint16_t>(std::lround(65535 * share)));
     }
   for (const auto& n : mesh.normals)
@@ -35,24 +30,22 @@ void write_mesh(JsonWriter& json, PageBytes& bytes, const DrawMesh& mesh) {
       index.push_back(vertex - last);
       last = vertex;
     }
-  json.begin_object();
-  json.members({{"low", low}, {"high", high}, {"twoSided", mesh.two_sided}});
   std::vector<float> uv;
   for (const auto& place : mesh.uv) uv.insert(uv.end(), place.begin(), place.end());
-  bytes.add(json, "uv", uv);
-  bytes.add(json, "position", position);
-  bytes.add(json, "normal", normal);
-  bytes.add(json, "index", index);
-  json.end_object();
+  json.object([&] {
+    json.members({{"low", low}, {"high", high}, {"twoSided", mesh.two_sided}});
+    bytes.add(json, "uv", uv);
+    bytes.add(json, "position", position);
+    bytes.add(json, "normal", normal);
+    bytes.add(json, "index", index);
+  });
 }
 
 void write_textures(JsonWriter& json, PageBytes& bytes, const DrawList& list) {
   json.key("textures").begin_array();
   for (std::size_t i = 0; i < std::min(list.textures.size(), kMaxTextures); ++i) {
     const std::string png = texture_file(*list.textures[i]);
-    json.begin_object();
-    bytes.add(json, "png", std::vector<std::uint8_t>(png.begin(), png.end()));
-    json.end_object();
+    json.object([&] { bytes.add(json, "png", std::vector<std::uint8_t>(png.begin(), png.end())); });
   }
   json.end_array();
 }
@@ -62,19 +55,47 @@ void write_layer(JsonWriter& json, PageBytes& bytes, const PageLayer& layer) {
   json.members({{"name", layer.name}, {"what", layer.what}, {"shown", layer.shown}});
   json.key("legend");
   write_legend(json, layer.legend);
-  json.key("instances").begin_object();
-  bytes.add(json, "first", layer.first);
-  InstanceColumns::each(layer.instances, [&](const char* name, const auto& column) {
-    bytes.add(json, name, column);
+  json.key("instances").object([&] {
+    bytes.add(json, "first", layer.first);
+    InstanceColumns::each(layer.instances, [&](const char* name, const auto& column) {
+      bytes.add(json, name, column);
+    });
+  });
+  json.key("labels").object([&] {
+    bytes.add(json, "first", layer.first_label);
+    bytes.add(json, "text", layer.text);
+    bytes.add(json, "position", layer.labels.position);
+    bytes.add(json, "offset", layer.labels.offset);
   });
   json.end_object();
-  json.key("labels").begin_object();
-  bytes.add(json, "first", layer.first_label);
-  bytes.add(json, "text", layer.text);
-  bytes.add(json, "position", layer.labels.position);
-  bytes.add(json, "offset", layer.labels.offset);
-  json.end_object();
-  json.end_object();
+}
+
+constexpr std::uint8_t kSeenThrough = 1;
+constexpr int kMaxTextureWidth = 1024;  // [px]; wider ones are halved
+
+std::uint8_t byte_of(float share) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
+}
+
+template <class Vector>
+void append_vector(std::vector<float>& column, const Vector& v) {
+  for (int c = 0; c < 3; ++c) column.push_back(static_cast<float>(v[c]));
+}
+
+// Mean of four pixels each.
+Image halved(const Image& image) {
+  Image half = make_image(std::max(1, image.width / 2), std::max(1, image.height / 2));
+  for (int y = 0; y < half.height; ++y)
+    for (int x = 0; x < half.width; ++x)
+      for (int c = 0; c < 4; ++c) {
+        int sum = 2;
+        for (const int dy : {0, 1})
+          for (const int dx : {0, 1})
+            sum += image.pixel(std::min(2 * x + dx, image.width - 1),
+                               std::min(2 * y + dy, image.height - 1))[c];
+        half.pixel(x, y)[c] = static_cast<std::uint8_t>(sum / 4);
+      }
+  return half;
 }
 
 }  // namespace
@@ -157,42 +178,6 @@ void PageLayers::write(JsonWriter& json, PageBytes& bytes) const {
                           [&](const PageLayer& layer) { write_layer(json, bytes, layer); });
   json.key("texts").texts(texts_);
 }
-
-namespace {
-
-constexpr std::uint8_t kSeenThrough = 1;
-constexpr int kMaxTextureWidth = 1024;  // [px]; wider ones are halved
-
-std::uint8_t byte_of(float share) {
-  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0f, 1.0f)));
-}
-
-template <class Vector>
-void append_vector(std::vector<float>& column, const Vector& v) {
-  for (int c = 0; c < 3; ++c) column.push_back(static_cast<float>(v[c]));
-}
-
-// Mean of four pixels each.
-Image halved(const Image& image) {
-  Image half;
-  half.width = std::max(1, image.width / 2);
-  half.height = std::max(1, image.height / 2);
-  half.rgba.resize(std::size_t{4} * static_cast<std::size_t>(half.width) *
-                   static_cast<std::size_t>(half.height));
-  for (int y = 0; y < half.height; ++y)
-    for (int x = 0; x < half.width; ++x)
-      for (int c = 0; c < 4; ++c) {
-        int sum = 2;
-        for (const int dy : {0, 1})
-          for (const int dx : {0, 1})
-            sum += image.pixel(std::min(2 * x + dx, image.width - 1),
-                               std::min(2 * y + dy, image.height - 1))[c];
-        half.pixel(x, y)[c] = static_cast<std::uint8_t>(sum / 4);
-      }
-  return half;
-}
-
-}  // namespace
 
 void InstanceColumns::add(const Instance& instance) {
   mesh.push_back(static_cast<std::uint16_t>(instance.mesh));

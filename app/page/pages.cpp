@@ -1,7 +1,5 @@
 #include "app/page/pages.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "app/page/page_facts.h"
 #include "app/page/page_layers.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 #include "app/support/version.h"
 #include "app/web/web_bundle.h"
 #include "solver/support/diagnostics.h"
@@ -21,14 +20,7 @@
 namespace twinarm {
 namespace {
 
-std::string without_tags(std::string json) {  // "</script>" in a name would end the block
-  for (std::size_t at = 0; (at = json.find('<', at)) != std::string::npos; at += 6)
-    json.replace(at, 1, "\\u003c");
-  return json;
-}
-
-}  // namespace
-
+// Throws InputError if the program was built without templates; `instead`: an alternative.
 void require_form(std::string_view form, std::string_view missing, const std::string& instead) {
   if (form.empty())
     throw InputError({{"", 0, "page", "there is no page to fill in",
@@ -37,9 +29,11 @@ void require_form(std::string_view form, std::string_view missing, const std::st
 
 std::string fill_form(std::string_view form, const std::string& title, const JsonWriter& json,
                       const PageBytes& bytes) {
-  const std::vector<std::pair<std::string, std::string>> parts{{"@TITLE@", escaped(title)},
-                                                               {"@RUN@", without_tags(json.str())},
-                                                               {"@BYTES@", bytes.packed()}};
+  // "</script>" in a name would end the block of the JSON.
+  const std::vector<std::pair<std::string, std::string>> parts{
+      {"@TITLE@", escaped(title)},
+      {"@RUN@", replaced(json.str(), "<", "\\u003c")},
+      {"@BYTES@", bytes.packed()}};
   std::string html;
   for (const auto& [mark, text] : parts) {  // each once, in this order
     const std::size_t at = form.find(mark);
@@ -49,46 +43,10 @@ std::string fill_form(std::string_view form, const std::string& title, const Jso
   return html + std::string(form);
 }
 
-std::string inspect_page(const SimulateInput& input, const State<double>& x,
-                         const std::string& inspection, const InspectedJson& words) {
-  const WebBundle bundle = web_bundle();
-  require_form(bundle.inspect, bundle.missing, "--json needs none");
-  const SceneModel* scene = input.scene.get();
-  const Model<double>& model = input.robot.model;
-  SceneView view = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
-  const Snapshot snapshot =
-      scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
-  look_ahead(view, snapshot);
-  look_at(view, snapshot);
-  settle(view);
-  measure(view, snapshot, Measured::of_picture);
-  constexpr double kAspect = 1.0;  // of the view
-  set_view(view, {}, kAspect);
-  PageLayers layers(view);
-  layers.add_frame(snapshot);
-  layers.add_apart(snapshot);
-  layers.show_at_first({"joints"});
-
-  JsonWriter json;
-  PageBytes bytes;
-  json.begin_object();
-  json.members({{"title", words.title},
-                {"state", words.state},
-                {"command", command_line(words.command)},
-                {"version", kProgramVersion},
-                {"inspection", inspection}});
-  layers.write(json, bytes);
-  write_view(json, view);
-  json.end_object();
-  return fill_form(bundle.inspect, words.title, json, bytes);
-}
-
-namespace {
-
 constexpr double kMaxRate = 120;     // frames per second: twice what screens show, for slow motion
 constexpr double kMaxFrames = 1500;  // of a page
-constexpr std::size_t kMaxEntries = 400'000;  // of all its draw lists together
-constexpr double kAspect = 1.35;              // of the view
+constexpr std::size_t kMaxEntries = 400'000;                // of all its draw lists together
+constexpr double kInspectAspect = 1, kReplayAspect = 1.35;  // of the views
 
 // Between two frames: the last frame of the recording is included, none is repeated.
 double interval_of(double duration, std::size_t recorded) {
@@ -120,12 +78,40 @@ void reduce_contacts(FilmedRun& run, std::size_t entries_a_frame) {
   run.shown = std::move(kept);
 }
 
-std::size_t entries_of(SceneView& view, const Snapshot& snapshot) {
-  draw(view, snapshot, parse_overlays("all"));
-  return view.list.instances.size();
-}
-
 }  // namespace
+
+std::string inspect_page(const SimulateInput& input, const State<double>& x,
+                         const std::string& inspection, const InspectedJson& words) {
+  const WebBundle bundle = web_bundle();
+  require_form(bundle.inspect, bundle.missing, "--json needs none");
+  const SceneModel* scene = input.scene.get();
+  const Model<double>& model = input.robot.model;
+  SceneView view = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
+  const Snapshot snapshot =
+      scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
+  look_ahead(view, snapshot);
+  look_at(view, snapshot);
+  settle(view);
+  measure(view, snapshot, Measured::of_picture);
+  set_view(view, {}, kInspectAspect);
+  PageLayers layers(view);
+  layers.add_frame(snapshot);
+  layers.add_apart(snapshot);
+  layers.show_at_first({"joints"});
+
+  JsonWriter json;
+  PageBytes bytes;
+  json.begin_object();
+  json.members({{"title", words.title},
+                {"state", words.state},
+                {"command", command_line(words.command)},
+                {"version", kProgramVersion},
+                {"inspection", inspection}});
+  layers.write(json, bytes);
+  write_view(json, view);
+  json.end_object();
+  return fill_form(bundle.inspect, words.title, json, bytes);
+}
 
 ReplayPage replay_page(const std::filesystem::path& file) {
   const WebBundle bundle = web_bundle();
@@ -133,8 +119,9 @@ ReplayPage replay_page(const std::filesystem::path& file) {
   Progress progress(true);
   FilmedRun run = open_film(file, progress);
   SceneView view = view_of(run);
-  set_view(view, {}, kAspect);
-  reduce_contacts(run, entries_of(view, run.snapshot(run.shown.back())));
+  set_view(view, {}, kReplayAspect);
+  draw(view, run.snapshot(run.shown.back()), parse_overlays("all"));
+  reduce_contacts(run, view.list.instances.size());
   PageLayers layers(view);
   PageChannels channels(run);
   for (const RunInstant& instant : run.shown) {

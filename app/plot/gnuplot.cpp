@@ -2,23 +2,18 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdlib>
 
 #include "app/data/html_page.h"
 #include "app/support/files.h"
+#include "app/support/program.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
-
-extern char** environ;
 
 namespace twinarm {
 
@@ -32,63 +27,29 @@ const char* const kFigureStyle =
     "set xtics textcolor '#333333'\n"
     "set ytics textcolor '#333333'\n";
 
-namespace {
-
-std::filesystem::path find_program(const std::string& name) {
-  const char* path = std::getenv("PATH");
-  for (const std::string& folder : split(path ? path : "", ':')) {
-    const std::filesystem::path candidate = std::filesystem::path(folder) / name;
-    if (access(candidate.c_str(), X_OK) == 0) return candidate;
-  }
-  throw InputError({{"", 0, name, "the program is not in PATH; it draws the figures",
+std::filesystem::path require_gnuplot() {
+  const std::filesystem::path program = find_program("gnuplot");
+  if (!program.empty()) return program;
+  throw InputError({{"", 0, "gnuplot", "the program is not in PATH; it draws the figures",
                      "install gnuplot-nox (scripts/setup does)", "program.missing"}});
 }
 
-// Runs the script in `folder`, without a shell.
-bool run_gnuplot(const std::filesystem::path& folder, const std::filesystem::path& script,
-                 const std::filesystem::path& messages) {
-  const std::string program = find_program("gnuplot").string();
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, script.c_str(), O_RDONLY, 0);
-  for (int stream : {STDOUT_FILENO, STDERR_FILENO})
-    posix_spawn_file_actions_addopen(&actions, stream, messages.c_str(),
-                                     O_WRONLY | O_CREAT | O_APPEND, 0600);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-  std::string name = "gnuplot", option = "--default-settings";  // not the user's own ~/.gnuplot
-  char* arguments[] = {name.data(), option.data(), nullptr};
-  pid_t child = 0;
-  const int failed = posix_spawn(&child, program.c_str(), &actions, nullptr, arguments, environ);
-  posix_spawn_file_actions_destroy(&actions);
-  if (failed) return false;
-  int status = 0;
-  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
-
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos;
-       at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-}
-
-}  // namespace
-
-void require_gnuplot() {
-  find_program("gnuplot");
+std::pair<double, double> finite_range(const std::vector<const std::vector<double>*>& curves) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const auto* values : curves)
+    for (const double x : *values)
+      if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+  return {low, high};
 }
 
 std::string in_quotes(const std::string& text) {
-  std::string doubled = text;
-  replace_all(doubled, "'", "''");
-  return "'" + doubled + "'";
+  return "'" + replaced(text, "'", "''") + "'";
 }
 
-Gnuplot::Gnuplot(std::filesystem::path folder) : folder_(std::move(folder)) {
-  require_gnuplot();
-  temporary_ = make_temporary_folder("twinarm-figures");
-}
+Gnuplot::Gnuplot(std::filesystem::path folder)
+    : folder_(std::move(folder)),
+      program_(require_gnuplot()),
+      temporary_(make_temporary_folder("twinarm-figures")) {}
 
 Gnuplot::~Gnuplot() {
   std::error_code ignored;
@@ -143,11 +104,18 @@ std::string Gnuplot::run(const std::string& name, const char* extension,
   const std::filesystem::path made = temporary_ / (name + extension);
   const std::filesystem::path input = temporary_ / (name + ".gp");
   const std::filesystem::path messages = temporary_ / (name + ".log");
-  write_whole_file(
-      input, fmt::format("set terminal {}\nset output '{}'\n", terminal, made.filename().string()) +
-                 kFigureStyle + script + "\nunset output\n");
-  const bool is_drawn = run_gnuplot(temporary_, input, messages) && std::filesystem::exists(made);
-  check_interrupt();  // Ctrl-C ends gnuplot too
+  write_whole_file(input,
+                   fmt::format("cd {}\nset terminal {}\nset output '{}'\n{}{}\nunset output\n",
+                               in_quotes(temporary_.string()), terminal, made.filename().string(),
+                               kFigureStyle, script));
+  const int in = open(input.c_str(), O_RDONLY | O_CLOEXEC);
+  const int out = open(messages.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  // Without the user's own ~/.gnuplot.
+  const pid_t child = start_program({program_.string(), "--default-settings"}, in, out, out);
+  close(in);
+  close(out);
+  const bool is_drawn = child > 0 && exit_code_of(child) == 0 && std::filesystem::exists(made);
+  check_interrupt();
   if (!is_drawn)
     throw std::runtime_error("gnuplot could not draw " + name + ": " +
                              (std::filesystem::exists(messages) ? read_whole_file(messages) : ""));
@@ -172,15 +140,16 @@ std::string Gnuplot::svg(const std::string& name, const std::string& title, int 
                       width, height, name),
           script);
   // Unique ids for several figures in a page, fallback fonts, the title.
-  for (const char* id : {"gnuplot_canvas", "textbox", "greybox"}) {
-    replace_all(drawn, fmt::format("\"{}\"", id), fmt::format("\"{}_{}\"", name, id));
-    replace_all(drawn, fmt::format("'{}'", id), fmt::format("'{}_{}'", name, id));
-    replace_all(drawn, fmt::format("#{})", id), fmt::format("#{}_{})", name, id));
-  }
-  replace_all(drawn, "'gp", "'" + name + "_gp");
-  replace_all(drawn, "#gp", "#" + name + "_gp");
-  replace_all(drawn, "\"DejaVu Sans\"", "\"DejaVu Sans, Verdana, sans-serif\"");
-  replace_all(drawn, "<title>" + name + "</title>", "<title>" + escaped(title) + "</title>");
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    drawn = replaced(std::move(drawn), from, to);
+  };
+  for (const std::string id : {"gnuplot_canvas", "textbox", "greybox"})
+    for (const auto& [before, after] : {std::pair{"\"", "\""}, {"'", "'"}, {"#", ")"}})
+      replace(before + id + after, before + name + "_" + id + after);
+  replace("'gp", "'" + name + "_gp");
+  replace("#gp", "#" + name + "_gp");
+  replace("\"DejaVu Sans\"", "\"DejaVu Sans, Verdana, sans-serif\"");
+  replace("<title>" + name + "</title>", "<title>" + escaped(title) + "</title>");
   const std::size_t begin = drawn.find("<desc>"), end = drawn.find("</desc>");
   if (end != std::string::npos && begin < end) drawn.erase(begin, end + 7 - begin);
   return drawn;

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace twinarm {
@@ -20,8 +21,8 @@ inline constexpr const char* faint = "#9A9A9A";
 
 extern const char* const kFigureStyle;  // of each figure; repeat after gnuplot's `reset`
 
-// Throws InputError if gnuplot is not in PATH: call it before long computations.
-void require_gnuplot();
+// The program. Throws InputError if it is not in PATH: call it before long computations.
+std::filesystem::path require_gnuplot();
 
 class Gnuplot {
  public:
@@ -49,9 +50,12 @@ class Gnuplot {
   // Output of gnuplot for this terminal.
   std::string run(const std::string& name, const char* extension, const std::string& terminal,
                   const std::string& script);
-  std::filesystem::path folder_, temporary_;
+  std::filesystem::path folder_, program_, temporary_;
   int files_ = 0;
 };
+
+// Smallest and largest finite value of all curves; {inf, -inf} if there is none.
+std::pair<double, double> finite_range(const std::vector<const std::vector<double>*>& curves);
 
 // Text in a script: in single quotes, inner ones doubled.
 std::string in_quotes(const std::string& text);

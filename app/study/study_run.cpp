@@ -7,29 +7,14 @@
 #include "collision/import/robot/robot_model.h"
 #include "coupling/analysis/prediction.h"
 #include "coupling/laws/coupling_spec.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
 
-// KVR, DVR, studied coupling, auxiliary couplings and joint stops.
+// With joint stops.
 TrackingSeries track(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec) {
-  TrackingSetup setup;
-  setup.kvr_model = &robot.kvr_model();
-  setup.dvr_model = &robot.dvr_model(spec.coupling.type);
-  setup.hand = &hand;
-  setup.joints = robot.joints();
-  setup.kvr_rates = spec.kvr_rates;
-  setup.integrator = spec.integrator;
-  setup.h = spec.step();
-  CouplingSpec main = spec.coupling;
-  main.springs = robot.springs(spec.gains.k1, spec.gains.b1, spec.gains.k2, spec.gains.b2);
-  main.options.hold_steps = spec.held_substeps;
-  if (spec.held_substeps > 1) main.hold_steps = spec.held_substeps;
-  setup.couplings = {main};
-  for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
-  TrackingSystem system(setup);
-  JointStops stops("stops", *setup.dvr_model, robot.stops());
+  TrackingSystem system(tracking_setup(robot, hand, spec));
+  JointStops stops("stops", robot.dvr_model(spec.coupling.type), robot.stops());
   if (!robot.stops().empty()) system.simulation().add(stops);
   return system.run();
 }
@@ -60,10 +45,56 @@ void measure(const TrackingSeries& series, RunResult& result) {
     result.max_deg[j] = error.max[j] / kDegree;
     result.mean_deg[j] = error.mean[j] / kDegree;
   }
-  result.stable = series.finite && std::max(result.max_deg[0], result.max_deg[1]) < 180;
+  result.stable = series.finite && result.largest_deg() < 180;
+}
+
+// Child link of a joint and its descendants.
+std::vector<std::string> links_outward(const RobotDescription& robot, const std::string& joint) {
+  std::vector<std::string> links;
+  for (const JointDescription& j : robot.joints)
+    if (j.name == joint) links.push_back(j.child);
+  for (std::size_t n = 0; n < links.size(); ++n)
+    for (const JointDescription& j : robot.joints)
+      if (j.parent == links[n]) links.push_back(j.child);
+  return links;
+}
+
+// Implicit spring-damper of a joint coordinate, from frequency and damping ratio with the inertia
+// of that joint, all others locked.
+CouplingSpec joint_hold(const Model<double>& model, const std::string& joint, double frequency_hz,
+                        double damping_ratio) {
+  const int body = model.find_joint(joint);
+  const auto dof = static_cast<Eigen::Index>(model.iv[static_cast<std::size_t>(body)]);
+  const double I = mass_matrix(model, State<double>(model))(dof, dof);
+  const double w = 2 * std::numbers::pi * frequency_hz;
+  CouplingSpec spec;
+  spec.name = joint;
+  spec.measure = SpringSpace::joint;
+  spec.treatment = Discretization::implicit;
+  spec.springs = {{joint, body, Vector3::Zero(), I * w * w, 2 * damping_ratio * I * w}};
+  return spec;
 }
 
 }  // namespace
+
+TrackingSetup tracking_setup(const StudyRobot& robot, const OperatorMotion& hand,
+                             const RunSpec& spec) {
+  TrackingSetup setup;
+  setup.kvr_model = &robot.kvr_model();
+  setup.dvr_model = &robot.dvr_model(spec.coupling.type);
+  setup.hand = &hand;
+  setup.joints = robot.joints();
+  setup.kvr_rates = spec.kvr_rates;
+  setup.integrator = spec.integrator;
+  setup.h = spec.step();
+  CouplingSpec main = spec.coupling;
+  main.springs = robot.springs(spec.gains);
+  main.options.hold_steps = spec.held_substeps;
+  if (spec.held_substeps > 1) main.hold_steps = spec.held_substeps;
+  setup.couplings = {main};
+  for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
+  return setup;
+}
 
 RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec) {
   RunResult result;
@@ -73,17 +104,13 @@ RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec
   return result;
 }
 
-void predict(const StudyRobot& robot, RunResult& result) {
-  predict(robot, result, robot.start_state());
-}
-
 void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose) {
   const RunSpec& spec = result.spec;
   const Model<double>& model = robot.dvr_model(spec.coupling.type);
   const AutomaticMotion hand{HandMapping{}};
   TargetRobot kvr(robot.kvr_model(), hand, HandMapping{}, robot.joints());
   CouplingSpec main = spec.coupling;
-  main.springs = robot.springs(spec.gains.k1, spec.gains.b1, spec.gains.k2, spec.gains.b2);
+  main.springs = robot.springs(spec.gains);
   const auto coupling = make_coupling(main, model, kvr);
   Kinematics k(model);
   forward_kinematics(model, pose, k);
@@ -122,9 +149,13 @@ ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
   return errors;
 }
 
+std::vector<double> in_degrees(std::vector<double> radians) {
+  for (double& x : radians) x /= kDegree;
+  return radians;
+}
+
 const char* treatment_name(const CouplingSpec& spec) {
-  if (spec.printed) return "as printed";
-  return name_of(spec.treatment);
+  return spec.printed ? "as printed" : name_of(spec.treatment);
 }
 
 std::string coupling_words(const CouplingSpec& spec) {
@@ -133,37 +164,6 @@ std::string coupling_words(const CouplingSpec& spec) {
   const SpringSpace measure = spec.printed ? spec.options.measure : spec.measure;
   return measure == SpringSpace::world ? "torsional, world orientation" : "torsional, joint angle";
 }
-
-namespace {
-
-// Child link of a joint and its descendants.
-std::vector<std::string> links_outward(const RobotDescription& robot, const std::string& joint) {
-  std::vector<std::string> links;
-  for (const JointDescription& j : robot.joints)
-    if (j.name == joint) links.push_back(j.child);
-  for (std::size_t n = 0; n < links.size(); ++n)
-    for (const JointDescription& j : robot.joints)
-      if (j.parent == links[n]) links.push_back(j.child);
-  return links;
-}
-
-// Implicit spring-damper of a joint coordinate, from frequency and damping ratio with the inertia
-// of that joint, all others locked.
-CouplingSpec joint_hold(const Model<double>& model, const std::string& joint, double frequency_hz,
-                        double damping_ratio) {
-  const int body = model.find_joint(joint);
-  const auto dof = static_cast<Eigen::Index>(model.iv[static_cast<std::size_t>(body)]);
-  const double I = mass_matrix(model, State<double>(model))(dof, dof);
-  const double w = 2 * std::numbers::pi * frequency_hz;
-  CouplingSpec spec;
-  spec.name = joint;
-  spec.measure = SpringSpace::joint;
-  spec.treatment = Discretization::implicit;
-  spec.springs = {{joint, body, Vector3::Zero(), I * w * w, 2 * damping_ratio * I * w}};
-  return spec;
-}
-
-}  // namespace
 
 StudyRobot StudyRobot::s103(const StudySettings& settings, const RobotDescription& description,
                             double arm2_mass_scale) {
@@ -196,16 +196,16 @@ StudyRobot StudyRobot::findings(const RobotDescription& description) {
   robot.joints_.turned = {"joint1", "joint2"};
   robot.kvr_model_ = robot.dvr_plain_ = robot.dvr_weighted_ = build_model(description);
   for (const std::string& joint : robot.joints_.turned)
-    for (const JointDescription& j : description.joints)
-      if (j.name == joint)
-        for (const LinkDescription& link : description.links)
-          if (link.name == j.child) robot.mounts_.push_back({link.name, link.com});
+    for (const LinkDescription& link : description.links)
+      if (link.name == links_outward(description, joint)[0])
+        robot.mounts_.push_back({link.name, link.com});
   return robot;
 }
 
-std::vector<Spring> StudyRobot::springs(double k1, double b1, double k2, double b2) const {
+std::vector<Spring> StudyRobot::springs(const Gains& g) const {
   const auto body = [&](std::size_t m) { return kvr_model_.find_body(mounts_.at(m).link); };
-  return {{"joint1", body(0), mounts_[0].p_L, k1, b1}, {"joint2", body(1), mounts_[1].p_L, k2, b2}};
+  return {{"joint1", body(0), mounts_[0].p_L, g.k1, g.b1},
+          {"joint2", body(1), mounts_[1].p_L, g.k2, g.b2}};
 }
 
 State<double> StudyRobot::start_state() const {

@@ -1,6 +1,7 @@
 // One run of the study: specification, result and prediction.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -14,6 +15,12 @@
 #include "solver/forces/joint_stops.h"
 
 namespace twinarm {
+
+// Gains of the studied coupling on the links of joints 1 and 2.
+struct Gains {
+  double k1 = 0, b1 = 0, k2 = 0, b2 = 0;
+  static Gains both(double k, double b) { return {k, b, k, b}; }
+};
 
 // A robot of the study: models of KVR and DVR, and the springs between them.
 class StudyRobot {
@@ -38,7 +45,7 @@ class StudyRobot {
   const DrivenJoints& joints() const { return joints_; }
 
   // The two springs of the studied coupling, on the links of joints 1 and 2.
-  std::vector<Spring> springs(double k1, double b1, double k2, double b2) const;
+  std::vector<Spring> springs(const Gains& gains) const;
   // Couplings of joint 3 and the gripper, in every run; empty for a two-link robot.
   const std::vector<CouplingSpec>& auxiliary() const { return auxiliary_; }
   const std::vector<JointStops::Stop>& stops() const { return stops_; }
@@ -57,12 +64,6 @@ class StudyRobot {
   std::vector<JointStops::Stop> stops_;
 };
 
-// Gains of the studied coupling on the links of joints 1 and 2.
-struct Gains {
-  double k1 = 0, b1 = 0, k2 = 0, b2 = 0;
-  static Gains both(double k, double b) { return {k, b, k, b}; }
-};
-
 struct RunSpec {
   std::string name;       // "E3", "torsional-vector-60Hz", ...
   std::string title;      // in the report
@@ -72,7 +73,15 @@ struct RunSpec {
   int held_substeps = 1;  // physics steps per coupling evaluation
   TargetRates kvr_rates = TargetRates::from_hand;
   Integrator integrator = Integrator::semi_implicit;
+  RunSpec with_gains(const Gains& other) const {
+    RunSpec spec = *this;
+    spec.gains = other;
+    return spec;
+  }
   double step() const { return 1 / (rate * held_substeps); }
+  const char* pull_unit() const {  // of the coupling
+    return coupling.type == CouplingSpec::Type::linear ? "N" : "N m";
+  }
 };
 
 struct RunResult {
@@ -80,6 +89,7 @@ struct RunResult {
   TrackingSeries series;
   std::array<double, 2> max_deg{}, mean_deg{};
   bool stable = false;  // finite, and errors below 180 degrees
+  double largest_deg() const { return std::max(max_deg[0], max_deg[1]); }
 
   // Linear theory about a pose, by predict().
   std::array<double, 2> frequency{};  // natural [rad/s], ascending
@@ -90,9 +100,10 @@ struct RunResult {
   double interval() const { return 1 / spec.rate; }  // to compare with step_limit [s]
 };
 
+// KVR, DVR, studied coupling with the gains, auxiliary couplings.
+TrackingSetup tracking_setup(const StudyRobot& robot, const OperatorMotion& hand,
+                             const RunSpec& spec);
 RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec);
-// About the start of the automatic motion, or about another pose.
-void predict(const StudyRobot& robot, RunResult& result);
 void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose);
 
 // Objective of the searches: errors for several sweep times T, weighted by T, so that no resonance
@@ -104,6 +115,7 @@ struct ProtocolErrors {
 ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
                             const std::vector<double>& sweep_times);
 
+std::vector<double> in_degrees(std::vector<double> radians);
 std::string coupling_words(const CouplingSpec& spec);  // "torsional, world orientation"
 const char* treatment_name(const CouplingSpec& spec);  // "as printed", "explicit", ...
 

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <iomanip>
+#include <sstream>
+
 #include "coupling/device/device_motion.h"
 #include "coupling/target/target_robot.h"
 
@@ -9,12 +12,9 @@ namespace twinarm {
 namespace {
 
 std::string quoted(const std::string& text) {
-  std::string all = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') all += '\\';
-    all += c;
-  }
-  return all + "\"";
+  std::ostringstream out;
+  out << std::quoted(text);
+  return out.str();
 }
 
 // All digits, with a decimal point: a TOML float.
@@ -68,15 +68,14 @@ class SceneWriter {
     line("model", quoted(std::filesystem::absolute(settings_.urdf).lexically_normal().string()));
     line("limits", "false");  // the gripper has stops, below
     if (!scene_.with_obstacle) line("collide", "false");
-    std::string scales, loads;
+    std::vector<std::string> scales, loads;
     for (const auto& [link, factor] : masses.mass_scale)
-      scales += (scales.empty() ? "" : ", ") + quoted(link) + " = " + real(factor);
+      scales.push_back(quoted(link) + " = " + real(factor));
     for (const PointMass& load : masses.added_masses)
-      loads += (loads.empty() ? "" : ", ") + fmt::format("{{ link = {}, point = {}, mass = {} }}",
-                                                         quoted(load.link), list(load.p_L),
-                                                         real(load.mass));
-    if (!scales.empty()) line("mass_scale", "{ " + scales + " }");
-    if (!loads.empty()) line("payload", "[" + loads + "]");
+      loads.push_back(fmt::format("{{ link = {}, point = {}, mass = {} }}", quoted(load.link),
+                                  list(load.p_L), real(load.mass)));
+    if (!scales.empty()) line("mass_scale", fmt::format("{{ {} }}", fmt::join(scales, ", ")));
+    if (!loads.empty()) line("payload", fmt::format("[{}]", fmt::join(loads, ", ")));
     line("q", start());
   }
 
@@ -85,12 +84,11 @@ class SceneWriter {
     const TargetRobot kvr(robot_.kvr_model(), *scene_.hand.source, HandMapping{}, robot_.joints());
     std::vector<std::string> moved = robot_.joints().turned;
     moved.push_back(robot_.joints().gripper);
-    std::string q;
-    for (const std::string& joint : moved) {
+    for (std::string& joint : moved) {
       const auto body = static_cast<std::size_t>(model_.find_joint(joint));
-      q += (q.empty() ? "" : ", ") + quoted(joint) + " = " + real(kvr.start().x.q[model_.iq[body]]);
+      joint = quoted(joint) + " = " + real(kvr.start().x.q[model_.iq[body]]);
     }
-    return "{ " + q + " }";
+    return fmt::format("{{ {} }}", fmt::join(moved, ", "));
   }
 
   void write_obstacle() {
@@ -124,9 +122,8 @@ class SceneWriter {
 
   void write_coupling() {
     const CouplingSpec& coupling = scene_.spec.coupling;
-    const Gains& gains = scene_.spec.gains;
     const bool linear = coupling.type == CouplingSpec::Type::linear;
-    for (const Spring& spring : robot_.springs(gains.k1, gains.b1, gains.k2, gains.b2)) {
+    for (const Spring& spring : robot_.springs(scene_.spec.gains)) {
       table("coupling");
       line("name", quoted("pull_" + spring.name));
       line("type", quoted(facts_of(coupling.type, coupling.printed).name));

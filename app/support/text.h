@@ -1,4 +1,5 @@
-// Names and their misspellings, lists in one text, CSV; errors collected from several calls.
+// Names and their misspellings, lists in one text, replacement, CSV; errors collected from several
+// calls.
 #pragma once
 
 #include <optional>
@@ -54,6 +55,13 @@ inline std::vector<std::string> split(const std::string& text, char separator = 
     else
       fields.back() += c;
   return fields;
+}
+
+// With `to` in each place of `from`.
+inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
 }
 
 std::string csv_field(const std::string& text);                // quoted if necessary

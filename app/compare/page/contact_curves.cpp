@@ -13,17 +13,15 @@ namespace {
 
 // Result of the recorded case; empty if the recorder was complete before its end.
 std::optional<CaseResult> recorded(const AnalyticCase& c, ContactRecorder& recorder) {
-  std::optional<CaseResult> result;
-  contact_recorder = &recorder;
+  const struct Attached {
+    explicit Attached(ContactRecorder* to) { contact_recorder = to; }
+    ~Attached() { contact_recorder = nullptr; }
+  } attached(&recorder);
   try {
-    result = c.run();
+    return c.run();
   } catch (const ContactRecorder::Complete&) {
-  } catch (...) {
-    contact_recorder = nullptr;
-    throw;
+    return {};
   }
-  contact_recorder = nullptr;
-  return result;
 }
 
 // Linear interpolation at the times of another run; NAN after the end.

@@ -10,6 +10,7 @@
 #include "app/data/html_page.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/files.h"
+#include "app/support/text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
 
 namespace twinarm::compare_page {
@@ -76,12 +77,10 @@ std::string group_title(std::string group) {
 }
 
 // All digits in an attribute.
-std::string cell(double value, const char* format) {
-  return fmt::format("<td data-value=\"{:.17g}\">{}</td>", value,
-                     fmt::format(fmt::runtime(format), value));
-}
 std::string cell(const std::optional<double>& value, const char* format) {
-  return value ? cell(*value, format) : "<td>–</td>";
+  if (!value) return "<td>–</td>";
+  return fmt::format("<td data-value=\"{:.17g}\">{}</td>", *value,
+                     fmt::format(fmt::runtime(format), *value));
 }
 
 std::string index_row(const CompareRow& row) {
@@ -104,9 +103,8 @@ std::string index_table(const std::vector<CompareRow>& rows,
                         const std::vector<const SkippedCase*>& skipped) {
   std::string html =
       "<table class=index><thead><tr><th>case</th><th class=text>what is checked [unit of error "
-      "and "
-      "tolerance]</th><th>error</th><th>tolerance</th><th></th><th>order</th><th>energy drift</th>"
-      "<th>time [s]</th></tr></thead><tbody>\n";
+      "and tolerance]</th><th>error</th><th>tolerance</th><th></th><th>order</th><th>energy "
+      "drift</th><th>time [s]</th></tr></thead><tbody>\n";
   std::string group;
   for (const CompareRow& row : rows) {
     if (group != row.test->group) html += group_row(group = row.test->group);
@@ -121,13 +119,6 @@ std::string index_table(const std::vector<CompareRow>& rows,
   return html + "</tbody></table>\n";
 }
 
-std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped) {
-  const std::size_t failed = failures(rows);
-  std::string text = fmt::format("{} passed, {} failed", rows.size() - failed, failed);
-  if (skipped > 0) text += fmt::format(", {} skipped", skipped);
-  return text;
-}
-
 constexpr const char* kHowToRead =
     "<h2 id=reading>How to read this page</h2>\n"
     "<p><b>Numbers.</b> Error and tolerance are in the unit that the case names; a case passes if "
@@ -138,21 +129,20 @@ constexpr const char* kHowToRead =
     "circles are the reference. For timed events the event function is drawn, with a circle at "
     "each zero of the reference.</p>\n"
     "<p><b>Error against step.</b> All integrators, with steps that double. On logarithmic axes "
-    "the "
-    "order is the slope, printed after the name. A colour is an order, a mark is a scheme. dopri5 "
-    "chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. Implicit "
-    "schemes are run with the longest steps only, because they are slow. The dashed line is the "
-    "tolerance of the case. A slope can exceed the order if the error is mostly one of energy, "
-    "which rk4 has at fifth order, or if the largest terms cancel. A slope has no meaning if the "
-    "error is as large as the motion, or is rounding.</p>\n"
+    "the order is the slope, printed after the name. A colour is an order, a mark is a scheme. "
+    "dopri5 chooses its steps: it is drawn at their mean, for tolerances from 1e-12 to 1e-4. "
+    "Implicit schemes are run with the longest steps only, because they are slow. The dashed line "
+    "is the tolerance of the case. A slope can exceed the order if the error is mostly one of "
+    "energy, which rk4 has at fifth order, or if the largest terms cancel. A slope has no meaning "
+    "if the error is as large as the motion, or is rounding.</p>\n"
     "<p><b>The code</b> of all cases is at the end of the page, as compiled. To add a case: "
     "docs/develop/adding_a_case.md. What is measured, and how: "
     "docs/reference/verification_cases.md.</p>\n";
 
 // Source files of the cases, each once, as targets of the links.
-std::string code_of(const std::vector<std::string>& case_names) {
+std::string code_of(const std::vector<CompareRow>& rows) {
   std::set<std::string> files;
-  for (const std::string& name : case_names) files.insert(place_of(name).file);
+  for (const CompareRow& row : rows) files.insert(place_of(row.test->name).file);
   std::string html;
   for (const EmbeddedFile& source : case_sources())
     if (files.count(std::string(source.name)))
@@ -183,9 +173,7 @@ std::string in_unicode(std::string words) {
   constexpr std::pair<const char*, const char*> kSigns[] = {
       {"^2", "²"},  {"m2", "m²"},   {"s2", "s²"},  {"J2", "J²"},   {"w2", "ω₂"},
       {"w3", "ω₃"}, {"alpha", "α"}, {"beta", "β"}, {" mu ", " μ "}};
-  for (const auto& [plain, sign] : kSigns)
-    for (std::size_t at = 0; (at = words.find(plain, at)) != std::string::npos;)
-      words.replace(at, std::string_view(plain).size(), sign);
+  for (const auto& [plain, sign] : kSigns) words = replaced(std::move(words), plain, sign);
   return escaped(words);
 }
 
@@ -194,16 +182,10 @@ std::filesystem::path page_file(const std::filesystem::path& asked) {
 }
 
 void check_page(const std::filesystem::path& file, DiagnosticList& faults) {
-  const auto add_from = [&](auto&& check) {
-    try {
-      check();
-    } catch (const InputError& error) {
-      for (const Diagnostic& fault : error.faults()) faults.add(fault);
-    }
-  };
-  add_from(
-      [&] { require_writable_folder(std::filesystem::absolute(file).parent_path(), "--html"); });
-  add_from([&] { Gnuplot{std::filesystem::path()}; });
+  attempt(faults, [&] {
+    require_writable_folder(std::filesystem::absolute(file).parent_path(), "--html");
+  });
+  attempt(faults, [] { Gnuplot{}; });
 }
 
 std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std::string>& sections,
@@ -220,7 +202,6 @@ std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std
   page.main = "<h2 id=index>Index</h2>\n<div class=scroll>" + index_table(rows, skipped) +
               "</div>\n" + kHowToRead;
   std::string group;
-  std::vector<std::string> names;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (group != rows[i].test->group) {
       group = rows[i].test->group;
@@ -228,10 +209,9 @@ std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std
       page.main += fmt::format("<h2 id=\"group-{}\">{}</h2>\n", escaped(group), group_title(group));
     }
     page.main += sections[i];
-    names.emplace_back(rows[i].test->name);
   }
   page.contents.emplace_back("code", "Code");
-  page.main += "<h2 id=code>Code</h2>\n" + code_of(names);
+  page.main += "<h2 id=code>Code</h2>\n" + code_of(rows);
   page.footer = made_by(command, seconds) + " Every number on this page was computed in that run.";
   return page.html();
 }

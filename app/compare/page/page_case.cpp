@@ -6,6 +6,7 @@
 #include "app/compare/page/curves.h"
 #include "app/compare/page/page.h"
 #include "app/data/html_page.h"
+#include "app/support/text.h"
 #include "benchmarks/analytic/registry/analytic_cases.h"
 
 namespace twinarm::compare_page {
@@ -28,11 +29,7 @@ std::string figure(const std::string& drawn, const std::string& caption, const c
 
 // HTML with formulas in paragraphs.
 std::string statement_html(const AnalyticCase& c) {
-  const char* statement = c.statement;
-  std::string html = statement ? statement : "";
-  for (std::size_t at = 0; (at = html.find("<p>", at)) != std::string::npos;)
-    html.replace(at, 3, "<p class=formula>");
-  return "<div class=statement>" + html + "</div>\n";
+  return "<div class=statement>" + replaced(c.statement, "<p>", "<p class=formula>") + "</div>\n";
 }
 
 std::string integration_words(const Lane& integration) {
@@ -86,46 +83,41 @@ std::string readings_table(const TrajectoryCase& c) {
   return html + "</tbody></table>\n";
 }
 
-std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
+// Run and reference, errors and energy; the captions of the three.
+std::string figures(const CompareRow& row, const CaseCurves& curves, std::string of_motion,
+                    const std::string& of_errors, const std::string& of_energy) {
   const std::string name = row.test->name;
+  Gnuplot gnuplot;
+  if (curves.is_cut) of_motion += " Only the beginning is drawn.";
+  std::string html = figure(motion_figure(gnuplot, name, curves), of_motion, " class=wide") +
+                     "<div class=pair>" +
+                     figure(error_figure(gnuplot, name, curves, row.test->tolerance), of_errors) +
+                     figure(energy_figure(gnuplot, name, curves), of_energy);
+  if (!curves.no_convergence.empty()) html += "<p class=note>" + curves.no_convergence + "</p>\n";
+  return html + "</div>\n";
+}
+
+std::string figures_of(const CompareRow& row, const TrajectoryCase& c) {
   const CaseCurves curves = curves_of(c, row.result.error);
-  Gnuplot gnuplot{std::filesystem::path()};
   std::string caption = "Run (" + integration_words(c.integration) + ") and reference.";
   if (c.events.count > 0)
     caption += " The reference gives the times of the events and the readings there.";
-  if (curves.is_cut) caption += " Only the beginning is drawn.";
-  const std::string pair =
-      figure(error_figure(gnuplot, name, curves, row.test->tolerance),
-             "Error against step, with slopes.") +
-      figure(energy_figure(gnuplot, name, curves),
-             curves.energy_is_relative ? "Energy error of the scheme over time."
-                                       : "Energy over time, including the work of forces.");
-  return figure(motion_figure(gnuplot, name, curves), caption, " class=wide") + "<div class=pair>" +
-         pair + "</div>\n";
+  return figures(row, curves, caption, "Error against step, with slopes.",
+                 curves.energy_is_relative ? "Energy error of the scheme over time."
+                                           : "Energy over time, including the work of forces.");
 }
 
 std::string contact_figures(const CompareRow& row) {
-  const std::string name = row.test->name;
   const std::optional<CaseCurves> curves = contact_curves_of(*row.test);
   if (!curves) return "";
-  Gnuplot gnuplot{std::filesystem::path()};
   std::string caption = curves->exact_t.empty() ? "The run." : "Run and reference.";
   if (!curves->drawn.empty())
     caption = fmt::format("{}, {}.", escaped(curves->drawn),
                           curves->exact_t.empty() ? "several runs" : "runs and reference");
-  if (curves->is_cut) caption += " Only the beginning is drawn.";
-  const std::string errors =
-      figure(error_figure(gnuplot, name, *curves, row.test->tolerance),
-             "Error of the case against the step. " + curves->convergence_note);
-  const std::string note =
-      curves->no_convergence.empty() ? "" : "<p class=note>" + curves->no_convergence + "</p>\n";
-  return figure(motion_figure(gnuplot, name, *curves), caption, " class=wide") +
-         "<div class=pair>" + errors +
-         figure(energy_figure(gnuplot, name, *curves),
-                "Change of energy over time, by impacts, friction and other forces, and by the "
-                "error of "
-                "the integrator.") +
-         note + "</div>\n";
+  return figures(row, *curves, caption,
+                 "Error of the case against the step. " + curves->convergence_note,
+                 "Change of energy over time, by impacts, friction and other forces, and by the "
+                 "error of the integrator.");
 }
 
 std::string command_of(const CompareRow& row, const std::vector<Lane>& integrations) {

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "app/support/text.h"
+
 namespace twinarm::compare_page {
 namespace {
 
@@ -55,23 +57,16 @@ std::string unit_of(const std::string& reading) {
   if (reading == kEventFunction) return "any unit";
   const std::size_t open = reading.find('['), close = reading.find(']');
   if (open == std::string::npos || close == std::string::npos || close < open) return "";
-  std::string unit = reading.substr(open + 1, close - open - 1);
-  for (const auto& [plain, pretty] : {std::pair{"s2", "s²"}, {"m2", "m²"}}) {
-    const std::size_t at = unit.find(plain);
-    if (at != std::string::npos) unit.replace(at, 2, pretty);
-  }
-  return unit;
+  const std::string unit = reading.substr(open + 1, close - open - 1);
+  return replaced(replaced(unit, "s2", "s²"), "m2", "m²");
 }
 std::string without_unit(const std::string& reading) {
-  const std::size_t open = reading.find(" [");
-  return open == std::string::npos ? reading : reading.substr(0, open);
+  return reading.substr(0, reading.find(" ["));
 }
 
 double largest(const std::vector<double>& values) {
-  double size = 0;
-  for (const double x : values)
-    if (std::isfinite(x)) size = std::max(size, std::abs(x));
-  return size;
+  const auto [low, high] = finite_range({&values});
+  return low > high ? 0 : std::max(std::abs(low), std::abs(high));
 }
 
 // Readings of one unit and similar size share a panel.
@@ -137,10 +132,7 @@ std::string tics(const char* axis, double low, double high, int about) {
 
 // Around all finite values, with a margin; a larger one around constant values.
 std::string range_of(const std::vector<const std::vector<double>*>& all) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const auto* values : all)
-    for (const double x : *values)
-      if (std::isfinite(x)) low = std::min(low, x), high = std::max(high, x);
+  auto [low, high] = finite_range(all);
   if (low > high) return "";
   const double size = std::max(std::abs(low), std::abs(high));
   double margin = 0.08 * (high - low);

@@ -32,86 +32,78 @@ std::vector<Parameter> bounds(const StudyRobot& robot, const RunSpec& spec, doub
   RunResult unit;
   unit.spec = spec;
   unit.spec.gains = {1, 0, ratio, 0};
-  predict(robot, unit);
+  predict(robot, unit, robot.start_state());
   const double h = spec.step(), slow = unit.frequency[0], fast = unit.frequency[1];
   const double k_low = std::pow(2 * std::numbers::pi * kMinFrequency / slow, 2);
   const double k_high = 4 / std::pow(h * fast, 2), b_high = 2 / (h * fast * fast);
   return {{"k", std::min(k_low, 0.1 * k_high), k_high, 0}, {"b", 1e-4 * b_high, b_high, 0}};
 }
 
+using SharedRobot = std::shared_ptr<const StudyRobot>;
+SharedRobot shared_s103(const StudyInputs& inputs, double arm2_mass_scale) {
+  return std::make_shared<StudyRobot>(
+      StudyRobot::s103(inputs.settings, inputs.s103, arm2_mass_scale));
+}
+
 // Worst error when one gain of all springs changes by kGainChange.
-double sensitive_error(const StudyRobot& robot, RunSpec spec, const PaperRow& row) {
+double sensitive_error(const StudyRobot& robot, RunSpec spec) {
   const AutomaticMotion hand{HandMapping{}};
   const Gains g = spec.gains;
   double worst = 0;
   for (double factor : {kGainChange, 1 / kGainChange}) {
     spec.gains = {g.k1 * factor, g.b1, g.k2 * factor, g.b2};
-    worst = std::max(worst, worst_relative_error(run(robot, hand, spec), row));
+    worst = std::max(worst, worst_relative_error(run(robot, hand, spec)));
     spec.gains = {g.k1, g.b1 * factor, g.k2, g.b2 * factor};
-    worst = std::max(worst, worst_relative_error(run(robot, hand, spec), row));
+    worst = std::max(worst, worst_relative_error(run(robot, hand, spec)));
   }
   return worst;
 }
 
-void finish_fit(CalibrationEntry& entry, const StudyRobot& robot, const RunSpec& spec,
-                const PaperRow& row) {
-  const AutomaticMotion hand{HandMapping{}};
-  const RunResult result = run(robot, hand, spec);
-  entry.keep(result.max_deg, result.mean_deg);
-  entry.numbers["worst_error"] = worst_relative_error(result, row);
-  entry.numbers["worst_error_shifted"] = sensitive_error(robot, spec, row);
+// Fit to the row of the paper that the specification names. `robot`: of the parameters.
+Job fit_job(const std::string& name, std::vector<Parameter> parameters, const RunSpec& spec,
+            const std::function<SharedRobot(const CalibrationEntry&)>& robot) {
+  Job job;
+  job.entry.name = name;
+  job.entry.rate = spec.rate;
+  job.entry.parameters = std::move(parameters);
+  job.evaluations = kFitEvaluations;
+  const auto result_of = [=](const CalibrationEntry& entry) {
+    const AutomaticMotion hand{HandMapping{}};
+    return run(*robot(entry), hand, spec.with_gains(entry.gains()));
+  };
+  job.objective = [=](const CalibrationEntry& entry) {
+    return worst_relative_error(result_of(entry));
+  };
+  job.finish = [=](CalibrationEntry& entry) {
+    const RunResult result = result_of(entry);
+    entry.keep(result.max_deg, result.mean_deg);
+    entry.numbers["worst_error"] = worst_relative_error(result);
+    entry.numbers["worst_error_shifted"] = sensitive_error(*robot(entry), result.spec);
+  };
+  return job;
 }
 
 Job e3_job(const StudyInputs& inputs, const std::string& law, double rate) {
-  Job job;
-  job.entry.name = fmt::format("E3/{:g}/{}", rate, law);
-  job.entry.rate = rate;
-  job.entry.parameters = {{"k", 10, 3000, 0}, {"b", 0.02, 50, 0}, {"arm2_mass_scale", 0.2, 4, 0}};
+  Job job = fit_job(fmt::format("E3/{:g}/{}", rate, law),
+                    {{"k", 10, 3000, 0}, {"b", 0.02, 50, 0}, {"arm2_mass_scale", 0.2, 4, 0}},
+                    e3_spec(law, rate), [&inputs](const CalibrationEntry& entry) {
+                      return shared_s103(inputs, entry.value("arm2_mass_scale"));
+                    });
   job.method = Method::rugged;
-  job.evaluations = kFitEvaluations;
-  const PaperRow row = paper_table().at("E3");
-  const auto at = [&inputs, law, rate](const CalibrationEntry& entry) {
-    RunSpec spec = e3_spec(law, rate);
-    spec.gains = entry.gains();
-    return std::pair{StudyRobot::s103(inputs.settings, inputs.s103, entry.value("arm2_mass_scale")),
-                     spec};
-  };
-  job.objective = [at, row](const CalibrationEntry& entry) {
-    const auto [robot, spec] = at(entry);
-    return worst_relative_error(run(robot, AutomaticMotion(HandMapping{}), spec), row);
-  };
-  job.finish = [at, row](CalibrationEntry& entry) {
-    const auto [robot, spec] = at(entry);
-    finish_fit(entry, robot, spec, row);
-  };
   return job;
 }
 
 Job e4_job(const StudyInputs& inputs, double rate, double arm2_mass_scale) {
-  Job job;
-  job.entry.name = fmt::format("E4/{:g}", rate);
-  job.entry.rate = rate;
-  job.entry.parameters = {
-      {"k1", 10, 1e6, 0}, {"b1", 0.1, 1e4, 0}, {"k2", 10, 1e6, 0}, {"b2", 0.1, 1e4, 0}};
+  Job job = fit_job(
+      fmt::format("E4/{:g}", rate),
+      {{"k1", 10, 1e6, 0}, {"b1", 0.1, 1e4, 0}, {"k2", 10, 1e6, 0}, {"b2", 0.1, 1e4, 0}},
+      e4_spec(rate),
+      [robot = shared_s103(inputs, arm2_mass_scale)](const CalibrationEntry&) { return robot; });
   job.entry.numbers["arm2_mass_scale"] = arm2_mass_scale;
-  job.evaluations = kFitEvaluations;
-  const PaperRow row = paper_table().at("E4");
-  const auto robot =
-      std::make_shared<StudyRobot>(StudyRobot::s103(inputs.settings, inputs.s103, arm2_mass_scale));
-  const auto at = [rate](const CalibrationEntry& entry) {
-    RunSpec spec = e4_spec(rate);
-    spec.gains = entry.gains();
-    return spec;
-  };
-  job.objective = [=](const CalibrationEntry& entry) {
-    const AutomaticMotion hand{HandMapping{}};
-    return worst_relative_error(run(*robot, hand, at(entry)), row);
-  };
-  job.finish = [=](CalibrationEntry& entry) { finish_fit(entry, *robot, at(entry), row); };
   return job;
 }
 
-// One k and b with the minimum objective of the protocol.
+// One k and b with the minimum objective of the protocol. Keeps a reference to the robot.
 Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& robot,
               const std::vector<double>& sweep_times) {
   Job job;
@@ -124,11 +116,8 @@ Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& ro
                      spec.coupling.options.damper != Damper::vector_;
   if (folds) job.method = Method::rugged;
   job.evaluations = folds ? 2 * kTrialEvaluations : kTrialEvaluations;
-  const auto shared = std::make_shared<StudyRobot>(robot);
-  const auto errors = [=](const CalibrationEntry& entry) {
-    RunSpec at = spec;
-    at.gains = entry.gains();
-    return run_protocol(*shared, at, sweep_times);
+  const auto errors = [=, &robot](const CalibrationEntry& entry) {
+    return run_protocol(robot, spec.with_gains(entry.gains()), sweep_times);
   };
   job.objective = [=](const CalibrationEntry& entry) { return errors(entry).objective; };
   job.finish = [=](CalibrationEntry& entry) {
@@ -160,8 +149,8 @@ CalibrationEntry choose(const Calibration& calibration, const std::vector<double
   chosen.name = "chosen";
   chosen.objective = HUGE_VAL;
   for (double rate : rates) {
-    const CalibrationEntry& e3 = calibration.entry(fmt::format("E3/{:g}/world-", rate));
-    const CalibrationEntry& e4 = calibration.entry(fmt::format("E4/{:g}", rate));
+    const CalibrationEntry& e3 = calibration.e3("world-", rate);
+    const CalibrationEntry& e4 = calibration.e4(rate);
     const double worst = std::max(e3.objective, e4.objective);
     if (worst >= chosen.objective) continue;
     chosen.objective = worst;
@@ -182,14 +171,12 @@ Calibration calibrate(const StudyInputs& inputs, Progress& progress) {
 
   progress.stage("calibration: published torsional law on E3", 0.45);
   for (auto rate = s.search_rates_hz.rbegin(); rate != s.search_rates_hz.rend(); ++rate)
-    for (const std::string& law : e3_laws()) jobs.push_back(e3_job(inputs, law, *rate));
+    for (const std::string& law : kE3Laws) jobs.push_back(e3_job(inputs, law, *rate));
   run_jobs(jobs, calibration, progress);
 
   progress.stage("calibration: published linear law on E4", 0.25);
   for (auto rate = s.search_rates_hz.rbegin(); rate != s.search_rates_hz.rend(); ++rate)
-    jobs.push_back(
-        e4_job(inputs, *rate,
-               calibration.entry(fmt::format("E3/{:g}/world-", *rate)).value("arm2_mass_scale")));
+    jobs.push_back(e4_job(inputs, *rate, calibration.e3("world-", *rate).value("arm2_mass_scale")));
   run_jobs(jobs, calibration, progress);
   calibration.entries["chosen"] = choose(calibration, s.search_rates_hz);
 
@@ -197,7 +184,7 @@ Calibration calibrate(const StudyInputs& inputs, Progress& progress) {
   const StudyRobot s103 =
       StudyRobot::s103(s, inputs.s103, calibration.entry("chosen").numbers.at("arm2_mass_scale"));
   for (auto rate = s.rates_hz.rbegin(); rate != s.rates_hz.rend(); ++rate)
-    for (const std::string& law : trial_laws())
+    for (const std::string& law : kTrialLaws)
       jobs.push_back(trial_job(fmt::format("trial/{}/{:g}", law, *rate), trial_spec(law, *rate),
                                s103, s.sweep_times));
   run_jobs(jobs, calibration, progress);

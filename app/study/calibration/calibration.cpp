@@ -90,6 +90,14 @@ const CalibrationEntry& Calibration::entry(const std::string& name) const {
   return found->second;
 }
 
+const CalibrationEntry& Calibration::e3(const std::string& law, double rate) const {
+  return entry(fmt::format("E3/{:g}/{}", rate, law));
+}
+
+const CalibrationEntry& Calibration::e4(double rate) const {
+  return entry(fmt::format("E4/{:g}", rate));
+}
+
 Calibration read_calibration(const std::filesystem::path& file) {
   return read_file(file, "a", "calibration", "--recalibrate", [](const nlohmann::json& root) {
     Calibration calibration;
@@ -184,28 +192,15 @@ void write_identifications(const std::vector<Identification>& all,
   write_whole_file(file, root.dump(1) + "\n");
 }
 
-// The paper's table, and the laws that are searched and run.
-const std::map<std::string, PaperRow>& paper_table() {
-  static const std::map<std::string, PaperRow> table{{"E1", {{10.2, 26.3}, {1.6, 4.1}}},
-                                                     {"E2", {{1.7, 4.0}, {0.5, 0.5}}},
-                                                     {"E3", {{16.6, 23.5}, {8.6, 5.2}}},
-                                                     {"E4", {{3.4, 6.0}, {0.3, 0.6}}}};
-  return table;
-}
-
-double worst_relative_error(const RunResult& result, const PaperRow& row) {
+double worst_relative_error(const RunResult& result) {
   if (!result.stable) return 10;
+  const PaperRow& row = kPaperTable.at(result.spec.name);
   double worst = 0;
   for (std::size_t j = 0; j < 2; ++j) {
     worst = std::max(worst, std::abs(result.max_deg[j] / row.max_deg[j] - 1));
     worst = std::max(worst, std::abs(result.mean_deg[j] / row.mean_deg[j] - 1));
   }
   return worst;
-}
-
-const std::vector<std::string>& e3_laws() {
-  static const std::vector<std::string> laws{"world-", "world+", "joint-", "joint+"};
-  return laws;
 }
 
 RunSpec e3_spec(const std::string& law, double rate) {
@@ -228,12 +223,6 @@ RunSpec e4_spec(double rate) {
   spec.coupling.printed = true;
   spec.rate = rate;
   return spec;
-}
-
-const std::vector<std::string>& trial_laws() {
-  static const std::vector<std::string> laws{"printed-torsional", "signed-torsional",
-                                             "signed-torsional-ratio", "printed-linear"};
-  return laws;
 }
 
 // All with the published velocity differences; "signed" corrects the damping term only.

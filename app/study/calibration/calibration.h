@@ -1,8 +1,7 @@
 // The paper's unpublished gains, found by search: assets/study/calibration.json.
 //
-// An entry has its optimiser, seed, bounds and evaluations besides the result, so that `twinarm
-// study
-// --recalibrate` can reproduce the file. Gains are not literals in the code.
+// An entry has its bounds and evaluations besides the result, so that `twinarm study --recalibrate`
+// can reproduce the file. Gains are not literals in the code.
 #pragma once
 
 #include <array>
@@ -44,6 +43,8 @@ struct Calibration {
 
   // Throws InputError if there is no such entry.
   const CalibrationEntry& entry(const std::string& name) const;
+  const CalibrationEntry& e3(const std::string& law, double rate) const;
+  const CalibrationEntry& e4(double rate) const;
 };
 
 Calibration read_calibration(const std::filesystem::path& file);
@@ -66,18 +67,22 @@ std::string optimiser_name();
 struct PaperRow {
   std::array<double, 2> max_deg, mean_deg;
 };
-const std::map<std::string, PaperRow>& paper_table();  // "E1" .. "E4"
+inline const std::map<std::string, PaperRow> kPaperTable{{"E1", {{10.2, 26.3}, {1.6, 4.1}}},
+                                                         {"E2", {{1.7, 4.0}, {0.5, 0.5}}},
+                                                         {"E3", {{16.6, 23.5}, {8.6, 5.2}}},
+                                                         {"E4", {{3.4, 6.0}, {0.3, 0.6}}}};
 
-// Largest relative error of the four numbers against the paper's row.
-double worst_relative_error(const RunResult& result, const PaperRow& row);
+// Largest relative error of the four numbers against the paper's row of the same name.
+double worst_relative_error(const RunResult& result);
 
 // Coupling laws of the searches, by their names in the calibration.
-RunSpec e3_spec(const std::string& law, double rate);  // "world-", "world+", "joint-", "joint+"
+inline const std::vector<std::string> kE3Laws{"world-", "world+", "joint-", "joint+"};
+inline const std::vector<std::string> kTrialLaws{"printed-torsional", "signed-torsional",
+                                                 "signed-torsional-ratio", "printed-linear"};
+RunSpec e3_spec(const std::string& law, double rate);
 RunSpec e4_spec(double rate);
 RunSpec trial_spec(const std::string& law, double rate);
 RunSpec row_spec(const std::string& law, double rate);
-const std::vector<std::string>& e3_laws();
-const std::vector<std::string>& trial_laws();
 
 struct StudyInputs {
   StudySettings settings;
@@ -86,15 +91,7 @@ struct StudyInputs {
 };
 StudyInputs load_inputs(const std::filesystem::path& assets);
 
-// The searches behind assets/study/calibration.json (docs/use/run_the_study.md):
-//
-//   E3/RATE/LAW        published torsional law, one k and b for both links, and the unpublished
-//   mass of
-//                      arm 2: fit to row E3
-//   E4/RATE            published linear law, gains per link, masses of E3: fit to row E4
-//   trial/LAW/RATE     minimum tracking error (the paper found its gains by trial)
-//   row/ROBOT/LAW/RATE the same for a two-link robot
-//   chosen             rate, law and mass of E1 to E4 of the study
+// The searches behind assets/study/calibration.json; entries: docs/reference/study_files.md.
 Calibration calibrate(const StudyInputs& inputs, Progress& progress);
 
 }  // namespace twinarm

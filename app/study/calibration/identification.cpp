@@ -13,7 +13,7 @@ namespace twinarm {
 namespace {
 
 FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type type,
-                     SpringSpace measure, Discretization treatment) {
+                     SpringSpace measure, Discretization treatment = Discretization::explicit_) {
   FamilyLaw law{name, words, {}};
   law.coupling.name = name;
   law.coupling.type = type;
@@ -21,83 +21,6 @@ FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type typ
   law.coupling.treatment = treatment;
   return law;
 }
-
-}  // namespace
-
-const std::vector<FamilyLaw>& family_laws() {
-  using Type = CouplingSpec::Type;
-  static const std::vector<FamilyLaw> laws = [] {
-    std::vector<FamilyLaw> all{
-        {"printed-torsional", "torsional, as published", e3_spec("world-", 0).coupling},
-        {"printed-linear", "linear, as published", e4_spec(0).coupling},
-        consistent("torsional-world", "torsional, world orientation", Type::torsional,
-                   SpringSpace::world, Discretization::explicit_),
-        consistent("torsional-joint", "torsional, joint angle", Type::torsional, SpringSpace::joint,
-                   Discretization::explicit_),
-        consistent("linear", "linear", Type::linear, SpringSpace::world, Discretization::explicit_),
-        consistent("torsional-world-implicit", "torsional, world orientation, implicit",
-                   Type::torsional, SpringSpace::world, Discretization::implicit),
-        consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
-                   SpringSpace::joint, Discretization::implicit),
-        consistent("linear-implicit", "linear, implicit", Type::linear, SpringSpace::world,
-                   Discretization::implicit),
-        consistent("matched", "torsional, full K_q of a linear coupling", Type::matched,
-                   SpringSpace::world, Discretization::explicit_),
-        consistent("stable-pd", "stable PD at the joints", Type::stable_pd, SpringSpace::joint,
-                   Discretization::explicit_),
-        consistent("weld", "weld of the points, as in MuJoCo", Type::weld_like, SpringSpace::world,
-                   Discretization::explicit_)};
-    return all;
-  }();
-  return laws;
-}
-
-const FamilyLaw& family_law(const std::string& name) {
-  for (const FamilyLaw& law : family_laws())
-    if (law.name == name) return law;
-  throw std::out_of_range("unknown law " + name);
-}
-
-double table_misfit(const RunResult& result, const PaperRow& row) {
-  if (!result.stable) return 1e5;
-  double worst = 0;
-  for (std::size_t j = 0; j < 2; ++j)
-    worst = std::max({worst, std::abs(result.max_deg[j] - row.max_deg[j]) / kHalfDigit,
-                      std::abs(result.mean_deg[j] - row.mean_deg[j]) / kHalfDigit});
-  return worst;
-}
-
-double Identification::threshold() const {
-  return std::max(1.0, 2 * fit.objective);
-}
-
-Identification::Interval Identification::interval(const Profile& profile) const {
-  const std::vector<ProfilePoint>& points = profile.points;
-  const auto best = static_cast<std::size_t>(
-      std::min_element(points.begin(), points.end(),
-                       [](const auto& a, const auto& b) { return a.misfit < b.misfit; }) -
-      points.begin());
-  const auto end = [&](int step, double& value, bool& open) {
-    std::size_t i = best;
-    for (;; i = static_cast<std::size_t>(static_cast<int>(i) + step)) {
-      open = step < 0 ? i == 0 : i + 1 == points.size();
-      value = points[i].value;
-      if (open) return;
-      const ProfilePoint& next = points[static_cast<std::size_t>(static_cast<int>(i) + step)];
-      if (next.misfit <= threshold()) continue;
-      const double inside = std::log(std::max(points[i].misfit, 1e-12));
-      const double share = (std::log(threshold()) - inside) / (std::log(next.misfit) - inside);
-      value *= std::pow(next.value / value, std::clamp(share, 0.0, 1.0));
-      return;
-    }
-  };
-  Interval found;
-  end(-1, found.low, found.open_low);
-  end(1, found.high, found.open_high);
-  return found;
-}
-
-namespace {
 
 struct Search {
   CalibrationEntry& entry;
@@ -141,6 +64,69 @@ void optimise(nlopt::opt& optimiser, const std::vector<double>& low,
 }
 
 }  // namespace
+
+const std::vector<FamilyLaw>& family_laws() {
+  using Type = CouplingSpec::Type;
+  constexpr auto world = SpringSpace::world, joint = SpringSpace::joint;
+  constexpr auto implicit = Discretization::implicit;
+  static const std::vector<FamilyLaw> laws{
+      {"printed-torsional", "torsional, as published", e3_spec("world-", 0).coupling},
+      {"printed-linear", "linear, as published", e4_spec(0).coupling},
+      consistent("torsional-world", "torsional, world orientation", Type::torsional, world),
+      consistent("torsional-joint", "torsional, joint angle", Type::torsional, joint),
+      consistent("linear", "linear", Type::linear, world),
+      consistent("torsional-world-implicit", "torsional, world orientation, implicit",
+                 Type::torsional, world, implicit),
+      consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
+                 joint, implicit),
+      consistent("linear-implicit", "linear, implicit", Type::linear, world, implicit),
+      consistent("matched", "torsional, full K_q of a linear coupling", Type::matched, world),
+      consistent("stable-pd", "stable PD at the joints", Type::stable_pd, joint),
+      consistent("weld", "weld of the points, as in MuJoCo", Type::weld_like, world)};
+  return laws;
+}
+
+const FamilyLaw& family_law(const std::string& name) {
+  for (const FamilyLaw& law : family_laws())
+    if (law.name == name) return law;
+  throw std::out_of_range("unknown law " + name);
+}
+
+double table_misfit(const RunResult& result) {
+  if (!result.stable) return 1e5;
+  const PaperRow& row = kPaperTable.at(result.spec.name);
+  double worst = 0;
+  for (std::size_t j = 0; j < 2; ++j)
+    worst = std::max({worst, std::abs(result.max_deg[j] - row.max_deg[j]) / kHalfDigit,
+                      std::abs(result.mean_deg[j] - row.mean_deg[j]) / kHalfDigit});
+  return worst;
+}
+
+double Identification::threshold() const {
+  return std::max(1.0, 2 * fit.objective);
+}
+
+Identification::Interval Identification::interval(const Profile& profile) const {
+  const std::vector<ProfilePoint>& points = profile.points;
+  const auto best = std::ranges::min_element(points, {}, &ProfilePoint::misfit);
+  const auto end = [&](std::ptrdiff_t step, double& value, bool& open) {
+    for (auto at = best;; at += step) {
+      value = at->value;
+      open = at == (step < 0 ? points.begin() : points.end() - 1);
+      if (open) return;
+      const ProfilePoint& next = at[step];
+      if (next.misfit <= threshold()) continue;
+      const double inside = std::log(std::max(at->misfit, 1e-12));
+      const double share = (std::log(threshold()) - inside) / (std::log(next.misfit) - inside);
+      value *= std::pow(next.value / value, std::clamp(share, 0.0, 1.0));
+      return;
+    }
+  };
+  Interval found;
+  end(-1, found.low, found.open_low);
+  end(1, found.high, found.open_high);
+  return found;
+}
 
 std::string optimiser_name() {
   int major = 0, minor = 0, fix = 0;

@@ -22,7 +22,7 @@ constexpr std::array<double, 5> kFactors{1.1, 1.3, 2, 4, 10};
 
 // Gains of welds at the points of the linear springs, at the start pose.
 Gains weld_gains(const StudyRobot& robot, const CouplingSpec& weld) {
-  std::vector<Spring> springs = robot.springs(0, 0, 0, 0);
+  std::vector<Spring> springs = robot.springs({});
   for (Spring& spring : springs)
     spring = weld_spring(spring.name, robot.dvr_model(weld.type), robot.start_state(), spring.body,
                          spring.p_L, weld.reference);
@@ -36,154 +36,144 @@ class IdentificationProblem {
                         double rate)
       : inputs_(inputs), law_(law), row_(std::move(row)), rate_(rate) {}
 
-  Identification solve() const;
+  Identification solve() const {
+    Identification found;
+    found.row = row_;
+    found.law = law_.name;
+    found.fit.name = fmt::format("{}/{}/{:g}", row_, law_.name, rate_);
+    found.fit.rate = rate_;
+    found.fit.parameters = parameters();
+    const bool folds = law_.coupling.printed && law_.coupling.type == CouplingSpec::Type::torsional;
+    minimise(found.fit, folds ? Method::rugged : Method::multistart, kIdentifySeed,
+             kFirstEvaluations, [this](const CalibrationEntry& entry) { return misfit(entry); });
+    // If a profile finds a better fit, the search is repeated from there.
+    for (int round = 0; round < kRounds; ++round) {
+      CalibrationEntry better = found.fit;
+      found.profiles.clear();
+      for (std::size_t j = 0; j < found.fit.parameters.size(); ++j)
+        found.profiles.push_back(profile(found.fit, j, better));
+      if (better.objective > 0.95 * found.fit.objective || round + 1 == kRounds) break;
+      minimise(better, Method::local, kIdentifySeed, kFirstEvaluations / 4,
+               [this](const CalibrationEntry& entry) { return misfit(entry); });
+      better.evaluations += found.fit.evaluations;
+      found.fit = better;
+    }
+    const RunResult best = run_with(found.fit, 1);
+    found.fit.keep(best.max_deg, best.mean_deg);
+    // Zeros make the matrix square; the directions that they add have no effect. Four numbers
+    // cannot determine five parameters: at least one singular value is zero.
+    const auto count = static_cast<Eigen::Index>(found.fit.parameters.size());
+    const Eigen::MatrixXd S = sensitivity(found.fit);
+    const Eigen::Index size = std::max<Eigen::Index>(S.rows(), count);
+    Eigen::MatrixXd square = Eigen::MatrixXd::Zero(size, size);
+    square.topLeftCorner(S.rows(), count) = S;
+    const SingularValues values = singular_values(square);
+    for (Eigen::Index i = 0; i < count; ++i) {
+      found.singular_values.push_back(i < S.rows() ? values.values(i) : 0);
+      const Eigen::VectorXd v = values.V.col(i).head(count);
+      found.directions.emplace_back(v.begin(), v.end());
+    }
+    return found;
+  }
 
  private:
-  std::vector<Parameter> parameters() const;
-  RunResult run_with(const CalibrationEntry& entry, double sweep) const;
-  double misfit(const CalibrationEntry& entry) const {
-    return table_misfit(run_with(entry, 1), paper_table().at(row_));
+  std::vector<Parameter> parameters() const {
+    if (law_.coupling.type == CouplingSpec::Type::weld_like)
+      return {{"time_constant", 1e-3, 1, 0},
+              {"damping_ratio", 0.01, 10, 0},
+              {"arm2_mass_scale", 0.2, 4, 0}};
+    const bool points = facts_of(law_.coupling.type, law_.coupling.printed).at_point;
+    const double k_low = points ? 100 : 3, k_high = points ? 1e7 : 3e5;  // [N/m], [N m/rad]
+    const double b_low = points ? 0.1 : 3e-3, b_high = points ? 3e4 : 1e3;
+    return {{"k1", k_low, k_high, 0},
+            {"b1", b_low, b_high, 0},
+            {"k2", k_low, k_high, 0},
+            {"b2", b_low, b_high, 0},
+            {"arm2_mass_scale", 0.2, 4, 0}};
   }
-  Eigen::MatrixXd sensitivity(const CalibrationEntry& entry) const;
-  ProfilePoint refit(CalibrationEntry& entry, std::size_t held) const;
+
+  RunResult run_with(const CalibrationEntry& entry, double sweep) const {
+    const StudyRobot robot =
+        StudyRobot::s103(inputs_.settings, inputs_.s103, entry.value("arm2_mass_scale"));
+    RunSpec spec;
+    spec.name = row_;
+    spec.coupling = law_.coupling;
+    spec.rate = rate_;
+    if (!law_.coupling.printed) spec.kvr_rates = TargetRates::backward_difference;
+    if (law_.coupling.type == CouplingSpec::Type::weld_like) {
+      spec.coupling.reference.time_constant = entry.value("time_constant");
+      spec.coupling.reference.damping_ratio = entry.value("damping_ratio");
+      spec.gains = weld_gains(robot, spec.coupling);
+    } else {
+      spec.gains = entry.gains();
+    }
+    return run(robot, AutomaticMotion(HandMapping{}, sweep), spec);
+  }
+
+  double misfit(const CalibrationEntry& entry) const { return table_misfit(run_with(entry, 1)); }
+
+  // d x_i / d log theta_j by central differences, in half digits; also beyond the bounds of the
+  // search.
+  Eigen::MatrixXd sensitivity(const CalibrationEntry& entry) const {
+    constexpr double step = 1e-3;
+    Eigen::MatrixXd S(4, static_cast<Eigen::Index>(entry.parameters.size()));
+    const auto numbers = [&](std::size_t j, double factor) {
+      CalibrationEntry moved = entry;
+      moved.parameters[j].value *= factor;
+      const RunResult r = run_with(moved, 1);
+      return Eigen::Vector4d(r.max_deg[0], r.max_deg[1], r.mean_deg[0], r.mean_deg[1]);
+    };
+    for (std::size_t j = 0; j < entry.parameters.size(); ++j)
+      S.col(static_cast<Eigen::Index>(j)) =
+          (numbers(j, std::exp(step)) - numbers(j, std::exp(-step))) / (2 * step * kHalfDigit);
+    return S;
+  }
+
+  // Fits all other parameters again, from their current values.
+  ProfilePoint refit(CalibrationEntry& entry, std::size_t held) const {
+    const Parameter fixed = entry.parameters[held];
+    CalibrationEntry free = entry;
+    free.parameters.erase(free.parameters.begin() + static_cast<std::ptrdiff_t>(held));
+    const auto whole = [&](const CalibrationEntry& some) {
+      CalibrationEntry all = entry;
+      all.parameters = some.parameters;
+      all.parameters.insert(all.parameters.begin() + static_cast<std::ptrdiff_t>(held), fixed);
+      return all;
+    };
+    minimise(free, Method::local, kIdentifySeed, kRefitEvaluations,
+             [&](const CalibrationEntry& some) { return misfit(whole(some)); });
+    entry = whole(free);
+    entry.objective = free.objective;
+    return {fixed.value, free.objective, run_with(entry, kOtherSweep).max_deg};
+  }
+
   // `better`: best fit among the points of the profile.
-  Profile profile(const CalibrationEntry& best, std::size_t held, CalibrationEntry& better) const;
+  Profile profile(const CalibrationEntry& best, std::size_t held, CalibrationEntry& better) const {
+    Profile profile;
+    const Parameter& p = best.parameters[held];
+    profile.parameter = p.name;
+    profile.points.push_back({p.value, best.objective, run_with(best, kOtherSweep).max_deg});
+    for (const bool up : {false, true}) {
+      CalibrationEntry walker = best;
+      for (const double factor : kFactors) {
+        check_interrupt();
+        const double value = up ? p.value * factor : p.value / factor;
+        if (value < p.low || value > p.high) break;
+        walker.parameters[held].value = value;
+        profile.points.push_back(refit(walker, held));
+        if (walker.objective < better.objective) better = walker;
+      }
+    }
+    std::sort(profile.points.begin(), profile.points.end(),
+              [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
+    return profile;
+  }
 
   const StudyInputs& inputs_;
   const FamilyLaw& law_;
   std::string row_;
   double rate_;
 };
-
-std::vector<Parameter> IdentificationProblem::parameters() const {
-  if (law_.coupling.type == CouplingSpec::Type::weld_like)
-    return {{"time_constant", 1e-3, 1, 0},
-            {"damping_ratio", 0.01, 10, 0},
-            {"arm2_mass_scale", 0.2, 4, 0}};
-  const bool points = facts_of(law_.coupling.type, law_.coupling.printed).at_point;
-  const double k_low = points ? 100 : 3, k_high = points ? 1e7 : 3e5;  // [N/m], [N m/rad]
-  const double b_low = points ? 0.1 : 3e-3, b_high = points ? 3e4 : 1e3;
-  return {{"k1", k_low, k_high, 0},
-          {"b1", b_low, b_high, 0},
-          {"k2", k_low, k_high, 0},
-          {"b2", b_low, b_high, 0},
-          {"arm2_mass_scale", 0.2, 4, 0}};
-}
-
-RunResult IdentificationProblem::run_with(const CalibrationEntry& entry, double sweep) const {
-  const StudyRobot robot =
-      StudyRobot::s103(inputs_.settings, inputs_.s103, entry.value("arm2_mass_scale"));
-  RunSpec spec;
-  spec.name = row_;
-  spec.coupling = law_.coupling;
-  spec.rate = rate_;
-  if (!law_.coupling.printed) spec.kvr_rates = TargetRates::backward_difference;
-  if (law_.coupling.type == CouplingSpec::Type::weld_like) {
-    spec.coupling.reference.time_constant = entry.value("time_constant");
-    spec.coupling.reference.damping_ratio = entry.value("damping_ratio");
-    spec.gains = weld_gains(robot, spec.coupling);
-  } else {
-    spec.gains = entry.gains();
-  }
-  return run(robot, AutomaticMotion(HandMapping{}, sweep), spec);
-}
-
-// d x_i / d log theta_j by central differences, in half digits; also beyond the bounds of the
-// search.
-Eigen::MatrixXd IdentificationProblem::sensitivity(const CalibrationEntry& entry) const {
-  constexpr double step = 1e-3;
-  Eigen::MatrixXd S(4, static_cast<Eigen::Index>(entry.parameters.size()));
-  const auto numbers = [&](std::size_t j, double factor) {
-    CalibrationEntry moved = entry;
-    moved.parameters[j].value *= factor;
-    const RunResult r = run_with(moved, 1);
-    return Eigen::Vector4d(r.max_deg[0], r.max_deg[1], r.mean_deg[0], r.mean_deg[1]);
-  };
-  for (std::size_t j = 0; j < entry.parameters.size(); ++j)
-    S.col(static_cast<Eigen::Index>(j)) =
-        (numbers(j, std::exp(step)) - numbers(j, std::exp(-step))) / (2 * step * kHalfDigit);
-  return S;
-}
-
-// Fits all other parameters again, from their current values.
-ProfilePoint IdentificationProblem::refit(CalibrationEntry& entry, std::size_t held) const {
-  const Parameter fixed = entry.parameters[held];
-  CalibrationEntry free = entry;
-  free.parameters.erase(free.parameters.begin() + static_cast<std::ptrdiff_t>(held));
-  const auto whole = [&](const CalibrationEntry& some) {
-    CalibrationEntry all = entry;
-    all.parameters = some.parameters;
-    all.parameters.insert(all.parameters.begin() + static_cast<std::ptrdiff_t>(held), fixed);
-    return all;
-  };
-  minimise(free, Method::local, kIdentifySeed, kRefitEvaluations,
-           [&](const CalibrationEntry& some) { return misfit(whole(some)); });
-  entry = whole(free);
-  entry.objective = free.objective;
-  return {fixed.value, free.objective, run_with(entry, kOtherSweep).max_deg};
-}
-
-Profile IdentificationProblem::profile(const CalibrationEntry& best, std::size_t held,
-                                       CalibrationEntry& better) const {
-  Profile profile;
-  const Parameter& p = best.parameters[held];
-  profile.parameter = p.name;
-  profile.points.push_back({p.value, best.objective, run_with(best, kOtherSweep).max_deg});
-  for (const bool up : {false, true}) {
-    CalibrationEntry walker = best;
-    for (const double factor : kFactors) {
-      check_interrupt();
-      const double value = up ? p.value * factor : p.value / factor;
-      if (value < p.low || value > p.high) break;
-      walker.parameters[held].value = value;
-      profile.points.push_back(refit(walker, held));
-      if (walker.objective < better.objective) better = walker;
-    }
-  }
-  std::sort(profile.points.begin(), profile.points.end(),
-            [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
-  return profile;
-}
-
-Identification IdentificationProblem::solve() const {
-  Identification found;
-  found.row = row_;
-  found.law = law_.name;
-  found.fit.name = fmt::format("{}/{}/{:g}", row_, law_.name, rate_);
-  found.fit.rate = rate_;
-  found.fit.parameters = parameters();
-  const bool folds = law_.coupling.printed && law_.coupling.type == CouplingSpec::Type::torsional;
-  minimise(found.fit, folds ? Method::rugged : Method::multistart, kIdentifySeed, kFirstEvaluations,
-           [this](const CalibrationEntry& entry) { return misfit(entry); });
-  // If a profile finds a better fit, the search is repeated from there.
-  for (int round = 0; round < kRounds; ++round) {
-    CalibrationEntry better = found.fit;
-    found.profiles.clear();
-    for (std::size_t j = 0; j < found.fit.parameters.size(); ++j)
-      found.profiles.push_back(profile(found.fit, j, better));
-    if (better.objective > 0.95 * found.fit.objective || round + 1 == kRounds) break;
-    minimise(better, Method::local, kIdentifySeed, kFirstEvaluations / 4,
-             [this](const CalibrationEntry& entry) { return misfit(entry); });
-    better.evaluations += found.fit.evaluations;
-    found.fit = better;
-  }
-  const RunResult best = run_with(found.fit, 1);
-  found.fit.keep(best.max_deg, best.mean_deg);
-  // Zeros make the matrix square; the directions that they add have no effect. Four numbers cannot
-  // determine five parameters: at least one singular value is zero.
-  const auto count = static_cast<Eigen::Index>(found.fit.parameters.size());
-  const Eigen::MatrixXd S = sensitivity(found.fit);
-  const Eigen::Index size = std::max<Eigen::Index>(S.rows(), count);
-  Eigen::MatrixXd square = Eigen::MatrixXd::Zero(size, size);
-  square.topLeftCorner(S.rows(), count) = S;
-  const SingularValues values = singular_values(square);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    found.singular_values.push_back(i < S.rows() ? values.values(i) : 0);
-    const Eigen::VectorXd v = values.V.col(i).head(count);
-    found.directions.emplace_back(v.begin(), v.end());
-  }
-  return found;
-}
 
 }  // namespace
 

@@ -60,7 +60,7 @@ struct Identification {
   Interval interval(const Profile& profile) const;
 };
 
-double table_misfit(const RunResult& result, const PaperRow& row);
+double table_misfit(const RunResult& result);  // from the row of the same name
 
 // All rows, laws and rates; takes minutes. Deterministic.
 std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress);

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "app/data/value.h"
 #include "app/study/findings/variants.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
+#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 
@@ -29,55 +30,40 @@ const char* robot_words(const std::string& name) {
   return name == "findings_set0" ? "5/3 kg, 0.40/0.30 m" : "5/3 kg, arms 10 : 14";
 }
 
+const Value& entry_of(const Value& predictions, const char* key) {
+  if (const Value* value = predictions.find(key)) return *value;
+  throw InputError({{"predictions.toml", predictions.line, key, "is missing",
+                     "see the shipped file", "study.file"}});
+}
+
 namespace {
 
-std::string text_of(const Value& table, const char* key) {
-  const Value* value = table.find(key);
-  return value ? value->text : "";
+std::array<double, 2> pair_of(const Value& list) {
+  return {list.items.at(0).number, list.items.at(1).number};
 }
 
-std::optional<std::array<double, 2>> pair_of(const Value& table, const char* key) {
-  const Value* list = table.find(key);
-  if (!list || list->items.size() != 2) return {};
-  return std::array<double, 2>{list->items[0].number, list->items[1].number};
-}
-
-Predictions read_predictions(const std::filesystem::path& assets) {
-  const Value root = read_toml(assets / "study" / "predictions.toml");
-  Predictions predictions;
-  if (const Value* rows = root.find("row"))
-    for (const Value& row : rows->items) {
-      const Value* rate = row.find("rate");
-      predictions.rows.push_back(
-          {text_of(row, "robot"), text_of(row, "law"), rate ? rate->number : 0,
-           pair_of(row, "max").value_or(std::array<double, 2>{}), pair_of(row, "mean")});
-    }
-  if (const Value* modes = root.find("modes"))
-    for (const Value& table : modes->items) {
-      PredictedModes& mode = predictions.modes.emplace_back();
-      mode.robot = text_of(table, "robot");
-      for (const char* law : {"world", "joint", "linear"})
-        if (const Value* ratio = table.find(law)) mode.ratio[law] = ratio->number;
-    }
-  return predictions;
+// Of a two-link robot, if there is one.
+const Value* predicted_row(const Value& predictions, const std::string& robot,
+                           const std::string& law, double rate) {
+  for (const Value& row : entry_of(predictions, "row").items)
+    if (entry_of(row, "robot").text == robot && entry_of(row, "law").text == law &&
+        entry_of(row, "rate").number == rate)
+      return &row;
+  return nullptr;
 }
 
 // Every searched row of the two-link robots, run again and compared with its prediction, if any.
-void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyResults& results,
+void add_rows(const StudyInputs& inputs, const Value& predictions, StudyResults& results,
               Progress& progress) {
   std::size_t done = 0;
-  for (const auto& item : results.calibration.entries) {
-    const std::string& name = item.first;
-    const CalibrationEntry& entry = item.second;
+  for (const auto& [name, entry] : results.calibration.entries) {
     progress.advance(0.1 + 0.6 * static_cast<double>(++done) /
                                static_cast<double>(results.calibration.entries.size()));
     if (!name.starts_with("row/")) continue;
     check_interrupt();
-    const std::size_t slash = name.find('/', 4), last = name.rfind('/');
-    const std::string robot = name.substr(4, slash - 4);
-    const std::string law = name.substr(slash + 1, last - slash - 1);
-    RunSpec spec = row_spec(law, entry.rate);
-    spec.gains = entry.gains();
+    const std::vector<std::string> parts = split(name, '/');  // row/ROBOT/LAW/RATE
+    const std::string &robot = parts[1], &law = parts[2];
+    const RunSpec spec = row_spec(law, entry.rate).with_gains(entry.gains());
     const ProtocolErrors errors =
         run_protocol(inputs.findings.at(robot), spec, inputs.settings.sweep_times);
     results.rows[name] = errors;
@@ -85,20 +71,18 @@ void add_rows(const StudyInputs& inputs, const Predictions& predictions, StudyRe
                     fmt::format("{}, {}, {:g} Hz, best gains", robot_words(robot), law, entry.rate),
                     fmt::format("{} deg, mean {}", words(errors.max_deg), words(errors.mean_deg)),
                     true};
-    const auto row =
-        std::find_if(predictions.rows.begin(), predictions.rows.end(), [&](const PredictedRow& p) {
-          return p.robot == robot && p.law == law && p.rate == entry.rate;
-        });
-    if (row == predictions.rows.end()) continue;  // no claim
+    const Value* row = predicted_row(predictions, robot, law, entry.rate);
+    if (!row) continue;  // no claim
+    const std::array<double, 2> max_deg = pair_of(entry_of(*row, "max"));
+    const Value* mean = row->find("mean");
     for (std::size_t j = 0; j < 2; ++j) {
-      finding.holds = finding.holds && is_near(errors.max_deg[j], row->max_deg[j], 0.1);
-      if (row->mean_deg)
-        finding.holds = finding.holds && is_near(errors.mean_deg[j], (*row->mean_deg)[j], 0.1);
+      finding.holds &= is_near(errors.max_deg[j], max_deg[j], 0.1);
+      if (mean) finding.holds &= is_near(errors.mean_deg[j], pair_of(*mean)[j], 0.1);
     }
-    finding.claim += fmt::format(": predicted {} deg{} (within 10 %)", words(row->max_deg),
-                                 row->mean_deg ? ", mean " + words(*row->mean_deg) : "");
+    finding.claim += fmt::format(": predicted {} deg{} (within 10 %)", words(max_deg),
+                                 mean ? ", mean " + words(pair_of(*mean)) : "");
     const double sum = errors.max_deg[0] + errors.max_deg[1];
-    const double predicted_sum = row->max_deg[0] + row->max_deg[1];
+    const double predicted_sum = max_deg[0] + max_deg[1];
     if (!finding.holds && sum < 0.98 * predicted_sum)
       finding.measured += "; better than the predicted optimum";
     else if (!finding.holds && sum < 1.03 * predicted_sum)
@@ -131,7 +115,7 @@ void add_ratios(const StudyInputs& inputs, const StudyResults& results,
 void add_reproduction(const StudyResults& results, std::vector<Finding>& findings) {
   for (const char* name : {"E3", "E4"}) {
     const RunResult* result = find_run(results.reproduction, name);
-    const double worst = worst_relative_error(*result, paper_table().at(name));
+    const double worst = worst_relative_error(*result);
     findings.push_back(
         {"Table 2",
          fmt::format("{}: each of the four published numbers is reproduced within 15 %", name),
@@ -144,7 +128,7 @@ void add_reproduction(const StudyResults& results, std::vector<Finding>& finding
 }  // namespace
 
 void derive_findings(const StudyInputs& inputs, StudyResults& results, Progress& progress) {
-  const Predictions predictions = read_predictions(inputs.settings.assets);
+  const Value predictions = read_toml(inputs.settings.assets / "study" / "predictions.toml");
   std::vector<Finding>& findings = results.findings;
   add_reproduction(results, findings);
   add_equal_gains(inputs, predictions, findings);

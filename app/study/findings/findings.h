@@ -3,11 +3,10 @@
 #pragma once
 
 #include <array>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/data/value.h"
 #include "app/study/findings/results.h"
 
 namespace twinarm {
@@ -21,24 +20,12 @@ std::vector<std::string> answer_in_words(const StudyResults& results);
 
 // ---- parts of findings.cpp ----
 
-// Predictions made before the run: assets/study/predictions.toml.
-struct PredictedRow {
-  std::string robot, law;
-  double rate = 0;
-  std::array<double, 2> max_deg{};
-  std::optional<std::array<double, 2>> mean_deg;
-};
-struct PredictedModes {
-  std::string robot;
-  std::map<std::string, double> ratio;  // by law: world, joint, linear
-};
-struct Predictions {
-  std::vector<PredictedRow> rows;
-  std::vector<PredictedModes> modes;
-};
+// An entry of assets/study/predictions.toml, made before the run. Throws InputError if it is
+// missing.
+const Value& entry_of(const Value& predictions, const char* key);
 
 // claims.cpp: equal gains, and gains for which the two couplings are equivalent.
-void add_equal_gains(const StudyInputs& inputs, const Predictions& predictions,
+void add_equal_gains(const StudyInputs& inputs, const Value& predictions,
                      std::vector<Finding>& findings);
 void add_matched_gains(const StudyResults& results, std::vector<Finding>& findings);
 

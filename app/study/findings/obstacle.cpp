@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 
 #include "app/study/findings/variants.h"
@@ -56,22 +54,19 @@ void watch_target_radius(const Coupling& coupling, const Model<double>& model,
   }
 }
 
-// Longest interval with a contact force.
-void find_contact_interval(ObstacleRun& run) {
-  double begin = -1, longest = 0;
-  for (std::size_t n = 0; n < run.t.size(); ++n) {
-    const bool touching = run.contact_force[n] > 0;
-    if (touching && begin < 0) begin = run.t[n];
-    if (touching && run.t[n] - begin > longest) {
-      longest = run.t[n] - begin;
-      run.contact_begin = begin;
-      run.contact_end = run.t[n];
-    }
-    if (!touching) begin = -1;
-  }
-}
-
 }  // namespace
+
+std::vector<std::pair<double, double>> contact_intervals(const ObstacleRun& run, double gap) {
+  std::vector<std::pair<double, double>> intervals;
+  for (std::size_t n = 0; n < run.t.size(); ++n) {
+    if (run.contact_force[n] <= 0) continue;
+    if (!intervals.empty() && run.t[n] - intervals.back().second < gap)
+      intervals.back().second = run.t[n];
+    else
+      intervals.emplace_back(run.t[n], run.t[n]);
+  }
+  return intervals;
+}
 
 ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
                          CouplingSpec::Type type) {
@@ -79,28 +74,18 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   const Model<double>& model = robot.dvr_model(type);
   const bool linear = type == CouplingSpec::Type::linear;
   ObstacleRun result;
-  result.name = linear ? "linear" : "torsional";
-  result.treatment = "implicit";
-  result.unit = linear ? "N" : "N m";
-
-  CouplingSpec spec;
-  spec.name = result.name;
-  spec.type = type;
-  spec.treatment = Discretization::implicit;
-  result.gains =
-      gains_from_frequency(robot, spec, o.coupling_frequency_hz, o.coupling_damping_ratio);
-  spec.springs = robot.springs(result.gains.k1, result.gains.b1, result.gains.k2, result.gains.b2);
+  RunSpec& spec = result.spec;
+  spec.coupling.name = linear ? "linear" : "torsional";
+  spec.coupling.type = type;
+  spec.coupling.treatment = Discretization::implicit;
+  spec.name = "obstacle_" + spec.coupling.name;
+  spec.title = spec.coupling.name + ", automatic, with a box";
+  spec.gains =
+      gains_from_frequency(robot, spec.coupling, o.coupling_frequency_hz, o.coupling_damping_ratio);
+  spec.rate = o.rate_hz;
 
   const AutomaticMotion hand{HandMapping{}};
-  TrackingSetup setup;
-  setup.kvr_model = &robot.kvr_model();
-  setup.dvr_model = &model;
-  setup.hand = &hand;
-  setup.joints = robot.joints();
-  setup.couplings = {spec};
-  for (const CouplingSpec& held : robot.auxiliary()) setup.couplings.push_back(held);
-  setup.h = 1 / o.rate_hz;
-  TrackingSystem system(setup);
+  TrackingSystem system(tracking_setup(robot, hand, spec));
   JointStops stops("stops", model, robot.stops());
   system.simulation().add(stops);
   ContactForce contact(model, {o.contact_stiffness, o.contact_dissipation, o.friction, 1e-3});
@@ -123,22 +108,28 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
     result.beyond.push_back(beyond);
     result.penetration.push_back(contact.deepest(k));
     if (linear && t > 0)
-      watch_target_radius(system.coupling(0), model, system.simulation().state(), k, setup.h,
+      watch_target_radius(system.coupling(0), model, system.simulation().state(), k, spec.step(),
                           result, nearest);
   });
   result.t = series.t;
-  for (std::size_t n = 0; n < series.t.size(); ++n) {
-    result.q_K_deg.push_back({series.q_K[0][n] / kDegree, series.q_K[1][n] / kDegree});
-    result.q_D_deg.push_back({series.q_D[0][n] / kDegree, series.q_D[1][n] / kDegree});
+  for (std::size_t j = 0; j < 2; ++j) {
+    result.q_K_deg[j] = in_degrees(series.q_K[j]);
+    result.q_D_deg[j] = in_degrees(series.q_D[j]);
   }
   const auto largest = [](const std::vector<double>& v) {
-    return v.empty() ? 0.0 : *std::max_element(v.begin(), v.end());
+    return *std::max_element(v.begin(), v.end());
   };
   result.max_penetration = largest(result.penetration);
   result.max_beyond = largest(result.beyond);
   result.max_coupling = largest(result.coupling);
   result.max_force = largest(result.contact_force);
-  find_contact_interval(result);
+  double longest = 0;
+  for (const auto& [begin, end] : contact_intervals(result, 1.5 * spec.step())) {
+    if (end - begin <= longest) continue;
+    longest = end - begin;
+    result.contact_begin = begin;
+    result.contact_end = end;
+  }
   return result;
 }
 

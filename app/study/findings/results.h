@@ -21,27 +21,17 @@ struct Finding {
 
 // Automatic motion into a box.
 struct ObstacleRun {
-  std::string name;  // "linear", "torsional"
-  Gains gains;
-  std::string treatment;
-  std::vector<double> t;  // [s]
-  std::vector<std::array<double, 2>> q_K_deg, q_D_deg;
+  RunSpec spec;  // "obstacle_linear", "obstacle_torsional"; the coupling has the short name
+  std::vector<double> t;                                // [s]
+  std::array<std::vector<double>, 2> q_K_deg, q_D_deg;  // joints 1 and 2
   std::vector<double> coupling;       // largest coupling force [N], or torque [N m]
   std::vector<double> contact_force;  // sum of normal forces [N]
   std::vector<double> penetration;    // of the DVR [m]
   std::vector<double> beyond;         // of the KVR: depth behind the touched face [m]
-  std::string unit;                   // of the coupling: "N" or "N m"
   double max_penetration = 0, max_beyond = 0, max_coupling = 0, max_force = 0;
   double target_radius_ratio = 0;               // largest R_K / r that occurred (linear)
   double target_radius_limit = 0;               // largest stable R_K / r (linear)
   double contact_begin = -1, contact_end = -1;  // [s], of the longest contact
-};
-
-// One rate of the fits to E3 and E4.
-struct SearchRow {
-  double rate = 0;
-  std::map<std::string, const CalibrationEntry*> e3;  // by law
-  const CalibrationEntry* e4 = nullptr;
 };
 
 // A recorded run (recordings.h).
@@ -65,7 +55,7 @@ struct StudyResults {
   std::string command;        // command line
   std::string settings_text;  // of settings.toml
   Calibration calibration;
-  std::vector<SearchRow> search;
+  std::vector<double> search_rates;             // of the fits to E3 and E4 [Hz]
   std::vector<Identification> identifications;  // from Table 2
   // Link and its mass [kg].
   std::vector<std::pair<std::string, double>> link_masses;

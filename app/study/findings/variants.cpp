@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "app/support/progress.h"
@@ -11,32 +12,14 @@
 namespace twinarm {
 namespace {
 
-// Runs and predictions with the automatic motion.
-class Runner {
- public:
-  Runner(const StudyRobot& robot, Progress& progress, std::size_t expected)
-      : robot_(robot), progress_(progress), expected_(expected) {}
-  void operator()(const std::string& name, const std::string& title, RunSpec spec) {
-    check_interrupt();
-    spec.name = name;
-    spec.title = title;
-    results_.push_back(run(robot_, hand_, spec));
-    predict(robot_, results_.back());
-    progress_.advance(static_cast<double>(results_.size()) / static_cast<double>(expected_));
-  }
-  std::vector<RunResult> take() { return std::move(results_); }
+// Runs a variant with the automatic motion.
+using Add = std::function<void(const std::string& name, const std::string& title, RunSpec spec)>;
 
- private:
-  const StudyRobot& robot_;
-  Progress& progress_;
-  std::size_t expected_;
-  AutomaticMotion hand_{HandMapping{}};
-  std::vector<RunResult> results_;
-};
-
-RunSpec with_gains(RunSpec spec, const Gains& gains) {
-  spec.gains = gains;
-  return spec;
+RunResult run_and_predict(const StudyRobot& robot, const OperatorMotion& hand,
+                          const RunSpec& spec) {
+  RunResult result = run(robot, hand, spec);
+  predict(robot, result, robot.start_state());
+  return result;
 }
 
 RunSpec consistent(CouplingSpec::Type type, SpringSpace measure, Discretization treatment,
@@ -49,17 +32,17 @@ RunSpec consistent(CouplingSpec::Type type, SpringSpace measure, Discretization 
   return spec;
 }
 
-void add_trials(const StudySettings& s, const Calibration& calibration, Runner& add) {
-  for (const std::string& law : trial_laws())
+void add_trials(const StudySettings& s, const Calibration& calibration, const Add& add) {
+  for (const std::string& law : kTrialLaws)
     for (double rate : s.rates_hz) {
       const Gains gains = calibration.entry(fmt::format("trial/{}/{:g}", law, rate)).gains();
       add(fmt::format("trial/{}/{:g}", law, rate), law + ", optimal gains",
-          with_gains(trial_spec(law, rate), gains));
+          trial_spec(law, rate).with_gains(gains));
     }
 }
 
 // Linear coupling with the optimal gains, consistent, and torsional coupling with its full K_q.
-void add_matched(const StudySettings& s, const Calibration& calibration, Runner& add) {
+void add_matched(const StudySettings& s, const Calibration& calibration, const Add& add) {
   for (double rate : s.rates_hz) {
     const Gains gains = calibration.entry(fmt::format("trial/printed-linear/{:g}", rate)).gains();
     for (const auto& [name, type] : {std::pair{"linear", CouplingSpec::Type::linear},
@@ -67,12 +50,12 @@ void add_matched(const StudySettings& s, const Calibration& calibration, Runner&
       RunSpec spec = consistent(type, SpringSpace::joint, Discretization::explicit_, rate);
       spec.kvr_rates = TargetRates::backward_difference;
       add(fmt::format("matched/{}/{:g}", name, rate), "the same K_q and B_q",
-          with_gains(spec, gains));
+          spec.with_gains(gains));
     }
   }
 }
 
-void add_implicit(const StudySettings& s, const StudyRobot& robot, Runner& add) {
+void add_implicit(const StudySettings& s, const StudyRobot& robot, const Add& add) {
   struct Law {
     const char* name;
     CouplingSpec::Type type;
@@ -94,8 +77,8 @@ void add_implicit(const StudySettings& s, const StudyRobot& robot, Runner& add) 
 }
 
 // Coupling force computed at the rate and held in between, physics at about 1 kHz.
-void add_held(const StudySettings& s, const Calibration& calibration, Runner& add) {
-  for (const std::string& law : trial_laws())
+void add_held(const StudySettings& s, const Calibration& calibration, const Add& add) {
+  for (const std::string& law : kTrialLaws)
     for (double rate : s.rates_hz) {
       if (rate >= s.held_physics_hz) continue;
       RunSpec spec = trial_spec(law, rate);
@@ -106,10 +89,10 @@ void add_held(const StudySettings& s, const Calibration& calibration, Runner& ad
 }
 
 // One change at a time to the signed coupling at 60 Hz, with its optimal gains.
-void add_ablations(const Calibration& calibration, Runner& add) {
+void add_ablations(const Calibration& calibration, const Add& add) {
   constexpr double rate = 60;
   const Gains gains = calibration.entry("trial/signed-torsional/60").gains();
-  const RunSpec base = with_gains(trial_spec("signed-torsional", rate), gains);
+  const RunSpec base = trial_spec("signed-torsional", rate).with_gains(gains);
   add("ablation/signed", "signed damper, backward differences", base);
   RunSpec spec = base;
   spec.coupling.options.damper = Damper::folded;
@@ -127,23 +110,23 @@ void add_ablations(const Calibration& calibration, Runner& add) {
   add("ablation/older", "difference one frame older", spec);
   spec = consistent(CouplingSpec::Type::torsional, SpringSpace::world, Discretization::explicit_,
                     rate);
-  add("ablation/true-velocities", "current velocities of both robots", with_gains(spec, gains));
+  add("ablation/true-velocities", "current velocities of both robots", spec.with_gains(gains));
   add("ablation/ratio-0.2", "k2 = 0.2 k1, with its own optimal gains",
-      with_gains(trial_spec("signed-torsional-ratio", rate),
-                 calibration.entry("trial/signed-torsional-ratio/60").gains()));
+      trial_spec("signed-torsional-ratio", rate)
+          .with_gains(calibration.entry("trial/signed-torsional-ratio/60").gains()));
 }
 
 }  // namespace
 
 std::vector<RunSpec> reproduction_specs(const Calibration& calibration) {
   const double rate = calibration.entry("chosen").rate;
-  const Gains e3 = calibration.entry(fmt::format("E3/{:g}/world-", rate)).gains();
-  const Gains e4 = calibration.entry(fmt::format("E4/{:g}", rate)).gains();
+  const Gains e3 = calibration.e3("world-", rate).gains();
+  const Gains e4 = calibration.e4(rate).gains();
   std::vector<RunSpec> specs;
   for (const char* name : {"E1", "E2", "E3", "E4"}) {
     const bool torsional = name[1] == '1' || name[1] == '3', by_user = name[1] < '3';
     RunSpec spec =
-        torsional ? with_gains(e3_spec("world-", rate), e3) : with_gains(e4_spec(rate), e4);
+        torsional ? e3_spec("world-", rate).with_gains(e3) : e4_spec(rate).with_gains(e4);
     spec.name = name;
     spec.title = fmt::format("{}, {}", torsional ? "torsional" : "linear",
                              by_user ? "by user" : "automatic");
@@ -160,8 +143,7 @@ std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibrati
     const bool by_user = spec.name < "E3";
     if (by_user && dynamic_cast<const SyntheticOperator*>(&hand))
       spec.title += " (synthetic operator)";
-    results.push_back(run(robot, by_user ? hand : automatic, spec));
-    predict(robot, results.back());
+    results.push_back(run_and_predict(robot, by_user ? hand : automatic, spec));
   }
   return results;
 }
@@ -169,13 +151,23 @@ std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibrati
 std::vector<RunResult> run_variants(const StudyInputs& inputs, const StudyRobot& robot,
                                     const Calibration& calibration, Progress& progress) {
   const std::size_t rates = inputs.settings.rates_hz.size();
-  Runner add(robot, progress, trial_laws().size() * (2 * rates - 1) + 2 * rates + 18 + 8);
+  const auto expected =
+      static_cast<double>(kTrialLaws.size() * (2 * rates - 1) + 2 * rates + 18 + 8);
+  const AutomaticMotion hand{HandMapping{}};
+  std::vector<RunResult> results;
+  const Add add = [&](const std::string& name, const std::string& title, RunSpec spec) {
+    check_interrupt();
+    spec.name = name;
+    spec.title = title;
+    results.push_back(run_and_predict(robot, hand, spec));
+    progress.advance(static_cast<double>(results.size()) / expected);
+  };
   add_trials(inputs.settings, calibration, add);
   add_matched(inputs.settings, calibration, add);
   add_implicit(inputs.settings, robot, add);
   add_held(inputs.settings, calibration, add);
   add_ablations(calibration, add);
-  return add.take();
+  return results;
 }
 
 Gains gains_from_frequency(const StudyRobot& robot, const CouplingSpec& coupling,
@@ -184,7 +176,7 @@ Gains gains_from_frequency(const StudyRobot& robot, const CouplingSpec& coupling
   const double w = 2 * std::numbers::pi * frequency_hz;
   double I1 = M(0, 0), I2 = M(1, 1);
   if (coupling.type != CouplingSpec::Type::torsional) {
-    const std::vector<Spring> springs = robot.springs(1, 1, 1, 1);
+    const std::vector<Spring> springs = robot.springs(Gains::both(1, 1));
     I1 /= springs[0].p_L.head<2>().squaredNorm();
     I2 /= springs[1].p_L.head<2>().squaredNorm();
   }

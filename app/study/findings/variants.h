@@ -26,6 +26,9 @@ Gains gains_from_frequency(const StudyRobot& robot, const CouplingSpec& coupling
 ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
                          CouplingSpec::Type type);
 
+// Intervals with a contact force; gaps shorter than this [s] are bridged.
+std::vector<std::pair<double, double>> contact_intervals(const ObstacleRun& run, double gap);
+
 const RunResult* find_run(const std::vector<RunResult>& runs, const std::string& name);
 
 }  // namespace twinarm

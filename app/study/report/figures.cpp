@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "app/study/report/figures_detail.h"
 #include "app/study/report/report.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 namespace {
@@ -18,15 +20,15 @@ struct LawStyle {
   int point;  // gnuplot's number: 7 disc, 5 square, 9 triangle, 13 diamond, 11 triangle down
   const char* dash;
 };
-constexpr LawStyle kTrialLaws[] = {
+constexpr LawStyle kTrialStyles[] = {
     {"printed-torsional", "torsional, as published", palette::torsional, 7, "solid"},
     {"signed-torsional", "torsional, signed damper", "#C58AD0", 5, "solid"},
     {"signed-torsional-ratio", "the same, k2 = 0.2 k1", "#3F6FB5", 9, "(6,4)"},
     {"printed-linear", "linear, as published", palette::linear, 13, "solid"}};
-constexpr LawStyle kFitLaws[] = {{"world-", "E3 world (−)", palette::torsional, 7, "solid"},
-                                 {"world+", "E3 world (+)", "#C58AD0", 5, "solid"},
-                                 {"joint-", "E3 joint (−)", "#3F6FB5", 9, "(6,4)"},
-                                 {"joint+", "E3 joint (+)", "#8DB0DD", 11, "(6,4)"}};
+constexpr LawStyle kFitStyles[] = {{"world-", "E3 world (−)", palette::torsional, 7, "solid"},
+                                   {"world+", "E3 world (+)", "#C58AD0", 5, "solid"},
+                                   {"joint-", "E3 joint (−)", "#3F6FB5", 9, "(6,4)"},
+                                   {"joint+", "E3 joint (+)", "#8DB0DD", 11, "(6,4)"}};
 
 std::string line_style(const LawStyle& law) {
   return fmt::format("with linespoints lw 2 dt {} pt {} ps 0.75 lc '{}' title {}", law.dash,
@@ -34,9 +36,7 @@ std::string line_style(const LawStyle& law) {
 }
 
 // Tics of a logarithmic rate axis; without a number where they would overlap.
-std::string rate_axis(std::vector<double> rates) {
-  std::sort(rates.begin(), rates.end());
-  rates.erase(std::unique(rates.begin(), rates.end()), rates.end());
+std::string rate_axis(const std::set<double>& rates) {
   std::string tics;
   double last = 0;
   for (double rate : rates) {
@@ -45,31 +45,25 @@ std::string rate_axis(std::vector<double> rates) {
                         in_quotes(apart ? fmt::format("{:g}", rate) : ""), rate);
     if (apart) last = rate;
   }
-  return fmt::format("set logscale x\nset xrange [{}:{}]\nset xtics ({})\n", rates.front() / 1.12,
-                     rates.back() * 1.12, tics);
+  return fmt::format("set logscale x\nset xrange [{}:{}]\nset xtics ({})\n", *rates.begin() / 1.12,
+                     *rates.rbegin() * 1.12, tics);
 }
 
-// The part of "group/law/rate" between its slashes.
+// Of "group/law/rate".
 std::string law_of(const std::string& name) {
-  const std::size_t first = name.find('/'), last = name.rfind('/');
-  return first == last ? name.substr(first + 1) : name.substr(first + 1, last - first - 1);
-}
-
-double largest(const RunResult& run) {
-  return std::max(run.max_deg[0], run.max_deg[1]);
+  return split(name, '/')[1];
 }
 
 }  // namespace
 
 void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   std::map<std::string, std::vector<const RunResult*>> by_law;
-  std::vector<double> rates;
+  std::set<double> rates;
   for (const RunResult& run : variants)
     if (run.spec.name.starts_with("trial/")) {
       by_law[law_of(run.spec.name)].push_back(&run);
-      rates.push_back(run.spec.rate);
+      rates.insert(run.spec.rate);
     }
-  if (rates.empty()) return;
   std::string script =
       "set multiplot\nset logscale y\nset tmargin at screen 0.92\n"
       "set bmargin at screen 0.17\nset xlabel 'update rate [Hz]'\n";
@@ -80,7 +74,7 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
       if (run->stable) {
         const double theory[] = {std::abs(run->peak_deg[0]), std::abs(run->peak_deg[1])};
         low = std::min({low, run->max_deg[0], run->max_deg[1], theory[0], theory[1]});
-        high = std::max({high, largest(*run), theory[0], theory[1]});
+        high = std::max({high, run->largest_deg(), theory[0], theory[1]});
       }
   script += fmt::format("set yrange [{}:{}]\n", low / 1.3, high * 1.3);
   for (std::size_t j = 0; j < 2; ++j) {
@@ -92,7 +86,7 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
                  "set key left bottom Left reverse"
                : "unset ylabel\nunset key");
     std::string plots;
-    for (const LawStyle& law : kTrialLaws) {
+    for (const LawStyle& law : kTrialStyles) {
       std::vector<double> x, y, theory;
       for (const RunResult* run : by_law[law.name]) {
         x.push_back(run->spec.rate);
@@ -111,25 +105,26 @@ void draw_rates(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
 }
 
 void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
-  if (results.search.empty()) return;
-  std::vector<double> rates, e4;
-  for (const SearchRow& row : results.search) {
-    rates.push_back(row.rate);
-    e4.push_back(row.e4 ? std::max(0.5, 100 * row.e4->objective) : NAN);
-  }
+  const Calibration& c = results.calibration;
+  const std::vector<double>& rates = results.search_rates;
   constexpr double kFloor = 0.5;  // of the drawn values [%]
   double low = 10, high = 30;     // [%]; the range includes 15 %
-  const auto include = [&](const CalibrationEntry* entry) {
-    if (!entry || !(entry->objective > 0)) return;
-    low = std::max(kFloor, std::min(low, 100 * entry->objective));
-    high = std::max(high, 100 * entry->objective);
+  const auto percent_of = [&](const CalibrationEntry& entry) {
+    const double percent = 100 * entry.objective;
+    if (percent > 0) {
+      low = std::max(kFloor, std::min(low, percent));
+      high = std::max(high, percent);
+    }
+    return percent;
   };
-  for (const SearchRow& row : results.search) {
-    include(row.e4);
-    for (const auto& [law, entry] : row.e3) include(entry);
+  std::vector<double> e3[std::size(kFitStyles)], e4;
+  for (const double rate : rates) {
+    for (std::size_t l = 0; l < std::size(kFitStyles); ++l)
+      e3[l].push_back(percent_of(c.e3(kFitStyles[l].name, rate)));
+    e4.push_back(std::max(kFloor, percent_of(c.e4(rate))));
   }
   std::string script =
-      rate_axis(rates) +
+      rate_axis({rates.begin(), rates.end()}) +
       fmt::format(
           "set logscale y\nset yrange [{}:{}]\nset ytics (0.5, 1, 2, 5, 10, 20, 50, 100, "
           "200, 500)\n",
@@ -137,26 +132,15 @@ void draw_search(Gnuplot& gnuplot, const StudyResults& results) {
       "set xlabel 'update rate [Hz]'\n"
       "set ylabel 'worst relative error of the four numbers [%]' offset 0.8,0\n"
       "set key outside top center horizontal\n"
-      "set arrow from graph 0,first 15 to graph 1,first 15 nohead dt (4,4) lw 1.4 "
-      "lc '#333333'\n"
+      "set arrow from graph 0,first 15 to graph 1,first 15 nohead dt (4,4) lw 1.4 lc '#333333'\n"
       "set label '15 %' at graph 0.005,first 15 left offset 0,0.6 font ',11.5'\n";
-  const auto chosen = results.calibration.entries.find("chosen");
-  if (chosen != results.calibration.entries.end() && chosen->second.rate > 0)
-    script += fmt::format(
-        "set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 7 lc "
-        "'#EFE6D2' back\nset label 'chosen: {0:g} Hz' at first {0},graph 0.97 "
-        "left offset 0.8,0 font ',11.5'\n",
-        chosen->second.rate);
+  script += fmt::format(
+      "set arrow from first {0},graph 0 to first {0},graph 1 nohead lw 7 lc '#EFE6D2' back\nset "
+      "label 'chosen: {0:g} Hz' at first {0},graph 0.97 left offset 0.8,0 font ',11.5'\n",
+      c.entry("chosen").rate);
   std::string plots = "plot ";
-  for (const LawStyle& law : kFitLaws) {
-    std::vector<double> y;
-    for (const SearchRow& row : results.search) {
-      const auto entry = row.e3.find(law.name);
-      y.push_back(entry == row.e3.end() || !entry->second ? NAN : 100 * entry->second->objective);
-    }
-    if (std::any_of(y.begin(), y.end(), [](double v) { return std::isfinite(v); }))
-      plots += gnuplot.data({rates, y}) + " " + line_style(law) + ", ";
-  }
+  for (std::size_t l = 0; l < std::size(kFitStyles); ++l)
+    plots += gnuplot.data({rates, e3[l]}) + " " + line_style(kFitStyles[l]) + ", ";
   const LawStyle linear{"", "E4 linear", palette::linear, 13, "solid"};
   gnuplot.draw("search", "Best fit to the paper's rows against the update rate", 900, 470,
                script + plots + gnuplot.data({rates, e4}) + " " + line_style(linear));
@@ -168,18 +152,14 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
   for (const RunResult& run : variants)
     if (run.spec.name.starts_with("ablation/")) {
       runs.push_back(&run);
-      if (run.stable) high = std::max(high, largest(run));
+      if (run.stable) high = std::max(high, run.largest_deg());
     }
-  if (runs.empty()) return;
-  if (high == 0) high = 1;
   std::string tics, labels;
   std::vector<double> y[2], x[2], theory[2];
   const auto rows = static_cast<double>(runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const double row = rows - static_cast<double>(i);
-    const std::string name =
-        runs[i]->spec.title.empty() ? law_of(runs[i]->spec.name) : runs[i]->spec.title;
-    tics += fmt::format("{}{} {}", i ? ", " : "", in_quotes(name), row);
+    tics += fmt::format("{}{} {}", i ? ", " : "", in_quotes(runs[i]->spec.title), row);
     for (std::size_t j = 0; j < 2; ++j) {
       const double size = runs[i]->stable ? runs[i]->max_deg[j] : 1.05 * high;
       x[j].push_back(size);
@@ -192,13 +172,11 @@ void draw_ablations(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
     }
   }
   const auto bars = [&](std::size_t j, const char* colour) {
-    const std::vector<double> zero(runs.size(), 0.0);
-    std::vector<double> low(y[j]), high_edge(y[j]);
-    for (double& v : low) v -= 0.17;
-    for (double& v : high_edge) v += 0.17;
-    return gnuplot.data({x[j], y[j], zero, x[j], low, high_edge}) +
-           fmt::format(" with boxxyerror fillstyle solid noborder lc '{}' title 'joint {}'", colour,
-                       j + 1);
+    return gnuplot.data({x[j], y[j]}) +
+           fmt::format(
+               " using 1:2:(0):1:($2-0.17):($2+0.17) with boxxyerror fillstyle solid "
+               "noborder lc '{}' title 'joint {}'",
+               colour, j + 1);
   };
   const auto marks = [&](std::size_t j, const char* title) {
     return gnuplot.data({theory[j], y[j]}) +
@@ -243,7 +221,6 @@ void draw_prediction(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
       plots += fmt::format(", {} with points pt {} ps 0.8 lw 1.4 lc '{}' title '{}'",
                            gnuplot.data({x, y}), group.point, group.colour, group.words);
   }
-  if (plots.empty()) return;
   low /= 1.3;
   high *= 1.3;
   gnuplot.draw("prediction", "Predicted peak after a reversal against the measured maximum", 900,
@@ -263,17 +240,10 @@ void draw_prediction(Gnuplot& gnuplot, const std::vector<RunResult>& variants) {
 
 void write_figures(const StudyResults& results, const std::filesystem::path& folder) {
   Gnuplot gnuplot(folder);
-  const RunResult *e3 = nullptr, *e4 = nullptr;
-  const std::map<std::string, std::string> names{
-      {"E1", "fig6a"}, {"E2", "fig6b"}, {"E3", "fig7c"}, {"E4", "fig7d"}};
-  for (const RunResult& run : results.reproduction) {
-    const auto name = names.find(run.spec.name);
-    if (name == names.end()) continue;
-    draw_angles(gnuplot, name->second, run);
-    if (run.spec.name == "E3") e3 = &run;
-    if (run.spec.name == "E4") e4 = &run;
-  }
-  if (e3 && e4) draw_errors(gnuplot, *e3, *e4);
+  const std::vector<RunResult>& runs = results.reproduction;
+  const char* const names[] = {"fig6a", "fig6b", "fig7c", "fig7d"};
+  for (std::size_t i = 0; i < runs.size(); ++i) draw_angles(gnuplot, names[i], runs[i]);
+  draw_errors(gnuplot, runs[2], runs[3]);
   draw_rates(gnuplot, results.variants);
   draw_search(gnuplot, results);
   draw_ablations(gnuplot, results.variants);

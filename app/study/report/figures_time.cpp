@@ -4,26 +4,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/study/findings/variants.h"
 #include "app/study/report/figures_detail.h"
 
 namespace twinarm {
 namespace {
 
-std::vector<double> in_degrees(const std::vector<double>& radians) {
-  std::vector<double> degrees(radians);
-  for (double& x : degrees) x /= kDegree;
-  return degrees;
-}
-
 std::vector<double> error_deg(const TrackingSeries& series, std::size_t joint) {
-  std::vector<double> error(std::min(series.q_K[joint].size(), series.q_D[joint].size()));
+  std::vector<double> error(series.t.size());
   for (std::size_t n = 0; n < error.size(); ++n)
     error[n] = std::abs(series.q_K[joint][n] - series.q_D[joint][n]) / kDegree;
   return error;
-}
-
-bool has_two_joints(const TrackingSeries& series) {
-  return !series.t.empty() && series.q_K.size() >= 2 && series.q_D.size() >= 2;
 }
 
 // One panel of a figure with joint 1 above joint 2 on one time axis.
@@ -41,14 +32,7 @@ std::string panel(int index, const std::string& label, double duration) {
 
 // Limits with a margin, and tics at round angles.
 std::string angle_axis(const std::vector<double>& a, const std::vector<double>& b) {
-  double low = HUGE_VAL, high = -HUGE_VAL;
-  for (const auto* values : {&a, &b})
-    for (double x : *values)
-      if (std::isfinite(x)) {
-        low = std::min(low, x);
-        high = std::max(high, x);
-      }
-  if (low > high) low = -1, high = 1;
+  const auto [low, high] = finite_range({&a, &b});
   const double margin = std::max(0.06 * (high - low), 1.0), span = high - low;
   const double tics = span > 400 ? 180 : span > 250 ? 90 : span > 85 ? 45 : span > 40 ? 15 : 5;
   return fmt::format("set yrange [{}:{}]\nset ytics {}\n", low - margin, high + margin, tics);
@@ -56,15 +40,87 @@ std::string angle_axis(const std::vector<double>& a, const std::vector<double>& 
 
 // From zero, with at most six round tics.
 std::string value_axis(const std::vector<double>& a, const std::vector<double>& b = {}) {
-  double high = 0;
-  for (const auto* values : {&a, &b})
-    for (double x : *values)
-      if (std::isfinite(x)) high = std::max(high, x);
-  if (high == 0) high = 1;
+  const double largest = finite_range({&a, &b}).second, high = largest > 0 ? largest : 1;
   double step = std::pow(10, std::floor(std::log10(high)) - 1);
   for (double factor : {2.0, 2.5, 2.0, 2.0, 2.5})
     if (high / step > 6) step *= factor;
   return fmt::format("set yrange [0:{}]\nset ytics {}\n", 1.06 * high, step);
+}
+
+struct ObstaclePanel {
+  std::string label;
+  std::string plots;   // of gnuplot's plot command
+  std::string before;  // its axis
+};
+
+// In millimetres for a logarithmic axis; gaps for values that are not positive.
+std::vector<double> positive_mm(const std::vector<double>& metres) {
+  std::vector<double> values;
+  for (double x : metres) values.push_back(x > 0 ? std::max(x * 1e3, 1e-4) : NAN);
+  return values;
+}
+
+std::vector<ObstaclePanel> obstacle_panels(Gnuplot& gnuplot, const ObstacleRun& run) {
+  std::vector<ObstaclePanel> panels;
+  for (std::size_t j = 0; j < 2; ++j)
+    panels.push_back({fmt::format("joint {} [°]", j + 1),
+                      fmt::format("{} with lines lw 4 lc '{}' title 'KVR', {} with lines lw 1.8 lc "
+                                  "'{}' title 'DVR'",
+                                  gnuplot.curve(run.t, run.q_K_deg[j]), palette::kvr,
+                                  gnuplot.curve(run.t, run.q_D_deg[j]), palette::dvr),
+                      angle_axis(run.q_K_deg[j], run.q_D_deg[j])});
+  const auto add_size = [&](const std::string& label, const std::vector<double>& size,
+                            double width) {
+    panels.push_back({label,
+                      fmt::format("{} with lines lw {} lc '{}' notitle", gnuplot.curve(run.t, size),
+                                  width, palette::ink),
+                      value_axis(size)});
+  };
+  const bool linear = run.spec.coupling.type == CouplingSpec::Type::linear;
+  add_size(fmt::format("coupling {} [{}]", linear ? "force" : "torque", run.spec.pull_unit()),
+           run.coupling, 1.8);
+  add_size("contact force [N]", run.contact_force, 1.4);
+  panels.push_back(
+      {"depth behind the touched face [mm]; the line is 0.5 mm",
+       fmt::format("0.5 with lines dt (4,4) lw 1.2 lc '{}' notitle, {} with lines lw 4 lc '{}' "
+                   "notitle, {} with lines lw 1.8 lc '{}' notitle",
+                   palette::faint, gnuplot.data({run.t, positive_mm(run.beyond)}), palette::kvr,
+                   gnuplot.data({run.t, positive_mm(run.penetration)}), palette::dvr),
+       "set logscale y\nset yrange [1e-4:1e3]\nset offsets 0,0,0,0\nset ytics scale 0.6,0\n"
+       "set ytics (0.001, 0.1, 10)\n"});
+  return panels;
+}
+
+// Column of panels of one coupling.
+std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double left, double right) {
+  std::string script = fmt::format(
+      "reset\n{}set lmargin at screen {}\nset rmargin at screen {}\nset xrange [0:{}]\n",
+      kFigureStyle, left, right, run.t.back());
+  constexpr double kGap = 0.02;  // [s]
+  for (const auto& [begin, end] : contact_intervals(run, kGap))
+    script += fmt::format(
+        "set object rectangle from {},graph 0 to {},graph 1 behind fillcolor "
+        "'#F1EDE4' fillstyle solid noborder\n",
+        begin, end);
+  const std::vector<ObstaclePanel> panels = obstacle_panels(gnuplot, run);
+  for (std::size_t p = 0; p < panels.size(); ++p) {
+    const double top = 0.925 - 0.181 * static_cast<double>(p), bottom = top - 0.138;
+    script += fmt::format("set tmargin at screen {}\nset bmargin at screen {}\n", top, bottom);
+    script += p == 0 ? fmt::format(
+                           "set label 9 {} at graph 0,1.0 offset 0,2.4 font ',15' "
+                           "textcolor '#111111'\n"
+                           "set key at graph 1,1.01 right bottom horizontal\n",
+                           in_quotes(run.spec.coupling.name + " coupling"))
+                     : "unset label 9\nunset key\n";
+    script += p + 1 == panels.size()
+                  ? "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3 textcolor '#333333'\n"
+                  : "set format x ''\nunset xlabel\n";
+    script +=
+        fmt::format("set label 7 {} at graph 0,1.0 offset 0,0.7 font ',12' textcolor '#333333'\n",
+                    in_quotes(panels[p].label));
+    script += panels[p].before + "plot " + panels[p].plots + "\n";
+  }
+  return script;
 }
 
 }  // namespace
@@ -72,7 +128,6 @@ std::string value_axis(const std::vector<double>& a, const std::vector<double>& 
 // Marks the largest error, which is the number of Table 2.
 void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run) {
   const TrackingSeries& series = run.series;
-  if (!has_two_joints(series)) return;
   std::string script = "set multiplot\n";
   for (std::size_t j = 0; j < 2; ++j) {
     const std::vector<double> q_K = in_degrees(series.q_K[j]), q_D = in_degrees(series.q_D[j]);
@@ -101,7 +156,6 @@ void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run
 }
 
 void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& linear) {
-  if (!has_two_joints(torsional.series) || !has_two_joints(linear.series)) return;
   std::string script = "set multiplot\n";
   for (std::size_t j = 0; j < 2; ++j) {
     script += panel(static_cast<int>(j), fmt::format("|error|, joint {} [°]", j + 1),
@@ -117,8 +171,7 @@ void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& 
           std::abs(run->peak_deg[j]), run->series.t.back(), colour);
     for (int reversal = 1; reversal < torsional.series.t.back() - 0.01; ++reversal)
       script += fmt::format(
-          "set arrow from {0},graph 0 to {0},graph 1 nohead dt (4,4) lw 1 "
-          "lc '{1}' back\n",
+          "set arrow from {0},graph 0 to {0},graph 1 nohead dt (4,4) lw 1 lc '{1}' back\n",
           reversal, palette::faint);
     script += fmt::format(
         "plot {} with lines lw 1.8 lc '{}' title 'E3, torsional', {} with lines "
@@ -130,117 +183,14 @@ void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& 
                script + "unset multiplot\n");
 }
 
-namespace {
-
-struct ObstaclePanel {
-  std::string label;
-  std::string plots;   // of gnuplot's plot command
-  std::string before;  // its axis
-};
-
-// Intervals with a contact; short gaps are bridged.
-std::vector<std::pair<double, double>> contacts(const ObstacleRun& run) {
-  constexpr double kGap = 0.02;  // [s]
-  std::vector<std::pair<double, double>> intervals;
-  for (std::size_t n = 0; n < run.t.size() && n < run.contact_force.size(); ++n) {
-    if (run.contact_force[n] <= 0) continue;
-    if (!intervals.empty() && run.t[n] - intervals.back().second < kGap)
-      intervals.back().second = run.t[n];
-    else
-      intervals.emplace_back(run.t[n], run.t[n]);
-  }
-  return intervals;
-}
-
-std::vector<double> column(const std::vector<std::array<double, 2>>& rows, std::size_t j) {
-  std::vector<double> values;
-  for (const auto& row : rows) values.push_back(row[j]);
-  return values;
-}
-
-// In millimetres for a logarithmic axis; gaps for values that are not positive.
-std::vector<double> positive_mm(const std::vector<double>& metres) {
-  std::vector<double> values;
-  for (double x : metres) values.push_back(x > 0 ? std::max(x * 1e3, 1e-4) : NAN);
-  return values;
-}
-
-std::vector<ObstaclePanel> obstacle_panels(Gnuplot& gnuplot, const ObstacleRun& run) {
-  std::vector<ObstaclePanel> panels;
-  for (std::size_t j = 0; j < 2; ++j)
-    panels.push_back({fmt::format("joint {} [°]", j + 1),
-                      fmt::format("{} with lines lw 4 lc '{}' title 'KVR', {} with lines lw 1.8 lc "
-                                  "'{}' title 'DVR'",
-                                  gnuplot.curve(run.t, column(run.q_K_deg, j)), palette::kvr,
-                                  gnuplot.curve(run.t, column(run.q_D_deg, j)), palette::dvr),
-                      angle_axis(column(run.q_K_deg, j), column(run.q_D_deg, j))});
-  const auto add_size = [&](const std::string& label, const std::vector<double>& size,
-                            double width) {
-    panels.push_back({label,
-                      fmt::format("{} with lines lw {} lc '{}' notitle", gnuplot.curve(run.t, size),
-                                  width, palette::ink),
-                      value_axis(size)});
-  };
-  add_size(fmt::format("coupling {} [{}]", run.unit == "N" ? "force" : "torque", run.unit),
-           run.coupling, 1.8);
-  add_size("contact force [N]", run.contact_force, 1.4);
-  panels.push_back(
-      {"depth behind the touched face [mm]; the line is 0.5 mm",
-       fmt::format("0.5 with lines dt (4,4) lw 1.2 lc '{}' notitle, {} with lines lw 4 lc '{}' "
-                   "notitle, {} with lines lw 1.8 lc '{}' notitle",
-                   palette::faint, gnuplot.data({run.t, positive_mm(run.beyond)}), palette::kvr,
-                   gnuplot.data({run.t, positive_mm(run.penetration)}), palette::dvr),
-       "set logscale y\nset yrange [1e-4:1e3]\nset offsets 0,0,0,0\nset ytics scale 0.6,0\n"
-       "set ytics (0.001, 0.1, 10)\n"});
-  return panels;
-}
-
-// Column of panels of one coupling.
-std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double left, double right) {
-  std::string script = fmt::format(
-      "reset\n{}set lmargin at screen {}\nset rmargin at screen {}\nset xrange [0:{}]\n",
-      kFigureStyle, left, right, run.t.back());
-  for (const auto& [begin, end] : contacts(run))
-    script += fmt::format(
-        "set object rectangle from {},graph 0 to {},graph 1 behind fillcolor "
-        "'#F1EDE4' fillstyle solid noborder\n",
-        begin, end);
-  const std::vector<ObstaclePanel> panels = obstacle_panels(gnuplot, run);
-  for (std::size_t p = 0; p < panels.size(); ++p) {
-    const double top = 0.925 - 0.181 * static_cast<double>(p), bottom = top - 0.138;
-    script += fmt::format("set tmargin at screen {}\nset bmargin at screen {}\n", top, bottom);
-    script += p == 0 ? fmt::format(
-                           "set label 9 {} at graph 0,1.0 offset 0,2.4 font ',15' "
-                           "textcolor '#111111'\n"
-                           "set key at graph 1,1.01 right bottom horizontal\n",
-                           in_quotes(run.name + " coupling"))
-                     : "unset label 9\nunset key\n";
-    script += p + 1 == panels.size()
-                  ? "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3 textcolor '#333333'\n"
-                  : "set format x ''\nunset xlabel\n";
-    script += fmt::format(
-        "set label 7 {} at graph 0,1.0 offset 0,0.7 font ',12' textcolor "
-        "'#333333'\n",
-        in_quotes(panels[p].label));
-    script += panels[p].before + "plot " + panels[p].plots + "\n";
-  }
-  return script;
-}
-
-}  // namespace
-
 void draw_obstacle(Gnuplot& gnuplot, const std::vector<ObstacleRun>& runs) {
   std::string script = "set multiplot\n";
   const auto columns = static_cast<double>(runs.size());
-  bool empty = true;
   for (std::size_t c = 0; c < runs.size(); ++c) {
-    if (runs[c].t.empty()) continue;
-    empty = false;
     const auto index = static_cast<double>(c);
     script +=
         obstacle_column(gnuplot, runs[c], index / columns + 0.065, (index + 1) / columns - 0.015);
   }
-  if (empty) return;
   gnuplot.draw("obstacle", "The run into the box, both couplings", 960, 980,
                script + "unset multiplot\n");
 }

@@ -38,7 +38,6 @@ std::string file_name(std::string name) {
 
 std::string run_csv(const RunResult& run) {
   const TrackingSeries& series = run.series;
-  const char* pull_unit = run.spec.coupling.type == CouplingSpec::Type::linear ? "N" : "N m";
   std::vector<Column> columns{{"t[s]", &series.t}};
   const auto add = [&](const char* name, const std::vector<std::vector<double>>& values,
                        const char* unit) {
@@ -47,40 +46,27 @@ std::string run_csv(const RunResult& run) {
   };
   add("q_K", series.q_K, "rad");
   add("q_D", series.q_D, "rad");
-  add("pull", series.pull, pull_unit);
+  add("pull", series.pull, run.spec.pull_unit());
   return csv(columns);
 }
 
 std::string obstacle_csv(const ObstacleRun& run) {
-  std::vector<double> angles[4];
-  for (std::size_t n = 0; n < run.t.size(); ++n)
-    for (std::size_t j = 0; j < 2; ++j) {
-      if (n < run.q_K_deg.size()) angles[j].push_back(run.q_K_deg[n][j] * std::numbers::pi / 180);
-      if (n < run.q_D_deg.size())
-        angles[2 + j].push_back(run.q_D_deg[n][j] * std::numbers::pi / 180);
-    }
+  const auto radians = [](std::vector<double> deg) {
+    for (double& x : deg) x = x * std::numbers::pi / 180;
+    return deg;
+  };
+  const std::vector<double> q[] = {radians(run.q_K_deg[0]), radians(run.q_K_deg[1]),
+                                   radians(run.q_D_deg[0]), radians(run.q_D_deg[1])};
   return csv({{"t[s]", &run.t},
-              {"q_K/joint1[rad]", &angles[0]},
-              {"q_K/joint2[rad]", &angles[1]},
-              {"q_D/joint1[rad]", &angles[2]},
-              {"q_D/joint2[rad]", &angles[3]},
-              {fmt::format("pull[{}]", run.unit), &run.coupling},
+              {"q_K/joint1[rad]", &q[0]},
+              {"q_K/joint2[rad]", &q[1]},
+              {"q_D/joint1[rad]", &q[2]},
+              {"q_D/joint2[rad]", &q[3]},
+              {fmt::format("pull[{}]", run.spec.pull_unit()), &run.coupling},
               {"contact_force[N]", &run.contact_force},
               {"penetration[m]", &run.penetration},
               {"beyond[m]", &run.beyond}});
 }
-
-}  // namespace
-
-void write_csv(const StudyResults& results, const std::filesystem::path& folder) {
-  for (const auto* runs : {&results.reproduction, &results.variants})
-    for (const RunResult& run : *runs)
-      write_whole_file(folder / file_name(run.spec.name), run_csv(run));
-  for (const ObstacleRun& run : results.obstacle)
-    write_whole_file(folder / file_name("obstacle_" + run.name), obstacle_csv(run));
-}
-
-namespace {
 
 using nlohmann::ordered_json;
 
@@ -121,12 +107,9 @@ ordered_json run_json(const RunResult& run) {
 
 ordered_json reproduction_json(const RunResult& run) {
   ordered_json json = run_json(run);
-  const auto row = paper_table().find(run.spec.name);
-  if (row != paper_table().end()) {
-    json["paper"] = {{"max_deg", by_joint(row->second.max_deg)},
-                     {"mean_deg", by_joint(row->second.mean_deg)}};
-    json["worst_relative_error"] = worst_relative_error(run, row->second);
-  }
+  const PaperRow& paper = kPaperTable.at(run.spec.name);
+  json["paper"] = {{"max_deg", by_joint(paper.max_deg)}, {"mean_deg", by_joint(paper.mean_deg)}};
+  json["worst_relative_error"] = worst_relative_error(run);
   json["calibrated"] = run.spec.name == "E3" || run.spec.name == "E4";
   return json;
 }
@@ -138,13 +121,13 @@ ordered_json variant_json(const RunResult& run) {
 }
 
 ordered_json obstacle_json(const ObstacleRun& run) {
-  return {{"name", run.name},
-          {"treatment", run.treatment},
-          {"gains", gains_json(run.gains)},
+  return {{"name", run.spec.coupling.name},
+          {"treatment", treatment_name(run.spec.coupling)},
+          {"gains", gains_json(run.spec.gains)},
           {"largest_penetration", run.max_penetration},
           {"largest_beyond", run.max_beyond},
           {"largest_pull", run.max_coupling},
-          {"pull_unit", run.unit},
+          {"pull_unit", run.spec.pull_unit()},
           {"largest_contact_force", run.max_force},
           {"target_radius_ratio", run.target_radius_ratio},
           {"target_radius_limit", run.target_radius_limit},
@@ -152,11 +135,11 @@ ordered_json obstacle_json(const ObstacleRun& run) {
           {"contact_end", run.contact_end}};
 }
 
-ordered_json search_json(const SearchRow& row) {
-  ordered_json json = {{"rate", row.rate}, {"e3", ordered_json::object()}, {"e4", nullptr}};
-  for (const auto& [law, entry] : row.e3)
-    if (entry) json["e3"][law] = entry->objective;
-  if (row.e4) json["e4"] = row.e4->objective;
+ordered_json search_json(const Calibration& calibration, double rate) {
+  ordered_json json = {{"rate", rate}, {"e3", ordered_json::object()}};
+  for (const char* law : {"joint+", "joint-", "world+", "world-"})
+    json["e3"][law] = calibration.e3(law, rate).objective;
+  json["e4"] = calibration.e4(rate).objective;
   return json;
 }
 
@@ -197,6 +180,14 @@ ordered_json identification_json(const Identification& found) {
 
 }  // namespace
 
+void write_csv(const StudyResults& results, const std::filesystem::path& folder) {
+  for (const auto* runs : {&results.reproduction, &results.variants})
+    for (const RunResult& run : *runs)
+      write_whole_file(folder / file_name(run.spec.name), run_csv(run));
+  for (const ObstacleRun& run : results.obstacle)
+    write_whole_file(folder / file_name(run.spec.name), obstacle_csv(run));
+}
+
 std::string study_json(const StudyResults& results, const std::string& report_path) {
   ordered_json root;
   root["runs"] = ordered_json::object();
@@ -206,7 +197,8 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
   root["findings"] = list_of(results.findings, finding_json);
   root["obstacle"] = list_of(results.obstacle, obstacle_json);
   root["recordings"] = list_of(results.recordings, recording_json);
-  root["search"] = list_of(results.search, search_json);
+  root["search"] = list_of(results.search_rates,
+                           [&](double rate) { return search_json(results.calibration, rate); });
   root["left_open"] = list_of(results.identifications, identification_json);
   root["answer"] = results.answer;
   root["optimiser"] = results.calibration.optimiser;

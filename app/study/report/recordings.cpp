@@ -18,15 +18,11 @@ namespace {
 
 constexpr double kObstacleEvery = 0.004;  // recording interval [s]: four steps
 
-// Angles of the DVR in the study, by joint and step [deg].
-struct StudyAngles {
-  std::vector<std::string> joints;
-  std::vector<std::vector<double>> deg;
-};
-
-// Records the scene; returns the largest difference of an angle from the study's [deg].
+// Records the scene; returns the largest difference of an angle from the study's [deg], which are
+// given by joint and step.
 double record(const std::filesystem::path& scene, const std::filesystem::path& file, double every,
-              const StudyAngles& angles) {
+              const std::vector<std::string>& joints,
+              const std::vector<std::vector<double>>& angles) {
   SimulateOptions options;
   options.robot.model = scene;
   options.record = file;
@@ -43,11 +39,11 @@ double record(const std::filesystem::path& scene, const std::filesystem::path& f
   watch.look = [&](RunView& run) {
     recorder.look(run);
     const auto step = static_cast<std::size_t>(run.step());
-    for (std::size_t j = 0; j < angles.joints.size(); ++j) {
-      if (step >= angles.deg[j].size()) continue;
-      const auto body = static_cast<std::size_t>(model.find_joint(angles.joints[j]));
+    for (std::size_t j = 0; j < angles.size(); ++j) {
+      if (step >= angles[j].size()) continue;
+      const auto body = static_cast<std::size_t>(model.find_joint(joints[j]));
       const double q = run.simulation().state().q[model.iq[body]];
-      largest = std::max(largest, std::abs(q / kDegree - angles.deg[j][step]));
+      largest = std::max(largest, std::abs(q / kDegree - angles[j][step]));
     }
   };
   watch.interrupted = is_interrupted;
@@ -61,35 +57,6 @@ double record(const std::filesystem::path& scene, const std::filesystem::path& f
     throw;
   }
   return largest;
-}
-
-StudyAngles angles_of(const StudyRobot& robot, const RunResult& run) {
-  StudyAngles angles;
-  for (std::size_t j = 0; j < run.series.q_D.size(); ++j) {
-    angles.joints.push_back(robot.joints().turned[j]);
-    angles.deg.emplace_back();
-    for (const double q : run.series.q_D[j]) angles.deg[j].push_back(q / kDegree);
-  }
-  return angles;
-}
-
-StudyAngles angles_of(const StudyRobot& robot, const ObstacleRun& run) {
-  StudyAngles angles{{robot.joints().turned[0], robot.joints().turned[1]}, {{}, {}}};
-  for (const std::array<double, 2>& q : run.q_D_deg)
-    for (std::size_t j = 0; j < 2; ++j) angles.deg[j].push_back(q[j]);
-  return angles;
-}
-
-RunSpec spec_of(const ObstacleRun& run, double rate) {
-  const bool linear = run.name == "linear";
-  RunSpec spec;
-  spec.name = "obstacle_" + run.name;
-  spec.title = run.name + ", automatic, with a box";
-  spec.coupling.type = linear ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-  spec.coupling.treatment = Discretization::implicit;
-  spec.gains = run.gains;
-  spec.rate = rate;
-  return spec;
 }
 
 // Time of the largest error of joints 1 and 2.
@@ -111,14 +78,15 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
                                              const std::filesystem::path& folder,
                                              Progress& progress) {
   std::vector<StudyRecording> all;
-  const auto add = [&](const StudyScene& scene, const StudyAngles& angles, double every) {
+  const auto add = [&](const StudyScene& scene, const std::vector<std::vector<double>>& angles,
+                       double every) {
     StudyRecording& made = all.emplace_back();
     made.name = scene.spec.name;
     made.title = scene.spec.title;
     made.scene = folder / (made.name + ".toml");
     made.recording = folder / (made.name + ".twinrec");
     write_whole_file(made.scene, scene_text(scene));
-    made.apart_deg = record(made.scene, made.recording, every, angles);
+    made.apart_deg = record(made.scene, made.recording, every, robot.joints().turned, angles);
     if (web_bundle().replay.empty()) return;
     made.page = folder / (made.name + ".html");
     write_whole_file(made.page, replay_page(made.recording).html);
@@ -129,14 +97,16 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
   for (const RunResult& run : results.reproduction) {
     scene.spec = run.spec;
     scene.hand = run.spec.name < "E3" ? hand : automatic_hand();
-    add(scene, angles_of(robot, run), 0);
+    std::vector<std::vector<double>> angles;
+    for (const auto& q : run.series.q_D) angles.push_back(in_degrees(q));
+    add(scene, angles, 0);
     progress.advance(++done / count);
   }
   scene.with_obstacle = true;
   scene.hand = automatic_hand();
   for (const ObstacleRun& run : results.obstacle) {
-    scene.spec = spec_of(run, inputs.settings.obstacle.rate_hz);
-    add(scene, angles_of(robot, run), kObstacleEvery);
+    scene.spec = run.spec;
+    add(scene, {run.q_D_deg.begin(), run.q_D_deg.end()}, kObstacleEvery);
     progress.advance(++done / count);
   }
   return all;

@@ -67,6 +67,23 @@ std::string filled(const std::filesystem::path& file, const Slots& slots) {
   }
 }
 
+using Pair = std::array<double, 2>;
+
+double worst(const Pair& p) {
+  return std::max(p[0], p[1]);
+}
+
+// Comparison of the larger of the two maxima.
+const char* verdict(const Pair& linear, const Pair& torsional) {
+  const double ratio = worst(torsional) / worst(linear);
+  return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
+}
+
+// Ratio of the squared natural frequencies.
+double spread(const RunResult& result) {
+  return std::pow(result.frequency[1] / result.frequency[0], 2);
+}
+
 }  // namespace
 
 std::string rounded(double value, int digits) {
@@ -120,94 +137,48 @@ void write_report(const StudyResults& results, const std::filesystem::path& asse
 
 // Answer to the paper's question. The sentences are derived from the numbers, so that they are
 // correct for other settings too.
-namespace {
-
-using Pair = std::array<double, 2>;
-
-double worst(const Pair& p) {
-  return std::max(p[0], p[1]);
-}
-
-// Comparison of the larger of the two maxima.
-const char* verdict(const Pair& linear, const Pair& torsional) {
-  const double ratio = worst(torsional) / worst(linear);
-  return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
-}
-
-// Ratio of the squared natural frequencies.
-double spread(const RunResult& result) {
-  return std::pow(result.frequency[1] / result.frequency[0], 2);
-}
-
-std::string table_line(const StudyResults& results) {
-  const RunResult& e3 = *find_run(results.reproduction, "E3");
-  const RunResult& e4 = *find_run(results.reproduction, "E4");
-  const double error = std::max(worst_relative_error(e3, paper_table().at("E3")),
-                                worst_relative_error(e4, paper_table().at("E4")));
-  return fmt::format(
-      "At one rate of {:g} Hz the published laws reproduce all eight published numbers of E3 and "
-      "E4 "
-      "within {:.0f} %: E3 {} deg (published 16.6/23.5), E4 {} deg (3.4/6.0).",
-      e3.spec.rate, std::ceil(100 * error), words(e3.max_deg), words(e4.max_deg));
-}
-
-std::string question_line(const StudyResults& results) {
-  const ProtocolErrors& torsional = results.rows.at("row/findings_10_14/world/60");
-  const ProtocolErrors& linear = results.rows.at("row/findings_10_14/linear/60");
-  const RunResult& s103_torsional = *find_run(results.variants, "trial/signed-torsional/60");
-  const RunResult& s103_linear = *find_run(results.variants, "trial/printed-linear/60");
-  return fmt::format(
-      "Are the errors of a linear coupling smaller? With one k and b for both links at 60 Hz it "
-      "depends on the position of the springs: uniform arms, springs at the centres of mass: "
-      "linear "
-      "{} against torsional {} deg, {}; S-103, springs at the ends of the arms: {} against {} deg, "
-      "{}.",
-      words(linear.max_deg), words(torsional.max_deg), verdict(linear.max_deg, torsional.max_deg),
-      words(s103_linear.max_deg), words(s103_torsional.max_deg),
-      verdict(s103_linear.max_deg, s103_torsional.max_deg));
-}
-
-std::string reason_line(const StudyResults& results) {
-  const RunResult& torsional = *find_run(results.variants, "trial/signed-torsional/60");
-  const RunResult& linear = *find_run(results.variants, "trial/printed-linear/60");
-  return fmt::format(
-      "Reason: the fastest mode limits the step, the slowest one determines the error, so with "
-      "equal "
-      "gains the ratio of the squared frequencies matters: {:.1f} torsional, {:.1f} linear on the "
-      "S-103; it is smallest for springs at the centres of mass with stiffness proportional to "
-      "mass.",
-      spread(torsional), spread(linear));
-}
-
-std::string damper_line(const StudyResults& results) {
-  const RunResult& printed = *find_run(results.variants, "trial/printed-torsional/60");
-  const RunResult& corrected = *find_run(results.variants, "trial/signed-torsional/60");
-  return fmt::format(
-      "The published torsional damper uses an unsigned angle and cannot dissipate energy: with "
-      "optimal gains at 60 Hz {} deg, mean {}; with a signed damper {} deg, mean {}.",
-      words(printed.max_deg), words(printed.mean_deg), words(corrected.max_deg),
-      words(corrected.mean_deg));
-}
-
-std::string law_line(const StudyResults& results) {
-  const RunResult& matched = *find_run(results.variants, "matched/torsional/60");
-  const RunResult& linear = *find_run(results.variants, "matched/linear/60");
-  const RunResult& implicit_t = *find_run(results.variants, "implicit/torsional-world/1000");
-  const RunResult& implicit_l = *find_run(results.variants, "implicit/linear/1000");
-  return fmt::format(
-      "The law is not the reason: with the full stiffness of the linear coupling the errors of a "
-      "torsional one are {} deg, of the linear one {}; implicit at 1 kHz torsional {} deg, linear "
-      "{} "
-      "deg.",
-      words(matched.max_deg), words(linear.max_deg), words(implicit_t.max_deg),
-      words(implicit_l.max_deg));
-}
-
-}  // namespace
-
 std::vector<std::string> answer_in_words(const StudyResults& results) {
-  return {table_line(results), question_line(results), reason_line(results), damper_line(results),
-          law_line(results)};
+  const RunResult &e3 = results.reproduction[2], &e4 = results.reproduction[3];
+  const double error = std::max(worst_relative_error(e3), worst_relative_error(e4));
+  const auto variant = [&](const char* name) -> const RunResult& {
+    return *find_run(results.variants, name);
+  };
+  const auto max_deg = [&](const char* name) { return words(variant(name).max_deg); };
+  const ProtocolErrors& uniform_torsional = results.rows.at("row/findings_10_14/world/60");
+  const ProtocolErrors& uniform_linear = results.rows.at("row/findings_10_14/linear/60");
+  const RunResult& printed = variant("trial/printed-torsional/60");
+  const RunResult& torsional = variant("trial/signed-torsional/60");
+  const RunResult& linear = variant("trial/printed-linear/60");
+  return {
+      fmt::format(
+          "At one rate of {:g} Hz the published laws reproduce all eight published numbers of E3 "
+          "and E4 within {:.0f} %: E3 {} deg (published 16.6/23.5), E4 {} deg (3.4/6.0).",
+          e3.spec.rate, std::ceil(100 * error), words(e3.max_deg), words(e4.max_deg)),
+      fmt::format(
+          "Are the errors of a linear coupling smaller? With one k and b for both links at 60 Hz "
+          "it depends on the position of the springs: uniform arms, springs at the centres of "
+          "mass: linear {} against torsional {} deg, {}; S-103, springs at the ends of the arms: "
+          "{} against {} deg, {}.",
+          words(uniform_linear.max_deg), words(uniform_torsional.max_deg),
+          verdict(uniform_linear.max_deg, uniform_torsional.max_deg), words(linear.max_deg),
+          words(torsional.max_deg), verdict(linear.max_deg, torsional.max_deg)),
+      fmt::format(
+          "Reason: the fastest mode limits the step, the slowest one determines the error, so with "
+          "equal gains the ratio of the squared frequencies matters: {:.1f} torsional, {:.1f} "
+          "linear on the S-103; it is smallest for springs at the centres of mass with stiffness "
+          "proportional to mass.",
+          spread(torsional), spread(linear)),
+      fmt::format(
+          "The published torsional damper uses an unsigned angle and cannot dissipate energy: with "
+          "optimal gains at 60 Hz {} deg, mean {}; with a signed damper {} deg, mean {}.",
+          words(printed.max_deg), words(printed.mean_deg), words(torsional.max_deg),
+          words(torsional.mean_deg)),
+      fmt::format(
+          "The law is not the reason: with the full stiffness of the linear coupling the errors of "
+          "a torsional one are {} deg, of the linear one {}; implicit at 1 kHz torsional {} deg, "
+          "linear {} deg.",
+          max_deg("matched/torsional/60"), max_deg("matched/linear/60"),
+          max_deg("implicit/torsional-world/1000"), max_deg("implicit/linear/1000"))};
 }
 
 }  // namespace twinarm

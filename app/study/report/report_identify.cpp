@@ -108,7 +108,7 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
   for (const FamilyLaw& law : family_laws())
     for (const Identification& found : all)
       if (found.row == row && found.law == law.name) rows += law_row(found);
-  const PaperRow& paper = paper_table().at(row);
+  const PaperRow& paper = kPaperTable.at(row);
   const std::string published = "<tr><td class=text><b>published</b></td><td></td><td></td>" +
                                 number_cells(paper.max_deg, paper.mean_deg) +
                                 "<td></td><td></td><td></td></tr>\n";
@@ -135,33 +135,16 @@ std::string open_sums(const std::vector<Identification>& all) {
     }
     html += fmt::format(
         "<li>{}: {} of {} pairs of law and rate agree with all four printed numbers; in {} of "
-        "these "
-        "a combination of the parameters is not identifiable.</li>\n",
+        "these a combination of the parameters is not identifiable.</li>\n",
         row, agree, all_pairs, open);
   }
   return html;
 }
 
-}  // namespace
-
-void add_identification(const StudyResults& results, Slots& slots) {
-  const std::vector<Identification>& all = results.identifications;
-  slots["open_sums"] = open_sums(all);
-  for (const char* row : {"E3", "E4"}) slots[std::string("open_") + row] = row_table(all, row);
-}
-
-namespace {
-
-double number_or(const CalibrationEntry& entry, const char* name, double otherwise) {
-  const auto found = entry.numbers.find(name);
-  return found == entry.numbers.end() ? otherwise : found->second;
-}
-
 // Worst relative error, and in brackets the worst if a gain changes by 0.5 %.
-std::string error_cell(const CalibrationEntry* entry) {
-  if (!entry) return "<td>–</td>";
-  const double nominal = number_or(*entry, "worst_error", entry->objective);
-  const double shifted = number_or(*entry, "worst_error_shifted", entry->objective);
+std::string error_cell(const CalibrationEntry& entry) {
+  const double nominal = entry.numbers.at("worst_error");
+  const double shifted = entry.numbers.at("worst_error_shifted");
   const std::string numbers = fmt::format("{:.1f} ({:.1f})", 100 * nominal, 100 * shifted);
   return std::max(nominal, shifted) <= 0.15 ? "<td><span class=yes>" + numbers + "</span></td>"
                                             : "<td>" + numbers + "</td>";
@@ -218,25 +201,29 @@ std::string versions() {
 
 }  // namespace
 
+void add_identification(const StudyResults& results, Slots& slots) {
+  const std::vector<Identification>& all = results.identifications;
+  slots["open_sums"] = open_sums(all);
+  for (const char* row : {"E3", "E4"}) slots[std::string("open_") + row] = row_table(all, row);
+}
+
 void add_search(const StudyResults& results, Slots& slots) {
   const Calibration& c = results.calibration;
   const double rate = c.entry("chosen").rate;
-  for (const SearchRow& row : results.search) {
-    const bool chosen = row.rate == rate;
+  for (const double searched : results.search_rates) {
+    const bool chosen = searched == rate;
     std::string& html = slots["search_rows"];
-    html += fmt::format("<tr{}><td>{:g} Hz{}</td>", chosen ? " class=chosen" : "", row.rate,
+    html += fmt::format("<tr{}><td>{:g} Hz{}</td>", chosen ? " class=chosen" : "", searched,
                         chosen ? ", chosen" : "");
-    for (const std::string& law : e3_laws()) html += error_cell(row.e3.at(law));
-    html += error_cell(row.e4) + "</tr>\n";
+    for (const std::string& law : kE3Laws) html += error_cell(c.e3(law, searched));
+    html += error_cell(c.e4(searched)) + "</tr>\n";
   }
   std::vector<const CalibrationEntry*> used = entries_of(c, fmt::format("E3/{:g}/", rate));
-  used.push_back(&c.entry(fmt::format("E4/{:g}", rate)));
+  used.push_back(&c.e4(rate));
   slots["chosen_rate"] = fmt::format("{:g}", rate);
   slots["chosen_parameters"] = parameter_table(used, true);
-  slots["parameters_trial"] = parameter_table(entries_of(c, "trial/"), false);
-  slots["parameters_E3"] = parameter_table(entries_of(c, "E3/"), true);
-  slots["parameters_E4"] = parameter_table(entries_of(c, "E4/"), true);
-  slots["parameters_row"] = parameter_table(entries_of(c, "row/"), false);
+  for (const std::string group : {"trial", "E3", "E4", "row"})
+    slots["parameters_" + group] = parameter_table(entries_of(c, group + "/"), group[0] == 'E');
   long evaluations = 0;
   for (const auto& [name, entry] : c.entries) evaluations += entry.evaluations;
   slots["evaluations"] = fmt::format("{}", evaluations);

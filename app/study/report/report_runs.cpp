@@ -7,6 +7,7 @@
 
 #include "app/study/findings/variants.h"
 #include "app/study/report/report_slots.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 namespace {
@@ -33,7 +34,7 @@ std::string comparison_table(const std::vector<const RunResult*>& runs) {
     const std::size_t j = row % 2;
     body += fmt::format("<tr><td>{}, joint {}</td>", maximum ? "maximum" : "mean", j + 1);
     for (const RunResult* run : runs) {
-      const PaperRow& paper = paper_table().at(run->spec.name);
+      const PaperRow& paper = kPaperTable.at(run->spec.name);
       const double measured = maximum ? run->max_deg[j] : run->mean_deg[j];
       const double published = maximum ? paper.max_deg[j] : paper.mean_deg[j];
       const double deviation = measured / published - 1;
@@ -66,9 +67,8 @@ struct Reading {               // of one joint of a run
 Reading read_joint(const RunResult& run, std::size_t j) {
   Reading reading;
   const TrackingSeries& series = run.series;
-  if (series.q_K.size() <= j || series.q_D.size() <= j || series.t.empty()) return reading;
   const std::vector<double>&q_K = series.q_K[j], &q_D = series.q_D[j];
-  const std::size_t samples = std::min(q_K.size(), q_D.size());
+  const std::size_t samples = series.t.size();
   double lag = 0, below = 0;
   for (std::size_t n = 0; n < samples; ++n) {
     const double error = (q_K[n] - q_D[n]) / kDegree;
@@ -112,11 +112,8 @@ std::string angle_caption(const RunResult& run) {
 
 // "semi-implicit/linear/60" as words: the law, and the group if it is the discretization.
 std::string run_words(const std::string& name, bool with_group) {
-  const std::size_t first = name.find('/'), last = name.rfind('/');
-  if (first == std::string::npos) return name;
-  const std::string law =
-      last == first ? name.substr(first + 1) : name.substr(first + 1, last - first - 1);
-  return with_group ? name.substr(0, first) + ", " + law : law;
+  const std::vector<std::string> parts = split(name, '/');
+  return with_group ? parts[0] + ", " + parts[1] : parts[1];
 }
 
 std::string pair_of(const std::array<double, 2>& values) {
@@ -165,14 +162,12 @@ std::string rates_rows(const std::vector<RunResult>& variants) {
   std::string html;
   for (const double rate : rates) {
     html += fmt::format("<tr><td>{:g} Hz</td>", rate);
-    for (const std::string& law : trial_laws()) {
-      const RunResult* run = find_run(variants, fmt::format("trial/{}/{:g}", law, rate));
-      html += !run ? "<td>–</td>"
-              : run->stable
-                  ? "<td>" + pair_of(run->max_deg) + "<br><small>" +
-                        pair_of({std::abs(run->peak_deg[0]), std::abs(run->peak_deg[1])}) +
-                        "</small></td>"
-                  : "<td class=no>unstable</td>";
+    for (const std::string& law : kTrialLaws) {
+      const RunResult& run = *find_run(variants, fmt::format("trial/{}/{:g}", law, rate));
+      html += run.stable ? "<td>" + pair_of(run.max_deg) + "<br><small>" +
+                               pair_of({std::abs(run.peak_deg[0]), std::abs(run.peak_deg[1])}) +
+                               "</small></td>"
+                         : "<td class=no>unstable</td>";
     }
     html += "</tr>\n";
   }
@@ -183,16 +178,16 @@ std::string rates_rows(const std::vector<RunResult>& variants) {
 std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
   using R = const ObstacleRun&;
   const auto ratio = [](double value) { return value > 0 ? rounded(value) : std::string("–"); };
+  const auto unit = [](R r, const char* time) {
+    const bool linear = r.spec.coupling.type == CouplingSpec::Type::linear;
+    return fmt::format(" {}{}/{}", r.spec.pull_unit(), time, linear ? "m" : "rad");
+  };
   const std::pair<const char*, std::function<std::string(R)>> rows[] = {
-      {"treatment", [](R r) { return escaped(r.treatment); }},
+      {"treatment", [](R r) { return escaped(treatment_name(r.spec.coupling)); }},
       {"stiffness on link 1; link 2",
-       [](R r) {
-         return gains_words(r.gains.k1, r.gains.k2) + (r.unit == "N" ? " N/m" : " N m/rad");
-       }},
+       [&](R r) { return gains_words(r.spec.gains.k1, r.spec.gains.k2) + unit(r, ""); }},
       {"damping on link 1; link 2",
-       [](R r) {
-         return gains_words(r.gains.b1, r.gains.b2) + (r.unit == "N" ? " N s/m" : " N m s/rad");
-       }},
+       [&](R r) { return gains_words(r.spec.gains.b1, r.spec.gains.b2) + unit(r, " s"); }},
       {"longest contact",
        [](R r) {
          return r.contact_begin < 0
@@ -204,12 +199,12 @@ std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
       {"largest depth of the KVR behind the touched face",
        [](R r) { return fmt::format("{:.0f} mm", 1e3 * r.max_beyond); }},
       {"largest coupling force or torque",
-       [](R r) { return fmt::format("{:.0f} {}", r.max_coupling, escaped(r.unit)); }},
+       [](R r) { return fmt::format("{:.0f} {}", r.max_coupling, r.spec.pull_unit()); }},
       {"largest contact force", [](R r) { return fmt::format("{:.0f} N", r.max_force); }},
       {"largest R<sub>K</sub>/r that occurred", [&](R r) { return ratio(r.target_radius_ratio); }},
       {"largest stable R<sub>K</sub>/r", [&](R r) { return ratio(r.target_radius_limit); }}};
   std::string html = "<tr><th></th>";
-  for (R run : runs) html += "<th>" + escaped(run.name) + "</th>";
+  for (R run : runs) html += "<th>" + escaped(run.spec.coupling.name) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& [name, value] : rows) {
     html += fmt::format("<tr><td>{}</td>", name);
@@ -242,7 +237,7 @@ void add_reproduction(const StudyResults& results, Slots& slots) {
   slots["table2_automatic"] = comparison_table({&runs.at(2), &runs.at(3)});
   for (const RunResult& run : runs) slots["caption_" + run.spec.name] = angle_caption(run);
   const RunResult &e3 = runs[2], &e4 = runs[3];
-  const PaperRow &paper_e3 = paper_table().at("E3"), &paper_e4 = paper_table().at("E4");
+  const PaperRow &paper_e3 = kPaperTable.at("E3"), &paper_e4 = kPaperTable.at("E4");
   slots["E4_against_text"] = fmt::format("{:+.0f}", 100 * (e4.max_deg[1] / 4.0 - 1));
   for (std::size_t j = 0; j < 2; ++j) {
     const auto put = [&](const char* name, const char* format, double value) {
