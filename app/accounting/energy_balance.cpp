@@ -154,7 +154,7 @@ double EnergyBalance::elastic_energy(std::size_t c, const State<double>& x) cons
   return 0.5 * couplings_->spec(c).spring.k * couplings_->ends(c, x, k_).offset.squaredNorm();
 }
 
-std::vector<EnergyRow> EnergyBalance::hand() const {
+std::vector<EnergyRow> EnergyBalance::input_work() const {
   std::vector<EnergyRow> rows;
   const std::size_t first = integrals_.size() - 3 * coupling_count();
   for (std::size_t c = 0; c < coupling_count(); ++c)

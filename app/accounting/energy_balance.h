@@ -45,7 +45,7 @@ class EnergyBalance {
   std::vector<EnergyRow> rows() const;  // `numerical` last
   // Reading requires a run with the same rows.
   void serialize(StateArchive& memory);
-  std::vector<EnergyRow> hand() const;  // work of the targets, by coupling
+  std::vector<EnergyRow> input_work() const;  // work of the targets, by coupling
 
  private:
   struct Actuator {

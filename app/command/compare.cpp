@@ -44,12 +44,13 @@ void add_options(const OptionAdder& add, CompareOptions& options) {
 }
 
 // Runs all cases. Their durations are not known before: each counts equally in the progress bar.
-std::vector<CompareRow> run_all(const CaseSelection& selection, const std::vector<Lane>& lanes,
-                                Progress& progress, double share) {
+std::vector<CompareRow> run_all(const CaseSelection& selection,
+                                const std::vector<Integration>& integrations, Progress& progress,
+                                double share) {
   const std::size_t count = selection.cases.size();
   std::vector<CompareRow> rows(count);
   parallel_for(
-      count, [&](std::size_t i) { rows[i] = run_one(*selection.cases[i], lanes); },
+      count, [&](std::size_t i) { rows[i] = run_one(*selection.cases[i], integrations); },
       [&](std::size_t done) {
         check_interrupt();
         if (done < count)
@@ -62,8 +63,8 @@ std::vector<CompareRow> run_all(const CaseSelection& selection, const std::vecto
 // The sections of the page, in the order of the rows. The longest are made first, to balance the
 // threads.
 std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
-                                       const std::vector<Lane>& lanes, Progress& progress,
-                                       double share) {
+                                       const std::vector<Integration>& integrations,
+                                       Progress& progress, double share) {
   constexpr double kDrawing = 0.1;  // [s], added to the duration of a case
   std::vector<std::size_t> order(rows.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -75,7 +76,7 @@ std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
   parallel_for(
       rows.size(),
       [&](std::size_t i) {
-        sections[order[i]] = compare_page::case_section(rows[order[i]], lanes);
+        sections[order[i]] = compare_page::case_section(rows[order[i]], integrations);
       },
       [&](std::size_t done) {
         check_interrupt();
@@ -100,7 +101,8 @@ int run_compare(const CompareOptions& options) {
   constexpr int kFailed = 1;
   DiagnosticList faults;
   const CaseSelection selection = select_cases(options.cases, options.group, faults);
-  const std::vector<Lane> lanes = read_lanes(options.integrators, options.steps, faults);
+  const std::vector<Integration> integrations =
+      read_integrations(options.integrators, options.steps, faults);
   std::filesystem::path page;
   if (!options.html.empty()) {
     page = compare_page::page_file(options.html);
@@ -112,18 +114,18 @@ int run_compare(const CompareOptions& options) {
   std::vector<CompareRow> rows;
   {
     Progress progress(false, Progress::kPatience);
-    rows = run_all(selection, lanes, progress, page.empty() ? 1 : 1 - kPageShare);
+    rows = run_all(selection, integrations, progress, page.empty() ? 1 : 1 - kPageShare);
     if (!page.empty()) {
-      const auto sections = make_sections(rows, lanes, progress, kPageShare);
+      const auto sections = make_sections(rows, integrations, progress, kPageShare);
       make_folder(std::filesystem::absolute(page).parent_path(), "--html");
       write_whole_file(page, compare_page::page_html(rows, sections, selection.skipped,
                                                      command_line(options), progress.seconds()));
     }
   }
   if (options.json) {
-    fmt::print("{}", compare_json(rows, lanes, selection.skipped, page.string()));
+    fmt::print("{}", compare_json(rows, integrations, selection.skipped, page.string()));
   } else {
-    fmt::print("{}", compare_table(rows, lanes, selection.skipped));
+    fmt::print("{}", compare_table(rows, integrations, selection.skipped));
     if (!page.empty()) fmt::print("page: {}\n", page.string());
   }
   return failures(rows) == 0 ? 0 : kFailed;

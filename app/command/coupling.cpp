@@ -17,7 +17,8 @@ namespace {
 
 struct CouplingPredictOptions {
   RobotOptions robot;  // model: a scene, or a URDF and one coupling from the options below
-  std::string type = "linear", link, point, measure, treatment;  // as in a scene; point "x,y,z"
+  std::string type = "linear", link, point, measure,
+              discretization;  // as in a scene; point "x,y,z"
   std::optional<double> stiffness, damping;
   std::optional<double> step;   // [s]; default: the scene's
   std::string integrator;       // empty: the scene's
@@ -34,12 +35,13 @@ void add_options(const OptionAdder& add, CouplingPredictOptions& options) {
   add("--link", options.link, "link on which the coupling acts");
   add("--point", options.point, "point x,y,z in link axes [m]; default 0,0,0");
   add("--measure", options.measure, "torsional coupling: world or joint");
-  add("--treatment", options.treatment, "discretization: explicit, semi-implicit or implicit");
+  add("--discretization", options.discretization,
+      "discretization: explicit, semi-implicit or implicit");
   add("--stiffness", options.stiffness, "stiffness [N/m or N m/rad]");
   add("--damping", options.damping, "damping [N s/m or N m s/rad]");
   add.group("Prediction");
   add.scene_step(options.step, options.integrator);
-  add("--turn", options.turn, "move of the target [deg, or mm]");
+  add("--move", options.turn, "move of the target [deg, or mm]");
   add("--time", options.time, "duration of the move [s]");
   add("--along", options.along,
       "joint=factor,..: factor of the move for each joint; default: 1 for all");
@@ -131,7 +133,7 @@ Value scene_of_options(const CouplingPredictOptions& options, DiagnosticList& fa
   for (const auto& [key, words] : {std::pair{"type", &options.type},
                                    {"link", &options.link},
                                    {"measure", &options.measure},
-                                   {"treatment", &options.treatment}})
+                                   {"discretization", &options.discretization}})
     if (!words->empty()) coupling.put(key, Value::of(*words));
   for (const auto& [key, size] :
        {std::pair{"stiffness", &options.stiffness}, {"damping", &options.damping}})
@@ -148,16 +150,16 @@ Value scene_of_options(const CouplingPredictOptions& options, DiagnosticList& fa
 
 int run_coupling_predict(const CouplingPredictOptions& options) {
   DiagnosticList faults;
-  check_positive("--turn", options.turn, faults);
+  check_positive("--move", options.turn, faults);
   check_positive("--time", options.time, faults);
   if (options.wall) check_positive("--wall", *options.wall, faults);
   const auto along = read_along(options.along, faults);
   const bool is_scene = options.robot.model.extension() == ".toml";
   const bool has_coupling = options.stiffness || options.damping || !options.link.empty() ||
                             !options.point.empty() || !options.measure.empty() ||
-                            !options.treatment.empty();
+                            !options.discretization.empty();
   if (is_scene && has_coupling)
-    faults.add("--link, --point, --measure, --treatment, --stiffness, --damping",
+    faults.add("--link, --point, --measure, --discretization, --stiffness, --damping",
                "apply to a URDF only", "change the scene's [[coupling]]", "option.useless");
   std::optional<Value> scene;
   if (!is_scene && has_coupling) scene = scene_of_options(options, faults);

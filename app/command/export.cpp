@@ -44,7 +44,7 @@ std::vector<std::string> csv_header(const Recording& recording,
   for (const std::string& coupling : header.couplings)
     add_axes("coupling/" + coupling, "[N or N m]");
   for (const GeometryPair& pair : pairs) add_axes(contact_name(header, pair), "[N]");
-  for (const std::string& row : recording.rows()) names.push_back("ledger/" + row + "[J]");
+  for (const std::string& row : recording.rows()) names.push_back("energy_balance/" + row + "[J]");
   for (const std::string& row : recording.momentum_rows()) {
     add_axes("momentum/" + row, "[N s]");
     for (const char* axis : {"/about_x", "/about_y", "/about_z"})
@@ -87,7 +87,7 @@ void write_frame(JsonWriter& json, const Recording& recording, const RecordedFra
                  {"point", c.point},
                  {"normal", c.normal},
                  {"force", c.force},
-                 {"couple", c.couple}});
+                 {"moment", c.couple}});
   };
   json.object([&] {
     json.members({{"t", frame.t},
@@ -99,7 +99,7 @@ void write_frame(JsonWriter& json, const Recording& recording, const RecordedFra
         json.put(header.couplings.at(c), frame.pulls[c]);
     });
     json.key("contacts").list(frame.contacts, write_contact);
-    json.key("ledger").object([&] {
+    json.key("energy_balance").object([&] {
       for (std::size_t i = 0; i < frame.rows.size(); ++i)
         json.put(recording.rows().at(frame.rows[i]), frame.works[i]);
     });
@@ -122,9 +122,9 @@ void write_header(JsonWriter& json, const Recording& recording) {
                 {"notes", recording.notes()},
                 {"alarms", recording.alarms()}});
   json.key("units").object([&] {
-    json.members({{"t", "s"}, {"ledger", "J"}});
+    json.members({{"t", "s"}, {"energy_balance", "J"}});
     json.key("momentum").object({{"linear", "N s"}, {"angular", "N m s"}});
-    json.members({{"force", "N"}, {"couple", "N m"}, {"couplings", "N or N m"}, {"depth", "m"}});
+    json.members({{"force", "N"}, {"moment", "N m"}, {"couplings", "N or N m"}, {"depth", "m"}});
   });
   json.key("columns").list(header.columns, [&](const RecordedColumn& column) {
     json.object({{"name", column.name}, {"unit", column.unit}});

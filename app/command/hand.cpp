@@ -47,7 +47,7 @@ void add_options(const OptionAdder& add, HandOptions& options) {
   add("--simulated", options.simulated,
       "run without real-time pacing: reproducible, for simulated devices");
   add("--fifo", options.fifo, "request SCHED_FIFO and locked memory; continue if they are refused");
-  add("--control", options.control,
+  add("--empty-loop", options.control,
       "alternate each second with an empty loop, to measure the machine's jitter");
   add.group("Output");
   add("--timing", options.picture, "write OUT/timing.svg: histograms of the ticks");
@@ -87,7 +87,7 @@ SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
                 "give a TOML file with couplings whose target is \"device\"", "file.no-scene"});
   if (options.duration) check_positive("--duration", *options.duration, faults, " [s]");
   if (options.control && options.simulated)
-    faults.add("--control", "measures real time, which --simulated does not keep",
+    faults.add("--empty-loop", "measures real time, which --simulated does not keep",
                "leave --simulated out", "option.conflict");
   faults.check();
   return build_scene(read_scene(options.scene));

@@ -31,7 +31,7 @@ void add_options(const OptionAdder& add, HelpOptions& options) {
   CLI::Option* completion = add("--completion", options.completion,
                                 "print the completion script for bash: commands, options, files")
                                 ->excludes(man);
-  add("--scene-numbers", options.scene_numbers,
+  add("--scene-keys", options.scene_numbers,
       "print tables of the numbers in a scene file: units, defaults, ranges, meanings")
       ->excludes(man)
       ->excludes(completion);

@@ -89,7 +89,7 @@ Reading read_all(const InspectOptions& options, bool is_recorded) {
   }
   if (inspected) read_forces(options, inspected->actors, view, faults);
   faults.check();
-  view.ledger = std::move(instant->ledger);
+  view.energy_balance = std::move(instant->energy_balance);
   return {std::move(view), std::move(*instant), std::move(*inspected)};
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 struct LabOptions {
   std::filesystem::path scene;  // empty: the first of the gallery
-  std::string lanes;            // "integrator=semi-implicit,rk4"; empty: the gallery's
+  std::string variants;         // "integrator=semi-implicit,rk4"; empty: the gallery's
   std::string listen = "127.0.0.1";
   int port = 0;        // 0: any free port
   int remember = 256;  // memory for the timeline [MB]
@@ -31,11 +31,11 @@ void add_options(const OptionAdder& add, LabOptions& options) {
   add.input("scene", options.scene,
             "scene, URDF or recording; default: the first scene of the gallery");
   add.group("Run");
-  add("--lanes", options.lanes,
+  add("--variants", options.variants,
       "run variants side by side, one per value: PATH=VALUE,VALUE.., such as "
       "integrator=semi-implicit,rk4 or coupling.stiffness=500,2000")
       ->type_name("PATH=VALUES");
-  add("--remember", options.remember, "memory for the timeline [MB]; 256 MB hold some minutes")
+  add("--history", options.remember, "memory for the timeline [MB]; 256 MB hold some minutes")
       ->check(between(1, 65536));
   add.group("Server");
   add("--port", options.port, "port of the server; default: any free port")
@@ -70,7 +70,7 @@ bool is_loopback(const std::string& address) {
 
 BuildRequest first_request(const LabOptions& options, const std::vector<GalleryScene>& gallery) {
   BuildRequest request = requested_scene(options, gallery);
-  if (!options.lanes.empty()) request.lanes = parse_lanes(options.lanes);
+  if (!options.variants.empty()) request.variants = parse_variants(options.variants);
   request.is_shared = !is_loopback(options.listen);
   return request;
 }

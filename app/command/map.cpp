@@ -28,7 +28,7 @@ void add_options(const OptionAdder& add, MapOptions& options) {
   add.group("Run");
   add("--duration", options.duration, "[s]; default: the scene's");
   add.scene_step(options.step, options.integrator);
-  add("--alone", options.alone, "run cells one at a time, not in SIMD batches");
+  add("--no-simd", options.alone, "run cells one at a time, not in SIMD batches");
   add("--threads", options.threads, "number of threads; default: all processors")->default_str("");
   add.group("Output");
   add("--svg", options.svg, "write the map as SVG, with predicted limits");
@@ -40,11 +40,11 @@ void add_options(const OptionAdder& add, MapOptions& options) {
   add("--cell", options.cell, "IX,IY: index of a cell, from 0");
   add("--record", options.record, "write the recording of that cell, and its scene beside it");
   add.group("Resume and share");
-  add("--work", options.work,
+  add("--checkpoint", options.work,
       "checkpoint file, from which an interrupted map resumes; default: in out/map");
-  add("--tiles", options.tiles, "number of jobs that share the map")->default_str("");
-  add("--tile", options.tile, "index of this job, from 0")->default_str("");
-  add("--merge", options.merge, "merge these files of --tile");
+  add("--jobs", options.jobs, "number of jobs that share the map")->default_str("");
+  add("--job", options.job, "index of this job, from 0")->default_str("");
+  add("--merge", options.merge, "merge these files of --job");
 }
 
 bool file_exists(const std::filesystem::path& file) {
@@ -68,23 +68,22 @@ void check_output(const char* option, const std::filesystem::path& file, const c
 }
 
 bool is_part(const MapOptions& options) {
-  return options.tiles != 0 || options.tile != -1;
+  return options.jobs != 0 || options.job != -1;
 }
 
 void check_modes(const MapOptions& options, DiagnosticList& faults) {
   const bool part = is_part(options);
-  if (part && (options.tiles < 1 || options.tile < 0 || options.tile >= options.tiles))
-    faults.add("--tiles, --tile",
-               fmt::format("there is no tile {} of {}", options.tile, options.tiles),
-               "give --tiles N with N at least 1, and --tile I with I from 0 to N - 1", "map.part");
+  if (part && (options.jobs < 1 || options.job < 0 || options.job >= options.jobs))
+    faults.add("--jobs, --job", fmt::format("there is no tile {} of {}", options.job, options.jobs),
+               "give --jobs N with N at least 1, and --job I with I from 0 to N - 1", "map.part");
   if (part && !(options.svg.empty() && options.png.empty() && options.csv.empty()))
-    faults.add("--tile", "a single tile has no picture and no table",
+    faults.add("--job", "a single tile has no picture and no table",
                "give --svg, --png and --csv together with --merge", "map.part-output");
   if (!options.merge.empty() && (part || !options.cell.empty()))
-    faults.add("--merge", "merges finished tiles", "leave --tiles, --tile and --cell out",
+    faults.add("--merge", "merges finished tiles", "leave --jobs, --job and --cell out",
                "map.merge-options");
   if (!options.cell.empty() && part)
-    faults.add("--cell", "cannot be combined with --tile", "leave --tile out", "map.cell-options");
+    faults.add("--cell", "cannot be combined with --job", "leave --job out", "map.cell-options");
   if (options.cell.empty() != options.record.empty())
     faults.add(options.cell.empty() ? "--record" : "--cell",
                options.cell.empty() ? "needs --cell" : "needs --record",
@@ -96,7 +95,7 @@ void check_outputs(const MapOptions& options, DiagnosticList& faults) {
   check_output("--png", options.png, ".png", options.force, faults);
   check_output("--csv", options.csv, ".csv", options.force, faults);
   if (!options.svg.empty() || !options.png.empty()) attempt(faults, require_gnuplot);
-  if (!options.merge.empty()) check_output("--work", options.work, "", options.force, faults);
+  if (!options.merge.empty()) check_output("--checkpoint", options.work, "", options.force, faults);
   if (!options.record.empty()) {
     std::filesystem::path scene = options.record;
     scene.replace_extension(".toml");
@@ -108,14 +107,14 @@ void check_outputs(const MapOptions& options, DiagnosticList& faults) {
   }
 }
 
-// --work, or a file in out/map whose name is unique for the map.
+// --checkpoint, or a file in out/map whose name is unique for the map.
 std::filesystem::path work_file(const MapOptions& options, const TileFile& empty) {
   if (!options.work.empty()) return options.work;
   std::string all;
   for (const std::string& line : empty.head)
     if (!line.starts_with("scene ")) all += line + "\n";
   const std::string part =
-      is_part(options) ? fmt::format("-{}-of-{}", options.tile, options.tiles) : "";
+      is_part(options) ? fmt::format("-{}-of-{}", options.job, options.jobs) : "";
   return std::filesystem::path("out") / "map" /
          fmt::format("{}-{:08x}{}.twinmap", options.scene.stem().string(),
                      hash_of(all) & 0xffffffffU, part);
@@ -124,14 +123,14 @@ std::filesystem::path work_file(const MapOptions& options, const TileFile& empty
 // Blocks tile, tile + tiles, ..: jobs of similar cost.
 std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& blocks) {
   std::vector<int> wanted;
-  const int step = is_part(options) ? options.tiles : 1;
-  for (int b = is_part(options) ? options.tile : 0; b < blocks.count(); b += step)
+  const int step = is_part(options) ? options.jobs : 1;
+  for (int b = is_part(options) ? options.job : 0; b < blocks.count(); b += step)
     wanted.push_back(b);
   if (wanted.empty())
-    throw InputError({{"", 0, "--tiles",
+    throw InputError({{"", 0, "--jobs",
                        fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} tiles",
-                                   blocks.count(), options.tiles),
-                       "give fewer --tiles", "map.part"}});
+                                   blocks.count(), options.jobs),
+                       "give fewer --jobs", "map.part"}});
   return wanted;
 }
 
@@ -203,15 +202,16 @@ int compute(const MapOptions& options, const MapJob& job) {
   const std::filesystem::path work = work_file(options, empty);
   if (!options.merge.empty()) {
     const TileFile file = merge_tile_files(options.merge, empty, blocks);
-    if (!options.work.empty()) write_result("--work", work, to_text(file));
+    if (!options.work.empty()) write_result("--checkpoint", work, to_text(file));
     write_results(options, job, file);
     return 0;
   }
   const std::vector<int> wanted = wanted_blocks(options, blocks);
   TileFile file = file_exists(work) ? resume_tile_file(work, empty, blocks, options.force) : empty;
-  make_folder(folder_of(work), "--work");
+  make_folder(folder_of(work), "--checkpoint");
   const auto is_finished = [&](int block) { return file.has_all_of(blocks[block]); };
-  if (!std::ranges::all_of(wanted, is_finished)) require_writable_folder(folder_of(work), "--work");
+  if (!std::ranges::all_of(wanted, is_finished))
+    require_writable_folder(folder_of(work), "--checkpoint");
   try {
     compute_blocks(job, wanted, work, options.threads, file);
   } catch (const Interrupted&) {
@@ -222,8 +222,8 @@ int compute(const MapOptions& options, const MapJob& job) {
   if (!is_part(options)) {
     write_results(options, job, file);
   } else if (options.json) {
-    fmt::print("{}\n", json_text({{"tile", options.tile},
-                                  {"tiles", options.tiles},
+    fmt::print("{}\n", json_text({{"job", options.job},
+                                  {"jobs", options.jobs},
                                   {"blocks", wanted.size()},
                                   {"file", work.string()}}));
   } else {

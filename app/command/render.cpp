@@ -42,7 +42,7 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
   add("--at", options.at, "time of the picture [s]; default: end of a recording, else the start");
   add("--from", options.from, "start of the video [s]; default: the start");
   add("--to", options.to, "end of the video [s]; default: the end");
-  add("--slow", options.slow, "slow-motion factor");
+  add("--slow-motion", options.slow, "slow-motion factor");
   add("--fps", options.fps, "frames per second; default 30, GIF 25");
   add.group("Content");
   add("--camera", options.camera,
@@ -51,7 +51,8 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
       fmt::format("none, all, or some of: {}", fmt::join(names_of(all_overlays()), ", ")));
   add("--plot", options.plot,
       "curves below the picture: none, or some of: energy, forces, couples, contacts, lag");
-  add("--beside", options.beside, "second recording, shown to the right of the first in sync");
+  add("--side-by-side", options.beside,
+      "second recording, shown to the right of the first in sync");
   add.group("Picture");
   add("--size", options.size, "size [pixels]");
   add("--quality", options.quality, "draft, normal or studio");
@@ -146,7 +147,7 @@ RenderPlan read_render_options(const RenderOptions& options) {
     plan.picture.curves = *curves;
   plan.picture.camera = options.camera;
   plan.rate = options.fps.value_or(options.gif.empty() ? 30 : 25);  // GIF: units of 1/100 s
-  check_positive("--slow", options.slow, faults);
+  check_positive("--slow-motion", options.slow, faults);
   if (!(plan.rate > 0 && plan.rate <= 1000))
     faults.add("--fps", "must be above 0 and at most 1000", "", "option.range");
   if (!options.beside.empty() && plan.picture.width < 64)
@@ -228,7 +229,7 @@ Command render_command() {
           "GPU\n\n"
           "Examples:\n"
           "  twinarm render assets/scenes/incline.toml --png incline.png --show forces,contacts\n"
-          "  twinarm render out/run.twinrec --mp4 run.mp4 --slow 4",
+          "  twinarm render out/run.twinrec --mp4 run.mp4 --slow-motion 4",
           add_options, run_render};
 }
 

@@ -52,10 +52,10 @@ void write_balances(JsonWriter& json, const ComparedBalances& balances) {
   const auto write_rows = [&](const auto& rows) {
     return [&] {
       for (const auto& row : rows)
-        json.key(row.name).object({{"recorded", row.recorded}, {"fork", row.branch}});
+        json.key(row.name).object({{"recorded", row.recorded}, {"branch", row.branch}});
     };
   };
-  json.key("ledger").object(write_rows(balances.works));
+  json.key("energy_balance").object(write_rows(balances.works));
   json.key("momentum").object(write_rows(balances.momenta));
 }
 
@@ -78,7 +78,7 @@ void print_replay_json(const Recording& recording, const Replay& exact, const Re
     json.members({{"set", changes}, {"notes", recording.notes()}});
     if (!branch) return;
     json.key("branches").list(std::array{false, true}, [&](bool is_branch) {
-      write_branch(json, is_branch ? "fork" : "recorded", recording, *branch, is_branch);
+      write_branch(json, is_branch ? "branch" : "recorded", recording, *branch, is_branch);
     });
     write_balances(json, compared_balances(exact, *branch));
   };

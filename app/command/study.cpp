@@ -46,7 +46,7 @@ void add_options(const OptionAdder& add, StudyOptions& options) {
   add("--identify", options.identify,
       "re-run the parameter identification of Table 2 and overwrite "
       "assets/study/identification.json (10 min)");
-  add("--ask", options.ask,
+  add("--identify-one", options.ask,
       "ROW/LAW/RATE, such as E4/linear/60: print one identification as JSON and stop");
   add.group("Output");
   add("--out", options.out, "folder for report, figures, CSV");

@@ -24,7 +24,7 @@ namespace {
 struct TrialOptions {
   std::string device = "keyboard", mapping = "paper";
   std::string conditions = "torsional,linear,kinematic", tasks = "free,pick-and-place";
-  std::string subject;             // empty: the next free code
+  std::string participant;         // empty: the next free code
   std::optional<unsigned> seed;    // of the order of conditions; default: as given
   double seconds = 20, most = 60;  // free motion; limit of pick-and-place [s]
   bool feel = false;               // force feedback; the paper has none
@@ -36,15 +36,17 @@ void add_options(const OptionAdder& add, TrialOptions& options) {
   add.group("Device");
   add("--device", options.device, "input device, as in `twinarm hand --device list`");
   add("--mapping", options.mapping, "device to joints: paper (theta1, 4, 6) or arm (theta1, 2, 3)");
-  add("--feel", options.feel, "force feedback, on a device with motors (the paper has none)");
+  add("--force-feedback", options.feel,
+      "force feedback, on a device with motors (the paper has none)");
   add("--simulated", options.simulated, "run without countdown and pacing, for a virtual device");
   add.group("Protocol");
   add("--conditions", options.conditions, "conditions, in this order");
   add("--tasks", options.tasks, "tasks for each condition");
   add("--seed", options.seed, "randomise the order of the conditions with this seed");
-  add("--subject", options.subject, "anonymous code of the participant; default: S1, S2, ...");
+  add("--participant", options.participant,
+      "anonymous code of the participant; default: S1, S2, ...");
   add("--seconds", options.seconds, "duration of free motion [s]")->check(above_zero());
-  add("--most", options.most, "time limit of pick-and-place [s]")->check(above_zero());
+  add("--time-limit", options.most, "time limit of pick-and-place [s]")->check(above_zero());
   add("--yes", options.yes, "start without waiting for Enter");
   add.group("Output");
   add("--out", options.out, "folder of results.csv and of the logs");
@@ -181,22 +183,22 @@ int run_trial(const TrialOptions& options) {
   if (options.simulated && !options.device.starts_with("virtual"))
     faults.add("--simulated", "needs a virtual device",
                "leave it out, or give --device virtual:HAND", "option.conflict");
-  if (!std::ranges::all_of(options.subject, [](unsigned char c) {
+  if (!std::ranges::all_of(options.participant, [](unsigned char c) {
         return std::isalnum(c) != 0 || c == '-' || c == '_';
       }))
-    faults.add("--subject",
-               "'" + options.subject + "' has characters other than letters, digits, - and _",
+    faults.add("--participant",
+               "'" + options.participant + "' has characters other than letters, digits, - and _",
                "give a code such as S7: it names a folder in --out", "option.form");
   faults.check();
 
   open_device(options.device);  // its errors are reported before the participant waits
   TrialReport report;
   report.csv = (options.out / "results.csv").string();
-  const std::string next = next_subject(report.csv);
-  report.subject = options.subject.empty() ? next : options.subject;
+  const std::string next = next_participant(report.csv);
+  report.participant = options.participant.empty() ? next : options.participant;
   report.mapping = options.mapping;
   report.device = options.device;
-  const std::filesystem::path folder = options.out / report.subject;
+  const std::filesystem::path folder = options.out / report.participant;
   make_folder(folder);
   const std::vector<TrialCondition> conditions =
       write_conditions(names, find_assets(options.assets), folder);
@@ -215,7 +217,7 @@ int run_trial(const TrialOptions& options) {
   }
   fmt::print("{}", options.json
                        ? trial_json(report) + "\n"
-                       : "\n" + trial_table(report) + "\nall subjects: " + report.csv + "\n");
+                       : "\n" + trial_table(report) + "\nall participants: " + report.csv + "\n");
   check_interrupt();
   return 0;
 }

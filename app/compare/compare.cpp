@@ -86,8 +86,9 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
   return selection;
 }
 
-std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
-                             const std::vector<double>& steps, DiagnosticList& faults) {
+std::vector<Integration> read_integrations(const std::vector<std::string>& integrators,
+                                           const std::vector<double>& steps,
+                                           DiagnosticList& faults) {
   const std::vector<std::string> known = names_of(all_integrators);
   std::vector<Integrator> found;
   for (const std::string& name : integrators) {
@@ -102,7 +103,7 @@ std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
       faults.add("--step", fmt::format("step is {} s, must be positive and finite", step),
                  "for example --step 0.001,0.0005", "option.not-positive");
 
-  std::vector<Lane> integrations;
+  std::vector<Integration> integrations;
   if (integrators.empty() && steps.empty()) return integrations;
   if (found.empty()) found.push_back(Integrator::rk4);
   for (const Integrator integrator : found)
@@ -114,18 +115,18 @@ std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
   return integrations;
 }
 
-std::string integration_name(const Lane& integration) {
+std::string integration_name(const Integration& integration) {
   const bool adaptive = integration.integrator == Integrator::dopri5;
   return fmt::format("{} {:g}", integrator_name(integration.integrator),
                      adaptive ? integration.tolerance : integration.step);
 }
 
-CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& integrations) {
+CompareRow run_one(const AnalyticCase& test, const std::vector<Integration>& integrations) {
   const double start = steady_seconds();
   CompareRow row{&test, run_case(test), 0, {}};
   row.seconds = steady_seconds() - start;
   if (test.trajectory && test.trajectory->takes_any_integrator())
-    for (const Lane& integration : integrations)
+    for (const Integration& integration : integrations)
       row.integrations.push_back({integration, run_trajectory(*test.trajectory, integration),
                                   observed_order(*test.trajectory, integration)});
   return row;
@@ -143,10 +144,11 @@ std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped) {
 }
 
 std::string compare_table(const std::vector<CompareRow>& rows,
-                          const std::vector<Lane>& integrations,
+                          const std::vector<Integration>& integrations,
                           const std::vector<const SkippedCase*>& skipped) {
   std::vector<std::string> headings{"case", "error", "tolerance", "", "order", "energy", "seconds"};
-  for (const Lane& integration : integrations) headings.push_back(integration_name(integration));
+  for (const Integration& integration : integrations)
+    headings.push_back(integration_name(integration));
   TextTable table(headings);
   std::string failed_cases;
   for (const CompareRow& row : rows) {
@@ -175,7 +177,8 @@ std::string compare_table(const std::vector<CompareRow>& rows,
 }
 
 // Numbers that are not finite become null.
-std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& integrations,
+std::string compare_json(const std::vector<CompareRow>& rows,
+                         const std::vector<Integration>& integrations,
                          const std::vector<const SkippedCase*>& skipped, const std::string& page) {
   Json cases = Json::array();
   for (const CompareRow& row : rows) {
@@ -188,7 +191,7 @@ std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<
                      {"energy_drift", number_or_null(row.result.energy_drift)},
                      {"reference", row.test->reference},
                      {"seconds", row.seconds}});
-    if (!integrations.empty()) cases.back()["lanes"] = integrations_of(row);
+    if (!integrations.empty()) cases.back()["configurations"] = integrations_of(row);
   }
   Json left_out = Json::array();
   for (const SkippedCase* c : skipped) left_out.push_back({{"name", c->name}, {"why", c->why}});

@@ -13,7 +13,7 @@
 namespace twinarm {
 
 struct IntegrationRow {
-  Lane integration;
+  Integration integration;
   TrajectoryResult result;
   std::optional<double> order;
 };
@@ -36,12 +36,13 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
 
 // Every integrator with every step (default: rk4, 1 ms); dopri5 once, with a tolerance of 1e-10.
 // Adds a diagnostic for each unknown integrator and invalid step.
-std::vector<Lane> read_lanes(const std::vector<std::string>& integrators,
-                             const std::vector<double>& steps, DiagnosticList& faults);
-std::string integration_name(const Lane& integration);  // "rk4 0.001"
+std::vector<Integration> read_integrations(const std::vector<std::string>& integrators,
+                                           const std::vector<double>& steps,
+                                           DiagnosticList& faults);
+std::string integration_name(const Integration& integration);  // "rk4 0.001"
 
 // A case passes or fails with its own integrator and step; the others are for comparison.
-CompareRow run_one(const AnalyticCase& test, const std::vector<Lane>& integrations);
+CompareRow run_one(const AnalyticCase& test, const std::vector<Integration>& integrations);
 
 std::size_t failures(const std::vector<CompareRow>& rows);
 // "12 passed, 1 failed", and ", 2 skipped" if any.
@@ -49,9 +50,10 @@ std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped);
 
 // A table and the failed cases; one JSON object. `page`: the file of --html, or empty.
 std::string compare_table(const std::vector<CompareRow>& rows,
-                          const std::vector<Lane>& integrations,
+                          const std::vector<Integration>& integrations,
                           const std::vector<const SkippedCase*>& skipped);
-std::string compare_json(const std::vector<CompareRow>& rows, const std::vector<Lane>& integrations,
+std::string compare_json(const std::vector<CompareRow>& rows,
+                         const std::vector<Integration>& integrations,
                          const std::vector<const SkippedCase*>& skipped, const std::string& page);
 
 }  // namespace twinarm

@@ -157,7 +157,7 @@ CoupledTerm joint_damper_term(const MatrixXd& damping, Integrator integrator) {
 }
 
 CoupledTerm step_part(const PredictedCoupling& c, double h) {
-  CoupledTerm part{c.K, c.K_zero, c.B, c.treatment, 0};
+  CoupledTerm part{c.K, c.K_zero, c.B, c.discretization, 0};
   if (c.rate > 0) part.hold_steps = static_cast<int>(std::lround(1 / (c.rate * h)));
   const StepLaw law = facts_of(c.law, c.printed).step_law;
   if (law != StepLaw::god_object) {

@@ -43,12 +43,12 @@ std::optional<SteppingScheme> scheme_of_scene(const std::vector<PredictedCouplin
                                               Integrator integrator) {
   const PredictedCoupling& first = couplings.front();
   for (const PredictedCoupling& c : couplings)
-    if (c.treatment != first.treatment || c.printed != first.printed || c.rate > 0 ||
-        c.is_own_treatment())
+    if (c.discretization != first.discretization || c.printed != first.printed || c.rate > 0 ||
+        c.is_own_discretization())
       return {};
   if (first.printed) return scheme_as_printed(integrator);
-  if (first.treatment == Discretization::implicit) return SteppingScheme::implicit;
-  if (first.treatment == Discretization::semi_implicit) return SteppingScheme::implicit_damper;
+  if (first.discretization == Discretization::implicit) return SteppingScheme::implicit;
+  if (first.discretization == Discretization::semi_implicit) return SteppingScheme::implicit_damper;
   switch (integrator) {
     case Integrator::euler:
       return SteppingScheme::euler;
@@ -170,9 +170,9 @@ void clear_errors_of_god_objects(Predicted& found) {
 std::string words_of_step(const Predicted& found) {
   std::vector<std::string> words;
   for (const PredictedCoupling& c : found.couplings) {
-    std::string word = c.is_own_treatment() ? facts_of(c.law, c.printed).name
-                       : c.printed          ? "as printed"
-                                            : name_of(c.treatment);
+    std::string word = c.is_own_discretization() ? facts_of(c.law, c.printed).name
+                       : c.printed               ? "as printed"
+                                                 : name_of(c.discretization);
     if (c.rate > 0) word += fmt::format(", held at {:g} Hz", c.rate);
     if (std::ranges::find(words, word) == words.end()) words.push_back(word);
   }
@@ -185,12 +185,13 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
   if (found.growth > 1 + kRounding && found.max_step > 0)
     warn(fmt::format(
         "unstable: the scene's step of {:g} s exceeds the stability limit {:.4g} s (spectral "
-        "radius {:.3g}); use a shorter --step, a smaller stiffness, or treatment = \"implicit\"",
+        "radius {:.3g}); use a shorter --step, a smaller stiffness, or discretization = "
+        "\"implicit\"",
         found.step, found.max_step, found.growth));
   else if (found.growth > 1 + kRounding)
     warn(fmt::format(
         "unstable at any step (spectral radius {:.6g} at {:g} s); use another --integrator, more "
-        "damping, or treatment = \"implicit\"",
+        "damping, or discretization = \"implicit\"",
         found.growth, found.step));
   for (const SceneCoupling& spec : scene.couplings)
     if (spec.delay > 0)
@@ -213,7 +214,7 @@ void add_warnings(const SceneModel& scene, Predicted& found) {
                       "the column 'absolute lag'",
                       c.name));
     for (const SpringArm& arm : c.arms)
-      if (c.treatment == Discretization::implicit && arm.target_radius > arm.max_target_radius)
+      if (c.discretization == Discretization::implicit && arm.target_radius > arm.max_target_radius)
         warn(fmt::format(
             "'{}', about '{}': unstable: target {:.4g} m from the axis, an implicit point spring "
             "is stable up to {:.4g} m at this step",
@@ -238,7 +239,8 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
   found.K = MatrixXd::Zero(found.M.rows(), found.M.cols());
   found.B = found.K;
   for (std::size_t c = 0; c < input.couplings->size(); ++c) {
-    if (input.couplings->spec(c).outside) continue;  // soft limits are inactive in the nominal pose
+    if (input.couplings->spec(c).soft_limits)
+      continue;  // soft limits are inactive in the nominal pose
     found.couplings.push_back(posed.coupling(c, found.step));
     PredictedCoupling& coupling = found.couplings.back();
     if (task.wall && coupling.is_linear())

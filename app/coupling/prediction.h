@@ -50,8 +50,8 @@ struct PredictedCoupling : CouplingTraits {
   std::vector<SpringArm> arms;      // linear only
   std::optional<double> with_wall;  // in series with the wall [N/m]
   // No Discretization applies to it.
-  bool is_own_treatment() const {
-    return facts_of(law, printed).treatments == CouplingFacts::Discretizations::own;
+  bool is_own_discretization() const {
+    return facts_of(law, printed).discretizations == CouplingFacts::Discretizations::own;
   }
 };
 
@@ -84,7 +84,7 @@ struct SchemeLimit {
   SteppingScheme scheme;
   double max_step = 0;               // [s]
   double by_ratio = 0, by_zeta = 0;  // factors of the stiffness at the scene's step
-  bool is_the_scenes = false;
+  bool selected = false;
 };
 
 struct Predicted {

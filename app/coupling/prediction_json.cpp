@@ -17,7 +17,7 @@ void write_coupling(JsonWriter& json, const PredictedCoupling& c) {
   };
   json.object({{"name", c.name},
                {"kind", c.kind},
-               {"treatment", c.is_own_treatment() ? "own" : name_of(c.treatment)},
+               {"discretization", c.is_own_discretization() ? "own" : name_of(c.discretization)},
                {"damper", c.absolute_damper ? "absolute" : "relative"},
                {"rate", c.rate},
                {"delay", c.delay},
@@ -25,7 +25,7 @@ void write_coupling(JsonWriter& json, const PredictedCoupling& c) {
                {"damping", c.gains.b},
                {"offset", c.offset},
                {"K", c.K},
-               {"K_zero_offset", c.K_zero},
+               {"K_material", c.K_zero},
                {"B", c.B},
                {"frequency", c.alone.omega},
                {"damping_ratio", c.alone.zeta},
@@ -82,18 +82,18 @@ std::string predicted_json(const Predicted& found, const PredictTask& task) {
     });
     json.key("limits").list(found.limits, [&](const SchemeLimit& limit) {
       json.object({{"scheme", name_of(limit.scheme)},
-                   {"largest_step", limit.max_step},
+                   {"max_stable_step", limit.max_step},
                    {"stiffness_factor_same_ratio", limit.by_ratio},
                    {"stiffness_factor_same_zeta", limit.by_zeta},
-                   {"is_the_scenes", limit.is_the_scenes}});
+                   {"selected", limit.selected}});
     });
     json.key("scene").object({{"stepped", found.stepped},
                               {"integrator", integrator_name(found.integrator)},
                               {"step", found.step},
-                              {"largest_step", found.max_step},
-                              {"growth_per_step", found.growth},
+                              {"max_stable_step", found.max_step},
+                              {"spectral_radius", found.growth},
                               {"stable", found.growth <= 1 + 1e-9}});
-    write_by_rows(json.key("sag"), found, found.sag);
+    write_by_rows(json.key("static_deflection"), found, found.sag);
     json.key("warnings").texts(found.warnings);
   });
 }

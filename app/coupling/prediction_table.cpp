@@ -26,7 +26,7 @@ std::string couplings_part(const Predicted& found) {
   TextTable table(
       {"coupling", "kind", "discretization", "k", "b", "target offset", "omega [rad/s]", "zeta"});
   for (const PredictedCoupling& c : found.couplings) {
-    const char* word = c.is_own_treatment() ? "own" : name_of(c.treatment);
+    const char* word = c.is_own_discretization() ? "own" : name_of(c.discretization);
     table.add({c.name, c.kind, word, cell(c.gains.k) + (c.is_length ? " N/m" : " N m/rad"),
                cell(c.gains.b) + (c.is_length ? " N s/m" : " N m s/rad"),
                c.is_length ? cell(1e3 * c.offset) + " mm" : cell(kDegrees * c.offset) + " deg",
@@ -143,7 +143,7 @@ std::string limits_part(const Predicted& found) {
   TextTable table({"scheme", "largest step [ms]", "stiffness factor, fixed b/k", "fixed zeta", ""});
   for (const SchemeLimit& limit : found.limits)
     table.add({name_of(limit.scheme), limit_cell(limit.max_step, 1e3), limit_cell(limit.by_ratio),
-               limit_cell(limit.by_zeta), limit.is_the_scenes ? "<- this scene" : ""});
+               limit_cell(limit.by_zeta), limit.selected ? "<- this scene" : ""});
   std::string text =
       paragraph(fmt::format("Stability limits of all couplings together: largest stable step of "
                             "each scheme, and largest stable factor on all stiffnesses at {:g} ms, "
@@ -179,7 +179,7 @@ std::string loads_part(const Predicted& found) {
     for (const SpringArm& arm : c.arms) {
       any_arm = true;
       arms.add({c.name, arm.joint, cell(arm.radius), cell(arm.target_radius),
-                c.treatment == Discretization::implicit ? cell(arm.max_target_radius) : "-",
+                c.discretization == Discretization::implicit ? cell(arm.max_target_radius) : "-",
                 cell(arm.max_torque)});
     }
     if (!c.with_wall) continue;

@@ -29,7 +29,7 @@ CoupledStep::CoupledStep(const SimulatePlan& plan)
   SceneCouplings& couplings = *plan.input.couplings;
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     const SceneCoupling& spec = couplings.spec(c);
-    if (spec.outside) continue;  // soft limits are inactive in the nominal pose
+    if (spec.soft_limits) continue;  // soft limits are inactive in the nominal pose
     const PredictedCoupling found = posed.about_zero(c);
     Component component;
     component.coupling = static_cast<int>(spec.description);
@@ -57,7 +57,7 @@ std::vector<CoupledTerm> CoupledStep::merged(const Components& components, doubl
     if (part.hold_steps > 0 && step != step_)
       part.hold_steps = std::max(1, static_cast<int>(std::lround(part.hold_steps * step_ / step)));
     const auto same = std::ranges::find_if(parts, [&](const CoupledTerm& other) {
-      return other.law == part.law && other.treatment == part.treatment &&
+      return other.law == part.law && other.discretization == part.discretization &&
              other.hold_steps == part.hold_steps && part.law != StepLaw::god_object;
     });
     if (same == parts.end()) {
@@ -92,9 +92,9 @@ CoupledStep::Component CoupledStep::with_gain(const Component& component, Gain g
     other.part.B *= faster;
     return other;
   }
-  const bool is_torsional = gain == Gain::turn_stiffness || gain == Gain::turn_damping;
+  const bool is_torsional = gain == Gain::rotational_stiffness || gain == Gain::rotational_damping;
   if (is_torsional != component.is_bushing_torsional || component.square.size() == 0) return other;
-  if (gain == Gain::stiffness || gain == Gain::turn_stiffness)
+  if (gain == Gain::stiffness || gain == Gain::rotational_stiffness)
     other.part.K = other.part.K_zero = value * component.square;
   else if (component.b == 0 || !component.part.B.isZero(0))  // else as printed, without linear part
     other.part.B = value * component.square;
@@ -130,7 +130,7 @@ bool CoupledStep::holds_implicitly(const std::vector<int>& couplings) const {
   Components others = components_;
   for (Component& c : others) {
     if (!contains(couplings, c.coupling)) continue;
-    c.part.treatment = Discretization::implicit;
+    c.part.discretization = Discretization::implicit;
     c.part.law = StepLaw::spring_damper;
     c.part.hold_steps = 0;
   }

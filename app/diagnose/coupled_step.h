@@ -16,7 +16,7 @@ namespace twinarm {
 
 class CoupledStep {
  public:
-  enum class Gain { stiffness, damping, turn_stiffness, turn_damping, time_constant };
+  enum class Gain { stiffness, damping, rotational_stiffness, rotational_damping, time_constant };
   // About the plan's state. The plan must outlive it.
   explicit CoupledStep(const SimulatePlan& plan);
 
@@ -45,7 +45,7 @@ class CoupledStep {
  private:
   struct Component {
     int coupling = 0;                   // index in the scene
-    bool is_bushing_torsional = false;  // gains are turn_stiffness, turn_damping
+    bool is_bushing_torsional = false;  // gains are rotational_stiffness, rotational_damping
     bool absolute_damper = false;
     double k = 0, b = 0, time_constant = 0, delay = 0;
     Eigen::MatrixXd square;  // J^T J; empty if both gains are zero

@@ -50,7 +50,7 @@ std::optional<PassedRadius> passed_radius(const SimulatePlan& prepared, const Ru
   const State<double>& x = simulation.state();
   for (std::size_t c = 0; couplings && c < couplings->size(); ++c) {
     const SceneCoupling& spec = couplings->spec(c);
-    if (spec.treatment != Discretization::implicit || !spec.is_external() || !spec.is_linear())
+    if (spec.discretization != Discretization::implicit || !spec.is_external() || !spec.is_linear())
       continue;
     const TargetRadius radius =
         nearest_target_radius(simulation.mechanism().model, x, simulation.kinematics(),
@@ -80,9 +80,9 @@ LastSteps run_again(const SimulatePlan& prepared, RecordingHeader header,
     found.last = run.step();
     if (found.first < 0) {
       found.first = run.step();
-      found.before = works_of(run.ledger());
+      found.before = works_of(run.energy_balance());
     }
-    if (run.step() == last) found.after = works_of(run.ledger());
+    if (run.step() == last) found.after = works_of(run.energy_balance());
     if (!found.passed) found.passed = passed_radius(prepared, run);
     recorder.write(run);
   };
@@ -141,7 +141,7 @@ void add_violations(PostMortem& found, double h, const std::optional<PassedRadiu
         "Use a smoother target, couple more links, or type = \"torsional\"; for a stiff spring the "
         "limit is twice the point's radius at any stiffness");
   }
-  const std::vector<std::string> text = violation_text(found.suspects, h);
+  const std::vector<std::string> text = violation_text(found.violations, h);
   found.words.insert(found.words.end(), text.begin(), text.end());
   if (!passed && text.empty())
     found.words.emplace_back(
@@ -163,7 +163,7 @@ void add_first_words(const SimulatePlan& prepared, SimulateResult& result) {
     found.words.push_back(fmt::format("Energy alarm at t = {} s: row '{}' reached {} J",
                                       short_number_text(result.alarm->t), result.alarm->row,
                                       short_number_text(result.alarm->work)));
-  found.suspects = find_suspects(prepared);
+  found.violations = find_violations(prepared);
 }
 
 }  // namespace
@@ -175,7 +175,7 @@ std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared) {
       alarm.row, short_number_text(alarm.work), short_number_text(alarm.t),
       short_number_text(alarm.since));
   const double h = prepared.run.step;
-  std::vector<StabilityViolation> violations = find_suspects(prepared);
+  std::vector<StabilityViolation> violations = find_violations(prepared);
   if (!violations.empty()) violations.resize(1);
   const std::vector<std::string> text = violation_text(violations, h);
   for (const std::string& part : text) words += "; " + part;
@@ -192,7 +192,7 @@ void explain_at_once(const SimulatePlan& prepared, const RunView& run,
   PostMortem& found = *result.post_mortem;
   add_first_words(prepared, result);
   add_violations(found, prepared.run.step, passed_radius(prepared, run));
-  if (!before.empty()) find_row(works_of(before), works_of(result.ledger), found);
+  if (!before.empty()) find_row(works_of(before), works_of(result.energy_balance), found);
   add_growth(found, "");
 }
 

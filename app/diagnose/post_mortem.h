@@ -28,7 +28,7 @@ std::string alarm_words(const Alarm& alarm, const SimulatePlan& prepared);
 
 // Stability limits of couplings and joint dampers by linear theory about the initial state
 // (coupling/analysis/prediction.h), largest violation first.
-std::vector<StabilityViolation> find_suspects(const SimulatePlan& prepared);
+std::vector<StabilityViolation> find_violations(const SimulatePlan& prepared);
 
 // Scene changes that would have kept the run stable: shorter step, softer gain, implicit
 // discretization with its integrator. Suggested values are at half the limit of omega h.

@@ -1,5 +1,5 @@
-// Violations come from find_suspects(), coupling by coupling; the fixes are tested on all couplings
-// together (app/diagnose/coupled_step.h) in the initial pose.
+// Violations come from find_violations(), coupling by coupling; the fixes are tested on all
+// couplings together (app/diagnose/coupled_step.h) in the initial pose.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -35,8 +35,8 @@ class RemedyFinder {
  public:
   RemedyFinder(const SimulatePlan& plan, const PostMortem& post_mortem)
       : plan_(plan), scene_(plan.input.scene->description), step_(plan) {
-    std::vector<StabilityViolation> violations = post_mortem.suspects;
-    if (violations.empty()) violations = find_suspects(plan);
+    std::vector<StabilityViolation> violations = post_mortem.violations;
+    if (violations.empty()) violations = find_violations(plan);
     for (const StabilityViolation& s : violations) {
       if (s.step <= s.max_step) continue;
       if (s.kind == StabilityViolation::Kind::joint_damper)
@@ -68,8 +68,8 @@ class RemedyFinder {
   void take_all_couplings() {
     for (std::size_t i = 0; i < scene_.couplings.size(); ++i) {
       const CouplingDescription& c = scene_.couplings[i];
-      const bool is_stepped = c.law != CouplingSpec::Type::god_object && !c.outside &&
-                              c.treatment != Discretization::implicit;
+      const bool is_stepped = c.law != CouplingSpec::Type::god_object && !c.soft_limits &&
+                              c.discretization != Discretization::implicit;
       if (is_stepped) unstable_.push_back(static_cast<int>(i));
     }
   }
@@ -127,8 +127,8 @@ class RemedyFinder {
       };
       put("stiffness", factor * c.stiffness);
       put("damping", std::sqrt(factor) * c.damping);
-      put("turn_stiffness", factor * c.turn_stiffness);
-      put("turn_damping", std::sqrt(factor) * c.turn_damping);
+      put("rotational_stiffness", factor * c.rotational_stiffness);
+      put("rotational_damping", std::sqrt(factor) * c.rotational_damping);
       words += fmt::format("{}{} {:g}", words.empty() ? "" : ", ", c.name,
                            rounded_down(factor * c.stiffness));
     }
@@ -144,10 +144,10 @@ class RemedyFinder {
       const CouplingFacts& facts = facts_of(c.law, c.printed);
       const std::string path = "coupling[" + std::to_string(i) + "].";
       if (c.rate > 0) return;  // a held force is explicit
-      if (facts.treatments != CouplingFacts::Discretizations::all)
+      if (facts.discretizations != CouplingFacts::Discretizations::all)
         changes.push_back(path + "type=" + (facts.at_point ? "linear" : "torsional"));
       if (c.law == CouplingLaw::stable_pd) changes.push_back(path + "measure=joint");
-      changes.push_back(path + "treatment=implicit");
+      changes.push_back(path + "discretization=implicit");
     }
     if (!facts_of(plan_.run.integrator).implicit_force)
       changes.emplace_back("integrator=semi-implicit");

@@ -74,9 +74,9 @@ std::string method_of(const SteppedCoupling& c) {
     name = "stable PD";
   else if (spec.printed)
     name = std::string("as printed, ") + integrator_name(c.integrator);
-  else if (spec.treatment == Discretization::semi_implicit)
+  else if (spec.discretization == Discretization::semi_implicit)
     name = name_of(SteppingScheme::implicit_damper);
-  else if (spec.treatment == Discretization::implicit)
+  else if (spec.discretization == Discretization::implicit)
     name = name_of(SteppingScheme::implicit);
   else if (spec.rate == 0)
     name = std::string("explicit, ") + integrator_name(c.integrator);
@@ -110,7 +110,7 @@ std::string gain_fix(const SteppedCoupling& c, const StabilityViolation& s) {
   const double k = kMargin * kMargin * s.max_gain;
   std::string torsional;
   if (c.spec->law == CouplingSpec::Type::bushing)
-    torsional = fmt::format(" and turn_stiffness <= {} N m/rad",
+    torsional = fmt::format(" and rotational_stiffness <= {} N m/rad",
                             short_number_text(k / c.spec->spring.k * c.spec->spring.k_turn));
   return fmt::format("stiffness <= {} {}/{}{}", short_number_text(k), force, per, torsional);
 }
@@ -124,7 +124,7 @@ std::string law_fix(const SceneCoupling& spec) {
     type = fmt::format("type = \"{}\", ", spec.law == Type::torsional ? "torsional" : "linear");
   else if (spec.rate > 0)
     type = "no rate, ";
-  return type + "treatment = \"implicit\", integrator semi-implicit";
+  return type + "discretization = \"implicit\", integrator semi-implicit";
 }
 
 // "Stable with A, or with B".
@@ -166,7 +166,7 @@ void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     const SceneCoupling& spec = couplings.spec(c);
     const bool is_god = spec.law == CouplingSpec::Type::god_object;
-    if (spec.leader != c || spec.outside || is_god) continue;  // soft limits are inactive there
+    if (spec.leader != c || spec.soft_limits || is_god) continue;  // soft limits are inactive there
     PredictedCoupling all = posed.about_zero(c);
     SteppedCoupling stepped;
     for (std::size_t other = 0; other < couplings.size(); ++other) {
@@ -243,7 +243,7 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
 
 }  // namespace
 
-std::vector<StabilityViolation> find_suspects(const SimulatePlan& prepared) {
+std::vector<StabilityViolation> find_violations(const SimulatePlan& prepared) {
   std::vector<StabilityViolation> violations;
   const SimulateInput& input = prepared.input;
   const Model<double>& model = input.robot.model;

@@ -57,10 +57,10 @@ void draw_first_variant(SceneView& view, const Snapshot& snapshot) {
   for (const ScenePart& part : view.cast.parts) {
     const OfBody mark(view.list, part.body);
     const std::size_t before = view.list.instances.size();
-    const bool has_lanes = !snapshot.lanes.empty();
+    const bool has_variants = !snapshot.variants.empty();
     add_mesh_instance(view.list, part.mesh, snapshot.k.X_WL[part.body] * part.X_LM,
-                      has_lanes ? variant_color(part, 0) : part.color, part.scale);
-    if (view.list.instances.size() > before && !has_lanes)
+                      has_variants ? variant_color(part, 0) : part.color, part.scale);
+    if (view.list.instances.size() > before && !has_variants)
       view.list.instances.back().texture = part.texture;
   }
   draw_lines(view, snapshot.k.X_WL, Vector3::Zero());
@@ -69,8 +69,8 @@ void draw_first_variant(SceneView& view, const Snapshot& snapshot) {
 // The other variants, each in its colour; names of all.
 void draw_other_variants(SceneView& view, const Snapshot& snapshot) {
   DrawList& list = view.list;
-  for (std::size_t i = 0; i < snapshot.lanes.size(); ++i) {
-    const ShownVariant& lane = snapshot.lanes[i];
+  for (std::size_t i = 0; i < snapshot.variants.size(); ++i) {
+    const ShownVariant& lane = snapshot.variants[i];
     add_label(list, lane.above_W, lane.name, {6, -14});
     list.legend.push_back({palette::lane(i), lane.name});
     if (i == 0) continue;  // drawn by draw_first_variant()

@@ -71,8 +71,8 @@ struct Snapshot {
   std::vector<ShownTargetRobot> twins;
   std::vector<ShownHand> hands;  // of target robots moved by a device
   std::optional<ShownMouseSpring> grip;
-  std::vector<Pose> before;         // previous branch at this time, by body; or empty
-  std::vector<ShownVariant> lanes;  // the first: this run, without poses; or empty
+  std::vector<Pose> before;            // previous branch at this time, by body; or empty
+  std::vector<ShownVariant> variants;  // the first: this run, without poses; or empty
   double kinetic = 0, potential = 0, elastic = 0;  // [J]
   explicit Snapshot(const Model<double>& model) : x(model), k(model) {}
 };

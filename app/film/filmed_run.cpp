@@ -28,7 +28,7 @@ void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInsta
 
 std::vector<double> picture_times(double from, double to, double interval) {
   if ((to - from) / interval > kMaxPictures)
-    throw InputError({{"", 0, "--slow", "the film would have more than 100000 pictures",
+    throw InputError({{"", 0, "--slow-motion", "the film would have more than 100000 pictures",
                        "shorten it by --from and --to", "film.too-long"}});
   std::vector<double> times;
   const auto count = static_cast<long>(std::floor((to - from) / interval + 1e-6));
@@ -182,7 +182,7 @@ std::vector<FilmedRun> film_pair(const std::filesystem::path& left,
   DiagnosticList faults;
   for (const auto* file : {&left, &right})
     if (!is_recording(*file))
-      faults.add({file->string(), 0, "--beside", "not a recording",
+      faults.add({file->string(), 0, "--side-by-side", "not a recording",
                   "give two files of `twinarm simulate --record FILE`", "file.no-recording"});
   faults.check();
   double earliest = 1e300, first = 0, last = 0;

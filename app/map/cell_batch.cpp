@@ -26,7 +26,7 @@ bool is_plain(const SimulatePlan& plan) {
          !scene.may_touch() && !steps_for_flight(scene, plan.run.integrator) &&
          scene.constraints.empty() && scene.motions.empty() && !scene.couplings.empty() &&
          std::all_of(scene.couplings.begin(), scene.couplings.end(), [](const SceneCoupling& c) {
-           return c.rate == 0 && !c.printed && !c.outside &&
+           return c.rate == 0 && !c.printed && !c.soft_limits &&
                   c.target != CouplingTarget::Kind::synthetic &&
                   (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
          });
@@ -69,7 +69,8 @@ struct LaneRunner {
       if (!same) add_target(c);
       setup.springs.push_back(
           {c.is_linear() ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional, c.measure,
-           c.treatment, c.absolute_damper, same ? 0 : setup.targets.size() - 1, c.spring.body});
+           c.discretization, c.absolute_damper, same ? 0 : setup.targets.size() - 1,
+           c.spring.body});
     }
     if (!batch_faults(setup).empty() || !find_limits()) return false;
     runs = std::make_unique<BatchRun>(setup);

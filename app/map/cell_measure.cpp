@@ -40,9 +40,9 @@ double max_target_energy(const SimulatePlan& plan, std::size_t c) {
   return max;
 }
 
-double created(const std::vector<EnergyRow>& ledger) {
+double created(const std::vector<EnergyRow>& energy_balance) {
   double sum = 0;
-  for (const EnergyRow& row : ledger)
+  for (const EnergyRow& row : energy_balance)
     if (row.kind == EnergyRowKind::numerical || row.kind == EnergyRowKind::coupling_implicit)
       sum += row.work;
   return sum;
@@ -108,12 +108,12 @@ void CellMeasure::look(RunView& run) {
   }
   t_before_ = x.t;
   double input = 0;
-  for (const EnergyRow& row : run.hand()) input += row.work;
+  for (const EnergyRow& row : run.input_work()) input += row.work;
   min_input_work_ = std::min(min_input_work_, input);
 }
 
 CellValues CellMeasure::values(const SimulateResult& result) const {
-  const double energy = created(result.ledger);
+  const double energy = created(result.energy_balance);
   if (result.post_mortem || !is_bounded(energy, reference_energy(plan_))) return unstable_cell();
   double mean = 0;
   for (const double sum : integral_) mean = std::max(mean, sum / plan_.run.duration);

@@ -36,14 +36,14 @@ bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (!couplings.spec(c).leads()) continue;
     const Coupling::JointSpace space = couplings.coupling(c).joint_space(k);
-    parts.push_back({space.K, space.K, space.B, couplings.spec(c).treatment, 0});
+    parts.push_back({space.K, space.K, space.B, couplings.spec(c).discretization, 0});
   }
   return spectral_radius(mass_matrix(model, x), parts, plan.run.integrator, plan.run.step) <=
          1 + kRound;
 }
 
 bool is_implicit_point(const SceneCoupling& coupling) {
-  return coupling.is_linear() && coupling.treatment == Discretization::implicit;
+  return coupling.is_linear() && coupling.discretization == Discretization::implicit;
 }
 
 bool is_stable_along_motion(const SimulatePlan& plan) {
@@ -145,16 +145,16 @@ bool has_theory(const SimulatePlan& plan) {
   if (scene.couplings.empty() || !scene.constraints.empty()) return false;
   if (!is_semi_implicit(integrator) && !is_polynomial(integrator)) return false;
   return std::ranges::all_of(scene.couplings, [](const SceneCoupling& c) {
-    return c.rate == 0 && !c.printed && !c.outside &&
+    return c.rate == 0 && !c.printed && !c.soft_limits &&
            (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
   });
 }
 
 std::string scheme_words(const SimulatePlan& plan) {
   const auto& couplings = plan.input.scene->couplings;
-  const auto is_all = [&](Discretization treatment) {
+  const auto is_all = [&](Discretization discretization) {
     return std::all_of(couplings.begin(), couplings.end(),
-                       [&](const SceneCoupling& c) { return c.treatment == treatment; });
+                       [&](const SceneCoupling& c) { return c.discretization == discretization; });
   };
   if (!is_semi_implicit(plan.run.integrator)) return integrator_name(plan.run.integrator);
   if (is_all(Discretization::explicit_)) return name_of(SteppingScheme::semi_implicit);

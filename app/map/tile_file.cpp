@@ -19,7 +19,7 @@ constexpr const char* kFirstLine = "# twinarm map 2\n";
 constexpr std::string_view kHeadMark = "# ";  // before each line of the head
 constexpr const char* kFirstLineOfOld = "twinarm map 1\n";
 constexpr std::uintmax_t kMaxTileBytes = 512u << 20;  // four million cells
-constexpr const char* kOtherFile = "give a file of `twinarm map --work` or `--tile`";
+constexpr const char* kOtherFile = "give a file of `twinarm map --checkpoint` or `--job`";
 
 std::string table_heading() {
   std::string line = "ix,iy";
@@ -169,7 +169,8 @@ TileFile resume_tile_file(const std::filesystem::path& work, const TileFile& emp
                           const MapBlocks& blocks, bool force) {
   TileFile file = empty;
   try {
-    add_cells(read_tile_file(work), blocks, work, "name another --work, or give --force", file);
+    add_cells(read_tile_file(work), blocks, work, "name another --checkpoint, or give --force",
+              file);
   } catch (const InputError&) {
     if (force) return empty;
     throw;
@@ -192,7 +193,7 @@ TileFile merge_tile_files(const std::vector<std::filesystem::path>& parts, const
     faults.add("--merge",
                fmt::format("{} of {} blocks are missing:{}{}", count, blocks.count(), missing,
                            count > 10 ? " .." : ""),
-               "give the files of all tiles; repeat --tile for those that failed",
+               "give the files of all tiles; repeat --job for those that failed",
                "map.blocks-missing");
   faults.check();
   return file;

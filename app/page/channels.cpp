@@ -62,7 +62,7 @@ void PageChannels::write(JsonWriter& json, PageBytes& bytes) const {
       bytes.add(json, "values", values_[channel++]);
     });
   });
-  json.key("ledger").object([&] {
+  json.key("energy_balance").object([&] {
     json.key("rows").texts(run_.recording->rows());
     json.key("end").list(end_, [&](const double work) { json.text(number_text(work)); });
     bytes.add(json, "works", works_);

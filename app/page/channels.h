@@ -76,7 +76,7 @@ class PageChannels {
   explicit PageChannels(const FilmedRun& run);
   // A recorded frame and the snapshot of the same time.
   void add_frame(const RecordedFrame& frame, const Snapshot& snapshot);
-  // Keys times, channels, ledger, momentum, bodies.
+  // Keys times, channels, energy_balance, momentum, bodies.
   void write(JsonWriter& json, PageBytes& bytes) const;
 
  private:

@@ -61,13 +61,13 @@ std::vector<Row> coupling_rows(const SceneModel& scene) {
   for (const SceneCoupling& c : scene.couplings) {
     const bool is_linear = c.type == CouplingDescription::Type::linear;
     rows.push_back({c.name,
-                    c.outside ? "soft limit"
-                              : facts_of(c.law, c.printed).name +
-                                    std::string(is_linear                         ? ", at a point"
-                                                : c.measure == SpringSpace::joint ? ", joint"
-                                                                                  : ", world"),
+                    c.soft_limits ? "soft limit"
+                                  : facts_of(c.law, c.printed).name +
+                                        std::string(is_linear ? ", at a point"
+                                                    : c.measure == SpringSpace::joint ? ", joint"
+                                                                                      : ", world"),
                     scene.model.body_name[static_cast<std::size_t>(c.spring.body)],
-                    number_text(c.spring.k), number_text(c.spring.b), name_of(c.treatment),
+                    number_text(c.spring.k), number_text(c.spring.b), name_of(c.discretization),
                     c.rate > 0 ? number_text(c.rate) + " Hz" : "each step",
                     targets[static_cast<std::size_t>(c.target)]});
   }

@@ -21,11 +21,11 @@ py::list coupling_types() {
     using Discretizations = CouplingFacts::Discretizations;
     py::dict row;
     row["name"] = facts.name;
-    row["treatments"] = facts.treatments == Discretizations::all
-                            ? py::make_tuple("explicit", "semi-implicit", "implicit")
-                        : facts.treatments == Discretizations::explicit_only
-                            ? py::make_tuple("explicit")
-                            : py::make_tuple();
+    row["discretizations"] = facts.discretizations == Discretizations::all
+                                 ? py::make_tuple("explicit", "semi-implicit", "implicit")
+                             : facts.discretizations == Discretizations::explicit_only
+                                 ? py::make_tuple("explicit")
+                                 : py::make_tuple();
     row["at_point"] = facts.at_point;
     row["can_hold"] = facts.can_hold;
     all.append(row);
@@ -85,11 +85,12 @@ Eigen::MatrixXd square(const char* name, const py::object& given, Eigen::Index s
 }  // namespace
 
 void add_couplings(py::module_& m) {
-  m.def("coupling_types", coupling_types,
-        "A row for each type of [[coupling]] in a scene: name; treatments, its discretizations "
-        "(none\n"
-        "for its own); at_point, whether it acts at a point; can_hold, whether its force can be\n"
-        "evaluated at a rate. Laws: docs/understand/coupling_laws.md.");
+  m.def(
+      "coupling_types", coupling_types,
+      "A row for each type of [[coupling]] in a scene: name; discretizations, its discretizations "
+      "(none\n"
+      "for its own); at_point, whether it acts at a point; can_hold, whether its force can be\n"
+      "evaluated at a rate. Laws: docs/understand/coupling_laws.md.");
   m.def(
       "schemes",
       [] {
@@ -126,7 +127,7 @@ void add_couplings(py::module_& m) {
       py::arg("time") = 1.0, py::arg("set") = py::none(),
       "Predicts stability limits, modes and tracking errors of a scene's couplings: the output of\n"
       "`twinarm coupling predict --json` as a dict (docs/reference/output_formats.md): K, B,\n"
-      "mass_matrix, modes, limits of each scheme, sag, and in 'scene' the largest_step [s].\n\n"
+      "mass_matrix, modes, limits of each scheme, sag, and in 'scene' the max_stable_step [s].\n\n"
       "  state       a state file (JSON)\n"
       "  step        [s]; default: the scene's\n"
       "  integrator  one of integrators(); default: the scene's\n"

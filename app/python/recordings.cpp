@@ -17,7 +17,7 @@ struct Opened {
   std::vector<double> t;
   std::vector<long> step;
   std::vector<double> values;  // frames x columns
-  std::vector<double> works;   // frames x rows of the ledger
+  std::vector<double> works;   // frames x rows of the energy_balance
   std::vector<double> pulls;   // frames x couplings x 3
 
   explicit Opened(const std::filesystem::path& file) : recording(file) {
@@ -86,7 +86,7 @@ py::dict units(const Opened& opened) {
   return all;
 }
 
-py::dict ledger(const Opened& opened) {
+py::dict energy_balance(const Opened& opened) {
   py::dict all;
   const std::vector<std::string>& rows = opened.recording.rows();
   for (std::size_t r = 0; r < rows.size(); ++r)
@@ -130,7 +130,7 @@ void add_recordings(py::module_& m) {
                 "(N,): one channel, such as rec['q/j1'] or rec['kinetic_energy']; its unit is in\n"
                 "units. Raises KeyError for another name.");
   recording.def_property_readonly("units", units, "{channel: unit}");
-  recording.def_property_readonly("ledger", ledger,
+  recording.def_property_readonly("energy_balance", energy_balance,
                                   "{row: (N,) work since the start [J]}; 0 before a row appears");
   recording.def_property_readonly(
       "pulls", pulls, "{coupling: (N, 3)}: coupling force on the link, world axes [N or N m]");

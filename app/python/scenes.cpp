@@ -79,12 +79,12 @@ Run simulate(const py::object& file, const std::optional<double>& duration,
   return run;
 }
 
-py::dict ledger_of(const std::vector<EnergyRow>& rows) {
+py::dict energy_balance_of(const std::vector<EnergyRow>& rows) {
   py::dict all;
   for (const EnergyRow& row : rows) all[py::str(row.name)] = row.work;
   return all;
 }
-py::dict momentum_ledger_of(const std::vector<MomentumRow>& rows) {
+py::dict momentum_energy_balance_of(const std::vector<MomentumRow>& rows) {
   py::dict all;
   for (const MomentumRow& row : rows) {
     Array six = zeros({6});
@@ -146,14 +146,14 @@ void add_balances(py::class_<Run>& run) {
   run.def_property_readonly("stopped", stopped,
                             "None, or why it diverged: time [s], step, reason, body, joint, field");
   run.def_property_readonly(
-      "ledger", [](const Run& r) { return ledger_of(r.result.ledger); },
+      "energy_balance", [](const Run& r) { return energy_balance_of(r.result.energy_balance); },
       "{row: work [J]}: energy balance; 'numerical' is the residual of the integrator");
   run.def_property_readonly(
-      "momentum", [](const Run& r) { return momentum_ledger_of(r.result.momentum); },
+      "momentum", [](const Run& r) { return momentum_energy_balance_of(r.result.momentum); },
       "{row: (6,)}: balance of angular momentum (about the world's origin) and linear momentum,\n"
       "world axes [N m s, N s]");
   run.def_property_readonly(
-      "hand", [](const Run& r) { return ledger_of(r.result.hand); },
+      "input_work", [](const Run& r) { return energy_balance_of(r.result.input_work); },
       "{coupling: work of its target [J]}");
   run.def_property_readonly(
       "contacts", [](const Run& r) { return r.result.contacts; },

@@ -129,7 +129,7 @@ using recording_format::kMomentumName, recording_format::kName;
 // Rows of the balances, by the indices of their names.
 template <class NumberOf>
 void add_rows(const RunView& run, RecordedFrame& frame, const NumberOf& number_of) {
-  for (const EnergyRow& row : run.ledger()) {
+  for (const EnergyRow& row : run.energy_balance()) {
     frame.rows.push_back(number_of(kName, row.name));
     frame.works.push_back(row.work);
   }
@@ -168,7 +168,7 @@ Replay run_on(const Recording& recording, std::size_t first, const SimulatePlan&
       if (!same && found.first_different < 0) found.first_different = frame.t;
     }
     frame.memory.clear();
-    add_ledgers(run, found.rows, found.momentum_rows, frame);
+    add_energy_balances(run, found.rows, found.momentum_rows, frame);
     found.frames.push_back(std::move(frame));
     ++next;
   };
@@ -223,8 +223,8 @@ RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
   return frame;
 }
 
-void add_ledgers(const RunView& run, std::vector<std::string>& names,
-                 std::vector<std::string>& momentum_names, RecordedFrame& frame) {
+void add_energy_balances(const RunView& run, std::vector<std::string>& names,
+                         std::vector<std::string>& momentum_names, RecordedFrame& frame) {
   add_rows(run, frame, [&](char kind, const std::string& name) {
     return number_in(kind == kName ? names : momentum_names, name);
   });

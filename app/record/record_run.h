@@ -23,8 +23,8 @@ void describe_frames(const SimulatePlan& prepared, RecordingHeader& header);
 RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared);
 
 // Adds those rows, by index of their names; new names are appended.
-void add_ledgers(const RunView& run, std::vector<std::string>& names,
-                 std::vector<std::string>& momentum_names, RecordedFrame& frame);
+void add_energy_balances(const RunView& run, std::vector<std::string>& names,
+                         std::vector<std::string>& momentum_names, RecordedFrame& frame);
 
 // RunWatch::look of a recorded run.
 class RunRecorder {

@@ -179,7 +179,7 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
       find_integrator(recording.header().integrator).value_or(Integrator::semi_implicit);
   RecordedInstant instant{std::move(prepared), simulation_memory(frame.memory), frame.t, {}, files};
   for (std::size_t i = 0; i < frame.rows.size(); ++i)
-    instant.ledger.push_back(
+    instant.energy_balance.push_back(
         {EnergyRowKind::earlier, recording.rows()[frame.rows[i]], frame.works[i]});
   StateArchive memory = instant.memory;
   State<double> x(instant.prepared.input.robot.model);

@@ -58,7 +58,7 @@ struct RecordedInstant {
   SimulatePlan prepared;                     // with the state and wrenches of the instant
   StateArchive memory;                       // for Simulation::serialize of the same simulation
   double t = 0;                              // of the frame [s]
-  std::vector<EnergyRow> ledger;             // up to t [J]
+  std::vector<EnergyRow> energy_balance;     // up to t [J]
   std::shared_ptr<const UnpackedRun> files;  // for meshes, which contacts read later
 };
 

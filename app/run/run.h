@@ -25,9 +25,9 @@ class RunView {
   virtual ~RunView() = default;
   virtual long step() const = 0;  // number of steps taken
   virtual const Simulation& simulation() const = 0;
-  virtual const SceneContacts* contacts() const = 0;  // null for a URDF
-  virtual std::vector<EnergyRow> ledger() const = 0;  // `numerical` last
-  virtual std::vector<EnergyRow> hand() const = 0;    // work of the targets since the start
+  virtual const SceneContacts* contacts() const = 0;          // null for a URDF
+  virtual std::vector<EnergyRow> energy_balance() const = 0;  // `numerical` last
+  virtual std::vector<EnergyRow> input_work() const = 0;      // work of the targets since the start
   virtual std::vector<MomentumRow> momentum() const = 0;
   virtual std::string memory() = 0;  // serialized state, from which the run can be resumed
 };
@@ -67,7 +67,7 @@ struct PostMortem {
   double kinetic_energy = 0, energy_bound = 0;  // [J]; of the last valid state
   // Added by app/diagnose/post_mortem.h:
   std::vector<std::string> words;
-  std::vector<StabilityViolation> suspects;
+  std::vector<StabilityViolation> violations;
   std::string recording;      // of the last steps
   std::string row;            // of the energy balance, with the largest growth in them
   double row_growth = 0;      // [J]
@@ -77,9 +77,9 @@ struct PostMortem {
 struct SimulateResult {
   long steps = 0;
   double end = 0;  // [s]; of a diverged run the last valid time
-  std::vector<EnergyRow> ledger;
+  std::vector<EnergyRow> energy_balance;
   std::vector<MomentumRow> momentum;
-  std::vector<EnergyRow> hand;  // work of the targets of couplings; not part of the sum
+  std::vector<EnergyRow> input_work;  // work of the targets of couplings; not part of the sum
   std::vector<std::string> warnings;
   int contacts = 0;  // active contact points at the last step
   std::optional<PostMortem> post_mortem;

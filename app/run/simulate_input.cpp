@@ -24,7 +24,7 @@ void reject_robot_options(const RobotOptions& options, DiagnosticList& faults) {
     faults.add("--strict", "applies to a URDF only", "leave it out", "option.useless");
 }
 
-void check_treatments(const SceneModel& scene, const RunPlan& plan, DiagnosticList& faults) {
+void check_discretizations(const SceneModel& scene, const RunPlan& plan, DiagnosticList& faults) {
   for (const SceneCoupling& coupling : scene.couplings) {
     if (!coupling.leads()) continue;
     const auto fault = [&](std::string problem, std::string fix) {
@@ -35,10 +35,10 @@ void check_treatments(const SceneModel& scene, const RunPlan& plan, DiagnosticLi
     if (coupling.needs_semi_implicit() && !facts_of(plan.integrator).implicit_force)
       fault(std::string("an implicit coupling needs a semi-implicit integrator, not ") +
                 integrator_name(plan.integrator),
-            std::string(facts_of(coupling.law, coupling.printed).treatments ==
+            std::string(facts_of(coupling.law, coupling.printed).discretizations ==
                                     CouplingFacts::Discretizations::all &&
                                 coupling.law != CouplingSpec::Type::weld_like
-                            ? "give treatment = \"explicit\", or "
+                            ? "give discretization = \"explicit\", or "
                             : "give ") +
                 "--integrator semi-implicit");
     if (coupling.rate > 0 && plan.is_adaptive())
@@ -71,7 +71,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
   });
   if (!scene) faults.check();
   const SceneModel& made = **scene;
-  check_treatments(made, plan, faults);
+  check_discretizations(made, plan, faults);
   check_contacts(made, plan.integrator, faults);
 
   const bool floating = description.robots.size() == 1 && description.robots[0].floating;

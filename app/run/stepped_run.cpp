@@ -61,9 +61,9 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
   warn(drift_warning(sim_, plan));
   momentum_.emplace(input_, wrenches_, simulated.couplings.get(), plan.integrator,
                     plan.locates_events, sim_);
-  ledger_.emplace(input_, wrenches_, simulated.couplings.get(),
-                  plan.locates_events ? Integrator::dopri5 : plan.integrator,
-                  momentum_->wants_inner());
+  energy_balance_.emplace(input_, wrenches_, simulated.couplings.get(),
+                          plan.locates_events ? Integrator::dopri5 : plan.integrator,
+                          momentum_->wants_inner());
   bound_ = plan.energy_bound > 0 ? plan.energy_bound
                                  : default_energy_bound(input_.model, input_.state.x);
   alarm_.emplace(weight_of(input_.model));
@@ -91,8 +91,8 @@ void SteppedRun::begin() {
   if (watch_.look) watch_.look(*this);
 }
 
-std::vector<EnergyRow> SteppedRun::ledger() const {
-  std::vector<EnergyRow> all = ledger_->rows();
+std::vector<EnergyRow> SteppedRun::energy_balance() const {
+  std::vector<EnergyRow> all = energy_balance_->rows();
   const auto add = [&](const std::vector<EnergyRow>& rows) {
     // Before the last row, `numerical`, which is the residual.
     for (const EnergyRow& row : rows) all.back().work -= row.work;
@@ -109,7 +109,7 @@ std::vector<EnergyRow> SteppedRun::ledger() const {
 void SteppedRun::keep_books(const std::vector<EnergyRow>& earlier) {
   carried_.clear();
   std::vector<EnergyRow> carried = earlier;
-  for (const EnergyRow& row : ledger()) row_like(row, carried).work -= row.work;
+  for (const EnergyRow& row : energy_balance()) row_like(row, carried).work -= row.work;
   carried_ = std::move(carried);
 }
 
@@ -131,11 +131,11 @@ SimulateResult SteppedRun::finish() {
         "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
         "step is first-order accurate; give --contact rigid, or a shorter --step",
         unlocated_, result_.steps, EventStep::kMaxLaws));
-  result_.ledger = ledger();
+  result_.energy_balance = energy_balance();
   result_.momentum = momentum();
   if (contacts_) result_.contacts = contacts_->contact_count();
   if (result_.post_mortem) result_.checkpoint = std::move(earlier_);
-  result_.hand = ledger_->hand();
+  result_.input_work = energy_balance_->input_work();
   return std::move(result_);
 }
 
@@ -148,7 +148,7 @@ void SteppedRun::warn(std::string text) {
 void SteppedRun::serialize(StateArchive& memory) {
   visit_head(memory, result_.steps, result_.end, unsolved_, unlocated_);
   sim_.serialize(memory);
-  ledger_->serialize(memory);
+  energy_balance_->serialize(memory);
   momentum_->serialize(memory);
   if (outside_ && (memory.reads() ? !memory.at_end() : outside_->has_acted()))
     outside_->visit_books(memory);
@@ -196,7 +196,7 @@ bool SteppedRun::one_step(double t, double h_max) {
   before_.reset();
   const bool has_sample_within =
       next_ < plan_.times.size() && plan_.times[next_] < t + h_max * (1 - kSameTime);
-  if (has_sample_within || !ledger_->inner_nodes().empty()) before_.emplace(sim_);
+  if (has_sample_within || !energy_balance_->inner_nodes().empty()) before_.emplace(sim_);
   const StepReport report = sim_.step(h_max, plan_.is_adaptive());
   if (report.interrupted) return stop_for_interrupt(t);
   ++result_.steps;
@@ -207,7 +207,7 @@ bool SteppedRun::one_step(double t, double h_max) {
            plan_.times[next_] - t <= kSameTime * h_max;
          ++next_)
       watch_.sample(plan_.times[next_], before_->state());
-    result_.post_mortem = examine_end(report, sim_, ledger_->now(), t, result_.steps);
+    result_.post_mortem = examine_end(report, sim_, energy_balance_->now(), t, result_.steps);
     return false;
   }
   const double t_next = time_after(t, report.h);
@@ -230,16 +230,18 @@ void SteppedRun::book(const StepReport& report, double t, bool by_limits) {
   unsolved_ += report.converged ? 0 : 1;
   unlocated_ += report.located ? 0 : 1;
   inner_.clear();
-  for (const double part : ledger_->inner_nodes())
+  for (const double part : energy_balance_->inner_nodes())
     inner_.push_back(step_aside(*before_, part * report.h, t));
-  if (outside_) outside_->book(report.h, ledger_->weights(), ledger_->now(), inner_, sim_.state());
-  ledger_->add_step(report.h, inner_, sim_.state());
-  momentum_->add_step(report.h, ledger_->weights(), inner_, sim_, by_limits);
+  if (outside_)
+    outside_->book(report.h, energy_balance_->weights(), energy_balance_->now(), inner_,
+                   sim_.state());
+  energy_balance_->add_step(report.h, inner_, sim_.state());
+  momentum_->add_step(report.h, energy_balance_->weights(), inner_, sim_, by_limits);
 }
 
 void SteppedRun::check_energy_balance() {
   const double kinetic = kinetic_energy(input_.model, sim_.state());
-  auto found = alarm_->look(result_.end, kinetic, ledger());
+  auto found = alarm_->look(result_.end, kinetic, energy_balance());
   if (!found) return;
   result_.alarm_words = watch_.alarm(*found);
   result_.alarm = std::move(found);

@@ -38,8 +38,8 @@ class SteppedRun final : public RunView {
   long step() const override { return result_.steps; }
   const Simulation& simulation() const override { return sim_; }
   const SceneContacts* contacts() const override { return contacts_ ? &*contacts_ : nullptr; }
-  std::vector<EnergyRow> ledger() const override;
-  std::vector<EnergyRow> hand() const override { return ledger_->hand(); }
+  std::vector<EnergyRow> energy_balance() const override;
+  std::vector<EnergyRow> input_work() const override { return energy_balance_->input_work(); }
   std::vector<MomentumRow> momentum() const override {
     return momentum_->rows(sim_, contacts(), outside_);
   }
@@ -71,7 +71,7 @@ class SteppedRun final : public RunView {
   GivenTorques torques_;
   std::vector<GivenWrench> wrenches_;
   LimitWatch limits_;
-  std::optional<EnergyBalance> ledger_;
+  std::optional<EnergyBalance> energy_balance_;
   std::optional<MomentumBalance> momentum_;
   std::optional<EnergyAlarm> alarm_;
   std::optional<SceneContacts> contacts_;

@@ -28,7 +28,7 @@ SteppingScheme scheme_of(const RunSpec& run) {
     return spec.printed ? SteppingScheme::euler_difference : SteppingScheme::euler;
   if (older) return SteppingScheme::semi_implicit_older;
   if (spec.printed) return SteppingScheme::semi_implicit_difference;
-  switch (spec.treatment) {
+  switch (spec.discretization) {
     case Discretization::explicit_:
       return SteppingScheme::semi_implicit;
     case Discretization::semi_implicit:
@@ -70,7 +70,7 @@ CouplingSpec joint_hold(const Model<double>& model, const std::string& joint, do
   CouplingSpec spec;
   spec.name = joint;
   spec.measure = SpringSpace::joint;
-  spec.treatment = Discretization::implicit;
+  spec.discretization = Discretization::implicit;
   spec.springs = {{joint, body, Vector3::Zero(), I * w * w, 2 * damping_ratio * I * w}};
   return spec;
 }
@@ -154,8 +154,8 @@ std::vector<double> in_degrees(std::vector<double> radians) {
   return radians;
 }
 
-const char* treatment_name(const CouplingSpec& spec) {
-  return spec.printed ? "as printed" : name_of(spec.treatment);
+const char* discretization_name(const CouplingSpec& spec) {
+  return spec.printed ? "as printed" : name_of(spec.discretization);
 }
 
 std::string coupling_words(const CouplingSpec& spec) {

@@ -79,7 +79,7 @@ struct RunSpec {
     return spec;
   }
   double step() const { return 1 / (rate * held_substeps); }
-  const char* pull_unit() const {  // of the coupling
+  const char* coupling_force_unit() const {  // of the coupling
     return coupling.type == CouplingSpec::Type::linear ? "N" : "N m";
   }
 };
@@ -116,7 +116,7 @@ ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
                             const std::vector<double>& sweep_times);
 
 std::vector<double> in_degrees(std::vector<double> radians);
-std::string coupling_words(const CouplingSpec& spec);  // "torsional, world orientation"
-const char* treatment_name(const CouplingSpec& spec);  // "as printed", "explicit", ...
+std::string coupling_words(const CouplingSpec& spec);       // "torsional, world orientation"
+const char* discretization_name(const CouplingSpec& spec);  // "as printed", "explicit", ...
 
 }  // namespace twinarm

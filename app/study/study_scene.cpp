@@ -129,7 +129,7 @@ class SceneWriter {
       line("type", quoted(facts_of(coupling.type, coupling.printed).name));
       line("link", quoted(link_of(spring.body)));
       if (linear) line("point", list(spring.p_L));
-      if (!coupling.printed) line("treatment", quoted(treatment_name(coupling)));
+      if (!coupling.printed) line("discretization", quoted(discretization_name(coupling)));
       line("stiffness", real(spring.k));
       line("damping", real(spring.b));
       write_hand();
@@ -157,7 +157,7 @@ class SceneWriter {
       line("type", "\"torsional\"");
       line("measure", "\"joint\"");
       line("link", quoted(link_of(stop.body)));
-      line("outside", "[" + real(stop.lower) + ", " + real(stop.upper) + "]");
+      line("soft_limits", "[" + real(stop.lower) + ", " + real(stop.upper) + "]");
       line("stiffness", real(stop.k));
       line("damping", real(stop.b));
     }

@@ -200,7 +200,7 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
     result.picks = progress.picks;
     result.drops = progress.drops;
     result.picked_at = progress.picked_at;
-    result.off_mm = 1e3 * progress.off();
+    result.placement_error_mm = 1e3 * progress.off();
   }
   result.log = log_file.string();
   watch.finish(result);

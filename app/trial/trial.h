@@ -22,7 +22,8 @@ struct TrialResult {
   double seconds = 0;  // duration of the task
   bool is_done = false;
   int picks = 0, drops = 0;
-  double picked_at = -1, off_mm = 0;      // first pick [s], -1: none; distance from the goal
+  double picked_at = -1,
+         placement_error_mm = 0;          // first pick [s], -1: none; distance from the goal
   std::vector<double> max_deg, mean_deg;  // |q_K - q_D| of joints 1 and 2; empty: kinematic
   std::string log;
 };
@@ -40,9 +41,9 @@ TrialResult run_task(const TrialCondition& condition, HandDevice& device,
                      const MappingSpec& mapping, const TrialTask& task,
                      const std::filesystem::path& log);
 
-// Table, JSON, and one CSV file of all subjects, without names.
+// Table, JSON, and one CSV file of all participants, without names.
 struct TrialReport {
-  std::string subject;  // a code, never a name
+  std::string participant;  // a code, never a name
   std::string device, mapping;
   std::vector<TrialResult> results;  // in order
   std::string csv;
@@ -53,6 +54,6 @@ std::string trial_json(const TrialReport& report);
 // Appends the row of the last result. Throws InputError: the file exists with another header.
 void add_last_to_csv(const TrialReport& report, const std::filesystem::path& file);
 // The first of "S1", "S2", .. that is not in the file.
-std::string next_subject(const std::filesystem::path& file);
+std::string next_participant(const std::filesystem::path& file);
 
 }  // namespace twinarm

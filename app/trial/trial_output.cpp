@@ -15,15 +15,16 @@ namespace twinarm {
 namespace {
 
 const std::string kTrialHeader =
-    "subject,order,condition,task,device,mapping,done,seconds,picks,drops,off[mm],joint1_max[deg],"
+    "participant,order,condition,task,device,mapping,done,seconds,picks,drops,off[mm],joint1_max["
+    "deg],"
     "joint1_mean[deg],joint2_max[deg],joint2_mean[deg]\n";
 
 std::string csv_row(const TrialReport& report, std::size_t order) {
   const TrialResult& r = report.results[order];
   std::string row =
-      fmt::format("{},{},{},{},{},{},{},{:.3f},{},{},{:.1f}", csv_field(report.subject), order + 1,
-                  r.condition, r.task, csv_field(report.device), report.mapping, r.is_done ? 1 : 0,
-                  r.seconds, r.picks, r.drops, r.off_mm);
+      fmt::format("{},{},{},{},{},{},{},{:.3f},{},{},{:.1f}", csv_field(report.participant),
+                  order + 1, r.condition, r.task, csv_field(report.device), report.mapping,
+                  r.is_done ? 1 : 0, r.seconds, r.picks, r.drops, r.placement_error_mm);
   for (std::size_t j = 0; j < 2; ++j)
     row += j < r.max_deg.size() ? fmt::format(",{:.4f},{:.4f}", r.max_deg[j], r.mean_deg[j]) : ",,";
   return row + "\n";
@@ -48,7 +49,7 @@ std::string trial_table(const TrialReport& report) {
     std::vector<std::string> row{r.condition + ", " + r.task, fmt::format("{:.2f}", r.seconds),
                                  r.is_done ? "yes" : "no",
                                  picks ? fmt::format("{}, {}", r.picks, r.drops) : "-",
-                                 picks ? fmt::format("{:.0f}", r.off_mm) : "-"};
+                                 picks ? fmt::format("{:.0f}", r.placement_error_mm) : "-"};
     for (std::size_t j = 0; j < 2; ++j) {
       const bool has = j < r.max_deg.size();
       row.push_back(has ? fmt::format("{:.2f}", r.max_deg[j]) : "-");
@@ -56,7 +57,7 @@ std::string trial_table(const TrialReport& report) {
     }
     table.add(row);
   }
-  return fmt::format("subject {}, {}, mapping {}\n\n{}", report.subject, report.device,
+  return fmt::format("participant {}, {}, mapping {}\n\n{}", report.participant, report.device,
                      report.mapping, table.str());
 }
 
@@ -70,12 +71,12 @@ std::string trial_json(const TrialReport& report) {
                  {"picks", r.picks},
                  {"drops", r.drops},
                  {"picked_at", r.picked_at < 0 ? std::nullopt : std::optional(r.picked_at)},
-                 {"off_mm", r.off_mm},
+                 {"placement_error_mm", r.placement_error_mm},
                  {"max_deg", r.max_deg},
                  {"mean_deg", r.mean_deg},
                  {"log", r.log}});
   };
-  json.object({{"subject", report.subject},
+  json.object({{"participant", report.participant},
                {"device", report.device},
                {"mapping", report.mapping},
                {"results", [&] { json.list(report.results, write_result); }},
@@ -87,7 +88,7 @@ void add_last_to_csv(const TrialReport& report, const std::filesystem::path& fil
   write_whole_file(file, old_rows(file) + csv_row(report, report.results.size() - 1));
 }
 
-std::string next_subject(const std::filesystem::path& file) {
+std::string next_participant(const std::filesystem::path& file) {
   std::stringstream rows(old_rows(file));
   std::vector<std::string> known;
   for (std::string row; std::getline(rows, row);) known.push_back(row.substr(0, row.find(',')));

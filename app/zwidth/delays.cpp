@@ -106,7 +106,7 @@ struct RemoteRobot {
     hand.before = hand.now = start;
     kvr.set_pose(simulation.state());
     CouplingSpec spec;
-    spec.treatment = Discretization::implicit;
+    spec.discretization = Discretization::implicit;
     spec.measure = SpringSpace::joint;
     spec.springs = {{"rail", 1, {}, kCoupling, 2 * std::sqrt(kCoupling * kRobotMass)}};
     coupling = make_coupling(spec, model, kvr);

@@ -25,7 +25,7 @@ struct TrackingCase {
 CouplingSpec joint_springs(const Model<double>& model, const State<double>& x) {
   CouplingSpec spec;
   spec.measure = SpringSpace::joint;
-  spec.treatment = Discretization::implicit;
+  spec.discretization = Discretization::implicit;
   const Eigen::MatrixXd M = mass_matrix(model, x);
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     if (model.dofs(i) != 1) continue;

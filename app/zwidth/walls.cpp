@@ -72,7 +72,7 @@ double force_at_rest(double k_c, double k_e, double angle) {
   TargetRobot kvr(model, hand, HandMapping{}, {{"joint"}, "", 0, 0});
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::linear;
-  spec.treatment = Discretization::implicit;
+  spec.discretization = Discretization::implicit;
   spec.springs = {{"end", 1, {kLink, 0, 0}, k_c, 2 * std::sqrt((k_c + k_e) * kLinkMass / 3)}};
   const auto coupling = make_coupling(spec, model, kvr);
   SoftWall wall(k_e);

@@ -88,8 +88,10 @@ void write(JsonWriter& json, const WallRow& row) {
 }
 
 void write(JsonWriter& json, const SeriesRow& row) {
-  json.object(
-      {{"coupling", row.coupling}, {"wall", row.wall}, {"felt", row.rendered}, {"law", row.law}});
+  json.object({{"coupling", row.coupling},
+               {"wall", row.wall},
+               {"rendered_stiffness", row.rendered},
+               {"law", row.law}});
 }
 
 void write(JsonWriter& json, const DelayRow& row) {

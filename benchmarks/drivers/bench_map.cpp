@@ -68,16 +68,16 @@ void compare_with_passes(const MapBenchOptions& options) {
   };
   for (const bool energy : {false, true})
     for (const MapLaw& law : kMapLaws)
-      for (const auto treatment :
+      for (const auto discretization :
            {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
-        MapRuns map(law, treatment, energy, 4 * N, 1, 1.0);
+        MapRuns map(law, discretization, energy, 4 * N, 1, 1.0);
         const std::vector<Timing> times = time_interleaved(
             {[&] { map.run(); }, aba_alone}, options.quick ? 3 : 9, options.quick ? 0.01 : 0.05);
         const double step = times[0].ns / static_cast<double>(map.steps());
         const double aba = times[1].ns / static_cast<double>(states.size() * N);
         rows.add(
-            R"({"law": "%s", "treatment": "%s", "energies": %s, "ns": %.3f, "aba_ns": %.3f, "ratio": %.4f})",
-            "%-7s %-14s %-13s %7.1f %7.1f  ratio %.2f\n", law.name, name_of(treatment),
+            R"({"law": "%s", "discretization": "%s", "energies": %s, "ns": %.3f, "aba_ns": %.3f, "ratio": %.4f})",
+            "%-7s %-14s %-13s %7.1f %7.1f  ratio %.2f\n", law.name, name_of(discretization),
             options.json ? (energy ? "true" : "false") : (energy ? "with energies" : ""), step, aba,
             step / aba);
       }

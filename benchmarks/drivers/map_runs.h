@@ -58,7 +58,7 @@ inline constexpr std::array<MapLaw, 3> kMapLaws{
 // A map of k against b about the law's gains, all cells of it stable.
 class MapRuns {
  public:
-  MapRuns(const MapLaw& law, Discretization treatment, bool energy, std::size_t cells,
+  MapRuns(const MapLaw& law, Discretization discretization, bool energy, std::size_t cells,
           std::size_t threads, double duration)
       : results_(cells) {
     setup_.model = &model_;
@@ -68,7 +68,7 @@ class MapRuns {
     setup_.start.q = kvr.start().x.q;
     setup_.targets = {target};
     for (const int body : {1, 2, 3})
-      setup_.springs.push_back({law.type, law.measure, treatment, false, 0, body});
+      setup_.springs.push_back({law.type, law.measure, discretization, false, 0, body});
     setup_.duration = duration;
     setup_.energy = energy;
     setup_.measured = {0, 1, 2};
@@ -140,7 +140,7 @@ class MapRuns {
       CouplingSpec spec;
       spec.type = spring.type;
       spec.measure = spring.measure;
-      spec.treatment = spring.treatment;
+      spec.discretization = spring.discretization;
       spec.springs = {{"spring", spring.body, gains.p_L, gains.k, gains.b}};
       couplings.push_back(make_coupling(spec, model_, kvr));
       simulation.add(*couplings.back());

@@ -8,8 +8,8 @@
 namespace twinarm {
 
 struct SphericalCavity {
-  static constexpr const char* name = "hollow sphere";
-  static constexpr const char* key = "hollow_sphere";
+  static constexpr const char* name = "spherical cavity";
+  static constexpr const char* key = "spherical_cavity";
   double radius = 1;  // [m], centred
   static constexpr auto lengths() {
     return std::make_tuple(std::pair("radius", &SphericalCavity::radius));
@@ -20,8 +20,8 @@ struct SphericalCavity {
 SphericalCavity numbered(ShapeNumber<6>);
 
 struct CylindricalCavity {
-  static constexpr const char* name = "hollow cylinder";
-  static constexpr const char* key = "hollow_cylinder";
+  static constexpr const char* name = "cylindrical cavity";
+  static constexpr const char* key = "cylindrical_cavity";
   double radius = 1;  // [m]
   double length = 1;  // along z, centred [m]
   static constexpr auto lengths() {

@@ -2,7 +2,7 @@
 //
 // To add a shape with a few dimensions: a file such as cylinder.h, included here, with its number
 // (shape_number.h). It must have
-//   name, key            in messages and in files: "hollow sphere", "hollow_sphere"
+//   name, key            in messages and in files: "spherical cavity", "spherical_cavity"
 //   lengths()            its dimensions in files: doubles and Vector3, all > 0
 //   support(d)           support point in direction d (d != 0): maximises d . x
 // and either polytope(), a polyhedron with a radius, or boundary(), its smooth features. It may

@@ -19,7 +19,7 @@ namespace {
 struct SchemeFacts {
   const char* name;
   Integrator integrator = Integrator::semi_implicit;
-  Discretization treatment = Discretization::explicit_;
+  Discretization discretization = Discretization::explicit_;
   int hold_steps = 0;
   StepLaw law = StepLaw::spring_damper;
   bool older = false;
@@ -39,8 +39,9 @@ constexpr std::array<SchemeFacts, all_schemes.size()> kSchemes{{
      .integrator = Integrator::midpoint,
      .law = StepLaw::printed},
     {.name = "Runge-Kutta of order 4", .integrator = Integrator::rk4},
-    {.name = "semi-implicit Euler, damper implicit", .treatment = Discretization::semi_implicit},
-    {.name = "spring and damper implicit", .treatment = Discretization::implicit},
+    {.name = "semi-implicit Euler, damper implicit",
+     .discretization = Discretization::semi_implicit},
+    {.name = "spring and damper implicit", .discretization = Discretization::implicit},
 }};
 const SchemeFacts& facts_of(SteppingScheme scheme) {
   return kSchemes[static_cast<std::size_t>(scheme)];
@@ -50,7 +51,7 @@ const SchemeFacts& facts_of(SteppingScheme scheme) {
 bool is_stable_step(const MatrixXd& alpha, const MatrixXd& beta, SteppingScheme scheme) {
   constexpr double kRounding = 1e-9;
   const SchemeFacts& facts = facts_of(scheme);
-  const CoupledTerm part{alpha,     alpha,      beta, facts.treatment, facts.hold_steps,
+  const CoupledTerm part{alpha,     alpha,      beta, facts.discretization, facts.hold_steps,
                          facts.law, facts.older};
   return growth_of_modes({part}, facts.integrator, 1) <= 1 + kRounding;
 }

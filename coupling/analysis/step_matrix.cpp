@@ -41,9 +41,9 @@ class StepMatrix {
       }
       alpha += a;
       beta += b;
-      if (pd || term.treatment != Discretization::explicit_) inertia += b;
-      if (pd || term.treatment == Discretization::implicit) lead += h * h * term.K_zero;
-      if (!pd && term.treatment == Discretization::implicit) inertia += h * h * term.K_zero;
+      if (pd || term.discretization != Discretization::explicit_) inertia += b;
+      if (pd || term.discretization == Discretization::implicit) lead += h * h * term.K_zero;
+      if (!pd && term.discretization == Discretization::implicit) inertia += h * h * term.K_zero;
     }
     const auto groups = static_cast<Index>(held_.size());
     const Index rows = n * (2 + groups + history_);
@@ -161,7 +161,7 @@ Reduced reduced(const MatrixXd& M, const std::vector<CoupledTerm>& terms) {
   };
   for (const CoupledTerm& term : terms)
     found.terms.push_back({by_modes(term.K), by_modes(term.K_zero), by_modes(term.B),
-                           term.treatment, term.hold_steps, term.law, term.older});
+                           term.discretization, term.hold_steps, term.law, term.older});
   found.rate = modes.max_rate();
   return found;
 }

@@ -25,8 +25,8 @@
 namespace twinarm {
 
 struct CoupledTerm {
-  Eigen::MatrixXd K, K_zero, B;                          // tangent stiffness; J^T k J; J^T b J
-  Discretization treatment = Discretization::explicit_;  // of a spring-damper
+  Eigen::MatrixXd K, K_zero, B;                               // tangent stiffness; J^T k J; J^T b J
+  Discretization discretization = Discretization::explicit_;  // of a spring-damper
   // Zero-order hold over n steps; 0: evaluated at each stage (as published: each step).
   int hold_steps = 0;
   StepLaw law = StepLaw::spring_damper;  // god object: K = M_r only

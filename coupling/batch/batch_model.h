@@ -32,16 +32,16 @@ inline SpringKind kind_of(const BatchSpring& spring) {
   return spring.measure == SpringSpace::world ? SpringKind::world : SpringKind::joint;
 }
 
-inline SpringTime time_of(Discretization treatment) {
-  return treatment == Discretization::explicit_       ? SpringTime::start
-         : treatment == Discretization::semi_implicit ? SpringTime::both
-                                                      : SpringTime::end;
+inline SpringTime time_of(Discretization discretization) {
+  return discretization == Discretization::explicit_       ? SpringTime::start
+         : discretization == Discretization::semi_implicit ? SpringTime::both
+                                                           : SpringTime::end;
 }
 
 // Added inertia m* of the discretization (solver/forces/spring.h).
-inline double m_star(Discretization treatment, double h, const BatchCell::Gains& gains) {
-  const double by_damper = treatment == Discretization::explicit_ ? 0 : h * gains.b;
-  return by_damper + (treatment == Discretization::implicit ? h * h * gains.k : 0);
+inline double m_star(Discretization discretization, double h, const BatchCell::Gains& gains) {
+  const double by_damper = discretization == Discretization::explicit_ ? 0 : h * gains.b;
+  return by_damper + (discretization == Discretization::implicit ? h * h * gains.k : 0);
 }
 
 // Of a flywheel, or of a particle at p.
@@ -57,8 +57,8 @@ void load_spring(BatchWork<S>& work, std::size_t s, std::size_t lane, const Batc
                  const BatchCell::Gains& gains, double h, const Vec3<double>& p,
                  Inertia<double>& effective) {
   LaneSpring<S>& lane_spring = work.springs[s];
-  const double position_lead = spring.treatment == Discretization::implicit ? h : 0;
-  const double m = m_star(spring.treatment, h, gains);
+  const double position_lead = spring.discretization == Discretization::implicit ? h : 0;
+  const double m = m_star(spring.discretization, h, gains);
   set_lane(lane_spring.k, lane, gains.k);
   set_lane(lane_spring.b, lane, gains.b);
   set_lane(lane_spring.kb, lane, gains.k * position_lead + gains.b);

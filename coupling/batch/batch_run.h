@@ -31,7 +31,7 @@ struct BatchTarget {
 struct BatchSpring {
   CouplingSpec::Type type = CouplingSpec::Type::torsional;  // torsional or linear
   SpringSpace measure = SpringSpace::world;                 // of a torsional one
-  Discretization treatment = Discretization::explicit_;
+  Discretization discretization = Discretization::explicit_;
   bool absolute_damper = false;
   std::size_t target = 0;  // index in BatchSetup::targets
   int body = 0;

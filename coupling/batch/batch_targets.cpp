@@ -28,7 +28,7 @@ struct BatchMotion::Reader {
   SpringKind kind;
   std::size_t iq, iv, body;
   Vector3 p_B;
-  Discretization treatment;
+  Discretization discretization;
   std::size_t target;
 
   Vector3 point(const TargetSample& kvr) const {
@@ -82,7 +82,7 @@ void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& m
     const auto body = static_cast<std::size_t>(spring.body);
     const Vec3<double> p = merged.point_of(*setup.model, body, cell.springs[s].p_L);
     readers.push_back({kind_of(spring), setup.model->iq[body], setup.model->iv[body],
-                       merged.carrier[body], to_eigen(p), spring.treatment, spring.target});
+                       merged.carrier[body], to_eigen(p), spring.discretization, spring.target});
   }
   double t = setup.start.t;
   for (std::size_t n = 0; n < steps; ++n, t += cell.h) {
@@ -124,8 +124,8 @@ void BatchMotion::fill_step(std::size_t n, const BatchSetup& setup,
     const RowSizes size = row_sizes(of.kind);
     const TargetSample &start = kvrs[of.target].start(), &end = kvrs[of.target].end();
     double* out = &motion[n * motion_stride + places[s].motion];
-    of.pose(of.treatment == Discretization::implicit ? end : start, out);
-    of.velocity(of.treatment == Discretization::explicit_ ? start : end, out + size.pose);
+    of.pose(of.discretization == Discretization::implicit ? end : start, out);
+    of.velocity(of.discretization == Discretization::explicit_ ? start : end, out + size.pose);
     if (!setup.energy) continue;
     double* pose = &energy[n * energy_stride + places[s].energy];
     double *before = pose + size.pose, *after = before + size.velocity;

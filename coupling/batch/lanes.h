@@ -177,7 +177,7 @@ class LaneLoader {
       lane_spring.iv = setup_.model->iv[body];
       lane_spring.motion = motion.places[s].motion;
       lane_spring.energy = motion.places[s].energy;
-      lane_spring.time = time_of(spring.treatment);
+      lane_spring.time = time_of(spring.discretization);
       work_.springs.push_back(lane_spring);
       const bool at_joint = lane_spring.kind == SpringKind::joint;
       work_.has_joint_springs |= at_joint;
@@ -186,7 +186,7 @@ class LaneLoader {
       const bool planar = work_.frames[lane_spring.body] == Frame::planar;
       work_.needs_rotations |= !at_joint;
       work_.needs_origins |= lane_spring.kind == SpringKind::linear;
-      work_.needs_bias |= spring.treatment != Discretization::explicit_ &&
+      work_.needs_bias |= spring.discretization != Discretization::explicit_ &&
                           (lane_spring.kind == SpringKind::linear ||
                            (lane_spring.kind == SpringKind::world && !planar));
     }

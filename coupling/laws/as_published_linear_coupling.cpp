@@ -37,7 +37,7 @@ class AsPublishedLinear final : public AsPublished<AsPublishedLinear, Vector3> {
 }  // namespace
 
 CouplingFacts as_published_linear_coupling() {
-  return {.name = "printed-linear",
+  return {.name = "published-linear",
           .type = CouplingSpec::Type::linear,
           .printed = true,
           .order = 8,

@@ -94,7 +94,7 @@ Coupling::JointSpace AsPublishedTorsional::joint_space(const Kinematics& k) cons
 }  // namespace
 
 CouplingFacts as_published_torsional_coupling() {
-  return {.name = "printed-torsional",
+  return {.name = "published-torsional",
           .type = CouplingSpec::Type::torsional,
           .printed = true,
           .order = 9,

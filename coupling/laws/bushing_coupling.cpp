@@ -6,7 +6,7 @@ namespace twinarm {
 CouplingFacts bushing_coupling() {
   return {.name = "bushing",
           .order = 3,
-          .treatments = CouplingFacts::Discretizations::all,
+          .discretizations = CouplingFacts::Discretizations::all,
           .gains = CouplingFacts::Gains::two_springs,
           .at_point = true,
           .can_hold = true,

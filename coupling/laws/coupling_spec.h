@@ -29,14 +29,15 @@ struct CouplingSpec {
   Type type = Type::torsional;
   bool printed = false;  // as published (AsPublishedOptions), or the consistent form
   AsPublishedOptions options;
-  SpringSpace measure = SpringSpace::world;              // consistent torsional
-  Discretization treatment = Discretization::explicit_;  // of types with several discretizations
-  int hold_steps = 0;          // zero-order hold of linear, torsional, bushing; 0: none
-  SolrefParameters reference;  // weld-like
+  SpringSpace measure = SpringSpace::world;  // consistent torsional
+  Discretization discretization =
+      Discretization::explicit_;  // of types with several discretizations
+  int hold_steps = 0;             // zero-order hold of linear, torsional, bushing; 0: none
+  SolrefParameters reference;     // weld-like
   std::vector<Spring> springs;
 };
 inline constexpr CouplingSpec::Type CouplingSpec::Type::torsional{"torsional"},
-    CouplingSpec::Type::linear{"linear"}, CouplingSpec::Type::matched{"matched"},
+    CouplingSpec::Type::linear{"linear"}, CouplingSpec::Type::matched{"equivalent-torsional"},
     CouplingSpec::Type::bushing{"bushing"}, CouplingSpec::Type::weld_like{"weld"},
     CouplingSpec::Type::stable_pd{"stable-pd"}, CouplingSpec::Type::god_object{"god-object"};
 
@@ -53,7 +54,7 @@ struct CouplingFacts {
   bool printed = false;
   int order = 100;  // in lists
   // own: fixed by the law, for semi-implicit Euler only.
-  Discretizations treatments = Discretizations::explicit_only;
+  Discretizations discretizations = Discretizations::explicit_only;
   Gains gains = Gains::spring;
   // Acts on a point (Spring::p_L), a joint coordinate, or as CouplingSpec::measure; none of these:
   // link orientation.
@@ -91,9 +92,9 @@ inline std::unique_ptr<Coupling> make_coupling(const CouplingSpec& spec, const M
 // bodies.
 std::vector<Spring> god_object_joints(const Model<double>& model, int first_body, int last_body);
 
-inline const char* name_of(Discretization treatment) {
+inline const char* name_of(Discretization discretization) {
   constexpr const char* kNames[] = {"explicit", "semi-implicit", "implicit"};
-  return kNames[static_cast<std::size_t>(treatment)];
+  return kNames[static_cast<std::size_t>(discretization)];
 }
 
 // Evaluation of a spring-damper in a step, and its added inertia m* (solver/forces/spring.h).
@@ -106,9 +107,9 @@ struct DiscretizationTerms {
   bool is_relative_damper = true;  // false: absolute damper, on the link's own velocity
 };
 
-inline DiscretizationTerms discretization_terms(Discretization treatment, TargetRobot& kvr,
+inline DiscretizationTerms discretization_terms(Discretization discretization, TargetRobot& kvr,
                                                 double t, double h) {
-  switch (treatment) {
+  switch (discretization) {
     case Discretization::explicit_:
       return {&kvr.at(t), &kvr.at(t), 0, 0, 0};
     case Discretization::semi_implicit:

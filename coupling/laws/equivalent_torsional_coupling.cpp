@@ -70,7 +70,10 @@ void EquivalentTorsional::add_forces(const State<double>& x, const Kinematics&,
 }  // namespace
 
 CouplingFacts equivalent_torsional_coupling() {
-  return {.name = "matched", .order = 5, .at_point = true, .make = make_law<EquivalentTorsional>};
+  return {.name = "equivalent-torsional",
+          .order = 5,
+          .at_point = true,
+          .make = make_law<EquivalentTorsional>};
 }
 
 }  // namespace twinarm

@@ -116,7 +116,7 @@ std::vector<Spring> god_object_joints(const Model<double>& model, int first_body
 CouplingFacts god_object_coupling() {
   return {.name = "god-object",
           .order = 7,
-          .treatments = CouplingFacts::Discretizations::own,
+          .discretizations = CouplingFacts::Discretizations::own,
           .gains = CouplingFacts::Gains::none,
           .at_joint = true,
           .is_spring_damper = false,

@@ -6,7 +6,7 @@ namespace twinarm {
 CouplingFacts linear_coupling() {
   return {.name = "linear",
           .order = 1,
-          .treatments = CouplingFacts::Discretizations::all,
+          .discretizations = CouplingFacts::Discretizations::all,
           .at_point = true,
           .can_hold = true,
           .make = make_spring_damper<SpringDamperCoupling::Space::point>};

@@ -45,7 +45,7 @@ class MujocoWeld final : public Coupling {
   }
 
  private:
-  Discretization treatment_;
+  Discretization discretization_;
   double damping_;  // b_ref
 };
 
@@ -68,7 +68,9 @@ Spring weld_spring(std::string name, const Model<double>& model, const State<dou
 }
 
 MujocoWeld::MujocoWeld(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
-    : Coupling(spec, model, kvr), treatment_(spec.treatment), damping_(spec.reference.damping()) {
+    : Coupling(spec, model, kvr),
+      discretization_(spec.discretization),
+      damping_(spec.reference.damping()) {
   const SolrefParameters& reference = spec.reference;
   const auto good = [](double x) { return x > 0 && std::isfinite(x); };
   DiagnosticList faults;
@@ -91,7 +93,7 @@ MujocoWeld::MujocoWeld(const CouplingSpec& spec, const Model<double>& model, Tar
 // Forces at qdd = 0: minus m_R times the bias acceleration.
 void MujocoWeld::add_forces(const State<double>& x, const Kinematics& k,
                             Forces<double>& forces) noexcept {
-  DiscretizationTerms terms = discretization_terms(treatment_, kvr_, x.t, h_);
+  DiscretizationTerms terms = discretization_terms(discretization_, kvr_, x.t, h_);
   terms.h_b += 1 / damping_;  // m* = m_R + h b + h^2 k
   terms.is_relative_damper = false;
   for (std::size_t s = 0; s < springs_.size(); ++s) {
@@ -112,7 +114,7 @@ void MujocoWeld::add_forces(const State<double>& x, const Kinematics& k,
 CouplingFacts mujoco_weld_coupling() {
   return {.name = "weld",
           .order = 4,
-          .treatments = CouplingFacts::Discretizations::all,
+          .discretizations = CouplingFacts::Discretizations::all,
           .gains = CouplingFacts::Gains::reference,
           .at_point = true,
           .make = make_law<MujocoWeld>};

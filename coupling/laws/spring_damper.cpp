@@ -8,8 +8,8 @@ SpringDamperCoupling::SpringDamperCoupling(const CouplingSpec& spec, const Model
                                            TargetRobot& kvr, Space space)
     : Coupling(spec, model, kvr),
       space_(space),
-      treatment_(spec.treatment),
-      hold_(spec.hold_steps, spec.treatment) {
+      discretization_(spec.discretization),
+      hold_(spec.hold_steps, spec.discretization) {
   if (space == Space::joint) check_one_dof();
   if (space == Space::frame) readings_.resize(2 * springs_.size());  // forces, then torques
 }
@@ -21,7 +21,7 @@ void SpringDamperCoupling::begin_step(const Kinematics& k, double t, double h) n
 
 void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& k,
                                       Forces<double>& forces) noexcept {
-  const DiscretizationTerms terms = discretization_terms(treatment_, kvr_, x.t, h_);
+  const DiscretizationTerms terms = discretization_terms(discretization_, kvr_, x.t, h_);
   const bool at_point = space_ == Space::point || space_ == Space::frame;
   const bool torsional = space_ == Space::orientation || space_ == Space::frame;
   for (std::size_t s = 0; s < springs_.size(); ++s) {

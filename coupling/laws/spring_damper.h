@@ -25,8 +25,8 @@ namespace twinarm {
 class Hold {
  public:
   // 0 steps: no hold. Throws std::invalid_argument for a held force that is not explicit.
-  Hold(int steps, Discretization treatment) : every_(steps) {
-    if (steps > 0 && treatment != Discretization::explicit_)
+  Hold(int steps, Discretization discretization) : every_(steps) {
+    if (steps > 0 && discretization != Discretization::explicit_)
       throw std::invalid_argument("a held force must be explicit");
   }
   void begin_step() {
@@ -56,7 +56,7 @@ class SpringDamperCoupling final : public Coupling {
   void begin_step(const Kinematics& k, double t, double h) noexcept override;
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
-  bool needs_semi_implicit() const override { return treatment_ != Discretization::explicit_; }
+  bool needs_semi_implicit() const override { return discretization_ != Discretization::explicit_; }
   JointSpace joint_space(const Kinematics& k) const override;
   void serialize(StateArchive& memory) override;
 
@@ -65,7 +65,7 @@ class SpringDamperCoupling final : public Coupling {
                           const Kinematics& k, Forces<double>& forces);
 
   Space space_;
-  Discretization treatment_;
+  Discretization discretization_;
   Hold hold_;
 };
 

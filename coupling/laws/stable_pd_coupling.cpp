@@ -52,7 +52,7 @@ class StablePd final : public Coupling {
 CouplingFacts stable_pd_coupling() {
   return {.name = "stable-pd",
           .order = 6,
-          .treatments = CouplingFacts::Discretizations::own,
+          .discretizations = CouplingFacts::Discretizations::own,
           .at_joint = true,
           .step_law = StepLaw::stable_pd,
           .make = make_law<StablePd>};

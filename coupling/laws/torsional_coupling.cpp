@@ -7,7 +7,7 @@ namespace twinarm {
 CouplingFacts torsional_coupling() {
   return {.name = "torsional",
           .order = 2,
-          .treatments = CouplingFacts::Discretizations::all,
+          .discretizations = CouplingFacts::Discretizations::all,
           .has_measure = true,
           .can_hold = true,
           .make = [](const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr) {

@@ -87,7 +87,7 @@ class CommandLine(ProgramTest):
         sources = {w["source"] for body in checks["balance"] for w in body["wrenches"]}
         self.assertIn("coupling/pull_joint1", sources)
         picture = self.folder / "both.png"
-        self.twinarm("render", made["E3"]["recording"], "--beside", made["E4"]["recording"], "--png", picture, "--plot",
+        self.twinarm("render", made["E3"]["recording"], "--side-by-side", made["E4"]["recording"], "--png", picture, "--plot",
                      "lag", "--size", "320x200")
         self.assertTrue(picture.exists())
 
@@ -140,9 +140,9 @@ class CommandLine(ProgramTest):
         errors = json.loads(result.stdout)["errors"]
         self.assertEqual([error["line"] for error in errors], [3, 4])
         for error in errors:
-            self.assertEqual(sorted(error), ["code", "file", "line", "remedy", "rule", "where"])
+            self.assertEqual(sorted(error), ["code", "file", "line", "fix", "problem", "where"])
             self.assertEqual(error["file"], str(file))
-            self.assertTrue(error["rule"])
+            self.assertTrue(error["problem"])
 
     def test_a_folder_that_cannot_be_written_is_named_before_any_work_is_done(self):
         file = self.folder / "taken"

@@ -82,8 +82,8 @@ class Compare(ProgramTest):
         self.assertAlmostEqual(rows["A2"]["order"], 4, delta=0.1)
         self.assertLess(rows["A2"]["energy_drift"], 1e-12)
         self.assertIsNone(rows["B9-free"]["order"])  # exact but for rounding
-        self.assertEqual(rows["D7"]["lanes"], [])
-        lanes = rows["A2"]["lanes"]
+        self.assertEqual(rows["D7"]["configurations"], [])
+        lanes = rows["A2"]["configurations"]
         self.assertEqual([(lane["integrator"], lane["step"], lane["tolerance"]) for lane in lanes],
                          [("verlet", 0.002, None), ("verlet", 0.001, None),
                           ("dopri5", None, 1e-10)])

@@ -22,12 +22,12 @@ TWO = robot('<link name="base"/>', link("upper", 2, (0.2, 0, 0), (0.01, 0, 0, 0.
 R = 0.3
 
 
-def coupling(kind, treatment="", **keys):
+def coupling(kind, discretization="", **keys):
     lines = ["[[coupling]]", 'name = "pull"', f'type = "{kind}"']
     if kind != "god-object":
         keys.setdefault("link", "rod")
-    if treatment:
-        keys["treatment"] = treatment
+    if discretization:
+        keys["discretization"] = discretization
     return "\n".join(lines + [f"{key} = {json.dumps(value)}" for key, value in keys.items()]) + "\n"
 
 
@@ -60,7 +60,7 @@ class Limits(CouplingLaws):
         m = d / (1 - d) * 3 * INERTIA  # a weld counts its own inertia
         weld = dict(time_constant=T, damping_ratio=z, impedance=d)
         point = dict(stiffness=4000, damping=150, point=[R, 0, 0])
-        bushing = dict(stiffness=2000, damping=8, turn_stiffness=100, turn_damping=0.5, point=[R, 0, 0])
+        bushing = dict(stiffness=2000, damping=8, rotational_stiffness=100, rotational_damping=0.5, point=[R, 0, 0])
         at_rest = "target = { q = { hinge = 0 } }\n"
         spring = coupling("torsional", "explicit", measure="joint", stiffness=300, damping=1).replace("pull", "spring")
         of_weld = alpha_beta(m / (d * T * T * z * z), 2 * m / (d * T), INERTIA + m)
@@ -68,7 +68,7 @@ class Limits(CouplingLaws):
         of_bushing = alpha_beta(2000 * R * R + 100, 8 * R * R + 0.5)
         explicit, damped = (lambda a, b: a < 4 - 2 * b), (lambda a, b: a < 4 + 2 * b)
         held = lambda a, b: a < 2 * b * (2 - b) / (2 + b)
-        semi, printed = "semi-implicit", coupling("printed-linear", **point)
+        semi, printed = "semi-implicit", coupling("published-linear", **point)
         difference, hold = "semi-implicit Euler, backward difference", "zero-order hold, backward difference"
         rows = (  # coupling, integrator, alpha and beta in steps of h, whether they are stable, the scheme
             (coupling("weld", "explicit", **weld), semi, of_weld, explicit, "semi-implicit Euler"),
@@ -79,14 +79,14 @@ class Limits(CouplingLaws):
             (coupling("bushing", "implicit", **bushing), semi, of_bushing, None, "spring and damper implicit"),
             (coupling("stable-pd", stiffness=300, damping=2), semi, alpha_beta(300, 2),
              lambda a, b: 3 * a < 4 + 2 * b, None),
-            (coupling("matched", stiffness=4000, damping=20, point=[R, 0, 0]), semi,
+            (coupling("equivalent-torsional", stiffness=4000, damping=20, point=[R, 0, 0]), semi,
              alpha_beta(4000 * R * R, 20 * R * R), explicit, "semi-implicit Euler"),
             (printed, semi, of_point, explicit, difference),
             (printed, "euler", of_point, lambda a, b: a < b * (1 - b), "explicit Euler, backward difference"),
             (printed, "semi-implicit-xv", of_point, explicit, difference),
             (printed, "verlet", of_point, held, hold), (printed, "rk4", of_point, held, hold),
             # The damper as printed does nothing about a target at rest.
-            (coupling("printed-torsional", stiffness=300, damping=5), semi, alpha_beta(300, 0), explicit, "any"),
+            (coupling("published-torsional", stiffness=300, damping=5), semi, alpha_beta(300, 0), explicit, "any"),
             (coupling("god-object"), semi, of_point, None, None),
             # e' = -alpha e - beta (e - e_before): Jury's test.
             (coupling("god-object") + at_rest + spring + at_rest, semi, alpha_beta(300, 1),
@@ -94,22 +94,22 @@ class Limits(CouplingLaws):
         for text, integrator, of_step, is_stable, scheme in rows:
             with self.subTest(text, integrator=integrator):
                 found = self.predict(self.scene(text), "--step", 0.001, "--integrator", integrator)
-                limit = found["scene"]["largest_step"]
+                limit = found["scene"]["max_stable_step"]
                 if is_stable:
                     self.close(limit / edge(lambda h: is_stable(*of_step(h))), 1, 1e-6)
                 else:
                     self.assertIsNone(limit)
                 if scheme != "any":
-                    marked = [row["scheme"] for row in found["limits"] if row["is_the_scenes"]]
+                    marked = [row["scheme"] for row in found["limits"] if row["selected"]]
                     self.assertEqual(marked, [scheme] if scheme else [])
 
-    def test_what_has_no_linear_part_or_treatment_of_its_own_is_said(self):
+    def test_what_has_no_linear_part_or_discretization_of_its_own_is_said(self):
         found = self.predict(self.scene(coupling("stable-pd", stiffness=300, damping=2)))
-        self.assertEqual(found["couplings"][0]["treatment"], "own")
+        self.assertEqual(found["couplings"][0]["discretization"], "own")
         self.assertIn("stable-pd", found["scene"]["stepped"])
-        found = self.predict(self.scene(coupling("matched", stiffness=4000, damping=20, point=[R, 0, 0])))
+        found = self.predict(self.scene(coupling("equivalent-torsional", stiffness=4000, damping=20, point=[R, 0, 0])))
         self.assertEqual(found["couplings"][0]["arms"], [], "it has no sine")
-        found = self.predict(self.scene(coupling("printed-torsional", stiffness=300, damping=5)))
+        found = self.predict(self.scene(coupling("published-torsional", stiffness=300, damping=5)))
         self.assertIn("no linear part", "".join(found["warnings"]))
         self.assertEqual(found["B"], [[0]])
         found = self.predict(self.scene(coupling("god-object")))
@@ -122,14 +122,14 @@ class Limits(CouplingLaws):
         now = self.predict(self.scene(coupling("torsional", "explicit", **keys)))
         late = self.predict(self.scene(coupling("torsional", "explicit", target="paper", delay=0.03,
                                                 **keys)))
-        self.assertEqual(late["scene"]["largest_step"], now["scene"]["largest_step"])
+        self.assertEqual(late["scene"]["max_stable_step"], now["scene"]["max_stable_step"])
         self.assertIn("a target delay of 0.03 s", "".join(late["warnings"]))
 
     def test_the_matched_law_has_the_stiffness_of_its_targets_pose(self):
         """J at the KVR: a point of the lower link, 0.25 m from the elbow."""
         k, elbow = 700.0, 1.1
         scene = self.scene(
-            coupling("matched", link="lower", stiffness=k, damping=0, point=[0.25, 0, 0]) +
+            coupling("equivalent-torsional", link="lower", stiffness=k, damping=0, point=[0.25, 0, 0]) +
             f"target = {{ q = {{ elbow = {elbow} }} }}\n", urdf=TWO)
         found = self.predict(scene)
         J = [[-0.25 * math.sin(elbow), -0.25 * math.sin(elbow)],
@@ -178,17 +178,17 @@ class Errors(CouplingLaws):
                                   0.07 + 5 / 300),
             "rusty": (coupling("torsional", **turn), 2, 2 / 300),
             "weld": (coupling("weld", time_constant=T, damping_ratio=z), 0, 2 * T * z * z),
-            "matched": (coupling("matched", **point), 0, 0),
-            "bushing": (coupling("bushing", turn_stiffness=20, turn_damping=1, damper="absolute",
+            "equivalent-torsional": (coupling("equivalent-torsional", **point), 0, 0),
+            "bushing": (coupling("bushing", rotational_stiffness=20, rotational_damping=1, damper="absolute",
                                  **point), 0, (60 * R * R + 1) / (4000 * R * R + 20)),
             "stable PD": (coupling("stable-pd", **gains), 1, 1 / 300),
-            "printed": (coupling("printed-linear", **point), 0, 0),
+            "printed": (coupling("published-linear", **point), 0, 0),
             "god object": (coupling("god-object"), 2, 0)}
         self.write("hand.csv", trace(lambda t: SPEED * t, 5, 5))
         for name, (text, damping, seconds) in laws.items():
             with self.subTest(name):
                 scene = self.scene(text + 'target = "hand.csv"\n', damping=damping)
-                found = self.predict(scene, "--turn", math.degrees(SPEED), "--time", 1)
+                found = self.predict(scene, "--move", math.degrees(SPEED), "--time", 1)
                 lag = found["joint_errors"]["lag"]["hinge"]
                 self.close(lag, seconds * SPEED, 1e-9)
                 # Behind the hand itself: what a coupling sees of it may be late.
@@ -198,19 +198,19 @@ class Errors(CouplingLaws):
     def test_behind_a_start_every_law_peaks_as_predicted(self):
         """Small gains, for the error of a step is of the order of w h."""
         point = {"stiffness": 400, "damping": 6, "point": [R, 0, 0]}
-        laws = {"linear": coupling("linear", **point), "matched": coupling("matched", **point),
+        laws = {"linear": coupling("linear", **point), "equivalent-torsional": coupling("equivalent-torsional", **point),
                 "weld": coupling("weld", time_constant=0.1, damping_ratio=0.6),
-                "bushing": coupling("bushing", turn_stiffness=20, turn_damping=1,
+                "bushing": coupling("bushing", rotational_stiffness=20, rotational_damping=1,
                                     damper="absolute", **point),
                 "stable PD": coupling("stable-pd", stiffness=30, damping=0.5),
-                "printed": coupling("printed-linear", **point),
+                "printed": coupling("published-linear", **point),
                 "absolute": coupling("torsional", measure="joint", damper="absolute", stiffness=30,
                                      damping=2)}
         self.write("hand.csv", trace(lambda t: 0.1 * t, 5, 5))
         for name, text in laws.items():
             with self.subTest(name):
                 scene = self.scene(text + 'target = "hand.csv"\n', damping=0.3)
-                found = self.predict(scene, "--turn", math.degrees(0.1), "--time", 1)
+                found = self.predict(scene, "--move", math.degrees(0.1), "--time", 1)
                 peak = max(abs(e["hinge"]) for e in self.behind(scene, 1, 1e-4, 1e-3))
                 self.assertAlmostEqual(found["joint_errors"]["start"]["hinge"] / peak, 1, delta=0.01)
 
@@ -237,7 +237,7 @@ class Errors(CouplingLaws):
 
         def there_and_back(t):
             return D * (1 - abs(1 - t / T))
-        task = ("--turn", degrees, "--time", T)
+        task = ("--move", degrees, "--time", T)
         scene = self.s103(quintic)
         found = self.predict(scene, *task)["joint_errors"]
         errors = self.behind(scene, 0.5, 1e-4, 2e-4)

@@ -13,10 +13,10 @@ STEP = 0.001
 GAINS = "stiffness = 80\ndamping = 3\n"
 TYPES = {  # keys of its own
     "linear": GAINS + "point = [0.6, 0, 0]\n", "torsional": GAINS,
-    "bushing": GAINS + "point = [0.6, 0, 0]\nturn_stiffness = 20\nturn_damping = 1\n",
-    "weld": "point = [0.6, 0, 0]\ntime_constant = 0.1\n", "matched": GAINS + "point = [0.6, 0, 0]\n",
-    "stable-pd": GAINS, "god-object": "", "printed-linear": GAINS + "point = [0.6, 0, 0]\n",
-    "printed-torsional": GAINS}
+    "bushing": GAINS + "point = [0.6, 0, 0]\nrotational_stiffness = 20\nrotational_damping = 1\n",
+    "weld": "point = [0.6, 0, 0]\ntime_constant = 0.1\n", "equivalent-torsional": GAINS + "point = [0.6, 0, 0]\n",
+    "stable-pd": GAINS, "god-object": "", "published-linear": GAINS + "point = [0.6, 0, 0]\n",
+    "published-torsional": GAINS}
 
 
 def chain(links, length=0.05, mass=0.1):
@@ -47,7 +47,7 @@ class CouplingTypes(RobotCommand):
         for kind in TYPES:
             with self.subTest(kind):
                 answer = self.run_scene(HINGE, self.scene(kind), "--duration", 0.4)
-                rows, end = answer["ledger"], answer["samples"][-1]
+                rows, end = answer["energy_balance"], answer["samples"][-1]
                 self.assertGreater(end["kinetic_energy"], 0.01)
                 self.assertAlmostEqual(sum(rows.values()), end["kinetic_energy"], delta=1e-12)
                 names = {name.rsplit("/", 1)[0] for name in rows if name.startswith("coupling/")}
@@ -56,7 +56,7 @@ class CouplingTypes(RobotCommand):
                     "weld": {"coupling/pull/force", "coupling/pull/couple"},
                     "god-object": {"coupling/pull/hinge"}}.get(kind, {"coupling/pull"}))
                 # Exact where each step is booked as it was taken; else to the order of the step.
-                taken = kind in ("stable-pd", "god-object", "printed-torsional", "weld")
+                taken = kind in ("stable-pd", "god-object", "published-torsional", "weld")
                 self.assertLess(abs(rows["numerical"]), 1e-12 if taken else 1e-2)
 
     def test_at_an_even_speed_each_follows_as_its_law_says(self):
@@ -68,7 +68,7 @@ class CouplingTypes(RobotCommand):
                 target = end["targets"]
                 q = next(iter(target.values()))["q"]["hinge"]
                 self.assertAlmostEqual(q, 6, delta=1e-9)
-                if kind != "printed-torsional":  # its damper does not damp
+                if kind != "published-torsional":  # its damper does not damp
                     self.assertAlmostEqual(q - end["q"]["hinge"], lags.get(kind, 0), delta=2e-3)
 
     def test_a_tip_held_stiffly_comes_in_from_7_mm_and_is_told_to_be_lost_from_71_mm(self):

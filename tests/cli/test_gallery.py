@@ -34,9 +34,9 @@ class Gallery(ProgramTest):
                 self.assertNotIn("post_mortem", answer)
                 first, last = answer["samples"][0], answer["samples"][-1]
                 self.assertEqual(last["t"], 5)
-                most = max(map(abs, answer["ledger"].values()), default=0)
+                most = max(map(abs, answer["energy_balance"].values()), default=0)
                 self.assertAlmostEqual(last["kinetic_energy"] - first["kinetic_energy"],
-                                       sum(answer["ledger"].values()), delta=1e-9 * max(1, most))
+                                       sum(answer["energy_balance"].values()), delta=1e-9 * max(1, most))
 
     def test_each_scene_has_three_lines_and_a_picture_and_all_are_small(self):
         total = 0
@@ -113,7 +113,7 @@ class Gallery(ProgramTest):
                      for j in ("shoulder", "elbow")) for s in answer["samples"]]
         self.assertLess(apart[1], 0.01)
         self.assertGreater(apart[5], 1)
-        self.assertLess(abs(answer["ledger"]["numerical"]), 1e-5)
+        self.assertLess(abs(answer["energy_balance"]["numerical"]), 1e-5)
 
     def test_the_papers_experiments_have_the_gains_that_the_study_found(self):
         entries = {e["name"]: e for e in
@@ -140,7 +140,7 @@ class Gallery(ProgramTest):
                 self.assertEqual(gains, [(pull["k1"], pull["b1"]), (pull["k2"], pull["b2"])]
                                  if linear else [(turn["k"], turn["b"])] * 2)
                 self.assertEqual({s["type"] for s in springs},
-                                 {"printed-linear" if linear else "printed-torsional"})
+                                 {"published-linear" if linear else "published-torsional"})
                 self.assertEqual({s["target"] for s in scene["coupling"][:4]},
                                  {"paper" if name in ("e3", "e4") else "device"})
 

@@ -58,7 +58,7 @@ class Hand(ProgramTest):
         self.assertEqual(summary["timing"]["ticks"], summary["ticks"])
 
     def test_the_control_and_the_picture_of_the_timing(self):
-        summary = self.json_of("hand", SCENE, "--duration", 1.2, "--control", "--timing", "--out", self.out)
+        summary = self.json_of("hand", SCENE, "--duration", 1.2, "--empty-loop", "--timing", "--out", self.out)
         self.assertEqual(summary["timing"]["ticks"], 1200)
         self.assertEqual(summary["empty_loop"]["ticks"], 1000)
         # By the clock it was 2200 ticks: deadlines are absolute, so only the lateness of two of them is left.

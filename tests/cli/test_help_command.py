@@ -63,7 +63,7 @@ class HelpCommand(unittest.TestCase):
         for page in (lab, manual):
             self.assertRegex(page, r"--port(?:\\fR \\fI| )N(?:\\fR)?\s+port of the server; default: any free port "
                                    r"\(0 to 65535\)")
-        self.assertRegex(lab, r"--remember N +memory .* \(1 to 65536; default 256\)")
+        self.assertRegex(lab, r"--history N +memory .* \(1 to 65536; default 256\)")
         self.assertRegex(lab, r"\nServer:\n  --port N")
 
     def test_help_of_a_term_prints_its_glossary_entry(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm study --ask ROW/LAW/RATE`: what a row of Table 2 tells of a law. Its best fit, run again as a
+"""`twinarm study --identify-one ROW/LAW/RATE`: what a row of Table 2 tells of a law. Its best fit, run again as a
 scene by `twinarm simulate`, gives its numbers, its sensitivities and what follows for another motion;
 misfit and intervals are computed a second time.
 
@@ -36,7 +36,7 @@ def coupling(name, kind, link, more, speed):
 
 class Identify(ProgramTest):
     def answer_of(self, question):
-        return json.loads(self.twinarm("study", "--ask", question).stdout)
+        return json.loads(self.twinarm("study", "--identify-one", question).stdout)
 
     def numbers(self, law, values, speed=1.0):
         """Largest and mean errors of joints 1 and 2 [deg], by a scene."""
@@ -51,7 +51,7 @@ class Identify(ProgramTest):
             text += coupling(f"hold_{link}", "torsional", link, 'measure = "joint"\n'
                              f"stiffness = {k * m!r}\ndamping = {2 * k * m / w!r}", speed)
         text += ('[[coupling]]\nname = "stop"\ntype = "torsional"\nmeasure = "joint"\n'
-                 'link = "gripper"\noutside = [0.0, 0.06]\nstiffness = 1e5\ndamping = 50.0\n')
+                 'link = "gripper"\nsoft_limits = [0.0, 0.06]\nstiffness = 1e5\ndamping = 50.0\n')
         errors = [[], []]
         for sample in self.json_of("simulate", self.write("scene.toml", text), "--every", 1 / RATE)["samples"]:
             target = next(iter(sample["targets"].values()))["q"]

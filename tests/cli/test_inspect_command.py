@@ -185,15 +185,15 @@ class InspectScenes(RobotCommand):
 
     def test_a_coupling_force_acts_on_its_link_under_its_name(self):
         self.write("test.urdf", PENDULUM)
-        for treatment in ("explicit", "semi-implicit", "implicit"):
-            scene = self.write("scene.toml", data("pulled_pendulum.toml", damping=3, treatment=treatment))
+        for discretization in ("explicit", "semi-implicit", "implicit"):
+            scene = self.write("scene.toml", data("pulled_pendulum.toml", damping=3, discretization=discretization))
             found = self.answer(str(scene))
             self.check_sums(found)
             pull = self.wrenches_on(found, "bob")["coupling/pull"]["force"]
             # 100 N/m over the chord of 0.2 rad, from rest.
             size = sum(x * x for x in pull) ** 0.5
             self.assertAlmostEqual(size, 100 * 2 * math.sin(0.1),
-                                   delta=1e-9 if treatment == "explicit" else 0.2)
+                                   delta=1e-9 if discretization == "explicit" else 0.2)
 
 
 if __name__ == "__main__":

@@ -231,7 +231,7 @@ class LabLanes(ProgramTest):
 
     def test_six_integrators_differ_as_the_gallery_says(self):
         self.start("six_integrators")
-        lanes = self.state(lambda s: s["lanes"])["lanes"]
+        variants = self.state(lambda s: s["variants"])["variants"]
         self.stand_at(700)
         history = self.lab.history()
         self.assertAlmostEqual(history.time[-1], 14, delta=1e-9)
@@ -239,7 +239,7 @@ class LabLanes(ProgramTest):
         def of(lane, quantity):
             return history.channel(self.names.index(f"lane/{quantity}/{lane}"))
         gain = {lane: [e - of(lane, "total_energy")[0] for e in of(lane, "total_energy")]
-                for lane in lanes["values"]}
+                for lane in variants["values"]}
         for lane, energies in gain.items():  # as in the energy balance
             for made, told in zip(energies, of(lane, "numerical")):
                 self.assertAlmostEqual(made, told, delta=1e-9)
@@ -259,9 +259,9 @@ class LabLanes(ProgramTest):
 
     def test_a_diverged_variant_is_reported_and_returns_with_a_branch(self):
         self.write("rod.urdf", ROD)
-        self.start(self.write("rod.toml", SCENE), "--lanes", "coupling[0].stiffness=200,1e8,3000")
+        self.start(self.write("rod.toml", SCENE), "--variants", "coupling[0].stiffness=200,1e8,3000")
         self.assertNotIn("coupling[0].stiffness", [k["path"] for k in self.state()["knobs"]])
-        stopped = self.state(lambda s: s["lanes"]["stopped"][1])["lanes"]["stopped"]
+        stopped = self.state(lambda s: s["variants"]["stopped"][1])["variants"]["stopped"]
         self.assertIsNone(stopped[2])
         frame = self.live.wait_for("frame", lambda f: f.time > stopped[1] + 0.3)
         self.assertFalse(frame.is_dead)
@@ -273,18 +273,18 @@ class LabLanes(ProgramTest):
         self.state(lambda s: "varied between the variants" in " ".join(n["text"] for n in s["notes"]))
         # Stable with damping, from a time before it diverged.
         self.live.do("look", at=0.0)
-        self.state(lambda s: s["at"] == 0 and s["lanes"]["stopped"] == [None] * 3)
-        self.live.do("branch", at=0.0, changes=["coupling[0].treatment=implicit"])
+        self.state(lambda s: s["at"] == 0 and s["variants"]["stopped"] == [None] * 3)
+        self.live.do("branch", at=0.0, changes=["coupling[0].discretization=implicit"])
         self.state(lambda s: s["branch"] and s["time"] > 0.5)
-        self.assertEqual(self.state()["lanes"]["stopped"], [None] * 3)
+        self.assertEqual(self.state()["variants"]["stopped"], [None] * 3)
         self.live.do("reset")
         state = self.state(lambda s: not s["branch"])
-        self.assertEqual(state["lanes"]["values"], ["200", "1e8", "3000"])
+        self.assertEqual(state["variants"]["values"], ["200", "1e8", "3000"])
         self.live.do("scene", name="gyroscope")
-        self.state(lambda s: s["name"] == "gyroscope" and s["lanes"] is None)
+        self.state(lambda s: s["name"] == "gyroscope" and s["variants"] is None)
 
     def test_the_first_variant_is_saved(self):
-        self.start("pendulum", "--lanes", "integrator=rk4,euler")
+        self.start("pendulum", "--variants", "integrator=rk4,euler")
         last = self.stand_at(100)
         file = self.folder / "first.twinrec"
         file.write_bytes(self.lab.get("/save").body)

@@ -51,7 +51,7 @@ class LockedJoints(ProgramTest):
                             ('lock = "second"', "must be a list of joints"),
                             ('lock = ["second"]\nqd = { second = 1 }', "has a velocity")):
             told = self.simulate(self.arm(turns), "", keys, code=2)["errors"]
-            self.assertTrue(any(words in e["rule"] + e["remedy"] for e in told), told)
+            self.assertTrue(any(words in e["problem"] + e["fix"] for e in told), told)
 
 
 def rotation_of(roll, pitch, yaw):

@@ -14,17 +14,17 @@ from program import main, run
 class Maps(MapCommand):
     def test_cells_and_the_curve_on_top_are_those_of_the_closed_form_of_each_scheme(self):
         """docs/understand/stability_of_spring_dampers.md."""
-        for treatment, options, is_stable in (("explicit", (), lambda a, b: a < 4 - 2 * b),
+        for discretization, options, is_stable in (("explicit", (), lambda a, b: a < 4 - 2 * b),
                                               ("semi-implicit", (), lambda a, b: a < 4 + 2 * b),
                                               ("implicit", (), lambda a, b: True),
                                               ("explicit", ("--integrator", "rk4"), is_stable_of_order(4)),
                                               ("explicit", ("--integrator", "heun"), is_stable_of_order(2))):
-            with self.subTest(treatment, options=options):
-                plane = self.map(self.scene(treatment), "--x", "coupling.damping:0.5:20:6", "--y",
-                                 "step:0.005:0.15:30", *options, name=treatment + "".join(options))
+            with self.subTest(discretization, options=options):
+                plane = self.map(self.scene(discretization), "--x", "coupling.damping:0.5:20:6", "--y",
+                                 "step:0.005:0.15:30", *options, name=discretization + "".join(options))
                 self.check_plane(plane, lambda h, b: is_stable(500 * h * h / INERTIA, b * h / INERTIA),
-                                 has_edge=treatment != "implicit")
-                if treatment == "explicit" and not options:
+                                 has_edge=discretization != "implicit")
+                if discretization == "explicit" and not options:
                     self.assertEqual([c["name"] for c in plane["curves"]], ["semi-implicit Euler, start pose"])
 
     def check_plane(self, plane, is_stable, has_edge):
@@ -58,7 +58,7 @@ class Maps(MapCommand):
             words = opened["command"].split()
             self.assertEqual(words[:2], ["twinarm", "simulate"])
             again = json.loads(run(*words[1:], "--every", opened["y"], "--json").stdout)
-            created = sum(v for k, v in again["ledger"].items()
+            created = sum(v for k, v in again["energy_balance"].items()
                           if k == "numerical" or k.endswith("/implicit"))
             if planes["stable"][iy][ix] == 0:
                 self.assertTrue("post_mortem" in again or created > 100)
@@ -103,27 +103,27 @@ class Maps(MapCommand):
         scene = self.scene(duration=0.3)
         axes = ["--x", "coupling.damping:0.5:20:40", "--y", "coupling.stiffness:10:1e5:35:log"]
         whole = self.folder / "whole.twinmap"
-        text = self.twinarm("map", scene, *axes, "--work", whole, "--threads", 1, "--json").stdout
-        other = self.twinarm("map", scene, *axes, "--work", self.folder / "b", "--threads", 3,
+        text = self.twinarm("map", scene, *axes, "--checkpoint", whole, "--threads", 1, "--json").stdout
+        other = self.twinarm("map", scene, *axes, "--checkpoint", self.folder / "b", "--threads", 3,
                              "--json").stdout
         self.assertEqual(other, text)
         self.assertEqual((self.folder / "b").read_bytes(), whole.read_bytes())
         parts = []
         for i in range(4):
             parts.append(self.folder / f"part{i}")
-            self.twinarm("map", scene, *axes, "--tiles", 4, "--tile", i, "--work", parts[-1])
+            self.twinarm("map", scene, *axes, "--jobs", 4, "--job", i, "--checkpoint", parts[-1])
         joined = self.folder / "joined"
         random.seed(3)
         random.shuffle(parts)
-        self.assertEqual(self.twinarm("map", "--merge", *parts, "--work", joined, "--json").stdout,
+        self.assertEqual(self.twinarm("map", "--merge", *parts, "--checkpoint", joined, "--json").stdout,
                          text)
         self.assertEqual(joined.read_bytes(), whole.read_bytes())
 
     def test_a_killed_map_goes_on_from_its_finished_cells(self):
         scene = self.scene(duration=1)
         axes = ["--x", "coupling.damping:0.5:20:64", "--y", "coupling.stiffness:10:1e5:32:log",
-                "--alone"]  # slow enough to be struck
-        command = ["map", scene, *axes, "--json", "--work"]
+                "--no-simd"]  # slow enough to be struck
+        command = ["map", scene, *axes, "--json", "--checkpoint"]
         text = self.twinarm(*command, self.folder / "whole").stdout
         sizes, work = [], self.folder / "work"
         for blow, code in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGINT, 130)):
@@ -157,19 +157,19 @@ class Faults(MapCommand):
     def test_files_of_another_map_are_refused_and_nothing_is_overwritten_without_force(self):
         scene = self.scene(duration=0.5)
         work, picture = self.folder / "work", self.folder / "map.svg"
-        self.twinarm("map", scene, *self.AXES, "--work", work, "--svg", picture)
+        self.twinarm("map", scene, *self.AXES, "--checkpoint", work, "--svg", picture)
         kept = work.read_bytes()
-        self.refused("file.exists", "--svg", scene, *self.AXES, "--work", work, "--svg", picture)
+        self.refused("file.exists", "--svg", scene, *self.AXES, "--checkpoint", work, "--svg", picture)
         axes = ("--x", "coupling[0].damping:0.5:21:3", *self.AXES[2:])
-        told = self.faults(scene, *axes, "--work", work)
+        told = self.faults(scene, *axes, "--checkpoint", work)
         for value in ("coupling[0].damping:0.5:20:3", "coupling[0].damping:0.5:21:3"):
             self.tells(told, "map.other-map", value)
         scene.write_text(scene.read_text().replace("500", "501"))
-        told = self.faults(scene, *self.AXES, "--work", work)
+        told = self.faults(scene, *self.AXES, "--checkpoint", work)
         self.assertEqual([fault["code"] for fault in told], ["map.other-map"])
         self.tells(told, "map.other-map", "--force")
         self.assertEqual(work.read_bytes(), kept)
-        self.twinarm("map", scene, *self.AXES, "--work", work, "--svg", picture, "--force")
+        self.twinarm("map", scene, *self.AXES, "--checkpoint", work, "--svg", picture, "--force")
         self.assertNotEqual(work.read_bytes(), kept)
         self.refused("file.unwritable", "/proc/none", scene, *self.AXES, "--csv", "/proc/none/map.csv")
 
@@ -178,12 +178,12 @@ class Faults(MapCommand):
         axes = ("--x", "coupling.damping:0.5:20:40", "--y", "step:0.005:0.05:20")
         parts = [self.folder / f"p{i}" for i in range(3)]
         for i, part in enumerate(parts):
-            self.twinarm("map", scene, *axes, "--tiles", 3, "--tile", i, "--work", part)
+            self.twinarm("map", scene, *axes, "--jobs", 3, "--job", i, "--checkpoint", part)
         told = self.faults("--merge", parts[0], parts[2])
         for value in ("2 of 6", "1 4"):
             self.tells(told, "map.blocks-missing", value)
-        self.twinarm("map", scene, *axes[:3], "step:0.005:0.04:20", "--tiles", 3, "--tile", 1,
-                     "--work", parts[1], "--force")
+        self.twinarm("map", scene, *axes[:3], "step:0.005:0.04:20", "--jobs", 3, "--job", 1,
+                     "--checkpoint", parts[1], "--force")
         told = self.faults("--merge", *parts)
         for value in ("step:0.005:0.04:20", "step:0.005:0.05:20"):
             self.tells(told, "map.other-map", value)

@@ -29,7 +29,7 @@ class Planes(MapCommand):
         axes = ("--x", "coupling.damping:0.5:20:3", "--y", "step:0.01:0.09:2", "--duration", 2)
         scene, table = self.scene(), self.folder / "map.csv"
         planes = {m: self.map(scene, *axes, "--measure", m) for m in MEASURES}
-        self.twinarm("map", scene, *axes, "--csv", table, "--work", self.folder / "work.twinmap")
+        self.twinarm("map", scene, *axes, "--csv", table, "--checkpoint", self.folder / "work.twinmap")
         rows = list(csv.reader(table.read_text().splitlines()))
         self.assertEqual(rows[0], ["coupling.damping[N m s/rad]", "step[s]", "stable[1]",
                                    "max_error[rad]", "mean_error[rad]", "energy[J]",
@@ -125,19 +125,19 @@ class Planes(MapCommand):
         scene = self.scene(duration=0.1)
         axes = ("--x", "coupling.damping:0.5:20:3", "--y", "coupling.stiffness:100:500:3")
         work = self.folder / "work"
-        self.twinarm("map", scene, *axes, "--work", work)
+        self.twinarm("map", scene, *axes, "--checkpoint", work)
         for option, value in (("--duration", 0.2), ("--step", 0.002), ("--integrator", "rk4"),
                               ("--of", "pull")):
-            told = self.faults(scene, *axes, option, value, "--work", work)
+            told = self.faults(scene, *axes, option, value, "--checkpoint", work)
             self.assertEqual({fault["code"] for fault in told}, {"map.other-map"}, option)
-        self.refused("map.other-map", "cells", scene, *axes, "--alone", "--work", work)
+        self.refused("map.other-map", "cells", scene, *axes, "--no-simd", "--checkpoint", work)
         self.assertIn("no whole step", str(self.faults(scene, *axes[:2], "--y", "step:0.05:100:4")))
 
     def test_parts_that_contradict_each_other_are_not_joined(self):
         scene = self.scene(duration=0.1)
         axes = ("--x", "coupling.damping:0.5:20:3", "--y", "coupling.stiffness:100:500:3")
         a, b = self.folder / "a", self.folder / "b"
-        self.twinarm("map", scene, *axes, "--work", a)
+        self.twinarm("map", scene, *axes, "--checkpoint", a)
         *rows, last = a.read_text().splitlines()
         cell = last.split(",")
         self.assertEqual(len(cell), 2 + len(MEASURES))

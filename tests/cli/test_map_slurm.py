@@ -28,7 +28,7 @@ def free_port():
 
 # In place of the program: the first that computes part 2 kills itself.
 DIES_ONCE = """#!/bin/sh
-case "$*" in *"--tile 2 "*) mkdir "$0.died" 2> /dev/null && kill -KILL $$ ;; esac
+case "$*" in *"--job 2 "*) mkdir "$0.died" 2> /dev/null && kill -KILL $$ ;; esac
 exec '{program}' "$@"
 """
 
@@ -43,7 +43,7 @@ class OnCluster(ProgramTest):
         dies_once.chmod(0o755)
         self.environment = dict(os.environ, TWINARM=str(dies_once), SLURM_CONF=str(self.folder / "slurm.conf"))
         whole = self.folder / "whole.twinmap"
-        self.twinarm("map", self.scene, *AXES, "--work", whole)
+        self.twinarm("map", self.scene, *AXES, "--checkpoint", whole)
         self.whole = whole.read_bytes()
 
     def daemon(self, *command, log):

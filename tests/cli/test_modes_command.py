@@ -19,10 +19,10 @@ class Modes(RobotCommand):
     def test_a_torsional_coupling_swings_with_k_over_I(self):
         k, b = 30.0, 0.4
         for measure in ("world", "joint"):
-            for treatment in ("explicit", "implicit"):
+            for discretization in ("explicit", "implicit"):
                 scene = self.scene(HINGE, '[[coupling]]\nname = "pull"\ntype = "torsional"\n'
                                    f'measure = "{measure}"\nlink = "rod"\nstiffness = {k}\n'
-                                   f'damping = {b}\ntreatment = "{treatment}"\n')
+                                   f'damping = {b}\ndiscretization = "{discretization}"\n')
                 mode, = self.answer(scene)["modes"]
                 self.close([mode["frequency"], mode["damping_ratio"]],
                            [math.sqrt(k / HINGE_INERTIA), b / (2 * math.sqrt(k * HINGE_INERTIA))], 1e-11)

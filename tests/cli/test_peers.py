@@ -52,7 +52,7 @@ class Peers(unittest.TestCase):
         result = subprocess.run([TWINARM, "compare", "C2", "--integrator", ",".join(schemes),
                                  "--json"], capture_output=True, text=True, timeout=TIMEOUT)
         lanes = {lane["integrator"]: lane["error"]
-                 for lane in json.loads(result.stdout)["cases"][0]["lanes"]}
+                 for lane in json.loads(result.stdout)["cases"][0]["configurations"]}
         ours = {row["scheme"]: row["error"] for row in self.rows("C2")
                 if row["engine"] == "twinarm"}
         for scheme in schemes:  # the model is built again: another rounding

@@ -36,7 +36,7 @@ class Instants(RecordingCommand):
         file = self.record(BOXES, "--duration", 0.4)
         frame = [f for f in self.exported(file)["frames"] if f["t"] <= 0.3 + 1e-9][-1]
         answer = self.json_of("inspect", file, "--at", 0.3)
-        self.assertEqual(answer["ledger"], frame["ledger"])
+        self.assertEqual(answer["energy_balance"], frame["energy_balance"])
         page = self.twinarm("inspect", file, "--at", 0.3).stdout
         self.assertIn("ENERGY BALANCE", page)
         self.assertIn("contact/floor-low/friction", page)
@@ -54,21 +54,21 @@ class PostMortems(RecordingCommand):
         file = self.folder / "last.twinrec"
         self.record(held(k, 0), "--duration", 1, "--step", h, "--post-mortem", file, code=3)
         found = json.loads(self.simulated.stdout)["post_mortem"]
-        suspect = found["suspects"][0]
-        self.assertIn("'pull'", suspect["name"])
-        self.close(suspect["w_h"], math.sqrt(k / inertia) * h, 1e-9)
-        self.close(suspect["limit"], 2, 1e-4)
-        self.close(suspect["largest_step"], 2 / math.sqrt(k / inertia), 1e-4)
-        self.close(suspect["largest_gain"], 4 * inertia / h ** 2, 1e-3)
+        violation = found["violations"][0]
+        self.assertIn("'pull'", violation["name"])
+        self.close(violation["omega_h"], math.sqrt(k / inertia) * h, 1e-9)
+        self.close(violation["stability_limit"], 2, 1e-4)
+        self.close(violation["max_stable_step"], 2 / math.sqrt(k / inertia), 1e-4)
+        self.close(violation["max_stable_gain"], 4 * inertia / h ** 2, 1e-3)
         self.assertEqual(found["joint"], "hinge")
         self.assertIn("'pull'", self.simulated.stderr)
-        self.assertTrue(found["ledger_row"])
-        self.assertGreater(found["ledger_growth"], 1)
+        self.assertTrue(found["energy_row"])
+        self.assertGreater(found["energy_row_growth"], 1)
         # Stable below the reported limit, unstable above it.
-        for step, code in ((0.9 * suspect["largest_step"], 0), (1.2 * suspect["largest_step"], 3)):
+        for step, code in ((0.9 * violation["max_stable_step"], 0), (1.2 * violation["max_stable_step"], 3)):
             self.record(held(k, 0), "--duration", 1, "--step", step, "--post-mortem", file,
                         code=code)
-        self.record(held(0.9 * suspect["largest_gain"], 0), "--duration", 1, "--step", h)
+        self.record(held(0.9 * violation["max_stable_gain"], 0), "--duration", 1, "--step", h)
 
     def test_the_last_thousand_steps_are_those_of_the_run(self):
         """A spring 1e-5 above its limit: the full recording ends with the same steps."""
@@ -133,9 +133,9 @@ class PostMortems(RecordingCommand):
                     "--energy-bound", "inf", "--post-mortem", self.folder / "last.twinrec",
                     state={"qd": {"slide": 1}}, code=3)
         found = json.loads(self.simulated.stdout)["post_mortem"]
-        self.assertIn("'slide'", found["suspects"][0]["name"])
-        self.close(found["suspects"][0]["w_h"], 1e5 / 2.0 * 0.001)
-        self.assertEqual(found["suspects"][0]["limit"], 2)
+        self.assertIn("'slide'", found["violations"][0]["name"])
+        self.close(found["violations"][0]["omega_h"], 1e5 / 2.0 * 0.001)
+        self.assertEqual(found["violations"][0]["stability_limit"], 2)
 
 
 if __name__ == "__main__":

@@ -96,12 +96,12 @@ class Recordings(RecordingCommand):
                                               name="other.twinrec"))
             column = [c["name"] for c in other["columns"]].index("q/hinge")
             wanted = [f["values"][column] for f in other["frames"]]
-            self.assertEqual(by_name["fork"]["values"]["q/hinge[rad]"], wanted)
+            self.assertEqual(by_name["branch"]["values"]["q/hinge[rad]"], wanted)
             self.assertNotEqual(by_name["recorded"]["values"]["q/hinge[rad]"], wanted)
-            rows = other["frames"][-1]["ledger"]
-            self.close([fork["ledger"][row]["fork"] for row in rows], list(rows.values()))
-            own = self.exported(file)["frames"][-1]["ledger"]
-            self.close([fork["ledger"][row]["recorded"] for row in own], list(own.values()))
+            rows = other["frames"][-1]["energy_balance"]
+            self.close([fork["energy_balance"][row]["branch"] for row in rows], list(rows.values()))
+            own = self.exported(file)["frames"][-1]["energy_balance"]
+            self.close([fork["energy_balance"][row]["recorded"] for row in own], list(own.values()))
         table = self.twinarm("replay", file, "--from", 0.1, "--set", "coupling.stiffness=800")
         self.assertLessEqual(max(map(len, table.stdout.splitlines())), 100)
         # One joint moves: it is told once, not as its link's three coordinates too.
@@ -116,7 +116,7 @@ class Recordings(RecordingCommand):
         fork = self.replayed(file, "--from", 0.1, "--set", "coupling.stiffness=800")
         for branch in fork["branches"]:
             kinetic = branch["values"]["kinetic_energy[J]"]
-            gained = sum(row[branch["name"]] for row in fork["ledger"].values())
+            gained = sum(row[branch["name"]] for row in fork["energy_balance"].values())
             self.close(gained, kinetic[-1] - kinetic[0])
 
     def test_a_branch_of_free_bodies_shows_each_once_and_one_that_changes_nothing_says_so(self):
@@ -133,8 +133,8 @@ class Recordings(RecordingCommand):
         scene, file = SCENES / "robot_beside_obstacles.toml", "arm.twinrec"
         self.twinarm("simulate", scene, "--duration", 1.002, "--record", file, "--json")
         fork = self.replayed(file, "--from", 1, "--set", "coupling.pull_arm1.stiffness=800")
-        for name, row in fork["ledger"].items():
-            self.assertLess(abs(row["fork"] - row["recorded"]), 1e-4, name)
+        for name, row in fork["energy_balance"].items():
+            self.assertLess(abs(row["branch"] - row["recorded"]), 1e-4, name)
 
     def test_the_plot_of_a_branch_has_both_branches_with_their_units(self):
         file = self.record(held(50, 2), "--duration", 0.3)
@@ -178,7 +178,7 @@ class Recordings(RecordingCommand):
         file = self.record(held(50, 2), "--duration", 0.1)
         for change, code, value in (("coupling.stiffness=-1", "scene.negative", "-1"),
                                     ("coupling.pull.stiffness=stiff", "scene.type", "'stiff'"),
-                                    ("coupling.treatment=magic", "scene.choice", "'magic'"),
+                                    ("coupling.discretization=magic", "scene.choice", "'magic'"),
                                     ("gravity=0,1", "option.count", " 2 "),
                                     ("gravity=down", "option.number", "'down'")):
             error = self.refused_as(code, "replay", file, "--set", change)
@@ -206,7 +206,7 @@ class Recordings(RecordingCommand):
         printed = json.loads(self.simulated.stdout)
         exported = self.exported(file)
         last = exported["frames"][-1]
-        self.assertEqual(last["ledger"], printed["ledger"])
+        self.assertEqual(last["energy_balance"], printed["energy_balance"])
         self.assertEqual(last["momentum"], printed["momentum"])
         names = [c["name"] for c in exported["columns"]]
         sample = printed["samples"][-1]
@@ -222,7 +222,7 @@ class Recordings(RecordingCommand):
         self.assertEqual(len(rows), len(frames))
         self.assertTrue(all(name.endswith("]") for name in rows[0]), list(rows[0]))
         self.assertEqual([float(r["t[s]"]) for r in rows], [f["t"] for f in frames])
-        self.assertEqual(float(rows[-1]["ledger/gravity[J]"]), frames[-1]["ledger"]["gravity"])
+        self.assertEqual(float(rows[-1]["energy_balance/gravity[J]"]), frames[-1]["energy_balance"]["gravity"])
         pushed = [c["force"][2] for c in frames[-1]["contacts"] if c["pair"] == "contact/floor-low"]
         self.assertAlmostEqual(float(rows[-1]["contact/floor-low/z[N]"]), sum(pushed))
 

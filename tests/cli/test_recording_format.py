@@ -105,7 +105,7 @@ class Bytes(RecordingCommand):
             self.assertEqual(frame["step"], values[0])
             self.assertEqual(frame["hash"], f"{values[2]:016x}")
             self.assertEqual(frame["values"], values[3])
-            self.assertEqual(list(frame["ledger"].values()), values[7])
+            self.assertEqual(list(frame["energy_balance"].values()), values[7])
         self.goes_on_with_the_same_bits(file, (0,))
 
     def test_damage_anywhere_is_reported_and_never_a_crash(self):

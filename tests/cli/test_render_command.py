@@ -70,7 +70,7 @@ class Render(ProgramTest):
     def test_a_film_has_the_given_rate_and_slow_motion_factor(self):
         out = self.folder / "film"
         told = self.rendered(self.ball, "--frames", out, "--size", "64x48", "--quality", "draft",
-                             "--from", 0.1, "--to", 0.3, "--slow", 2, "--fps", 10)
+                             "--from", 0.1, "--to", 0.3, "--slow-motion", 2, "--fps", 10)
         self.assertEqual(told["pictures"], 5)  # each 0.05 s, both ends
         self.assertAlmostEqual(told["from"], 0.1, places=9)
         self.assertAlmostEqual(told["to"], 0.3, places=9)
@@ -93,7 +93,7 @@ class Render(ProgramTest):
     def test_two_recordings_are_shown_side_by_side_to_the_end_of_the_longer_one(self):
         left, right = self.record("a"), self.record("b", duration=0.3)
         out = self.folder / "film"
-        told = self.rendered(left, "--beside", right, "--frames", out, "--size", "200x60", "--fps",
+        told = self.rendered(left, "--side-by-side", right, "--frames", out, "--size", "200x60", "--fps",
                              10, "--show", "none", "--plot", "energy")
         self.assertEqual(told["pictures"], 6)
         pictures = [picture.read_png(p) for p in sorted(out.iterdir())]
@@ -101,7 +101,7 @@ class Render(ProgramTest):
         right_of = [[bytes(row[3 * 110:]) for row in rows] for _, _, rows in pictures]
         self.assertEqual(len({tuple(map(bytes, rows)) for rows in left_of}), 6)
         self.assertEqual(len({tuple(map(bytes, rows)) for rows in right_of}), 4)  # then its last frame
-        self.assertTrue(self.refusals(left, "--beside", self.ball, "--frames", out))
+        self.assertTrue(self.refusals(left, "--side-by-side", self.ball, "--frames", out))
 
     def test_a_plot_is_at_the_bottom_and_its_cursor_moves_with_time(self):
         recording = self.record("a")
@@ -134,7 +134,7 @@ class Render(ProgramTest):
         out = self.folder / "film.mp4"
         (fault,) = self.refusals(self.ball, "--mp4", out, path=self.folder)
         self.assertEqual(fault["where"], "--mp4")
-        self.assertIn("apt-get install ffmpeg", fault["remedy"])
+        self.assertIn("apt-get install ffmpeg", fault["fix"])
         self.refusals(self.ball, "--mp4", out, "--size", "64x48", path=self.fake_ffmpeg(), FAIL="1")
         self.assertEqual(list(self.folder.glob("film*")), [])
 
@@ -148,10 +148,10 @@ class Render(ProgramTest):
         run, out, film = self.record("a"), self.folder / "b.png", self.folder / "film"
         for words in (["--to", "9"], ["--from", "7", "--to", "9"]):
             faults = self.refusals(run, "--frames", film, *words)
-            self.assertEqual([(f["where"], f["rule"].split()[0]) for f in faults],
+            self.assertEqual([(f["where"], f["problem"].split()[0]) for f in faults],
                              list(zip(words[::2], words[1::2])))
         for words in (["--png", out, "--at", "9"], ["--frames", film, "--to", "9"]):
-            self.assertIn("neither", self.refusals(run, "--beside", run, *words)[0]["rule"])
+            self.assertIn("neither", self.refusals(run, "--side-by-side", run, *words)[0]["problem"])
         self.assertIn("--gravity", self.refusals(run, "--png", out, "--gravity", "0,0,-1")[0]["where"])
         self.assertEqual(len(self.refusals(self.ball, "--frames", run, path=self.fake_ffmpeg())), 1)
 

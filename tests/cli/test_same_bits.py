@@ -43,11 +43,11 @@ class Threads(ProgramTest):
             self.assertEqual(result, results[0])
 
     def test_a_map_has_the_same_bytes_with_one_two_and_three_threads(self):
-        for way in ([], ["--alone"]):
+        for way in ([], ["--no-simd"]):
             told, files = [], []
             for threads in (1, 2, 3):
                 file = self.folder / f"{threads}{len(way)}"
-                told.append(self.json_of("map", *MAP, *way, "--threads", threads, "--work", file, "--csv",
+                told.append(self.json_of("map", *MAP, *way, "--threads", threads, "--checkpoint", file, "--csv",
                                          f"{file}.csv"))
                 files.append((file.read_bytes(), pathlib.Path(f"{file}.csv").read_bytes()))
             self.same(told)
@@ -70,7 +70,7 @@ class Threads(ProgramTest):
             answer = self.json_of("compare", "A1", "A2", "B1", "C2", "--integrator", "rk4,verlet", preexec_fn=pinned)
             for case in answer["cases"]:
                 case.pop("seconds")
-                for lane in case["lanes"]:
+                for lane in case["configurations"]:
                     lane.pop("seconds")
             told.append(answer)
         self.assertGreater(len(told[0]["cases"]), 2)

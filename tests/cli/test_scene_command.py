@@ -42,12 +42,12 @@ class Scenes(RobotCommand):
         """One fault, of that code; returns what it says."""
         (fault,) = self.refusals(scene, *options, **more)
         self.assertEqual((fault["code"], fault["where"], fault["line"]), (code, where, line), fault)
-        return fault["rule"] + fault["remedy"]
+        return fault["problem"] + fault["fix"]
 
     def balanced(self, answer):
         first, last = answer["samples"][0], answer["samples"][-1]
         change = last["kinetic_energy"] - first["kinetic_energy"]
-        self.close(sum(answer["ledger"].values()), change, 1e-12)
+        self.close(sum(answer["energy_balance"].values()), change, 1e-12)
         return change
 
 
@@ -62,7 +62,7 @@ class FreeFlight(Scenes):
         self.close(ball["rotation"][0], [math.cos(2), -math.sin(2), 0], 1e-12)
         self.assertEqual(answer["samples"][0]["q"], {})
         self.balanced(answer)
-        self.close(answer["ledger"]["numerical"], 0, 1e-12)
+        self.close(answer["energy_balance"]["numerical"], 0, 1e-12)
 
     def test_the_scene_gives_duration_step_and_integrator_and_options_outrank_it(self):
         head = 'duration = 0.25\nstep = 0.05\nintegrator = "verlet"\ngravity = [0, 0, -1]\n'
@@ -118,7 +118,7 @@ class FreeFlight(Scenes):
         self.close(answer["samples"][0]["q"]["hinge"], 0.7)
         self.close(answer["samples"][-1]["q"]["hinge"], 1.2, 1e-12)
         self.close(answer["samples"][-1]["links"]["ball"]["linear_velocity"][0], 3, 1e-12)
-        self.close(answer["ledger"]["wrench/0"], 4 * 2, 1e-10)
+        self.close(answer["energy_balance"]["wrench/0"], 4 * 2, 1e-10)
 
     def test_the_table_shows_where_the_bodies_are(self):
         table = self.twinarm("simulate", self.write("scene.toml", BALL), "--duration", 1).stdout
@@ -142,27 +142,27 @@ class Couplings(Scenes):
     def test_the_energy_balance_separates_spring_damper_and_discretization(self):
         text = (arm("r", "q = { hinge = 0.1 }") +
                 coupling("stiffness = 800\ndamping = 3\ntarget = { q = { hinge = 0 } }\n"
-                         'treatment = "TREATMENT"'))
+                         'discretization = "TREATMENT"'))
         exact = self.run_scene(text.replace("TREATMENT", "explicit"), "--duration", 0.3,
                                "--integrator", "dopri5", "--tolerance", 1e-12)
         change = self.balanced(exact)
-        rows, end = exact["ledger"], exact["samples"][-1]
+        rows, end = exact["energy_balance"], exact["samples"][-1]
         self.close(rows["coupling/pull/spring"],
                    400 * (0.1 ** 2 - end["q"]["hinge"] ** 2), 1e-10)
         self.close(rows["numerical"], 0, 1e-9)
         self.assertLess(rows["coupling/pull/damper"], 0)
         self.assertNotIn("coupling/pull/implicit", rows)
-        self.assertEqual(exact["hand"], {"pull": 0})
+        self.assertEqual(exact["input_work"], {"pull": 0})
         self.assertGreater(abs(change), 0.01)
-        for treatment in ("implicit", "semi-implicit"):
-            answer = self.run_scene(text.replace("TREATMENT", treatment), "--duration", 0.3)
+        for discretization in ("implicit", "semi-implicit"):
+            answer = self.run_scene(text.replace("TREATMENT", discretization), "--duration", 0.3)
             self.balanced(answer)
-            rows, end = answer["ledger"], answer["samples"][-1]
+            rows, end = answer["energy_balance"], answer["samples"][-1]
             # On one joint without other forces all that happens is the coupling's doing.
             self.close(rows["numerical"], 0, 1e-12)
             self.close(rows["coupling/pull/spring"],
                        400 * (0.1 ** 2 - end["q"]["hinge"] ** 2), 1e-10)
-            if treatment == "implicit":  # both at the end of the step: backward Euler only takes
+            if discretization == "implicit":  # both at the end of the step: backward Euler only takes
                 lost, x, v, h = 0.0, 0.1, 0.0, 0.001
                 for _ in range(300):
                     dv = -h * (800 * x + (3 + 800 * h) * v) / (HINGE_INERTIA + 3 * h + 800 * h * h)
@@ -175,7 +175,7 @@ class Couplings(Scenes):
         # At an even speed of the target: hand = the robot's and the spring's energy and the losses.
         self.write("hand.csv", STEADY_HAND)
         answer = self.run_scene(arm("r") + coupling('stiffness = 50\ndamping = 1\n'
-                                                    'treatment = "explicit"\ntarget = "hand.csv"'),
+                                                    'discretization = "explicit"\ntarget = "hand.csv"'),
                                 "--duration", 0.7, "--integrator", "rk4")
         last = answer["samples"][-1]
         self.close(last["targets"]["pull"]["q"]["hinge"], 0.7, 1e-12)  # gain 2 of theta1
@@ -183,11 +183,11 @@ class Couplings(Scenes):
         a = 1 / HINGE_INERTIA  # e'' + a e' + 50 a e = 0, e(0) = 0, e'(0) = 1
         w = math.sqrt(50 * a - a * a / 4)
         self.close(e, math.exp(-a * 0.35) * math.sin(w * 0.7) / w, 1e-8)
-        rows = answer["ledger"]
+        rows = answer["energy_balance"]
         work = rows["coupling/pull/spring"] + rows["coupling/pull/damper"]
         self.close(rows["numerical"], 0, 1e-8)
         # Power of hand + power on the robot = -(d/dt) of the spring's energy - b de^2.
-        lost = answer["hand"]["pull"] - work - 25 * e * e
+        lost = answer["input_work"]["pull"] - work - 25 * e * e
         n = 20000
         times = [(i + 0.5) * 0.7 / n for i in range(n)]
         rates = [math.exp(-a * t / 2) * (math.cos(w * t) - a / (2 * w) * math.sin(w * t))
@@ -203,7 +203,7 @@ class Couplings(Scenes):
         plain = self.run_scene(text, "--duration", 0.5)
         asked = self.run_scene(text, "--duration", 0.5, "--at", "0.00123,0.0155,0.25004,0.5")
         self.assertEqual(asked["samples"][-1], plain["samples"][-1])
-        self.assertEqual(asked["ledger"], plain["ledger"])
+        self.assertEqual(asked["energy_balance"], plain["energy_balance"])
 
     def test_the_papers_motion_moves_the_target_of_the_s103(self):
         answer = self.run_scene(data("s103_paper.toml"), "--duration", 1, "--at", "0.25,1")
@@ -216,7 +216,7 @@ class Couplings(Scenes):
         a, b = math.pi / 4, math.pi / 4 - math.pi / 8
         self.close(target["position"][:2], [0.25 * math.cos(a) + 0.35 * math.cos(b),
                                             0.25 * math.sin(a) + 0.35 * math.sin(b)], 1e-12)
-        self.assertGreater(answer["hand"]["coupling0"], 0)
+        self.assertGreater(answer["input_work"]["coupling0"], 0)
 
 
 class Touching(Scenes):
@@ -304,10 +304,10 @@ class Located(Scenes):
             self.assertAlmostEqual(ball["position"][0], 1, delta=1e-9)
             rest = answer["samples"][1]["links"]["ball"]
             self.assertAlmostEqual(rest["position"][2], 0.1, delta=1e-9)
-            ledger = answer["ledger"]
-            self.assertAlmostEqual(ledger["gravity"], 2 * 9.81, delta=1e-8)
-            self.assertAlmostEqual(ledger["contact/ball-floor/impact"], -2 * 9.81, delta=1e-6)
-            self.assertAlmostEqual(ledger["numerical"], 0, delta=1e-8)
+            energy_balance = answer["energy_balance"]
+            self.assertAlmostEqual(energy_balance["gravity"], 2 * 9.81, delta=1e-8)
+            self.assertAlmostEqual(energy_balance["contact/ball-floor/impact"], -2 * 9.81, delta=1e-6)
+            self.assertAlmostEqual(energy_balance["numerical"], 0, delta=1e-8)
 
     def test_the_command_line_outranks_the_file(self):
         answer = self.run_scene(self.FALL, "--duration", 1, "--step", 0.5, "--contact", "event")

@@ -19,7 +19,7 @@ WORD = re.compile(r"[a-z][a-z_0-9]*")
 CELLS = re.compile(r"(?<!\\)\|")
 ROBOT = '[[robot]]\nname = "arm"\nmodel = "robots/s103/s103.urdf"\n'
 ARM = '[[coupling]]\nlink = "arm1"\nstiffness = 1\n'
-SHAPES = ("halfspace", "box", "sphere", "capsule", "cylinder", "ellipsoid", "hollow_sphere", "hollow_cylinder", "mesh")
+SHAPES = ("halfspace", "box", "sphere", "capsule", "cylinder", "ellipsoid", "spherical_cavity", "cylindrical_cavity", "mesh")
 
 
 def spans(text):
@@ -107,9 +107,9 @@ class Keys(unittest.TestCase):
                 self.check(f"`[[{name}]]`", known(before, skip=skip))
 
     def test_the_tables_of_numbers_are_those_that_the_program_prints(self):
-        printed = run("help", "--scene-numbers").stdout
+        printed = run("help", "--scene-keys").stdout
         for table in printed.strip().split("\n\n"):
-            self.assertIn(f"\n{table}\n\n", PAGE, "docs/reference/scene_file.md: take the table from twinarm help --scene-numbers")
+            self.assertIn(f"\n{table}\n\n", PAGE, "docs/reference/scene_file.md: take the table from twinarm help --scene-keys")
 
     def test_tables_within_tables(self):
         for heading, key, before, inside, extra in (

@@ -40,7 +40,7 @@ class Motions(RobotCommand):
                 self.close([sample["q"]["hinge"], sample["qd"]["hinge"]], [theta, rate], 1e-9)
                 self.close(sample["links"]["bob"]["rotation"][0],
                            [math.cos(theta), 0, -math.sin(theta)], 1e-9)
-            self.close(answer["ledger"]["numerical"], 0, 1e-9)
+            self.close(answer["energy_balance"]["numerical"], 0, 1e-9)
 
     def test_every_integrator_has_its_own_recurrence_to_rounding(self):
         for name, theta in INTEGRATORS.items():
@@ -76,8 +76,8 @@ class Motions(RobotCommand):
         turned = [a[0] * b[0] - dot(a[1:], b[1:]),
                   *add(scale(a[0], b[1:]), scale(b[0], a[1:]), cross(a[1:], b[1:]))]
         self.close(from_quaternion(sample["base"]["orientation"]), from_quaternion(turned))
-        self.close(answer["ledger"]["gravity"], -2 * 9.81 * (3 * t - 9.81 * t * t / 2))
-        self.close(answer["ledger"]["numerical"], 0, 1e-12)
+        self.close(answer["energy_balance"]["gravity"], -2 * 9.81 * (3 * t - 9.81 * t * t / 2))
+        self.close(answer["energy_balance"]["numerical"], 0, 1e-12)
 
     def test_the_end_of_a_run_can_be_the_state_of_the_next(self):
         urdf = robot(link("body"), link("arm"), joint("ball", "spherical", "body", "arm"),
@@ -103,7 +103,7 @@ class Motions(RobotCommand):
         exact = run("--integrator", "dopri5", "--tolerance", "1e-11")
         most = max(sample["kinetic_energy"] for sample in exact["samples"])
         self.assertGreater(most, 10)
-        self.assertLess(abs(exact["ledger"]["numerical"]), 1e-9 * most)
+        self.assertLess(abs(exact["energy_balance"]["numerical"]), 1e-9 * most)
         for sample in exact["samples"]:
             self.assertLess(abs(sample["kinetic_energy"] + sample["potential_energy"] -
                                 exact["samples"][0]["potential_energy"]), 1e-9 * most)
@@ -112,7 +112,7 @@ class Motions(RobotCommand):
         first, last = rough["samples"][0], rough["samples"][-1]
         gained = (last["kinetic_energy"] + last["potential_energy"] - first["kinetic_energy"] -
                   first["potential_energy"])
-        self.assertLess(abs(rough["ledger"]["numerical"] - gained), 1e-11 * most)
+        self.assertLess(abs(rough["energy_balance"]["numerical"] - gained), 1e-11 * most)
         self.assertGreater(abs(gained), 1e-5)
 
     def test_a_mimic_joint_keeps_its_ratio_along_the_run(self):
@@ -125,7 +125,7 @@ class Motions(RobotCommand):
         for sample in answer["samples"]:
             theta = 0.5 * sample["q"]["lead"] + 0.1  # of b in the world
             self.close(sample["links"]["b"]["rotation"][0], [math.cos(theta), 0, math.sin(theta)])
-        self.close(answer["ledger"]["numerical"], 0, 1e-9)
+        self.close(answer["energy_balance"]["numerical"], 0, 1e-9)
 
 
 class Samples(RobotCommand):
@@ -143,7 +143,7 @@ class Samples(RobotCommand):
                              [0, 0.0123, 0.3, 0.30001, 0.9999, 1])
             self.assertEqual(asked["samples"][0], plain["samples"][0], integrator)
             self.assertEqual(asked["samples"][-1], plain["samples"][-1], integrator)
-            self.assertEqual(asked["ledger"], plain["ledger"], integrator)
+            self.assertEqual(asked["energy_balance"], plain["energy_balance"], integrator)
             if integrator != "dopri5":
                 on_grid = self.answer(urdf, *options, "--every", 0.1, state=LEVEL)["samples"]
                 self.assertEqual(asked["samples"][2]["q"], on_grid[3]["q"], integrator)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm simulate`: the ledger, runs that stop, faults.
+"""`twinarm simulate`: the energy balance, runs that stop, faults.
 
     test_simulate_ends.py PATH/TO/twinarm
 """
@@ -25,14 +25,14 @@ class Joules(RobotCommand):
         for integrator, tolerance in (("rk4", 1e-11), ("dopri5", 1e-8), ("verlet", 1e-6)):
             answer = self.answer(slider(damping=c), "--duration", T, "--integrator", integrator,
                                  state={"tau": {"slide": F}})
-            sample, ledger = answer["samples"][-1], answer["ledger"]
+            sample, energy_balance = answer["samples"][-1], answer["energy_balance"]
             self.close([sample["q"]["slide"], sample["qd"]["slide"]], [x, v], tolerance)
-            self.assertEqual(list(ledger), ["gravity", "actuator/slide", "joint/slide/damping",
+            self.assertEqual(list(energy_balance), ["gravity", "actuator/slide", "joint/slide/damping",
                                             "numerical"])
-            self.close(ledger["actuator/slide"], F * x, tolerance)
-            self.close(ledger["joint/slide/damping"], m * v * v / 2 - F * x, tolerance)
-            self.close(ledger["numerical"], 0, tolerance, integrator)
-            self.close(sum(ledger.values()), sample["kinetic_energy"], 1e-12)
+            self.close(energy_balance["actuator/slide"], F * x, tolerance)
+            self.close(energy_balance["joint/slide/damping"], m * v * v / 2 - F * x, tolerance)
+            self.close(energy_balance["numerical"], 0, tolerance, integrator)
+            self.close(sum(energy_balance.values()), sample["kinetic_energy"], 1e-12)
 
     def test_friction_takes_all_that_a_sliding_block_has_and_holds_it_then(self):
         m, f, v = 2.0, 1.5, 3.0
@@ -43,11 +43,11 @@ class Joules(RobotCommand):
             self.assertEqual(sample["qd"]["slide"], 0, integrator)
             tolerance = 1e-9 if integrator == "rk4" else 2e-3
             self.close(sample["q"]["slide"], m * v * v / 2 / f, tolerance, integrator)
-            self.close(sum(answer["ledger"].values()), -m * v * v / 2, 1e-12, integrator)
+            self.close(sum(answer["energy_balance"].values()), -m * v * v / 2, 1e-12, integrator)
         kept = self.answer(slider(friction=f), "--no-friction", "--duration", 1,
                            state={"qd": {"slide": v}})
         self.assertEqual(kept["samples"][-1]["qd"]["slide"], v)
-        self.assertNotIn("joint/slide/friction", kept["ledger"])
+        self.assertNotIn("joint/slide/friction", kept["energy_balance"])
 
     def test_a_world_wrench_keeps_its_direction_and_stays_with_its_point_of_the_link(self):
         urdf = robot(link("body"))
@@ -58,8 +58,8 @@ class Joules(RobotCommand):
         answer = self.answer(urdf, *options, state=state)
         base = answer["samples"][-1]["base"]
         point = add(base["position"], times(from_quaternion(base["orientation"]), at))
-        self.close(answer["ledger"]["wrench/0"], dot(force, add(point, scale(-1, at))), 1e-10)
-        self.close(answer["ledger"]["numerical"], 0, 1e-10)
+        self.close(answer["energy_balance"]["wrench/0"], dot(force, add(point, scale(-1, at))), 1e-10)
+        self.close(answer["energy_balance"]["numerical"], 0, 1e-10)
 
         # Momentum grows by force times time.
         com = answer["samples"][-1]["links"]["body"]
@@ -72,8 +72,8 @@ class Joules(RobotCommand):
         state["wrenches"] = [{"link": "body", "frame": "link", "point": at, "force": force,
                               "torque": torque}]
         turning = self.answer(urdf, *options, state=state)
-        self.close(turning["ledger"]["numerical"], 0, 1e-9)
-        self.assertGreater(abs(turning["ledger"]["wrench/0"] - answer["ledger"]["wrench/0"]), 0.1)
+        self.close(turning["energy_balance"]["numerical"], 0, 1e-9)
+        self.assertGreater(abs(turning["energy_balance"]["wrench/0"] - answer["energy_balance"]["wrench/0"]), 0.1)
 
     def test_the_remainder_is_the_error_of_the_integrator(self):
         for name, sign in (("euler", 1), ("implicit-euler", -1)):
@@ -83,8 +83,8 @@ class Joules(RobotCommand):
 
             def energy(sample):
                 return sample["kinetic_energy"] + sample["potential_energy"]
-            self.close(answer["ledger"]["numerical"], energy(last) - energy(first))
-            self.assertGreater(sign * answer["ledger"]["numerical"], 0.1)
+            self.close(answer["energy_balance"]["numerical"], energy(last) - energy(first))
+            self.assertGreater(sign * answer["energy_balance"]["numerical"], 0.1)
 
 
 class Ends(RobotCommand):

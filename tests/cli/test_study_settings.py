@@ -47,8 +47,8 @@ class Settings(ProgramTest):
         self.assertEqual({where: error["line"] for where, error in errors.items()},
                          {where: line for where, (line, _) in wanted.items()})
         for where, (_, nearest) in wanted.items():
-            self.assertEqual(errors[where]["rule"], "unknown key")
-            self.assertIn(f"did you mean '{nearest}'?", errors[where]["remedy"])
+            self.assertEqual(errors[where]["problem"], "unknown key")
+            self.assertIn(f"did you mean '{nearest}'?", errors[where]["fix"])
 
     def test_lists_of_settings_of_the_wrong_kind_or_length_are_refused(self):
         text = SHIPPED
@@ -59,7 +59,7 @@ class Settings(ProgramTest):
                               ("[0.90, 0.16, 0.42]", "[0.90, 0.16]")):
             self.assertEqual(text.count(before), 1, before)
             text = text.replace(before, after)
-        errors = {where: error["rule"] for where, error in self.faults_of(text).items()}
+        errors = {where: error["problem"] for where, error in self.faults_of(text).items()}
         self.assertEqual(errors, {"protocol, rates_hz": "must be a list of finite numbers",
                                   "protocol, sweep_times": "must be a list of finite numbers",
                                   "robot, turned": "must be a list of 3 texts",

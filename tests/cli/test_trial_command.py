@@ -54,7 +54,7 @@ class Trial(ProgramTest):
 
     def test_the_task_is_done_when_the_object_is_released_at_the_goal(self):
         self.carries()
-        told = self.trial("--tasks", "pick-and-place", "--most", 20)
+        told = self.trial("--tasks", "pick-and-place", "--time-limit", 20)
         self.assertEqual([r["condition"] for r in told["results"]],
                          ["torsional", "linear", "kinematic"])
         for result in told["results"]:
@@ -62,27 +62,27 @@ class Trial(ProgramTest):
             self.assertEqual((result["picks"], result["drops"]), (1, 0))
             self.assertLess(abs(result["seconds"] - 7.5), 0.1)  # the button is released at 7.5 s
             self.assertLess(abs(result["picked_at"] - 3.0), 0.1)
-            self.assertLess(result["off_mm"], 30)
+            self.assertLess(result["placement_error_mm"], 30)
         self.assertEqual(told["results"][2]["max_deg"], [])  # no tracking error of the target robot
         self.assertGreater(told["results"][0]["max_deg"][0], 0.1)
 
     def test_an_object_released_elsewhere_is_a_drop_and_no_success(self):
         self.carries(to=(0.45, -0.15))
-        told = self.trial("--tasks", "pick-and-place", "--most", 12, "--conditions", "kinematic")
+        told = self.trial("--tasks", "pick-and-place", "--time-limit", 12, "--conditions", "kinematic")
         result = told["results"][0]
         self.assertFalse(result["done"])
         self.assertEqual((result["picks"], result["drops"]), (1, 1))
         self.assertAlmostEqual(result["seconds"], 12, delta=0.01)
-        self.assertAlmostEqual(result["off_mm"], 1e3 * math.hypot(0.03, 0.13), delta=10)
+        self.assertAlmostEqual(result["placement_error_mm"], 1e3 * math.hypot(0.03, 0.13), delta=10)
 
     def test_the_table_of_all_subjects_grows_and_has_no_names(self):
         self.carries()
         first = self.trial("--tasks", "free", "--seconds", 1)
-        self.assertEqual(first["subject"], "S1")
+        self.assertEqual(first["participant"], "S1")
         second = self.trial("--tasks", "free", "--seconds", 1, "--seed", 2)
-        self.assertEqual(second["subject"], "S2")
+        self.assertEqual(second["participant"], "S2")
         rows = list(csv.DictReader((self.out / "results.csv").read_text().splitlines()))
-        self.assertEqual([row["subject"] for row in rows], ["S1"] * 3 + ["S2"] * 3)
+        self.assertEqual([row["participant"] for row in rows], ["S1"] * 3 + ["S2"] * 3)
         self.assertEqual({row["condition"] for row in rows[3:]},
                          {"torsional", "linear", "kinematic"})
         self.assertAlmostEqual(float(rows[0]["joint1_max[deg]"]),
@@ -102,7 +102,7 @@ class Trial(ProgramTest):
     def test_a_file_with_another_header_is_not_changed(self):
         self.out.mkdir()
         (self.out / "results.csv").write_text("something else\n")
-        for words in ((), ("--subject", "S1", "--tasks", "free", "--seconds", "0.1")):
+        for words in ((), ("--participant", "S1", "--tasks", "free", "--seconds", "0.1")):
             done = self.twinarm("trial", "--device", "virtual", *words, "--simulated", "--out", self.out, code=2)
             self.assertIn("another folder", done.stderr)
         self.assertEqual((self.out / "results.csv").read_text(), "something else\n")

@@ -11,17 +11,17 @@ from program import ProgramTest, main, run
 from robot_command import HINGE
 
 SPRING = ('[[coupling]]\nname = "{name}"\ntype = "torsional"\nmeasure = "joint"\nlink = "{link}"\n'
-          'stiffness = {k}\ndamping = {b}\ntreatment = "{treatment}"\n'
+          'stiffness = {k}\ndamping = {b}\ndiscretization = "{discretization}"\n'
           '[coupling.target]\nq = {{ {joint} = 0.2 }}\n')
 
 
 class WrongGain(ProgramTest):
-    def run_with(self, k, *options, step=0.001, treatment="explicit", duration=0.5):
+    def run_with(self, k, *options, step=0.001, discretization="explicit", duration=0.5):
         scene = self.write(
             "scene.toml",
             f'step = {step}\n[[robot]]\nname = "arm"\nmodel = "robots/s103/s103.urdf"\n' +
-            SPRING.format(name="soft", link="arm1", joint="joint1", k=200, b=2, treatment=treatment) +
-            SPRING.format(name="hard", link="arm2", joint="joint2", k=k, b=0, treatment=treatment))
+            SPRING.format(name="soft", link="arm1", joint="joint1", k=200, b=2, discretization=discretization) +
+            SPRING.format(name="hard", link="arm2", joint="joint2", k=k, b=0, discretization=discretization))
         return run("simulate", scene, "--duration", duration, "--json", *options)
 
     def test_the_unstable_spring_is_named_and_the_suggested_fixes_are_stable(self):
@@ -29,18 +29,18 @@ class WrongGain(ProgramTest):
         broken = self.run_with(9e5, "--post-mortem", file, "--energy-bound", 1e6)
         self.assertEqual(broken.returncode, 3, broken.stderr)
         self.assertIn("Likely cause: coupling 'hard'", broken.stderr)
-        suspect = json.loads(broken.stdout)["post_mortem"]["suspects"][0]
-        self.assertIn("'hard'", suspect["name"])
-        self.assertGreater(suspect["w_h"], suspect["limit"])
+        violation = json.loads(broken.stdout)["post_mortem"]["violations"][0]
+        self.assertIn("'hard'", violation["name"])
+        self.assertGreater(violation["omega_h"], violation["stability_limit"])
         # The suggested values have a margin: the undamped spring keeps its energy.
         step, gain = (float(re.search(pattern, broken.stderr).group(1)) for pattern in
                       (r"step <= (\S+) ms", r"stiffness <= (\S+) N m/rad"))
         step /= 1000
         for done in (self.run_with(9e5, "--energy-bound", 5e4, step=step),
                      self.run_with(gain, "--energy-bound", 0.06 * gain),
-                     self.run_with(9e5, step=0.99 * suspect["largest_step"]),
-                     self.run_with(0.99 * suspect["largest_gain"]),
-                     self.run_with(9e5, treatment="implicit")):
+                     self.run_with(9e5, step=0.99 * violation["max_stable_step"]),
+                     self.run_with(0.99 * violation["max_stable_gain"]),
+                     self.run_with(9e5, discretization="implicit")):
             self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_an_unstable_run_bounded_by_joint_limits_raises_an_alarm(self):
@@ -59,21 +59,21 @@ GOD = '[[coupling]]\nname = "god"\ntype = "god-object"\ntarget = { q = { hinge =
 # Unstable at a step of 1 ms on an inertia of 0.5: keys of the coupling, and a second coupling.
 LAWS = {
     "weld": ({"type": "weld", "time_constant": 4e-4, "damping_ratio": 0.2}, ""),
-    "printed-linear": ({"type": "printed-linear", "stiffness": 3e7, "damping": 600}, ""),
-    "printed-linear, seldom": ({"type": "printed-linear", "stiffness": 3e5, "damping": 2000,
+    "published-linear": ({"type": "published-linear", "stiffness": 3e7, "damping": 600}, ""),
+    "published-linear, seldom": ({"type": "published-linear", "stiffness": 3e5, "damping": 2000,
                                 "rate": 100}, ""),
-    "printed-torsional": ({"type": "printed-torsional", "stiffness": 3e6, "damping": 5}, ""),
+    "published-torsional": ({"type": "published-torsional", "stiffness": 3e6, "damping": 5}, ""),
     "stable PD": ({"type": "stable-pd", "stiffness": 3e6, "damping": 20}, ""),
-    "matched": ({"type": "matched", "stiffness": 3e7, "damping": 600}, ""),
-    "bushing": ({"type": "bushing", "treatment": "explicit", "stiffness": 3e7, "damping": 600,
-                 "turn_stiffness": 1e5, "turn_damping": 2}, ""),
-    "held": ({"type": "linear", "treatment": "explicit", "stiffness": 3e5, "damping": 2000,
+    "equivalent-torsional": ({"type": "equivalent-torsional", "stiffness": 3e7, "damping": 600}, ""),
+    "bushing": ({"type": "bushing", "discretization": "explicit", "stiffness": 3e7, "damping": 600,
+                 "rotational_stiffness": 1e5, "rotational_damping": 2}, ""),
+    "held": ({"type": "linear", "discretization": "explicit", "stiffness": 3e5, "damping": 2000,
               "rate": 100}, ""),
-    "beside a god object": ({"type": "torsional", "measure": "joint", "treatment": "explicit",
+    "beside a god object": ({"type": "torsional", "measure": "joint", "discretization": "explicit",
                              "stiffness": 1e6, "damping": 20}, GOD),
-    "a damper": ({"type": "linear", "treatment": "explicit", "stiffness": 0, "damping": 3e4}, "")}
-POINT = ("weld", "printed-linear", "matched", "bushing", "linear")
-WORDS = {"stiffness": r"\bstiffness <= (\S+) N", "turn_stiffness": r"turn_stiffness <= (\S+) N m",
+    "a damper": ({"type": "linear", "discretization": "explicit", "stiffness": 0, "damping": 3e4}, "")}
+POINT = ("weld", "published-linear", "equivalent-torsional", "bushing", "linear")
+WORDS = {"stiffness": r"\bstiffness <= (\S+) N", "rotational_stiffness": r"rotational_stiffness <= (\S+) N m",
          "damping": r"damping <= (\S+) N", "time_constant": r"time_constant >= (\S+) s",
          "rate": r"rate >= (\S+) Hz"}
 
@@ -102,10 +102,10 @@ class WrongGainOfALaw(ProgramTest):
                 broken = self.run_with(keys, beside)
                 self.assertEqual(broken.returncode, 3, broken.stderr)
                 self.assertIn("Likely cause: coupling 'pull'", broken.stderr)
-                suspect, = json.loads(broken.stdout)["post_mortem"]["suspects"]
-                self.assertGreater(suspect["w_h"], suspect["limit"])
+                violation, = json.loads(broken.stdout)["post_mortem"]["violations"]
+                self.assertGreater(violation["omega_h"], violation["stability_limit"])
                 if beside:
-                    self.assertIn("beside the god object 'god'", suspect["scheme"])
+                    self.assertIn("beside the god object 'god'", violation["scheme"])
                 step = re.search(r"step <= (\S+) ms", broken.stderr)
                 self.assertNotEqual("rate" in keys, bool(step))
                 if step:
@@ -119,9 +119,9 @@ class WrongGainOfALaw(ProgramTest):
                 self.assertTrue(told or rate, broken.stderr)
                 if told:
                     self.check_holds({**keys, **told}, beside)
-                law = re.search(r'(?:type = "(\S+)", )?(measure = "joint", )?treatment = "implicit"',
+                law = re.search(r'(?:type = "(\S+)", )?(measure = "joint", )?discretization = "implicit"',
                                 broken.stderr)
-                other = {**keys, "type": law[1] or keys["type"], "treatment": "implicit"}
+                other = {**keys, "type": law[1] or keys["type"], "discretization": "implicit"}
                 other.pop("rate", None)
                 if law[2]:
                     other["measure"] = "joint"
@@ -130,20 +130,20 @@ class WrongGainOfALaw(ProgramTest):
     def test_the_stability_limit_in_the_json_is_exact(self):
         for name, (keys, beside) in LAWS.items():
             with self.subTest(name):
-                suspect, = json.loads(self.run_with(keys, beside).stdout)["post_mortem"]["suspects"]
-                gain = suspect["gain"].replace(" ", "_")
-                edge, inside = suspect["largest_gain"], 0.98
+                violation, = json.loads(self.run_with(keys, beside).stdout)["post_mortem"]["violations"]
+                gain = violation["gain"].replace(" ", "_")
+                edge, inside = violation["max_stable_gain"], 0.98
                 if edge == 0:  # the damper alone is beyond it
                     self.assertIn("rate", keys)
                     continue
                 if gain == "time_constant":
                     inside = 1 / inside
                 part = edge / keys[gain]
-                turn = {"turn_stiffness": keys.get("turn_stiffness", 0) * part}
+                turn = {"rotational_stiffness": keys.get("rotational_stiffness", 0) * part}
                 for by, code in ((inside, 0), (1 / inside, 3)):
                     gains = {gain: by * edge}
-                    if "turn_stiffness" in keys:
-                        gains["turn_stiffness"] = by * turn["turn_stiffness"]
+                    if "rotational_stiffness" in keys:
+                        gains["rotational_stiffness"] = by * turn["rotational_stiffness"]
                     done = self.run_with({**keys, **gains}, beside)
                     self.assertEqual(done.returncode, code, (by, done.stderr))
 

@@ -57,7 +57,7 @@ class Zwidth(unittest.TestCase):
         self.assertEqual(len(answer()["series"]), 9)
         for row in answer()["series"]:
             law = row["coupling"] * row["wall"] / (row["coupling"] + row["wall"])
-            self.assertLess(abs(row["felt"] / law - 1), 0.005)
+            self.assertLess(abs(row["rendered_stiffness"] / law - 1), 0.005)
 
     def test_a_delay_of_100_ms_is_passive_only_with_the_controller(self):
         rows = {(row["name"], row["control"]): row for row in answer()["delays"]}

@@ -90,7 +90,7 @@ class TextComparisons(unittest.TestCase):
                 ("words.trim() === 'opened'", ".ts")):
             self.assertTrue(list(comparisons(text, suffix)), text)
         for text, suffix in (('file.extension() == ".toml"', ".cpp"), ("c == ' '", ".cpp"),
-                             ('row.kind == LedgerKind::numerical', ".cpp"),
+                             ('row.kind == EnergyBalanceKind::numerical', ".cpp"),
                              ('table.find("target")', ".cpp"), ("state === 'opened'", ".ts")):
             self.assertFalse(list(comparisons(text, suffix)), text)
 

@@ -79,7 +79,7 @@ class Scenes(ProgramTest):
             np.testing.assert_array_equal(run.t, [s["t"] for s in told["samples"]])
             for key in ("kinetic_energy", "potential_energy"):
                 np.testing.assert_array_equal(getattr(run, key), [s[key] for s in told["samples"]])
-            self.assertEqual(run.ledger, told["ledger"])
+            self.assertEqual(run.energy_balance, told["energy_balance"])
             self.assertEqual(run.contacts, told["contacts"])
             self.assertEqual(run.steps, told["steps"])
             self.assertEqual(run.warnings, told["warnings"])
@@ -111,7 +111,7 @@ class Scenes(ProgramTest):
         self.assertAlmostEqual(found["K"][0][0], 400, places=9)
         step = twinarm.largest_stable_step(found["mass_matrix"], found["K"], found["B"],
                                            "semi-implicit Euler")
-        told = {row["scheme"]: row["largest_step"] for row in found["limits"]}
+        told = {row["scheme"]: row["max_stable_step"] for row in found["limits"]}
         self.assertEqual(step, told["semi-implicit Euler"])
         omega = math.sqrt(400 / 1.00144)
         zeta = 3 / (2 * math.sqrt(400 * 1.00144))
@@ -124,10 +124,10 @@ class Scenes(ProgramTest):
             '"explicit"', '"implicit"') + "\n")
         other = self.write("spring.toml", spring(h=0.001, k=5.0, b=0.0))
         change = {"step": 0.002, "coupling.hold.stiffness": 300, "coupling.damping": np.float64(3.0),
-                  "coupling.treatment": "implicit"}
+                  "coupling.discretization": "implicit"}
         expected, run = twinarm.simulate(of_file), twinarm.simulate(other, set=change)
         np.testing.assert_array_equal(run.q, expected.q)
-        self.assertEqual(run.ledger, expected.ledger)
+        self.assertEqual(run.energy_balance, expected.energy_balance)
         self.assertEqual(twinarm.predict_couplings(other, set=change), twinarm.predict_couplings(of_file))
         level = twinarm.simulate(other, set={"gravity": [0, 0, 0], "robot.limits": False}, duration=0.1)
         self.assertEqual(level.potential_energy[0], 0)
@@ -192,10 +192,10 @@ class Recordings(ProgramTest):
         self.assertEqual(list(rec.pulls), ["pull_arm1", "pull_arm2"])
         self.assertEqual(rec.units["kinetic_energy"], "J")
         self.assertEqual(rec.step[-1], 50)
-        self.assertIn("numerical", rec.ledger)
+        self.assertIn("numerical", rec.energy_balance)
         self.assertEqual(rec.end, "done")
         energy = rec["kinetic_energy"] + rec["potential_energy"]
-        sum_of_rows = sum(work for row, work in rec.ledger.items() if row != "gravity")
+        sum_of_rows = sum(work for row, work in rec.energy_balance.items() if row != "gravity")
         np.testing.assert_allclose(energy - energy[0], sum_of_rows, atol=1e-9 * np.abs(energy).max())
 
 

@@ -22,11 +22,11 @@ class MapCommand(ProgramTest):
         super().setUp()
         self.write("hinge.urdf", data("hinge.urdf"))
 
-    def scene(self, treatment="explicit", damping=1.0, duration=20.0, name="scene.toml"):
-        return self.write(name, data("map_hinge.toml", duration=duration, damping=damping, treatment=treatment))
+    def scene(self, discretization="explicit", damping=1.0, duration=20.0, name="scene.toml"):
+        return self.write(name, data("map_hinge.toml", duration=duration, damping=damping, discretization=discretization))
 
     def map(self, scene, *options, name="work.twinmap"):
-        return self.json_of("map", scene, *options, "--work", self.folder / name)
+        return self.json_of("map", scene, *options, "--checkpoint", self.folder / name)
 
     def faults(self, *arguments):
         return super().faults("map", *arguments)
@@ -44,7 +44,7 @@ class MapCommand(ProgramTest):
         for measure in MEASURES:
             planes[measure], alone = (
                 self.map(scene, *options, "--measure", measure, *way, name=f"{number}{way}")["values"]
-                for way in ([], ["--alone"]))
+                for way in ([], ["--no-simd"]))
             for row, other in zip(planes[measure], alone):
                 for value, wanted in zip(row, other):
                     self.assertEqual(value is None, wanted is None, measure)

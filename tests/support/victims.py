@@ -68,7 +68,7 @@ class Map(Victim):
             scene.write_text(data("map_hinge.toml", duration=0.5))
             (self.out.parent / "hinge.urdf").write_text(data("hinge.urdf"))
         return [self.program, "map", scene, "--x", "coupling.damping:0.5:20:64", "--y",
-                "coupling.stiffness:10:1e5:64:log", "--alone", "--force", "--work", self.out / "work.twinmap",
+                "coupling.stiffness:10:1e5:64:log", "--no-simd", "--force", "--checkpoint", self.out / "work.twinmap",
                 "--csv", self.out / "map.csv", "--svg", self.out / "map.svg"]
 
     def keep_reference(self):

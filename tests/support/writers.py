@@ -14,9 +14,9 @@ SMALL = ["--size", "64x48", "--quality", "draft"]
 # name: (words, files that may be left when it fails, though cut short)
 WRITERS = {
     "recording": (["simulate", PENDULUM, "--record", "run.twinrec"], {"run.twinrec.part"}),
-    "map": ([*MAP, "--work", "work.twinmap"], set()),
-    "table of a map": ([*MAP, "--work", "../work.twinmap", "--csv", "map.csv"], set()),
-    "picture of a map": ([*MAP, "--work", "../work.twinmap", "--svg", "map.svg"], set()),
+    "map": ([*MAP, "--checkpoint", "work.twinmap"], set()),
+    "table of a map": ([*MAP, "--checkpoint", "../work.twinmap", "--csv", "map.csv"], set()),
+    "picture of a map": ([*MAP, "--checkpoint", "../work.twinmap", "--svg", "map.svg"], set()),
     "cell of a map": ([*MAP, "--cell", "1,1", "--record", "cell.twinrec"], {"cell.twinrec.part", "cell.toml"}),
     "hand": (["hand", SCENES / "hand_and_obstacles.toml", "--simulated", "--duration", "0.5", "--record", "--out",
               "."], {"hand.csv"}),
@@ -28,7 +28,7 @@ WRITERS = {
     "inspection": (["inspect", ROBOT, "--html", "robot.html"], set()),
     "cases": (["compare", "A1", "--html", "."], set()),
     "trace": (["trace", "--out", "trace.csv"], set()),
-    "trial": (["trial", "--simulated", "--yes", "--device", "virtual:synthetic", "--seconds", "0.5", "--most", "0.5",
+    "trial": (["trial", "--simulated", "--yes", "--device", "virtual:synthetic", "--seconds", "0.5", "--time-limit", "0.5",
                "--out", "."], set()),
     "study": (["study", "--out", "."], set()),
 }

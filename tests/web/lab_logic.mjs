@@ -232,7 +232,7 @@ const scene = (extra = []) => ({
     { name: 'error/b', unit: 'rad', kind: 'error', of: 'b' },
     ...extra,
   ],
-  ledger: ['gravity', 'numerical'],
+  energy_balance: ['gravity', 'numerical'],
 });
 const frame = (time, a, b, number = 1, extra = []) => ({
   scene: 7,
@@ -366,7 +366,7 @@ test('plots: one per quantity of the variants, one curve per variant', () => {
     quantities.map(([what, unit]) => ({ name: `lane/${what}/${of}`, unit, kind: 'lane', of })),
   );
   const own = { name: 'q/hinge', unit: 'rad', kind: 'coordinate', of: 'hinge' };
-  const record = new RunRecord({ scene: 7, channels: [own, ...lanes], ledger: [] });
+  const record = new RunRecord({ scene: 7, channels: [own, ...lanes], energy_balance: [] });
   for (const time of [0, 1]) {
     const channels = Float64Array.from({ length: 7 }, (_, i) => time * (i + 1));
     record.addFrame({ scene: 7, time, number: time, lookedBack: false, channels, works: new Float64Array() });

@@ -79,7 +79,7 @@ class LabPage(LabCase):
 
     def test_beyond_the_stability_limit_the_run_diverges_and_the_first_remedy_is_stable(self):
         self.until(f"{STATE}.time > 0.5")
-        self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].treatment=explicit']})")
+        self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].discretization=explicit']})")
         self.until(f"{STATE}.changes.length === 1")
         self.until(f"{STATE}.knobs.find(k => k.path === 'coupling[0].stiffness').limit?.value > 0")
         limit = self.value(f"{STATE}.knobs.find(k => k.path === 'coupling[0].stiffness').limit.value")
@@ -137,7 +137,7 @@ class LabPage(LabCase):
     def test_restore_resets_changes_of_all_clients_and_the_run_continues(self):
         first = self.value(f"{STATE}.knobs.map(k => [k.path, k.value])")
         self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].stiffness=321', "
-                   "'step=0.0005', 'coupling[0].treatment=explicit']})")
+                   "'step=0.0005', 'coupling[0].discretization=explicit']})")
         self.until(f"{STATE}.changes.length === 3")
         self.page.open(self.url)  # a new client
         self.until(f"{STATE} && {STATE}.time > 1")

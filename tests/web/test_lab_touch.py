@@ -118,7 +118,7 @@ class Touch(LabCase):
 
     def test_touch_targets_have_44_pixels(self):
         self.assertTrue(self.value("matchMedia('(pointer: coarse)').matches"))
-        self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].treatment=explicit']})")
+        self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].discretization=explicit']})")
         for tab in ("Parameters", "Plots", "Inspector", "Energy"):
             self.value(f"twinarm.page.showTab({tab!r}); twinarm.page.overlays.fold(false)")
             self.page.frames(20)

@@ -64,14 +64,14 @@ class Contents(Pages):
             frames = page.exported_frames()
             for i, column in enumerate(page.exported["columns"]):
                 self.assertEqual(page.channel(column["name"]), [f["values"][i] for f in frames])
-            rows = page.run["ledger"]["rows"]
-            works = page.run["ledger"]["works"]
+            rows = page.run["energy_balance"]["rows"]
+            works = page.run["energy_balance"]["works"]
             for n, frame in enumerate(frames):
                 got = dict(zip(rows, works[n * len(rows):(n + 1) * len(rows)]))
                 self.assertEqual({k: v for k, v in got.items() if v}, {
-                    k: v for k, v in frame["ledger"].items() if v})
-            end = dict(zip(rows, map(float, page.run["ledger"]["end"])))
-            self.assertEqual(end, {row: frames[-1]["ledger"].get(row, 0) for row in rows})
+                    k: v for k, v in frame["energy_balance"].items() if v})
+            end = dict(zip(rows, map(float, page.run["energy_balance"]["end"])))
+            self.assertEqual(end, {row: frames[-1]["energy_balance"].get(row, 0) for row in rows})
 
     def test_first_and_last_recorded_frame(self):
         for page in (self.arm, self.ball):
@@ -173,8 +173,8 @@ class InTheBrowser(Pages):
         shown = browser.evaluate("Object.fromEntries([...document.querySelectorAll('[data-row]')]"
                                  ".map(cell => [cell.dataset.row, cell.textContent]))")
         for row, text in shown.items():
-            self.assertEqual(float(text), frames[-1]["ledger"].get(row, 0))
-        self.assertEqual(set(shown), set(self.arm.run["ledger"]["rows"]))
+            self.assertEqual(float(text), frames[-1]["energy_balance"].get(row, 0))
+        self.assertEqual(set(shown), set(self.arm.run["energy_balance"]["rows"]))
         facts = browser.evaluate("Object.fromEntries([...document.querySelectorAll('[data-fact]')]"
                                  ".map(cell => [cell.dataset.fact, cell.textContent]))")
         self.assertEqual(facts, dict(self.arm.run["facts"]))
@@ -277,9 +277,9 @@ class InTheBrowser(Pages):
     def test_plots_energy_and_setup_tabs(self):
         browser = self.open(self.arm, "#t=2")
         plots = browser.evaluate("[...document.querySelectorAll('.plot')].map(plot => plot.id)")
-        self.assertLessEqual({"plot-angles", "plot-error", "plot-ledger", "plot-couplings",
+        self.assertLessEqual({"plot-angles", "plot-error", "plot-energy_balance", "plot-couplings",
                               "plot-contacts"}, set(plots))
-        for key, name in (("l", "ledger"), ("u", "setup"), ("p", "plots")):
+        for key, name in (("l", "energy"), ("u", "setup"), ("p", "plots")):
             browser.press(key)
             self.picture(browser, f"arm_{name}")
         shown = browser.evaluate("document.querySelector('#command').textContent")

@@ -29,8 +29,8 @@ int report(const InputError& error, bool as_json) {
     errors.push_back({{"code", fault.code},
                       {"file", fault.file},
                       {"line", fault.line},
-                      {"remedy", fault.fix},
-                      {"rule", fault.problem},
+                      {"fix", fault.fix},
+                      {"problem", fault.problem},
                       {"where", fault.where}});
   }
   if (as_json)

@@ -27,7 +27,7 @@ CasePlace place_of(const std::string& case_name);
 
 // Section of one case: statement, figures, place of its code. Runs the case again for the figures,
 // with all integrators.
-std::string case_section(const CompareRow& row, const std::vector<Lane>& integrations);
+std::string case_section(const CompareRow& row, const std::vector<Integration>& integrations);
 
 // The whole page, sections in the order of rows; `command` is printed in the footer.
 std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std::string>& sections,

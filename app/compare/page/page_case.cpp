@@ -32,7 +32,7 @@ std::string statement_html(const AnalyticCase& c) {
   return "<div class=statement>" + replaced(c.statement, "<p>", "<p class=formula>") + "</div>\n";
 }
 
-std::string integration_words(const Lane& integration) {
+std::string integration_words(const Integration& integration) {
   if (integration.integrator == Integrator::dopri5)
     return fmt::format("dopri5, tolerance {:g}", integration.tolerance);
   return fmt::format("{}, step {:g} s", integrator_name(integration.integrator), integration.step);
@@ -120,7 +120,7 @@ std::string contact_figures(const CompareRow& row) {
                  "error of the integrator.");
 }
 
-std::string command_of(const CompareRow& row, const std::vector<Lane>& integrations) {
+std::string command_of(const CompareRow& row, const std::vector<Integration>& integrations) {
   std::string command = std::string("twinarm compare ") + row.test->name;
   const TrajectoryCase* c = row.test->trajectory.get();
   if (c && c->takes_any_integrator() && integrations.empty() &&
@@ -141,7 +141,7 @@ std::string link_to_code(const std::string& case_name) {
 
 }  // namespace
 
-std::string case_section(const CompareRow& row, const std::vector<Lane>& integrations) {
+std::string case_section(const CompareRow& row, const std::vector<Integration>& integrations) {
   const AnalyticCase& c = *row.test;
   const bool pass = passes(c, row.result);
   std::string html =

@@ -47,7 +47,7 @@ void show_targets(SceneView& view, const Snapshot& snapshot) {
 
 void show_before(SceneView& view, const Snapshot& snapshot) {
   bool any = add_before(view, snapshot.before, snapshot.k.X_WL, Vector3::Zero());
-  for (const ShownVariant& lane : snapshot.lanes)
+  for (const ShownVariant& lane : snapshot.variants)
     if (add_before(view, lane.before, lane.X_WL, lane.offset_W)) any = true;
   if (any) view.list.legend.push_back({palette::kBeforeSwatch, "previous branch"});
 }

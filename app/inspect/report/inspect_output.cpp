@@ -39,7 +39,7 @@ void write_checks(const std::vector<Check>& checks, Sheet& sheet) {
 }
 
 // The largest rows; zero rows are left out.
-void write_ledger(std::vector<EnergyRow> rows, Sheet& sheet) {
+void write_energy_balance(std::vector<EnergyRow> rows, Sheet& sheet) {
   constexpr std::size_t kMaxRows = 24;
   if (rows.empty()) return;
   double change = 0;
@@ -136,7 +136,7 @@ std::string inspect_text(const Inspection& in, const InspectView& view,
     write_balances(in, view, sheet);
   }
   write_named_forces(in, view, sheet);
-  if (!view.forces_alone) write_ledger(view.ledger, sheet);
+  if (!view.forces_alone) write_energy_balance(view.energy_balance, sheet);
   write_checks(checks, sheet);
   for (const std::string& warning : view.warnings) sheet.line(wrapped("warning: " + warning));
   return sheet.str();
@@ -182,9 +182,9 @@ void write_inspection(JsonWriter& json, const Inspection& in, const InspectView&
   write_joints(json.key("joint_balance"), in, view);
   write_forces(json.key("forces"), in, view);
   write_checks(json.key("checks"), checks);
-  if (!view.ledger.empty()) {
-    json.key("ledger").object([&] {
-      for (const EnergyRow& row : view.ledger) json.put(row.name, row.work);
+  if (!view.energy_balance.empty()) {
+    json.key("energy_balance").object([&] {
+      for (const EnergyRow& row : view.energy_balance) json.put(row.name, row.work);
     });
   }
   json.members({{"axes", view.axes}, {"about", view.about}, {"warnings", view.warnings}});

@@ -26,7 +26,7 @@ struct InspectView {
   std::vector<std::string> forces;               // sources that are shown
   bool forces_alone = false;                     // of --force: the text has only these forces
   std::string title;
-  std::vector<EnergyRow> ledger;  // of a recording, up to its instant [J]
+  std::vector<EnergyRow> energy_balance;  // of a recording, up to its instant [J]
   std::vector<std::string> warnings;
 };
 

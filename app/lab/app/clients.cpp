@@ -135,8 +135,8 @@ const std::string& example_trace() {
   return file;
 }
 
-void write_lanes(JsonWriter& json, const LabStatus& status) {
-  json.key("lanes");
+void write_variants(JsonWriter& json, const LabStatus& status) {
+  json.key("variants");
   if (status.variants.empty()) return json.null();
   std::vector<std::optional<double>> stopped(1);  // the first one's stop is in `dead`
   stopped.insert(stopped.end(), status.variant_ends.begin(), status.variant_ends.end());
@@ -180,7 +180,7 @@ std::string state_message(const LabStatus& status, const Clients::View& clients,
                   {"name", status.scene_name},
                   {"building", status.building}});
     write_changes(json, status.changes);
-    write_lanes(json, status);
+    write_variants(json, status);
     json.members(
         {{"holder", clients.controller != 0 ? std::optional(clients.controller) : std::nullopt},
          {"clients", clients.clients.size()},

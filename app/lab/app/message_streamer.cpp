@@ -115,7 +115,7 @@ void MessageStreamer::take_scene(const LabNow& now) {
     return std::shared_ptr<const SimulatePlan>(plan, &plan->prepared);
   };
   const std::shared_ptr<const SimulatePlan> plan = plan_of(now.scene->view);
-  const VariantSet& variants = now.scene->request.lanes;
+  const VariantSet& variants = now.scene->request.variants;
   std::vector<std::shared_ptr<const SimulatePlan>> variant_plans;
   for (const auto& variant : now.scene->variant_views) variant_plans.push_back(plan_of(variant));
   const std::lock_guard drawing(view_mutex_);

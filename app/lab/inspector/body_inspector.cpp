@@ -113,7 +113,8 @@ InspectView view_of(const Inspection& in, const LabFrame& frame, std::size_t bod
   const RecordedFrame& recorded = frame.recorded;
   for (std::size_t i = 0; rows && i < std::min(recorded.rows.size(), recorded.works.size()); ++i)
     if (recorded.rows[i] < rows->size())
-      view.ledger.push_back({EnergyRowKind::earlier, (*rows)[recorded.rows[i]], recorded.works[i]});
+      view.energy_balance.push_back(
+          {EnergyRowKind::earlier, (*rows)[recorded.rows[i]], recorded.works[i]});
   return view;
 }
 

@@ -9,10 +9,10 @@
 namespace twinarm {
 namespace {
 
-// lanes = { path = "integrator", values = ["verlet", "rk4"], apart = [0, 0.5, 0] }
-VariantSet read_lanes(TableReader& entry, const Value& value_of_key, const std::string& file,
-                      DiagnosticList& faults) {
-  TableReader table(value_of_key, entry.where() + ", lanes", file, faults);
+// variants = { path = "integrator", values = ["verlet", "rk4"], apart = [0, 0.5, 0] }
+VariantSet read_variants(TableReader& entry, const Value& value_of_key, const std::string& file,
+                         DiagnosticList& faults) {
+  TableReader table(value_of_key, entry.where() + ", variants", file, faults);
   VariantSet variants;
   variants.path = table.text("path").value_or("");
   variants.apart = table.vector("apart");
@@ -22,7 +22,7 @@ VariantSet read_lanes(TableReader& entry, const Value& value_of_key, const std::
                                                                   : value.text);
   table.done();
   if (const auto found = problem_of(variants))
-    entry.fault("lanes", found->problem, found->fix, "gallery.lanes");
+    entry.fault("variants", found->problem, found->fix, "gallery.variants");
   return variants;
 }
 
@@ -50,8 +50,8 @@ GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
                 "gallery.look");
   else
     for (std::size_t i = 0; i < scene.look.size(); ++i) scene.look[i] = look->items[i].text;
-  if (const Value* variants = table.table("lanes"))
-    scene.variants = read_lanes(table, *variants, file, faults);
+  if (const Value* variants = table.table("variants"))
+    scene.variants = read_variants(table, *variants, file, faults);
   table.done();
   return scene;
 }

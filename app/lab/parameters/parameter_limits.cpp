@@ -92,11 +92,12 @@ struct GainKey {
   CoupledStep::Gain gain;
   bool upward;  // unstable at large values
 };
-constexpr GainKey kGains[] = {{"stiffness", CoupledStep::Gain::stiffness, true},
-                              {"damping", CoupledStep::Gain::damping, true},
-                              {"turn_stiffness", CoupledStep::Gain::turn_stiffness, true},
-                              {"turn_damping", CoupledStep::Gain::turn_damping, true},
-                              {"time_constant", CoupledStep::Gain::time_constant, false}};
+constexpr GainKey kGains[] = {
+    {"stiffness", CoupledStep::Gain::stiffness, true},
+    {"damping", CoupledStep::Gain::damping, true},
+    {"rotational_stiffness", CoupledStep::Gain::rotational_stiffness, true},
+    {"rotational_damping", CoupledStep::Gain::rotational_damping, true},
+    {"time_constant", CoupledStep::Gain::time_constant, false}};
 
 class Limits {
  public:
@@ -113,7 +114,7 @@ class Limits {
       if (!parameter.coupling) continue;
       // Soft limits are not in the prediction: inactive in the nominal pose.
       const auto coupling = static_cast<std::size_t>(*parameter.coupling);
-      if (*parameter.coupling >= 0 && scene_.couplings[coupling].outside) continue;
+      if (*parameter.coupling >= 0 && scene_.couplings[coupling].soft_limits) continue;
       if (parameter.key == "rate") add_rate(parameter, *parameter.coupling);
       for (const GainKey& gain : kGains)
         if (parameter.key == gain.key) add_gain(parameter, *parameter.coupling, gain);
@@ -200,7 +201,7 @@ class TrackingErrors {
   std::string of(int coupling) const {
     const auto& description = input_.scene->description.couplings;
     for (const SceneCoupling& component : input_.scene->couplings) {
-      if (error_.start.size() == 0 || component.outside) continue;
+      if (error_.start.size() == 0 || component.soft_limits) continue;
       if (coupling >= 0 &&
           component.coupling != description[static_cast<std::size_t>(coupling)].name)
         continue;

@@ -33,7 +33,7 @@ std::vector<std::string> types_for(const SceneDescription& scene, const Coupling
   std::vector<std::string> names;
   for (const CouplingFacts& facts : all_couplings) {
     const bool is_now = facts.type == c.law && facts.printed == c.printed;
-    const bool is_implicit = facts.treatments == CouplingFacts::Discretizations::own ||
+    const bool is_implicit = facts.discretizations == CouplingFacts::Discretizations::own ||
                              facts.gains == CouplingFacts::Gains::reference;
     const bool fits = facts.gains != CouplingFacts::Gains::none &&
                       (now.at_point || !facts.at_point) &&
@@ -57,8 +57,8 @@ class CouplingParameters {
                        scene.contact != ContactMode::event) {}
 
   void add() {
-    if (!c_.outside && facts_.gains != CouplingFacts::Gains::none) add_type();
-    add_treatment();
+    if (!c_.soft_limits && facts_.gains != CouplingFacts::Gains::none) add_type();
+    add_discretization();
     for (const CouplingKey& row : coupling_keys())
       if (!row.of_target) add_slider(row);
     add_time();
@@ -97,13 +97,15 @@ class CouplingParameters {
           .resets_state = true;
   }
 
-  void add_treatment() {
-    if (c_.outside || c_.rate > 0 || facts_.treatments != CouplingFacts::Discretizations::all)
+  void add_discretization() {
+    if (c_.soft_limits || c_.rate > 0 ||
+        facts_.discretizations != CouplingFacts::Discretizations::all)
       return;
     if (!implicit_fits_) return;
-    put("treatment",
+    put("discretization",
         choice(
-            "", "treatment", name_of(c_.treatment), {"explicit", "semi-implicit", "implicit"},
+            "", "discretization", name_of(c_.discretization),
+            {"explicit", "semi-implicit", "implicit"},
             "Evaluation of the spring-damper. explicit: at the start of the step; semi-implicit: "
             "damper at its end; implicit: spring too, stable for any stiffness."))
         .resets_state = true;
@@ -111,7 +113,7 @@ class CouplingParameters {
 
   void add_time() {
     // A held force is evaluated at the start of a step, as explicit ones are.
-    const bool is_explicit = c_.treatment == Discretization::explicit_ || c_.printed;
+    const bool is_explicit = c_.discretization == Discretization::explicit_ || c_.printed;
     if (facts_.can_hold && is_explicit && !run_.is_adaptive()) {
       LabParameter parameter =
           choice("", "update rate", c_.rate > 0 ? number_text(c_.rate) : "",
@@ -122,7 +124,7 @@ class CouplingParameters {
       put("rate", std::move(parameter));
     }
     if (coupling_key("damper").has(facts_) &&
-        facts_.treatments != CouplingFacts::Discretizations::own && !c_.outside)
+        facts_.discretizations != CouplingFacts::Discretizations::own && !c_.soft_limits)
       put("damper", choice("", "damper", c_.absolute_damper ? "absolute" : "relative",
                            {"relative", "absolute"},
                            "Damping of the velocity relative to the target, or of the link's "
@@ -145,8 +147,8 @@ void add_common(const SceneDescription& scene, std::vector<LabParameter>& parame
   const auto agree = [&](auto value) {
     return std::ranges::all_of(all, [&](const CouplingDescription& c) {
       return c.law == all[0].law && c.printed == all[0].printed && c.measure == all[0].measure &&
-             is_slide(scene, c) == is_slide(scene, all[0]) && !c.outside && c.rate == all[0].rate &&
-             value(c) == value(all[0]);
+             is_slide(scene, c) == is_slide(scene, all[0]) && !c.soft_limits &&
+             c.rate == all[0].rate && value(c) == value(all[0]);
     });
   };
   for (const CouplingKey& row : coupling_keys()) {

@@ -29,14 +29,15 @@ void InputOverride::select_couplings() {
   std::vector<SceneCoupling>& all = scene_->couplings;
   const SceneCoupling* best = nullptr;
   for (const SceneCoupling& c : all)
-    if (c.leads() && !c.outside && c.speed == 1 &&
+    if (c.leads() && !c.soft_limits && c.speed == 1 &&
         (!best || rank_of_target(c) > rank_of_target(*best)))
       best = &c;
   if (!best) return;
   if (best->driven.turned.empty()) {
     const std::vector<std::string> joints = turned_joints(*scene_, best->robot);
     for (SceneCoupling& c : all)
-      if (c.robot == best->robot && !c.outside && c.driven.turned.empty()) c.driven.turned = joints;
+      if (c.robot == best->robot && !c.soft_limits && c.driven.turned.empty())
+        c.driven.turned = joints;
   }
   if (best->driven.turned.empty()) return;
   for (std::size_t c = 0; c < all.size(); ++c)

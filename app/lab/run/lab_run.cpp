@@ -131,7 +131,7 @@ bool LabRun::drag(int body, const Vector3& p_L, const Vector3& goal_W, double st
 LabFrame LabRun::frame(LabNames& names) {
   LabFrame frame;
   frame.recorded = frame_of(*run_, plan_->prepared);
-  add_ledgers(*run_, names.rows, names.momentum_rows, frame.recorded);
+  add_energy_balances(*run_, names.rows, names.momentum_rows, frame.recorded);
   frame.hand = override_->frame(run_->time());
   if (const auto& mouse = input_.mouse)
     frame.mouse = MouseSpringState{mouse->body, mouse->p_L, mouse->goal_W, spring_->force()};

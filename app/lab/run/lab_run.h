@@ -46,7 +46,7 @@ class LabRun {
   const std::string& restart_reason() const { return restart_reason_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
-  // Why it stopped (diverged, energy alarm, kinetic energy beyond its bound), with suspects and
+  // Why it stopped (diverged, energy alarm, kinetic energy beyond its bound), with violations and
   // fixes; null while it runs. `before`: an earlier energy balance, to find the row that grew.
   const PostMortem* post_mortem(const std::vector<EnergyRow>& before = {});
 

@@ -93,13 +93,14 @@ std::vector<std::string> LabVariants::take_warnings() {
   return std::exchange(warnings_, {});
 }
 
-VariantSet parse_lanes(const std::string& text) {
+VariantSet parse_variants(const std::string& text) {
   const std::size_t equals = text.find('=');
   VariantSet variants;
   variants.path = text.substr(0, equals);
   if (equals != std::string::npos) variants.values = split_values(text.substr(equals + 1));
   if (const auto found = problem_of(variants))
-    throw InputError({{"", 0, "--lanes " + text, found->problem, found->fix, "option.lanes"}});
+    throw InputError(
+        {{"", 0, "--variants " + text, found->problem, found->fix, "option.variants"}});
   return variants;
 }
 

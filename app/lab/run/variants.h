@@ -28,7 +28,7 @@ struct VariantSet {
 };
 
 // "integrator=semi-implicit,rk4"; commas in brackets belong to a value. Throws InputError.
-VariantSet parse_lanes(const std::string& text);
+VariantSet parse_variants(const std::string& text);
 
 // What is wrong with the set in any scene.
 struct VariantProblem {

@@ -140,7 +140,7 @@ void LabSession::show_end() {
   end.words = found->words;
   end.quantity = found->field;
   end.body = found->body;
-  if (!found->suspects.empty()) end.spring = found->suspects.front().name;
+  if (!found->violations.empty()) end.spring = found->violations.front().name;
   end.remedies = remedies_of(state_.loop.run().prepared(), *found);
   std::erase_if(end.remedies, [this](const SuggestedFix& fix) {
     return std::ranges::any_of(fix.changes, [this](const std::string& text) {

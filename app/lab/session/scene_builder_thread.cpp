@@ -32,7 +32,7 @@ BuildRequest order_to_open(const GalleryScene& scene) {
   request.name = scene.name;
   request.words = {
       scene.title, scene.file.filename().string(), {scene.look.begin(), scene.look.end()}};
-  request.lanes = scene.variants;
+  request.variants = scene.variants;
   return request;
 }
 
@@ -42,15 +42,15 @@ BuildResult build(BuildRequest request) {
     if (pending.discards_earlier) request.changes.clear();
     for (const Change& change : pending.changes) put(request.changes, change);
   }
-  if (!request.lanes.empty()) put(request.changes, request.lanes.change(0));
+  if (!request.variants.empty()) put(request.changes, request.variants.change(0));
   built.scene = request.what == BuildRequest::What::open ? open_scene(request) : request.scene;
   built.header = built.scene->header(request.changes, {});
   built.run = built.scene->plan(request.changes);
   built.view = built.scene->plan(request.changes);
   built.parameters = built.scene->plan(request.changes);
-  for (std::size_t variant = 1; variant < request.lanes.values.size(); ++variant) {
+  for (std::size_t variant = 1; variant < request.variants.values.size(); ++variant) {
     std::vector<Change> changes = request.changes;
-    put(changes, request.lanes.change(variant));
+    put(changes, request.variants.change(variant));
     built.variants.push_back(built.scene->plan(changes));
     built.variant_views.push_back(built.scene->plan(changes));
   }

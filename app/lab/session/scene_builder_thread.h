@@ -41,7 +41,7 @@ struct BuildRequest {
   std::shared_ptr<const LabScene> scene;  // of all others
   std::vector<Change> changes;            // in effect, accepted before
   std::vector<PendingChange> pending;     // not tried yet, oldest first
-  VariantSet lanes;                       // empty: the run alone
+  VariantSet variants;                    // empty: the run alone
   double at = 0;                          // branch [s]
   std::string hand;                       // open: input source to choose; empty: as it is
   // Called when it is built, with "", or with all faults, one per line.

@@ -111,9 +111,9 @@ void SessionCommands::change(const std::vector<std::string>& texts, std::optiona
   for (const std::string& text : texts) {
     const Change change = parse_change(text);
     if (is_varied(s_.status, change))
-      throw InputError(
-          {{"command", 0, text, "this parameter is varied between the variants",
-            "change another parameter, or open the scene without variants", "lab.lanes-differ"}});
+      throw InputError({{"command", 0, text, "this parameter is varied between the variants",
+                         "change another parameter, or open the scene without variants",
+                         "lab.variants-differ"}});
     pending.changes.push_back(change);
   }
   s_.pending.add(std::move(pending));
@@ -153,7 +153,7 @@ void SessionCommands::request(BuildRequest::What what, double at) {
   request.words = now->request.words;
   request.changes = s_.status.changes;
   request.pending = s_.pending.all();
-  request.lanes = now->request.lanes;
+  request.variants = now->request.variants;
   request.at = at;
   open_(std::move(request));
 }
@@ -182,7 +182,7 @@ void SessionCommands::adopt(BuildResult built) {
   if (goes_on && !(from = start_of(request)))
     return s_.inbox.note("error", "that time is no longer in the history");
   auto run = std::make_unique<LabRun>(std::move(built.run), s_.hand, from.get());
-  LabVariants variants(request.lanes, std::move(built.variants), from.get(), s_.loop.names());
+  LabVariants variants(request.variants, std::move(built.variants), from.get(), s_.loop.names());
   if (from) run->carry_over_energy(*from, s_.loop.names());
   for (const std::string& warning : run->warnings())
     if (!goes_on) s_.inbox.note("warning", warning);
@@ -202,7 +202,7 @@ void SessionCommands::adopt(BuildResult built) {
     if (!request.hand.empty()) choose_source(request.hand, "");
   }
   s_.status.changes = request.changes;
-  s_.status.variants = request.lanes;
+  s_.status.variants = request.variants;
   s_.timeline.begin(std::make_shared<const BuildResult>(std::move(built)),
                     run->input_override().couplings());
   s_.loop.begin(std::move(run), std::move(variants));

@@ -195,7 +195,7 @@ void VariantViews::show(const LabFrame* before, Snapshot& snapshot) const {
       if (seen.frame.stopped)
         shown.name += fmt::format(": stopped at {:.4g} s", seen.frame.frame->recorded.t);
     }
-    snapshot.lanes.push_back(std::move(shown));
+    snapshot.variants.push_back(std::move(shown));
   }
 }
 

@@ -122,7 +122,7 @@ std::string LabView::scene_message() const {
   json.key("channels").list(channels_.all(), [&](const RunColumn& channel) {
     json.object([&] { write_channel(json, channel); });
   });
-  json.key("ledger").texts(rows_);
+  json.key("energy_balance").texts(rows_);
   write_bodies(json, *plan_);
   const InputOverride* input = snapshots_.input_override();
   write_joints(json, plan_->input.robot, input ? input->driven() : std::vector<int>{});

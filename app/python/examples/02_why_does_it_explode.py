@@ -12,10 +12,10 @@ from lesson import folder_of, picture, say
 SCENE = folder_of(__file__) / "hinge.toml"
 
 
-def hinge(stiffness, damping, treatment="explicit"):
+def hinge(stiffness, damping, discretization="explicit"):
     """t and the angle, a sample in each step; a diverged run ends early."""
     run = twinarm.simulate(SCENE, every=0.01, set={
-        "coupling.stiffness": stiffness, "coupling.damping": damping, "coupling.treatment": treatment})
+        "coupling.stiffness": stiffness, "coupling.damping": damping, "coupling.discretization": discretization})
     return run.t, run.q[:, 0], run.stopped
 
 
@@ -33,7 +33,7 @@ say("D: after 30 steps [rad]", D[30])
 say("D: growth in the last step", -D[30] / D[29])
 
 # %% Prediction without a run: largest stable step; then stability over stiffness and damping
-say("largest stable step by theory [s]", twinarm.predict_couplings(SCENE)["scene"]["largest_step"])
+say("largest stable step by theory [s]", twinarm.predict_couplings(SCENE)["scene"]["max_stable_step"])
 inertia = twinarm.crba(twinarm.load(SCENE), [0.0])
 unstable = [[twinarm.largest_stable_step(inertia, [[k]], [[b]], "semi-implicit Euler") < 0.01
              for k in np.linspace(2000, 44000, 64)] for b in np.linspace(0, 110, 64)]

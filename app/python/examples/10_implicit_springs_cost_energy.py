@@ -17,15 +17,15 @@ left = {}
 for h, run in runs.items():
     energy = run.kinetic_energy + 0.5 * 100.144 * run.q[:, 0] ** 2
     left[h] = energy[-1] / energy[0]
-    say(f"step {h} s: removed by the discretization [J]", run.ledger["coupling/hold/implicit"])
+    say(f"step {h} s: removed by the discretization [J]", run.energy_balance["coupling/hold/implicit"])
     say(f"step {h} s: energy left", left[h])
 
 # %% With gravity and a damper, target horizontal: the static deflection does not depend on it
-for treatment in ("explicit", "implicit"):
+for discretization in ("explicit", "implicit"):
     sagged = twinarm.simulate(SCENE, duration=10, set={
-        "coupling.treatment": treatment, "coupling.damping": 20, "coupling.target.q.hinge": np.pi / 2,
+        "coupling.discretization": discretization, "coupling.damping": 20, "coupling.target.q.hinge": np.pi / 2,
         "gravity": [0, 0, -9.81]})
-    say(f"{treatment}: static deflection [rad]", np.pi / 2 - sagged.q[-1, 0])
+    say(f"{discretization}: static deflection [rad]", np.pi / 2 - sagged.q[-1, 0])
 
 # %% The trap: a damping ratio that is not a property of the robot
 say("damping ratio at 10 ms", -np.log(left[0.01]) / (2 * 10 * 2))

@@ -26,7 +26,7 @@ def errors(scene, change=None):
 
 
 # %% Six runs
-damped = both(type="torsional", treatment="explicit", damping=5)
+damped = both(type="torsional", discretization="explicit", damping=5)
 runs = {"E3": errors(E3), "E4": errors(E4), "E3, damped": errors(E3, damped),
         "fair, torsional": errors(HERE / "fair_torsional.toml"), "fair, linear": errors(HERE / "fair_linear.toml")}
 for name, (_, e) in runs.items():

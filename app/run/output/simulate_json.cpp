@@ -38,12 +38,12 @@ class JsonOutput : public RunOutput {
   void end(const SimulateResult& result) override {
     json_.end_array();
     json_.put("contacts", result.contacts);
-    write_rows("ledger", result.ledger);
+    write_rows("energy_balance", result.energy_balance);
     json_.key("momentum").object([&] {
       for (const MomentumRow& row : result.momentum)
         json_.key(row.name).object({{"linear", row.linear}, {"angular", row.angular}});
     });
-    if (simulated_.couplings) write_rows("hand", result.hand);
+    if (simulated_.couplings) write_rows("input_work", result.input_work);
     json_.put("steps", result.steps);
     if (result.alarm)
       json_.key("alarm").object({{"row", result.alarm->row},
@@ -111,8 +111,8 @@ class JsonOutput : public RunOutput {
                    {"pass", found.pass},
                    {"kinetic_energy", found.kinetic_energy}});
     if (found.by_energy) json_.key("energy_bound").number(found.energy_bound);
-    json_.members({{"ledger_row", found.row}, {"ledger_growth", found.row_growth}});
-    json_.key("suspects").list(found.suspects, [&](const StabilityViolation& violation) {
+    json_.members({{"energy_row", found.row}, {"energy_row_growth", found.row_growth}});
+    json_.key("violations").list(found.violations, [&](const StabilityViolation& violation) {
       write(violation);
     });
     json_.members({{"recording", found.recording}, {"words", found.words}});
@@ -122,12 +122,12 @@ class JsonOutput : public RunOutput {
   void write(const StabilityViolation& violation) {
     json_.object({{"name", violation.name},
                   {"scheme", violation.scheme},
-                  {"w_h", violation.product},
-                  {"limit", violation.limit},
+                  {"omega_h", violation.product},
+                  {"stability_limit", violation.limit},
                   {"step", violation.step},
-                  {"largest_step", violation.max_step},
+                  {"max_stable_step", violation.max_step},
                   {"gain", violation.gain},
-                  {"largest_gain", violation.max_gain}});
+                  {"max_stable_gain", violation.max_gain}});
   }
 
   const RobotInput& input_;

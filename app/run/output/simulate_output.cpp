@@ -98,14 +98,14 @@ class TableOutput : public RunOutput {
     fmt::print("{}: {} step{} of {}, {}\n\n{}{}\n", input_.robot.name, result.steps,
                result.steps == 1 ? "" : "s", integrator_name(plan_.integrator), steps,
                samples_.str(), left_out());
-    TextTable ledger({"energy balance, 0 to " + cell(result.end) + " s", "work [J]"});
+    TextTable energy_balance({"energy balance, 0 to " + cell(result.end) + " s", "work [J]"});
     double sum = 0;
-    for (const EnergyRow& row : shortened(result.ledger)) {
-      ledger.add({row.name, cell(row.work)});
+    for (const EnergyRow& row : shortened(result.energy_balance)) {
+      energy_balance.add({row.name, cell(row.work)});
       sum += row.work;
     }
-    ledger.add({"change of kinetic energy", cell(sum)});
-    fmt::print("{}\n{}", ledger.str(), momentum_table(result));
+    energy_balance.add({"change of kinetic energy", cell(sum)});
+    fmt::print("{}\n{}", energy_balance.str(), momentum_table(result));
     if (result.contacts > 0)
       fmt::print("\n{} at the end\n",
                  result.contacts == 1 ? "1 active contact point"

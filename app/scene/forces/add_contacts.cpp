@@ -40,7 +40,8 @@ void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticLi
       if (coupling.leads() && coupling.needs_semi_implicit())
         faults.add({file, coupling.line, "coupling '" + coupling.coupling + "'",
                     "an implicit coupling cannot be combined with contact = \"event\"",
-                    "give treatment = \"explicit\", or contact = \"rigid\"", "scene.treatment"});
+                    "give discretization = \"explicit\", or contact = \"rigid\"",
+                    "scene.discretization"});
   if (integrator == Integrator::semi_implicit) return;
   const auto fault = [&](const std::string& what, const char* fix) {
     faults.add({file, 0, "integrator",

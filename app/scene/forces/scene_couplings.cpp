@@ -42,7 +42,7 @@ CouplingEnds matched_ends(const Model<double>& model, const Spring& spring, cons
 }
 
 JointStops::Stop stop_of(const SceneCoupling& spec) {
-  return {spec.spring.body, spec.outside->first, spec.outside->second, spec.spring.k,
+  return {spec.spring.body, spec.soft_limits->first, spec.soft_limits->second, spec.spring.k,
           spec.spring.b};
 }
 
@@ -77,12 +77,12 @@ struct SceneCouplings::Active {
     law.type = spec.law;
     law.printed = spec.printed;
     law.measure = spec.measure;
-    law.treatment = spec.treatment;
+    law.discretization = spec.discretization;
     law.hold_steps = hold_steps(scene, spec, h, faults);
     law.options.hold_steps = law.hold_steps;
     law.reference = spec.reference;
     law.springs = spec.springs;
-    if (spec.outside) {
+    if (spec.soft_limits) {
       source = std::make_unique<JointStops>(spec.coupling, scene.model,
                                             std::vector<JointStops::Stop>{stop_of(spec)});
       return;
@@ -167,7 +167,7 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
     ends.offset.x() = kvr.x.q[iq] - x.q[iq];
     ends.velocity.x() = x.qd[iv];
     ends.target_velocity.x() = kvr.x.qd[iv];
-    if (spec.outside) {  // soft limits are at rest; no force between them
+    if (spec.soft_limits) {  // soft limits are at rest; no force between them
       ends.offset.x() = stop_of(spec).way_back(x.q[iq]);
       ends.target_velocity.x() = ends.offset.x() == 0 ? x.qd[iv] : 0;
     }
@@ -198,7 +198,7 @@ void SceneCouplings::hold_still(std::size_t c, const State<double>& x, const Kin
   const SceneCoupling& given = spec(c);
   const CouplingEnds at = ends(c, x, k);
   // Between soft limits the damper has no force.
-  const Vector3 along = given.outside ? at.target_velocity : Vector3(Vector3::Zero());
+  const Vector3 along = given.soft_limits ? at.target_velocity : Vector3(Vector3::Zero());
   const Vector3 force = given.spring.k * at.offset - given.spring.b * (at.velocity - along);
   const int body = given.spring.body;
   if (given.is_linear())

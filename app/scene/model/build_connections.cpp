@@ -199,9 +199,13 @@ void build_couplings(SceneModel& scene) {
           weld_spring(given.name, scene.model, scene.start, body, given.point, given.reference));
       continue;
     }
-    const Spring spring{given.name,        body,          given.point,
-                        given.stiffness,   given.damping, given.turn_stiffness,
-                        given.turn_damping};
+    const Spring spring{given.name,
+                        body,
+                        given.point,
+                        given.stiffness,
+                        given.damping,
+                        given.rotational_stiffness,
+                        given.rotational_damping};
     made.springs = {spring};
     if (given.law == Law::bushing)
       add_six_dimensions(scene, std::move(made), spring);
@@ -212,8 +216,8 @@ void build_couplings(SceneModel& scene) {
 }
 
 bool SceneCoupling::needs_semi_implicit() const {
-  return treatment != Discretization::explicit_ || law == CouplingSpec::Type::weld_like ||
-         facts_of(law, printed).treatments == CouplingFacts::Discretizations::own;
+  return discretization != Discretization::explicit_ || law == CouplingSpec::Type::weld_like ||
+         facts_of(law, printed).discretizations == CouplingFacts::Discretizations::own;
 }
 
 SceneCoupling::ThirdRow SceneCoupling::third_row() const {

@@ -51,26 +51,27 @@ bool fits(TableReader& table, const char* key, const CouplingFacts& facts) {
   return false;
 }
 
-void read_treatment(TableReader& table, const CouplingFacts& facts, CouplingDescription& coupling) {
+void read_discretization(TableReader& table, const CouplingFacts& facts,
+                         CouplingDescription& coupling) {
   using Discretizations = CouplingFacts::Discretizations;
-  if (facts.treatments == Discretizations::own) {
-    coupling.treatment = Discretization::semi_implicit;
-    fits(table, "treatment", facts);
+  if (facts.discretizations == Discretizations::own) {
+    coupling.discretization = Discretization::semi_implicit;
+    fits(table, "discretization", facts);
     return;
   }
   const bool is_explicit = coupling.rate > 0 ||
-                           facts.treatments == Discretizations::explicit_only ||
+                           facts.discretizations == Discretizations::explicit_only ||
                            facts.gains == CouplingFacts::Gains::reference;
-  if (is_explicit) coupling.treatment = Discretization::explicit_;
-  if (const auto chosen = table.choice("treatment", {"explicit", "semi-implicit", "implicit"}))
-    coupling.treatment = static_cast<Discretization>(*chosen);
-  if (coupling.treatment == Discretization::explicit_) return;
-  if (facts.treatments == Discretizations::explicit_only)
-    table.fault("treatment", "this type of coupling is explicit",
-                "leave it out, or choose another type", "scene.treatment");
+  if (is_explicit) coupling.discretization = Discretization::explicit_;
+  if (const auto chosen = table.choice("discretization", {"explicit", "semi-implicit", "implicit"}))
+    coupling.discretization = static_cast<Discretization>(*chosen);
+  if (coupling.discretization == Discretization::explicit_) return;
+  if (facts.discretizations == Discretizations::explicit_only)
+    table.fault("discretization", "this type of coupling is explicit",
+                "leave it out, or choose another type", "scene.discretization");
   if (coupling.rate > 0)
     table.fault("rate", "a force that is held between evaluations is explicit",
-                "give treatment = \"explicit\", or leave 'rate' out", "scene.treatment");
+                "give discretization = \"explicit\", or leave 'rate' out", "scene.discretization");
 }
 
 // The numbers that depend on the type, not on the target.
@@ -101,15 +102,16 @@ void read_law(TableReader& table, const CouplingFacts& facts, CouplingDescriptio
 
 // Soft limits: the spring-damper acts outside this range of joint positions.
 void read_soft_limits(TableReader& table, CouplingDescription& coupling) {
-  const auto limits = table.numbers("outside", 2);
+  const auto limits = table.numbers("soft_limits", 2);
   if (!limits) return;
-  coupling.outside = {(*limits)[0], (*limits)[1]};
+  coupling.soft_limits = {(*limits)[0], (*limits)[1]};
   if (!((*limits)[0] <= (*limits)[1]))
-    table.fault("outside", "the first number exceeds the second", "give [lower, upper]",
+    table.fault("soft_limits", "the first number exceeds the second", "give [lower, upper]",
                 "scene.order");
-  if (!coupling.at_joint() || coupling.treatment != Discretization::implicit || table.has("target"))
-    table.fault("outside", "needs an implicit torsional coupling at a joint, without a target",
-                "give type = \"torsional\", measure = \"joint\", and no treatment and target",
+  if (!coupling.at_joint() || coupling.discretization != Discretization::implicit ||
+      table.has("target"))
+    table.fault("soft_limits", "needs an implicit torsional coupling at a joint, without a target",
+                "give type = \"torsional\", measure = \"joint\", and no discretization and target",
                 "scene.stop");
 }
 
@@ -212,7 +214,7 @@ void SceneReader::read_coupling(const Value& value, std::size_t index) {
   coupling.printed = facts.printed;
   read_law(table, facts, coupling);
   read_numbers(table, facts, coupling);
-  read_treatment(table, facts, coupling);
+  read_discretization(table, facts, coupling);
   const RobotInScene* robot = read_robot_of(table, scene, coupling);
   const RobotDescription none;
   const RobotDescription& description = robot ? robot->description : none;

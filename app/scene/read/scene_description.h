@@ -105,8 +105,8 @@ struct CouplingTraits {
   Type type = Type::linear;
   SpringSpace measure = SpringSpace::world;  // torsional laws
   SolrefParameters reference;                // weld
-  Discretization treatment = Discretization::implicit;
-  std::optional<std::pair<double, double>> outside;  // soft limits: acts outside this range
+  Discretization discretization = Discretization::implicit;
+  std::optional<std::pair<double, double>> soft_limits;  // soft limits: acts outside this range
   bool absolute_damper = false;  // damping acts on the link's velocity, not relative to the target
   double rate = 0;               // of the force evaluation [Hz]; 0: every step
   double delay = 0;              // of the target's motion [s]; before: its start, at rest
@@ -121,7 +121,7 @@ struct CouplingDescription : CouplingTraits {
   std::string robot, link;          // a god object has no link: it moves all joints
   Vector3 point = Vector3::Zero();  // link axes; linear laws
   double stiffness = 0, damping = 0;
-  double turn_stiffness = 0, turn_damping = 0;  // bushing
+  double rotational_stiffness = 0, rotational_damping = 0;  // bushing
   CouplingTarget target;
 };
 

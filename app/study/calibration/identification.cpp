@@ -13,12 +13,13 @@ namespace twinarm {
 namespace {
 
 FamilyLaw consistent(const char* name, const char* words, CouplingSpec::Type type,
-                     SpringSpace measure, Discretization treatment = Discretization::explicit_) {
+                     SpringSpace measure,
+                     Discretization discretization = Discretization::explicit_) {
   FamilyLaw law{name, words, {}};
   law.coupling.name = name;
   law.coupling.type = type;
   law.coupling.measure = measure;
-  law.coupling.treatment = treatment;
+  law.coupling.discretization = discretization;
   return law;
 }
 

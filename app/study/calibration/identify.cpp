@@ -180,7 +180,7 @@ class IdentificationProblem {
 Identification ask(const StudyInputs& inputs, const std::string& problem) {
   DiagnosticList faults;
   const auto fault = [&](std::string what, std::string fix) {
-    faults.add({"", 0, "--ask", std::move(what), std::move(fix), "study.question"});
+    faults.add({"", 0, "--identify-one", std::move(what), std::move(fix), "study.question"});
   };
   const std::vector<std::string> parts = split(problem, '/');
   if (parts.size() != 3) {

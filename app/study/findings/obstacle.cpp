@@ -77,7 +77,7 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
   RunSpec& spec = result.spec;
   spec.coupling.name = linear ? "linear" : "torsional";
   spec.coupling.type = type;
-  spec.coupling.treatment = Discretization::implicit;
+  spec.coupling.discretization = Discretization::implicit;
   spec.name = "obstacle_" + spec.coupling.name;
   spec.title = spec.coupling.name + ", automatic, with a box";
   spec.gains =

@@ -22,12 +22,12 @@ RunResult run_and_predict(const StudyRobot& robot, const OperatorMotion& hand,
   return result;
 }
 
-RunSpec consistent(CouplingSpec::Type type, SpringSpace measure, Discretization treatment,
+RunSpec consistent(CouplingSpec::Type type, SpringSpace measure, Discretization discretization,
                    double rate) {
   RunSpec spec;
   spec.coupling.type = type;
   spec.coupling.measure = measure;
-  spec.coupling.treatment = treatment;
+  spec.coupling.discretization = discretization;
   spec.rate = rate;
   return spec;
 }
@@ -66,12 +66,12 @@ void add_implicit(const StudySettings& s, const StudyRobot& robot, const Add& ad
                       {"linear", CouplingSpec::Type::linear, SpringSpace::world}};
   for (const Law& law : laws)
     for (double rate : {60.0, 1000.0})
-      for (Discretization treatment :
+      for (Discretization discretization :
            {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
-        RunSpec spec = consistent(law.type, law.measure, treatment, rate);
+        RunSpec spec = consistent(law.type, law.measure, discretization, rate);
         spec.gains = gains_from_frequency(robot, spec.coupling, s.implicit_frequency_hz,
                                           s.implicit_damping_ratio);
-        add(fmt::format("{}/{}/{:g}", treatment_name(spec.coupling), law.name, rate),
+        add(fmt::format("{}/{}/{:g}", discretization_name(spec.coupling), law.name, rate),
             fmt::format("{:g} Hz springs", s.implicit_frequency_hz), spec);
       }
 }

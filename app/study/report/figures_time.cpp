@@ -77,8 +77,9 @@ std::vector<ObstaclePanel> obstacle_panels(Gnuplot& gnuplot, const ObstacleRun& 
                       value_axis(size)});
   };
   const bool linear = run.spec.coupling.type == CouplingSpec::Type::linear;
-  add_size(fmt::format("coupling {} [{}]", linear ? "force" : "torque", run.spec.pull_unit()),
-           run.coupling, 1.8);
+  add_size(
+      fmt::format("coupling {} [{}]", linear ? "force" : "torque", run.spec.coupling_force_unit()),
+      run.coupling, 1.8);
   add_size("contact force [N]", run.contact_force, 1.4);
   panels.push_back(
       {"depth behind the touched face [mm]; the line is 0.5 mm",

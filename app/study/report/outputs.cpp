@@ -46,7 +46,7 @@ std::string run_csv(const RunResult& run) {
   };
   add("q_K", series.q_K, "rad");
   add("q_D", series.q_D, "rad");
-  add("pull", series.pull, run.spec.pull_unit());
+  add("pull", series.pull, run.spec.coupling_force_unit());
   return csv(columns);
 }
 
@@ -62,7 +62,7 @@ std::string obstacle_csv(const ObstacleRun& run) {
               {"q_K/joint2[rad]", &q[1]},
               {"q_D/joint1[rad]", &q[2]},
               {"q_D/joint2[rad]", &q[3]},
-              {fmt::format("pull[{}]", run.spec.pull_unit()), &run.coupling},
+              {fmt::format("pull[{}]", run.spec.coupling_force_unit()), &run.coupling},
               {"contact_force[N]", &run.contact_force},
               {"penetration[m]", &run.penetration},
               {"beyond[m]", &run.beyond}});
@@ -90,7 +90,7 @@ ordered_json run_json(const RunResult& run) {
   const RunSpec& spec = run.spec;
   return {{"title", spec.title},
           {"coupling", coupling_words(spec.coupling)},
-          {"treatment", treatment_name(spec.coupling)},
+          {"discretization", discretization_name(spec.coupling)},
           {"rate", spec.rate},
           {"step", spec.step()},
           {"gains", gains_json(spec.gains)},
@@ -122,12 +122,12 @@ ordered_json variant_json(const RunResult& run) {
 
 ordered_json obstacle_json(const ObstacleRun& run) {
   return {{"name", run.spec.coupling.name},
-          {"treatment", treatment_name(run.spec.coupling)},
+          {"discretization", discretization_name(run.spec.coupling)},
           {"gains", gains_json(run.spec.gains)},
           {"largest_penetration", run.max_penetration},
           {"largest_beyond", run.max_beyond},
-          {"largest_pull", run.max_coupling},
-          {"pull_unit", run.spec.pull_unit()},
+          {"largest_coupling_force", run.max_coupling},
+          {"coupling_force_unit", run.spec.coupling_force_unit()},
           {"largest_contact_force", run.max_force},
           {"target_radius_ratio", run.target_radius_ratio},
           {"target_radius_limit", run.target_radius_limit},

@@ -19,7 +19,7 @@ void write_csv(const StudyResults& results, const std::filesystem::path& folder)
 // The study as one JSON object (docs/reference/study_files.md). Lengths in m, times in s, rates in
 // Hz; angles in degrees for keys that end with _deg. Numbers that are not finite are null.
 std::string study_json(const StudyResults& results, const std::string& report_path);
-// Result of `--ask`, with its profiles and directions.
+// Result of `--identify-one`, with its profiles and directions.
 std::string answer_json(const Identification& found);
 
 // Writes folder/report.html, self-contained: assets/study/report.html with its placeholders

@@ -180,10 +180,10 @@ std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
   const auto ratio = [](double value) { return value > 0 ? rounded(value) : std::string("–"); };
   const auto unit = [](R r, const char* time) {
     const bool linear = r.spec.coupling.type == CouplingSpec::Type::linear;
-    return fmt::format(" {}{}/{}", r.spec.pull_unit(), time, linear ? "m" : "rad");
+    return fmt::format(" {}{}/{}", r.spec.coupling_force_unit(), time, linear ? "m" : "rad");
   };
   const std::pair<const char*, std::function<std::string(R)>> rows[] = {
-      {"treatment", [](R r) { return escaped(treatment_name(r.spec.coupling)); }},
+      {"discretization", [](R r) { return escaped(discretization_name(r.spec.coupling)); }},
       {"stiffness on link 1; link 2",
        [&](R r) { return gains_words(r.spec.gains.k1, r.spec.gains.k2) + unit(r, ""); }},
       {"damping on link 1; link 2",
@@ -199,7 +199,7 @@ std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
       {"largest depth of the KVR behind the touched face",
        [](R r) { return fmt::format("{:.0f} mm", 1e3 * r.max_beyond); }},
       {"largest coupling force or torque",
-       [](R r) { return fmt::format("{:.0f} {}", r.max_coupling, r.spec.pull_unit()); }},
+       [](R r) { return fmt::format("{:.0f} {}", r.max_coupling, r.spec.coupling_force_unit()); }},
       {"largest contact force", [](R r) { return fmt::format("{:.0f} N", r.max_force); }},
       {"largest R<sub>K</sub>/r that occurred", [&](R r) { return ratio(r.target_radius_ratio); }},
       {"largest stable R<sub>K</sub>/r", [&](R r) { return ratio(r.target_radius_limit); }}};
@@ -257,7 +257,7 @@ void add_other_runs(const StudyResults& results, Slots& slots) {
   for (const char* group : {"trial", "matched", "held", "ablation"})
     slots[std::string("variants_") + group] =
         variant_table(results.variants, {std::string(group) + "/"});
-  slots["variants_treatments"] =
+  slots["variants_discretizations"] =
       variant_table(results.variants, {"explicit/", "semi-implicit/", "implicit/"});
   slots["obstacle_rows"] = obstacle_rows(results.obstacle);
   slots["recordings_rows"] = recordings_rows(results.recordings);

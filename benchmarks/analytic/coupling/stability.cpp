@@ -55,8 +55,8 @@ Stepping stepping_of(SteppingScheme scheme) {
     s.integrator = Integrator::rk4;
     s.substeps = s.spec.hold_steps = s.spec.options.hold_steps = kHeldSteps;
   }
-  if (is(SteppingScheme::implicit_damper)) s.spec.treatment = Discretization::semi_implicit;
-  if (is(SteppingScheme::implicit)) s.spec.treatment = Discretization::implicit;
+  if (is(SteppingScheme::implicit_damper)) s.spec.discretization = Discretization::semi_implicit;
+  if (is(SteppingScheme::implicit)) s.spec.discretization = Discretization::implicit;
   return s;
 }
 

@@ -117,7 +117,7 @@ TrajectoryCase unit_quaternion() {
 // ---- G1 and G4, orders ----
 
 // Of a known motion at 1 s; each mutation is 0.1 % more gravity.
-double error_after_1s(const char* name, CaseMeasure measure, const Lane& integration,
+double error_after_1s(const char* name, CaseMeasure measure, const Integration& integration,
                       int mutations) {
   for (const CaseFamily& family : joint_cases())
     for (const AnalyticCase& known : family.cases) {
@@ -135,7 +135,7 @@ double error_after_1s(const char* name, CaseMeasure measure, const Lane& integra
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-double double_pendulum_error(const Lane& integration, bool is_mutant) {
+double double_pendulum_error(const Integration& integration, bool is_mutant) {
   return error_after_1s("C2", max_difference, integration, is_mutant ? 1 : 0);
 }
 

@@ -59,7 +59,7 @@ TrajectoryCase two_rods() {
             return values(x[0], x[1] - x[0], x[2], x[3] - x[2]);
           }};
 }
-TrajectoryCase two_rods_until(std::vector<double> times, const Lane& integration) {
+TrajectoryCase two_rods_until(std::vector<double> times, const Integration& integration) {
   TrajectoryCase c = two_rods();
   c.times = std::move(times);
   c.integration = integration;

@@ -16,7 +16,7 @@ constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 // Simulation of a case up to given times or events.
 class Run {
  public:
-  Run(const TrajectoryCase& c, CaseScene& scene, const Lane& integration,
+  Run(const TrajectoryCase& c, CaseScene& scene, const Integration& integration,
       std::vector<TrajectoryPoint>* recording)
       : case_(c),
         scene_(scene),
@@ -106,7 +106,7 @@ class Run {
 
   const TrajectoryCase& case_;
   CaseScene& scene_;
-  Lane integration_;
+  Integration integration_;
   std::vector<TrajectoryPoint>* recording_;
   Simulation simulation_;
   double now_ = 0, energy_at_start_ = 0, energy_error_ = 0, max_kinetic_ = 0;
@@ -114,7 +114,7 @@ class Run {
   int sign_ = 0;  // last nonzero sign of the event function
 };
 
-TrajectoryResult measure(const TrajectoryCase& c, CaseScene scene, const Lane& integration,
+TrajectoryResult measure(const TrajectoryCase& c, CaseScene scene, const Integration& integration,
                          std::vector<TrajectoryPoint>* recording) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -200,7 +200,7 @@ void more_inertia(CaseScene& scene) {
   }
 }
 
-TrajectoryResult run_trajectory(const TrajectoryCase& c, const Lane& integration,
+TrajectoryResult run_trajectory(const TrajectoryCase& c, const Integration& integration,
                                 std::vector<TrajectoryPoint>* recording) {
   return measure(c, c.scene(), integration, recording);
 }
@@ -226,7 +226,7 @@ double rounding_of(const TrajectoryCase& c) {
   return 1e-12 * max_reference(c);
 }
 
-std::optional<double> observed_order(const TrajectoryCase& c, const Lane& integration) {
+std::optional<double> observed_order(const TrajectoryCase& c, const Integration& integration) {
   if (!c.takes_any_integrator() || integration.integrator == Integrator::dopri5) return {};
   const double rounding = rounding_of(c);
   std::vector<double> errors;

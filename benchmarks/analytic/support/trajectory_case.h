@@ -33,15 +33,15 @@ struct CaseScene {
 };
 
 // Integrator and step of a run.
-struct Lane {
+struct Integration {
   Integrator integrator = Integrator::rk4;
   double step = 1e-3;       // [s]; maximum step of dopri5
   double tolerance = 1e-9;  // of dopri5, relative and absolute
 };
-inline Lane rk4_with(double step = 1e-3) {
+inline Integration rk4_with(double step = 1e-3) {
   return {Integrator::rk4, step};
 }
-inline Lane dopri5_with(double tolerance = 1e-10) {
+inline Integration dopri5_with(double tolerance = 1e-10) {
   return {Integrator::dopri5, 0.1, tolerance};
 }
 
@@ -76,8 +76,8 @@ struct TrajectoryCase {
   std::vector<double> times{};          // ascending [s]; none with events
   std::vector<std::string> readings{};  // names of observe()'s values, with unit: "angle [rad]"
   CaseObserver observe = [](const Model<double>&, const State<double>&) { return CaseReadings{}; };
-  CaseReference reference;  // by time; with events, by the number of the event, from 1
-  Lane integration{};       // of the case's error
+  CaseReference reference;    // by time; with events, by the number of the event, from 1
+  Integration integration{};  // of the case's error
   CaseMeasure measure = max_difference;
   void (*mutant)(CaseScene&) = more_gravity;  // its error must exceed the tolerance
   CaseEvents events{};
@@ -110,7 +110,7 @@ struct TrajectoryPoint {
   double energy;  // kinetic + gravity + sources [J]
 };
 
-TrajectoryResult run_trajectory(const TrajectoryCase& c, const Lane& integration,
+TrajectoryResult run_trajectory(const TrajectoryCase& c, const Integration& integration,
                                 std::vector<TrajectoryPoint>* recording = nullptr);
 
 // Error of the mutant with the case's integrator and step.
@@ -122,6 +122,6 @@ std::optional<double> slope_of(const std::vector<double>& errors, double roundin
 double rounding_of(const TrajectoryCase& c);  // 1e-12 of the largest reading
 
 // With the given step, its double and so on; empty for dopri5.
-std::optional<double> observed_order(const TrajectoryCase& c, const Lane& integration);
+std::optional<double> observed_order(const TrajectoryCase& c, const Integration& integration);
 
 }  // namespace twinarm

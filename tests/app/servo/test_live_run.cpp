@@ -140,7 +140,7 @@ TEST_CASE("live run: a device state that is not finite leaves the target robot a
 
 TEST_CASE("live run: a diverged robot is not stepped any more, and renders no force") {
   std::string text = kScene;
-  const std::string from = "damping = 100\n", to = "damping = 1e7\ntreatment = \"explicit\"\n";
+  const std::string from = "damping = 100\n", to = "damping = 1e7\ndiscretization = \"explicit\"\n";
   text.replace(text.find(from), from.size(), to);
   text.replace(text.find("s103/s103.urdf"), 14, "findings_set0/findings_set0.urdf");  // no limits
   const TemporaryFolder folder;

@@ -86,10 +86,10 @@ inline Stepper stepper_of(SteppingScheme scheme, CouplingSpec::Type type,
       s.integrator = Integrator::rk4;
       break;
     case SteppingScheme::implicit_damper:
-      s.spec.treatment = Discretization::semi_implicit;
+      s.spec.discretization = Discretization::semi_implicit;
       break;
     case SteppingScheme::implicit:
-      s.spec.treatment = Discretization::implicit;
+      s.spec.discretization = Discretization::implicit;
       break;
   }
   return s;

@@ -20,7 +20,7 @@ struct Law {
   CouplingType type;
   bool printed;
   SpringSpace measure;
-  Discretization treatment;
+  Discretization discretization;
   bool own;  // fixed discretization
   const CouplingFacts& facts;
 
@@ -43,19 +43,21 @@ inline std::vector<Law> all_laws() {
   using Discretizations = CouplingFacts::Discretizations;
   std::vector<Law> laws;
   for (const CouplingFacts& facts : all_couplings)
-    for (const Discretization treatment :
+    for (const Discretization discretization :
          {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit})
       for (const SpringSpace measure : {SpringSpace::world, SpringSpace::joint}) {
-        if (facts.treatments != Discretizations::all && treatment != Discretization::explicit_)
+        if (facts.discretizations != Discretizations::all &&
+            discretization != Discretization::explicit_)
           continue;
         if (facts.type != CouplingType::torsional && measure == SpringSpace::joint) continue;
-        const std::string of =
-            facts.treatments == Discretizations::own ? "" : std::string(", ") + name_of(treatment);
+        const std::string of = facts.discretizations == Discretizations::own
+                                   ? ""
+                                   : std::string(", ") + name_of(discretization);
         const std::string at = facts.type != CouplingType::torsional ? ""
                                : measure == SpringSpace::world       ? ", world"
                                                                      : ", joint";
-        laws.push_back({facts.name + at + of, facts.type, facts.printed, measure, treatment,
-                        facts.treatments == Discretizations::own, facts});
+        laws.push_back({facts.name + at + of, facts.type, facts.printed, measure, discretization,
+                        facts.discretizations == Discretizations::own, facts});
       }
   return laws;
 }
@@ -66,7 +68,7 @@ inline CouplingSpec spec_of(const Law& law, std::vector<Spring> springs) {
   spec.type = law.type;
   spec.printed = law.printed;
   spec.measure = spec.options.measure = law.measure;
-  spec.treatment = law.treatment;
+  spec.discretization = law.discretization;
   spec.reference = {0.1, 0.9, 0.9};
   spec.springs = std::move(springs);
   return spec;

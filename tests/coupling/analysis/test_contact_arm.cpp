@@ -33,7 +33,7 @@ class StoppingHand final : public OperatorMotion {
 
 CouplingSpec coupling_of(int kind) {
   CouplingSpec spec;
-  spec.treatment = Discretization::implicit;
+  spec.discretization = Discretization::implicit;
   if (kind == 0) {
     spec.type = CouplingSpec::Type::linear;
     spec.springs = {{"arm1", 1, {kArm / 2, 0, 0}, 4000, 60}, {"arm2", 2, {0.3, 0, 0}, 1500, 40}};

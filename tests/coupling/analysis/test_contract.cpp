@@ -88,7 +88,7 @@ TEST_CASE("without damping every coupling has the force -dU/dq at the start of a
   Random random(3);
   for (const Law& law : all_laws()) {
     // Over the step, the force of implicit springs is F - m* J qdd.
-    if (law.treatment != Discretization::explicit_ || !law.facts.is_spring_damper) continue;
+    if (law.discretization != Discretization::explicit_ || !law.facts.is_spring_damper) continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, 0));
     for (unsigned seed = 0; seed < 10; ++seed) {
@@ -131,7 +131,8 @@ TEST_CASE("joint_space is the derivative of the joint force at zero error") {
   Random random(6);
   for (const Law& law : all_laws()) {
     // The weld's damping adds inertia (test_mujoco_weld.cpp), stable PD has a position lead.
-    if (law.treatment != Discretization::explicit_ || law.is(CouplingType::god_object)) continue;
+    if (law.discretization != Discretization::explicit_ || law.is(CouplingType::god_object))
+      continue;
     const bool springs_alone = law.printed || law.own || law.is(CouplingType::weld_like);
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, springs_alone ? 0 : 0.6));

@@ -53,7 +53,7 @@ TEST_CASE("the consistent couplings have the force J^T (k e + b e'), with the KV
   Random random(7);
   for (const Law& law : all_laws()) {
     if (!is_consistent(law) || law.own || law.is(CouplingType::matched) ||
-        law.is(CouplingType::weld_like) || law.treatment != Discretization::explicit_)
+        law.is(CouplingType::weld_like) || law.discretization != Discretization::explicit_)
       continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, 2));
@@ -118,7 +118,7 @@ TEST_CASE("action equals reaction of a relative damper; between two points excep
   Random random(9);
   for (const Law& law : all_laws()) {
     if (!is_consistent(law) || law.is(CouplingType::matched) ||
-        law.treatment != Discretization::explicit_)
+        law.discretization != Discretization::explicit_)
       continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(0, 2));
@@ -179,7 +179,7 @@ TEST_CASE("a relative damper dissipates energy of the relative motion, whatever 
         const Vector3 v = relative_velocity(law, model, all, spec.springs[r % 3], qd_K, qd, turn);
         // Targets at the end of the step have rotated by h.
         CHECK(pull.dot(v) < 1e-2 * pull.norm() * v.norm());
-        if (law.treatment == Discretization::explicit_ && !law.own)
+        if (law.discretization == Discretization::explicit_ && !law.own)
           CHECK(pull.dot(v) == doctest::Approx(-pull.norm() * v.norm()).epsilon(1e-12));
       }
     }
@@ -208,10 +208,11 @@ TEST_CASE("the as-published torsional damper accelerates a DVR that is too fast:
 TEST_CASE("implicit discretizations converge to the explicit one with order 1 as h -> 0") {
   Random random(11);
   for (const Law& law : all_laws()) {
-    if (law.treatment == Discretization::explicit_ && !law.is(CouplingType::stable_pd)) continue;
+    if (law.discretization == Discretization::explicit_ && !law.is(CouplingType::stable_pd))
+      continue;
     CAPTURE(law.name);
     Law plain = law;
-    plain.treatment = Discretization::explicit_;
+    plain.discretization = Discretization::explicit_;
     if (law.own) plain.type = CouplingType::torsional, plain.measure = SpringSpace::joint;
     for (unsigned seed = 0; seed < 3; ++seed) {
       const Model<double> model = chain_of_three(seed);

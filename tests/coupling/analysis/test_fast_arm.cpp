@@ -26,7 +26,7 @@ double deepest_on_the_way(const Model<double>& model, double friction, double sp
   hand.rate = {w1, w2, 0};
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::linear;
-  spec.treatment = Discretization::implicit;
+  spec.discretization = Discretization::implicit;
   spec.springs = {{"arm1", 1, {0.125, 0, 0}, 5e4, 500}, {"arm2", 2, {0.2, 0, 0}, 5e4, 500}};
   const State<double> start = state_of(model, {q1, q2}, {w1, w2});
   Coupled system(model, hand, {"joint1", "joint2"}, spec, start);

@@ -30,11 +30,11 @@ constexpr LinearCase kCases[] = {{"linear spring on a slide", JointType::prismat
                                  {"world spring on a hinge", JointType::revolute,
                                   CouplingSpec::Type::torsional, SpringSpace::world}};
 
-CouplingSpec spec_of(const LinearCase& c, Discretization treatment, double k, double b) {
+CouplingSpec spec_of(const LinearCase& c, Discretization discretization, double k, double b) {
   CouplingSpec spec;
   spec.type = c.type;
   spec.measure = c.measure;
-  spec.treatment = treatment;
+  spec.discretization = discretization;
   spec.springs = {{"spring", 1, {0.1, 0.2, -0.3}, k, b}};
   return spec;
 }
@@ -43,7 +43,7 @@ CouplingSpec spec_of(const LinearCase& c, Discretization treatment, double k, do
 
 TEST_CASE("implicit and semi-implicit: one degree of freedom follows its recurrence to 1e-12") {
   struct {
-    Discretization treatment;
+    Discretization discretization;
     double k, b;
   } const rows[] = {{Discretization::implicit, 30, 0.05 * std::sqrt(30)},
                     {Discretization::implicit, 7e3, 0.05 * std::sqrt(7e3)},
@@ -54,12 +54,12 @@ TEST_CASE("implicit and semi-implicit: one degree of freedom follows its recurre
       const double k = row.k, b = row.b, h = kStep;
       CAPTURE(c.name);
       CAPTURE(k);
-      const bool implicit = row.treatment == Discretization::implicit;
+      const bool implicit = row.discretization == Discretization::implicit;
       const Model<double> model = one_joint(c.joint, kInertia);
       SteadyHand hand;
       hand.angle[0] = 0.4;
       hand.rate[0] = -0.6;
-      Coupled system(model, hand, {"joint1"}, spec_of(c, row.treatment, k, b),
+      Coupled system(model, hand, {"joint1"}, spec_of(c, row.discretization, k, b),
                      state_of(model, {-0.3}, {0.8}));
       double x = -0.3, v = 0.8, worst = 0;
       for (int n = 0; n < 200; ++n) {
@@ -109,13 +109,13 @@ TEST_CASE("a horizontal link has the static deflection with all three discretiza
   hand.angle[0] = 0.3;
   for (const CouplingSpec::Type type : {CouplingSpec::Type::torsional, CouplingSpec::Type::linear})
     for (const SpringSpace measure : {SpringSpace::joint, SpringSpace::world})
-      for (const Discretization treatment :
+      for (const Discretization discretization :
            {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
         const bool linear = type == CouplingSpec::Type::linear;
         CouplingSpec spec;
         spec.type = type;
         spec.measure = measure;
-        spec.treatment = treatment;
+        spec.discretization = discretization;
         const double scale = linear ? 1 / (r * r) : 1;
         spec.springs = {{"spring", 1, {r, 0, 0}, k * scale, 4 * scale}};
         Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0.3}, {0}));
@@ -139,9 +139,9 @@ TEST_CASE(
   hand.angle = {0.5, -0.9, 0};
   const double h = 1e-3;
   for (const bool point : {true, false}) {
-    const auto spec = [&](double k, double b, Discretization treatment) {
-      return point ? linear(arm.springs(k, b), treatment)
-                   : torsional(arm.springs(k, b), SpringSpace::world, treatment);
+    const auto spec = [&](double k, double b, Discretization discretization) {
+      return point ? linear(arm.springs(k, b), discretization)
+                   : torsional(arm.springs(k, b), SpringSpace::world, discretization);
     };
     const State<double> start = state_of(model, {0.3, -0.6}, {2, -3});
     State<double> pose(model);
@@ -178,15 +178,15 @@ TEST_CASE("implicit and semi-implicit converge to the explicit motion with order
     return Eigen::Vector2d(system.simulation.state().q[0], system.simulation.state().q[1]);
   };
   for (const bool point : {true, false}) {
-    const auto spec = [&](Discretization treatment) {
-      return point ? linear(arm.springs(2000, 60), treatment)
-                   : torsional(arm.springs(100, 3), SpringSpace::world, treatment);
+    const auto spec = [&](Discretization discretization) {
+      return point ? linear(arm.springs(2000, 60), discretization)
+                   : torsional(arm.springs(100, 3), SpringSpace::world, discretization);
     };
     const Eigen::Vector2d exact = end(spec(Discretization::explicit_), Integrator::rk4, 1e-4);
-    for (const Discretization treatment :
+    for (const Discretization discretization :
          {Discretization::semi_implicit, Discretization::implicit}) {
       const auto error = [&](double h) {
-        return (end(spec(treatment), Integrator::semi_implicit, h) - exact).norm();
+        return (end(spec(discretization), Integrator::semi_implicit, h) - exact).norm();
       };
       CHECK(std::abs(std::log2(error(5e-4) / error(2.5e-4)) - 1) < 0.1);
       CHECK(error(2.5e-4) < 1e-2);

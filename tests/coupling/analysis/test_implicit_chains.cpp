@@ -40,7 +40,7 @@ TEST_CASE("a fast chain of 20 links stays bounded with implicit springs at w h f
       CAPTURE(wh);
       CouplingSpec spec;
       spec.type = point ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-      spec.treatment = Discretization::implicit;
+      spec.discretization = Discretization::implicit;
       for (int i = 1; i <= 20; ++i)
         spec.springs.push_back({"spring" + std::to_string(i), i, {0.1, 0.02, 0}, 1, 0});
       Coupled unit(model, hand, {"joint1", "joint2", "joint3"}, spec, start);
@@ -84,7 +84,7 @@ TEST_CASE("one implicit step of a moving chain solves (M + h B + h^2 K) qdd = ta
       for (double& qd : x.qd) qd = random.uniform(-10, 10);
       CouplingSpec spec;
       spec.type = point ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-      spec.treatment = Discretization::implicit;
+      spec.discretization = Discretization::implicit;
       for (const int body : {4, 11, 20})
         spec.springs.push_back({"spring", body, {0.1, 0.02, -0.05}, k, b});
 
@@ -129,7 +129,7 @@ TEST_CASE(
   const Model<double> model = at_origin.build();
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::linear;
-  spec.treatment = Discretization::implicit;
+  spec.discretization = Discretization::implicit;
   const SteadyHand hand;
   for (const auto& gains : {std::pair{1e6, 0.0}, std::pair{1e7, 100.0}, std::pair{1e9, 1e4}}) {
     const double k = gains.first, b = gains.second;
@@ -184,7 +184,7 @@ struct HeldTip {
     const State<double> straight(model);
     CouplingSpec spec;
     spec.type = CouplingSpec::Type::linear;
-    spec.treatment = Discretization::implicit;
+    spec.discretization = Discretization::implicit;
     spec.springs = {spring};
     const Coupled unit(model, hand, {"joint1"}, spec, straight);
     const double wh = 100;

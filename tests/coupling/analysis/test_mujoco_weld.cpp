@@ -14,11 +14,11 @@ using namespace twinarm::testing;
 namespace {
 
 CouplingSpec weld(std::vector<Spring> springs, const SolrefParameters& reference,
-                  Discretization treatment = Discretization::explicit_) {
+                  Discretization discretization = Discretization::explicit_) {
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::weld_like;
   spec.reference = reference;
-  spec.treatment = treatment;
+  spec.discretization = discretization;
   spec.springs = std::move(springs);
   return spec;
 }
@@ -78,7 +78,7 @@ TEST_CASE("weld: on a prismatic joint a step has a = (1 - d) a_0 + d a_ref, to 1
 TEST_CASE("weld: the error behind a target at speed V is 2 V T z^2, prismatic and revolute") {
   for (const JointType joint : {JointType::prismatic, JointType::revolute})
     for (const double z : {1.0, 0.6})
-      for (const Discretization treatment :
+      for (const Discretization discretization :
            {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
         const double T = 0.03, V = 1.7, h = 1e-3;
         const Model<double> model = one_joint(joint, 0.7);
@@ -87,7 +87,7 @@ TEST_CASE("weld: the error behind a target at speed V is 2 V T z^2, prismatic an
         const State<double> start = state_of(model, {0}, {0});
         const SolrefParameters reference{T, z, 0.95};
         const Spring spring = weld_spring("weld", model, start, 1, Vector3::Zero(), reference);
-        Coupled system(model, hand, {"joint1"}, weld({spring}, reference, treatment), start);
+        Coupled system(model, hand, {"joint1"}, weld({spring}, reference, discretization), start);
         for (int n = 0; n < 1000; ++n) system.simulation.step(h);
         const double lag = V * 1.0 - system.simulation.state().q[0];
         CAPTURE(z);

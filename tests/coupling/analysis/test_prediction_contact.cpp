@@ -26,7 +26,7 @@ Model<double> level_arm(int links) {
 
 // Equilibrium under gravity with a horizontal target, after a long time with strong damping.
 std::vector<double> resting_pose(const Model<double>& model, CouplingSpec spec) {
-  spec.treatment = Discretization::implicit;
+  spec.discretization = Discretization::implicit;
   Coupled system(model, {}, {}, spec, State<double>(model));
   for (int n = 0; n < 40000; ++n) system.simulation.step(1e-3);
   for (const double qd : system.simulation.state().qd) CHECK(std::abs(qd) < 1e-6);

@@ -15,7 +15,7 @@ namespace {
 CoupledTerm part_of(const Model<double>& model, const CouplingSpec& spec) {
   Coupled system(model, {}, {}, spec, State<double>(model));
   const Coupling::JointSpace space = system.coupling->joint_space(system.simulation.kinematics());
-  CoupledTerm part{space.K, space.K, space.B, spec.treatment, spec.hold_steps};
+  CoupledTerm part{space.K, space.K, space.B, spec.discretization, spec.hold_steps};
   if (spec.printed) {
     part.law = StepLaw::printed;
     part.hold_steps = spec.options.hold_steps;
@@ -55,9 +55,9 @@ TEST_CASE("couplings with different discretizations, rates or laws diverge at th
   const TwoLink arm;
   const Model<double> model = arm.model();
   const auto springs = arm.springs(600, 9, 200, 2);
-  const auto of = [&](std::size_t link, Discretization treatment, int hold_steps = 0) {
+  const auto of = [&](std::size_t link, Discretization discretization, int hold_steps = 0) {
     CouplingSpec spec = torsional({springs[link]}, SpringSpace::world);
-    spec.treatment = treatment;
+    spec.discretization = discretization;
     spec.hold_steps = hold_steps;
     return spec;
   };
@@ -183,8 +183,8 @@ TEST_CASE("terms of one discretization have the limit of its scheme, implicit in
   const Model<double> model = arm.model();
   const Eigen::MatrixXd M = mass_matrix(model, State<double>(model));
   CouplingSpec spec = torsional(arm.springs(600, 9, 200, 2), SpringSpace::world);
-  const auto limit = [&](Discretization treatment, Integrator integrator) {
-    spec.treatment = treatment;
+  const auto limit = [&](Discretization discretization, Integrator integrator) {
+    spec.discretization = discretization;
     return max_stable_step(M, {part_of(model, spec)}, integrator);
   };
   const CoupledTerm part = part_of(model, spec);

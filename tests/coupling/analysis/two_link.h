@@ -59,17 +59,17 @@ inline Tracking track(const TwoLink& robot, const CouplingSpec& spec, double h,
 }
 
 inline CouplingSpec torsional(std::vector<Spring> springs, SpringSpace measure,
-                              Discretization treatment = Discretization::explicit_) {
+                              Discretization discretization = Discretization::explicit_) {
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::torsional;
   spec.measure = measure;
-  spec.treatment = treatment;
+  spec.discretization = discretization;
   spec.springs = std::move(springs);
   return spec;
 }
 inline CouplingSpec linear(std::vector<Spring> springs,
-                           Discretization treatment = Discretization::explicit_) {
-  CouplingSpec spec = torsional(std::move(springs), SpringSpace::world, treatment);
+                           Discretization discretization = Discretization::explicit_) {
+  CouplingSpec spec = torsional(std::move(springs), SpringSpace::world, discretization);
   spec.type = CouplingSpec::Type::linear;
   return spec;
 }

@@ -74,7 +74,7 @@ struct CellBench {
   Model<double> model;
   WavingHand hand;
   BatchSetup setup;
-  CellBench(Model<double> of, const BatchLaw& law, Discretization treatment, bool absolute)
+  CellBench(Model<double> of, const BatchLaw& law, Discretization discretization, bool absolute)
       : model(of) {
     setup.model = &model;
     setup.start = State<double>(model);
@@ -89,7 +89,7 @@ struct CellBench {
       BatchSpring spring;
       spring.type = law.type;
       spring.measure = law.measure;
-      spring.treatment = treatment;
+      spring.discretization = discretization;
       spring.absolute_damper = absolute;
       spring.body = body;
       setup.springs.push_back(spring);
@@ -125,7 +125,7 @@ class OneByOne {
       CouplingSpec spec;
       spec.type = spring.type;
       spec.measure = spring.measure;
-      spec.treatment = spring.treatment;
+      spec.discretization = spring.discretization;
       spec.springs = {
           {"spring", spring.body, cell.springs[s].p_L, cell.springs[s].k, cell.springs[s].b}};
       couplings_.push_back(make_coupling(spec, model_, *kvrs_.back()));

@@ -37,13 +37,13 @@ TEST_CASE("batched runs agree with single simulations, every coupling and discre
   Random random(81);
   for (const Axes axes : kAxes)
     for (const BatchLaw& law : kBatchLaws)
-      for (const Discretization treatment : kBatchTreatments)
+      for (const Discretization discretization : kBatchTreatments)
         for (const bool absolute : {false, true}) {
           CAPTURE(static_cast<int>(axes));
           CAPTURE(law.name);
-          CAPTURE(static_cast<int>(treatment));
+          CAPTURE(static_cast<int>(discretization));
           CAPTURE(absolute);
-          const CellBench bench(tree_for_lanes(random, axes), law, treatment, absolute);
+          const CellBench bench(tree_for_lanes(random, axes), law, discretization, absolute);
           std::vector<BatchCell> cells;
           for (int c = 0; c < 7; ++c) cells.push_back(bench.random_cell(random));
           std::vector<BatchResult> results(cells.size());

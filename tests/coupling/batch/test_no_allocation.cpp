@@ -25,8 +25,8 @@ std::vector<Run> runs() {
     std::vector<Spring> springs =
         law.on_joint() || law.on_orientation() ? arm.springs(1200, 40) : arm.springs(22000, 400);
     for (Spring& spring : springs) spring.k_turn = 1200, spring.b_turn = 40;
-    const bool in_stages =
-        law.treatment == Discretization::explicit_ && !law.own && !law.is(CouplingType::weld_like);
+    const bool in_stages = law.discretization == Discretization::explicit_ && !law.own &&
+                           !law.is(CouplingType::weld_like);
     for (const Integrator integrator :
          {Integrator::euler, Integrator::semi_implicit, Integrator::rk4})
       if (in_stages || integrator == Integrator::semi_implicit)
@@ -68,7 +68,7 @@ TEST_CASE("a step with a coupling does not allocate: all laws, discretizations, 
 TEST_CASE("the serialised state of a coupling continues the run bit-identically") {
   for (Run run : runs()) {
     CAPTURE(run.spec.name);
-    if (!run.spec.printed && run.spec.treatment == Discretization::explicit_)
+    if (!run.spec.printed && run.spec.discretization == Discretization::explicit_)
       run.spec.hold_steps = 7;
     run.spec.options.hold_steps = 7;
     run.spec.options.difference = Difference::older;  // needs the last two evaluations
@@ -94,8 +94,8 @@ TEST_CASE("the serialised state of a coupling continues the run bit-identically"
 
 TEST_CASE("an implicit coupling is rejected by rk4 and by explicit Euler") {
   for (const Law& law : all_laws()) {
-    const bool in_stages =
-        law.treatment == Discretization::explicit_ && !law.own && !law.is(CouplingType::weld_like);
+    const bool in_stages = law.discretization == Discretization::explicit_ && !law.own &&
+                           !law.is(CouplingType::weld_like);
     if (in_stages) continue;
     CAPTURE(law.name);
     for (const Integrator integrator : {Integrator::rk4, Integrator::euler})

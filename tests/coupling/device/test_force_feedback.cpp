@@ -84,11 +84,12 @@ struct Pressed {
 
 std::vector<CouplingSpec> felt_laws(const TwoLink& arm) {
   std::vector<CouplingSpec> all;
-  for (const Discretization treatment : {Discretization::explicit_, Discretization::implicit}) {
-    all.push_back(linear(arm.springs(2000, 100), treatment));
-    all.push_back(torsional(arm.springs(150, 15), SpringSpace::world, treatment));
-    all.push_back(torsional(arm.springs(150, 15), SpringSpace::joint, treatment));
-    CouplingSpec bushing = linear(arm.springs(2000, 100), treatment);
+  for (const Discretization discretization :
+       {Discretization::explicit_, Discretization::implicit}) {
+    all.push_back(linear(arm.springs(2000, 100), discretization));
+    all.push_back(torsional(arm.springs(150, 15), SpringSpace::world, discretization));
+    all.push_back(torsional(arm.springs(150, 15), SpringSpace::joint, discretization));
+    CouplingSpec bushing = linear(arm.springs(2000, 100), discretization);
     bushing.type = CouplingSpec::Type::bushing;
     for (Spring& spring : bushing.springs) spring.k_turn = 60, spring.b_turn = 6;
     all.push_back(bushing);
@@ -129,7 +130,7 @@ CouplingSpec at_tip(double k) {
 TEST_CASE("at a wall: the reaction torques are the derivative of the springs' energy") {
   for (const CouplingSpec& spec : felt_laws(TwoLink())) {
     CAPTURE(std::string(spec.type.name));
-    CAPTURE(static_cast<int>(spec.treatment));
+    CAPTURE(static_cast<int>(spec.discretization));
     const Pressed pressed(spec, 0.3, 6);
     constexpr double d = 1e-6;
     const double q1 = pressed.hand.angle[0], q2 = pressed.hand.angle[1];
@@ -172,7 +173,7 @@ TEST_CASE("in slow free motion the force feedback is almost zero") {
 
 // m a = F over each step, with any discretization.
 TEST_CASE("the reaction of an implicit coupling is the mean force on the body") {
-  for (const Discretization treatment :
+  for (const Discretization discretization :
        {Discretization::explicit_, Discretization::semi_implicit, Discretization::implicit}) {
     const double m = 0.7, h = 1e-3;
     const Model<double> model = one_joint(JointType::prismatic, m);
@@ -180,8 +181,8 @@ TEST_CASE("the reaction of an implicit coupling is the mean force on the body") 
     hand.rate[0] = 0.3;
     for (const bool at_joint : {false, true}) {
       const std::vector<Spring> springs{{"s", 1, {0, 0, 0}, 400, 8}};
-      const CouplingSpec spec =
-          at_joint ? torsional(springs, SpringSpace::joint, treatment) : linear(springs, treatment);
+      const CouplingSpec spec = at_joint ? torsional(springs, SpringSpace::joint, discretization)
+                                         : linear(springs, discretization);
       Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0.05}, {0}));
       CouplingReaction reaction(model, {1});
       reaction.add(spec, *system.coupling);

@@ -44,7 +44,8 @@ struct EnergyBalance {
       const Vector3 w = wanted(n, x);
       if (control) {
         force = passivity.tick(x, w, kPeak);
-        CHECK_MESSAGE(std::abs(passivity.energy() - E) < 1e-9, "the observer is not the ledger");
+        CHECK_MESSAGE(std::abs(passivity.energy() - E) < 1e-9,
+                      "the observer is not the energy_balance");
         clamped_ = force.norm() >= kPeak * passivity.force_fraction() * (1 - 1e-9);
       } else {
         force = w.norm() > kPeak ? Vector3(w * (kPeak / w.norm())) : w;
@@ -62,37 +63,37 @@ TEST_CASE("passivity: 10^6 ticks of random motion stay above minus one tick's wo
   for (const bool in_space : {false, true}) {
     Random random(11);
     Vector3 x = Vector3::Zero();
-    EnergyBalance ledger;
+    EnergyBalance energy_balance;
     const auto any = [&](double size) {
       Vector3 v = random.vector(size);
       if (!in_space) v.y() = v.z() = 0;
       return v;
     };
-    ledger.run(
+    energy_balance.run(
         1000000,
         [&](long, const Vector3&) {
           if (random.integer(0, 3) > 0) x += any(kMaxDistance / std::sqrt(3.0));
           return x;
         },
         [&](long, const Vector3&) { return any(2 * kPeak); });
-    CHECK(ledger.lowest >= -kPeak * kMaxDistance * (1 + 1e-3));
-    CHECK(ledger.in_debt > 1000);
-    CHECK(ledger.unpaid == 0);
+    CHECK(energy_balance.lowest >= -kPeak * kMaxDistance * (1 + 1e-3));
+    CHECK(energy_balance.in_debt > 1000);
+    CHECK(energy_balance.unpaid == 0);
   }
 }
 
 TEST_CASE("passivity: a motion that always follows the force gains at most one tick's work") {
   Vector3 x = Vector3::Zero();
-  EnergyBalance ledger;
-  ledger.run(
+  EnergyBalance energy_balance;
+  energy_balance.run(
       200000,
       [&](long, const Vector3& force) {
         x.x() += force.x() >= 0 ? kMaxDistance : -kMaxDistance;
         return x;
       },
       [&](long n, const Vector3&) { return Vector3(n % 7 < 4 ? 9 : -9, 0, 0); });
-  CHECK(ledger.lowest >= -kPeak * kMaxDistance * (1 + 1e-3));
-  CHECK(ledger.lowest < -0.9 * kPeak * kMaxDistance);  // close to the bound
+  CHECK(energy_balance.lowest >= -kPeak * kMaxDistance * (1 + 1e-3));
+  CHECK(energy_balance.lowest < -0.9 * kPeak * kMaxDistance);  // close to the bound
 }
 
 // A smooth motion with tremor up to 12 Hz: 10^6 ticks of 1 kHz against a wall with 100 ms delay,
@@ -104,8 +105,8 @@ TEST_CASE("passivity: 10^6 ticks at a delayed wall: every deficit is removed by 
     std::array<double, 6> size{0.02, 0.01, 0.004, 0.0005, 0.0001, 0.0001};
     for (double& p : phase) p = random.uniform(0, 6);
     std::deque<double> late(100, 0.0);
-    EnergyBalance ledger;
-    ledger.run(
+    EnergyBalance energy_balance;
+    energy_balance.run(
         1000000,
         [&](long n, const Vector3&) {
           double place = 0;
@@ -122,7 +123,7 @@ TEST_CASE("passivity: 10^6 ticks at a delayed wall: every deficit is removed by 
           return Vector3(force, 0, 0);
         },
         control);
-    return ledger;
+    return energy_balance;
   };
   const EnergyBalance without = run(false, 0);
   CHECK(without.E < -10);  // 10 J and more from the wall

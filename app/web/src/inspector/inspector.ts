@@ -159,7 +159,7 @@ export class Inspector implements Panel {
   }
 
   private sections(numbers: BodyInspection): Node[] {
-    const { name = '', passes, balance, forces = [], ledger, checks, stands, warnings = [] } = numbers;
+    const { name = '', passes, balance, forces = [], energy_balance, checks, stands, warnings = [] } = numbers;
     const notes = warnings.map((text) => element('p.note', text));
     if (!passes || !balance) return notes;
     const { axes = 'world', about = 'origin', joint_balance = [], neighbours } = numbers;
@@ -191,7 +191,7 @@ export class Inspector implements Panel {
         ...jointTables(joint_balance, unitOf(numbers, 'N m; N')),
       ),
       fold(`Contacts: ${contacts.length || 'none'}`, true, ...orHint(contacts, 'no contact')),
-      ...(ledger ? [fold('Energy balance of all bodies', false, energyTable(ledger))] : []),
+      ...(energy_balance ? [fold('Energy balance of all bodies', false, energyTable(energy_balance))] : []),
       ...(checks || !stands ? [fold(`Cross-checks: ${checked}`, false, checkTable(checks ?? [], []))] : []),
     ];
   }

@@ -48,8 +48,8 @@ export function contactTables(forces: NamedForce[], body: string): HTMLElement[]
 }
 
 // The largest first, without rows that are zero.
-export function energyTable(ledger: Record<string, number>): HTMLElement {
-  const all = Object.entries(ledger);
+export function energyTable(energy_balance: Record<string, number>): HTMLElement {
+  const all = Object.entries(energy_balance);
   const rows = inOrder(all.filter(([name, work]) => work !== 0 || name === NUMERICAL));
   const made = new EnergyTable(rows.map(([name]) => name));
   const works = rows.map(([, work]) => work);

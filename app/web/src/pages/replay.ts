@@ -11,7 +11,7 @@ import { type Instant, PAPER, RecordedPage } from './recorded_page';
 import { start } from '../source/embedded';
 import { row, table } from '../ui/table';
 
-const TABS = ['plots', 'ledger', 'setup'];
+const TABS = ['plots', 'energy', 'setup'];
 
 class Page extends RecordedPage {
   private readonly player = new Player(this.run, () => this.touch());
@@ -73,7 +73,7 @@ class Page extends RecordedPage {
     this.plots.onTheme();
   }
 
-  // "#t=1.5&theme=dark&show=contacts,trails&tab=ledger"
+  // "#t=1.5&theme=dark&show=contacts,trails&tab=energy"
   private takeHash(): void {
     const time = Number(this.hashValue('t') ?? NaN);
     if (Number.isFinite(time)) this.player.seek(time);

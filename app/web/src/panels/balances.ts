@@ -47,7 +47,7 @@ export class EnergyTable {
 }
 
 export class EnergyPanel implements Panel {
-  readonly root = element('section.ledger');
+  readonly root = element('section.energy_balance');
   private readonly host = element('div');
   private table: EnergyTable | null = null;
   private record: RunRecord | null = null;
@@ -84,8 +84,8 @@ export class EnergyPanel implements Panel {
     const { store, scene, works } = record;
     const { isLive } = this.source;
     const end = (i: number) => store.value(works + i, store.length - 1);
-    const rows = inOrder(scene.ledger.map((name, i) => [name, isLive ? 0 : end(i)]));
-    this.columns = rows.map(([name]) => works + scene.ledger.indexOf(name));
+    const rows = inOrder(scene.energy_balance.map((name, i) => [name, isLive ? 0 : end(i)]));
+    this.columns = rows.map(([name]) => works + scene.energy_balance.indexOf(name));
     const names = rows.map(([name]) => name);
     this.table = isLive
       ? new EnergyTable(names)

@@ -41,7 +41,7 @@ export class PlotSpecs {
       ...this.bodies(),
       ...this.coordinates('rad'),
       ...this.error(),
-      ...this.ledger(),
+      ...this.energy_balance(),
       ...this.plain('couplings', 'Coupling force / torque', this.of('coupling')),
       ...this.plain('contacts', 'Contact force', acting('contact')),
       ...this.device(),
@@ -159,12 +159,12 @@ export class PlotSpecs {
     });
   }
 
-  private ledger(): PlotSpec[] {
+  private energy_balance(): PlotSpec[] {
     const { works, sum, scene } = this.record;
-    const all = scene.ledger
+    const all = scene.energy_balance
       .map((of, row): Numbered => ({ name: of, of, unit: 'J', kind: 'energy', column: works + row }))
       .filter(({ column }) => this.size(column) > 0);
-    const [spec] = this.plain('ledger', 'Energy balance, stacked', all);
+    const [spec] = this.plain('energy_balance', 'Energy balance, stacked', all);
     if (!spec) return [];
     const shown = new Set(spec.curves.map(({ column }) => column));
     const [first, ...rest] = all.filter(({ column }) => !shown.has(column)).map(({ column }) => column);

@@ -89,7 +89,7 @@ export interface Inspection {
   balance: Balance[];
   joint_balance: JointBalance[];
   forces: NamedForce[];
-  ledger?: Record<string, number>; // of a recording, or of the lab [J]
+  energy_balance?: Record<string, number>; // of a recording, or of the lab [J]
   checks: Check[];
   axes: string;
   about: string;

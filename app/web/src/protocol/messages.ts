@@ -45,7 +45,7 @@ export interface SceneMessage {
   textures: string[];
   layers: SceneLayer[];
   channels: SceneChannel[];
-  ledger: string[];
+  energy_balance: string[];
   bodies: SceneBody[];
   joints: SceneJoint[];
   tip?: { body: number; p: Vector }; // point of the target robot that the input moves, link axes
@@ -135,7 +135,7 @@ export interface StateMessage {
   last: number; // to [s]
   at: number | null; // instant shown [s]; null: the newest
   branch: Branch | null;
-  lanes: Variants | null;
+  variants: Variants | null;
   pace: number;
   step: number;
   step_us: number;

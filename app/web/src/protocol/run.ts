@@ -60,7 +60,7 @@ export interface MomentumData {
   values: Float64Array; // frame by frame, row by row, six each
 }
 
-export interface LedgerData {
+export interface EnergyBalanceData {
   rows: string[];
   end: string[]; // joules at the end, all digits
   works: Float64Array; // frame by frame, row by row within a frame
@@ -96,7 +96,7 @@ export interface Run extends PageData {
   command: string;
   times: Float64Array;
   channels: Channel[];
-  ledger: LedgerData;
+  energy_balance: EnergyBalanceData;
   momentum: MomentumData;
   bodies: string[]; // that have position channels
 }

@@ -11,7 +11,7 @@ const FRESH = 1000; // [ms]
 const HISTORY_MAGIC = 0x31485754; // "TWH1"
 const HISTORY_HEADER = 24;
 
-export type RunHead = Pick<SceneMessage, 'scene' | 'title' | 'channels' | 'ledger'>;
+export type RunHead = Pick<SceneMessage, 'scene' | 'title' | 'channels' | 'energy_balance'>;
 
 export interface ErrorGroup {
   unit: string;
@@ -57,9 +57,9 @@ export class RunRecord {
   private number = NaN; // of the newest frame
 
   constructor(readonly scene: RunHead, capacity = CAPACITY) {
-    const { channels, ledger } = scene;
+    const { channels, energy_balance } = scene;
     this.works = channels.length;
-    this.sum = this.works + ledger.length;
+    this.sum = this.works + energy_balance.length;
     let next = this.sum + 1;
     const errors = channels.flatMap(({ kind, unit }, i) => (kind === 'error' ? [{ unit, i }] : []));
     for (const unit of new Set(errors.map((error) => error.unit))) {
@@ -110,13 +110,13 @@ export class RunRecord {
   // Copies rows after a time from a store that has the columns of another record.
   private replay(store: Store, of: RunRecord, after = -Infinity): void {
     const channels = columnsOf(this.scene.channels, of.scene.channels);
-    const ledger = this.scene.ledger.map((name) => of.scene.ledger.indexOf(name));
+    const energy_balance = this.scene.energy_balance.map((name) => of.scene.energy_balance.indexOf(name));
     const values = new Float64Array(channels.length);
-    const works = new Float64Array(ledger.length);
+    const works = new Float64Array(energy_balance.length);
     store.times.forEach((time, row) => {
       if (time <= after) return;
       channels.forEach((from, i) => (values[i] = from < 0 ? NaN : store.value(from, row)));
-      ledger.forEach((from, i) => (works[i] = from < 0 ? 0 : store.value(of.works + from, row)));
+      energy_balance.forEach((from, i) => (works[i] = from < 0 ? 0 : store.value(of.works + from, row)));
       this.addRow(time, values, works);
     });
   }
@@ -187,9 +187,9 @@ function columnsOf(wanted: SceneChannel[], there: SceneChannel[]): number[] {
   return wanted.map(({ name }) => places.get(name) ?? -1);
 }
 
-export function recordOf({ title, channels, ledger, times }: Run): RunRecord {
-  const { rows, works } = ledger;
-  const record = new RunRecord({ scene: 0, title, channels, ledger: rows }, times.length);
+export function recordOf({ title, channels, energy_balance, times }: Run): RunRecord {
+  const { rows, works } = energy_balance;
+  const record = new RunRecord({ scene: 0, title, channels, energy_balance: rows }, times.length);
   times.forEach((time, frame) =>
     record.addRow(
       time,

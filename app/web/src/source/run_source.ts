@@ -43,8 +43,8 @@ export class LiveRun implements RunSource, Listener {
   onScene(scene: SceneMessage): void {
     const old = this.record?.scene;
     const isSame = old?.scene === scene.scene;
-    const names = ({ channels, ledger }: Pick<SceneMessage, 'channels' | 'ledger'>) =>
-      JSON.stringify([channels, ledger]);
+    const names = ({ channels, energy_balance }: Pick<SceneMessage, 'channels' | 'energy_balance'>) =>
+      JSON.stringify([channels, energy_balance]);
     if (!isSame || names(old) !== names(scene))
       this.record = isSame ? this.record!.grownTo(scene) : new RunRecord(scene);
     // Frames were missed while the connection was lost.

@@ -25,7 +25,7 @@ inline SimulatePlan plan_of_asset(const std::string& file, double duration) {
 // A frame after some steps, and results of the next step.
 struct RunSample {
   LabFrame frame;
-  std::vector<std::string> ledger;
+  std::vector<std::string> energy_balance;
   std::vector<double> qdd;     // of the next step
   std::vector<Vector3> force;  // of its contacts
 };
@@ -39,10 +39,10 @@ inline RunSample sample_of(SimulatePlan plan, long steps) {
       recorded.step = steps;
       recorded.t = view.simulation().state().t;
       recorded.memory = view.memory();
-      for (const EnergyRow& row : view.ledger()) {
-        recorded.rows.push_back(static_cast<std::uint32_t>(sample.ledger.size()));
+      for (const EnergyRow& row : view.energy_balance()) {
+        recorded.rows.push_back(static_cast<std::uint32_t>(sample.energy_balance.size()));
         recorded.works.push_back(row.work);
-        sample.ledger.push_back(row.name);
+        sample.energy_balance.push_back(row.name);
       }
     }
     if (view.step() != steps + 1) return;
@@ -83,7 +83,7 @@ struct InspectedRun : RunSample {
         inspector(plan_of_asset(file, 1)) {}
   const Model<double>& model() const { return plan.input.robot.model; }
   std::string text(const LabFrame& of, std::size_t body, bool paused) {
-    return inspector.message(of, {body, paused, 1, &ledger});
+    return inspector.message(of, {body, paused, 1, &energy_balance});
   }
   Value message(std::size_t body, bool paused) { return parsed(text(frame, body, paused)); }
 

@@ -104,9 +104,9 @@ TEST_CASE("inspector: values equal those of `inspect`; the energy balance is the
     const std::string message = sample.text(sample.frame, 2, again == 1);
     CHECK(message.find(wanted) != std::string::npos);
     const Value tree = parsed(message);
-    const Value& ledger = at(tree, "ledger");
-    for (std::size_t i = 0; i < sample.ledger.size(); ++i)
-      CHECK(at(ledger, sample.ledger[i]).number == sample.frame.recorded.works[i]);
+    const Value& energy_balance = at(tree, "energy_balance");
+    for (std::size_t i = 0; i < sample.energy_balance.size(); ++i)
+      CHECK(at(energy_balance, sample.energy_balance[i]).number == sample.frame.recorded.works[i]);
     sample.text(sample_of(file, 10).frame, 1, true);
   }
 }

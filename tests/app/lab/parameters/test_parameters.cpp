@@ -86,12 +86,12 @@ const char* const kLinear = "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
 TEST_CASE(
     "parameters: a run is stable 10 percent within a predicted limit, and unstable 10 percent "
     "beyond") {
-  const std::string linear = std::string(kLinear) + "treatment = \"explicit\"";
-  const std::string half = std::string(kLinear) + "treatment = \"semi-implicit\"";
+  const std::string linear = std::string(kLinear) + "discretization = \"explicit\"";
+  const std::string half = std::string(kLinear) + "discretization = \"semi-implicit\"";
   const std::string held = "type = \"linear\"\nstiffness = 4000\ndamping = 40\nrate = 250";
-  const std::string printed = "type = \"printed-linear\"\nstiffness = 2e4\ndamping = 40";
+  const std::string printed = "type = \"published-linear\"\nstiffness = 2e4\ndamping = 40";
   const std::string turning =
-      "type = \"torsional\"\nstiffness = 500\ndamping = 2\ntreatment = \"explicit\"";
+      "type = \"torsional\"\nstiffness = 500\ndamping = 2\ndiscretization = \"explicit\"";
   const auto pointless = [](std::string text) {  // torsional couplings have no point
     for (std::size_t at; (at = text.find("point = ")) != std::string::npos;)
       text.erase(at, text.find('\n', at) - at);
@@ -143,7 +143,7 @@ TEST_CASE(
 }
 
 TEST_CASE("parameters: `near` within a quarter of the limit; beyond it the stable value is given") {
-  const std::string text = held_arm("", std::string(kLinear) + "treatment = \"explicit\"");
+  const std::string text = held_arm("", std::string(kLinear) + "discretization = \"explicit\"");
   const auto limit_at = [&](const std::vector<std::string>& changes) {
     return *parameter_at(predicted(text, changes), "coupling.stiffness").limit;
   };
@@ -158,7 +158,7 @@ TEST_CASE("parameters: `near` within a quarter of the limit; beyond it the stabl
   // From above the limit is the same.
   CHECK(*with(1.30).value == doctest::Approx(*at_start.value).epsilon(0.02));
   CHECK(!with(1.30).words.empty());
-  const ParameterLimit implicit = limit_at({"coupling.treatment=implicit"});
+  const ParameterLimit implicit = limit_at({"coupling.discretization=implicit"});
   CHECK(!implicit.value);
   CHECK(implicit.state == ParameterLimit::State::ok);
   CHECK(!implicit.words.empty());
@@ -168,7 +168,7 @@ TEST_CASE("parameters: in an unstable scene only those that stabilise it alone h
   // The linear spring is beyond its limit, the torsional one is not.
   std::string text = held_arm("",
                               "type = \"linear\"\nstiffness = 2e4\ndamping = 40\n"
-                              "treatment = \"explicit\"");
+                              "discretization = \"explicit\"");
   const std::vector<LabParameter> at_start = predicted(text);
   const double limit = *parameter_at(at_start, "coupling[0].stiffness").limit->value;
   const std::string too_stiff = fmt::format("coupling[0].stiffness={}", 3 * limit);
@@ -230,7 +230,7 @@ damping = 0
   // Inertia from the period: first zero of a run from 1e-3 rad.
   SimulatePlan swing =
       planned(temporary_scene("lag", text),
-              {"coupling.treatment=explicit", "step=1e-4", "robot.qd.joint1=0.001"}, 20000);
+              {"coupling.discretization=explicit", "step=1e-4", "robot.qd.joint1=0.001"}, 20000);
   double quarter = 0;
   RunWatch watch;
   watch.look = [&](RunView& run) {
@@ -274,7 +274,7 @@ TEST_CASE("gallery: variants of an entry are read, and their faults reported") {
   CHECK(variants.values.size() == 6);
   CHECK(variants.apart.has_value());
   const auto entry = [](const std::string& told) {
-    return temporary_scene("lanes",
+    return temporary_scene("variants",
                            "[[scene]]\nname = \"a\"\nfile = \"no.toml\"\ntitle = \"t\"\n"
                            "look = [\"one\", \"two\", \"three\"]\nlanes = " +
                                told);
@@ -284,7 +284,7 @@ TEST_CASE("gallery: variants of an entry are read, and their faults reported") {
     CAPTURE(told);
     const auto faults = faults_of([&] { read_gallery(entry(told)); });
     REQUIRE(faults.size() == 2);  // the file is not there either
-    CHECK(faults[1].where.find("lanes") != std::string::npos);
+    CHECK(faults[1].where.find("variants") != std::string::npos);
   }
 }
 

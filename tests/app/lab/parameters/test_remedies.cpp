@@ -33,7 +33,7 @@ std::vector<BadScene> bad_scenes() {
           {"as printed, turning", scene("study_e3.toml"), {"coupling[0].stiffness=200000"}},
           {"study",
            scene("study.toml"),
-           {"coupling[0].treatment=explicit", "coupling[0].stiffness=1e8",
+           {"coupling[0].discretization=explicit", "coupling[0].stiffness=1e8",
             "coupling[0].target=paper", "robot.q.joint1=1.5707963267948966",
             "robot.q.joint2=-0.7853981633974483", "coupling[1].target=paper"}},
           {"held", temporary_scene("held", held).string(), {}}};
@@ -77,18 +77,18 @@ TEST_CASE("remedies: step, gain and discretization are offered for too stiff a s
   REQUIRE(first.size() == 3);
   CHECK(first[0].find("step=") == 0);
   CHECK(first[1].find("].stiffness=") != std::string::npos);
-  CHECK(first[2].find("].treatment=implicit") != std::string::npos);
+  CHECK(first[2].find("].discretization=implicit") != std::string::npos);
 }
 
-TEST_CASE("remedies: depend on kind and index of a suspect, not on its name") {
+TEST_CASE("remedies: depend on kind and index of a violation, not on its name") {
   const BadScene stiff = bad_scenes().front();
   const SimulatePlan coupled = planned(stiff.file, stiff.changes);
   SimulatePlan damped = planned(stiff.file, {"integrator=euler", "coupling.stiffness=1"});
   damped.input.robot.model.damping.assign(damped.input.robot.model.nv, 1e4);
   const auto changes_by = [](const SimulatePlan& plan,
-                             const std::vector<StabilityViolation>& suspects) {
+                             const std::vector<StabilityViolation>& violations) {
     PostMortem failure;
-    failure.suspects = suspects;
+    failure.violations = violations;
     std::vector<std::string> changes;
     for (const SuggestedFix& fix : remedies_of(plan, failure))
       changes.insert(changes.end(), fix.changes.begin(), fix.changes.end());
@@ -96,13 +96,13 @@ TEST_CASE("remedies: depend on kind and index of a suspect, not on its name") {
   };
   for (const auto& [plan, kind, change] :
        {std::tuple<const SimulatePlan*, StabilityViolation::Kind, std::string>{
-            &coupled, StabilityViolation::Kind::coupling, "coupling[1].treatment=implicit"},
+            &coupled, StabilityViolation::Kind::coupling, "coupling[1].discretization=implicit"},
         {&damped, StabilityViolation::Kind::joint_damper, "integrator=semi-implicit"}}) {
-    std::vector<StabilityViolation> suspects = find_suspects(*plan);
-    REQUIRE(!suspects.empty());
-    CHECK(suspects.front().kind == kind);
-    for (StabilityViolation& suspect : suspects) suspect.name = "another name";
-    const std::vector<std::string> changes = changes_by(*plan, suspects);
+    std::vector<StabilityViolation> violations = find_violations(*plan);
+    REQUIRE(!violations.empty());
+    CHECK(violations.front().kind == kind);
+    for (StabilityViolation& violation : violations) violation.name = "another name";
+    const std::vector<std::string> changes = changes_by(*plan, violations);
     std::string offered;
     for (const std::string& c : changes) offered += c + " ";
     CAPTURE(offered);

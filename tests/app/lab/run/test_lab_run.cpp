@@ -183,7 +183,7 @@ TEST_CASE("lab run: a body on the mouse spring is a damped oscillator; both bala
   const SteppedRun& view = s.run->view();
   const double energy =
       kinetic_energy(view.simulation().mechanism().model, view.simulation().state());
-  const auto rows = s.run->view().ledger();
+  const auto rows = s.run->view().energy_balance();
   CHECK(work_of(rows, "mouse") == doctest::Approx(energy).epsilon(1e-9));
   CHECK(std::abs(work_of(rows, "numerical")) < 1e-9 * energy);
   const auto momenta = s.run->view().momentum();
@@ -226,16 +226,16 @@ TEST_CASE("lab run: invalid changes are refused with all faults, and the run con
 TEST_CASE("lab run: an unstable spring stops the run, and is named with a stable value") {
   Session s(arm_with("paper"));
   s.step(100);
-  const auto rows = s.run->view().ledger();
-  s.change({{"coupling.one.treatment", "explicit"}, {"coupling.one.stiffness", "3e7"}});
+  const auto rows = s.run->view().energy_balance();
+  s.change({{"coupling.one.discretization", "explicit"}, {"coupling.one.stiffness", "3e7"}});
   long n = 0;
   while (s.run->step() && n < 2000) ++n;
   const PostMortem* found = s.run->post_mortem(rows);
   REQUIRE(found);
-  REQUIRE(!found->suspects.empty());
-  CHECK(found->suspects.front().name == "coupling 'one'");
-  CHECK(found->suspects.front().step > found->suspects.front().max_step);
-  CHECK(!found->suspects.front().fix.empty());
+  REQUIRE(!found->violations.empty());
+  CHECK(found->violations.front().name == "coupling 'one'");
+  CHECK(found->violations.front().step > found->violations.front().max_step);
+  CHECK(!found->violations.front().fix.empty());
   CHECK(found->words.size() >= 2);
   CHECK(!found->row.empty());
   CHECK(!s.run->step());

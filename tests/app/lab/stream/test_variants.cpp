@@ -286,16 +286,16 @@ TEST_CASE("variants: shown at their offsets, with joint positions and energies b
 }
 
 TEST_CASE("variants: invalid sets are refused with a remedy") {
-  CHECK(parse_lanes("integrator=semi-implicit,rk4").values ==
+  CHECK(parse_variants("integrator=semi-implicit,rk4").values ==
         std::vector<std::string>{"semi-implicit", "rk4"});
-  CHECK(parse_lanes("body.position=[0,0,1],[0,0,2]").values ==
+  CHECK(parse_variants("body.position=[0,0,1],[0,0,2]").values ==
         std::vector<std::string>{"[0,0,1]", "[0,0,2]"});
   for (const char* text : {"", "integrator", "integrator=rk4", "=a,b", "step=0.1,", "step=1,2,1",
                            "step=1,2,3,4,5,6,7,8"}) {
     CAPTURE(text);
-    const std::vector<Diagnostic> faults = faults_of([&] { parse_lanes(text); });
+    const std::vector<Diagnostic> faults = faults_of([&] { parse_variants(text); });
     REQUIRE(faults.size() == 1);
-    CHECK(faults[0].where == std::string("--lanes ") + text);
+    CHECK(faults[0].where == std::string("--variants ") + text);
     CHECK_FALSE(faults[0].fix.empty());
   }
 }

@@ -19,10 +19,10 @@ std::string coupling_of(const std::string& type) {
   std::string text = "[[coupling]]\nname = 'c'\ntype = '" + type + "'\ntarget = 'paper'\n";
   // A couple on arm 2 would leave joint 1 alone.
   const bool at_point = type == "linear" || type == "bushing" || type == "weld" ||
-                        type == "matched" || type == "printed-linear";
+                        type == "equivalent-torsional" || type == "published-linear";
   if (type != "god-object") text += at_point ? "link = 'arm2'\n" : "link = 'arm1'\n";
   if (type != "god-object" && type != "weld") text += "stiffness = 200\ndamping = 6\n";
-  if (type == "bushing") text += "turn_stiffness = 50\nturn_damping = 2\n";
+  if (type == "bushing") text += "rotational_stiffness = 50\nrotational_damping = 2\n";
   return text;
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("scene: a run with any coupling resumes bit by bit") {
     const std::string text =
         kRobot + coupling_of(facts.name) +
         (facts.can_hold
-             ? "rate = 250\n" + std::string(facts.printed ? "" : "treatment = 'explicit'\n")
+             ? "rate = 250\n" + std::string(facts.printed ? "" : "discretization = 'explicit'\n")
              : "");
     Running first(text), second(text);
     for (int n = 0; n < 101; ++n) first.simulation.step(1e-3);

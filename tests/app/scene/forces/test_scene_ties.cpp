@@ -86,7 +86,7 @@ TEST_CASE("scene: a coupling without target acts towards the start") {
   REQUIRE(scene.couplings.size() == 1);
   const SceneCoupling& pull = scene.couplings[0];
   CHECK(pull.spring.body == scene.model.find_body("left/arm1"));
-  CHECK(pull.treatment == Discretization::implicit);
+  CHECK(pull.discretization == Discretization::implicit);
   CHECK(pull.driven.turned.empty());
 
   SceneCouplings couplings(scene, 0.001);
@@ -139,7 +139,7 @@ TEST_CASE("scene: a target with delay and speed is the motion at speed (t - dela
   SceneModel scene = built(
       "[[robot]]\nname = 'r'\nmodel = 'robots/findings_set0/findings_set0.urdf'\n[[coupling]]\n"
       "type = 'torsional'\nmeasure = 'joint'\nlink = 'arm1'\nstiffness = 10\ndamping = 1\n"
-      "treatment = 'explicit'\ntarget = 'paper'\ndelay = 0.12345\nspeed = 1.7\n");
+      "discretization = 'explicit'\ntarget = 'paper'\ndelay = 0.12345\nspeed = 1.7\n");
   using Side = SceneCouplings::Side;
   const double pi = 3.14159265358979323846;
   SceneCouplings couplings(scene, 0.001);
@@ -197,7 +197,7 @@ TEST_CASE(
         "gravity = [0, 0, 0]\n[[robot]]\nname = 'r'\n"
         "model = 'robots/findings_set0/findings_set0.urdf'\nq = { joint1 = 1.5707963267948966 }\n"
         "[[coupling]]\ntype = 'torsional'\nmeasure = 'joint'\nlink = 'arm1'\nstiffness = 0\n"
-        "damping = 5\ntarget = 'paper'\ntreatment = 'explicit'\ndamper = '" +
+        "damping = 5\ntarget = 'paper'\ndiscretization = 'explicit'\ndamper = '" +
         std::string(absolute ? "absolute" : "relative") + "'\n");
     SceneCouplings couplings(scene, 0.001);
     Kinematics k(scene.model);

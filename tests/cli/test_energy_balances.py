@@ -2,7 +2,7 @@
 """Energy and momentum balance on every scene of assets/scenes, against energy and momentum from poses
 and velocities (bodies_of_scene.py).
 
-    test_ledgers.py PATH/TO/twinarm
+    test_energy_balances.py PATH/TO/twinarm
 """
 import json
 
@@ -27,7 +27,7 @@ HAMMER = robot(
     joint("hinge", "continuous", "base", "head", axis="0 -1 0"))
 
 
-class Ledgers(RecordingCommand):
+class EnergyBalances(RecordingCommand):
     def run_scene(self, scene, *options):
         result = run("simulate", scene, *options, "--json")
         if result.returncode == 2:
@@ -44,7 +44,7 @@ class Ledgers(RecordingCommand):
         self.assertNotIn("alarm", answer)
         bodies = bodies or bodies_of(scene)
         first, last = (Contents(bodies, answer["samples"][i]["links"]) for i in (0, -1))
-        rows, momenta = answer["ledger"], answer["momentum"]
+        rows, momenta = answer["energy_balance"], answer["momentum"]
         moved = max([abs(w) for w in rows.values()] + [first.kinetic, last.kinetic, 1e-6])
         gained = last.kinetic - first.kinetic
         self.assertLess(abs(sum(rows.values()) - gained), 1e-12 * max(1, moved), scene.name)

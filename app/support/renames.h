@@ -1,0 +1,13 @@
+// Names that replaced others in options, scene files and JSON output (assets/renamed.json).
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace twinarm {
+
+// The name that replaced `old`; empty if none did. `kind`: "commands", "options" (with "--"),
+// "keys" and "values" of scene files.
+std::string renamed(const std::string& kind, const std::string& old);
+
+}  // namespace twinarm
