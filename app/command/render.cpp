@@ -50,7 +50,8 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
   add("--show", options.show,
       fmt::format("none, all, or some of: {}", fmt::join(names_of(all_overlays()), ", ")));
   add("--plot", options.plot,
-      "curves below the picture: none, or some of: energy, forces, couples, contacts, lag");
+      "curves below the picture: none, or some of: energy, forces, torques, contacts, "
+      "tracking-error");
   add("--side-by-side", options.beside,
       "second recording, shown to the right of the first in sync");
   add.group("Picture");

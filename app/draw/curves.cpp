@@ -80,9 +80,9 @@ const std::vector<CurveKind>& all_curves() {
   static const std::vector<CurveKind> all{
       {"energy", "energy [J]", sample_energy},
       {"forces", "spring-dampers [N]", sample_pulls<Kind::force>},
-      {"couples", "spring-dampers [N m]", sample_pulls<Kind::couple>},
+      {"torques", "spring-dampers [N m]", sample_pulls<Kind::couple>},
       {"contacts", "contact forces [N]", sample_contacts},
-      {"lag", "tracking error [deg]", sample_lag}};
+      {"tracking-error", "tracking error [deg]", sample_lag}};
   return all;
 }
 

@@ -12,6 +12,7 @@
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
 #include "app/support/files.h"
+#include "app/support/renames.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {
@@ -21,6 +22,15 @@ namespace {
 // Negative line numbers mark values from a change.
 int line_of_change(std::size_t change) {
   return -1 - static_cast<int>(change);
+}
+
+// Keys and types of earlier versions become today's.
+void update_names(Value& value) {
+  if (const std::string now = renamed("keys", value.key); !now.empty()) value.key = now;
+  if (const std::string now = renamed("values", value.text); value.key == "type" && !now.empty())
+    value.text = now;
+  for (Value& item : value.items) update_names(item);
+  for (Value& member : value.members) update_names(member);
 }
 
 }  // namespace
@@ -110,6 +120,7 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
                   "write --set gravity=x,y,z, or record a scene", "change.robot"});
   faults.check();
   options.change_scene = [this, of_scene](Value& tree, DiagnosticList& found) {
+    update_names(tree);
     redirect_paths(tree);
     for (std::size_t i = 0; i < of_scene.size(); ++i)
       apply(of_scene[i].first, of_scene[i].second, tree, found);

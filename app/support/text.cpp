@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "app/support/renames.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -50,6 +51,10 @@ std::string nearest_name(std::string_view misspelt, const std::vector<std::strin
 std::string name_remedy(std::string_view misspelt, const std::vector<std::string>& names,
                         std::string_view kind) {
   constexpr std::size_t kMany = 12;
+  for (const char* of : {"commands", "keys", "values", "choices"})
+    if (const std::string now = renamed(of, std::string(misspelt));
+        std::ranges::find(names, now) != names.end())
+      return "'" + std::string(misspelt) + "' is now '" + now + "'";
   std::string fix;
   if (const std::string nearest = nearest_name(misspelt, names); !nearest.empty())
     fix = "did you mean '" + nearest + "'?";

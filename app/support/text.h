@@ -13,7 +13,8 @@
 
 namespace twinarm {
 
-// "did you mean 'elbow'?" and up to 12 of the names; `kind`: "joints".
+// "did you mean 'elbow'?" and up to 12 of the names; `kind`: "joints". Of a renamed one (renames.h)
+// its new name.
 std::string name_remedy(std::string_view misspelt, const std::vector<std::string>& names,
                         std::string_view kind);
 

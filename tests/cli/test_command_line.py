@@ -88,7 +88,7 @@ class CommandLine(ProgramTest):
         self.assertIn("coupling/pull_joint1", sources)
         picture = self.folder / "both.png"
         self.twinarm("render", made["E3"]["recording"], "--side-by-side", made["E4"]["recording"], "--png", picture, "--plot",
-                     "lag", "--size", "320x200")
+                     "tracking-error", "--size", "320x200")
         self.assertTrue(picture.exists())
 
     # Bad names

@@ -78,8 +78,8 @@ class LabRules(LabTest):
 
     def test_a_branch_shows_the_run_that_was_left_and_new_input_takes_precedence(self):
         scene = self.live.wait_for("scene")
-        layer = [one["name"] for one in scene["layers"]].index("before")
-        self.live.do("layers", names=["bodies", "before"])
+        layer = [one["name"] for one in scene["layers"]].index("earlier-run")
+        self.live.do("layers", names=["bodies", "earlier-run"])
         self.live.do("joint", index=0, value=-0.4, stamp=1.0)
         self.frame(lambda f: f.time > 2)
         self.live.do("branch", at=0.5, changes=[f"{K}=200"])

@@ -55,7 +55,7 @@ def data(name, **values):
 
 def line_of(fault):
     """As stderr has it."""
-    return "{file}:{line}: {where}: {rule}; {remedy}".format(**fault)
+    return "{file}:{line}: {where}: {problem}; {fix}".format(**fault)
 
 
 class ProgramTest(unittest.TestCase):

@@ -135,7 +135,7 @@ class Curious(Client):
     next = 0.0
     asks = None
     paths = ("/scene", "/frame.png?width=320&height=180", "/save", "/nothing/here")
-    layers = ("bodies", "ghost", "couplings", "contacts", "frames", "inertia", "momentum", "trails", "labels")
+    layers = ("bodies", "targets", "couplings", "contacts", "frames", "inertia", "momentum", "trails", "labels")
 
     def tick(self, now):
         if self.is_new or now < self.next or (self.asks and self.asks.is_alive()):

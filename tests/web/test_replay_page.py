@@ -257,7 +257,7 @@ class InTheBrowser(Pages):
         browser = self.open(self.arm, "#t=1.5")
         names = browser.evaluate("[...document.querySelectorAll('[data-layer]')]"
                                  ".map(box => box.dataset.layer)")
-        self.assertLessEqual({"ghost", "couplings", "contacts", "joints", "com", "trails", "labels"},
+        self.assertLessEqual({"targets", "couplings", "contacts", "joints", "com", "trails", "labels"},
                              set(names))
         before = browser.evaluate("window.twinarm.page.state.layers")
         for number in range(1, 10):

@@ -11,6 +11,7 @@
 #include "app/command/parser/command_tree.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
+#include "app/support/renames.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "solver/support/diagnostics.h"
@@ -84,6 +85,16 @@ void check_values(int argc, char** argv) {
   faults.check();
 }
 
+// For a command line that cannot be parsed.
+std::string parse_remedy(int argc, char** argv) {
+  for (const std::string word : std::vector<std::string>(argv, argv + argc)) {
+    const std::string option = word.substr(0, word.find('='));
+    if (const std::string now = renamed("options", option); !now.empty())
+      return fmt::format("'{}' is now '{}'", option, now);
+  }
+  return "see twinarm --help";
+}
+
 // Adds a subcommand whose callback stores the function to run in `chosen`.
 void add_command(CLI::App& parent, const Command& command,
                  std::function<int(const Words&)>& chosen) {
@@ -118,9 +129,9 @@ int run_program(int argc, char** argv) {
     return report(error, as_json);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return print_help(app, error, as_json);
-    return report(
-        InputError({{"", 0, "command line", error.what(), "see twinarm --help", "command.line"}}),
-        as_json);
+    return report(InputError({{"", 0, "command line", error.what(), parse_remedy(argc, argv),
+                               "command.line"}}),
+                  as_json);
   }
 
   catch_interrupts();

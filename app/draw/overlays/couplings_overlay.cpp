@@ -86,7 +86,7 @@ Overlays couplings_overlay() {
            "spring-dampers, coloured by force",
            show_couplings,
            {.shown = Overlay::Shown::everywhere}},
-          {220, "pull", "mouse spring on a body", show_mouse_spring, {.is_live = true}}};
+          {220, "mouse-spring", "mouse spring on a body", show_mouse_spring, {.is_live = true}}};
 }
 
 }  // namespace twinarm

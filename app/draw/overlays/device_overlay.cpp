@@ -84,13 +84,16 @@ void show_device_force(SceneView& view, const Snapshot& snapshot) {
 }  // namespace
 
 Overlays device_overlay() {
-  return {
-      {20,
-       "device",
-       "input device that moves the target robot",
-       show_device,
-       {.seen_through = false}},
-      {210, "felt", "force feedback of the input device", show_device_force, {.is_live = true}}};
+  return {{20,
+           "device",
+           "input device that moves the target robot",
+           show_device,
+           {.seen_through = false}},
+          {210,
+           "device-force",
+           "force feedback of the input device",
+           show_device_force,
+           {.is_live = true}}};
 }
 
 }  // namespace twinarm

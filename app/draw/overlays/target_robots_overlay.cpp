@@ -89,12 +89,12 @@ void show_trails(SceneView& view, const Snapshot& snapshot) {
 
 Overlays target_robots_overlay() {
   return {{10,
-           "ghost",
+           "targets",
            "target robot that the couplings follow",
            show_targets,
            {.seen_through = false, .shown = Overlay::Shown::everywhere}},
           {230,
-           "before",
+           "earlier-run",
            "bodies of the previous branch",
            show_before,
            {.seen_through = false, .is_live = true}},

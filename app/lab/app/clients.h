@@ -45,7 +45,7 @@ class Clients {
 
  private:
   struct Client {
-    std::vector<std::string> layers{"bodies", "ghost", "couplings", "contacts"};
+    std::vector<std::string> layers{"bodies", "targets", "couplings", "contacts"};
     std::optional<long> inspected;
     std::string secret = random_token();
   };

@@ -143,7 +143,7 @@ void paint_pictures(const StudyResults& results, const std::filesystem::path& fo
     wish.height = 720;
     if (portrait) wish.quality = Quality::studio;
     wish.camera = camera;
-    if (!portrait && !paper_view) wish.overlays = {"ghost", "couplings"};
+    if (!portrait && !paper_view) wish.overlays = {"targets", "couplings"};
     write_png((folder / (std::string(name) + ".png")).string(), Rendering(wish, {&shown}).paint(0));
     progress.advance(++done / static_cast<double>(pictures.size()));
   }

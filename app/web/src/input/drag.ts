@@ -202,7 +202,7 @@ export class Drag {
   // A link of the target robot counts only where it is clearly in front of the robot.
   private find({ stage, scene, frame }: DrawnView, at: Pixel) {
     const hit = pick(stage, frame, 0, at);
-    const layer = scene.layers.findIndex(({ name }) => name === 'ghost');
+    const layer = scene.layers.findIndex(({ name }) => name === 'targets');
     const target = layer > 0 ? pick(stage, frame, layer, at) : null;
     const joint =
       target && scene.joints.find((j) => j.body === target.body && j.driven !== undefined && j.axis);

@@ -26,7 +26,7 @@ import type { ViewName } from '../view/stage';
 import './lab.css'; // last: overrides for touch screens
 
 const TABS = ['Parameters', 'Plots', 'Inspector', 'Energy'];
-const DEFAULT_LAYERS = ['ghost', 'device', 'couplings', 'contacts', 'felt', 'before'];
+const DEFAULT_LAYERS = ['targets', 'device', 'couplings', 'contacts', 'device-force', 'earlier-run'];
 const NO_CONTROL = new Set(['layers', 'glass', 'look', 'take']); // commands that need no control
 
 class Page implements LabKeys {

@@ -7,7 +7,7 @@ import type { Channel, LegendLine, View } from './run';
 export type Vector = [number, number, number];
 
 export interface SceneLayer {
-  name: string; // "bodies" first; the last, "before", is the robot of the previous branch
+  name: string; // "bodies" first; the last, "earlier-run", is the robot of the previous branch
   what: string;
   legend: LegendLine[];
 }

@@ -38,7 +38,7 @@ export interface LegendLine {
 }
 
 export interface Layer {
-  name: string; // "bodies", "ghost", "couplings", ..
+  name: string; // "bodies", "targets", "couplings", ..
   what: string;
   shown: boolean; // at first
   legend: LegendLine[];

@@ -111,7 +111,7 @@ TEST_CASE("lab frame: layers are consecutive; those not requested are empty") {
   CHECK(all.first_label.back() == all.text_end.size());
   CHECK(std::is_sorted(all.first.begin(), all.first.end()));
   CHECK(names.front() == "bodies");
-  CHECK(names.back() == "before");
+  CHECK(names.back() == "earlier-run");
   for (const std::string wanted : {"gravity", "labels", "forces"}) {
     const ReadFrame one(watched.view->frame(frame, nullptr, {wanted}, {}));
     for (std::size_t l = 0; l < names.size(); ++l) {
@@ -136,7 +136,7 @@ TEST_CASE("lab frame: the target robot has the operator's pose, also at an uncha
   REQUIRE(frame.hand);
   REQUIRE(frame.hand->q_K.size() == 3);
   const Model<double>& model = watched.plan->prepared.input.robot.model;
-  const std::size_t ghost = watched.layer("ghost");
+  const std::size_t targets = watched.layer("targets");
   const int tip = model.find_body("quill");
   REQUIRE(tip > 0);
   frame.hand->active = true;
@@ -148,8 +148,8 @@ TEST_CASE("lab frame: the target robot has the operator's pose, also at an uncha
       x.q[model.iq[static_cast<std::size_t>(model.find_joint(joints[j]))]] = frame.hand->q_K[j];
     Kinematics k(model);
     forward_kinematics(model, x, k);
-    const ReadFrame read(watched.view->frame(frame, nullptr, {"ghost"}, {}));
-    const std::size_t first = read.first[ghost], last = read.first[ghost + 1];
+    const ReadFrame read(watched.view->frame(frame, nullptr, {"targets"}, {}));
+    const std::size_t first = read.first[targets], last = read.first[targets + 1];
     Kinematics now(model);
     forward_kinematics(model, watched.run->view().simulation().state(), now);
     // Pose of a link from the same part of the robot, whose link has the pose in `now`.
@@ -183,10 +183,10 @@ TEST_CASE("lab frame: the target robot has the operator's pose, also at an uncha
 TEST_CASE("lab frame: the run that was left is shown only where it differs") {
   Watched watched = watched_boxes();
   const LabFrame earlier = watched.after(5), now = watched.after(100);
-  const std::size_t before = watched.layer("before");
-  const ReadFrame same(watched.view->frame(now, &now, {"before"}, {}));
+  const std::size_t before = watched.layer("earlier-run");
+  const ReadFrame same(watched.view->frame(now, &now, {"earlier-run"}, {}));
   CHECK(same.first[before] == same.first[before + 1]);
-  const ReadFrame read(watched.view->frame(now, &earlier, {"before"}, {}));
+  const ReadFrame read(watched.view->frame(now, &earlier, {"earlier-run"}, {}));
   const auto [first, last] = read.layer(before);
   REQUIRE(last == first + 1);  // the resting one has not moved
   CHECK(read.color[4 * first + 3] < 255);
@@ -212,10 +212,10 @@ TEST_CASE("lab frame: the device force is an arrow at the stylus, proportional t
   REQUIRE(frame.hand);
   frame.hand->active = true;
   frame.hand->theta = {0.2, 0.7, 0.1, 0, 0, 0};
-  const std::size_t felt = watched.layer("felt");
+  const std::size_t felt = watched.layer("device-force");
   const auto length = [&](double newton) {
     frame.hand->force_W = newton * Vector3(0, 0.6, 0.8);
-    const ReadFrame read(watched.view->frame(frame, nullptr, {"felt"}, {}));
+    const ReadFrame read(watched.view->frame(frame, nullptr, {"device-force"}, {}));
     const auto [first, last] = read.layer(felt);
     double reach = 0;  // from the point to the tip of the first arrow: shaft, head
     if (last > first) {
