@@ -93,7 +93,7 @@ void open_browser(const std::string& url) {
 // Rejects devices that open files or sockets here: with --listen the page may be on another
 // machine.
 void check_shared_device(const LabCommand& command) {
-  if (command.what != LabCommand::Do::hand || command.name != "device") return;
+  if (command.what != LabCommand::Do::input || command.name != "device") return;
   if (stays_inside(command.spec)) return;
   throw InputError({{"command", 0, "hand, spec",
                      "'" + command.spec +
@@ -149,7 +149,7 @@ class Lab {
     handlers.closed = [this](ClientId client) {
       if (clients_.has_hand(client)) {  // releases what the closed page was dragging
         LabCommand drop;
-        drop.what = LabCommand::Do::drop;
+        drop.what = LabCommand::Do::release;
         session_.push(std::move(drop));
       }
       clients_.closed(client);
@@ -162,21 +162,21 @@ class Lab {
   void handle(ClientId client, const std::string& text) {
     try {
       LabCommand command = parse_command(text);
-      if (needs_hand(command.what) && !clients_.has_hand(client))
+      if (needs_control(command.what) && !clients_.has_hand(client))
         return session_.note("warning", "another client has control; request it");
       if (!is_private_) check_shared_device(command);
       switch (command.what) {
         case LabCommand::Do::layers:
           clients_.want_layers(client, std::move(command.names));
           break;
-        case LabCommand::Do::glass:
-          clients_.want_glass(client,
-                              command.on ? std::optional<long>(command.count) : std::nullopt);
+        case LabCommand::Do::inspect:
+          clients_.want_inspection(client,
+                                   command.on ? std::optional<long>(command.count) : std::nullopt);
           break;
-        case LabCommand::Do::take:
+        case LabCommand::Do::request_control:
           clients_.take(client);
           break;
-        case LabCommand::Do::give:
+        case LabCommand::Do::grant_control:
           if (!clients_.give(client, static_cast<ClientId>(command.count)))
             session_.note("warning", "that client is no longer connected");
           break;

@@ -177,11 +177,11 @@ class Pages(Case):
                                    f"Cookie: {lab.cookie}\r\nContent-Length: 100000\r\n\r\nduration".encode())
                     upload.close()
                 else:
-                    gone.do("take")
+                    gone.do("request_control")
                 if n % 2:  # not a close, but a reset
                     gone.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
                 gone.close()
-            stays.wait_for("state", lambda s: s["clients"] == 1 and s["holder"] == you)
+            stays.wait_for("state", lambda s: s["clients"] == 1 and s["controller"] == you)
             step = stays.wait_for("frame").step
             stays.wait_for("frame", lambda frame: frame.step > step)
             self.assertEqual(lab.get("/save").status, 200)

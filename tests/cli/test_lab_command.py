@@ -23,8 +23,8 @@ class LabCommand(LabTest):
         self.assertEqual([body["name"] for body in scene["bodies"]], ["world", "base", "rod", "ball"])
         state = self.state()
         self.assertTrue(state["playing"])
-        self.assertEqual(state["holder"], state["you"])
-        self.assertIn("coupling[0].stiffness", json.dumps(state["knobs"]))
+        self.assertEqual(state["controller"], state["you"])
+        self.assertIn("coupling[0].stiffness", json.dumps(state["parameters"]))
         frame = self.frame()
         self.assertEqual(frame.scene, scene["scene"])
         self.assertEqual(len(frame.channels), len(scene["channels"]))
@@ -51,10 +51,10 @@ class LabCommand(LabTest):
         self.live.do("step", steps=7)
         after = self.frame(lambda f: f.step == before.step + 7)
         self.assertAlmostEqual(after.time - before.time, 0.007, places=12)
-        self.live.do("look", at=before.time / 2)
+        self.live.do("seek", at=before.time / 2)
         old = self.frame(lambda f: f.looked_back)
         self.assertLessEqual(old.time, before.time / 2)
-        self.live.do("look", at=None)
+        self.live.do("seek", at=None)
         self.assertEqual(self.frame(lambda f: not f.looked_back).step, after.step)
 
     def test_a_branch_repeats_the_run_without_a_change_and_differs_with_one(self):
@@ -81,7 +81,7 @@ class LabCommand(LabTest):
     def test_a_diverged_run_stops_with_a_reason_and_its_fix_is_stable(self):
         self.frame(lambda f: f.time > 0.5)
         self.live.do("set", changes=["coupling[0].stiffness=1e8"])
-        dead = self.state(lambda s: s["dead"])["dead"]
+        dead = self.state(lambda s: s["failure"])["failure"]
         self.assertIn("pull", dead["spring"])
         self.assertTrue(dead["words"])
         self.assertTrue(dead["remedies"])
@@ -89,9 +89,9 @@ class LabCommand(LabTest):
         self.assertTrue(self.frame(lambda f: f.is_dead))
         for remedy in dead["remedies"]:
             self.live.do("branch", at=dead["from"], changes=remedy["changes"])
-            self.state(lambda s: s["branch"] and not s["dead"])
+            self.state(lambda s: s["branch"] and not s["failure"])
             self.frame(lambda f: f.time > 1.5)
-            self.assertIsNone(self.state()["dead"], remedy["words"])
+            self.assertIsNone(self.state()["failure"], remedy["words"])
 
     def test_operator_input_drives_the_robot_and_the_mouse_spring_drags_the_ball(self):
         scene = self.live.wait_for("scene")
@@ -102,10 +102,10 @@ class LabCommand(LabTest):
         self.assertLess(frame.input_age, 0.2)
         at = names.index("q/hinge")
         self.frame(lambda f: abs(f.channels[at] + 0.4) < 0.2)
-        self.live.do("pull", body=ball, point=[0, 0, 0], goal=[2, 1, 1], stamp=43.0)
+        self.live.do("drag_body", body=ball, point=[0, 0, 0], goal=[2, 1, 1], stamp=43.0)
         y = names.index("links/ball/y")
         self.frame(lambda f: f.channels[y] > 0.8)
-        self.live.do("drop")
+        self.live.do("release")
 
     def test_inputs_cause_no_extra_frames(self):
         self.frame()
@@ -122,39 +122,39 @@ class LabCommand(LabTest):
         ball = [b["name"] for b in scene["bodies"]].index("ball")
         z = names.index("links/ball/z")
         with self.lab.live() as other:
-            self.live.do("pull", body=ball, point=[0, 0, 0], goal=[2, 0, 4], stamp=1.0)
+            self.live.do("drag_body", body=ball, point=[0, 0, 0], goal=[2, 0, 4], stamp=1.0)
             other.wait_for("frame", lambda f: f.time > 2)  # held: it would lie at -1.9 by now
             self.assertGreater(other.wait_for("frame").channels[z], 2)
             self.live.close()
             other.wait_for("frame", lambda f: f.channels[z] < 0)
             other.do("button", index=0, down=True, stamp=2.0)
-            other.do("hand", source="joints")
-            self.state(lambda s: s["hand"]["gripper"], live=other)
+            other.do("input", source="joints")
+            self.state(lambda s: s["input"]["gripper"], live=other)
         self.live = self.lab.live()  # and it finds the gripper as it was
-        self.assertTrue(self.state()["hand"]["gripper"])
-        self.assertEqual(self.state()["hand"]["source"], "joints")
+        self.assertTrue(self.state()["input"]["gripper"])
+        self.assertEqual(self.state()["input"]["source"], "joints")
 
     def test_control_is_granted_on_request(self):
         you = self.state()["you"]
         with self.lab.live() as other:
             second = self.state(live=other)
-            self.assertEqual(second["holder"], you)
+            self.assertEqual(second["controller"], you)
             other.do("set", changes=["coupling[0].stiffness=21"])
             self.assertIn("control", self.told(self.state(lambda s: s["notes"], live=other)))
-            other.do("take")
-            self.state(lambda s: s["asked"] == [second["you"]])
-            self.live.do("give", to=second["you"])
-            self.state(lambda s: s["holder"] == second["you"], live=other)
+            other.do("request_control")
+            self.state(lambda s: s["control_requests"] == [second["you"]])
+            self.live.do("grant_control", to=second["you"])
+            self.state(lambda s: s["controller"] == second["you"], live=other)
             other.do("set", changes=["coupling[0].stiffness=21"])
             self.state(lambda s: s["changes"] == ["coupling[0].stiffness=21"], live=other)
-        self.state(lambda s: s["holder"] == you)  # the remaining client
+        self.state(lambda s: s["controller"] == you)  # the remaining client
 
     def test_invalid_commands_and_scenes_are_refused_and_the_run_continues(self):
-        for text in ("", "{", "[1, 2]", '{"do": "fly"}', '{"do": "tip", "goal": ["a"]}',
+        for text in ("", "{", "[1, 2]", '{"do": "fly"}', '{"do": "drag_stylus", "goal": ["a"]}',
                      '{"do": "set", "changes": ["coupling[0].colour=red"]}',
                      '{"do": "set", "changes": ["coupling[0].stiffness=-5"]}',
                      '{"do": "set", "changes": ["step=0"]}', '{"do": "scene", "name": "nowhere"}',
-                     '{"do": "hand", "source": "device", "spec": "ouija"}'):
+                     '{"do": "input", "source": "device", "spec": "ouija"}'):
             known = len(self.told(self.state())) if text else 0
             self.live.say(text)
             self.state(lambda s: len(self.told(s)) > known)
@@ -179,8 +179,8 @@ class LabCommand(LabTest):
             self.assertEqual((refused.status, refused.body), (403, b"another client has control; request it\n"))
             self.assertEqual(self.lab.post("/open?name=fresh.urdf", ROD).status, 403)
             self.assertEqual(self.lab.post("/open?name=fresh.urdf&secret=", ROD).status, 403)
-            self.live.do("give", to=self.state(live=other)["you"])
-            self.state(lambda s: s["holder"] == s["you"], live=other)
+            self.live.do("grant_control", to=self.state(live=other)["you"])
+            self.state(lambda s: s["controller"] == s["you"], live=other)
             self.assertEqual(self.lab.upload("fresh.urdf", ROD, self.live).status, 403)
             self.assertEqual(self.lab.upload("fresh.urdf", ROD, other).status, 200)
 
@@ -225,7 +225,7 @@ class LabLanes(ProgramTest):
 
     def stand_at(self, steps):
         self.live.do("play", on=False)
-        taken = self.live.wait_for("frame", lambda f: f.stands).step
+        taken = self.live.wait_for("frame", lambda f: f.paused).step
         self.live.do("step", steps=steps - taken)
         return self.live.wait_for("frame", lambda f: f.step == steps, timeout=TIMEOUT)
 
@@ -237,7 +237,7 @@ class LabLanes(ProgramTest):
         self.assertAlmostEqual(history.time[-1], 14, delta=1e-9)
 
         def of(lane, quantity):
-            return history.channel(self.names.index(f"lane/{quantity}/{lane}"))
+            return history.channel(self.names.index(f"variant/{quantity}/{lane}"))
         gain = {lane: [e - of(lane, "total_energy")[0] for e in of(lane, "total_energy")]
                 for lane in variants["values"]}
         for lane, energies in gain.items():  # as in the energy balance
@@ -260,7 +260,7 @@ class LabLanes(ProgramTest):
     def test_a_diverged_variant_is_reported_and_returns_with_a_branch(self):
         self.write("rod.urdf", ROD)
         self.start(self.write("rod.toml", SCENE), "--variants", "coupling[0].stiffness=200,1e8,3000")
-        self.assertNotIn("coupling[0].stiffness", [k["path"] for k in self.state()["knobs"]])
+        self.assertNotIn("coupling[0].stiffness", [k["path"] for k in self.state()["parameters"]])
         stopped = self.state(lambda s: s["variants"]["stopped"][1])["variants"]["stopped"]
         self.assertIsNone(stopped[2])
         frame = self.live.wait_for("frame", lambda f: f.time > stopped[1] + 0.3)
@@ -272,7 +272,7 @@ class LabLanes(ProgramTest):
         self.live.do("set", changes=["coupling[0].stiffness=7"])
         self.state(lambda s: "varied between the variants" in " ".join(n["text"] for n in s["notes"]))
         # Stable with damping, from a time before it diverged.
-        self.live.do("look", at=0.0)
+        self.live.do("seek", at=0.0)
         self.state(lambda s: s["at"] == 0 and s["variants"]["stopped"] == [None] * 3)
         self.live.do("branch", at=0.0, changes=["coupling[0].discretization=implicit"])
         self.state(lambda s: s["branch"] and s["time"] > 0.5)
@@ -290,8 +290,8 @@ class LabLanes(ProgramTest):
         file.write_bytes(self.lab.get("/save").body)
         told = self.json_of("export", file)
         values = dict(zip([c["name"] for c in told["columns"]], told["frames"][-1]["values"]))
-        self.assertEqual(values["q/hinge"], last.channels[self.names.index("lane/q/hinge/rk4")])
-        self.assertNotEqual(values["q/hinge"], last.channels[self.names.index("lane/q/hinge/euler")])
+        self.assertEqual(values["q/hinge"], last.channels[self.names.index("variant/q/hinge/rk4")])
+        self.assertNotEqual(values["q/hinge"], last.channels[self.names.index("variant/q/hinge/euler")])
         self.assertIn('integrator = "rk4"', self.lab.get("/scene").body.decode())
 
 
@@ -311,11 +311,11 @@ class LabEnds(ProgramTest):
             with Lab(running.url).live() as live:
                 for spec in ("virtual:trace:/etc/passwd", "gamepad:/dev/nowhere"):
                     known = len(live.wait_for("state")["notes"])
-                    live.do("hand", source="device", spec=spec)
+                    live.do("input", source="device", spec=spec)
                     notes = live.wait_for("state", lambda s: len(s["notes"]) > known)["notes"]
                     self.assertEqual("with --listen this is not allowed" in notes[-1]["text"], is_refused, notes[-1])
-                live.do("hand", source="device", spec="virtual:synthetic")
-                live.wait_for("state", lambda s: s["hand"]["spec"] == "virtual:synthetic")
+                live.do("input", source="device", spec="virtual:synthetic")
+                live.wait_for("state", lambda s: s["input"]["spec"] == "virtual:synthetic")
             running.end()
 
     def test_uploads_of_remote_clients_name_only_uploads_and_assets(self):

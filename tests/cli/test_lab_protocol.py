@@ -102,18 +102,18 @@ class LabProtocol(LabTest):
         self.assertEqual(self.types.faults(message, [name], name), [])
 
     def test_messages_have_the_described_keys_and_types(self):
-        self.live.do("glass", on=True, body=1)
+        self.live.do("inspect", on=True, body=1)
         self.check("SceneMessage", self.live.wait_for("scene"))
-        self.check("BodyInspection", self.live.wait_for("glass"))
+        self.check("BodyInspection", self.live.wait_for("inspection"))
         self.frame(lambda f: f.time > 0.1)
         self.stand()
-        self.live.do("glass", on=True, body=2)
-        self.check("BodyInspection", self.live.wait_for("glass", lambda g: g["stands"]))
+        self.live.do("inspect", on=True, body=2)
+        self.check("BodyInspection", self.live.wait_for("inspection", lambda g: g["paused"]))
         self.live.do("nonsense")
         self.live.do("branch", at=0.05, changes=["coupling[0].stiffness=1e8"])
         self.live.do("play", on=True)
-        dead = self.state(lambda s: s["dead"])
-        self.assertTrue(dead["branch"] and dead["dead"]["remedies"] and dead["notes"])
+        dead = self.state(lambda s: s["failure"])
+        self.assertTrue(dead["branch"] and dead["failure"]["remedies"] and dead["notes"])
         self.check("StateMessage", dead)
 
     def test_a_frame_has_the_described_arrays(self):

@@ -20,7 +20,7 @@ class LabRules(LabTest):
     def test_a_new_client_gets_paused_and_earlier_frames(self):
         self.frame(lambda f: f.time > 0.5)
         stood = self.stand()
-        self.live.do("look", at=0.25)
+        self.live.do("seek", at=0.25)
         looked = self.frame(lambda f: f.looked_back)
         self.assertLess(looked.time, stood.time)
         with self.lab.live() as other:
@@ -33,7 +33,7 @@ class LabRules(LabTest):
 
     def test_seeking_pauses_and_playing_returns_to_the_present(self):
         self.frame(lambda f: f.time > 0.5)
-        self.live.do("look", at=0.1)
+        self.live.do("seek", at=0.1)
         self.assertFalse(self.state(lambda s: s["at"] is not None)["playing"])
         self.live.do("play", on=True)
         self.assertTrue(self.state(lambda s: s["at"] is None)["playing"])
@@ -41,17 +41,17 @@ class LabRules(LabTest):
 
     def test_a_diverged_run_neither_plays_nor_steps(self):
         self.live.do("set", changes=[f"{K}=1e8"])
-        time_of_death = self.state(lambda s: s["dead"])["dead"]["time"]
+        time_of_death = self.state(lambda s: s["failure"])["failure"]["time"]
         self.live.do("play", on=True)
         self.live.do("step", steps=500)
         self.live.do("speed", factor=2)
         state = self.state(lambda s: s["speed"] == 2)
         self.assertFalse(state["playing"])
-        self.assertTrue(state["dead"])
+        self.assertTrue(state["failure"])
         self.assertAlmostEqual(state["time"], time_of_death, delta=0.002)
         self.live.do("speed", factor=0.001)  # it runs three steps again; slow enough for a state message
         self.live.do("reset")
-        state = self.state(lambda s: not s["dead"])
+        state = self.state(lambda s: not s["failure"])
         self.assertTrue(state["playing"])
         self.assertEqual(state["first"], 0)
 
@@ -136,11 +136,11 @@ class LabRules(LabTest):
             self.assertEqual(struct.unpack(">II", picture[16:24]), size)
 
     def test_a_preset_opens_its_scene_with_its_values(self):
-        self.live.do("hand", source="joints")
+        self.live.do("input", source="joints")
         for name, source in (("E1", "drag"), ("E3", "scene")):
             self.live.do("preset", name=name)
             state = self.state(lambda s: s["name"] == name)
-            self.assertEqual(state["hand"]["source"], source)
+            self.assertEqual(state["input"]["source"], source)
         self.live.do("preset", name="E9")
         self.state(lambda s: "E9" in self.told(s))
 
@@ -170,8 +170,8 @@ class LabTemporaryFiles(ProgramTest):
         self.start("bouncing_ball.toml")
         self.live.wait_for("frame")
         self.assertEqual(len(list(self.remove_copies())), 1)
-        self.live.do("glass", on=True, body=1)
-        self.live.wait_for("glass")
+        self.live.do("inspect", on=True, body=1)
+        self.live.wait_for("inspection")
         list(self.remove_copies())
         self.live.do("set", changes=["gravity=0,0,-1.62"])
         self.live.wait_for("state", lambda s: s["changes"] == ["gravity=0,0,-1.62"])
@@ -183,7 +183,7 @@ class LabTemporaryFiles(ProgramTest):
         places = list(self.remove_copies())
         for place in places:
             place.write_text("not a folder")
-        self.live.do("glass", on=True, body=1)
+        self.live.do("inspect", on=True, body=1)
         notes = self.live.wait_for("state", lambda s: s["notes"])["notes"]
         self.assertEqual(notes[-1]["level"], "error")
         self.assertIn("the lab cannot draw this", notes[-1]["text"])
@@ -191,7 +191,7 @@ class LabTemporaryFiles(ProgramTest):
         self.live.wait_for("frame", lambda f: f.step > step)
         for place in places:
             place.unlink()
-        self.live.wait_for("glass")
+        self.live.wait_for("inspection")
         self.assertEqual(self.running.end(), (0, ""))
 
 

@@ -30,7 +30,7 @@ void lab_message(Bytes bytes) {
   static const Value scene = read_toml(file);
   goes_through([&] {
     const LabCommand command = parse_command(std::string(bytes));
-    needs_hand(command.what);
+    needs_control(command.what);
     if (command.what != LabCommand::Do::set && command.what != LabCommand::Do::branch) return;
     Value tree = scene;
     DiagnosticList faults;

@@ -100,10 +100,10 @@ class Hand:
         self.middle = (state.get("hand") or {}).get("q", [0.0])[self.index] if driven else 0.0
 
     def take(self):
-        self.live.do("take")
+        self.live.do("request_control")
         self.live.do("play", on=True)
         if self.index is not None:
-            self.live.do("hand", source="joints")
+            self.live.do("input", source="joints")
 
     def move(self):
         now = time.time()

@@ -47,7 +47,7 @@ class LabTest(ProgramTest):
         self.live.do("play", on=False)
         self.state(lambda s: not s["playing"])
         newest = Frame(self.live.newest["frame"])
-        return newest if newest.stands else self.frame(lambda f: f.stands)
+        return newest if newest.paused else self.frame(lambda f: f.paused)
 
     def saved(self, name):
         file = self.folder / name

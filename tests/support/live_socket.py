@@ -5,7 +5,7 @@ For tests and measurements. What goes over the wire: docs/reference/lab_protocol
     lab = Lab(url)                          # the address that the program has printed, token included
     lab.get("/scene")                       # Reply(status, headers, body)
     live = lab.live()
-    live.do("take"); live.do("set", changes=["coupling.stiffness=800"])
+    live.do("request_control"); live.do("set", changes=["coupling.stiffness=800"])
     state = live.wait_for("state", lambda s: s["playing"])
     frame = live.wait_for("frame")          # a Frame: .time, .channels, ..
     with lab.stalled(): ...                 # a client that never reads

@@ -102,11 +102,11 @@ class Mover(Client):
         if self.hand is None:
             self.hand = Hand(self.live)
         state = self.state()
-        if state["holder"] != state["you"]:
+        if state["controller"] != state["you"]:
             self.turned, self.got, self.is_giving = now, now, False
-            if state["you"] not in state["asked"] and now > self.asked + 1:
+            if state["you"] not in state["control_requests"] and now > self.asked + 1:
                 self.asked = now
-                self.live.do("take")
+                self.live.do("request_control")
             return
         if self.is_giving:
             return
@@ -114,14 +114,14 @@ class Mover(Client):
         if now > self.turned + 4:
             self.turned = now
             self.turn_a_knob(state)
-        if now > self.got + 10 and state["asked"]:
+        if now > self.got + 10 and state["control_requests"]:
             self.is_giving = True
             self.soak.hands += 1
-            self.live.do("give", to=state["asked"][0])
+            self.live.do("grant_control", to=state["control_requests"][0])
 
     def turn_a_knob(self, state):
         """A stiffness, between half and all of what it was at first."""
-        for knob in state["knobs"]:
+        for knob in state["parameters"]:
             if knob["path"].endswith("stiffness"):
                 first = self.soak.first_values.setdefault(knob["path"], knob["value"])
                 value = first * self.soak.random.uniform(0.5, 1)
@@ -143,7 +143,7 @@ class Curious(Client):
         self.next = now + 2
         pick = self.soak.random
         self.live.do("layers", names=pick.sample(self.layers, pick.randint(1, len(self.layers))))
-        self.live.do("glass", on=pick.random() < 0.5, body=1)
+        self.live.do("inspect", on=pick.random() < 0.5, body=1)
         path = pick.choice([f"/history?from={self.time - 5!r}", *self.paths])
         self.asks = threading.Thread(target=self.ask, args=(path,), daemon=True)
         self.asks.start()

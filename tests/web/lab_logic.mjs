@@ -363,7 +363,7 @@ test('plots: one per quantity of the variants, one curve per variant', () => {
   const values = ['rk4', 'a/b'];
   const quantities = [['q/hinge', 'rad'], ['total_energy', 'J'], ['numerical', 'J']];
   const lanes = values.flatMap((of) =>
-    quantities.map(([what, unit]) => ({ name: `lane/${what}/${of}`, unit, kind: 'lane', of })),
+    quantities.map(([what, unit]) => ({ name: `variant/${what}/${of}`, unit, kind: 'variant', of })),
   );
   const own = { name: 'q/hinge', unit: 'rad', kind: 'coordinate', of: 'hinge' };
   const record = new RunRecord({ scene: 7, channels: [own, ...lanes], energy_balance: [] });

@@ -82,7 +82,7 @@ class RandomUser:
 
     def act_parameter(self):
         """Also far outside the range of the slider."""
-        parameters = self.value(f"{STATE}.knobs")
+        parameters = self.value(f"{STATE}.parameters")
         if not parameters:
             return
         parameter = self.chance.choice(parameters)

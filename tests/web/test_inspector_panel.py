@@ -83,10 +83,10 @@ class InspectorPanel(unittest.TestCase):
 
     def test_requests_the_first_body_of_the_robot_and_follows_the_selection(self):
         self.assertEqual(self.browser.evaluate("inspector.sent.at(-1)"),
-                         {"do": "glass", "on": True, "body": 2})
+                         {"do": "inspect", "on": True, "body": 2})
         self.browser.evaluate("inspector.panel.onSelect(3)")
         self.assertEqual(self.browser.evaluate("inspector.sent.at(-1)"),
-                         {"do": "glass", "on": True, "body": 3})
+                         {"do": "inspect", "on": True, "body": 3})
 
     def test_keys_step_through_one_call(self):
         links = self.names[1:]
@@ -164,7 +164,7 @@ class InspectorPanel(unittest.TestCase):
         self.give(MESSAGE)
         self.browser.evaluate("document.querySelector('.cards > [data-quantity=a]').focus({focusVisible: true})")
         for t in (1, 2):
-            self.give({**MESSAGE, "t": t, "stands": False})
+            self.give({**MESSAGE, "t": t, "paused": False})
             tip = self.browser.evaluate(
                 "(() => { const tip = document.querySelector('.cards > [data-quantity=a] .tip');"
                 "return [getComputedStyle(tip).visibility, tip.textContent]; })()")
@@ -187,7 +187,7 @@ class InspectorPanel(unittest.TestCase):
         for pass_ in (1, 2, 3):
             self.go_to(pass_, MESSAGE["name"])
             self.give(broken)
-        self.give({"kind": "glass", "scene": 1, "t": 1, "stands": True,
+        self.give({"kind": "inspection", "scene": 1, "t": 1, "paused": True,
                    "warnings": ["cannot be inspected"]})
         self.assertIn("cannot be inspected", self.browser.evaluate("document.body.textContent"))
 

@@ -70,7 +70,7 @@ void Clients::want_layers(ClientId client, std::vector<std::string> names) {
     found->second.layers = std::move(names);
 }
 
-void Clients::want_glass(ClientId client, std::optional<long> body) {
+void Clients::want_inspection(ClientId client, std::optional<long> body) {
   const std::lock_guard lock(mutex_);
   if (const auto found = clients_.find(client); found != clients_.end())
     found->second.inspected = body;
@@ -119,7 +119,8 @@ void write_time(JsonWriter& json, const LabStatus& status) {
       json.put("number", branch.number);
     });
   });
-  json.members({{"pace", status.pace}, {"step", status.step}, {"step_us", 1e6 * status.step_time}});
+  json.members(
+      {{"speed_ratio", status.pace}, {"step", status.step}, {"step_us", 1e6 * status.step_time}});
 }
 
 // A recorded operator motion to start with; empty without the assets.
@@ -145,12 +146,12 @@ void write_variants(JsonWriter& json, const LabStatus& status) {
 }
 
 void write_hand(JsonWriter& json, const OperatorStatus& hand) {
-  json.key("hand").begin_object();
+  json.key("input").begin_object();
   json.members({{"source", hand.source},
                 {"spec", hand.spec},
                 {"mapping", hand.mapping},
                 {"q", hand.q},
-                {"felt", hand.device},
+                {"device_name", hand.device},
                 {"mode", hand.mode},
                 {"gripper", hand.gripper_closed}});
   if (!example_trace().empty()) json.key("trace").text(example_trace());
@@ -158,13 +159,13 @@ void write_hand(JsonWriter& json, const OperatorStatus& hand) {
 }
 
 void write_end(JsonWriter& json, const LabStatus& status) {
-  json.key("dead").or_null(status.failure, [&](const RunFailure& failure) {
+  json.key("failure").or_null(status.failure, [&](const RunFailure& failure) {
     json.object({{"words", failure.words},
                  {"time", failure.time},
                  {"from", failure.from},
                  {"quantity", failure.quantity},
                  {"body", failure.body},
-                 {"spring", failure.spring},
+                 {"cause", failure.spring},
                  {"remedies", [&] { write_remedies(failure.remedies, json); }}});
   });
 }
@@ -182,12 +183,12 @@ std::string state_message(const LabStatus& status, const Clients::View& clients,
     write_changes(json, status.changes);
     write_variants(json, status);
     json.members(
-        {{"holder", clients.controller != 0 ? std::optional(clients.controller) : std::nullopt},
+        {{"controller", clients.controller != 0 ? std::optional(clients.controller) : std::nullopt},
          {"clients", clients.clients.size()},
-         {"asked", clients.waiting}});
+         {"control_requests", clients.waiting}});
     write_time(json, status);
     write_hand(json, status.hand);
-    write_parameters(parameters, json.key("knobs"));
+    write_parameters(parameters, json.key("parameters"));
     write_presets(json.key("presets"));
     write_gallery(gallery, json.key("gallery"));
     write_end(json, status);

@@ -37,7 +37,7 @@ class Clients {
   bool has_hand(std::string_view secret) const;
 
   void want_layers(ClientId client, std::vector<std::string> names);
-  void want_glass(ClientId client, std::optional<long> body);
+  void want_inspection(ClientId client, std::optional<long> body);
   std::vector<std::string> layers() const;     // of all clients, each once
   std::map<ClientId, long> inspected() const;  // body inspected by each client
 

@@ -203,11 +203,11 @@ void BodyInspector::write(JsonWriter& json, const LabFrame& frame, const Inspect
 std::string BodyInspector::message(const LabFrame& frame, const InspectRequest& request) {
   const auto text_with = [&](const auto& write_rest) {
     return json_text([&](JsonWriter& json) {
-      json.members({{"kind", "glass"},
+      json.members({{"kind", "inspection"},
                     {"scene", request.scene},
                     {"t", frame.recorded.t},
                     {"step", frame.recorded.step},
-                    {"stands", request.paused}});
+                    {"paused", request.paused}});
       write_rest(json);
     });
   };

@@ -153,7 +153,7 @@ void write_parameters(const std::vector<LabParameter>& parameters, JsonWriter& j
           {{"value", parameter.limit->value},
            {"words", parameter.limit->words},
            {"state", kStateNames[static_cast<std::size_t>(parameter.limit->state)]}});
-    if (!parameter.tracking_error.empty()) json.put("lag", parameter.tracking_error);
+    if (!parameter.tracking_error.empty()) json.put("tracking_error", parameter.tracking_error);
     json.put("restarts", parameter.resets_state);
     json.end_object();
   });

@@ -114,10 +114,13 @@ const std::vector<Form>& forms() {
   };
   static const std::vector<Form> all{
       {"layers", Verb::layers, false, {field("names", texts, &LabCommand::names)}},
-      {"glass", Verb::glass, false, {on, body(true)}},
-      {"take", Verb::take, false, {}},
-      {"give", Verb::give, false, {whole_number("to", "a client's number", kMaxIndex)}},
-      {"look", Verb::look, false, {at}},
+      {"inspect", Verb::inspect, false, {on, body(true)}},
+      {"request_control", Verb::request_control, false, {}},
+      {"grant_control",
+       Verb::grant_control,
+       false,
+       {whole_number("to", "a client's number", kMaxIndex)}},
+      {"seek", Verb::seek, false, {at}},
       {"play", Verb::play, true, {on}},
       {"step", Verb::step, true, {whole_number("steps", "1 to 100000", 100'000)}},
       {"speed", Verb::speed, true, {factor}},
@@ -126,21 +129,24 @@ const std::vector<Form>& forms() {
       {"preset", Verb::preset, true, {name}},
       {"scene", Verb::scene, true, {name}},
       {"reset", Verb::reset, true, {}},
-      {"restore", Verb::restore, true, {}},
-      {"hand",
-       Verb::hand,
+      {"reset_parameters", Verb::reset_parameters, true, {}},
+      {"input",
+       Verb::input,
        true,
        {field("source", text, &LabCommand::name), field("spec", text, &LabCommand::spec, true)}},
-      {"tip", Verb::tip, true, {goal, stamp}},
+      {"drag_stylus", Verb::drag_stylus, true, {goal, stamp}},
       {"joint", Verb::joint, true, {index, field("value", number, &LabCommand::value), stamp}},
-      {"turn", Verb::turn, true, {angle("yaw", 0), angle("pitch", 1), angle("roll", 2), stamp}},
+      {"rotate_stylus",
+       Verb::rotate_stylus,
+       true,
+       {angle("yaw", 0), angle("pitch", 1), angle("roll", 2), stamp}},
       {"axes", Verb::axes, true, {field("rates", "six numbers", &LabCommand::rates), stamp}},
       {"button", Verb::button, true, {index, field("down", flag, &LabCommand::on), stamp}},
-      {"pull",
-       Verb::pull,
+      {"drag_body",
+       Verb::drag_body,
        true,
        {body(false), field("point", three, &LabCommand::point), goal, stamp}},
-      {"drop", Verb::drop, true, {}}};
+      {"release", Verb::release, true, {}}};
   return all;
 }
 
@@ -179,7 +185,7 @@ LabCommand parse_command(const std::string& text) {
   return command;
 }
 
-bool needs_hand(LabCommand::Do what) {
+bool needs_control(LabCommand::Do what) {
   return std::ranges::find(forms(), what, &Form::what)->needs_control;
 }
 

@@ -20,10 +20,10 @@ struct LabCommand {
   enum class Do {
     // permitted to every client
     layers,
-    glass,
-    take,
-    give,
-    look,
+    inspect,
+    request_control,
+    grant_control,
+    seek,
     // permitted to the client in control
     play,
     step,
@@ -33,24 +33,24 @@ struct LabCommand {
     preset,
     scene,
     reset,
-    restore,
-    hand,
-    tip,
+    reset_parameters,
+    input,
+    drag_stylus,
     joint,
-    turn,
+    rotate_stylus,
     axes,
     button,
-    pull,
-    drop
+    drag_body,
+    release
   };
-  Do what = Do::drop;
-  bool on = false;                 // play, glass, button (down)
-  long count = 0;                  // step: steps; joint, button: index; pull, glass: body; give: to
-  double value = 1;                // speed: factor; joint: value [rad, m]
-  std::optional<double> at;        // look, branch [s]; look: none is the newest
-  std::vector<std::string> names;  // layers; set, branch: changes
-  std::string name;                // preset, scene; hand: source
-  std::string spec;                // hand: as of --device
+  Do what = Do::release;
+  bool on = false;  // play, inspect, button (down)
+  long count = 0;  // step: steps; joint, button: index; drag_body, inspect: body; grant_control: to
+  double value = 1;                 // speed: factor; joint: value [rad, m]
+  std::optional<double> at;         // look, branch [s]; look: none is the newest
+  std::vector<std::string> names;   // layers; set, branch: changes
+  std::string name;                 // preset, scene; hand: source
+  std::string spec;                 // hand: as of --device
   Vector3 point = Vector3::Zero();  // pull: of the body, link axes [m]; turn: yaw, pitch, roll
   Vector3 goal = Vector3::Zero();   // tip, pull: world [m]
   std::array<double, 6> rates{};    // axes
@@ -62,7 +62,7 @@ struct LabCommand {
 LabCommand parse_command(const std::string& text);
 
 // Whether only the client in control may send it.
-bool needs_hand(LabCommand::Do what);
+bool needs_control(LabCommand::Do what);
 
 // Queue to the run's thread, which empties it between two steps and sleeps in it.
 class Inbox {

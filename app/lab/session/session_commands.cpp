@@ -9,8 +9,8 @@ namespace {
 // Sent many times a second; visible in the next frame.
 bool is_movement(LabCommand::Do what) {
   using Do = LabCommand::Do;
-  return what == Do::tip || what == Do::joint || what == Do::turn || what == Do::axes ||
-         what == Do::pull;
+  return what == Do::drag_stylus || what == Do::joint || what == Do::rotate_stylus ||
+         what == Do::axes || what == Do::drag_body;
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ void SessionCommands::act(const LabCommand& command) {
       s_.status.speed = command.value;
       s_.loop.set_pace(command.value);
       return;
-    case Do::look:
+    case Do::seek:
       s_.status.at = command.at;
       if (command.at) s_.status.playing = false;
       return;
@@ -48,7 +48,7 @@ void SessionCommands::act(const LabCommand& command) {
       return open_from_gallery(command.name);
     case Do::reset:
       return request(BuildRequest::What::reset);
-    case Do::restore:
+    case Do::reset_parameters:
       s_.pending.add({0, true, {}});
       return request(BuildRequest::What::change);
     default:
@@ -60,21 +60,21 @@ void SessionCommands::act_on_input(const LabCommand& command) {
   using Do = LabCommand::Do;
   const double stamp = command.stamp;
   const auto index = static_cast<std::size_t>(command.count);
-  if (command.what == Do::drop) {
+  if (command.what == Do::release) {
     s_.hand.release();
     return s_.loop.run().release_mouse();
   }
   s_.loop.repeat_inputs(false);  // new input takes precedence over repeated input
-  if (command.what == Do::hand) return choose_source(command.name, command.spec);
+  if (command.what == Do::input) return choose_source(command.name, command.spec);
   s_.input_came = command.came;
   switch (command.what) {
-    case Do::tip:
+    case Do::drag_stylus:
       switch_source(OperatorInput::Source::drag);
       return s_.hand.tip(command.goal, stamp);
     case Do::joint:
       switch_source(OperatorInput::Source::joints);
       return s_.hand.joint(index, command.value, stamp);
-    case Do::turn:
+    case Do::rotate_stylus:
       switch_source(OperatorInput::Source::drag);
       return s_.hand.rotate_stylus(command.point.x(), command.point.y(), command.point.z(), stamp);
     case Do::axes:
@@ -82,7 +82,7 @@ void SessionCommands::act_on_input(const LabCommand& command) {
       return s_.hand.axes(command.rates, stamp);
     case Do::button:
       return s_.hand.button(index, command.on, stamp);
-    case Do::pull:
+    case Do::drag_body:
       if (!s_.loop.run().drag(static_cast<int>(command.count), command.point, command.goal, stamp))
         s_.inbox.note("note", "the body is fixed or has prescribed motion: no force moves it");
       return;

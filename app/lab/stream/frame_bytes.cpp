@@ -141,7 +141,7 @@ VariantViews::VariantViews(ViewVariants variants, const SimulateInput& input, La
   first_channel_ = channels.all().size();
   for (const std::string& name : set_.values) {
     const auto add = [&](const std::string& quantity, const char* unit) {
-      channels.add("lane/" + quantity + "/" + name, unit, "lane", name);
+      channels.add("variant/" + quantity + "/" + name, unit, "variant", name);
     };
     for (const NamedJoint& joint : joints_) {
       const JointComponent component = joint.components().front();

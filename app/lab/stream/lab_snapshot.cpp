@@ -73,13 +73,13 @@ LabChannels::LabChannels(const SimulateInput& input, const RecordingHeader& head
                          const std::vector<SceneCoupling>& components)
     : channels_(input, header) {
   channels_.add_led_joints(input.robot.coordinates, components);
-  mouse_ = channels_.add("pull", "N", "pull", "mouse");
-  hand_ = channels_.add("hand/force", "N", "hand", "force");
+  mouse_ = channels_.add("mouse_spring", "N", "mouse_spring", "mouse");
+  hand_ = channels_.add("device/force", "N", "device", "force");
   for (const char* motor : {"1", "2", "3"})
-    channels_.add(std::string("hand/torque") + motor, "N m", "hand", "torque");
+    channels_.add(std::string("device/torque") + motor, "N m", "device", "torque");
   time_ = channels_.add("time/step", "s", "time", "step");
   channels_.add("time/longest", "s", "time", "step");
-  channels_.add("time/pace", "1", "time", "pace");
+  channels_.add("time/speed_ratio", "1", "time", "speed_ratio");
 }
 
 bool LabChannels::add_pairs(const LabFrame& frame) {

@@ -72,7 +72,7 @@ export class Drag {
     const spring = held?.kind === 'spring' ? { ...held, goal: held.drag.goal } : keys.spring;
     if (!spring) return handles.showSpring(null, null, '');
     const from = inWorld(frame.link, spring.body, spring.point);
-    const newtons = channel(frame, scene, 'pull');
+    const newtons = channel(frame, scene, 'mouse_spring');
     const text = Number.isFinite(newtons) ? `${newtons.toFixed(1)} N` : '';
     const to = stage.project(...spring.goal.toArray());
     handles.showSpring(from && stage.project(...from.toArray()), to, text);
@@ -166,8 +166,8 @@ export class Drag {
 
   private sendGoal(held: Held & { kind: 'tip' | 'spring' }): void {
     const goal = held.drag.goal.toArray();
-    if (held.kind === 'tip') this.operator.move({ do: 'tip', goal });
-    else this.operator.move({ do: 'pull', body: held.body, point: held.point, goal });
+    if (held.kind === 'tip') this.operator.move({ do: 'drag_stylus', goal });
+    else this.operator.move({ do: 'drag_body', body: held.body, point: held.point, goal });
     this.on.changed();
   }
 

@@ -39,9 +39,9 @@ export function inLink(places: Float32Array, body: number, p: THREE.Vector3): Ve
 
 // Axis of a joint of the target robot, in the world.
 export function axisOf(frame: Frame, { body, axis, slides }: SceneJoint): Axis | null {
-  const origin = inWorld(frame.twin, body, [0, 0, 0]);
+  const origin = inWorld(frame.target, body, [0, 0, 0]);
   if (!axis || !origin) return null;
-  const direction = inWorld(frame.twin, body, axis)!.sub(origin).normalize();
+  const direction = inWorld(frame.target, body, axis)!.sub(origin).normalize();
   return { origin, direction, slides: slides ?? false };
 }
 
@@ -62,7 +62,7 @@ export class Handles {
 
   tipPosition({ frame, scene: { tip } }: LabView): THREE.Vector3 | null {
     if (!tip || tip.body >= frame.bodies) return null;
-    return inWorld(frame.twin, tip.body, tip.p);
+    return inWorld(frame.target, tip.body, tip.p);
   }
   showTip(stage: Stage, place: THREE.Vector3 | null): Pixel | null {
     const at = place && stage.project(...place.toArray());
@@ -135,7 +135,7 @@ function radialDirection(frame: Frame, body: number, axis: THREE.Vector3, origin
     // Instances of the robot's link, moved to the link of the target robot.
     const entry = new THREE.Vector3().fromArray(frame.position, 3 * i);
     const local = inLink(frame.link, body, entry);
-    const away = local && inWorld(frame.twin, body, local)?.sub(origin);
+    const away = local && inWorld(frame.target, body, local)?.sub(origin);
     if (!away) continue;
     away.addScaledVector(axis, -away.dot(axis));
     if (away.lengthSq() > best.lengthSq()) best.copy(away);

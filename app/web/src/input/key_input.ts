@@ -95,7 +95,7 @@ export class KeyInput {
     else if (mode.kind === 'spring') {
       mode.goal.add(this.along(view, right, up, away));
       const { body, point, goal } = mode;
-      this.operator.move({ do: 'pull', body, point, goal: goal.toArray() });
+      this.operator.move({ do: 'drag_body', body, point, goal: goal.toArray() });
     } else if (rotates) this.rotateStylus(right, up, away);
     else this.moveTip(view, this.along(view, right, up, away));
     this.changed();
@@ -106,7 +106,7 @@ export class KeyInput {
     if (!tip || !this.operator.useSource('drag')) return;
     if (!this.goal || this.goal.distanceTo(tip) > FAR * view.scene.view.radius) this.goal = tip;
     this.goal.add(by);
-    this.operator.move({ do: 'tip', goal: this.goal.toArray() });
+    this.operator.move({ do: 'drag_stylus', goal: this.goal.toArray() });
   }
 
   private moveJoint(mode: JointMode, by: number): void {
@@ -120,7 +120,7 @@ export class KeyInput {
     if (!this.operator.useSource('drag')) return;
     [-right, up, away].forEach((by, i) => (this.stylus[i] += 2.5 * ANGLE * by));
     const [yaw, pitch, roll] = this.stylus;
-    this.operator.move({ do: 'turn', yaw, pitch, roll });
+    this.operator.move({ do: 'rotate_stylus', yaw, pitch, roll });
   }
 
   // Without a stage: along the world axes.

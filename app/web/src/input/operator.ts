@@ -22,27 +22,27 @@ export class Operator {
   ) {}
 
   get isGripperClosed(): boolean {
-    return this.state()?.hand.gripper ?? false;
+    return this.state()?.input.gripper ?? false;
   }
   get hasControl(): boolean {
     const state = this.state();
-    return state !== null && state.holder === state.you;
+    return state !== null && state.controller === state.you;
   }
 
   // Requests control if this page does not have it. False: another client has it.
   requestControl(): boolean {
     const state = this.state();
     if (!state || this.hasControl) return state !== null;
-    this.link.send({ do: 'take' });
-    if (!state.holder) return true; // granted at once
-    if (!state.asked.includes(state.you)) this.showMessage('Another client has control. Control requested.');
+    this.link.send({ do: 'request_control' });
+    if (!state.controller) return true; // granted at once
+    if (!state.control_requests.includes(state.you)) this.showMessage('Another client has control. Control requested.');
     return false;
   }
 
   // Makes the pointer the input source of the target robot.
   useSource(source: 'drag' | 'joints'): boolean {
     if (!this.requestControl()) return false;
-    if (this.state()?.hand.source !== source) this.link.send({ do: 'hand', source });
+    if (this.state()?.input.source !== source) this.link.send({ do: 'input', source });
     return true;
   }
 
@@ -57,8 +57,8 @@ export class Operator {
     return true;
   }
   releaseSpring(): void {
-    this.pending.delete('pull');
-    this.link.send({ do: 'drop' });
+    this.pending.delete('drag_body');
+    this.link.send({ do: 'release' });
   }
 
   // Once per picture.

@@ -104,7 +104,7 @@ export class Inspector implements Panel {
 
   private request(): void {
     if (this.bodies.length === 0) return;
-    this.page.send(this.isSeen ? { do: 'glass', on: true, body: this.body } : { do: 'glass', on: false });
+    this.page.send(this.isSeen ? { do: 'inspect', on: true, body: this.body } : { do: 'inspect', on: false });
   }
 
   move(by: number): void {
@@ -145,21 +145,21 @@ export class Inspector implements Panel {
     if (!this.newest || !this.isSeen) return;
     const numbers = this.newest;
     morph(this.content, element('div.content', ...this.sections(numbers)));
-    const { name, t, stands, passes, neighbours } = numbers;
+    const { name, t, paused, passes, neighbours } = numbers;
     const joint = passes?.[0]?.joint;
     const parent = neighbours?.find(({ is }) => is === 'parent')?.body ?? 'world';
-    const state = stands ? 'paused' : 'pause to step through the algorithm';
+    const state = paused ? 'paused' : 'pause to step through the algorithm';
     this.heading.replaceChildren(
       element('h2', name ?? ''),
       element('p.fine', `${joint ? `joint: ${joint}` : 'fixed'}${neighbours ? ` · parent: ${parent}` : ''}`),
       ...(t === undefined ? [] : [element('p.fine', `${short(t)} s: ${state}`)]),
     );
-    this.root.classList.toggle('paused', stands);
+    this.root.classList.toggle('paused', paused);
     this.showForces(numbers);
   }
 
   private sections(numbers: BodyInspection): Node[] {
-    const { name = '', passes, balance, forces = [], energy_balance, checks, stands, warnings = [] } = numbers;
+    const { name = '', passes, balance, forces = [], energy_balance, checks, paused, warnings = [] } = numbers;
     const notes = warnings.map((text) => element('p.note', text));
     if (!passes || !balance) return notes;
     const { axes = 'world', about = 'origin', joint_balance = [], neighbours } = numbers;
@@ -192,14 +192,14 @@ export class Inspector implements Panel {
       ),
       fold(`Contacts: ${contacts.length || 'none'}`, true, ...orHint(contacts, 'no contact')),
       ...(energy_balance ? [fold('Energy balance of all bodies', false, energyTable(energy_balance))] : []),
-      ...(checks || !stands ? [fold(`Cross-checks: ${checked}`, false, checkTable(checks ?? [], []))] : []),
+      ...(checks || !paused ? [fold(`Cross-checks: ${checked}`, false, checkTable(checks ?? [], []))] : []),
     ];
   }
 
   // Arrows of the forces, from the point about which torques are taken; only while paused, since the
   // inspection is older than the frame.
-  private showForces({ stands, balance, axes }: BodyInspection): void {
-    const found = stands && axes === 'world' ? balance?.[0] : undefined;
+  private showForces({ paused, balance, axes }: BodyInspection): void {
+    const found = paused && axes === 'world' ? balance?.[0] : undefined;
     if (!found || !this.page.scene) return this.page.arrows('inspector', []);
     const lengths = found.wrenches.map(({ force }) => Math.hypot(...force));
     const max = Math.max(...lengths.filter(Number.isFinite), 1e-300);

@@ -17,9 +17,9 @@ function inspectionOf(all: Inspection, name: string): BodyInspection {
   const passes = all.passes.filter(({ body }) => body === name);
   return {
     ...all,
-    kind: 'glass',
+    kind: 'inspection',
     scene: 0,
-    stands: true,
+    paused: true,
     name,
     passes,
     rows: all.passes,
@@ -66,7 +66,7 @@ class Page extends RecordedPage {
       scene: { scene: 0, bodies, view } as SceneMessage,
       selected: 1,
       send: (command) => {
-        if (command.do === 'glass' && command.on)
+        if (command.do === 'inspect' && command.on)
           this.inspector.onInspection(inspectionOf(inspection, names[command.body! - 1]));
         return true;
       },

@@ -27,7 +27,7 @@ import './lab.css'; // last: overrides for touch screens
 
 const TABS = ['Parameters', 'Plots', 'Inspector', 'Energy'];
 const DEFAULT_LAYERS = ['targets', 'device', 'couplings', 'contacts', 'device-force', 'earlier-run'];
-const NO_CONTROL = new Set(['layers', 'glass', 'look', 'take']); // commands that need no control
+const NO_CONTROL = new Set(['layers', 'inspect', 'seek', 'request_control']); // commands that need no control
 
 class Page implements LabKeys {
   scene: wire.SceneMessage | null = null;
@@ -210,7 +210,7 @@ class Page implements LabKeys {
   private takeNews({ scene, state, inspection, frame }: wire.News): void {
     if (scene) this.takeScene(scene);
     if (state) {
-      const wasRequested = this.state?.asked.includes(this.state.you);
+      const wasRequested = this.state?.control_requests.includes(this.state.you);
       this.state = state;
       if (wasRequested && this.hasControl) this.showMessage('You have control now.');
       for (const listener of this.listeners) listener.onState?.(state);
@@ -248,7 +248,7 @@ class Page implements LabKeys {
     this.stale = false; // following a body has moved the camera, which is drawn already
     this.drag.draw(this.keys);
     this.operator.measureDelay(frame);
-    if (this.pace.painted(now) && !frame.stands) this.live.coarsen();
+    if (this.pace.painted(now) && !frame.paused) this.live.coarsen();
     if (this.live.isReady && document.documentElement.dataset.ready !== 'true') {
       document.documentElement.dataset.ready = 'true';
       performance.mark('first frame');

@@ -60,7 +60,7 @@ export class BranchDialog {
   }
 
   private offer(): void {
-    const all = this.page.state?.knobs ?? [];
+    const all = this.page.state?.parameters ?? [];
     const left = all.filter(({ path }) => !this.lines.some((line) => line.parameter.path === path));
     const offers = left.map(({ path, label, group }) => option(path, `${group}: ${label}`));
     this.more.replaceChildren(option('', 'add a parameter …'), ...offers);
@@ -68,7 +68,7 @@ export class BranchDialog {
   }
 
   private add(path: string): void {
-    const parameter = this.page.state?.knobs.find((one) => one.path === path);
+    const parameter = this.page.state?.parameters.find((one) => one.path === path);
     if (!parameter) return;
     const control = controlOf(parameter);
     const { label, unit } = parameter;

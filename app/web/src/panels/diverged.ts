@@ -25,18 +25,18 @@ export class Diverged implements Panel {
   }
 
   onState(state: StateMessage): void {
-    const { dead, first, at } = state;
+    const { failure, first, at } = state;
     this.root.classList.toggle('small', at !== null); // while an earlier instant is shown
     const isDisabled = isViewOnly(state);
-    const wanted = JSON.stringify([dead, isDisabled]);
+    const wanted = JSON.stringify([failure, isDisabled]);
     if (wanted === this.shown) return;
-    const isNew = dead !== null && this.root.hidden;
-    if (!dead) this.restoreFocus();
-    if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== dead?.time) this.isClosed = false;
+    const isNew = failure !== null && this.root.hidden;
+    if (!failure) this.restoreFocus();
+    if (this.shown === '' || JSON.parse(this.shown)[0]?.time !== failure?.time) this.isClosed = false;
     this.shown = wanted;
-    this.root.hidden = dead === null || this.isClosed;
-    if (!dead) return;
-    this.root.replaceChildren(...this.content(dead, first, isDisabled));
+    this.root.hidden = failure === null || this.isClosed;
+    if (!failure) return;
+    this.root.replaceChildren(...this.content(failure, first, isDisabled));
     if (!isNew || this.isClosed) return;
     this.focusBefore = document.activeElement;
     this.root.focus({ preventScroll: true });
@@ -55,25 +55,25 @@ export class Diverged implements Panel {
     this.root.hidden = true;
   }
 
-  private content(dead: Divergence, first: number, isDisabled: boolean): Node[] {
-    const [headline, ...rest] = dead.words;
-    const { quantity, body, spring } = dead;
-    const facts = Object.entries({ time: `${dead.time.toFixed(3)} s`, quantity, body, spring })
+  private content(failure: Divergence, first: number, isDisabled: boolean): Node[] {
+    const [headline, ...rest] = failure.words;
+    const { quantity, body, cause } = failure;
+    const facts = Object.entries({ time: `${failure.time.toFixed(3)} s`, quantity, body, cause })
       .filter(([, value]) => value)
       .map(([name, value]) => element('div', element('dt', name), element('dd', value)));
-    const from = Math.max(first, Math.min(dead.from, dead.time - REWIND));
-    const back = `${(dead.time - from).toFixed(1)} s`;
+    const from = Math.max(first, Math.min(failure.from, failure.time - REWIND));
+    const back = `${(failure.time - from).toFixed(1)} s`;
     const changing = (label: string, title: string, act: () => void, className = '') => {
       const made = button(label, title, act, className);
       made.disabled = isDisabled;
       return made;
     };
-    const remedies = dead.remedies.map(({ words, changes }, i) => {
+    const remedies = failure.remedies.map(({ words, changes }, i) => {
       const title = `rewinds ${back} and sets ${changes.join(', ')}`;
       return changing(words, title, () => this.rewind.branch(from, changes), i === 0 ? 'main' : '');
     });
     const heading = element('h3', `Stable settings (rewinds ${back})`);
-    const replay = () => this.rewind.play(from, SLOW, dead.time);
+    const replay = () => this.rewind.play(from, SLOW, failure.time);
     return [
       element(
         'header',

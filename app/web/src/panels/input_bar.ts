@@ -70,21 +70,21 @@ export class InputBar implements Panel {
 
   // Channel of the device force, if there is one.
   onScene({ channels }: SceneMessage): void {
-    this.column = channels.findIndex(({ kind, unit }) => kind === 'hand' && unit === 'N');
+    this.column = channels.findIndex(({ kind, unit }) => kind === 'device' && unit === 'N');
   }
 
   onState(state: StateMessage): void {
-    const { hand } = state;
-    const hasTarget = hand.source !== '';
+    const { input } = state;
+    const hasTarget = input.source !== '';
     const isDisabled = isViewOnly(state);
-    if (!this.isEditing) this.source.value = hasTarget ? chosen(hand) : 'scene';
+    if (!this.isEditing) this.source.value = hasTarget ? chosen(input) : 'scene';
     this.source.disabled = isDisabled || !hasTarget;
     this.gripper.disabled = isDisabled;
     this.gripper.hidden = !hasTarget;
-    this.gripper.setAttribute('aria-pressed', String(hand.gripper));
-    this.gripper.textContent = hand.gripper ? 'closed' : 'grip';
-    const device = hand.source === 'device' && hand.felt;
-    const facts = [`${hand.mapping} mapping`, device, MODES[hand.mode] ?? hand.mode].filter((fact) => fact);
+    this.gripper.setAttribute('aria-pressed', String(input.gripper));
+    this.gripper.textContent = input.gripper ? 'closed' : 'grip';
+    const device = input.source === 'device' && input.device_name;
+    const facts = [`${input.mapping} mapping`, device, MODES[input.mode] ?? input.mode].filter((fact) => fact);
     const text = hasTarget ? facts.join(' · ') : NO_TARGET;
     if (this.facts.textContent !== text) this.facts.textContent = text;
     this.showControl(state);
@@ -116,38 +116,38 @@ export class InputBar implements Panel {
     this.isEditing = name === 'device' || name === 'trace';
     this.spec.hidden = !this.isEditing;
     if (this.isEditing) {
-      const file = name === 'trace' ? (this.page.state?.hand.trace ?? '') : '';
+      const file = name === 'trace' ? (this.page.state?.input.trace ?? '') : '';
       this.spec.value = spec! + file;
       this.spec.focus();
       this.spec.select();
     } else if (spec) this.sendSpec(spec);
-    else this.page.send({ do: 'hand', source: name as 'scene' | 'drag' | 'joints' });
+    else this.page.send({ do: 'input', source: name as 'scene' | 'drag' | 'joints' });
   }
 
   private sendSpec(spec: string): void {
     this.isEditing = false;
     this.spec.hidden = true;
-    this.page.send({ do: 'hand', source: 'device', spec });
+    this.page.send({ do: 'input', source: 'device', spec });
   }
 
   // Empty for a single client.
-  private showControl({ you, holder, clients, asked }: StateMessage): void {
-    if (!this.isControlNew(you, holder, clients, asked)) return;
+  private showControl({ you, controller, clients, control_requests }: StateMessage): void {
+    if (!this.isControlNew(you, controller, clients, control_requests)) return;
     const parts: Node[] = [];
     const show = (text: string) => parts.push(element('span', text));
     const offer = (label: string, title: string, command: Command) =>
       parts.push(button(label, title, () => this.page.send(command)));
     const isAlone = clients < 2;
-    if (!holder && !isAlone) {
+    if (!controller && !isAlone) {
       show('No client has control.');
-      offer('Take control', 'to move the robot', { do: 'take' });
-    } else if (holder && holder !== you) {
-      const isRequested = asked.includes(you);
+      offer('Take control', 'to move the robot', { do: 'request_control' });
+    } else if (controller && controller !== you) {
+      const isRequested = control_requests.includes(you);
       show(isRequested ? 'Control requested.' : 'View only: another client has control.');
-      if (!isRequested) offer('Request control', 'to move the robot', { do: 'take' });
+      if (!isRequested) offer('Request control', 'to move the robot', { do: 'request_control' });
     } else if (!isAlone) show(`You have control; ${clients - 1} view only.`);
-    for (const to of holder === you ? asked.filter((client) => client !== you) : [])
-      offer(`Give to ${to}`, `client ${to} requests control`, { do: 'give', to });
+    for (const to of controller === you ? control_requests.filter((client) => client !== you) : [])
+      offer(`Give to ${to}`, `client ${to} requests control`, { do: 'grant_control', to });
     this.control.replaceChildren(...parts);
   }
 }

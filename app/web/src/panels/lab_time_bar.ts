@@ -112,32 +112,32 @@ export class LabTimeBar implements Panel, Clock {
   }
 
   private show(state: StateMessage): void {
-    const { first, last, branch, dead, speed } = state;
+    const { first, last, branch, failure, speed } = state;
     const { at } = this.rewind;
-    const isPlaying = at === null ? state.playing && !dead : this.rewind.playing;
+    const isPlaying = at === null ? state.playing && !failure : this.rewind.playing;
     const span = Math.max(1e-9, last - first);
     const share = at === null ? 1 : Math.min(1, Math.max(0, (at - first) / span));
     const words = at === null ? 'now' : `${at.toFixed(3)} seconds`;
     this.bar.show({ time: this.time, share, isPlaying, speed, words });
     const isDisabled = isViewOnly(state);
-    const pace = state.pace > 0 ? state.pace : 1;
-    const shown = [isPlaying, first, last, branch, dead?.time, at, speed, isDisabled, pace.toFixed(2)];
+    const pace = state.speed_ratio > 0 ? state.speed_ratio : 1;
+    const shown = [isPlaying, first, last, branch, failure?.time, at, speed, isDisabled, pace.toFixed(2)];
     if (!this.isNew(shown, state.building)) return;
     this.root.dataset.past = String(at !== null);
     putMark(this.branchMark, branch && (branch.from - first) / span);
     if (branch) this.branchMark.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
-    putMark(this.end, dead && (dead.time - first) / span);
+    putMark(this.end, failure && (failure.time - first) / span);
     this.present.disabled = at === null;
-    this.bar.play.disabled = at === null && (isDisabled || dead !== null);
-    this.step.disabled = isDisabled || (at === null && dead !== null);
+    this.bar.play.disabled = at === null && (isDisabled || failure !== null);
+    this.step.disabled = isDisabled || (at === null && failure !== null);
     this.again.disabled = this.bar.speed.disabled = this.branch.disabled = isDisabled;
     this.bar.where.replaceChildren(...this.status(state, at, pace));
   }
 
-  private status({ building, last, dead, playing, speed }: StateMessage, at: number | null, pace: number) {
+  private status({ building, last, failure, playing, speed }: StateMessage, at: number | null, pace: number) {
     if (building) return [element('b', `${building} …`)];
     if (at !== null) return [`${(last - at).toFixed(2)} s ago`];
-    if (dead) return ['diverged'];
+    if (failure) return ['diverged'];
     if (!playing) return ['paused'];
     const text = speed === 1 ? 'real time' : `${speedText(speed)}× ${speed > 1 ? 'fast' : 'slow'}`;
     if (Math.abs(pace - 1) <= REAL_TIME) return [text];

@@ -74,12 +74,12 @@ export abstract class ParameterRow {
   }
 
   private showStatus(parameter: LabParameter): void {
-    const { limit, lag, start, unit } = parameter;
+    const { limit, tracking_error, start, unit } = parameter;
     const hasChanged = isChanged(parameter);
-    if (!this.isNew(limit, lag, hasChanged)) return;
+    if (!this.isNew(limit, tracking_error, hasChanged)) return;
     const lines: HTMLElement[] = [];
     if (limit) lines.push(statusLine(limit.state, limit.words));
-    if (lag) lines.push(element('span', `tracking error ${lag}`));
+    if (tracking_error) lines.push(element('span', `tracking error ${tracking_error}`));
     const from = start ? `${start} ${unitText(unit)}` : 'not set';
     if (hasChanged) lines.push(element('span', `scene file: ${from.trim()}`));
     this.root.classList.toggle('changed', hasChanged);

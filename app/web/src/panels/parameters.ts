@@ -17,7 +17,7 @@ export class Parameters implements Panel {
   private readonly groups = element('div');
   private readonly restore = button('Reset', RESTORE, () => {
     this.takeWaiting();
-    this.page.send({ do: 'restore' });
+    this.page.send({ do: 'reset_parameters' });
   });
   private readonly rows = new Map<string, ParameterRow>();
   private readonly waiting = new Map<string, string>(); // changes not sent yet
@@ -33,14 +33,14 @@ export class Parameters implements Panel {
 
   // Relative to the scene file.
   get changes(): string[] {
-    const changed = this.page.state?.knobs.filter(isChanged) ?? [];
+    const changed = this.page.state?.parameters.filter(isChanged) ?? [];
     return changed.filter(({ value }) => value !== null).map(({ path, value }) => `${path}=${value}`);
   }
 
   onState(state: StateMessage): void {
-    const { knobs, presets } = state;
-    if (this.areParametersNew(knobs.map(shapeOf))) this.build(knobs);
-    else for (const parameter of knobs) this.rows.get(parameter.path)!.update(parameter);
+    const { parameters, presets } = state;
+    if (this.areParametersNew(parameters.map(shapeOf))) this.build(parameters);
+    else for (const parameter of parameters) this.rows.get(parameter.path)!.update(parameter);
     this.showPresets(presets);
     const isDisabled = isViewOnly(state);
     this.viewOnly.hidden = !isDisabled;

@@ -45,7 +45,7 @@ export class PlotSpecs {
       ...this.plain('couplings', 'Coupling force / torque', this.of('coupling')),
       ...this.plain('contacts', 'Contact force', acting('contact')),
       ...this.device(),
-      ...this.plain('pull', 'Mouse spring force', acting('pull')),
+      ...this.plain('mouse_spring', 'Mouse spring force', acting('mouse_spring')),
       ...this.coordinates('m'),
       ...this.plain('energies', 'Energies', this.of('energy')),
       ...this.loop(step),
@@ -110,9 +110,9 @@ export class PlotSpecs {
 
   // One plot per quantity, one curve per variant, in its colour of the 3-D view.
   private variants(): PlotSpec[] {
-    const all = this.of('lane');
+    const all = this.of('variant');
     const names = [...new Set(all.map(({ of }) => of))];
-    const quantity = ({ name, of }: Numbered) => name.slice('lane/'.length, -of.length - 1);
+    const quantity = ({ name, of }: Numbered) => name.slice('variant/'.length, -of.length - 1);
     return [...new Set(all.map(quantity))].map((what) => {
       const own = all.filter((channel) => quantity(channel) === what);
       const curves = own.map(({ column, of }) => curve(column, of, names.indexOf(of)));
@@ -138,7 +138,7 @@ export class PlotSpecs {
         channel.unit === unit && (targets.has(channel.of) || this.span(channel.column) > 1e-9),
     );
     const driven = all.filter((channel) => targets.has(channel.of)).slice(0, MAX_CURVES);
-    if (driven.length === 0 && this.of('lane').length > 0) return []; // shown per variant
+    if (driven.length === 0 && this.of('variant').length > 0) return []; // shown per variant
     const shown = driven.length > 0 ? driven : this.largest(all, (column) => this.span(column));
     const colors = this.paint(shown);
     const curves = shown.flatMap(({ column, of }, i) => {
@@ -176,7 +176,7 @@ export class PlotSpecs {
   private device(): PlotSpec[] {
     const words = `maximum device force, ${DEVICE_LIMIT} N`;
     // Device joint angles are among the coordinates.
-    const shown = this.of('hand').filter(({ unit }) => unit !== 'rad' && unit !== '1');
+    const shown = this.of('device').filter(({ unit }) => unit !== 'rad' && unit !== '1');
     return this.plain('device', 'Motor torques of the device', shown).map((spec) =>
       spec.unit === 'N'
         ? { ...spec, title: 'Device force', limit: { value: DEVICE_LIMIT, words, always: true } }
@@ -200,7 +200,7 @@ function curve(column: number, name: string, color: number, style: Curve['style'
 
 // Channels of the run itself have their own names, others those of their joint, coupling or pair.
 function labelOf({ name, kind, of }: SceneChannel): string {
-  const isOwn = kind === 'hand' || kind === 'time' || kind === 'pull';
+  const isOwn = kind === 'device' || kind === 'time' || kind === 'mouse_spring';
   return isOwn || !of ? name.slice(name.indexOf('/') + 1) : of;
 }
 

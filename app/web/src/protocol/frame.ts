@@ -9,7 +9,7 @@ const ARRAYS = {
   // Poses X_WB of the scene's bodies, and of the same links of the target robot (NaN: none):
   // position x y z [m], then quaternion x y z w.
   link: [Float32Array, 'bodies', 7],
-  twin: [Float32Array, 'bodies', 7],
+  target: [Float32Array, 'bodies', 7],
   position: [Float32Array, 'instances', 3],
   scale: [Float32Array, 'instances', 3],
   turn: [Int16Array, 'instances', 4], // quaternion x y z w in units of 1/32767
@@ -37,9 +37,9 @@ export interface Frame extends Arrays {
   delay: number; // from receipt of that input to this message [s]
   step: number;
   number: number; // increases by one per frame
-  stands: boolean; // paused
+  paused: boolean; // paused
   lookedBack: boolean; // an earlier instant
-  dead: boolean; // the run has diverged
+  diverged: boolean; // the run has diverged
   layers: number;
   bodies: number;
 }
@@ -83,9 +83,9 @@ export function decodeFrame(buffer: ArrayBuffer): Frame | null {
     delay: head.getFloat64(24, true),
     step: Number(head.getBigUint64(32, true)),
     number: u32(40),
-    stands: (flags & 1) !== 0,
+    paused: (flags & 1) !== 0,
     lookedBack: (flags & 2) !== 0,
-    dead: (flags & 4) !== 0,
+    diverged: (flags & 4) !== 0,
     layers,
     bodies,
   };

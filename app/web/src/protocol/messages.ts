@@ -15,7 +15,7 @@ export interface SceneLayer {
 export interface SceneChannel {
   name: string; // "q/arm1"
   unit: string; // SI
-  kind: Channel['kind'] | 'pull' | 'hand' | 'time' | 'lane';
+  kind: Channel['kind'] | 'mouse_spring' | 'device' | 'time' | 'variant';
   of: string;
 }
 
@@ -30,7 +30,7 @@ export interface SceneJoint {
   body: number;
   low?: number; // absent: no limit
   high?: number;
-  driven?: number; // index into hand.q; absent: not driven by the input
+  driven?: number; // index into input.q; absent: not driven by the input
   axis?: Vector; // in link axes of `body`, through its origin; absent: not one axis
   slides?: boolean; // prismatic, else revolute
 }
@@ -71,7 +71,7 @@ export interface LabParameter {
   choices: string[];
   meaning: string;
   limit?: Limit;
-  lag?: string; // "0.9 degrees at 1 rad/s"
+  tracking_error?: string; // "0.9 degrees at 1 rad/s"
   restarts: boolean;
 }
 
@@ -84,9 +84,9 @@ export interface Divergence {
   words: string[];
   time: number;
   from: number; // time of the last change: a remedy continues from there
-  quantity: string; // '': none; so for body and spring
+  quantity: string; // '': none; so for body and cause
   body: string;
-  spring: string;
+  cause: string;
   remedies: Remedy[];
 }
 
@@ -101,7 +101,7 @@ export interface InputState {
   spec: string; // of a device, as after --device; else ''
   mapping: string; // "paper", "arm", "cartesian"
   q: number[]; // targets of the driven joints
-  felt: string; // description of the device
+  device_name: string; // description of the device
   mode: string; // of a device: live, held (sends nothing), released (watchdog timeout); else ''
   gripper: boolean; // closed
   trace?: string; // file of a recorded operator motion, if one is installed
@@ -125,9 +125,9 @@ export interface StateMessage {
   scene: number;
   you: number;
   secret: string; // of this page: required for uploads
-  holder: number | null; // client with control; null: none
+  controller: number | null; // client with control; null: none
   clients: number;
-  asked: number[]; // clients that request control
+  control_requests: number[]; // clients that request control
   playing: boolean;
   speed: number;
   time: number;
@@ -136,28 +136,28 @@ export interface StateMessage {
   at: number | null; // instant shown [s]; null: the newest
   branch: Branch | null;
   variants: Variants | null;
-  pace: number;
+  speed_ratio: number;
   step: number;
   step_us: number;
-  hand: InputState;
-  knobs: LabParameter[];
+  input: InputState;
+  parameters: LabParameter[];
   presets: { name: string; what: string }[];
   gallery: { name: string; title: string; look: string[] }[];
   name: string; // of the gallery's scene
   changes: string[]; // relative to the scene file
   building: string; // scene in preparation
-  dead: Divergence | null;
+  failure: Divergence | null;
   notes: Note[]; // the last twenty
 }
 
 // What the inspector shows of one body in one frame. Absent values: the frame could not be inspected; a
 // warning says why.
 export interface BodyInspection extends Partial<Inspection> {
-  kind: 'glass';
+  kind: 'inspection';
   scene: number;
   t?: number; // absent: of a state alone
   step?: number;
-  stands: boolean;
+  paused: boolean;
   body?: number;
   name?: string;
   equations?: Equation[];
@@ -168,10 +168,10 @@ export interface BodyInspection extends Partial<Inspection> {
 // Those marked * need no control.
 export type Command =
   | { do: 'layers'; names: string[] } // * layers in this client's frames
-  | { do: 'glass'; on: boolean; body?: number } // * start or stop the inspection of a body
-  | { do: 'look'; at: number | null } // * show this instant (to all clients); null: the newest
-  | { do: 'take' } // * request control; granted at once if no client has it
-  | { do: 'give'; to: number } // * pass control to a client
+  | { do: 'inspect'; on: boolean; body?: number } // * start or stop the inspection of a body
+  | { do: 'seek'; at: number | null } // * show this instant (to all clients); null: the newest
+  | { do: 'request_control' } // * request control; granted at once if no client has it
+  | { do: 'grant_control'; to: number } // * pass control to a client
   | { do: 'play'; on: boolean } // play or pause
   | { do: 'step'; steps: number } // take some steps, then pause
   | { do: 'speed'; factor: number } // run time over wall time, 0.001 to 10
@@ -180,15 +180,15 @@ export type Command =
   | { do: 'preset'; name: string } // load its scene and values
   | { do: 'scene'; name: string } // open a scene of the gallery
   | { do: 'reset' } // restart
-  | { do: 'restore' } // all parameters as the scene was opened, at this instant
-  | { do: 'hand'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string } // choose the input source
-  | { do: 'tip'; goal: Vector; stamp: number } // goal of the target robot's tip
+  | { do: 'reset_parameters' } // all parameters as the scene was opened, at this instant
+  | { do: 'input'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string } // choose the input source
+  | { do: 'drag_stylus'; goal: Vector; stamp: number } // goal of the target robot's tip
   | { do: 'joint'; index: number; value: number; stamp: number } // goal of a driven joint
-  | { do: 'turn'; yaw: number; pitch: number; roll: number; stamp: number } // angles of the stylus
+  | { do: 'rotate_stylus'; yaw: number; pitch: number; roll: number; stamp: number } // angles of the stylus
   | { do: 'axes'; rates: number[]; stamp: number } // right, up, toward, yaw, pitch, roll: -1 to 1
   | { do: 'button'; index: number; down: boolean; stamp: number } // 0: gripper, 1: clutch
-  | { do: 'pull'; body: number; point: Vector; goal: Vector; stamp: number } // mouse spring; point: link axes
-  | { do: 'drop' }; // release spring, axes and clutch; the gripper stays as it is
+  | { do: 'drag_body'; body: number; point: Vector; goal: Vector; stamp: number } // mouse spring; point: link axes
+  | { do: 'release' }; // release spring, axes and clutch; the gripper stays as it is
 
 // Whether it differs from the value that the scene was opened with.
 export function isChanged({ value, start }: LabParameter): boolean {
@@ -197,6 +197,6 @@ export function isChanged({ value, start }: LabParameter): boolean {
 }
 
 // Another client has control.
-export function isViewOnly({ holder, you }: StateMessage): boolean {
-  return !!holder && holder !== you;
+export function isViewOnly({ controller, you }: StateMessage): boolean {
+  return !!controller && controller !== you;
 }

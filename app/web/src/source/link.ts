@@ -43,11 +43,11 @@ export class Link {
       return found === undefined ? null : (JSON.parse(found) as T);
     };
     const state = text<StateMessage>('state');
-    if (state) state.holder ||= null; // 0: no client
+    if (state) state.controller ||= null; // 0: no client
     const news = {
       scene: text<SceneMessage>('scene'),
       state,
-      inspection: text<BodyInspection>('glass'),
+      inspection: text<BodyInspection>('inspection'),
       frame: this.waiting && decodeFrame(this.waiting),
     };
     this.waiting = null;

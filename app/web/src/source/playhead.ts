@@ -154,6 +154,6 @@ export class Rewind extends Playhead {
     if (now - this.sentAt < PAUSE && at !== null) return; // sent by a later tick
     this.sent = at;
     this.sentAt = now;
-    this.page.send({ do: 'look', at });
+    this.page.send({ do: 'seek', at });
   }
 }

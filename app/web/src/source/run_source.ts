@@ -33,11 +33,11 @@ export class LiveRun implements RunSource, Listener {
     return this.page.state?.step ?? 1e-3;
   }
   get hasDiverged(): boolean {
-    return (this.page.state?.dead ?? null) !== null;
+    return (this.page.state?.failure ?? null) !== null;
   }
 
   look(time: number): void {
-    this.page.send({ do: 'look', at: time });
+    this.page.send({ do: 'seek', at: time });
   }
 
   onScene(scene: SceneMessage): void {

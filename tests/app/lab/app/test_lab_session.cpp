@@ -71,7 +71,7 @@ TEST_CASE("lab session: a refused change affects neither the waiting ones nor th
 TEST_CASE("lab session: restoring the scene discards earlier changes, not later ones") {
   TestSession lab;
   lab.set("coupling.one.stiffness=30");
-  lab.session.push(parse_command(R"({"do": "restore"})"));
+  lab.session.push(parse_command(R"({"do": "reset_parameters"})"));
   lab.set("coupling.one.damping=2");
   CHECK(lab.comes_to("coupling.one.damping=2 "));
 }
@@ -157,16 +157,16 @@ TEST_CASE("lab session: every request to open a file is answered, also concurren
 
 TEST_CASE("lab command: all fields are read") {
   const LabCommand pull = parse_command(
-      R"({"do": "pull", "body": 3, "point": [0.5, -1, 2], "goal": [1, 2, 3.25], "stamp": 12.5})");
-  CHECK(pull.what == LabCommand::Do::pull);
+      R"({"do": "drag_body", "body": 3, "point": [0.5, -1, 2], "goal": [1, 2, 3.25], "stamp": 12.5})");
+  CHECK(pull.what == LabCommand::Do::drag_body);
   CHECK(pull.count == 3);
   CHECK(pull.point == Vector3(0.5, -1, 2));
   CHECK(pull.goal == Vector3(1, 2, 3.25));
   CHECK(pull.stamp == 12.5);
   const LabCommand set = parse_command(R"({"do": "set", "changes": ["step=0.0005", "a=b"]})");
   CHECK(set.names == std::vector<std::string>{"step=0.0005", "a=b"});
-  CHECK(parse_command(R"({"do": "look", "at": 1.5})").at == 1.5);
-  CHECK_FALSE(parse_command(R"({"do": "look", "at": null})").at.has_value());
+  CHECK(parse_command(R"({"do": "seek", "at": 1.5})").at == 1.5);
+  CHECK_FALSE(parse_command(R"({"do": "seek", "at": null})").at.has_value());
   CHECK(parse_command(R"({"do": "axes", "rates": [2, -7, 0.5, 0, 0, 0]})").rates[0] == 1.0);
 }
 
@@ -174,20 +174,20 @@ TEST_CASE("lab command: an invalid command is refused with all its faults") {
   CHECK(faults_in("") == 1);
   CHECK(faults_in("[]") == 1);
   CHECK(faults_in(R"({"do": "dance"})") == 1);
-  CHECK(faults_in(R"({"do": "pull", "body": -1, "point": [1, 2]})") == 3);
+  CHECK(faults_in(R"({"do": "drag_body", "body": -1, "point": [1, 2]})") == 3);
   CHECK(faults_in(R"({"do": "speed", "factor": 1e9})") == 1);
-  CHECK(faults_in(R"({"do": "tip", "goal": [1, 2, NaN]})") == 1);
-  CHECK(faults_in(R"({"do": "tip", "goal": [1, 2, 1e999]})") >= 1);
+  CHECK(faults_in(R"({"do": "drag_stylus", "goal": [1, 2, NaN]})") == 1);
+  CHECK(faults_in(R"({"do": "drag_stylus", "goal": [1, 2, 1e999]})") >= 1);
   CHECK(faults_in(R"({"do": "joint", "index": 1.5, "value": 0})") == 1);
   CHECK(faults_in(R"({"do": "step", "steps": true})") == 1);
   CHECK(faults_in(std::string(100'000, '[')) >= 1);
 }
 
 TEST_CASE("lab command: looking requires no control, moving the robot does") {
-  CHECK_FALSE(needs_hand(LabCommand::Do::layers));
-  CHECK_FALSE(needs_hand(LabCommand::Do::take));
-  CHECK(needs_hand(LabCommand::Do::tip));
-  CHECK(needs_hand(LabCommand::Do::set));
+  CHECK_FALSE(needs_control(LabCommand::Do::layers));
+  CHECK_FALSE(needs_control(LabCommand::Do::request_control));
+  CHECK(needs_control(LabCommand::Do::drag_stylus));
+  CHECK(needs_control(LabCommand::Do::set));
 }
 
 TEST_CASE("uploads: files are opened or stored by type, or refused with a reason") {
@@ -250,9 +250,9 @@ TEST_CASE("clients: layers of all clients are drawn, each once") {
   clients.want_layers(1, {"bodies", "frames"});
   clients.want_layers(2, {"trails", "bodies"});
   CHECK(clients.layers() == std::vector<std::string>{"bodies", "frames", "trails"});
-  clients.want_glass(2, 4);
+  clients.want_inspection(2, 4);
   CHECK(clients.inspected() == std::map<ClientId, long>{{2, 4}});
-  clients.want_glass(2, std::nullopt);
+  clients.want_inspection(2, std::nullopt);
   CHECK(clients.inspected().empty());
 }
 

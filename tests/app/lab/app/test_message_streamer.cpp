@@ -153,7 +153,7 @@ TEST_CASE("lab frames: commands and notes repeat no frame; inputs are in the nex
   for (int n = 1; n <= 300; ++n) {
     lab.session.push(parse_command(R"({"do": "joint", "index": 0, "value": 0.1, "stamp": )" +
                                    std::to_string(n) + "}"));
-    if (n % 3 == 0) lab.session.push(parse_command(R"({"do": "look", "at": null})"));
+    if (n % 3 == 0) lab.session.push(parse_command(R"({"do": "seek", "at": null})"));
     std::this_thread::sleep_for(std::chrono::milliseconds(3));
   }
   const double gone = seconds_since(start);
@@ -192,7 +192,7 @@ TEST_CASE("lab frames: while paused one for each visible change, and the last on
   const std::uint64_t step = lab.frames().back().step;
   lab.session.push(parse_command(R"({"do": "step", "steps": 5000})"));
   REQUIRE(comes_true([&] { return lab.frames().back().step == step + 5000; }));
-  lab.session.push(parse_command(R"({"do": "look", "at": 0})"));
+  lab.session.push(parse_command(R"({"do": "seek", "at": 0})"));
   REQUIRE(comes_true([&] { return (lab.frames().back().flags & 2) != 0; }));
   CHECK(lab.frames().back().step == 0);
 }
@@ -255,18 +255,18 @@ TEST_CASE("lab session: a client that connects later gets the present input sour
   CHECK(lab.status().hand.source == "scene");
   CHECK(lab.status().hand.mode.empty());
   CHECK_FALSE(lab.status().hand.gripper_closed);
-  lab.session.push(parse_command(R"({"do": "hand", "source": "drag"})"));
+  lab.session.push(parse_command(R"({"do": "input", "source": "drag"})"));
   lab.session.push(parse_command(R"({"do": "button", "index": 0, "down": true})"));
   REQUIRE(comes_true([&] { return lab.status().hand.gripper_closed; }));
   CHECK(lab.status().hand.source == "drag");
   CHECK(lab.status().hand.mode == "live");
   CHECK(lab.status().hand.spec.empty());
   // Releasing the mouse does not open the gripper.
-  lab.session.push(parse_command(R"({"do": "drop"})"));
+  lab.session.push(parse_command(R"({"do": "release"})"));
   lab.settle();
   CHECK(lab.status().hand.gripper_closed);
   lab.session.push(
-      parse_command(R"({"do": "hand", "source": "device", "spec": "virtual:synthetic:4"})"));
+      parse_command(R"({"do": "input", "source": "device", "spec": "virtual:synthetic:4"})"));
   REQUIRE(comes_true([&] { return lab.status().hand.source == "device"; }));
   CHECK(lab.status().hand.spec == "virtual:synthetic:4");
   const std::string message = state_message(lab.status(), lab.clients.view(), {}, {});

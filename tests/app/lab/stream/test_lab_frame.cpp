@@ -93,9 +93,9 @@ TEST_CASE("lab frame: channels and works are those of the recorded frame, by nam
   for (const RecordedContact& c : frame.recorded.contacts) force += c.force;
   CHECK(force.norm() == doctest::Approx(2 * 9.81).epsilon(1e-6));  // resting mass of 2 kg
   CHECK(at("contact/floor-resting") == doctest::Approx(force.norm()).epsilon(1e-14));
-  CHECK(std::isnan(at("pull")));
-  CHECK(std::isnan(at("hand/force")));
-  CHECK(at("time/pace") == frame.pace);
+  CHECK(std::isnan(at("mouse_spring")));
+  CHECK(std::isnan(at("device/force")));
+  CHECK(at("time/speed_ratio") == frame.pace);
   REQUIRE(frame.recorded.works.size() == watched.names.rows.size());
   for (std::size_t i = 0; i < frame.recorded.works.size(); ++i)
     CHECK(read.works[frame.recorded.rows[i]] == frame.recorded.works[i]);
@@ -238,14 +238,14 @@ TEST_CASE("lab frame: the mouse spring is drawn from the body's point to the goa
   const Model<double>& model = watched.plan->prepared.input.robot.model;
   frame.mouse = MouseSpringState{model.find_body("resting"), Vector3(0.2, 0, 0),
                                  Vector3(0.9, 0, 0.5), Vector3(7, 0, 0)};
-  const ReadFrame read(watched.view->frame(frame, nullptr, {"pull"}, {}));
-  const std::size_t pull = watched.layer("pull");
+  const ReadFrame read(watched.view->frame(frame, nullptr, {"mouse-spring"}, {}));
+  const std::size_t pull = watched.layer("mouse-spring");
   const auto [first, last] = read.layer(pull);
   REQUIRE(last > first);
   CHECK((position_of(read, first) - Vector3(0.7, 0, 0.1)).norm() < 1e-4);
   CHECK(read.scale[3 * first + 2] == doctest::Approx(std::hypot(0.2, 0.4)).epsilon(1e-3));
   CHECK(read.labels_of(pull) == std::vector<std::string>{"7 N"});
-  CHECK(read.channels.at(watched.place_of("channels", "name", "pull")) == 7);
+  CHECK(read.channels.at(watched.place_of("channels", "name", "mouse_spring")) == 7);
 }
 
 TEST_CASE(

@@ -262,10 +262,10 @@ TEST_CASE("variants: shown at their offsets, with joint positions and energies b
     const LabFrame& own = variant == 0 ? frame : *frame.variants[variant - 1].frame;
     const State<double> x = instant_of(own.recorded, scene.plan()->prepared.input.robot.model).x;
     const double energy = 0.5 * 1.00144 * x.qd[0] * x.qd[0] - 9.81 * std::cos(x.q[0]);
-    CHECK(value(read, "lane/q/hinge/" + name) == x.q[0]);
-    CHECK(value(read, "lane/total_energy/" + name) ==
+    CHECK(value(read, "variant/q/hinge/" + name) == x.q[0]);
+    CHECK(value(read, "variant/total_energy/" + name) ==
           doctest::Approx(hinge + energy).epsilon(1e-9));
-    CHECK(value(read, "lane/numerical/" + name) ==
+    CHECK(value(read, "variant/numerical/" + name) ==
           doctest::Approx(energy - start).epsilon(1e-9).scale(1));
     const std::size_t ball = 3 * variant + 2;
     CHECK(std::abs(read.position[3 * ball]) == doctest::Approx(std::abs(std::sin(x.q[0]))));
@@ -282,7 +282,7 @@ TEST_CASE("variants: shown at their offsets, with joint positions and energies b
   CHECK(after.labels_of(0) ==
         std::vector<std::string>{"semi-implicit", "euler: stopped at 3.2 s", "rk4"});
   CHECK(after.position == read.position);
-  CHECK(std::isnan(value(after, "lane/total_energy/euler")));
+  CHECK(std::isnan(value(after, "variant/total_energy/euler")));
 }
 
 TEST_CASE("variants: invalid sets are refused with a remedy") {
