@@ -46,15 +46,16 @@ struct LabCommand {
   Do what = Do::release;
   bool on = false;  // play, inspect, button (down)
   long count = 0;  // step: steps; joint, button: index; drag_body, inspect: body; grant_control: to
-  double value = 1;                 // speed: factor; joint: value [rad, m]
-  std::optional<double> at;         // look, branch [s]; look: none is the newest
-  std::vector<std::string> names;   // layers; set, branch: changes
-  std::string name;                 // preset, scene; hand: source
-  std::string spec;                 // hand: as of --device
-  Vector3 point = Vector3::Zero();  // pull: of the body, link axes [m]; turn: yaw, pitch, roll
-  Vector3 goal = Vector3::Zero();   // tip, pull: world [m]
-  std::array<double, 6> rates{};    // axes
-  double stamp = 0;                 // set by the client
+  double value = 1;                // speed: factor; joint: value [rad, m]
+  std::optional<double> at;        // seek, branch [s]; seek: none is the newest
+  std::vector<std::string> names;  // layers; set, branch: changes
+  std::string name;                // preset, scene; input: source
+  std::string spec;                // input: as of --device
+  Vector3 point =
+      Vector3::Zero();  // drag_body: on the body, link axes [m]; rotate_stylus: yaw, pitch, roll
+  Vector3 goal = Vector3::Zero();  // drag_stylus, drag_body: world [m]
+  std::array<double, 6> rates{};   // axes
+  double stamp = 0;                // set by the client
   std::chrono::steady_clock::time_point came{};
 };
 
