@@ -42,8 +42,6 @@ ConeVec divided(const ConeScaling& s, const ConeVec& x) {
 
 struct ImpulseSolver::CentralPath {
   ImpulseSolver& of;
-  ImpulseProblem& problem;
-  const Island& island;
   double s0, s = s0, length = 0.3;
   double size = infinity;  // of the last correction
   int corrections = 0;     // since the last predictor
@@ -52,12 +50,6 @@ struct ImpulseSolver::CentralPath {
   template <class F>
   void for_each_cone(F&& f) const {
     for (const int i : of.cones_) f(i);
-  }
-  template <class F>
-  void for_each_velocity(F&& f) const {
-    for (const int t : island.trees)
-      for (std::size_t k = 0; k < static_cast<std::size_t>(problem.size(t)); ++k)
-        f(problem.first(t) + k);
   }
 
   // Inner product of W dz and W^-1 dx of two directions, relative to those of z and x.
@@ -89,7 +81,7 @@ struct ImpulseSolver::CentralPath {
         a.z[i][r] = f * a.z[i][r] + g * b.z[i][r];
       }
     });
-    for_each_velocity([&](std::size_t k) { a.v[k] = f * a.v[k] + g * b.v[k]; });
+    of.for_each_velocity([&](std::size_t k, std::size_t) { a.v[k] = f * a.v[k] + g * b.v[k]; });
     a.s = f * a.s + g * b.s;
   }
   // Maximum step, at most 1, with x and z in their cones and s positive.
@@ -106,7 +98,8 @@ struct ImpulseSolver::CentralPath {
       for (std::size_t r = 0; r < 3; ++r)
         of.x_[i][r] += step * a.x[i][r], of.z_[i][r] += step * a.z[i][r];
     });
-    for_each_velocity([&](std::size_t k) { problem.v(0)[k] += step * a.v[k]; });
+    of.for_each_velocity(
+        [&](std::size_t k, std::size_t) { of.problem_->v(0)[k] += step * a.v[k]; });
     s *= 1 + step * a.s;
   }
 
@@ -118,19 +111,19 @@ struct ImpulseSolver::CentralPath {
 
 // correction_: towards the curve at constant s. tangent_: along the curve, for ds = s.
 void ImpulseSolver::CentralPath::find_directions() {
-  of.assemble(problem, island, false);
+  of.assemble(false);
   of.matrix_.factorise(false);
   const auto take = [&](Direction& out, double change) {
     std::swap(out.x, of.dx_), std::swap(out.z, of.dz_), std::swap(out.v, of.dv_);
     out.s = change;
   };
-  of.ipm_direction(problem, island, s, false);
+  of.ipm_direction(s, false);
   take(of.correction_, 0);
   const double rise = s < s0 ? s / s0 : 0;  // -dl for ds = s
   for_each_cone([&](int i) {
     of.right_[i] = {s * of.terms_[i].weight, 0, 0};
     of.d_z_[i] = {};
-    if (!is_contact(problem.constraints()[i])) return;
+    if (!is_contact(of.constraint(i))) return;
     for (int k = i; k >= 0; k = of.next_disc_[k]) {
       const ConeTerms& terms = of.terms_[k];
       const double kink = of.smoothing_ * terms.kink;
@@ -138,7 +131,7 @@ void ImpulseSolver::CentralPath::find_directions() {
       of.d_z_[i][0] += terms.arm * (of.shift_factor_ * from_s - rise * terms.slip);
     }
   });
-  of.ipm_solve_kkt(problem, island, of.d_z_, 0);
+  of.ipm_solve_kkt(of.d_z_, 0);
   take(of.tangent_, 1);
 }
 
@@ -149,7 +142,8 @@ void ImpulseSolver::CentralPath::predict(bool repeated) {
   if (!repeated) {
     if (corrections == 0 && at != At::start) length = std::min(kMaxLength, 2 * length);
     for_each_cone([&](int i) { of.saved_.x[i] = of.x_[i], of.saved_.z[i] = of.z_[i]; });
-    for_each_velocity([&](std::size_t k) { of.saved_.v[k] = problem.v(0)[k]; });
+    of.for_each_velocity(
+        [&](std::size_t k, std::size_t) { of.saved_.v[k] = of.problem_->v(0)[k]; });
     of.saved_.s = s;
   }
   mix(of.tangent_, scale, 0, of.tangent_);
@@ -161,7 +155,7 @@ void ImpulseSolver::CentralPath::predict(bool repeated) {
 
 void ImpulseSolver::CentralPath::restore() {
   for_each_cone([&](int i) { of.x_[i] = of.saved_.x[i], of.z_[i] = of.saved_.z[i]; });
-  for_each_velocity([&](std::size_t k) { problem.v(0)[k] = of.saved_.v[k]; });
+  of.for_each_velocity([&](std::size_t k, std::size_t) { of.problem_->v(0)[k] = of.saved_.v[k]; });
   s = of.saved_.s;
   length *= kShorten;
   at = At::back;
@@ -199,24 +193,24 @@ bool ImpulseSolver::CentralPath::step() {
 }
 
 // A different curve for each `start`. Sets p to the best point on it. Returns the number of steps.
-int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, int start) {
-  const double s0 = ipm_initialize(problem, island, start);
+int ImpulseSolver::follow_path(int start) {
+  const double s0 = ipm_initialize(start);
   for (Direction* direction : {&correction_, &tangent_, &last_, &saved_}) {
-    direction->v.resize(problem.nv());
+    direction->v.resize(problem_->nv());
     direction->x.resize(x_.size()), direction->z.resize(x_.size());
   }
   d_z_.resize(x_.size());
-  CentralPath path{*this, problem, island, s0};
+  CentralPath path{*this, s0};
   double best = infinity;
   int steps = 0;
   for (; s0 > 0 && steps < kMaxSteps; ++steps) {
     shift_factor_ = std::max(0.0, 1 - path.s / s0);
     smoothing_ = path.s / s0;
     double residual = 0;
-    const bool inside = ipm_evaluate(problem, island, residual) > 0 && residual < 1e100;
+    const bool inside = ipm_evaluate(residual) > 0 && residual < 1e100;
     if (inside && residual < best) {
       best = residual;
-      for (const int i : island.constraints) kept_[i] = p_[i];
+      for (const int i : island_->constraints) kept_[i] = p_[i];
     }
     if (path.at == CentralPath::At::start && steps > kMaxStartSteps) break;
     if (residual <= 0.5 * accepted || path.s > 2 * s0) break;
@@ -228,7 +222,7 @@ int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, in
     }
   }
   if (best < infinity)
-    for (const int i : island.constraints) problem.constraints()[i].p = kept_[i];
+    for (const int i : island_->constraints) constraint(i).p = kept_[i];
   return steps;
 }
 
