@@ -28,8 +28,7 @@ std::string figure(const std::string& drawn, const std::string& caption, const c
 
 // HTML with formulas in paragraphs.
 std::string statement_html(const AnalyticCase& c) {
-  const char* statement = c.statement;
-  std::string html = statement ? statement : "";
+  std::string html = c.statement;
   for (std::size_t at = 0; (at = html.find("<p>", at)) != std::string::npos;)
     html.replace(at, 3, "<p class=formula>");
   return "<div class=statement>" + html + "</div>\n";

@@ -59,7 +59,7 @@ TrajectoryCase furuta_motion() {
 TrajectoryCase furuta_evaluation() {
   special::Numbers dx(4);
   furuta_rates()(0, {0, 1, 2, 3}, dx);
-  return evaluation([] { return furuta(1, 2, 3); }, {"arm [rad/s2]", "pendulum [rad/s2]"},
+  return evaluation(furuta(1, 2, 3), {"arm [rad/s2]", "pendulum [rad/s2]"},
                     [](ModelRef model, StateRef x) { return evaluate(model, x).qdd; },
                     {static_cast<double>(dx[2]), static_cast<double>(dx[3])});
 }
@@ -80,9 +80,8 @@ TrajectoryCase furuta_special() {
     return values(std::sqrt(squared_frequencies_of(model, x).back()),
                   std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low));
   };
-  return evaluation([] { return furuta(0, 0, 0); },
-                    {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"}, observe,
-                    {w, w, weight / (kPivot * kWhirl * kWhirl)}, relative_each);
+  return evaluation(furuta(0, 0, 0), {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"},
+                    observe, {w, w, weight / (kPivot * kWhirl * kWhirl)}, relative_each);
 }
 
 // ---- C9 ----

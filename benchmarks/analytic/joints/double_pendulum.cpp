@@ -68,8 +68,8 @@ TrajectoryCase two_rods_until(std::vector<double> times, const Lane& integration
 
 TrajectoryCase two_rods_modes() {
   const double part = 6 / std::sqrt(7.0);
-  return evaluation([] { return at_rest(plane_chain(rod_link(1, 1), 2)); },
-                    {"first [rad/s]", "second [rad/s]"}, small_frequencies,
+  return evaluation(at_rest(plane_chain(rod_link(1, 1), 2)), {"first [rad/s]", "second [rad/s]"},
+                    small_frequencies,
                     {std::sqrt((3 - part) * kGravity), std::sqrt((3 + part) * kGravity)},
                     relative_each);
 }

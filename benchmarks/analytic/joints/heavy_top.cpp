@@ -176,24 +176,20 @@ TrajectoryCase steady() {
   };
   const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
   const double fast = (B + std::sqrt(root)) / (2 * A);
-  return evaluation(spinning_top, {"slow [rad/s]", "fast [rad/s]", "minimum spin [rad/s]"}, observe,
-                    {kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3});
+  return evaluation(spinning_top(), {"slow [rad/s]", "fast [rad/s]", "minimum spin [rad/s]"},
+                    observe, {kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3});
 }
 
 // Upright, with z = z1 + i z2 the vertical and w = w1 + i w2 the angular velocity, in body axes:
 //   z' = -i w3 z + i w,   w' = -i D w - i F z,   D = (1 - I3 / I1) w3,  F = m g l / I1,
 // stable for (w3 - D)^2 >= 4 F. F and D are derivatives of the accelerations.
 TrajectoryCase sleeping() {
-  return evaluation(
-      [] {
-        return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin});
-      },
-      {"minimum spin [rad/s]"},
-      [](ModelRef model, StateRef x) {
-        const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
-        return values(2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2]));
-      },
-      {2 * std::sqrt(kMoment * I1) / I3});
+  return evaluation(start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin}), {"minimum spin [rad/s]"},
+                    [](ModelRef model, StateRef x) {
+                      const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
+                      return values(2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2]));
+                    },
+                    {2 * std::sqrt(kMoment * I1) / I3});
 }
 
 }  // namespace

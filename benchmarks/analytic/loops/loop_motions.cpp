@@ -73,9 +73,8 @@ TrajectoryCase read_at(LoopCase (*make)(), double t, std::vector<std::string> re
 TrajectoryCase assembled(const std::shared_ptr<const LoopCase>& c,
                          std::vector<std::string> readings, CaseObserver observer,
                          CaseReadings known) {
-  const auto scene = [c] { return CaseScene{c->model, c->start}; };
-  TrajectoryCase result =
-      evaluation(scene, std::move(readings), std::move(observer), std::move(known), max_difference);
+  TrajectoryCase result = evaluation({c->model, c->start}, std::move(readings), std::move(observer),
+                                     std::move(known), max_difference);
   result.mutant = [](CaseScene& changed) {
     changed.model.Xtree[2].r = 1.001 * changed.model.Xtree[2].r;
   };

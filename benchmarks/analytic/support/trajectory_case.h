@@ -32,6 +32,11 @@ struct CaseScene {
   std::function<void(Simulation&)> prepare{};
 };
 
+// The same scene for every run; its sources must have no internal state.
+inline std::function<CaseScene()> fixed(CaseScene scene) {
+  return [scene = std::move(scene)] { return scene; };
+}
+
 // Integrator and step of a run.
 struct Lane {
   Integrator integrator = Integrator::rk4;
@@ -90,9 +95,8 @@ struct TrajectoryCase {
 };
 
 // One evaluation in the initial state.
-TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::string> readings,
-                          CaseObserver observe, CaseReadings exact,
-                          CaseMeasure measure = relative_to_largest);
+TrajectoryCase evaluation(CaseScene scene, std::vector<std::string> readings, CaseObserver observe,
+                          CaseReadings exact, CaseMeasure measure = relative_to_largest);
 // The same motion, of which only the times of events are checked.
 TrajectoryCase times_of(TrajectoryCase motion, CaseEvents events, CaseReference reference);
 
