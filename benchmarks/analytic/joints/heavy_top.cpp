@@ -44,42 +44,31 @@ CaseScene spinning_top() {
 
 struct Nutation {
   Real u0 = std::sqrt(3.0L) / 2, b = 2 * Real(kMoment) / Real(I1), a = Real(I3) * kSpin / Real(I1);
-  Real u1, u2, k, m;
+  special::SquaredCd u;
   Nutation() {
     const Real p = a * a / (2 * b), root = std::sqrt(p * p - 2 * p * u0 + 1);
-    u2 = p + root;
-    u1 = (2 * p * u0 - 1) / u2;
-    k = std::sqrt(b * (u2 - u1)) / 2;
-    m = (u0 - u1) / (u2 - u1);
+    const Real u2 = p + root, u1 = (2 * p * u0 - 1) / u2;
+    u = {u0, u1, std::sqrt(b * (u2 - u1)) / 2, (u0 - u1) / (u2 - u1)};
   }
-  Real period() const { return 2 * special::quarter_period(m) / k; }
-  Real height(Real t) const {  // u
-    const special::Jacobi j = special::jacobi(k * t, m);
-    return u1 + (u0 - u1) * (j.cn / j.dn) * (j.cn / j.dn);
-  }
-  Real height_rate(Real t) const {
-    const special::Jacobi j = special::jacobi(k * t, m);
-    return -2 * k * (u0 - u1) * (1 - m) * j.cn * j.sn / (j.dn * j.dn * j.dn);
-  }
-  Real precession(Real u) const { return a * (u0 - u) / (1 - u * u); }
+  Real precession(Real height) const { return a * (u0 - height) / (1 - height * height); }
   Real azimuth(Real t) const {  // phi
-    return special::integral([this](Real s) { return precession(height(s)); }, 0, t);
+    return special::integral([this](Real s) { return precession(u.at(s)); }, 0, t);
   }
   Real spin_angle(Real t) const {  // psi
     return special::integral(
         [this](Real s) {
-          const Real u = height(s);
-          return kSpin - precession(u) * u;
+          const Real height = u.at(s);
+          return kSpin - precession(height) * height;
         },
         0, t);
   }
   Vector3 axis(Real t) const {
-    const Real u = height(t), s = std::sqrt(1 - u * u), phi = azimuth(t);
-    return {double(s * std::sin(phi)), double(-s * std::cos(phi)), double(u)};
+    const Real height = u.at(t), s = std::sqrt(1 - height * height), phi = azimuth(t);
+    return {double(s * std::sin(phi)), double(-s * std::cos(phi)), double(height)};
   }
   Vector3 rate(Real t) const {
-    const Real u = height(t), s = std::sqrt(1 - u * u), psi = spin_angle(t);
-    const Real along = -height_rate(t) / s, across = precession(u) * s;
+    const Real height = u.at(t), s = std::sqrt(1 - height * height), psi = spin_angle(t);
+    const Real along = -u.rate(t) / s, across = precession(height) * s;
     return {double(across * std::sin(psi) + along * std::cos(psi)),
             double(across * std::cos(psi) - along * std::sin(psi)), kSpin};
   }
@@ -130,8 +119,8 @@ TrajectoryCase top_bounds() {
   };
   c.reference = [](double k) {
     const Nutation& n = nutation();
-    const Real t = n.period() * Real(k) / 2;
-    return values(double(t), double(std::acos(n.height(t))), double(n.azimuth(t)));
+    const Real t = n.u.half_period() * Real(k);
+    return values(t, std::acos(n.u.at(t)), n.azimuth(t));
   };
   c.events = {
       [](ModelRef, StateRef x) { return (attitude(x) * rate(x).cross(Vector3::UnitZ())).z(); }, 2,
