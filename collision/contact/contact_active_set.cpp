@@ -44,11 +44,6 @@ void ContactActiveSet::hold(const ConstraintFrame& frame, bool impact) noexcept 
   flow_works_.assign(kFlowNumbers * held_pairs_.size(), 0);
 }
 
-void ContactActiveSet::restore_active_set() noexcept {
-  points_ = held_;
-  std::fill(flow_works_.begin(), flow_works_.end(), 0);
-}
-
 void ContactActiveSet::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
   for (const ContactPoint& p : points_)
     if (!p.is_held)
@@ -73,10 +68,6 @@ void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c
   const Vector3 impulse_W = h * point.force_W;
   const Vector3 moment_W = bodies_.impulse_moment(point.contact, impulse_W) + h * point.couple_W;
   for (int i = 0; i < 3; ++i) sums[2 + i] += impulse_W[i], sums[5 + i] += moment_W[i];
-}
-
-void ContactActiveSet::modes(std::vector<char>& modes) const noexcept {
-  modes.insert(modes.end(), modes_.begin(), modes_.end());
 }
 
 void ContactActiveSet::commit_work() noexcept {

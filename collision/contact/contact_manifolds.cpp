@@ -16,10 +16,6 @@ std::tuple<int, int, int> key_of(const Contact& c) {
 
 }  // namespace
 
-ContactManifolds::ContactManifolds(ContactBodies& bodies) : bodies_(bodies) {
-  points.reserve(256);  // a step does not allocate
-}
-
 // The factor allows for the acceleration within the step.
 double ContactManifolds::speculative_margin(std::size_t geometry, const Kinematics& k,
                                             double h) const {

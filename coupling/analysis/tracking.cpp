@@ -246,11 +246,6 @@ FollowingError::Motion FollowingError::free_motion(double e, double e_dot, doubl
   return {now, -zw * now + e * back * s_by_r + rate * c};
 }
 
-FollowingError::Motion FollowingError::in_piece(const Piece& piece, double s) const {
-  const Motion of = of_particular(piece, s), free = free_motion(piece.e, piece.e_dot, s);
-  return {of.e + free.e, of.e_dot + free.e_dot};
-}
-
 double FollowingError::at(double t) const {
   const Piece* piece = &pieces_.front();
   for (const Piece& next : pieces_)

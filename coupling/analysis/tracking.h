@@ -138,7 +138,10 @@ class FollowingError {
   };
   Motion of_particular(const Piece& piece, double s) const;
   Motion free_motion(double e, double e_dot, double s) const;
-  Motion in_piece(const Piece& piece, double s) const;
+  Motion in_piece(const Piece& piece, double s) const {
+    const Motion of = of_particular(piece, s), free = free_motion(piece.e, piece.e_dot, s);
+    return {of.e + free.e, of.e_dot + free.e_dot};
+  }
 
   double time_, omega_, zeta_, W_;  // [s], [rad/s], 1, [rad/s]
   Damper damper_;

@@ -77,9 +77,4 @@ HandSample SyntheticOperator::sample(double t, double /*toward*/) const {
   return hand;
 }
 
-std::string SyntheticOperator::description() const {
-  return "synthetic operator (not a person), seed " + std::to_string(seed_) +
-         ": minimum-jerk reaches between random targets, 8-12 Hz tremor";
-}
-
 }  // namespace twinarm

@@ -1,7 +1,6 @@
 #include "solver/impulses/impulse_solver.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solver/impulses/block_matrices.h"

@@ -97,20 +97,10 @@ void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& probl
   }
 }
 
-// Velocity away from the limit.
-double JointLimits::speed(const Row& row, const State<double>& x) const {
-  return row.sign * x.qd[model_->iv[static_cast<std::size_t>(limits_[row.limit].body)]];
-}
-
 const JointLimits::Active* JointLimits::find_active(const Row& row) const {
   for (const Active& active : held_)
     if (active.limit == row.limit && active.sign == row.sign) return &active;
   return nullptr;
-}
-
-bool JointLimits::is_included(const ConstraintFrame& frame, const Row& row) const {
-  if (frame.phase == Phase::flow) return find_active(row) != nullptr;
-  return frame.phase != Phase::hit || row.gap <= kClosed;
 }
 
 // Limits are inelastic: in a step of fixed size the velocity phase enforces them.
@@ -131,24 +121,6 @@ void JointLimits::hold(const ConstraintFrame& frame, bool impact) noexcept {
   }
   std::swap(held_, held_before_);
   flow_works_.assign(held_.size(), 0);
-}
-
-void JointLimits::restore_active_set() noexcept {
-  std::fill(flow_works_.begin(), flow_works_.end(), 0);
-}
-
-void JointLimits::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
-  for (const Row& row : rows_)
-    if (!find_active(row)) nearest.see(row.gap, speed(row, frame.x));
-}
-
-void JointLimits::modes(std::vector<char>& modes) const noexcept {
-  for (const Row& row : rows_)
-    if (const Active* a = find_active(row)) modes.push_back(a->opens ? Mode::opens : Mode::rests);
-}
-
-void JointLimits::commit_work() noexcept {
-  for (std::size_t i = 0; i < held_.size(); ++i) limits_[held_[i].limit].work += flow_works_[i];
 }
 
 }  // namespace twinarm

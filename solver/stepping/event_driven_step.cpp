@@ -68,12 +68,6 @@ void EventStep::step(ConstrainedStep& constrained, IntegrationState& m, double h
   }
 }
 
-// Interrupted, or too many constraints solved.
-bool EventStep::stops() {
-  if (!is_interrupted_ && interrupted_) is_interrupted_ = interrupted_();
-  return is_interrupted_ || solves_ >= kMaxLaws;
-}
-
 void EventStep::restore_segment_start() {
   m_->x = start_;
   forward_kinematics(m_->model, m_->x, m_->k);

@@ -72,7 +72,11 @@ class EventStep {
   void step_over_event(double s);
   void restore_segment_start();
   void finish(double t_end, StepReport& report);
-  bool stops();
+  // Interrupted, or too many constraints solved.
+  bool stops() {
+    if (!is_interrupted_ && interrupted_) is_interrupted_ = interrupted_();
+    return is_interrupted_ || solves_ >= kMaxLaws;
+  }
   EventSource::NextEvent next_event() const;
   void set_state(const std::vector<double>& row, double s);
   ConstraintFrame frame() const {

@@ -1,6 +1,4 @@
 // E16: oblique impact with friction.
-#include <algorithm>
-#include <cmath>
 
 #include "benchmarks/analytic/support/contact_scene.h"
 

@@ -2,7 +2,6 @@
 //
 // No gravity. The blocks are on a frictionless floor and are pressed together by 100 N; the wedge
 // points down and can only move up.
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

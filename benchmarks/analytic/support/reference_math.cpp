@@ -64,15 +64,6 @@ long double quarter_period(long double m) {
   return boost::math::ellint_1(std::sqrt(m));
 }
 
-long double SquaredCd::at(long double t) const {
-  const Jacobi j = jacobi(k * t, m);
-  return u1 + (u0 - u1) * (j.cn / j.dn) * (j.cn / j.dn);
-}
-long double SquaredCd::rate(long double t) const {
-  const Jacobi j = jacobi(k * t, m);
-  return -2 * k * (u0 - u1) * (1 - m) * j.cn * j.sn / (j.dn * j.dn * j.dn);
-}
-
 long double arithmetic_geometric_mean(long double a, long double b) {
   while (std::abs(a - b) > 1e-18L * std::abs(a)) {
     const long double mean = (a + b) / 2;
