@@ -8,10 +8,9 @@ namespace twinarm {
 
 ContactWork& ContactWorks::of(int a, int b) {
   const std::pair pair(a, b);
-  auto w = std::lower_bound(all.begin(), all.end(), pair, [](const ContactWork& work, auto ab) {
-    return std::pair(work.a, work.b) < ab;
-  });
-  if (w == all.end() || std::pair(w->a, w->b) != pair)
+  const auto by_pair = [](const ContactWork& work) { return std::pair(work.a, work.b); };
+  auto w = std::ranges::lower_bound(all, pair, {}, by_pair);
+  if (w == all.end() || by_pair(*w) != pair)
     w = all.insert(w, {a, b, 0, 0, 0, Vector3::Zero(), Vector3::Zero()});
   return *w;
 }

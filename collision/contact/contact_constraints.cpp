@@ -35,8 +35,7 @@ bool ContactConstraints::has_closing_contact(const ConstraintFrame& frame) noexc
 
 bool ContactConstraints::needs_position_correction() const noexcept {
   if (response_ == ContactResponse::compliant) return false;
-  return std::any_of(found_.points.begin(), found_.points.end(),
-                     [](const ContactPoint& p) { return p.gap_after < -kSlop; });
+  return std::ranges::any_of(found_.points, [](const auto& p) { return p.gap_after < -kSlop; });
 }
 
 void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem& problem,

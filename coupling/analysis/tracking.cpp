@@ -70,8 +70,8 @@ TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step)
   for (std::size_t n = 0; n < steps; ++n) {
     const StepReport report = simulation_->step(setup_.h);
     const auto& q = simulation_->state().q;
-    const bool bounded = std::all_of(iq_.begin(), iq_.end(),
-                                     [&](std::size_t iq) { return std::abs(q[iq]) < kDiverged; });
+    const bool bounded =
+        std::ranges::all_of(iq_, [&](std::size_t iq) { return std::abs(q[iq]) < kDiverged; });
     if (!report.finite || !bounded) {
       series.finite = false;
       break;

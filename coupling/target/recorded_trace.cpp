@@ -227,8 +227,7 @@ RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.str
 HandSample RecordedTrace::sample(double t, double toward) const {
   // The interval of a step between t and toward.
   const double inside = t + 1e-9 * (toward - t);
-  auto after = std::upper_bound(samples_.begin(), samples_.end(), inside,
-                                [](double time, const Sample& s) { return time < s.t; });
+  auto after = std::ranges::upper_bound(samples_, inside, {}, &Sample::t);
   after = std::clamp(after, samples_.begin() + 1, samples_.end() - 1);
   const Sample& a = *std::prev(after);
   const Sample& b = *after;

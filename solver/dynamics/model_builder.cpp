@@ -205,9 +205,7 @@ Model<double> ModelBuilder::build() const {
 
 void ModelBuilder::add_mimics_to(Model<double>& model, DiagnosticList& faults) const {
   const auto leader_of = [&](MimicByName& mimic) {
-    const auto next = std::find_if(mimics_.begin(), mimics_.end(), [&](const MimicByName& other) {
-      return other.follower == mimic.leader;
-    });
+    const auto next = std::ranges::find(mimics_, mimic.leader, &MimicByName::follower);
     if (next == mimics_.end()) return false;
     mimic.offset += mimic.ratio * next->offset;
     mimic.ratio *= next->ratio;

@@ -35,8 +35,7 @@ void JointLimits::begin_step(const Kinematics&, const State<double>& x, double h
 }
 
 bool JointLimits::needs_position_correction() const noexcept {
-  return std::any_of(rows_.begin(), rows_.end(),
-                     [](const Row& row) { return row.after < -kTolerance; });
+  return std::ranges::any_of(rows_, [](const Row& row) { return row.after < -kTolerance; });
 }
 
 void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
@@ -106,9 +105,8 @@ const JointLimits::Active* JointLimits::find_active(const Row& row) const {
 // Limits are inelastic: in a step of fixed size the velocity phase enforces them.
 bool JointLimits::has_closing_contact(const ConstraintFrame& frame) noexcept {
   if (frame.phase != Phase::hit) return false;
-  return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
-    return row.gap <= kClosed && speed(row, frame.x) < -kRest;
-  });
+  return std::ranges::any_of(
+      rows_, [&](const Row& row) { return row.gap <= kClosed && speed(row, frame.x) < -kRest; });
 }
 
 void JointLimits::hold(const ConstraintFrame& frame, bool impact) noexcept {

@@ -79,8 +79,7 @@ const Nutation& nutation() {
 }
 
 CaseReadings observe_axis(ModelRef, StateRef x) {
-  const Vector3 e = attitude(x) * Vector3::UnitZ();
-  return {e.x(), e.y(), e.z()};
+  return values(Vector3(attitude(x) * Vector3::UnitZ()));
 }
 
 TrajectoryCase top_motion(double step) {
@@ -88,11 +87,7 @@ TrajectoryCase top_motion(double step) {
           .times = {0.1, 0.38054140391335806, 0.5, 1},
           .readings = {"x of the axis", "y of the axis", "z of the axis"},
           .observe = observe_axis,
-          .reference =
-              [](double t) {
-                const Vector3 e = nutation().axis(t);
-                return values(e.x(), e.y(), e.z());
-              },
+          .reference = [](double t) { return values(nutation().axis(t)); },
           .integration = rk4_with(step)};
 }
 
@@ -101,10 +96,7 @@ TrajectoryCase rates() {
   TrajectoryCase c = top_motion(1e-4);
   c.readings = {"w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"};
   c.observe = [](ModelRef, StateRef x) { return x.qd; };
-  c.reference = [](double t) {
-    const Vector3 w = nutation().rate(t);
-    return values(w.x(), w.y(), w.z());
-  };
+  c.reference = [](double t) { return values(nutation().rate(t)); };
   return c;
 }
 

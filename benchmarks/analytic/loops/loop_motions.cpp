@@ -136,12 +136,10 @@ TrajectoryCase squeezer_rates() {
 }
 
 TrajectoryCase bricard_velocity() {
-  return read_at(bricard, 10, {"vx [m/s]", "vy [m/s]", "vz [m/s]"},
-                 [](ModelRef model, StateRef x) {
-                   const Vector3 v = kinematics_at(model, x).v_WLo[3];
-                   return values(v.x(), v.y(), v.z());
-                 },
-                 {-0.03245328022227769, 8.726822183481425e-06, -0.03244454987786557});
+  return read_at(
+      bricard, 10, {"vx [m/s]", "vy [m/s]", "vz [m/s]"},
+      [](ModelRef model, StateRef x) { return values(kinematics_at(model, x).v_WLo[3]); },
+      {-0.03245328022227769, 8.726822183481425e-06, -0.03244454987786557});
 }
 
 // ---- D5 ----

@@ -14,6 +14,7 @@
 #include "solver/forces/force_source.h"
 #include "solver/integration/integrator.h"
 #include "solver/linear_algebra/nan_max.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm {
 
@@ -54,6 +55,9 @@ using CaseReadings = std::vector<double>;
 template <class... Number>
 CaseReadings values(Number... numbers) {
   return {static_cast<double>(numbers)...};
+}
+inline CaseReadings values(const Vector3& v) {
+  return {v.x(), v.y(), v.z()};
 }
 using CaseObserver = std::function<CaseReadings(const Model<double>&, const State<double>&)>;
 using CaseReference = std::function<CaseReadings(double)>;
