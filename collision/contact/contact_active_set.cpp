@@ -20,8 +20,7 @@ void ContactWorks::serialize(StateArchive& memory, std::size_t count) {
   memory.resize(all, kMinBytes);
   for (ContactWork& work : all) {
     for (int* id : {&work.a, &work.b}) memory.visit_index(*id, count);
-    for (double* joules : {&work.normal, &work.friction, &work.impact}) memory.visit(*joules);
-    memory.visit(work.impulse_W), memory.visit(work.moment_W);
+    memory.visit(work.normal, work.friction, work.impact, work.impulse_W, work.moment_W);
   }
 }
 

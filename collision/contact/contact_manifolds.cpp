@@ -100,15 +100,10 @@ void ContactManifolds::serialize(StateArchive& memory) {
   memory.resize(points, kMinBytes);
   for (ContactPoint& p : points) {
     for (int* id : {&p.contact.a, &p.contact.b}) memory.visit_index(*id, count);
-    memory.visit(p.contact.feature);
-    for (double* number : {&p.contact.depth, &p.friction, &p.restitution, &p.compliance.stiffness,
-                           &p.compliance.dissipation})
-      memory.visit(*number);
-    for (Vector3* v : {&p.contact.p_WC, &p.contact.n_W, &p.impulse_W, &p.force_W, &p.couple_W,
-                       &p.anchor_W, &p.velocity_W, &p.slip_W})
-      memory.visit(*v);
-    memory.visit(p.is_held);
-    memory.visit(p.opens);
+    memory.visit(p.contact.feature, p.contact.depth, p.friction, p.restitution,
+                 p.compliance.stiffness, p.compliance.dissipation);
+    memory.visit(p.contact.p_WC, p.contact.n_W, p.impulse_W, p.force_W, p.couple_W, p.anchor_W,
+                 p.velocity_W, p.slip_W, p.is_held, p.opens);
   }
 }
 

@@ -125,13 +125,6 @@ double peak_after_jump(double V, double omega, double zeta) {
   return V / omega * std::exp(-zeta * std::acosh(zeta) / std::sqrt(zeta * zeta - 1));
 }
 
-double absolute_damper_lag(double v, double omega, double zeta) {
-  return 2 * zeta * v / omega;
-}
-double mocap_weld_lag(double v, double timeconst) {
-  return absolute_damper_lag(v, 1 / timeconst, 1);
-}
-
 const char* name_of(MotionProfile move) {
   constexpr std::array names{"constant speed", "cubic", "quintic", "cosine", "bang-bang"};
   return names[static_cast<std::size_t>(move)];

@@ -50,11 +50,11 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
   }
 
   void serialize(StateArchive& archive) override {
-    for (Limit& limit : limits_) archive.visit(limit.force), archive.visit(limit.work);
+    for (Limit& limit : limits_) archive.visit(limit.force, limit.work);
     archive.resize(held_, 2 * sizeof(double));
     for (Active& active : held_) {
       archive.visit_index(active.limit, limits_.size());
-      archive.visit(active.sign), archive.visit(active.opens);
+      archive.visit(active.sign, active.opens);
     }
   }
 

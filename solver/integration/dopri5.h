@@ -25,7 +25,7 @@ class Dopri5 {
   explicit Dopri5(const IntegrationState& m);
   void set_tolerance(double tolerance) { tolerance_ = tolerance; }
   double tolerance() const { return tolerance_; }
-  void serialize(StateArchive& archive) { archive.visit(h_next_), archive.visit(err_before_); }
+  void serialize(StateArchive& archive) { archive.visit(h_next_, err_before_); }
   void reset_step_size() { h_next_ = 0; }
 
   // Advances m.x including time by h, or with `one` by one accepted substep of at most h. The

@@ -34,7 +34,7 @@ void store_motion(const Model<double>& model, std::size_t body, const Prescribed
 
 void visit_state(StateArchive& archive, const Model<double>& model, State<double>& x) {
   std::vector<double> q = q_with_prescribed(model, x);
-  archive.visit(q), archive.visit(x.qd), archive.visit(x.t);
+  archive.visit(q, x.qd, x.t);
   if (q.size() != model.nq + model.np || x.qd.size() != model.nv)
     throw std::runtime_error("state size mismatch: the state belongs to another model");
   set_q_with_prescribed(model, q, x);

@@ -104,6 +104,19 @@ CaseResult two_balls(double scale) {  // e
   return {std::max(relative(scene.v(a).x(), -0.4), relative(scene.v(b).x(), 0.8))};
 }
 
+// Balls in a row along x, the first one at 1 m/s.
+void start_row(ContactScene& scene, int count, double gap, double restitution,
+               double third_mass = 1) {
+  const ContactSurface s = surface(0, std::sqrt(restitution));
+  for (int i = 0; i < count; ++i)
+    scene.add({Sphere{kBallRadius},
+               s,
+               i == 2 ? third_mass : 1,
+               {i * (2 * kBallRadius + gap), 0, 0},
+               {i == 0 ? 1.0 : 0.0, 0, 0}});
+  scene.start();
+}
+
 struct Row {
   std::array<double, 5> v{};  // after all impacts
   double momentum = 0, rise = 0;
@@ -112,17 +125,10 @@ struct Row {
 struct Flaw {
   double mass = 1, push = 0;
 };
-// Newton's cradle of five, the first one at 1 m/s.
+// Newton's cradle of five.
 Row cradle(double restitution, double gap, const Flaw& flaw = {}) {
   ContactScene scene(Vector3::Zero());
-  const ContactSurface s = surface(0, std::sqrt(restitution));
-  for (int i = 0; i < 5; ++i)
-    scene.add({Sphere{kBallRadius},
-               s,
-               i == 2 ? flaw.mass : 1,
-               {i * (2 * kBallRadius + gap), 0, 0},
-               {i == 0 ? 1.0 : 0.0, 0, 0}});
-  scene.start();
+  start_row(scene, 5, gap, restitution, flaw.mass);
   scene.apply_force(1, {flaw.push, 0, 0});
   Row row;
   for (int n = 0; n < 500; ++n) {
@@ -159,13 +165,7 @@ CaseResult cradle_energy(double scale) {  // mutant: a force of scale - 1 on a b
 // Three touching balls, one simultaneous impact: (-1/3, 2/3, 2/3).
 CaseResult touching_balls(double scale) {  // e
   ContactScene scene(Vector3::Zero());
-  for (int i = 0; i < 3; ++i)
-    scene.add({Sphere{kBallRadius},
-               surface(0, std::sqrt(scale)),
-               1,
-               {i * 2 * kBallRadius, 0, 0},
-               {i == 0 ? 1.0 : 0.0, 0, 0}});
-  scene.start();
+  start_row(scene, 3, 0, scale);
   scene.run(0.1, kStep);
   return {std::max({relative(scene.v(1).x(), -1 / 3.0), relative(scene.v(2).x(), 2 / 3.0),
                     relative(scene.v(3).x(), 2 / 3.0)})};

@@ -126,11 +126,6 @@ TrajectoryCase babyboot_motion() {
           .observe = [](ModelRef, StateRef x) { return in_degrees(x.q); },
           .reference = [solved](double t) { return in_degrees(solved(t)); }};
 }
-TrajectoryCase babyboot_fine() {
-  TrajectoryCase c = babyboot_motion();
-  c.integration = rk4_with(2.5e-4);
-  return c;
-}
 TrajectoryCase babyboot_rates_at_end() {
   TrajectoryCase c = babyboot_motion();
   c.times = {10};
@@ -157,7 +152,7 @@ CaseFamily crossed_hinges_cases() {
            {"C8-start", 1e-12, furuta_evaluation()},
            {"C8-special", 1e-12, furuta_special()},
            {"C9", 1e-3, babyboot_motion()},
-           {"C9-fine", 1e-5, babyboot_fine()},
+           {"C9-fine", 1e-5, integrated_by(rk4_with(2.5e-4), babyboot_motion())},
            {"C9-end", 1e-5, babyboot_rates_at_end()}}};
 }
 

@@ -60,9 +60,8 @@ TrajectoryCase two_rods() {
           }};
 }
 TrajectoryCase two_rods_until(std::vector<double> times, const Lane& integration) {
-  TrajectoryCase c = two_rods();
+  TrajectoryCase c = integrated_by(integration, two_rods());
   c.times = std::move(times);
-  c.integration = integration;
   return c;
 }
 

@@ -101,6 +101,11 @@ struct TrajectoryCase {
 // One evaluation in the initial state.
 TrajectoryCase evaluation(CaseScene scene, std::vector<std::string> readings, CaseObserver observe,
                           CaseReadings exact, CaseMeasure measure = relative_to_largest);
+// The same with another integrator or step.
+inline TrajectoryCase integrated_by(const Lane& lane, TrajectoryCase motion) {
+  motion.integration = lane;
+  return motion;
+}
 // The same motion, of which only the times of events are checked.
 TrajectoryCase times_of(TrajectoryCase motion, CaseEvents events, CaseReference reference);
 
