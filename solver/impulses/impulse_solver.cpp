@@ -31,7 +31,7 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
   std::copy_n(problem_->v0(0), problem_->tree_count() > 0 ? problem_->nv() : 0, problem_->v(0));
   find_islands();
   for (std::size_t i = 0; i < count; ++i) {
-    const ImpulseConstraint& c = constraint(i);
+    const ImpulseConstraint& c = problem_->constraints()[i];
     double inverse = 0;
     for (int side = 0; side < 2; ++side) {
       if (c.tree[side] == no_tree) continue;

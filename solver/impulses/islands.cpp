@@ -49,7 +49,7 @@ void ImpulseSolver::find_islands() {
     return islands_[island];
   };
   for (std::size_t i = 0; i < problem_->constraints().size(); ++i) {
-    const ImpulseConstraint& c = constraint(i);
+    const ImpulseConstraint& c = problem_->constraints()[i];
     if (const int t = c.tree[0] != world ? c.tree[0] : c.tree[1]; t != world)
       island_at(t).constraints.push_back(static_cast<int>(i));
   }
