@@ -57,7 +57,7 @@ Json integrations_of(const CompareRow& row) {
 CaseSelection select_cases(const std::vector<std::string>& names, const std::string& group,
                            DiagnosticList& faults) {
   std::vector<std::string> both, groups;
-  for_each_name([&](const char* name, const char* of) {
+  for_each_name([&](const std::string& name, const std::string& of) {
     both.push_back(name);
     if (std::find(groups.begin(), groups.end(), of) == groups.end()) groups.push_back(of);
   });
@@ -65,7 +65,8 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
 
   for (const std::string& name : names) {
     bool found = false;
-    for_each_name([&](const char* one, const char* of) { found |= selects(name, one, of); });
+    for_each_name(
+        [&](const std::string& one, const std::string& of) { found |= selects(name, one, of); });
     if (!found)
       faults.add("command line", fmt::format("unknown case or group '{}'", name),
                  name_remedy(name, both, "cases and groups"), "compare.unknown");
@@ -74,7 +75,7 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
     faults.add("--group", fmt::format("unknown group '{}'", group),
                name_remedy(group, groups, "groups"), "option.choice");
 
-  const auto chosen = [&](const char* name, const char* of) {
+  const auto chosen = [&](const std::string& name, const std::string& of) {
     return (names.empty() && group.empty()) || group == of ||
            std::ranges::any_of(names, [&](const auto& word) { return selects(word, name, of); });
   };

@@ -8,10 +8,9 @@ namespace twinarm {
 
 ContactWork& ContactWorks::of(int a, int b) {
   const std::pair pair(a, b);
-  auto w = std::lower_bound(all.begin(), all.end(), pair, [](const ContactWork& work, auto ab) {
-    return std::pair(work.a, work.b) < ab;
-  });
-  if (w == all.end() || std::pair(w->a, w->b) != pair)
+  const auto by_pair = [](const ContactWork& work) { return std::pair(work.a, work.b); };
+  auto w = std::ranges::lower_bound(all, pair, {}, by_pair);
+  if (w == all.end() || by_pair(*w) != pair)
     w = all.insert(w, {a, b, 0, 0, 0, Vector3::Zero(), Vector3::Zero()});
   return *w;
 }
@@ -21,8 +20,7 @@ void ContactWorks::serialize(StateArchive& memory, std::size_t count) {
   memory.resize(all, kMinBytes);
   for (ContactWork& work : all) {
     for (int* id : {&work.a, &work.b}) memory.visit_index(*id, count);
-    for (double* joules : {&work.normal, &work.friction, &work.impact}) memory.visit(*joules);
-    memory.visit(work.impulse_W), memory.visit(work.moment_W);
+    memory.visit(work.normal, work.friction, work.impact, work.impulse_W, work.moment_W);
   }
 }
 
@@ -42,11 +40,6 @@ void ContactActiveSet::hold(const ConstraintFrame& frame, bool impact) noexcept 
   }
   held_ = points_;
   flow_works_.assign(kFlowNumbers * held_pairs_.size(), 0);
-}
-
-void ContactActiveSet::restore_active_set() noexcept {
-  points_ = held_;
-  std::fill(flow_works_.begin(), flow_works_.end(), 0);
 }
 
 void ContactActiveSet::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
@@ -73,10 +66,6 @@ void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c
   const Vector3 impulse_W = h * point.force_W;
   const Vector3 moment_W = bodies_.impulse_moment(point.contact, impulse_W) + h * point.couple_W;
   for (int i = 0; i < 3; ++i) sums[2 + i] += impulse_W[i], sums[5 + i] += moment_W[i];
-}
-
-void ContactActiveSet::modes(std::vector<char>& modes) const noexcept {
-  modes.insert(modes.end(), modes_.begin(), modes_.end());
 }
 
 void ContactActiveSet::commit_work() noexcept {

@@ -2,6 +2,7 @@
 // constraints during a smooth segment, and their work.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -31,9 +32,14 @@ class ContactActiveSet final : public EventSource {
       : bodies_(bodies), points_(points), works_(works) {}
 
   void hold(const ConstraintFrame& frame, bool struck) noexcept override;
-  void restore_active_set() noexcept override;
+  void restore_active_set() noexcept override {
+    points_ = held_;
+    std::fill(flow_works_.begin(), flow_works_.end(), 0);
+  }
   void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept override;
-  void modes(std::vector<char>& modes) const noexcept override;
+  void modes(std::vector<char>& modes) const noexcept override {
+    modes.insert(modes.end(), modes_.begin(), modes_.end());
+  }
   std::span<double> works() noexcept override { return flow_works_; }
   void commit_work() noexcept override;
 

@@ -57,10 +57,6 @@ int ContactBodies::add(const ContactGeometry& geometry) {
   return id;
 }
 
-void ContactBodies::set_pair(int a, int b, const ContactMaterialPair& material) {
-  overrides_.push_back({std::min(a, b), std::max(a, b), material});
-}
-
 ContactMaterialPair ContactBodies::material_of(int id_a, int id_b) const {
   const ContactSurface &a = geometry(id_a).surface, &b = geometry(id_b).surface;
   ContactMaterialPair material{
@@ -71,27 +67,12 @@ ContactMaterialPair ContactBodies::material_of(int id_a, int id_b) const {
   return material;
 }
 
-double ContactBodies::max_displacement(std::size_t geometry, const Kinematics& k, double h) const {
-  const auto body = static_cast<std::size_t>(geometries_[geometry].body);
-  return h * (k.v_WLo[body].norm() + k.w_WL[body].norm() * radius_[geometry]);
-}
-
 Vector3 ContactBodies::application_point(const Contact& c, int body) const {
   const int a = geometry(c.a).body, b = geometry(c.b).body;
   const double gap = locates_events ? -c.depth : std::max(0.0, -c.depth);
   if (body == b && is_immovable(a)) return c.p_WC + 0.5 * gap * c.n_W;
   if (body == a && is_immovable(b)) return c.p_WC - 0.5 * gap * c.n_W;
   return c.p_WC;
-}
-
-Vector3 ContactBodies::relative_velocity(const Contact& c, const Kinematics& k) const {
-  const int a = geometry(c.a).body, b = geometry(c.b).body;
-  return k.velocity(b, application_point(c, b)) - k.velocity(a, application_point(c, a));
-}
-
-Vector3 ContactBodies::impulse_moment(const Contact& c, const Vector3& impulse_W) const {
-  const int a = geometry(c.a).body, b = geometry(c.b).body;
-  return application_point(c, is_immovable(b) ? a : b).cross(impulse_W);
 }
 
 }  // namespace twinarm

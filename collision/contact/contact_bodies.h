@@ -2,6 +2,7 @@
 // which contact forces act.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "collision/contact/contact_point.h"
@@ -17,7 +18,9 @@ class ContactBodies {
   // Returns its id. Throws InputError for invalid parameters.
   int add(const ContactGeometry& geometry);
   // Replaces the parameters combined from the two surfaces; the last call for a pair counts.
-  void set_pair(int a, int b, const ContactMaterialPair& material);
+  void set_pair(int a, int b, const ContactMaterialPair& material) {
+    overrides_.push_back({std::min(a, b), std::max(a, b), material});
+  }
   ContactMaterialPair material_of(int a, int b) const;
 
   CollisionWorld& world() { return world_; }
@@ -30,7 +33,10 @@ class ContactBodies {
     return geometry(c.a).body != 0 || geometry(c.b).body != 0;
   }
   // Upper bound of the displacement of any point of the geometry in a step of h [m].
-  double max_displacement(std::size_t geometry, const Kinematics& k, double h) const;
+  double max_displacement(std::size_t geometry, const Kinematics& k, double h) const {
+    const auto body = static_cast<std::size_t>(geometries_[geometry].body);
+    return h * (k.v_WLo[body].norm() + k.w_WL[body].norm() * radius_[geometry]);
+  }
 
   // Point at which the contact force acts on the body (a's or b's): midway between the two
   // surfaces, so that action and reaction share it. Against an immovable body: on the moving body's
@@ -38,10 +44,16 @@ class ContactBodies {
   // motion is then smooth in time.)
   Vector3 application_point(const Contact& contact, int body) const;
   // Velocity of b's contact point relative to a's.
-  Vector3 relative_velocity(const Contact& contact, const Kinematics& k) const;
+  Vector3 relative_velocity(const Contact& c, const Kinematics& k) const {
+    const int a = geometry(c.a).body, b = geometry(c.b).body;
+    return k.velocity(b, application_point(c, b)) - k.velocity(a, application_point(c, a));
+  }
   // Moment of an impulse on b about the world's origin, with the application point of the moving
   // body.
-  Vector3 impulse_moment(const Contact& contact, const Vector3& impulse_W) const;
+  Vector3 impulse_moment(const Contact& c, const Vector3& impulse_W) const {
+    const int a = geometry(c.a).body, b = geometry(c.b).body;
+    return application_point(c, is_immovable(b) ? a : b).cross(impulse_W);
+  }
 
   bool locates_events = false;  // set by event-driven steps
 

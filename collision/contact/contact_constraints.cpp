@@ -17,14 +17,6 @@ ContactConstraints::ContactConstraints(const Model<double>& model, ContactRespon
       rows_(model, bodies_, response),
       active_(bodies_, found_.points, works_) {}
 
-void ContactConstraints::begin_step(const Kinematics& k, const State<double>&, double h) noexcept {
-  found_.begin_step(k, h);
-}
-
-bool ContactConstraints::extend_detection(const Kinematics& k, double h) noexcept {
-  return found_.extend_detection(k, h);
-}
-
 bool ContactConstraints::has_closing_contact(const ConstraintFrame& frame) noexcept {
   if (response_ == ContactResponse::compliant) return false;
   const bool located = frame.phase == Phase::hit;
@@ -43,12 +35,7 @@ bool ContactConstraints::has_closing_contact(const ConstraintFrame& frame) noexc
 
 bool ContactConstraints::needs_position_correction() const noexcept {
   if (response_ == ContactResponse::compliant) return false;
-  return std::any_of(found_.points.begin(), found_.points.end(),
-                     [](const ContactPoint& p) { return p.gap_after < -kSlop; });
-}
-
-void ContactConstraints::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
-  rows_.add(frame, found_.points, problem);
+  return std::ranges::any_of(found_.points, [](const auto& p) { return p.gap_after < -kSlop; });
 }
 
 void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem& problem,

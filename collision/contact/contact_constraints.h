@@ -30,11 +30,17 @@ class ContactConstraints : public ConstraintSource, public Checkpointable {
   ContactBodies& bodies() { return bodies_; }
   const ContactBodies& bodies() const { return bodies_; }
 
-  void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override;
+  void begin_step(const Kinematics& k, const State<double>&, double h) noexcept override {
+    found_.begin_step(k, h);
+  }
   bool has_closing_contact(const ConstraintFrame& frame) noexcept override;
-  bool extend_detection(const Kinematics& k, double h) noexcept override;
+  bool extend_detection(const Kinematics& k, double h) noexcept override {
+    return found_.extend_detection(k, h);
+  }
   bool needs_position_correction() const noexcept override;
-  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
+  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
+    rows_.add(frame, found_.points, problem);
+  }
   void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
             std::size_t first) noexcept override;
   EventSource* events() override { return &active_; }

@@ -10,15 +10,14 @@ namespace {
 constexpr double kMinMargin = 5e-4;  // [m]
 constexpr double kSamePoint = 0.01;  // [m]
 
-std::tuple<int, int, int> key_of(const Contact& c) {
-  return {c.a, c.b, c.feature};
+std::pair<int, int> pair_of(const ContactPoint& p) {
+  return {p.contact.a, p.contact.b};
+}
+std::tuple<int, int, int> key_of(const ContactPoint& p) {
+  return {p.contact.a, p.contact.b, p.contact.feature};
 }
 
 }  // namespace
-
-ContactManifolds::ContactManifolds(ContactBodies& bodies) : bodies_(bodies) {
-  points.reserve(256);  // a step does not allocate
-}
 
 // The factor allows for the acceleration within the step.
 double ContactManifolds::speculative_margin(std::size_t geometry, const Kinematics& k,
@@ -47,13 +46,11 @@ ContactPoint ContactManifolds::start(const Contact& contact) const {
 // The same point one step before: by its feature, else the nearest of the pair (for coincident
 // edges, rounding decides which of them identifies a vertex).
 const ContactPoint* ContactManifolds::last_of(const Contact& contact) const {
-  const auto pair = std::pair(contact.a, contact.b);
-  auto p = std::lower_bound(last_.begin(), last_.end(), pair, [](const ContactPoint& q, auto ab) {
-    return std::pair(q.contact.a, q.contact.b) < ab;
-  });
+  const std::pair pair(contact.a, contact.b);
+  auto p = std::ranges::lower_bound(last_, pair, {}, pair_of);
   const ContactPoint* nearest = nullptr;
   double min_distance = kSamePoint;
-  for (; p != last_.end() && std::pair(p->contact.a, p->contact.b) == pair; ++p) {
+  for (; p != last_.end() && pair_of(*p) == pair; ++p) {
     if (p->contact.feature == contact.feature) return &*p;
     const double distance = (p->contact.p_WC - contact.p_WC).norm();
     if (distance < min_distance) min_distance = distance, nearest = &*p;
@@ -83,20 +80,16 @@ bool ContactManifolds::extend_detection(const Kinematics& k, double h) noexcept 
       farther = true, margins_[g] = speculative_margin(g, k, h);
   if (!farther) return false;
   bodies_.world().detect(X_WG_, margins_, contacts_);
-  const auto before = [](const ContactPoint& p, const ContactPoint& q) {
-    return key_of(p.contact) < key_of(q.contact);
-  };
   const std::size_t known = points.size();
   for (const Contact& contact : contacts_) {
     const auto end = points.begin() + static_cast<std::ptrdiff_t>(known);
-    const auto p = std::lower_bound(
-        points.begin(), end, contact,
-        [](const ContactPoint& q, const Contact& c) { return key_of(q.contact) < key_of(c); });
-    if (p != end && key_of(p->contact) == key_of(contact)) continue;
+    const std::tuple key(contact.a, contact.b, contact.feature);
+    const auto p = std::ranges::lower_bound(points.begin(), end, key, {}, key_of);
+    if (p != end && key_of(*p) == key) continue;
     if (bodies_.has_moving_body(contact)) points.push_back(start(contact));
   }
   if (points.size() == known) return false;
-  std::sort(points.begin(), points.end(), before);
+  std::ranges::sort(points, {}, key_of);
   for (ContactPoint& point : points) point.has_closing_contact = false, point.gap_after = 0;
   return true;
 }
@@ -107,15 +100,10 @@ void ContactManifolds::serialize(StateArchive& memory) {
   memory.resize(points, kMinBytes);
   for (ContactPoint& p : points) {
     for (int* id : {&p.contact.a, &p.contact.b}) memory.visit_index(*id, count);
-    memory.visit(p.contact.feature);
-    for (double* number : {&p.contact.depth, &p.friction, &p.restitution, &p.compliance.stiffness,
-                           &p.compliance.dissipation})
-      memory.visit(*number);
-    for (Vector3* v : {&p.contact.p_WC, &p.contact.n_W, &p.impulse_W, &p.force_W, &p.couple_W,
-                       &p.anchor_W, &p.velocity_W, &p.slip_W})
-      memory.visit(*v);
-    memory.visit(p.is_held);
-    memory.visit(p.opens);
+    memory.visit(p.contact.feature, p.contact.depth, p.friction, p.restitution,
+                 p.compliance.stiffness, p.compliance.dissipation);
+    memory.visit(p.contact.p_WC, p.contact.n_W, p.impulse_W, p.force_W, p.couple_W, p.anchor_W,
+                 p.velocity_W, p.slip_W, p.is_held, p.opens);
   }
 }
 

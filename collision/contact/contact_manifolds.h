@@ -11,7 +11,9 @@ namespace twinarm {
 
 class ContactManifolds {
  public:
-  explicit ContactManifolds(ContactBodies& bodies);
+  explicit ContactManifolds(ContactBodies& bodies) : bodies_(bodies) {
+    points.reserve(256);  // a step does not allocate
+  }
 
   void begin_step(const Kinematics& k, double h) noexcept;
   // Repeats detection where a body moves farther than its margin; existing points keep their

@@ -17,7 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <tuple>
+#include <utility>
 
 #include "collision/narrow_phase/gjk.h"
 
@@ -105,10 +105,9 @@ bool MeshContact::is_ghost(const PosedShape& mesh, const ManifoldPoint& point) c
 // Copies all_ without ghosts to kept_, in the order of triangles (so that shared points keep their
 // feature).
 void MeshContact::remove_ghost_contacts(const PosedShape& mesh) {
-  std::sort(triangle_contacts_.begin(), triangle_contacts_.end(),
-            [](const TriangleContact& x, const TriangleContact& y) {
-              return std::tie(x.deepest, x.triangle) < std::tie(y.deepest, y.triangle);
-            });
+  std::ranges::sort(triangle_contacts_, {}, [](const TriangleContact& contact) {
+    return std::pair(contact.deepest, contact.triangle);
+  });
   accepted_.clear();
   for (TriangleContact& contact : triangle_contacts_) {
     const auto begin = all_.begin() + static_cast<std::ptrdiff_t>(contact.first),
@@ -120,8 +119,7 @@ void MeshContact::remove_ghost_contacts(const PosedShape& mesh) {
     }
     if (contact.last > contact.first) accepted_.push_back(contact);
   }
-  std::sort(triangle_contacts_.begin(), triangle_contacts_.end(),
-            [](const TriangleContact& x, const TriangleContact& y) { return x.first < y.first; });
+  std::ranges::sort(triangle_contacts_, {}, &TriangleContact::first);
   kept_.clear();
   for (const TriangleContact& contact : triangle_contacts_)
     for (std::size_t i = contact.first; i < contact.last; ++i) kept_.push_back(all_[i]);

@@ -18,7 +18,6 @@
 #include <cstdio>
 #include <iterator>
 #include <map>
-#include <numeric>
 #include <string>
 #include <utility>
 

@@ -25,10 +25,7 @@ void visit_model(StateArchive& memory, ModelFile& model) {
     memory.visit(part.texture);
   }
   memory.resize(model.textures, 1);
-  for (ModelTexture& texture : model.textures) {
-    memory.visit(texture.name);
-    memory.visit(texture.bytes);
-  }
+  for (ModelTexture& texture : model.textures) memory.visit(texture.name, texture.bytes);
   memory.resize(model.notes, 1);
   for (std::string& note : model.notes) memory.visit(note);
 }

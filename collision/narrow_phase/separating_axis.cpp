@@ -137,12 +137,6 @@ std::pair<const Vector3*, const Vector3*> extremes(const std::vector<Vector3>& p
 
 }  // namespace
 
-bool FaceAxis::best(const PosedShape& a, const PosedShape& b, double margin,
-                    PenetrationDirection& axis) {
-  if (a.solid.core.exists && b.solid.core.exists) return best_of_polytopes(a, b, margin, axis);
-  return try_flats(a, b, a, 1, margin, axis) && try_flats(a, b, b, -1, margin, axis);
-}
-
 // `own` is a with sign 1 or b with sign -1.
 bool FaceAxis::try_flats(const PosedShape& a, const PosedShape& b, const PosedShape& own,
                          double sign, double margin, PenetrationDirection& axis) {

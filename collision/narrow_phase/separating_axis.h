@@ -14,7 +14,10 @@ class FaceAxis {
  public:
   // Over all faces of both bodies; n stays zero without faces. False if one of them separates the
   // bodies by more than `margin`.
-  bool best(const PosedShape& a, const PosedShape& b, double margin, PenetrationDirection& axis);
+  bool best(const PosedShape& a, const PosedShape& b, double margin, PenetrationDirection& axis) {
+    if (a.solid.core.exists && b.solid.core.exists) return best_of_polytopes(a, b, margin, axis);
+    return try_flats(a, b, a, 1, margin, axis) && try_flats(a, b, b, -1, margin, axis);
+  }
 
  private:
   bool try_flats(const PosedShape& a, const PosedShape& b, const PosedShape& own, double sign,

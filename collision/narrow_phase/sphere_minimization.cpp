@@ -75,10 +75,6 @@ double newton_angle(const SupportSum& f, const Vector3& n, const Vector3& t) {
 
 }  // namespace
 
-double SupportSum::operator()(const Vector3& n) const {
-  return n.dot(c) + std::sqrt(std::max(0.0, n.dot(A * n))) + std::sqrt(std::max(0.0, n.dot(B * n)));
-}
-
 Vector3 minimise_on_sphere(const SupportSum& f, const Vector3& start) {
   Vector3 n = start;
   double value = f(n);

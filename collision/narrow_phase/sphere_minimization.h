@@ -5,7 +5,9 @@
 // minus their distance); minima above zero (overlapping bodies) are local.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -16,7 +18,10 @@ namespace twinarm {
 struct SupportSum {
   Vector3 c;
   Matrix3 A, B;
-  double operator()(const Vector3& n) const;
+  double operator()(const Vector3& n) const {
+    return n.dot(c) + std::sqrt(std::max(0.0, n.dot(A * n))) +
+           std::sqrt(std::max(0.0, n.dot(B * n)));
+  }
 };
 
 // Newton's method on the sphere from n to a local minimum. About 1 us.

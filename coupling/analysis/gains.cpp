@@ -95,17 +95,6 @@ double max_omega_h(SteppingScheme scheme, double zeta) {
   return max_stable(stable, 1e-4, 1e4);
 }
 
-SpringGains gains_of(const SpringResponse& response, double inertia) {
-  return {inertia * response.omega * response.omega, 2 * inertia * response.zeta * response.omega};
-}
-SpringResponse response_of(const SpringGains& gains, double inertia) {
-  return {std::sqrt(gains.k / inertia), gains.b / (2 * std::sqrt(gains.k * inertia))};
-}
-
-SpringGains torsional_of_linear(const SpringGains& linear, double r) {
-  return {linear.k * r * r, linear.b * r * r};
-}
-
 double joint_inertia(const Eigen::MatrixXd& M, Eigen::Index velocity) {
   return 1 / inverse_of(M)(velocity, velocity);
 }
@@ -140,10 +129,6 @@ Solref direct_solref_of(const SpringGains& gains, double inertia,
                         const MujocoImpedance& impedance) {
   const double part = impedance.d / impedance.d_max;
   return {-gains.k / (inertia * part * part), -gains.b / (inertia * part)};
-}
-
-double mujoco_static_stiffness(double k, const MujocoImpedance& impedance) {
-  return k / (1 - impedance.d);
 }
 
 Drive drive_of(const SpringGains& gains, double inertia, Drive::Mode mode) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace twinarm {
@@ -75,13 +76,19 @@ struct SpringGains {
 struct SpringResponse {
   double omega = 0, zeta = 0;  // [rad/s], 1
 };
-SpringGains gains_of(const SpringResponse& response, double inertia);
-SpringResponse response_of(const SpringGains& gains, double inertia);  // k > 0
+inline SpringGains gains_of(const SpringResponse& response, double inertia) {
+  return {inertia * response.omega * response.omega, 2 * inertia * response.zeta * response.omega};
+}
+inline SpringResponse response_of(const SpringGains& gains, double inertia) {  // k > 0
+  return {std::sqrt(gains.k / inertia), gains.b / (2 * std::sqrt(gains.k * inertia))};
+}
 
 // One link, small errors, spring at distance r from the axis: k_T = k_L r^2, b likewise. Not
 // equivalent for a chain, where the matrices K_q and B_q must be equal
 // (coupling/laws/equivalent_torsional_coupling.cpp).
-SpringGains torsional_of_linear(const SpringGains& linear, double r);
+inline SpringGains torsional_of_linear(const SpringGains& linear, double r) {
+  return {linear.k * r * r, linear.b * r * r};
+}
 
 // Apparent inertia (operational-space inertia): of a joint coordinate 1/(M^-1)_jj; of a point or
 // link orientation the principal values of (J M^-1 J^T)^-1, ascending, infinite in directions
@@ -110,7 +117,9 @@ Solref solref_of(const SpringGains& gains, double inertia, const MujocoImpedance
 Solref direct_solref_of(const SpringGains& gains, double inertia,
                         const MujocoImpedance& impedance = {});
 // Static stiffness of such a constraint: k / (1 - d).
-double mujoco_static_stiffness(double k, const MujocoImpedance& impedance = {});
+inline double mujoco_static_stiffness(double k, const MujocoImpedance& impedance = {}) {
+  return k / (1 - impedance.d);
+}
 // MuJoCo's minimum of timeconst (refsafe).
 inline double min_timeconst(double h) {
   return 2 * h;

@@ -134,16 +134,6 @@ VectorXd squared_frequencies(const MatrixXd& M, const MatrixXd& K) {
   return generalized_eigenvalues(K, M);
 }
 
-double SpringModes::max_rate() const {
-  return std::max(std::sqrt(squares.cwiseAbs().maxCoeff()), damping.cwiseAbs().maxCoeff());
-}
-double SpringModes::omega(Index i) const {
-  return squares[i] > 0 ? std::sqrt(squares[i]) : 0;
-}
-double SpringModes::zeta(Index i) const {
-  return squares[i] > 0 ? damping(i, i) / (2 * omega(i)) : 0;
-}
-
 // Keeps the modes with non-zero stiffness or damping.
 SpringModes spring_modes(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B) {
   constexpr double kZero = 1e-10;

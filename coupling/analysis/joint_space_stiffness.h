@@ -3,6 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "coupling/laws/coupling.h"
@@ -73,9 +75,14 @@ struct SpringModes {
   Eigen::MatrixXd shapes;   // columns with x^T M x = 1
   Eigen::MatrixXd damping;  // X^T B X [1/s]; diagonal: 2 z w
   Eigen::Index size() const { return squares.size(); }
-  double max_rate() const;             // maximum frequency or damping rate [1/s]
-  double omega(Eigen::Index i) const;  // [rad/s]; 0 if w^2 <= 0
-  double zeta(Eigen::Index i) const;   // damping / (2 w); exact for proportional damping
+  // Maximum frequency or damping rate [1/s].
+  double max_rate() const {
+    return std::max(std::sqrt(squares.cwiseAbs().maxCoeff()), damping.cwiseAbs().maxCoeff());
+  }
+  // [rad/s]; 0 if w^2 <= 0
+  double omega(Eigen::Index i) const { return squares[i] > 0 ? std::sqrt(squares[i]) : 0; }
+  // Damping / (2 w); exact for proportional damping.
+  double zeta(Eigen::Index i) const { return squares[i] > 0 ? damping(i, i) / (2 * omega(i)) : 0; }
 };
 SpringModes spring_modes(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
                          const Eigen::MatrixXd& B);

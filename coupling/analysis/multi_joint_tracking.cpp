@@ -87,16 +87,6 @@ VectorXd MultiJointTrackingError::behind(MotionProfile move, const VectorXd& dis
                std::numbers::pi / time);
 }
 
-VectorXd MultiJointTrackingError::after_start(const VectorXd& v, double time) const {
-  const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
-  return peaks({{0, 1, {}, {{1}}}}, v, VectorXd::Zero(v.size()), end, 0);
-}
-
-VectorXd MultiJointTrackingError::after_reversal(const VectorXd& v, double time) const {
-  const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
-  return peaks({{0, -2, {}, {{-1}}}}, v, lag(v), end, 0);
-}
-
 VectorXd MultiJointTrackingError::lag(const VectorXd& v) const {
   const VectorXd load = shapes_.transpose() * (chain_.absolute * restrict_to_held(v, 0));
   VectorXd y = VectorXd::Zero(load.size());

@@ -11,6 +11,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <numbers>
 
 #include "coupling/analysis/tracking.h"
 
@@ -32,8 +34,14 @@ class MultiJointTrackingError {
   Eigen::VectorXd behind(MotionProfile move, const Eigen::VectorXd& distance, double time) const;
   // After the target's velocity steps from 0 to v, and from v (steady state) to -v; within `time`
   // or the period of the slowest mode.
-  Eigen::VectorXd after_start(const Eigen::VectorXd& v, double time) const;
-  Eigen::VectorXd after_reversal(const Eigen::VectorXd& v, double time) const;
+  Eigen::VectorXd after_start(const Eigen::VectorXd& v, double time) const {
+    const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
+    return peaks({{0, 1, {}, {{1}}}}, v, Eigen::VectorXd::Zero(v.size()), end, 0);
+  }
+  Eigen::VectorXd after_reversal(const Eigen::VectorXd& v, double time) const {
+    const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
+    return peaks({{0, -2, {}, {{-1}}}}, v, lag(v), end, 0);
+  }
   // Steady-state error at constant velocity v: K e = A v. NaN if unbounded.
   Eigen::VectorXd lag(const Eigen::VectorXd& v) const;
 

@@ -70,8 +70,8 @@ TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step)
   for (std::size_t n = 0; n < steps; ++n) {
     const StepReport report = simulation_->step(setup_.h);
     const auto& q = simulation_->state().q;
-    const bool bounded = std::all_of(iq_.begin(), iq_.end(),
-                                     [&](std::size_t iq) { return std::abs(q[iq]) < kDiverged; });
+    const bool bounded =
+        std::ranges::all_of(iq_, [&](std::size_t iq) { return std::abs(q[iq]) < kDiverged; });
     if (!report.finite || !bounded) {
       series.finite = false;
       break;
@@ -123,13 +123,6 @@ double peak_after_jump(double V, double omega, double zeta) {
   if (std::abs(zeta - 1) < 1e-9) return V / omega / std::exp(1.0);
   if (zeta < 1) return V / omega * std::exp(-zeta * std::acos(zeta) / std::sqrt(1 - zeta * zeta));
   return V / omega * std::exp(-zeta * std::acosh(zeta) / std::sqrt(zeta * zeta - 1));
-}
-
-double absolute_damper_lag(double v, double omega, double zeta) {
-  return 2 * zeta * v / omega;
-}
-double mocap_weld_lag(double v, double timeconst) {
-  return absolute_damper_lag(v, 1 / timeconst, 1);
 }
 
 const char* name_of(MotionProfile move) {
@@ -244,11 +237,6 @@ FollowingError::Motion FollowingError::free_motion(double e, double e_dot, doubl
   }
   const double now = e * c + rate * s_by_r;
   return {now, -zw * now + e * back * s_by_r + rate * c};
-}
-
-FollowingError::Motion FollowingError::in_piece(const Piece& piece, double s) const {
-  const Motion of = of_particular(piece, s), free = free_motion(piece.e, piece.e_dot, s);
-  return {of.e + free.e, of.e_dot + free.e_dot};
 }
 
 double FollowingError::at(double t) const {

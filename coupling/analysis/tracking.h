@@ -85,9 +85,13 @@ JumpErrors response_to_velocity_steps(const Eigen::MatrixXd& M, const Eigen::Mat
 double peak_after_jump(double V, double omega, double zeta);
 
 // Steady-state error at constant target speed v with an absolute damper.
-double absolute_damper_lag(double v, double omega, double zeta);  // 2 z v / w
+inline double absolute_damper_lag(double v, double omega, double zeta) {
+  return 2 * zeta * v / omega;
+}
 // MuJoCo's weld to a mocap body, dampratio 1: absolute damper with w = 1/timeconst.
-double mocap_weld_lag(double v, double timeconst);  // 2 v timeconst
+inline double mocap_weld_lag(double v, double timeconst) {  // 2 v timeconst
+  return absolute_damper_lag(v, 1 / timeconst, 1);
+}
 
 // Motion profiles from 0 to `distance` D in `time` T, at rest before and after.
 enum class MotionProfile {
@@ -138,7 +142,10 @@ class FollowingError {
   };
   Motion of_particular(const Piece& piece, double s) const;
   Motion free_motion(double e, double e_dot, double s) const;
-  Motion in_piece(const Piece& piece, double s) const;
+  Motion in_piece(const Piece& piece, double s) const {
+    const Motion of = of_particular(piece, s), free = free_motion(piece.e, piece.e_dot, s);
+    return {of.e + free.e, of.e_dot + free.e_dot};
+  }
 
   double time_, omega_, zeta_, W_;  // [s], [rad/s], 1, [rad/s]
   Damper damper_;

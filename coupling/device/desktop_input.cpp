@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace twinarm {
 
@@ -37,10 +36,6 @@ HandSample DesktopInput::sample(double t, double /*toward*/) const {
   return hand;
 }
 
-double DesktopInput::duration() const {
-  return std::numeric_limits<double>::infinity();
-}
-
 void DesktopInput::move_goal(double t) noexcept {
   const OmniAngles theta = angles(goal_, t);
   goal_.p = omni_position(omni_, theta);
@@ -57,19 +52,11 @@ void DesktopInput::publish() noexcept {
   newest_.write(goal_);
 }
 
-void DesktopInput::place(const Vector3& p) noexcept {
-  if (p.allFinite()) update([&] { goal_.p = p; });
-}
-
 void DesktopInput::turn_stylus(const Vector3& by) noexcept {
   if (!by.allFinite()) return;
   update([&] {
     for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];
   });
-}
-
-void DesktopInput::key(HandAxis axis, bool positive, bool down) noexcept {
-  update([&] { keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down; });
 }
 
 void DesktopInput::axes(const std::array<double, 6>& rates) noexcept {
@@ -80,14 +67,6 @@ void DesktopInput::axes(const std::array<double, 6>& rates) noexcept {
       axes_[j] = beyond > 0 ? std::copysign(beyond, rate) : 0.0;
     }
   });
-}
-
-void DesktopInput::button(std::size_t index, bool down) noexcept {
-  if (index < goal_.buttons.size()) update([&] { goal_.buttons[index] = down; });
-}
-
-void DesktopInput::release() noexcept {
-  update([&] { keys_ = {}, axes_ = {}, goal_.buttons = {}; });
 }
 
 }  // namespace twinarm

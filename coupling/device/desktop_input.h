@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include "coupling/device/omni.h"
 #include "coupling/device/triple_buffer.h"
@@ -30,16 +31,27 @@ class DesktopInput final : public OperatorMotion {
   explicit DesktopInput(const OmniParameters& omni, const DesktopInputSettings& settings = {});
 
   // For the event thread. Values that are not finite are ignored.
-  void place(const Vector3& p) noexcept;         // sets the point, device axes [m]
+  // Sets the point, device axes [m].
+  void place(const Vector3& p) noexcept {
+    if (p.allFinite()) update([&] { goal_.p = p; });
+  }
   void turn_stylus(const Vector3& by) noexcept;  // yaw, pitch, roll [rad]
-  void key(HandAxis axis, bool positive, bool down) noexcept;
+  void key(HandAxis axis, bool positive, bool down) noexcept {
+    update([&] { keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down; });
+  }
   void axes(const std::array<double, 6>& rates) noexcept;  // in [-1, 1], by HandAxis
-  void button(std::size_t index, bool down) noexcept;      // 0: gripper, 1: clutch
-  void release() noexcept;  // all keys, axes and buttons: focus lost or device unplugged
+  // 0: gripper, 1: clutch
+  void button(std::size_t index, bool down) noexcept {
+    if (index < goal_.buttons.size()) update([&] { goal_.buttons[index] = down; });
+  }
+  // All keys, axes and buttons: focus lost or device unplugged.
+  void release() noexcept {
+    update([&] { keys_ = {}, axes_ = {}, goal_.buttons = {}; });
+  }
 
   // For the thread of the virtual Omni.
   HandSample sample(double t, double toward) const override;
-  double duration() const override;  // infinite
+  double duration() const override { return std::numeric_limits<double>::infinity(); }
   std::string description() const override {
     return "a point moved by mouse, keys or a game controller";
   }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fstream>
 #include <vector>
@@ -14,9 +13,6 @@
 #include "solver/support/number_text.h"
 
 namespace twinarm {
-
-DeviceMotion::DeviceMotion(std::size_t capacity, const HandMapping& mapping)
-    : mapping_(mapping), steps_(std::max<std::size_t>(1, capacity)) {}
 
 void DeviceMotion::set(const HandTarget& target, double t, double h) noexcept {
   HandStep step{t, h, {}};
@@ -56,10 +52,6 @@ std::vector<HandStep> DeviceMotion::steps() const {
   for (std::size_t n = count_ - std::min(count_, steps_.size()); n < count_; ++n)
     all.push_back(at(n));
   return all;
-}
-
-double DeviceMotion::duration() const {
-  return count_ == 0 ? 0 : newest().t + newest().h;
 }
 
 namespace {

@@ -6,6 +6,7 @@
 // replayed bit-identically.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -25,7 +26,8 @@ struct HandStep {
 class DeviceMotion final : public OperatorMotion {
  public:
   // Ring buffer of `capacity` steps, at least one; no allocation afterwards.
-  explicit DeviceMotion(std::size_t capacity, const HandMapping& mapping = {});
+  explicit DeviceMotion(std::size_t capacity, const HandMapping& mapping = {})
+      : mapping_(mapping), steps_(std::max<std::size_t>(1, capacity)) {}
   // The target of a step that begins at t, in ascending order.
   void set(const HandTarget& target, double t, double h) noexcept;
   void set(const HandStep& step) noexcept;
@@ -34,7 +36,8 @@ class DeviceMotion final : public OperatorMotion {
   std::vector<HandStep> steps() const;
   // At rest before the first step and after the newest one.
   HandSample sample(double t, double toward) const override;
-  double duration() const override;  // to the end of the newest step [s]
+  // To the end of the newest step [s].
+  double duration() const override { return count_ == 0 ? 0 : newest().t + newest().h; }
   std::string description() const override { return "an input device"; }
 
  private:

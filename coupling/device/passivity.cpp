@@ -7,12 +7,6 @@
 #include <vector>
 
 namespace twinarm {
-namespace {
-
-constexpr double kMinFraction = 1e-9;  // of the peak force
-
-}  // namespace
-
 void PassivityControl::set_position(const Vector3& x) noexcept {
   if (placed_ && x != x_) {
     d_ = x - x_;
@@ -32,7 +26,7 @@ Vector3 PassivityControl::passive_force(const Vector3& wanted) const noexcept {
 }
 
 double PassivityControl::force_fraction() const noexcept {
-  // Above zero also at the lowest energy, to allow recovery.
+  constexpr double kMinFraction = 1e-9;  // also at the lowest energy, to allow recovery
   return max_ > 0 ? std::clamp(kMinFraction + (E_ - lowest_) / max_, kMinFraction, 1.0) : 1.0;
 }
 
@@ -111,14 +105,6 @@ CycleWork work_of_cycle(const SampledDevice& device, double K, double B, int m, 
 }
 
 }  // namespace
-
-double colgate_stiffness(const SampledDevice& device, double B) {
-  return std::max(0.0, (device.damping - std::abs(B)) / (device.tick() * (device.delay + 0.5)));
-}
-
-double uncoupled_stiffness(const SampledDevice& device, double B) {
-  return std::max(0.0, (device.damping + B) / (device.tick() * (device.delay + 0.5)));
-}
 
 double abbott_okamura_stiffness(const SampledDevice& device) {
   const double by_damping = 2 * device.damping / device.tick();

@@ -21,6 +21,8 @@
 // or allocates.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "solver/spatial/pose.h"
@@ -79,9 +81,13 @@ struct SampledDevice {
 
 // Closed-form limits of K [N/m] at a wall damping B [N s/m]; >= 0.
 // Colgate and Schenkel 1994: b > K T/2 + |B|; a delay of d ticks: b > K T (d + 1/2), B = 0 only.
-double colgate_stiffness(const SampledDevice& device, double B);
+inline double colgate_stiffness(const SampledDevice& device, double B) {
+  return std::max(0.0, (device.damping - std::abs(B)) / (device.tick() * (device.delay + 0.5)));
+}
 // Gil, Avello, Rubio, Florez 2004; Hulin, Preusche, Hirzinger 2006: K < (b + B)/(T/2 + t_d).
-double uncoupled_stiffness(const SampledDevice& device, double B);
+inline double uncoupled_stiffness(const SampledDevice& device, double B) {
+  return std::max(0.0, (device.damping + B) / (device.tick() * (device.delay + 0.5)));
+}
 // Abbott and Okamura 2005, B = 0: K <= min(2 b/T, 2 f_c/Delta).
 double abbott_okamura_stiffness(const SampledDevice& device);
 

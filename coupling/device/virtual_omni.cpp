@@ -87,10 +87,6 @@ VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> hand,
   sense();
 }
 
-std::string VirtualOmni::description() const {
-  return "virtual Phantom Omni, moved by: " + hand_->description();
-}
-
 DeviceState VirtualOmni::poll(double now) noexcept {
   if (!polled_ && std::isfinite(now)) {
     polled_ = true;

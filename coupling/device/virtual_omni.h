@@ -51,7 +51,9 @@ class VirtualOmni final : public HandDevice {
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override;
   const OmniParameters& figures() const override { return figures_; }
-  std::string description() const override;
+  std::string description() const override {
+    return "virtual Phantom Omni, moved by: " + hand_->description();
+  }
   bool has_motors() const override { return true; }
 
   // State that a real device does not reveal; at the last tick, device axes.

@@ -81,7 +81,7 @@ class AsPublished : public Coupling {
     for (Past& past : past_) {
       for (Pose* pose : {&past.K, &past.D})
         for (Eigen::Index c = 0; c < pose->size(); ++c) memory.visit((*pose)(c));
-      for (Vector3* v : {&past.step_K, &past.step_D}) memory.visit(*v);
+      memory.visit(past.step_K, past.step_D);
     }
   }
 

@@ -30,11 +30,6 @@ Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, TargetR
   faults.check();
 }
 
-void Coupling::begin_step(const Kinematics&, double t, double h) noexcept {
-  h_ = h;
-  kvr_.begin_step(t, h);
-}
-
 Eigen::MatrixXd Coupling::joint_row(int body) const {
   Eigen::MatrixXd row = Eigen::MatrixXd::Zero(1, static_cast<Eigen::Index>(model_.nv));
   row(0, static_cast<Eigen::Index>(model_.iv[static_cast<std::size_t>(body)])) = 1;

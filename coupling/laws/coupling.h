@@ -35,7 +35,10 @@ class Coupling : public SpringSource {
   // Throws InputError with all springs that have an invalid link or a negative gain.
   Coupling(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
 
-  void begin_step(const Kinematics& k, double t, double h) noexcept override;
+  void begin_step(const Kinematics&, double t, double h) noexcept override {
+    h_ = h;
+    kvr_.begin_step(t, h);
+  }
   const std::string& name() const { return name_; }
   const std::vector<Spring>& springs() const { return springs_; }
   // K_q and B_q at zero tracking error: tau = K_q (q_K - q_D) + B_q (qd_K - qd_D).

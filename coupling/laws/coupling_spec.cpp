@@ -9,9 +9,7 @@ const std::vector<CouplingFacts>& couplings_in_order() {
     std::vector<CouplingFacts> sorted = registered_couplings();
     for (CouplingFacts& facts : sorted)
       if (facts.type.name.empty()) facts.type.name = facts.name;
-    std::stable_sort(
-        sorted.begin(), sorted.end(),
-        [](const CouplingFacts& a, const CouplingFacts& b) { return a.order < b.order; });
+    std::ranges::stable_sort(sorted, {}, &CouplingFacts::order);
     return sorted;
   }();
   return all;

@@ -25,82 +25,73 @@ class GodObject final : public Coupling {
  public:
   // One spring with zero gains for each joint. Throws InputError for joints of several degrees of
   // freedom, and if a joint of the tree is not driven.
-  GodObject(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
+  GodObject(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
+      : Coupling(spec, model, kvr), a_u_(model.nv), no_forces_(model.parent.size()), w_(model) {
+    check_one_dof();
+    check_joints();
+  }
 
   void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override;
+                  Forces<double>& forces) noexcept override {
+    const TargetSample& end = kvr_.end();
+    for (const Spring& joint : springs_) {
+      const auto i = static_cast<std::size_t>(joint.body);
+      const std::size_t iq = model_.iq[i], iv = model_.iv[i];
+      a_u_[iv] = ((end.x.q[iq] - x.q[iq]) / h_ - x.qd[iv]) / h_;
+    }
+    rnea(model_, x, a_u_, no_forces_, w_);
+    for (std::size_t s = 0; s < springs_.size(); ++s) {
+      const auto i = static_cast<std::size_t>(springs_[s].body);
+      const std::size_t iv = model_.iv[i];
+      SpringState& reading = readings_[s];
+      reading.size = w_.tau[iv] + friction(iv, x.qd[iv] + h_ * a_u_[iv]);
+      reading.p_K = end.k.X_WL[i].p;
+      reading.p_D = k.X_WL[i].p;
+      forces.tau[iv] += reading.size;
+    }
+  }
   bool needs_semi_implicit() const override { return true; }
   JointSpace joint_space(const Kinematics&) const override {  // zero: there is no spring
     return JointSpace(model_.nv);
   }
 
  private:
-  void check_joints() const;
-  double friction(std::size_t dof, double qd_end) const;
+  // Reports joints between or beyond driven ones that are not driven.
+  void check_joints() const {
+    std::vector<char> driven(model_.parent.size(), 0), above(driven);  // above: in a driven branch
+    for (const Spring& joint : springs_) driven[static_cast<std::size_t>(joint.body)] = 1;
+    DiagnosticList faults;
+    const auto fault = [&](std::size_t i) {
+      faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
+                 "the joint is not driven, but its neighbours are", "drive all joints of the robot",
+                 "coupling.joints");
+    };
+    for (std::size_t i = 1; i < driven.size(); ++i) {
+      const auto parent = static_cast<std::size_t>(model_.parent[i]);
+      above[i] = static_cast<char>(above[parent] | driven[i]);
+      if (above[i] && !driven[i] && model_.dofs(i) > 0) fault(i);
+    }
+    std::vector<char> below(driven);
+    for (std::size_t i = driven.size(); i-- > 1;) {
+      const auto parent = static_cast<std::size_t>(model_.parent[i]);
+      if (parent > 0 && below[i]) below[parent] = 1;
+      if (below[i] && !above[i] && model_.dofs(i) > 0) fault(i);
+    }
+    faults.check();
+  }
+  // Viscous and Coulomb friction at the end of the step; no Coulomb friction at rest, where the
+  // solver finds it.
+  double friction(std::size_t dof, double qd_end) const {
+    const double dry = qd_end > 0   ? model_.coulomb_plus[dof]
+                       : qd_end < 0 ? -model_.coulomb_minus[dof]
+                                    : 0;
+    return model_.damping[dof] * qd_end + dry;
+  }
 
   std::vector<double> a_u_;  // by velocity
   std::vector<Force<double>> no_forces_;
   Workspace<double> w_;
 };
-
-GodObject::GodObject(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
-    : Coupling(spec, model, kvr), a_u_(model.nv), no_forces_(model.parent.size()), w_(model) {
-  check_one_dof();
-  check_joints();
-}
-
-// Reports joints between or beyond driven ones that are not driven.
-void GodObject::check_joints() const {
-  std::vector<char> driven(model_.parent.size(), 0), above(driven);  // above: in a driven branch
-  for (const Spring& joint : springs_) driven[static_cast<std::size_t>(joint.body)] = 1;
-  DiagnosticList faults;
-  const auto fault = [&](std::size_t i) {
-    faults.add("coupling '" + name_ + "', joint '" + model_.joint_name[i] + "'",
-               "the joint is not driven, but its neighbours are", "drive all joints of the robot",
-               "coupling.joints");
-  };
-  for (std::size_t i = 1; i < driven.size(); ++i) {
-    const auto parent = static_cast<std::size_t>(model_.parent[i]);
-    above[i] = static_cast<char>(above[parent] | driven[i]);
-    if (above[i] && !driven[i] && model_.dofs(i) > 0) fault(i);
-  }
-  std::vector<char> below(driven);
-  for (std::size_t i = driven.size(); i-- > 1;) {
-    const auto parent = static_cast<std::size_t>(model_.parent[i]);
-    if (parent > 0 && below[i]) below[parent] = 1;
-    if (below[i] && !above[i] && model_.dofs(i) > 0) fault(i);
-  }
-  faults.check();
-}
-
-// Viscous and Coulomb friction at the end of the step; no Coulomb friction at rest, where the
-// solver finds it.
-double GodObject::friction(std::size_t dof, double qd_end) const {
-  const double dry = qd_end > 0   ? model_.coulomb_plus[dof]
-                     : qd_end < 0 ? -model_.coulomb_minus[dof]
-                                  : 0;
-  return model_.damping[dof] * qd_end + dry;
-}
-
-void GodObject::add_forces(const State<double>& x, const Kinematics& k,
-                           Forces<double>& forces) noexcept {
-  const TargetSample& end = kvr_.end();
-  for (const Spring& joint : springs_) {
-    const auto i = static_cast<std::size_t>(joint.body);
-    const std::size_t iq = model_.iq[i], iv = model_.iv[i];
-    a_u_[iv] = ((end.x.q[iq] - x.q[iq]) / h_ - x.qd[iv]) / h_;
-  }
-  rnea(model_, x, a_u_, no_forces_, w_);
-  for (std::size_t s = 0; s < springs_.size(); ++s) {
-    const auto i = static_cast<std::size_t>(springs_[s].body);
-    const std::size_t iv = model_.iv[i];
-    SpringState& reading = readings_[s];
-    reading.size = w_.tau[iv] + friction(iv, x.qd[iv] + h_ * a_u_[iv]);
-    reading.p_K = end.k.X_WL[i].p;
-    reading.p_D = k.X_WL[i].p;
-    forces.tau[iv] += reading.size;
-  }
-}
 
 }  // namespace
 

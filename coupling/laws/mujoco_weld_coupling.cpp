@@ -34,10 +34,49 @@ BiasAcceleration bias_acceleration(const Model<double>& model, const Kinematics&
 class MujocoWeld final : public Coupling {
  public:
   // m_R = b/b_ref of each spring. Throws InputError for invalid SolrefParameters.
-  MujocoWeld(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr);
+  MujocoWeld(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
+      : Coupling(spec, model, kvr),
+        discretization_(spec.discretization),
+        damping_(spec.reference.damping()) {
+    const SolrefParameters& reference = spec.reference;
+    const auto good = [](double x) { return x > 0 && std::isfinite(x); };
+    DiagnosticList faults;
+    const auto check = [&](bool valid, const char* what, double value, const char* allowed) {
+      if (!valid)
+        faults.add("coupling '" + name_ + "', " + what,
+                   std::to_string(value) + " is not allowed, " + allowed, "give another value",
+                   "coupling.weld");
+    };
+    check(good(reference.time_constant), "time constant", reference.time_constant,
+          "must be positive");
+    check(good(reference.damping_ratio), "damping ratio", reference.damping_ratio,
+          "must be positive");
+    check(reference.impedance > 0 && reference.impedance < 1, "impedance", reference.impedance,
+          "must lie between 0 and 1");
+    faults.check();
+    readings_.resize(2 * springs_.size());  // forces, then torques
+  }
 
+  // Forces at qdd = 0: minus m_R times the bias acceleration.
   void add_forces(const State<double>& x, const Kinematics& k,
-                  Forces<double>& forces) noexcept override;
+                  Forces<double>& forces) noexcept override {
+    DiscretizationTerms terms = discretization_terms(discretization_, kvr_, x.t, h_);
+    terms.h_b += 1 / damping_;  // m* = m_R + h b + h^2 k
+    terms.is_relative_damper = false;
+    for (std::size_t s = 0; s < springs_.size(); ++s) {
+      const Spring& spring = springs_[s];
+      SpringState &force = readings_[s], &torque = readings_[springs_.size() + s];
+      apply_point_spring(spring, terms, k, force, forces);
+      apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, torque, forces);
+      const BiasAcceleration bias = bias_acceleration(model_, k, spring.body, force.p_D);
+      force.pull -= spring.b / damping_ * bias.point;
+      torque.pull -= spring.b_turn / damping_ * bias.angular;
+      force.size = force.pull.norm();
+      torque.size = torque.pull.norm();
+      add_point_force(k, spring.body, force.p_D, force.pull, forces);
+      add_couple(k, spring.body, torque.pull, forces);
+    }
+  }
   bool needs_semi_implicit() const override { return true; }
   // With e = q_K - q_D: (M + m_R J^T J) e'' + B e' + K e = ... ...
   JointSpace joint_space(const Kinematics& k) const override {
@@ -65,50 +104,6 @@ Spring weld_spring(std::string name, const Model<double>& model, const State<dou
   const double inertia = part * effective_mass(inverse_M, rotation_jacobian(model, k, body));
   const double k_ref = reference.stiffness(), b_ref = reference.damping();
   return {std::move(name), body, p_L, mass * k_ref, mass * b_ref, inertia * k_ref, inertia * b_ref};
-}
-
-MujocoWeld::MujocoWeld(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr)
-    : Coupling(spec, model, kvr),
-      discretization_(spec.discretization),
-      damping_(spec.reference.damping()) {
-  const SolrefParameters& reference = spec.reference;
-  const auto good = [](double x) { return x > 0 && std::isfinite(x); };
-  DiagnosticList faults;
-  const auto check = [&](bool valid, const char* what, double value, const char* allowed) {
-    if (!valid)
-      faults.add("coupling '" + name_ + "', " + what,
-                 std::to_string(value) + " is not allowed, " + allowed, "give another value",
-                 "coupling.weld");
-  };
-  check(good(reference.time_constant), "time constant", reference.time_constant,
-        "must be positive");
-  check(good(reference.damping_ratio), "damping ratio", reference.damping_ratio,
-        "must be positive");
-  check(reference.impedance > 0 && reference.impedance < 1, "impedance", reference.impedance,
-        "must lie between 0 and 1");
-  faults.check();
-  readings_.resize(2 * springs_.size());  // forces, then torques
-}
-
-// Forces at qdd = 0: minus m_R times the bias acceleration.
-void MujocoWeld::add_forces(const State<double>& x, const Kinematics& k,
-                            Forces<double>& forces) noexcept {
-  DiscretizationTerms terms = discretization_terms(discretization_, kvr_, x.t, h_);
-  terms.h_b += 1 / damping_;  // m* = m_R + h b + h^2 k
-  terms.is_relative_damper = false;
-  for (std::size_t s = 0; s < springs_.size(); ++s) {
-    const Spring& spring = springs_[s];
-    SpringState &force = readings_[s], &torque = readings_[springs_.size() + s];
-    apply_point_spring(spring, terms, k, force, forces);
-    apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, torque, forces);
-    const BiasAcceleration bias = bias_acceleration(model_, k, spring.body, force.p_D);
-    force.pull -= spring.b / damping_ * bias.point;
-    torque.pull -= spring.b_turn / damping_ * bias.angular;
-    force.size = force.pull.norm();
-    torque.size = torque.pull.norm();
-    add_point_force(k, spring.body, force.p_D, force.pull, forces);
-    add_couple(k, spring.body, torque.pull, forces);
-  }
 }
 
 CouplingFacts mujoco_weld_coupling() {

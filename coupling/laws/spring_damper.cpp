@@ -14,11 +14,6 @@ SpringDamperCoupling::SpringDamperCoupling(const CouplingSpec& spec, const Model
   if (space == Space::frame) readings_.resize(2 * springs_.size());  // forces, then torques
 }
 
-void SpringDamperCoupling::begin_step(const Kinematics& k, double t, double h) noexcept {
-  Coupling::begin_step(k, t, h);
-  hold_.begin_step();
-}
-
 void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& k,
                                       Forces<double>& forces) noexcept {
   const DiscretizationTerms terms = discretization_terms(discretization_, kvr_, x.t, h_);
@@ -71,11 +66,6 @@ Coupling::JointSpace SpringDamperCoupling::joint_space(const Kinematics& k) cons
     else
       sum.add(spring.k, spring.b, joint_row(spring.body));
   return sum;
-}
-
-void SpringDamperCoupling::serialize(StateArchive& memory) {
-  Coupling::serialize(memory);
-  hold_.serialize(memory);
 }
 
 void apply_point_spring(const Spring& spring, const DiscretizationTerms& terms, const Kinematics& D,

@@ -53,12 +53,18 @@ class SpringDamperCoupling final : public Coupling {
   SpringDamperCoupling(const CouplingSpec& spec, const Model<double>& model, TargetRobot& kvr,
                        Space space);
 
-  void begin_step(const Kinematics& k, double t, double h) noexcept override;
+  void begin_step(const Kinematics& k, double t, double h) noexcept override {
+    Coupling::begin_step(k, t, h);
+    hold_.begin_step();
+  }
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& forces) noexcept override;
   bool needs_semi_implicit() const override { return discretization_ != Discretization::explicit_; }
   JointSpace joint_space(const Kinematics& k) const override;
-  void serialize(StateArchive& memory) override;
+  void serialize(StateArchive& memory) override {
+    Coupling::serialize(memory);
+    hold_.serialize(memory);
+  }
 
  private:
   void apply_joint_spring(std::size_t s, const DiscretizationTerms& terms, const State<double>& x,

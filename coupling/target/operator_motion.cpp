@@ -6,9 +6,6 @@
 
 namespace twinarm {
 
-AutomaticMotion::AutomaticMotion(const HandMapping& mapping, double sweep_time, int sweeps)
-    : mapping_(mapping), sweep_time_(sweep_time), sweeps_(sweeps) {}
-
 HandSample AutomaticMotion::sample(double t, double toward) const {
   constexpr double pi = std::numbers::pi;
   const double s = t / sweep_time_;

@@ -53,7 +53,8 @@ class OperatorMotion {
 class AutomaticMotion final : public OperatorMotion {
  public:
   // sweep_time [s] of one sweep, 1 s in the paper.
-  AutomaticMotion(const HandMapping& mapping, double sweep_time = 1.0, int sweeps = 3);
+  AutomaticMotion(const HandMapping& mapping, double sweep_time = 1.0, int sweeps = 3)
+      : mapping_(mapping), sweep_time_(sweep_time), sweeps_(sweeps) {}
   HandSample sample(double t, double toward) const override;
   double duration() const override { return sweep_time_ * sweeps_; }
   std::string description() const override;

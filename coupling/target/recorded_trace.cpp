@@ -40,7 +40,29 @@ std::string degree_column(std::size_t joint) {
 class TraceReader {
  public:
   explicit TraceReader(RecordedTrace& trace) : trace_(trace) {}
-  void read(std::istream& stream);
+  void read(std::istream& stream) {
+    int line_number = 0;
+    for (std::string line; next_line(stream, line, trace_.file_, line_number + 1);) {
+      ++line_number;
+      const Cells cells = csv_cells(line);
+      const bool blank = cells.empty() || (cells.size() == 1 && cells[0].empty());
+      if (blank || cells[0].starts_with("#")) continue;
+      if (header_line_ == 0)
+        read_header(line_number, cells);
+      else
+        read_sample(line_number, cells);
+    }
+    if (fault_count_ == 0 && trace_.samples_.size() < 2)
+      add(0, "", "the trace has fewer than two samples",
+          "give a header line and at least two lines");
+    check_angles();
+    if (const auto more = fault_count_ - std::min(fault_count_, kMaxTraceFaults))
+      faults_.add({trace_.file_, 0, "", fmt::format("and {} more errors", more), "", "trace.more"});
+    faults_.check();
+    measure();
+    const double start = trace_.samples_.front().t;
+    for (RecordedTrace::Sample& sample : trace_.samples_) sample.t -= start;
+  }
 
  private:
   using Cells = std::vector<std::string_view>;
@@ -51,11 +73,139 @@ class TraceReader {
   std::string column_name(std::size_t joint) const {
     return in_degrees_[joint] ? degree_column(joint) : kColumns[joint + 1];
   }
-  void read_header(int line, const Cells& cells);
-  void read_sample(int line, const Cells& cells);
-  void check_angles();
-  void measure();
-  void measure_intervals(std::vector<double> intervals);
+  void read_header(int line, const Cells& cells) {
+    header_line_ = line;
+    const auto find = [&](const std::string& name) {
+      return static_cast<std::size_t>(std::find(cells.begin(), cells.end(), name) - cells.begin());
+    };
+    for (std::size_t c = 0; c < kColumns.size(); ++c) {
+      column_[c] = find(kColumns[c]);
+      if (column_[c] < cells.size()) continue;
+      if (c > 0) column_[c] = find(degree_column(c - 1));
+      if (column_[c] < cells.size())
+        in_degrees_[c - 1] = true;
+      else
+        add(line, "header", fmt::format("column '{}' is missing", kColumns[c]),
+            "give the columns t[s], theta1[rad] to theta6[rad] (or [deg]), and button if there is "
+            "one");
+    }
+    column_[7] = find("button");
+    have_button_ = column_[7] < cells.size();
+    faults_.check();
+  }
+  void read_sample(int line, const Cells& cells) {
+    RecordedTrace::Sample sample{};
+    double button = 0;
+    bool good = true;
+    for (std::size_t c = 0; c < (have_button_ ? 8u : 7u); ++c) {
+      double& value = c == 0 ? sample.t : c == 7 ? button : sample.theta[c - 1];
+      const std::string_view cell = column_[c] < cells.size() ? cells[column_[c]] : "";
+      if (const auto number = parse_number(cell)) {
+        value = c > 0 && c < 7 && in_degrees_[c - 1] ? *number * kDegree : *number;
+        continue;
+      }
+      good = false;
+      add(line,
+          c == 7   ? "button"
+          : c == 0 ? kColumns[0]
+                   : column_name(c - 1),
+          fmt::format("'{}' is not a finite number", cell), "correct or remove the line");
+    }
+    if (!good) return;
+    sample.button = button != 0;
+    auto& samples = trace_.samples_;
+    if (!samples.empty() && !(sample.t > samples.back().t)) {
+      add(line, "t[s]",
+          fmt::format("time does not increase: {} s after {} s", sample.t, samples.back().t),
+          "sort the lines by time, one line per instant");
+      return;
+    }
+    if (samples.size() == kMaxSamples)
+      throw InputError({{trace_.file_, line, "", "the trace has more than 8 million samples",
+                         "shorten it, or use a lower sampling rate", "trace.too-long"}});
+    samples.push_back(sample);
+  }
+  // Detects degrees in columns of radians: an error beyond a revolution, a warning beyond the
+  // Omni's joint limits.
+  void check_angles() {
+    std::array<double, 6> max_angle{};
+    for (const RecordedTrace::Sample& sample : trace_.samples_)
+      for (std::size_t j = 0; j < 6; ++j)
+        max_angle[j] = std::max(max_angle[j], std::abs(sample.theta[j]));
+    bool fits_as_degrees = true;
+    for (std::size_t j = 0; j < 6; ++j)
+      if (!in_degrees_[j] && max_angle[j] * kDegree > kBeyond * kJointEnd[j])
+        fits_as_degrees = false;
+    double max_degrees = 0;
+    for (std::size_t j = 0; j < 6; ++j) {
+      const std::string name = fmt::format("theta{}", j + 1);
+      if (max_angle[j] > kRevolution && (in_degrees_[j] || !fits_as_degrees)) {
+        add(header_line_, column_name(j),
+            fmt::format(
+                "reaches {:.4g} rad, more than one revolution, impossible for an input device",
+                max_angle[j]),
+            "give radians, or degrees in columns theta1[deg] and so on");
+      } else if (in_degrees_[j]) {
+        max_degrees = std::max(max_degrees, max_angle[j] / kDegree);
+      } else if (max_angle[j] > kRevolution) {
+        add(header_line_, kColumns[j + 1],
+            fmt::format("reaches {:.4g} rad, more than one revolution: probably degrees",
+                        max_angle[j]),
+            "name columns in degrees theta1[deg], theta2[deg], ...");
+      } else if (max_angle[j] > kBeyond * kJointEnd[j]) {
+        trace_.quality_.warnings.push_back(
+            fmt::format("{} reaches {:.3g} rad, the joint limit of a Phantom Omni is about {:.3g}; "
+                        "if these are "
+                        "degrees, name the column {}",
+                        name, max_angle[j], kJointEnd[j], degree_column(j)));
+      }
+    }
+    if (max_degrees > 0 && max_degrees < kFewRadians)
+      trace_.quality_.warnings.push_back(fmt::format(
+          "the angles named [deg] stay below {:.2g} degrees; if these are radians, name "
+          "the columns theta1[rad] and so on",
+          max_degrees));
+  }
+  void measure() {
+    TraceQuality& quality = trace_.quality_;
+    const auto& samples = trace_.samples_;
+    std::vector<double> intervals;
+    for (std::size_t n = 1; n < samples.size(); ++n) {
+      intervals.push_back(samples[n].t - samples[n - 1].t);
+      if (intervals.back() <= quality.max_gap) continue;
+      quality.max_gap = intervals.back();
+      quality.gap_start = samples[n - 1].t;
+    }
+    measure_intervals(std::move(intervals));
+  }
+  void measure_intervals(std::vector<double> intervals) {
+    TraceQuality& quality = trace_.quality_;
+    const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+    std::nth_element(intervals.begin(), middle, intervals.end());
+    quality.interval = *middle;
+    quality.rate = 1 / quality.interval;
+    double sum = 0, count = 0;
+    long gaps = 0;
+    for (double interval : intervals) {
+      const double deviation = interval - quality.interval;
+      if (interval > kGapIntervals * quality.interval)
+        ++gaps;
+      else
+        sum += deviation * deviation, ++count;
+    }
+    quality.jitter = std::sqrt(sum / count);
+    if (gaps > 0)
+      quality.warnings.push_back(fmt::format(
+          "{} gap{} longer than {:g} sampling intervals, the longest {:.3g} s at t = "
+          "{:.6g} s; the motion "
+          "is interpolated linearly",
+          gaps, gaps == 1 ? "" : "s", kGapIntervals, quality.max_gap, quality.gap_start));
+    if (quality.jitter > kJitterShare * quality.interval)
+      quality.warnings.push_back(fmt::format(
+          "the sampling interval has a jitter of {:.2g} s about {:.3g} s, and so have the "
+          "velocities",
+          quality.jitter, quality.interval));
+  }
 
   RecordedTrace& trace_;
   DiagnosticList faults_;
@@ -65,165 +215,6 @@ class TraceReader {
   std::array<bool, 6> in_degrees_{};
   bool have_button_ = false;
 };
-
-void TraceReader::read(std::istream& stream) {
-  int line_number = 0;
-  for (std::string line; next_line(stream, line, trace_.file_, line_number + 1);) {
-    ++line_number;
-    const Cells cells = csv_cells(line);
-    const bool blank = cells.empty() || (cells.size() == 1 && cells[0].empty());
-    if (blank || cells[0].starts_with("#")) continue;
-    if (header_line_ == 0)
-      read_header(line_number, cells);
-    else
-      read_sample(line_number, cells);
-  }
-  if (fault_count_ == 0 && trace_.samples_.size() < 2)
-    add(0, "", "the trace has fewer than two samples", "give a header line and at least two lines");
-  check_angles();
-  if (const auto more = fault_count_ - std::min(fault_count_, kMaxTraceFaults))
-    faults_.add({trace_.file_, 0, "", fmt::format("and {} more errors", more), "", "trace.more"});
-  faults_.check();
-  measure();
-  const double start = trace_.samples_.front().t;
-  for (RecordedTrace::Sample& sample : trace_.samples_) sample.t -= start;
-}
-
-void TraceReader::read_header(int line, const Cells& cells) {
-  header_line_ = line;
-  const auto find = [&](const std::string& name) {
-    return static_cast<std::size_t>(std::find(cells.begin(), cells.end(), name) - cells.begin());
-  };
-  for (std::size_t c = 0; c < kColumns.size(); ++c) {
-    column_[c] = find(kColumns[c]);
-    if (column_[c] < cells.size()) continue;
-    if (c > 0) column_[c] = find(degree_column(c - 1));
-    if (column_[c] < cells.size())
-      in_degrees_[c - 1] = true;
-    else
-      add(line, "header", fmt::format("column '{}' is missing", kColumns[c]),
-          "give the columns t[s], theta1[rad] to theta6[rad] (or [deg]), and button if there is "
-          "one");
-  }
-  column_[7] = find("button");
-  have_button_ = column_[7] < cells.size();
-  faults_.check();
-}
-
-void TraceReader::read_sample(int line, const Cells& cells) {
-  RecordedTrace::Sample sample{};
-  double button = 0;
-  bool good = true;
-  for (std::size_t c = 0; c < (have_button_ ? 8u : 7u); ++c) {
-    double& value = c == 0 ? sample.t : c == 7 ? button : sample.theta[c - 1];
-    const std::string_view cell = column_[c] < cells.size() ? cells[column_[c]] : "";
-    if (const auto number = parse_number(cell)) {
-      value = c > 0 && c < 7 && in_degrees_[c - 1] ? *number * kDegree : *number;
-      continue;
-    }
-    good = false;
-    add(line,
-        c == 7   ? "button"
-        : c == 0 ? kColumns[0]
-                 : column_name(c - 1),
-        fmt::format("'{}' is not a finite number", cell), "correct or remove the line");
-  }
-  if (!good) return;
-  sample.button = button != 0;
-  auto& samples = trace_.samples_;
-  if (!samples.empty() && !(sample.t > samples.back().t)) {
-    add(line, "t[s]",
-        fmt::format("time does not increase: {} s after {} s", sample.t, samples.back().t),
-        "sort the lines by time, one line per instant");
-    return;
-  }
-  if (samples.size() == kMaxSamples)
-    throw InputError({{trace_.file_, line, "", "the trace has more than 8 million samples",
-                       "shorten it, or use a lower sampling rate", "trace.too-long"}});
-  samples.push_back(sample);
-}
-
-// Detects degrees in columns of radians: an error beyond a revolution, a warning beyond the Omni's
-// joint limits.
-void TraceReader::check_angles() {
-  std::array<double, 6> max_angle{};
-  for (const RecordedTrace::Sample& sample : trace_.samples_)
-    for (std::size_t j = 0; j < 6; ++j)
-      max_angle[j] = std::max(max_angle[j], std::abs(sample.theta[j]));
-  bool fits_as_degrees = true;
-  for (std::size_t j = 0; j < 6; ++j)
-    if (!in_degrees_[j] && max_angle[j] * kDegree > kBeyond * kJointEnd[j]) fits_as_degrees = false;
-  double max_degrees = 0;
-  for (std::size_t j = 0; j < 6; ++j) {
-    const std::string name = fmt::format("theta{}", j + 1);
-    if (max_angle[j] > kRevolution && (in_degrees_[j] || !fits_as_degrees)) {
-      add(header_line_, column_name(j),
-          fmt::format(
-              "reaches {:.4g} rad, more than one revolution, impossible for an input device",
-              max_angle[j]),
-          "give radians, or degrees in columns theta1[deg] and so on");
-    } else if (in_degrees_[j]) {
-      max_degrees = std::max(max_degrees, max_angle[j] / kDegree);
-    } else if (max_angle[j] > kRevolution) {
-      add(header_line_, kColumns[j + 1],
-          fmt::format("reaches {:.4g} rad, more than one revolution: probably degrees",
-                      max_angle[j]),
-          "name columns in degrees theta1[deg], theta2[deg], ...");
-    } else if (max_angle[j] > kBeyond * kJointEnd[j]) {
-      trace_.quality_.warnings.push_back(fmt::format(
-          "{} reaches {:.3g} rad, the joint limit of a Phantom Omni is about {:.3g}; if these are "
-          "degrees, name the column {}",
-          name, max_angle[j], kJointEnd[j], degree_column(j)));
-    }
-  }
-  if (max_degrees > 0 && max_degrees < kFewRadians)
-    trace_.quality_.warnings.push_back(
-        fmt::format("the angles named [deg] stay below {:.2g} degrees; if these are radians, name "
-                    "the columns theta1[rad] and so on",
-                    max_degrees));
-}
-
-void TraceReader::measure() {
-  TraceQuality& quality = trace_.quality_;
-  const auto& samples = trace_.samples_;
-  std::vector<double> intervals;
-  for (std::size_t n = 1; n < samples.size(); ++n) {
-    intervals.push_back(samples[n].t - samples[n - 1].t);
-    if (intervals.back() <= quality.max_gap) continue;
-    quality.max_gap = intervals.back();
-    quality.gap_start = samples[n - 1].t;
-  }
-  measure_intervals(std::move(intervals));
-}
-
-void TraceReader::measure_intervals(std::vector<double> intervals) {
-  TraceQuality& quality = trace_.quality_;
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  quality.interval = *middle;
-  quality.rate = 1 / quality.interval;
-  double sum = 0, count = 0;
-  long gaps = 0;
-  for (double interval : intervals) {
-    const double deviation = interval - quality.interval;
-    if (interval > kGapIntervals * quality.interval)
-      ++gaps;
-    else
-      sum += deviation * deviation, ++count;
-  }
-  quality.jitter = std::sqrt(sum / count);
-  if (gaps > 0)
-    quality.warnings.push_back(
-        fmt::format("{} gap{} longer than {:g} sampling intervals, the longest {:.3g} s at t = "
-                    "{:.6g} s; the motion "
-                    "is interpolated linearly",
-                    gaps, gaps == 1 ? "" : "s", kGapIntervals, quality.max_gap, quality.gap_start));
-  if (quality.jitter > kJitterShare * quality.interval)
-    quality.warnings.push_back(fmt::format(
-        "the sampling interval has a jitter of {:.2g} s about {:.3g} s, and so have the "
-        "velocities",
-        quality.jitter, quality.interval));
-}
 
 RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.string()) {
   std::ifstream stream(file);
@@ -236,8 +227,7 @@ RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.str
 HandSample RecordedTrace::sample(double t, double toward) const {
   // The interval of a step between t and toward.
   const double inside = t + 1e-9 * (toward - t);
-  auto after = std::upper_bound(samples_.begin(), samples_.end(), inside,
-                                [](double time, const Sample& s) { return time < s.t; });
+  auto after = std::ranges::upper_bound(samples_, inside, {}, &Sample::t);
   after = std::clamp(after, samples_.begin() + 1, samples_.end() - 1);
   const Sample& a = *std::prev(after);
   const Sample& b = *after;

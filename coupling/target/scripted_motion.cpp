@@ -20,9 +20,6 @@ std::string seconds_text(double t) {
 
 }  // namespace
 
-StepMotion::StepMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double duration)
-    : from_(from), to_(to), at_(at), duration_(duration) {}
-
 HandSample StepMotion::sample(double t, double toward) const {
   HandSample hand;
   hand.theta = is_after(t, toward, at_) ? to_ : from_;
@@ -32,10 +29,6 @@ HandSample StepMotion::sample(double t, double toward) const {
 std::string StepMotion::description() const {
   return "scripted: a step after " + seconds_text(at_);
 }
-
-ChirpMotion::ChirpMotion(const DeviceAngles& middle, const DeviceAngles& amplitude, double f0,
-                         double f1, double T)
-    : middle_(middle), amplitude_(amplitude), f0_(f0), f1_(f1), duration_(T) {}
 
 HandSample ChirpMotion::sample(double t, double toward) const {
   const double s = std::clamp(t, 0.0, duration_), slope = (f1_ - f0_) / duration_;
@@ -53,15 +46,6 @@ HandSample ChirpMotion::sample(double t, double toward) const {
 std::string ChirpMotion::description() const {
   return "scripted: a chirp from " + std::to_string(f0_) + " to " + std::to_string(f1_) +
          " Hz in " + seconds_text(duration_);
-}
-
-ReachMotion::ReachMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double T)
-    : from_(from), to_(to), at_(at), T_(T) {}
-
-HandSample ReachMotion::sample(double t, double /*toward*/) const {
-  HandSample hand;
-  add_minimum_jerk(from_, to_, std::clamp((t - at_) / T_, 0.0, 1.0), T_, hand);
-  return hand;
 }
 
 void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s, double T,

@@ -1,6 +1,8 @@
 // Scripted motions of the device angles: step, chirp, minimum-jerk reach; t = 0 is the start.
 #pragma once
 
+#include <algorithm>
+
 #include "coupling/target/operator_motion.h"
 
 namespace twinarm {
@@ -14,7 +16,8 @@ void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s
 // `from` before the time `at`, then `to`; the rates are zero.
 class StepMotion final : public OperatorMotion {
  public:
-  StepMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double duration);
+  StepMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double duration)
+      : from_(from), to_(to), at_(at), duration_(duration) {}
   HandSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override;
@@ -29,7 +32,8 @@ class StepMotion final : public OperatorMotion {
 class ChirpMotion final : public OperatorMotion {
  public:
   ChirpMotion(const DeviceAngles& middle, const DeviceAngles& amplitude, double f0, double f1,
-              double T);
+              double T)
+      : middle_(middle), amplitude_(amplitude), f0_(f0), f1_(f1), duration_(T) {}
   HandSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override;
@@ -42,8 +46,13 @@ class ChirpMotion final : public OperatorMotion {
 // Minimum-jerk motion from `at`, of duration T [s]; at rest before and after.
 class ReachMotion final : public OperatorMotion {
  public:
-  ReachMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double T);
-  HandSample sample(double t, double toward) const override;
+  ReachMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double T)
+      : from_(from), to_(to), at_(at), T_(T) {}
+  HandSample sample(double t, double /*toward*/) const override {
+    HandSample hand;
+    add_minimum_jerk(from_, to_, std::clamp((t - at_) / T_, 0.0, 1.0), T_, hand);
+    return hand;
+  }
   double duration() const override { return at_ + T_; }
   std::string description() const override;
 

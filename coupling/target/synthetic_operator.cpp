@@ -58,8 +58,7 @@ SyntheticOperator::SyntheticOperator(unsigned seed, double duration)
 
 HandSample SyntheticOperator::sample(double t, double /*toward*/) const {
   HandSample hand;
-  const auto after = std::upper_bound(reaches_.begin(), reaches_.end(), t,
-                                      [](double time, const Reach& r) { return time < r.start; });
+  const auto after = std::ranges::upper_bound(reaches_, t, {}, &Reach::start);
   if (after != reaches_.begin()) {
     const Reach& reach = *std::prev(after);
     const double T = reach.end - reach.start;
@@ -75,11 +74,6 @@ HandSample SyntheticOperator::sample(double t, double /*toward*/) const {
     }
   }
   return hand;
-}
-
-std::string SyntheticOperator::description() const {
-  return "synthetic operator (not a person), seed " + std::to_string(seed_) +
-         ": minimum-jerk reaches between random targets, 8-12 Hz tremor";
 }
 
 }  // namespace twinarm

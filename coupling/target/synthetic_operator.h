@@ -14,7 +14,10 @@ class SyntheticOperator final : public OperatorMotion {
   explicit SyntheticOperator(unsigned seed, double duration = 20.0);
   HandSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
-  std::string description() const override;
+  std::string description() const override {
+    return "synthetic operator (not a person), seed " + std::to_string(seed_) +
+           ": minimum-jerk reaches between random targets, 8-12 Hz tremor";
+  }
 
  private:
   struct Reach {

@@ -81,10 +81,6 @@ const TargetSample& TargetRobot::at(double t) {
   return middle_;
 }
 
-void TargetRobot::set(TargetSample& sample, double t, double toward) const {
-  if (update(sample, t, toward)) pose(sample);
-}
-
 bool TargetRobot::update(TargetSample& sample, double t, double toward) const {
   const HandSample hand = hand_.sample(t, toward);
   bool changed = std::isnan(sample.x.t);

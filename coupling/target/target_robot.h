@@ -52,7 +52,9 @@ class TargetRobot {
   const OperatorMotion& hand() const { return hand_; }
 
  private:
-  void set(TargetSample& sample, double t, double toward) const;
+  void set(TargetSample& sample, double t, double toward) const {
+    if (update(sample, t, toward)) pose(sample);
+  }
   // Writes the motion's angles and rates to the sample; false: unchanged.
   bool update(TargetSample& sample, double t, double toward) const;
   void pose(TargetSample& sample) const;

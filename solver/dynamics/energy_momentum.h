@@ -31,9 +31,7 @@ struct EnergyMomentum {
     impulse += duration * force;
     moment += duration * (p.cross(force) + couple);
   }
-  void serialize(StateArchive& archive) {
-    archive.visit(work), archive.visit(impulse), archive.visit(moment);
-  }
+  void serialize(StateArchive& archive) { archive.visit(work, impulse, moment); }
 };
 inline EnergyMomentum operator*(double s, const EnergyMomentum& e) {
   return {s * e.work, s * e.impulse, s * e.moment};

@@ -123,18 +123,6 @@ std::string joint_called(const std::string& name) {
   return "joint '" + name + "'";
 }
 
-int ModelBuilder::add_body(const std::string& body_name, int parent, const std::string& joint_name,
-                           JointType type, const Pose& X_PJ, const Vector3& axis,
-                           const BodyInertia& inertia, const JointProperties& properties) {
-  bodies_.push_back({body_name, joint_name, parent, type, X_PJ, axis, inertia, properties});
-  return static_cast<int>(bodies_.size());
-}
-
-void ModelBuilder::add_mimic(const std::string& follower, const std::string& leader, double ratio,
-                             double offset) {
-  mimics_.push_back({follower, leader, ratio, offset});
-}
-
 void ModelBuilder::check(const Body& body, int index, Names& names, DiagnosticList& faults) {
   const std::string where = link_called(body.name);
   if (body.parent < 0 || body.parent >= index)
@@ -217,9 +205,7 @@ Model<double> ModelBuilder::build() const {
 
 void ModelBuilder::add_mimics_to(Model<double>& model, DiagnosticList& faults) const {
   const auto leader_of = [&](MimicByName& mimic) {
-    const auto next = std::find_if(mimics_.begin(), mimics_.end(), [&](const MimicByName& other) {
-      return other.follower == mimic.leader;
-    });
+    const auto next = std::ranges::find(mimics_, mimic.leader, &MimicByName::follower);
     if (next == mimics_.end()) return false;
     mimic.offset += mimic.ratio * next->offset;
     mimic.ratio *= next->ratio;

@@ -40,11 +40,16 @@ class ModelBuilder {
   // rotation. Other joints ignore it. Returns the body's index.
   int add_body(const std::string& body_name, int parent, const std::string& joint_name,
                JointType type, const Pose& X_PJ, const Vector3& axis, const BodyInertia& inertia,
-               const JointProperties& properties = {});
+               const JointProperties& properties = {}) {
+    bodies_.push_back({body_name, joint_name, parent, type, X_PJ, axis, inertia, properties});
+    return static_cast<int>(bodies_.size());
+  }
   // q of `follower` = ratio * (q of `leader`) + offset; both joints have one degree of freedom.
   // Chains of mimic joints are resolved: the model refers to the independent joint.
   void add_mimic(const std::string& follower, const std::string& leader, double ratio,
-                 double offset);
+                 double offset) {
+    mimics_.push_back({follower, leader, ratio, offset});
+  }
   void set_gravity(const Vector3& g_W) { gravity_ = g_W; }
 
   // Throws one InputError with all errors, including joints with zero articulated inertia.

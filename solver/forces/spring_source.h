@@ -24,10 +24,8 @@ class SpringSource : public ForceSource, public Checkpointable {
   const std::vector<SpringState>& readings() const { return readings_; }
   // Spring forces may be held over several steps. Overridden by laws with more state.
   void serialize(StateArchive& archive) override {
-    for (SpringState& reading : readings_) {
-      for (Vector3* v : {&reading.p_K, &reading.p_D, &reading.pull}) archive.visit(*v);
-      archive.visit(reading.size), archive.visit(reading.m_star);
-    }
+    for (SpringState& reading : readings_)
+      archive.visit(reading.p_K, reading.p_D, reading.pull, reading.size, reading.m_star);
   }
 
  protected:

@@ -42,8 +42,6 @@ ConeVec divided(const ConeScaling& s, const ConeVec& x) {
 
 struct ImpulseSolver::CentralPath {
   ImpulseSolver& of;
-  ImpulseProblem& problem;
-  const Island& island;
   double s0, s = s0, length = 0.3;
   double size = infinity;  // of the last correction
   int corrections = 0;     // since the last predictor
@@ -52,12 +50,6 @@ struct ImpulseSolver::CentralPath {
   template <class F>
   void for_each_cone(F&& f) const {
     for (const int i : of.cones_) f(i);
-  }
-  template <class F>
-  void for_each_velocity(F&& f) const {
-    for (const int t : island.trees)
-      for (std::size_t k = 0; k < static_cast<std::size_t>(problem.size(t)); ++k)
-        f(problem.first(t) + k);
   }
 
   // Inner product of W dz and W^-1 dx of two directions, relative to those of z and x.
@@ -89,7 +81,7 @@ struct ImpulseSolver::CentralPath {
         a.z[i][r] = f * a.z[i][r] + g * b.z[i][r];
       }
     });
-    for_each_velocity([&](std::size_t k) { a.v[k] = f * a.v[k] + g * b.v[k]; });
+    of.for_each_velocity([&](std::size_t k, std::size_t) { a.v[k] = f * a.v[k] + g * b.v[k]; });
     a.s = f * a.s + g * b.s;
   }
   // Maximum step, at most 1, with x and z in their cones and s positive.
@@ -106,117 +98,112 @@ struct ImpulseSolver::CentralPath {
       for (std::size_t r = 0; r < 3; ++r)
         of.x_[i][r] += step * a.x[i][r], of.z_[i][r] += step * a.z[i][r];
     });
-    for_each_velocity([&](std::size_t k) { problem.v(0)[k] += step * a.v[k]; });
+    of.for_each_velocity(
+        [&](std::size_t k, std::size_t) { of.problem_->v(0)[k] += step * a.v[k]; });
     s *= 1 + step * a.s;
   }
 
-  void find_directions();
-  void predict(bool repeated);
-  void restore();
-  bool step();
-};
-
-// correction_: towards the curve at constant s. tangent_: along the curve, for ds = s.
-void ImpulseSolver::CentralPath::find_directions() {
-  of.assemble(problem, island, false);
-  of.matrix_.factorise(false);
-  const auto take = [&](Direction& out, double change) {
-    std::swap(out.x, of.dx_), std::swap(out.z, of.dz_), std::swap(out.v, of.dv_);
-    out.s = change;
-  };
-  of.ipm_direction(problem, island, s, false);
-  take(of.correction_, 0);
-  const double rise = s < s0 ? s / s0 : 0;  // -dl for ds = s
-  for_each_cone([&](int i) {
-    of.right_[i] = {s * of.terms_[i].weight, 0, 0};
-    of.d_z_[i] = {};
-    if (!is_contact(problem.constraints()[i])) return;
-    for (int k = i; k >= 0; k = of.next_disc_[k]) {
-      const ConeTerms& terms = of.terms_[k];
-      const double kink = of.smoothing_ * terms.kink;
-      const double from_s = terms.slip > 0 ? kink * kink / terms.slip : 0;
-      of.d_z_[i][0] += terms.arm * (of.shift_factor_ * from_s - rise * terms.slip);
+  // correction_: towards the curve at constant s. tangent_: along the curve, for ds = s.
+  void find_directions() {
+    of.assemble(false);
+    of.matrix_.factorise(false);
+    const auto take = [&](Direction& out, double change) {
+      std::swap(out.x, of.dx_), std::swap(out.z, of.dz_), std::swap(out.v, of.dv_);
+      out.s = change;
+    };
+    of.ipm_direction(s, false);
+    take(of.correction_, 0);
+    const double rise = s < s0 ? s / s0 : 0;  // -dl for ds = s
+    for_each_cone([&](int i) {
+      of.right_[i] = {s * of.terms_[i].weight, 0, 0};
+      of.d_z_[i] = {};
+      if (!is_contact(of.constraint(i))) return;
+      for (int k = i; k >= 0; k = of.next_disc_[k]) {
+        const ConeTerms& terms = of.terms_[k];
+        const double kink = of.smoothing_ * terms.kink;
+        const double from_s = terms.slip > 0 ? kink * kink / terms.slip : 0;
+        of.d_z_[i][0] += terms.arm * (of.shift_factor_ * from_s - rise * terms.slip);
+      }
+    });
+    of.ipm_solve_kkt(of.d_z_, 0);
+    take(of.tangent_, 1);
+  }
+  // Saves the point, unless repeated, and advances along the tangent, combined with the remaining
+  // correction.
+  void predict(bool repeated) {
+    const double scale = -of.matrix_.determinant_sign() / largest(of.tangent_);
+    if (!repeated) {
+      if (corrections == 0 && at != At::start) length = std::min(kMaxLength, 2 * length);
+      for_each_cone([&](int i) { of.saved_.x[i] = of.x_[i], of.saved_.z[i] = of.z_[i]; });
+      of.for_each_velocity(
+          [&](std::size_t k, std::size_t) { of.saved_.v[k] = of.problem_->v(0)[k]; });
+      of.saved_.s = s;
     }
-  });
-  of.ipm_solve_kkt(problem, island, of.d_z_, 0);
-  take(of.tangent_, 1);
-}
-
-// Saves the point, unless repeated, and advances along the tangent, combined with the remaining
-// correction.
-void ImpulseSolver::CentralPath::predict(bool repeated) {
-  const double scale = -of.matrix_.determinant_sign() / largest(of.tangent_);
-  if (!repeated) {
-    if (corrections == 0 && at != At::start) length = std::min(kMaxLength, 2 * length);
-    for_each_cone([&](int i) { of.saved_.x[i] = of.x_[i], of.saved_.z[i] = of.z_[i]; });
-    for_each_velocity([&](std::size_t k) { of.saved_.v[k] = problem.v(0)[k]; });
-    of.saved_.s = s;
+    mix(of.tangent_, scale, 0, of.tangent_);
+    std::swap(of.last_, of.tangent_);
+    mix(of.correction_, 1, length * max_step(of.last_), of.last_);
+    advance(of.correction_);
+    corrections = 0, size = infinity, at = At::predicted;
   }
-  mix(of.tangent_, scale, 0, of.tangent_);
-  std::swap(of.last_, of.tangent_);
-  mix(of.correction_, 1, length * max_step(of.last_), of.last_);
-  advance(of.correction_);
-  corrections = 0, size = infinity, at = At::predicted;
-}
-
-void ImpulseSolver::CentralPath::restore() {
-  for_each_cone([&](int i) { of.x_[i] = of.saved_.x[i], of.z_[i] = of.saved_.z[i]; });
-  for_each_velocity([&](std::size_t k) { problem.v(0)[k] = of.saved_.v[k]; });
-  s = of.saved_.s;
-  length *= kShorten;
-  at = At::back;
-}
-
-// One corrector step, or a predictor if the correction is small. False if the path cannot be
-// followed.
-bool ImpulseSolver::CentralPath::step() {
-  find_directions();
-  Direction &correction = of.correction_, &tangent = of.tangent_;
-  if (at == At::start) {  // towards the curve at constant s
-    const double error = largest(correction);
-    if (error <= kNear)
+  void restore() {
+    for_each_cone([&](int i) { of.x_[i] = of.saved_.x[i], of.z_[i] = of.saved_.z[i]; });
+    of.for_each_velocity(
+        [&](std::size_t k, std::size_t) { of.problem_->v(0)[k] = of.saved_.v[k]; });
+    s = of.saved_.s;
+    length *= kShorten;
+    at = At::back;
+  }
+  // One corrector step, or a predictor if the correction is small. False if the path cannot be
+  // followed.
+  bool step() {
+    find_directions();
+    Direction &correction = of.correction_, &tangent = of.tangent_;
+    if (at == At::start) {  // towards the curve at constant s
+      const double error = largest(correction);
+      if (error <= kNear)
+        predict(false);
+      else
+        advance(correction);
+      return error < infinity;
+    }
+    const Direction& normal = at == At::back ? tangent : of.last_;
+    mix(correction, 1, -inner(correction, normal) / inner(tangent, normal), tangent);
+    if (at == At::back) {
+      predict(true);
+      return length > kMinLength;
+    }
+    const double before = size;
+    size = largest(correction);
+    const int sign = -of.matrix_.determinant_sign();
+    if (size <= kNear && (length < kSharpTurn || sign * inner(tangent, of.last_) > 0))
       predict(false);
+    else if (size > kNear && size < kSlow * before && corrections < kMaxCorrections)
+      ++corrections, advance(correction);
     else
-      advance(correction);
-    return error < infinity;
-  }
-  const Direction& normal = at == At::back ? tangent : of.last_;
-  mix(correction, 1, -inner(correction, normal) / inner(tangent, normal), tangent);
-  if (at == At::back) {
-    predict(true);
+      restore();
     return length > kMinLength;
   }
-  const double before = size;
-  size = largest(correction);
-  const int sign = -of.matrix_.determinant_sign();
-  if (size <= kNear && (length < kSharpTurn || sign * inner(tangent, of.last_) > 0))
-    predict(false);
-  else if (size > kNear && size < kSlow * before && corrections < kMaxCorrections)
-    ++corrections, advance(correction);
-  else
-    restore();
-  return length > kMinLength;
-}
+};
 
 // A different curve for each `start`. Sets p to the best point on it. Returns the number of steps.
-int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, int start) {
-  const double s0 = ipm_initialize(problem, island, start);
+int ImpulseSolver::follow_path(int start) {
+  const double s0 = ipm_initialize(start);
   for (Direction* direction : {&correction_, &tangent_, &last_, &saved_}) {
-    direction->v.resize(problem.nv());
+    direction->v.resize(problem_->nv());
     direction->x.resize(x_.size()), direction->z.resize(x_.size());
   }
   d_z_.resize(x_.size());
-  CentralPath path{*this, problem, island, s0};
+  CentralPath path{*this, s0};
   double best = infinity;
   int steps = 0;
   for (; s0 > 0 && steps < kMaxSteps; ++steps) {
     shift_factor_ = std::max(0.0, 1 - path.s / s0);
     smoothing_ = path.s / s0;
     double residual = 0;
-    const bool inside = ipm_evaluate(problem, island, residual) > 0 && residual < 1e100;
+    const bool inside = ipm_evaluate(residual) > 0 && residual < 1e100;
     if (inside && residual < best) {
       best = residual;
-      for (const int i : island.constraints) kept_[i] = p_[i];
+      for (const int i : island_->constraints) kept_[i] = p_[i];
     }
     if (path.at == CentralPath::At::start && steps > kMaxStartSteps) break;
     if (residual <= 0.5 * accepted || path.s > 2 * s0) break;
@@ -228,7 +215,7 @@ int ImpulseSolver::follow_path(ImpulseProblem& problem, const Island& island, in
     }
   }
   if (best < infinity)
-    for (const int i : island.constraints) problem.constraints()[i].p = kept_[i];
+    for (const int i : island_->constraints) constraint(i).p = kept_[i];
   return steps;
 }
 

@@ -1,7 +1,6 @@
 #include "solver/impulses/impulse_solver.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "solver/impulses/block_matrices.h"
@@ -21,22 +20,23 @@ constexpr int kMaxPaths = 8;
 
 ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
   ImpulseReport report;
-  factorise_trees(problem);
-  const std::size_t count = problem.constraints().size();
+  problem_ = &problem;
+  factorise_trees();
+  const std::size_t count = problem_->constraints().size();
   multipliers_.assign(count, {});
   rho0_.assign(count, 0);
   D_.resize(count), u_.resize(count), du_.resize(count), p_.resize(count);
-  f_.assign(problem.nv(), 0), dv_.resize(problem.nv()), delta_.resize(problem.nv());
-  convex_v_.resize(problem.nv());
-  std::copy_n(problem.v0(0), problem.tree_count() > 0 ? problem.nv() : 0, problem.v(0));
-  find_islands(problem);
+  f_.assign(problem_->nv(), 0), dv_.resize(problem_->nv()), delta_.resize(problem_->nv());
+  convex_v_.resize(problem_->nv());
+  std::copy_n(problem_->v0(0), problem_->tree_count() > 0 ? problem_->nv() : 0, problem_->v(0));
+  find_islands();
   for (std::size_t i = 0; i < count; ++i) {
-    const ImpulseConstraint& c = problem.constraints()[i];
+    const ImpulseConstraint& c = problem_->constraints()[i];
     double inverse = 0;
     for (int side = 0; side < 2; ++side) {
       if (c.tree[side] == no_tree) continue;
-      const int n = problem.size(c.tree[side]);
-      const double *J = problem.J(c, side), *M = problem.M(c.tree[side]);
+      const int n = problem_->size(c.tree[side]);
+      const double *J = problem_->J(c, side), *M = problem_->M(c.tree[side]);
       for (int k = 0; k < n; ++k) {
         double sum = 0;
         for (int r = 0; r < c.rows; ++r) sum += J[r * n + k] * J[r * n + k];
@@ -45,68 +45,70 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
     }
     rho0_[i] = inverse > 0 ? c.rows / inverse : 1;
   }
-  link_discs(problem);
+  link_discs();
   report.islands = static_cast<int>(island_count_);
-  solve_again_.resize(static_cast<std::size_t>(problem.tree_count()));
+  solve_again_.resize(static_cast<std::size_t>(problem_->tree_count()));
   residual_.assign(solve_again_.size(), 0);
   for (std::size_t i = 0; i < island_count_; ++i) {
-    double residual = apply_impulses(problem, islands_[i]);
-    char& again = solve_again_[static_cast<std::size_t>(islands_[i].trees.front())];
+    island_ = &islands_[i];
+    double residual = apply_impulses();
+    char& again = solve_again_[static_cast<std::size_t>(island_->trees.front())];
     const bool fails = !(residual <= good_guess);
     bool open = fails || (again && residual > 0.1 * tolerance);
     if (!open && residual > tolerance) {
-      residual = projected_gradient_step(problem, islands_[i]);
+      residual = projected_gradient_step();
       open = !(residual <= good_guess);  // can increase the residual of shared contacts
     }
     if (open) {
-      residual = solve_island(problem, islands_[i], report);
+      residual = solve_island(report);
       // Event-driven steps, with good_guess < tolerance, require the tolerance.
       const double required = good_guess < tolerance ? tolerance : accepted;
-      if (islands_[i].constraints.size() <= kSmallIsland || !(residual <= required))
-        residual = refine_solution(problem, islands_[i], residual);
+      if (island_->constraints.size() <= kSmallIsland || !(residual <= required))
+        residual = refine_solution(residual);
     }
     again = fails;
-    for (const int t : islands_[i].trees) residual_[static_cast<std::size_t>(t)] = residual;
+    for (const int t : island_->trees) residual_[static_cast<std::size_t>(t)] = residual;
     report.residual = nan_max(report.residual, residual);
     report.converged = report.converged && residual <= accepted;
   }
   return report;
 }
 
-void ImpulseSolver::factorise_trees(const ImpulseProblem& problem) {
-  factors_.resize(problem.blocks_size());
-  for (int t = 0; t < problem.tree_count(); ++t)
-    with_size(problem.size(t),
-              [&](auto n) { cholesky(problem.M(t), n, factors_.data() + problem.block(t)); });
+void ImpulseSolver::factorise_trees() {
+  factors_.resize(problem_->blocks_size());
+  for (int t = 0; t < problem_->tree_count(); ++t)
+    with_size(problem_->size(t),
+              [&](auto n) { cholesky(problem_->M(t), n, factors_.data() + problem_->block(t)); });
 }
 
-void ImpulseSolver::solve_tree(const ImpulseProblem& problem, int tree, double* f) const {
-  with_size(problem.size(tree),
-            [&](auto n) { solve_cholesky(factors_.data() + problem.block(tree), n, f); });
+void ImpulseSolver::solve_tree(int tree, double* f) const {
+  with_size(problem_->size(tree),
+            [&](auto n) { solve_cholesky(factors_.data() + problem_->block(tree), n, f); });
 }
 
-void ImpulseSolver::zero_forces(const ImpulseProblem& problem, const Island& island) {
-  for (const int t : island.trees)
-    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)), problem.size(t), 0.0);
+void ImpulseSolver::zero_forces() {
+  for (const int t : island_->trees)
+    std::fill_n(f_.begin() + static_cast<std::ptrdiff_t>(problem_->first(t)), problem_->size(t),
+                0.0);
 }
 
 // v = v0 + M^-1 J^T p and u = J v + b. Returns the residual of the laws.
-double ImpulseSolver::apply_impulses(ImpulseProblem& problem, const Island& island) {
-  zero_forces(problem, island);
-  for (const int i : island.constraints)
-    problem.add_transpose(problem.constraints()[i], problem.constraints()[i].p, f_.data());
-  for (const int t : island.trees) {
-    double* change = f_.data() + problem.first(t);
-    solve_tree(problem, t, change);
-    for (int k = 0; k < problem.size(t); ++k) problem.v(t)[k] = problem.v0(t)[k] + change[k];
+double ImpulseSolver::apply_impulses() {
+  zero_forces();
+  for (const int i : island_->constraints)
+    problem_->add_transpose(constraint(i), constraint(i).p, f_.data());
+  for (const int t : island_->trees) {
+    double* change = f_.data() + problem_->first(t);
+    solve_tree(t, change);
+    for (int k = 0; k < problem_->size(t); ++k) problem_->v(t)[k] = problem_->v0(t)[k] + change[k];
   }
   double residual = 0;
-  for (const int i : island.constraints) {
-    ImpulseConstraint& c = problem.constraints()[i];
-    problem.velocity(c, problem.v(0), c.u);
+  for (const int i : island_->constraints) {
+    ImpulseConstraint& c = constraint(i);
+    problem_->velocity(c, problem_->v(0), c.u);
     for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
     if (c.law == ConstraintType::friction_disc)
-      multipliers_[i].radius = c.radius * problem.constraints()[c.of].p[0];
+      multipliers_[i].radius = c.radius * constraint(c.of).p[0];
     residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
   }
   return residual;
@@ -114,11 +116,11 @@ double ImpulseSolver::apply_impulses(ImpulseProblem& problem, const Island& isla
 
 // One projected gradient step. Applied to accepted guesses, whose residual would otherwise
 // accumulate over the steps of a body at rest.
-double ImpulseSolver::projected_gradient_step(ImpulseProblem& problem, const Island& island) {
+double ImpulseSolver::projected_gradient_step() {
   constexpr double part = 0.125;  // rho / rho0: up to eight contacts share the inertia of a body
-  for (const int i : island.constraints) {
-    ImpulseConstraint& c = problem.constraints()[i];
-    update_multiplier(c, problem.constraints(), c.u, c.p, multipliers_[i]);
+  for (const int i : island_->constraints) {
+    ImpulseConstraint& c = constraint(i);
+    update_multiplier(c, problem_->constraints(), c.u, c.p, multipliers_[i]);
     multipliers_[i].rho = part * rho0_[i];
     project_impulse(c, multipliers_[i], DeSaxceShift::frozen, c.u, p_[i], D_[i]);
     if (c.law != ConstraintType::compliant) {
@@ -128,49 +130,48 @@ double ImpulseSolver::projected_gradient_step(ImpulseProblem& problem, const Isl
         c.p[r] += part * (p_[i][r] - c.p[r]) / (1 + D_[i][4 * r] / rho0_[i]);
     }
   }
-  return apply_impulses(problem, island);
+  return apply_impulses();
 }
 
 // The stages of impulse_solver.h until the residual is accepted. Sets the best p and returns its
 // residual.
-double ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island,
-                                   ImpulseReport& report) {
+double ImpulseSolver::solve_island(ImpulseReport& report) {
   ++report.solved;
-  order(problem, island);
-  set_envelope(problem, island);
+  order();
+  set_envelope();
   double best = std::numeric_limits<double>::infinity();
-  best_p_.resize(problem.constraints().size()), iterate_p_.resize(best_p_.size());
+  best_p_.resize(problem_->constraints().size()), iterate_p_.resize(best_p_.size());
   guess_p_.resize(best_p_.size());
-  const bool small = island.constraints.size() <= kSmallIsland;
+  const bool small = island_->constraints.size() <= kSmallIsland;
   const auto keep_best = [&](double residual) {
     if (residual < best) {
       best = residual;
-      for (const int i : island.constraints) best_p_[i] = problem.constraints()[i].p;
+      for (const int i : island_->constraints) best_p_[i] = constraint(i).p;
     }
   };
   const auto start_from = [&](const std::vector<Vec>& p) {
-    for (const int i : island.constraints) problem.constraints()[i].p = p[i];
-    return apply_impulses(problem, island);
+    for (const int i : island_->constraints) constraint(i).p = p[i];
+    return apply_impulses();
   };
-  for (const int i : island.constraints) best_p_[i] = guess_p_[i] = problem.constraints()[i].p;
+  for (const int i : island_->constraints) best_p_[i] = guess_p_[i] = constraint(i).p;
   const auto iterate = [&](int max_steps, bool damped, double rho) {
     rho_ratio_ = rho;
-    run_augmented_lagrangian(problem, island, max_steps, damped, report);
-    keep_best(apply_impulses(problem, island));
+    run_augmented_lagrangian(max_steps, damped, report);
+    keep_best(apply_impulses());
   };
-  if (small && has_warm_start(problem, island)) {
-    keep_best(warm_start_newton(problem, island, report));
+  if (small && has_warm_start()) {
+    keep_best(warm_start_newton(report));
     if (best <= accepted) return best;
     start_from(guess_p_);
   }
   iterate(small ? quick_newton_small : quick_newton, false, kFirstRho);
   if (best <= accepted) return best;
   const auto finish = [&](bool damped) {
-    keep_best(apply_impulses(problem, island));
+    keep_best(apply_impulses());
     if (best <= accepted) return;
     iterate(max_newton, damped, kFirstRho);
   };
-  report.interior = std::max(report.interior, interior_point_start(problem, island));
+  report.interior = std::max(report.interior, interior_point_start());
   finish(false);
   // A body between two surfaces may slide, or jam with unbounded impulses. The interior-point start
   // leads to jamming even if a small gap excludes it: also iterate from the guess.
@@ -180,7 +181,7 @@ double ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island
     iterate(max_newton, false, rho);
   }
   for (int start = 0; start < kMaxPaths && best > accepted; ++start) {
-    report.path = std::max(report.path, follow_path(problem, island, start));
+    report.path = std::max(report.path, follow_path(start));
     finish(start % 2 == 1);
   }
   // Restarts from the best p, damped and undamped in turn, while the residual decreases.
@@ -193,47 +194,42 @@ double ImpulseSolver::solve_island(ImpulseProblem& problem, const Island& island
   }
   // Infeasible problems (Painleve paradox): descent to a small residual, against penetration.
   const auto max_descents =
-      static_cast<int>(std::clamp<std::size_t>(30000 / island.constraints.size(), 300, 5000));
-  for (int k = 0; k < max_descents && best > accepted; ++k)
-    keep_best(projected_gradient_step(problem, island));
+      static_cast<int>(std::clamp<std::size_t>(30000 / island_->constraints.size(), 300, 5000));
+  for (int k = 0; k < max_descents && best > accepted; ++k) keep_best(projected_gradient_step());
   return start_from(best_p_);
 }
 
-void ImpulseSolver::update_multipliers(const ImpulseProblem& problem, const Island& island) {
-  for (const int i : island.constraints) {
-    const ImpulseConstraint& c = problem.constraints()[i];
-    update_multiplier(c, problem.constraints(), c.u, c.p, multipliers_[i]);
+void ImpulseSolver::update_multipliers() {
+  for (const int i : island_->constraints) {
+    const ImpulseConstraint& c = constraint(i);
+    update_multiplier(c, problem_->constraints(), c.u, c.p, multipliers_[i]);
   }
 }
 
 // From p and u of the constraints, v and rho_ratio_. If the residual grows, restart from the best
 // iterate with a smaller rho, which keeps the inner solutions closer to the start. `damped`: also
 // reduces rho after Newton steps with differentiated shift diverge (Levenberg-Marquardt).
-void ImpulseSolver::run_augmented_lagrangian(ImpulseProblem& problem, const Island& island,
-                                             int max_steps, bool damped, ImpulseReport& report) {
+void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, ImpulseReport& report) {
   int newton = 0, iterations = 0;
   double last = 0, best = std::numeric_limits<double>::infinity();
   double max_rho = kDefaultMaxRho;
   const auto restore_best = [&] {
-    for (const int i : island.constraints) problem.constraints()[i].p = iterate_p_[i];
-    apply_impulses(problem, island);
+    for (const int i : island_->constraints) constraint(i).p = iterate_p_[i];
+    apply_impulses();
   };
-  for (const int i : island.constraints) iterate_p_[i] = problem.constraints()[i].p;
-  update_multipliers(problem, island);
+  for (const int i : island_->constraints) iterate_p_[i] = constraint(i).p;
+  update_multipliers();
   // For many bodies the bound is larger than their final errors and would end iterations too early.
-  rounding_error_ = island.constraints.size() <= kSmallIsland ? rounding_error(problem, island) : 0;
+  rounding_error_ = island_->constraints.size() <= kSmallIsland ? rounding_error() : 0;
   while (newton < max_steps) {
-    for (const int i : island.constraints) multipliers_[i].rho = rho_ratio_ * rho0_[i];
-    const InnerResult inner = solve_inner_problem(problem, island, max_steps - newton);
+    for (const int i : island_->constraints) multipliers_[i].rho = rho_ratio_ * rho0_[i];
+    const InnerResult inner = solve_inner_problem(max_steps - newton);
     newton += std::max(1, inner.steps);
-    for (const int i : island.constraints) {
-      ImpulseConstraint& c = problem.constraints()[i];
-      c.p = p_[i], c.u = u_[i];
-    }
     double residual = inner.error;
-    for (const int i : island.constraints) {
-      const ImpulseConstraint& c = problem.constraints()[i];
-      update_multiplier(c, problem.constraints(), c.u, c.p, multipliers_[i]);
+    for (const int i : island_->constraints) {
+      ImpulseConstraint& c = constraint(i);
+      c.p = p_[i], c.u = u_[i];
+      update_multiplier(c, problem_->constraints(), c.u, c.p, multipliers_[i]);
       residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
     }
     report.rounds = std::max(report.rounds, ++iterations);
@@ -241,10 +237,10 @@ void ImpulseSolver::run_augmented_lagrangian(ImpulseProblem& problem, const Isla
     if (residual <= 0.3 * tolerance) return;
     if (residual < best) {
       best = residual;
-      for (const int i : island.constraints) iterate_p_[i] = problem.constraints()[i].p;
+      for (const int i : island_->constraints) iterate_p_[i] = constraint(i).p;
     } else if (!(residual <= kDivergence * best) && rho_ratio_ > kMinRho) {
       restore_best();
-      update_multipliers(problem, island);
+      update_multipliers();
       max_rho = rho_ratio_ = std::max(kMinRho, 0.01 * rho_ratio_);
       last = best;
       continue;

@@ -58,23 +58,32 @@ class ImpulseSolver {
   struct Island {
     std::vector<int> trees, constraints;
   };
-  void link_discs(const ImpulseProblem& problem);
-  void factorise_trees(const ImpulseProblem& problem);
-  void solve_tree(const ImpulseProblem& problem, int tree, double* f) const;
-  void find_islands(const ImpulseProblem& problem);
-  double projected_gradient_step(ImpulseProblem& problem, const Island& island);
-  double apply_impulses(ImpulseProblem& problem, const Island& island);
-  double solve_island(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
-  void run_augmented_lagrangian(ImpulseProblem& problem, const Island& island, int max_steps,
-                                bool damped, ImpulseReport& report);
-  void update_multipliers(const ImpulseProblem& problem, const Island& island);
-  void zero_forces(const ImpulseProblem& problem, const Island& island);
-  static bool has_warm_start(const ImpulseProblem& problem, const Island& island);
-  double warm_start_newton(ImpulseProblem& problem, const Island& island, ImpulseReport& report);
-  double semismooth_newton_step(ImpulseProblem& problem, const Island& island, double residual);
-  double refine_solution(ImpulseProblem& problem, const Island& island, double residual);
-  void order(const ImpulseProblem& problem, const Island& island);
-  void set_envelope(const ImpulseProblem& problem, const Island& island);
+  ImpulseConstraint& constraint(int i) const {
+    return problem_->constraints()[static_cast<std::size_t>(i)];
+  }
+  // f(index in v, row in matrix_) for each velocity of the island.
+  template <class F>
+  void for_each_velocity(F&& f) const {
+    for (const int t : island_->trees)
+      for (std::size_t k = 0; k < static_cast<std::size_t>(problem_->size(t)); ++k)
+        f(problem_->first(t) + k, row_[t] + k);
+  }
+  void link_discs();
+  void factorise_trees();
+  void solve_tree(int tree, double* f) const;
+  void find_islands();
+  double projected_gradient_step();
+  double apply_impulses();
+  double solve_island(ImpulseReport& report);
+  void run_augmented_lagrangian(int max_steps, bool damped, ImpulseReport& report);
+  void update_multipliers();
+  void zero_forces();
+  bool has_warm_start() const;
+  double warm_start_newton(ImpulseReport& report);
+  double semismooth_newton_step(double residual);
+  double refine_solution(double residual);
+  void order();
+  void set_envelope();
   struct Gradient {
     double largest = 0, squared = 0;  // as velocities [m/s]; squared in the norm of diag(M)^-1
     double tolerance = 0;             // ends the Newton iteration
@@ -86,34 +95,35 @@ class ImpulseSolver {
     double error = 0;       // of M (v - v0) = J^T p, as a velocity [m/s]
     bool diverged = false;  // Newton steps with differentiated shift
   };
-  InnerResult solve_inner_problem(ImpulseProblem& problem, const Island& island, int max_steps);
-  double rounding_error(const ImpulseProblem& problem, const Island& island);
-  Gradient gradient(ImpulseProblem& problem, const Island& island, DeSaxceShift shift);
+  InnerResult solve_inner_problem(int max_steps);
+  double rounding_error();
+  Gradient gradient(DeSaxceShift shift);
   void project_disc(const ImpulseConstraint& c, int i);
-  Gradient momentum_balance(const ImpulseProblem& problem, const Island& island);
-  void find_direction(const ImpulseProblem& problem, const Island& island, bool symmetric);
-  void assemble(const ImpulseProblem& problem, const Island& island, bool symmetric);
-  void add_products(const ImpulseProblem& problem, const ImpulseConstraint& left,
-                    const ImpulseConstraint& right, const Mat& D, bool symmetric);
-  void add_block(const ImpulseProblem& problem, const ImpulseConstraint& left, int side_s,
-                 const ImpulseConstraint& right, int side_t, bool symmetric);
-  void move(ImpulseProblem& problem, const Island& island, double step);
-  int interior_point_start(ImpulseProblem& problem, const Island& island);
-  bool has_cone(const ImpulseProblem& problem, const ImpulseConstraint& c) const;
-  double ipm_initialize(ImpulseProblem& problem, const Island& island, int start);
-  double ipm_evaluate(ImpulseProblem& problem, const Island& island, double& residual);
+  Gradient momentum_balance();
+  void find_direction(bool symmetric);
+  void assemble(bool symmetric);
+  void add_products(const ImpulseConstraint& left, const ImpulseConstraint& right, const Mat& D,
+                    bool symmetric);
+  void add_block(const ImpulseConstraint& left, int side_s, const ImpulseConstraint& right,
+                 int side_t, bool symmetric);
+  void move(double step);
+  int interior_point_start();
+  bool has_cone(const ImpulseConstraint& c) const;
+  double ipm_initialize(int start);
+  double ipm_evaluate(double& residual);
   void ipm_evaluate_cone(ImpulseConstraint& c, int i);
-  void ipm_couple_discs(const ImpulseProblem& problem, int contact);
-  double ipm_direction(ImpulseProblem& problem, const Island& island, double s, bool correct);
-  void ipm_solve_kkt(const ImpulseProblem& problem, const Island& island,
-                     const std::vector<ConeVec>& r, double factor);
-  void ipm_back_substitute(const ImpulseProblem& problem, const std::vector<ConeVec>& r);
+  void ipm_couple_discs(int contact);
+  double ipm_direction(double s, bool correct);
+  void ipm_solve_kkt(const std::vector<ConeVec>& r, double factor);
+  void ipm_back_substitute(const std::vector<ConeVec>& r);
   std::array<double, 2> tangential_dx(int i, double dp_n, const std::array<double, 2>& dz) const;
-  void ipm_update(ImpulseProblem& problem, const Island& island, double step);
-  double step_length(const ImpulseProblem& problem, const Island& island);
+  void ipm_update(double step);
+  double step_length();
   struct CentralPath;
-  int follow_path(ImpulseProblem& problem, const Island& island, int start);
+  int follow_path(int start);
 
+  ImpulseProblem* problem_ = nullptr;         // of the current call of solve()
+  const Island* island_ = nullptr;            // whose equations are solved
   std::vector<double> factors_;               // of the blocks of M: L L^T, 1 / l_ii on the diagonal
   std::vector<MultiplierState> multipliers_;  // by constraint
   std::vector<double> rho0_;                  // by constraint: 1 / J diag(M)^-1 J^T

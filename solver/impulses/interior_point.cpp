@@ -25,23 +25,23 @@ constexpr int kMaxIterations = 60, kMaxStuck = 3;
 
 }  // namespace
 
-int ImpulseSolver::interior_point_start(ImpulseProblem& problem, const Island& island) {
-  ipm_initialize(problem, island, 0);
+int ImpulseSolver::interior_point_start() {
+  ipm_initialize(0);
   shift_factor_ = 1, smoothing_ = 0;
   double step = 1, best = std::numeric_limits<double>::infinity();
   int iterations = 0, stuck = 0;
   for (; iterations < kMaxIterations && stuck <= kMaxStuck; ++iterations) {
     double residual = 0;
-    const double mean = ipm_evaluate(problem, island, residual);
+    const double mean = ipm_evaluate(residual);
     if (!(mean > 0) || !(residual < 1e100)) break;
     if (residual < best) {
       best = residual;
-      for (const int i : island.constraints) kept_[i] = p_[i];
+      for (const int i : island_->constraints) kept_[i] = p_[i];
     }
     if (residual <= tolerance) break;
-    assemble(problem, island, false);
+    assemble(false);
     matrix_.factorise(false);
-    const double affine = std::min(1.0, ipm_direction(problem, island, 0, false));
+    const double affine = std::min(1.0, ipm_direction(0, false));
     double after = 0;
     for (const int i : cones_)
       for (int r = 0; r < 3; ++r)
@@ -50,18 +50,17 @@ int ImpulseSolver::interior_point_start(ImpulseProblem& problem, const Island& i
     double centering = std::clamp(ratio * ratio * ratio, kMinCentering, 1.0);
     const bool correct = step >= kPoorStep;  // after a poor step: centering without corrector
     if (!correct) centering = std::max(centering, 0.3);
-    step = std::min(1.0, 0.99 * ipm_direction(problem, island, centering * mean, correct));
+    step = std::min(1.0, 0.99 * ipm_direction(centering * mean, correct));
     stuck += step < kStuckStep;
-    ipm_update(problem, island, step);
+    ipm_update(step);
   }
-  for (const int i : island.constraints) problem.constraints()[i].p = kept_[i];
+  for (const int i : island_->constraints) constraint(i).p = kept_[i];
   return iterations;
 }
 
 // Direction dv_, dx_, dz_ towards x o z = s e, with Mehrotra's corrector from the previous
 // direction if `correct`. Returns the maximum step within the cones.
-double ImpulseSolver::ipm_direction(ImpulseProblem& problem, const Island& island, double s,
-                                    bool correct) {
+double ImpulseSolver::ipm_direction(double s, bool correct) {
   for (const int i : cones_) {
     const ConeScaling& scaling = scaling_[i];
     const Vec square = jordan(scaling.t, scaling.t);
@@ -72,17 +71,17 @@ double ImpulseSolver::ipm_direction(ImpulseProblem& problem, const Island& islan
     const Vec second = jordan(Wdz, Wdx);
     for (int r = 0; r < 3; ++r) right_[i][r] -= second[r];
   }
-  ipm_solve_kkt(problem, island, r_z_, 1);
+  ipm_solve_kkt(r_z_, 1);
   double max_step = std::numeric_limits<double>::infinity();
   for (const int i : cones_)
     max_step = std::min({max_step, cone_step(x_[i], dx_[i]), cone_step(z_[i], dz_[i])});
   return max_step;
 }
 
-void ImpulseSolver::ipm_update(ImpulseProblem& problem, const Island& island, double step) {
+void ImpulseSolver::ipm_update(double step) {
   for (const int i : cones_)
     for (int r = 0; r < 3; ++r) x_[i][r] += step * dx_[i][r], z_[i][r] += step * dz_[i][r];
-  move(problem, island, step);
+  move(step);
 }
 
 }  // namespace twinarm

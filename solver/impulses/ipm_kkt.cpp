@@ -51,9 +51,8 @@ Vec in_rows(const ImpulseConstraint& c, double normal, const std::array<double, 
 
 }  // namespace
 
-bool ImpulseSolver::has_cone(const ImpulseProblem& problem, const ImpulseConstraint& c) const {
-  if (c.law == ConstraintType::friction_disc)
-    return c.radius > 0 && is_contact(problem.constraints()[c.of]);
+bool ImpulseSolver::has_cone(const ImpulseConstraint& c) const {
+  if (c.law == ConstraintType::friction_disc) return c.radius > 0 && is_contact(constraint(c.of));
   if (c.law == ConstraintType::box) return c.low < c.high && c.high - c.low < 1e100;
   return is_contact(c);
 }
@@ -61,24 +60,25 @@ bool ImpulseSolver::has_cone(const ImpulseProblem& problem, const ImpulseConstra
 // x and z on the axes of their cones, scaled by impulses and velocities of the problem; later
 // starts use other scales and a weight of x_0 z_0 per cone. Returns x_0 z_0 of weight 1; 0 without
 // cones.
-double ImpulseSolver::ipm_initialize(ImpulseProblem& problem, const Island& island, int start) {
-  const std::size_t count = problem.constraints().size();
+double ImpulseSolver::ipm_initialize(int start) {
+  const std::size_t count = problem_->constraints().size();
   x_.resize(count), z_.resize(count), dx_.resize(count), dz_.resize(count), d_.resize(count);
   r_z_.resize(count), right_.resize(count), terms_.resize(count), scaling_.resize(count);
   kept_.resize(count);
   rho_ratio_ = kNoConeRho;
-  for (const int t : island.trees) std::copy_n(problem.v0(t), problem.size(t), problem.v(t));
+  for (const int t : island_->trees)
+    std::copy_n(problem_->v0(t), problem_->size(t), problem_->v(t));
   double speed = 1e-6, impulse = 1e-9;
   cones_.clear();
-  for (const int i : island.constraints) {
-    ImpulseConstraint& c = problem.constraints()[i];
+  for (const int i : island_->constraints) {
+    ImpulseConstraint& c = constraint(i);
     multipliers_[i].rho = rho_ratio_ * rho0_[i];
     multipliers_[i].l = kept_[i] = c.p;
     x_[i] = z_[i] = dx_[i] = dz_[i] = {};
-    if (!has_cone(problem, c)) continue;
+    if (!has_cone(c)) continue;
     cones_.push_back(i);
     if (c.law == ConstraintType::friction_disc) continue;  // scaled with its contact
-    problem.velocity(c, problem.v(0), c.u);
+    problem_->velocity(c, problem_->v(0), c.u);
     for (int r = 0; r < c.rows; ++r) {
       speed = std::max(speed, std::abs(c.u[r] + c.b[r]));
       impulse = std::max(impulse, rho0_[i] * std::abs(c.u[r] + c.b[r]));
@@ -86,7 +86,7 @@ double ImpulseSolver::ipm_initialize(ImpulseProblem& problem, const Island& isla
   }
   const double s0 = impulse * speed * kStartScales[start % 3];
   for (const int i : cones_) {
-    const ImpulseConstraint& c = problem.constraints()[i];
+    const ImpulseConstraint& c = constraint(i);
     terms_[i].arm = arm_of(c);
     if (c.law == ConstraintType::friction_disc)
       x_[i][0] = terms_[i].arm * x_[c.of][0] / terms_[c.of].arm;
@@ -100,20 +100,19 @@ double ImpulseSolver::ipm_initialize(ImpulseProblem& problem, const Island& isla
 }
 
 // p, u, residuals and D. Returns the mean of x . z.
-double ImpulseSolver::ipm_evaluate(ImpulseProblem& problem, const Island& island,
-                                   double& residual) {
+double ImpulseSolver::ipm_evaluate(double& residual) {
   double sum = 0;
   residual = 0;
   coupling_blocks_.clear();
-  zero_forces(problem, island);
-  for (const int i : island.constraints) {
-    ImpulseConstraint& c = problem.constraints()[i];
-    problem.velocity(c, problem.v(0), c.u);
+  zero_forces();
+  for (const int i : island_->constraints) {
+    ImpulseConstraint& c = constraint(i);
+    problem_->velocity(c, problem_->v(0), c.u);
     for (int r = 0; r < c.rows; ++r) c.u[r] += c.b[r];
     if (c.law == ConstraintType::friction_disc)
-      multipliers_[i].radius = c.radius * problem.constraints()[c.of].p[0];
+      multipliers_[i].radius = c.radius * constraint(c.of).p[0];
     if (c.law == ConstraintType::compliant) multipliers_[i].radius = c.mu * c.p[0];
-    if (has_cone(problem, c)) {
+    if (has_cone(c)) {
       sum += cone_dot(x_[i], z_[i]);
       ipm_evaluate_cone(c, i);
     } else {
@@ -121,12 +120,12 @@ double ImpulseSolver::ipm_evaluate(ImpulseProblem& problem, const Island& island
       multipliers_[i].l = c.p;
     }
     p_[i] = c.p, u_[i] = c.u;
-    problem.add_transpose(c, c.p, f_.data());
+    problem_->add_transpose(c, c.p, f_.data());
     residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
   }
   for (const int i : cones_)
-    if (is_contact(problem.constraints()[i])) ipm_couple_discs(problem, i);
-  residual = nan_max(residual, momentum_balance(problem, island).largest);
+    if (is_contact(constraint(i))) ipm_couple_discs(i);
+  residual = nan_max(residual, momentum_balance().largest);
   return sum / std::max<double>(1, static_cast<double>(cones_.size()));
 }
 
@@ -162,9 +161,8 @@ void ImpulseSolver::ipm_evaluate_cone(ImpulseConstraint& c, int i) {
 }
 
 // Contact and its discs: C, r_n, and the blocks of D.
-void ImpulseSolver::ipm_couple_discs(const ImpulseProblem& problem, int contact) {
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
-  double C = 0, r_n = all[contact].u[0];
+void ImpulseSolver::ipm_couple_discs(int contact) {
+  double C = 0, r_n = constraint(contact).u[0];
   for (int k = contact; k >= 0; k = next_disc_[k]) {
     const ConeTerms& terms = terms_[k];
     C += terms.arm * terms.arm / terms.A;
@@ -175,27 +173,25 @@ void ImpulseSolver::ipm_couple_discs(const ImpulseProblem& problem, int contact)
   for (int i = contact; i >= 0; i = next_disc_[i])
     for (int j = contact; j >= 0; j = next_disc_[j]) {
       const ConeTerms &a = terms_[i], &b = terms_[j];
-      const Vec e = in_rows(all[i], 1, {a.arm * a.h[0], a.arm * a.h[1]});
-      const Vec f = in_rows(all[j], 1, {b.l[0] + b.arm * b.h[0], b.l[1] + b.arm * b.h[1]});
+      const Vec e = in_rows(constraint(i), 1, {a.arm * a.h[0], a.arm * a.h[1]});
+      const Vec f = in_rows(constraint(j), 1, {b.l[0] + b.arm * b.h[0], b.l[1] + b.arm * b.h[1]});
       if (i != j) coupling_blocks_.push_back({i, j, {}});
       Mat& D = i == j ? D_[i] : coupling_blocks_.back().D;
-      for (int r = 0; r < all[i].rows; ++r)
-        for (int k = 0; k < all[j].rows; ++k) D[3 * r + k] += e[r] * f[k] / C;
+      for (int r = 0; r < constraint(i).rows; ++r)
+        for (int k = 0; k < constraint(j).rows; ++k) D[3 * r + k] += e[r] * f[k] / C;
     }
 }
 
 // Solves the linearised equations for dv_, dx_, dz_:  t o (W dz + W^-1 dx) = right_,
 // M dv = J^T dp - factor rhs_, with residuals r = (r_n, w - z_t). matrix_ must be factorised.
-void ImpulseSolver::ipm_solve_kkt(const ImpulseProblem& problem, const Island& island,
-                                  const std::vector<ConeVec>& r, double factor) {
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
-  zero_forces(problem, island);
+void ImpulseSolver::ipm_solve_kkt(const std::vector<ConeVec>& r, double factor) {
+  zero_forces();
   for (const int i : cones_) {
     d_[i] = times(scaling_[i].W, jordan_solve(scaling_[i].t, right_[i]));
     terms_[i].n = 0;
   }
   for (const int i : cones_) {
-    if (!is_contact(all[i])) continue;
+    if (!is_contact(constraint(i))) continue;
     double sum = -r[i][0];
     for (int k = i; k >= 0; k = next_disc_[k])
       sum += terms_[k].arm * (d_[k][0] / terms_[k].A - dot2(terms_[k].h, {r[k][1], r[k][2]}));
@@ -203,39 +199,32 @@ void ImpulseSolver::ipm_solve_kkt(const ImpulseProblem& problem, const Island& i
   }
   for (const int i : cones_) {
     const auto q = tangential_dx(i, terms_[i].n, {r[i][1], r[i][2]});
-    problem.add_transpose(all[i], in_rows(all[i], terms_[i].n, q), f_.data());
+    problem_->add_transpose(constraint(i), in_rows(constraint(i), terms_[i].n, q), f_.data());
   }
   step_rhs_.resize(rhs_.size());
-  const auto for_each_row = [&](auto&& f) {
-    for (const int t : island.trees)
-      for (std::size_t k = 0; k < static_cast<std::size_t>(problem.size(t)); ++k)
-        f(row_[t] + k, problem.first(t) + k);
-  };
-  for_each_row(
-      [&](std::size_t row, std::size_t at) { step_rhs_[row] = f_[at] - factor * rhs_[row]; });
+  for_each_velocity(
+      [&](std::size_t k, std::size_t row) { step_rhs_[row] = f_[k] - factor * rhs_[row]; });
   matrix_.solve(step_rhs_.data());
-  for_each_row([&](std::size_t row, std::size_t at) { dv_[at] = step_rhs_[row]; });
-  ipm_back_substitute(problem, r);
+  for_each_velocity([&](std::size_t k, std::size_t row) { dv_[k] = step_rhs_[row]; });
+  ipm_back_substitute(r);
 }
 
 // dx and dz from dv.
-void ImpulseSolver::ipm_back_substitute(const ImpulseProblem& problem,
-                                        const std::vector<ConeVec>& r) {
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
-  for (const int i : cones_) problem.velocity(all[i], dv_.data(), du_[i]);
+void ImpulseSolver::ipm_back_substitute(const std::vector<ConeVec>& r) {
+  for (const int i : cones_) problem_->velocity(constraint(i), dv_.data(), du_[i]);
   for (const int i : cones_) {
-    if (!is_contact(all[i])) continue;
+    if (!is_contact(constraint(i))) continue;
     double sum = du_[i][0];
     for (int k = i; k >= 0; k = next_disc_[k]) {
       const ConeTerms& terms = terms_[k];
       sum += dot2({terms.l[0] + terms.arm * terms.h[0], terms.l[1] + terms.arm * terms.h[1]},
-                  tangential_part(all[k], du_[k]));
+                  tangential_part(constraint(k), du_[k]));
     }
     for (int k = i; k >= 0; k = next_disc_[k]) terms_[k].n -= sum / terms_[i].C;
   }
   for (const int i : cones_) {
     const ConeTerms& terms = terms_[i];
-    const auto dw = tangential_part(all[i], du_[i]);
+    const auto dw = tangential_part(constraint(i), du_[i]);
     const std::array<double, 2> dz{dw[0] + r[i][1], dw[1] + r[i][2]};
     const auto dx = tangential_dx(i, terms.n, dz);
     dx_[i] = {terms.arm * terms.n, dx[0], dx[1]};

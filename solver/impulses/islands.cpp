@@ -13,8 +13,8 @@ constexpr int world = ImpulseConstraint::no_tree;
 
 }  // namespace
 
-void ImpulseSolver::link_discs(const ImpulseProblem& problem) {
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
+void ImpulseSolver::link_discs() {
+  const std::vector<ImpulseConstraint>& all = problem_->constraints();
   next_disc_.assign(all.size(), -1);
   for (std::size_t i = all.size(); i-- > 0;)
     if (all[i].law == ConstraintType::friction_disc && all[i].radius > 0) {
@@ -24,15 +24,15 @@ void ImpulseSolver::link_discs(const ImpulseProblem& problem) {
 }
 
 // Union-find over the constraints; members of an island are ascending.
-void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
-  const auto trees = static_cast<std::size_t>(problem.tree_count());
+void ImpulseSolver::find_islands() {
+  const auto trees = static_cast<std::size_t>(problem_->tree_count());
   root_.resize(trees);
   std::iota(root_.begin(), root_.end(), 0);
   const auto find = [&](int t) {
     while (root_[t] != t) t = root_[t] = root_[root_[t]];
     return t;
   };
-  for (const ImpulseConstraint& c : problem.constraints())
+  for (const ImpulseConstraint& c : problem_->constraints())
     if (c.tree[0] != world && c.tree[1] != world) {
       const int a = find(c.tree[0]), b = find(c.tree[1]);
       root_[std::max(a, b)] = std::min(a, b);
@@ -48,8 +48,8 @@ void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
     }
     return islands_[island];
   };
-  for (std::size_t i = 0; i < problem.constraints().size(); ++i) {
-    const ImpulseConstraint& c = problem.constraints()[i];
+  for (std::size_t i = 0; i < problem_->constraints().size(); ++i) {
+    const ImpulseConstraint& c = problem_->constraints()[i];
     if (const int t = c.tree[0] != world ? c.tree[0] : c.tree[1]; t != world)
       island_at(t).constraints.push_back(static_cast<int>(i));
   }
@@ -59,13 +59,13 @@ void ImpulseSolver::find_islands(const ImpulseProblem& problem) {
 }
 
 // Reverse Cuthill-McKee order, for a small matrix envelope.
-void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
-  const auto trees = static_cast<std::size_t>(problem.tree_count());
+void ImpulseSolver::order() {
+  const auto trees = static_cast<std::size_t>(problem_->tree_count());
   neighbour_begin_.assign(trees + 1, 0);
   const auto for_each_pair = [&](auto&& f) {
     int last_a = world, last_b = world;
-    for (const int i : island.constraints) {
-      const auto [a, b] = problem.constraints()[i].tree;
+    for (const int i : island_->constraints) {
+      const auto [a, b] = constraint(i).tree;
       if (a == world || b == world || a == b || (a == last_a && b == last_b)) continue;
       f(a, b), last_a = a, last_b = b;
     }
@@ -79,7 +79,7 @@ void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
   const auto degree = [&](int t) { return neighbour_begin_[t + 1] - neighbour_begin_[t]; };
 
   const auto breadth_first = [&](int start) {
-    for (const int t : island.trees) lowest_[t] = 0;
+    for (const int t : island_->trees) lowest_[t] = 0;
     order_.assign(1, start), lowest_[start] = 1;
     for (std::size_t done = 0; done < order_.size(); ++done) {
       const std::size_t from = order_.size();
@@ -89,29 +89,29 @@ void ImpulseSolver::order(const ImpulseProblem& problem, const Island& island) {
                 [&](int a, int b) { return std::pair(degree(a), a) < std::pair(degree(b), b); });
     }
   };
-  breadth_first(island.trees.front());
+  breadth_first(island_->trees.front());
   breadth_first(order_.back());  // from a peripheral tree
   std::reverse(order_.begin(), order_.end());
 }
 
-void ImpulseSolver::set_envelope(const ImpulseProblem& problem, const Island& island) {
-  row_.resize(static_cast<std::size_t>(problem.tree_count()));
+void ImpulseSolver::set_envelope() {
+  row_.resize(static_cast<std::size_t>(problem_->tree_count()));
   lowest_.resize(row_.size());
   std::size_t row = 0;
   for (const int t : order_) {
     row_[t] = row;
     lowest_[t] = t;
-    row += static_cast<std::size_t>(problem.size(t));
+    row += static_cast<std::size_t>(problem_->size(t));
   }
-  for (const int i : island.constraints) {
-    const auto [a, b] = problem.constraints()[i].tree;
+  for (const int i : island_->constraints) {
+    const auto [a, b] = constraint(i).tree;
     if (a == world || b == world) continue;
     const int later = row_[a] > row_[b] ? a : b, earlier = later == a ? b : a;
     if (row_[earlier] < row_[lowest_[later]]) lowest_[later] = earlier;
   }
   matrix_.clear();
   for (const int t : order_)
-    for (int k = 0; k < problem.size(t); ++k) matrix_.add_row(row_[lowest_[t]]);
+    for (int k = 0; k < problem_->size(t); ++k) matrix_.add_row(row_[lowest_[t]]);
   rhs_.resize(row);
 }
 

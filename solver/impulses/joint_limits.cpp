@@ -35,8 +35,7 @@ void JointLimits::begin_step(const Kinematics&, const State<double>& x, double h
 }
 
 bool JointLimits::needs_position_correction() const noexcept {
-  return std::any_of(rows_.begin(), rows_.end(),
-                     [](const Row& row) { return row.after < -kTolerance; });
+  return std::ranges::any_of(rows_, [](const Row& row) { return row.after < -kTolerance; });
 }
 
 void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
@@ -97,28 +96,17 @@ void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& probl
   }
 }
 
-// Velocity away from the limit.
-double JointLimits::speed(const Row& row, const State<double>& x) const {
-  return row.sign * x.qd[model_->iv[static_cast<std::size_t>(limits_[row.limit].body)]];
-}
-
 const JointLimits::Active* JointLimits::find_active(const Row& row) const {
   for (const Active& active : held_)
     if (active.limit == row.limit && active.sign == row.sign) return &active;
   return nullptr;
 }
 
-bool JointLimits::is_included(const ConstraintFrame& frame, const Row& row) const {
-  if (frame.phase == Phase::flow) return find_active(row) != nullptr;
-  return frame.phase != Phase::hit || row.gap <= kClosed;
-}
-
 // Limits are inelastic: in a step of fixed size the velocity phase enforces them.
 bool JointLimits::has_closing_contact(const ConstraintFrame& frame) noexcept {
   if (frame.phase != Phase::hit) return false;
-  return std::any_of(rows_.begin(), rows_.end(), [&](const Row& row) {
-    return row.gap <= kClosed && speed(row, frame.x) < -kRest;
-  });
+  return std::ranges::any_of(
+      rows_, [&](const Row& row) { return row.gap <= kClosed && speed(row, frame.x) < -kRest; });
 }
 
 void JointLimits::hold(const ConstraintFrame& frame, bool impact) noexcept {
@@ -131,24 +119,6 @@ void JointLimits::hold(const ConstraintFrame& frame, bool impact) noexcept {
   }
   std::swap(held_, held_before_);
   flow_works_.assign(held_.size(), 0);
-}
-
-void JointLimits::restore_active_set() noexcept {
-  std::fill(flow_works_.begin(), flow_works_.end(), 0);
-}
-
-void JointLimits::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
-  for (const Row& row : rows_)
-    if (!find_active(row)) nearest.see(row.gap, speed(row, frame.x));
-}
-
-void JointLimits::modes(std::vector<char>& modes) const noexcept {
-  for (const Row& row : rows_)
-    if (const Active* a = find_active(row)) modes.push_back(a->opens ? Mode::opens : Mode::rests);
-}
-
-void JointLimits::commit_work() noexcept {
-  for (std::size_t i = 0; i < held_.size(); ++i) limits_[held_[i].limit].work += flow_works_[i];
 }
 
 }  // namespace twinarm

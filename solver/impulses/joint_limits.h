@@ -2,6 +2,7 @@
 // upper], inelastic.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "solver/impulses/event_source.h"
@@ -32,18 +33,28 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
   bool has_closing_contact(const ConstraintFrame& frame) noexcept override;
   EventSource* events() override { return this; }
   void hold(const ConstraintFrame& frame, bool impact) noexcept override;
-  void restore_active_set() noexcept override;
-  void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept override;
-  void modes(std::vector<char>& modes) const noexcept override;
+  void restore_active_set() noexcept override {
+    std::fill(flow_works_.begin(), flow_works_.end(), 0);
+  }
+  void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept override {
+    for (const Row& row : rows_)
+      if (!find_active(row)) nearest.see(row.gap, speed(row, frame.x));
+  }
+  void modes(std::vector<char>& modes) const noexcept override {
+    for (const Row& row : rows_)
+      if (const Active* a = find_active(row)) modes.push_back(a->opens ? Mode::opens : Mode::rests);
+  }
   std::span<double> works() noexcept override { return flow_works_; }
-  void commit_work() noexcept override;
+  void commit_work() noexcept override {
+    for (std::size_t i = 0; i < held_.size(); ++i) limits_[held_[i].limit].work += flow_works_[i];
+  }
 
   void serialize(StateArchive& archive) override {
-    for (Limit& limit : limits_) archive.visit(limit.force), archive.visit(limit.work);
+    for (Limit& limit : limits_) archive.visit(limit.force, limit.work);
     archive.resize(held_, 2 * sizeof(double));
     for (Active& active : held_) {
       archive.visit_index(active.limit, limits_.size());
-      archive.visit(active.sign), archive.visit(active.opens);
+      archive.visit(active.sign, active.opens);
     }
   }
 
@@ -58,9 +69,15 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
     double sign;
     bool opens = false;
   };
-  bool is_included(const ConstraintFrame& frame, const Row& row) const;
+  bool is_included(const ConstraintFrame& frame, const Row& row) const {
+    if (frame.phase == Phase::flow) return find_active(row) != nullptr;
+    return frame.phase != Phase::hit || row.gap <= kClosed;
+  }
   const Active* find_active(const Row& row) const;
-  double speed(const Row& row, const State<double>& x) const;
+  // Velocity away from the limit.
+  double speed(const Row& row, const State<double>& x) const {
+    return row.sign * x.qd[model_->iv[static_cast<std::size_t>(limits_[row.limit].body)]];
+  }
   const Model<double>* model_;
   std::vector<Limit> limits_;
   std::vector<Row> rows_;  // reachable in this step

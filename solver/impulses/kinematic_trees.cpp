@@ -53,16 +53,6 @@ void KinematicTrees::add_to(ImpulseProblem& problem, const Forces<double>* force
   }
 }
 
-void KinematicTrees::gather(const std::vector<double>& qd, ImpulseProblem& problem) const {
-  for (std::size_t dof = 0; dof < qd.size(); ++dof)
-    problem.v0(tree_of_dof_[dof])[index_[dof]] = qd[dof];
-}
-
-void KinematicTrees::scatter(const ImpulseProblem& problem, std::vector<double>& qd) const {
-  for (std::size_t dof = 0; dof < qd.size(); ++dof)
-    qd[dof] = problem.v(tree_of_dof_[dof])[index_[dof]];
-}
-
 void KinematicTrees::add_point_rows(const Kinematics& k, int body, const Vector3& p_W,
                                     const Matrix3& axes, int count, double sign, double* J) const {
   const int tree = tree_of(body);

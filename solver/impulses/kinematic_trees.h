@@ -26,8 +26,16 @@ class KinematicTrees {
   // Adds the trees to the problem, with M at the configuration of w.Xup and w.S_: inertia,
   // armature, and the implicit terms of `forces` if given.
   void add_to(ImpulseProblem& problem, const Forces<double>* forces, Workspace<double>& w);
-  void gather(const std::vector<double>& qd, ImpulseProblem& problem) const;   // qd to v0
-  void scatter(const ImpulseProblem& problem, std::vector<double>& qd) const;  // v to qd
+  // qd to v0
+  void gather(const std::vector<double>& qd, ImpulseProblem& problem) const {
+    for (std::size_t dof = 0; dof < qd.size(); ++dof)
+      problem.v0(tree_of_dof_[dof])[index_[dof]] = qd[dof];
+  }
+  // v to qd
+  void scatter(const ImpulseProblem& problem, std::vector<double>& qd) const {
+    for (std::size_t dof = 0; dof < qd.size(); ++dof)
+      qd[dof] = problem.v(tree_of_dof_[dof])[index_[dof]];
+  }
 
   // J += sign * rows of the velocity along `axes` (columns, world axes) of the body's point
   // currently at p_W; J: block of the body's tree.

@@ -30,38 +30,34 @@ double limited_rho(const ImpulseConstraint& c, double rho) {
 }  // namespace
 
 // With rho of multipliers_. Returns the residual of the laws; `residual` if the gradient is zero.
-double ImpulseSolver::semismooth_newton_step(ImpulseProblem& problem, const Island& island,
-                                             double residual) {
-  const Gradient now = gradient(problem, island, DeSaxceShift::differentiated);
+double ImpulseSolver::semismooth_newton_step(double residual) {
+  const Gradient now = gradient(DeSaxceShift::differentiated);
   if (!(now.squared > 0)) return residual;
-  find_direction(problem, island, false);
-  move(problem, island, 1);
-  gradient(problem, island, DeSaxceShift::differentiated);
-  for (const int i : island.constraints) problem.constraints()[i].p = p_[i];
-  return apply_impulses(problem, island);
+  find_direction(false);
+  move(1);
+  gradient(DeSaxceShift::differentiated);
+  for (const int i : island_->constraints) constraint(i).p = p_[i];
+  return apply_impulses();
 }
 
 // Whether any contact has an impulse in the guess.
-bool ImpulseSolver::has_warm_start(const ImpulseProblem& problem, const Island& island) {
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
-  return std::any_of(island.constraints.begin(), island.constraints.end(), [&](int i) {
-    return all[i].law == ConstraintType::coulomb_cone && all[i].p[0] > 0;
+bool ImpulseSolver::has_warm_start() const {
+  return std::ranges::any_of(island_->constraints, [&](int i) {
+    return constraint(i).law == ConstraintType::coulomb_cone && constraint(i).p[0] > 0;
   });
 }
 
 // Returns the residual of the laws; infinity if no step was taken.
-double ImpulseSolver::warm_start_newton(ImpulseProblem& problem, const Island& island,
-                                        ImpulseReport& report) {
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
+double ImpulseSolver::warm_start_newton(ImpulseReport& report) {
   rho_ratio_ = kWarmStartRho;
   double residual = std::numeric_limits<double>::infinity();
   int steps = 0, failures = 0;
   while (steps < kMaxWarmStartSteps && failures < kMaxFailures && residual > tolerance) {
-    update_multipliers(problem, island);
-    for (const int i : island.constraints)
-      multipliers_[i].rho = limited_rho(all[i], rho_ratio_ * rho0_[i]);
+    update_multipliers();
+    for (const int i : island_->constraints)
+      multipliers_[i].rho = limited_rho(constraint(i), rho_ratio_ * rho0_[i]);
     const double before = residual;
-    residual = semismooth_newton_step(problem, island, residual);
+    residual = semismooth_newton_step(residual);
     failures += !(residual < 0.5 * before);
     ++steps;
   }
@@ -72,22 +68,21 @@ double ImpulseSolver::warm_start_newton(ImpulseProblem& problem, const Island& i
 
 // Refines a solution to rounding while the residual decreases; rho is small, so that rounding of u
 // has little effect.
-double ImpulseSolver::refine_solution(ImpulseProblem& problem, const Island& island,
-                                      double residual) {
+double ImpulseSolver::refine_solution(double residual) {
   constexpr int max_steps = 3;
   rho_ratio_ = kRefinementRho;
   for (int k = 0; k < max_steps && residual > 0.01 * tolerance; ++k) {
-    update_multipliers(problem, island);
-    for (const int i : island.constraints) {
+    update_multipliers();
+    for (const int i : island_->constraints) {
       multipliers_[i].rho = rho_ratio_ * rho0_[i];
-      best_p_[i] = problem.constraints()[i].p;
+      best_p_[i] = constraint(i).p;
     }
     const double before = residual;
-    residual = semismooth_newton_step(problem, island, residual);
+    residual = semismooth_newton_step(residual);
     if (residual < 0.5 * before) continue;
     if (residual < before) break;
-    for (const int i : island.constraints) problem.constraints()[i].p = best_p_[i];
-    return apply_impulses(problem, island);
+    for (const int i : island_->constraints) constraint(i).p = best_p_[i];
+    return apply_impulses();
   }
   return residual;
 }

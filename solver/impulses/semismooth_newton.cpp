@@ -20,40 +20,34 @@ double dot(const Vec& a, const Vec& b) {
 // Convex problem with frozen shifts; then Newton steps with differentiated shift from its solution.
 // These have no merit function: they are accepted only while |gradient| decreases, with step
 // halving if the budget permits; otherwise the convex solution is restored.
-ImpulseSolver::InnerResult ImpulseSolver::solve_inner_problem(ImpulseProblem& problem,
-                                                              const Island& island, int max_steps) {
+ImpulseSolver::InnerResult ImpulseSolver::solve_inner_problem(int max_steps) {
   InnerResult result;
   int& steps = result.steps;
-  for (Gradient now = gradient(problem, island, DeSaxceShift::frozen);
-       steps < max_steps && now.largest > now.tolerance;
-       now = gradient(problem, island, DeSaxceShift::frozen)) {
-    find_direction(problem, island, true);
-    const double step = step_length(problem, island);
-    move(problem, island, step);
+  for (Gradient now = gradient(DeSaxceShift::frozen);
+       steps < max_steps && now.largest > now.tolerance; now = gradient(DeSaxceShift::frozen)) {
+    find_direction(true);
+    const double step = step_length();
+    move(step);
     ++steps;
     if (step == 1 && now.largest < 1e2 * now.tolerance) break;
   }
-  for (const int t : island.trees)
-    std::copy_n(problem.v(t), problem.size(t),
-                convex_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)));
-  Gradient now = gradient(problem, island, DeSaxceShift::differentiated);
+  for_each_velocity([&](std::size_t k, std::size_t) { convex_v_[k] = problem_->v(0)[k]; });
+  Gradient now = gradient(DeSaxceShift::differentiated);
   result.error = now.error();
   while (steps < max_steps && now.largest > now.tolerance) {
-    find_direction(problem, island, false);
-    move(problem, island, 1);
+    find_direction(false);
+    move(1);
     ++steps;
-    Gradient then = gradient(problem, island, DeSaxceShift::differentiated);
+    Gradient then = gradient(DeSaxceShift::differentiated);
     double step = 1;
     if (max_steps > quick_newton_small)
       for (; !(then.squared < (1 - 0.5 * step) * now.squared) && step > 0.05; step *= 0.5) {
-        move(problem, island, -0.5 * step);
-        then = gradient(problem, island, DeSaxceShift::differentiated);
+        move(-0.5 * step);
+        then = gradient(DeSaxceShift::differentiated);
       }
     if (!(then.squared < (step < 1 ? 1 - 0.5 * step : 0.25) * now.squared)) {
-      for (const int t : island.trees)
-        std::copy_n(convex_v_.begin() + static_cast<std::ptrdiff_t>(problem.first(t)),
-                    problem.size(t), problem.v(t));
-      result.error = gradient(problem, island, DeSaxceShift::frozen).error();
+      for_each_velocity([&](std::size_t k, std::size_t) { problem_->v(0)[k] = convex_v_[k]; });
+      result.error = gradient(DeSaxceShift::frozen).error();
       result.diverged = true;
       break;
     }
@@ -63,30 +57,27 @@ ImpulseSolver::InnerResult ImpulseSolver::solve_inner_problem(ImpulseProblem& pr
   return result;
 }
 
-void ImpulseSolver::move(ImpulseProblem& problem, const Island& island, double step) {
-  for (const int t : island.trees)
-    for (int k = 0; k < problem.size(t); ++k)
-      problem.v(t)[k] += step * dv_[problem.first(t) + static_cast<std::size_t>(k)];
+void ImpulseSolver::move(double step) {
+  for_each_velocity([&](std::size_t k, std::size_t) { problem_->v(0)[k] += step * dv_[k]; });
 }
 
 // u, p and D at v; rhs_ = M (v - v0) - J^T p.
-ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const Island& island,
-                                                DeSaxceShift shift) {
-  zero_forces(problem, island);
+ImpulseSolver::Gradient ImpulseSolver::gradient(DeSaxceShift shift) {
+  zero_forces();
   double fastest = 0;
   coupling_blocks_.clear();
-  for (const int i : island.constraints) {
-    const ImpulseConstraint& c = problem.constraints()[i];
-    problem.velocity(c, problem.v(0), u_[i]);
+  for (const int i : island_->constraints) {
+    const ImpulseConstraint& c = constraint(i);
+    problem_->velocity(c, problem_->v(0), u_[i]);
     for (int r = 0; r < c.rows; ++r) u_[i][r] += c.b[r];
     if (c.law == ConstraintType::friction_disc && shift == DeSaxceShift::differentiated)
       project_disc(c, i);
     else
       project_impulse(c, multipliers_[i], shift, u_[i], p_[i], D_[i]);
-    problem.add_transpose(c, p_[i], f_.data());
+    problem_->add_transpose(c, p_[i], f_.data());
     fastest = std::max({fastest, std::abs(u_[i][0]), std::abs(u_[i][1]), std::abs(u_[i][2])});
   }
-  Gradient all = momentum_balance(problem, island);
+  Gradient all = momentum_balance();
   all.noise = rho_ratio_ * rounding_error_;
   all.tolerance = std::max({0.01 * tolerance, 2e-14 * rho_ratio_ * fastest, all.noise});
   return all;
@@ -94,31 +85,31 @@ ImpulseSolver::Gradient ImpulseSolver::gradient(ImpulseProblem& problem, const I
 
 // Rounding error of the gradient for rho = rho0, as a velocity [m/s, rad/s]: p = l - rho u, and u
 // is a sum that cancels (rolling contact), with rounding of its terms.
-double ImpulseSolver::rounding_error(const ImpulseProblem& problem, const Island& island) {
-  zero_forces(problem, island);
+double ImpulseSolver::rounding_error() {
+  zero_forces();
   const auto for_each_side = [&](const ImpulseConstraint& c, auto&& f) {
     for (int side = 0; side < 2; ++side)
-      if (const int t = c.tree[side]; t != no_tree) f(problem.J(c, side), problem.size(t), t);
+      if (const int t = c.tree[side]; t != no_tree) f(problem_->J(c, side), problem_->size(t), t);
   };
-  for (const int i : island.constraints) {
-    const ImpulseConstraint& c = problem.constraints()[i];
+  for (const int i : island_->constraints) {
+    const ImpulseConstraint& c = constraint(i);
     Vec terms{std::abs(c.b[0]), std::abs(c.b[1]), std::abs(c.b[2])};
     for_each_side(c, [&](const double* J, int n, int t) {
       for (int r = 0; r < c.rows; ++r)
-        for (int k = 0; k < n; ++k) terms[r] += std::abs(J[r * n + k] * problem.v(t)[k]);
+        for (int k = 0; k < n; ++k) terms[r] += std::abs(J[r * n + k] * problem_->v(t)[k]);
     });
     for_each_side(c, [&](const double* J, int n, int t) {
       for (int r = 0; r < c.rows; ++r)
         for (int k = 0; k < n; ++k)
-          f_[problem.first(t) + static_cast<std::size_t>(k)] +=
+          f_[problem_->first(t) + static_cast<std::size_t>(k)] +=
               rho0_[i] * terms[r] * std::abs(J[r * n + k]);
     });
   }
   double largest = 0;
-  for (const int t : island.trees)
-    for (int k = 0; k < problem.size(t); ++k)
-      largest = std::max(largest, f_[problem.first(t) + static_cast<std::size_t>(k)] /
-                                      problem.M(t)[k * problem.size(t) + k]);
+  for (const int t : island_->trees)
+    for (int k = 0; k < problem_->size(t); ++k)
+      largest = std::max(largest, f_[problem_->first(t) + static_cast<std::size_t>(k)] /
+                                      problem_->M(t)[k * problem_->size(t) + k]);
   return std::numeric_limits<double>::epsilon() * largest;
 }
 
@@ -135,15 +126,14 @@ void ImpulseSolver::project_disc(const ImpulseConstraint& c, int i) {
 }
 
 // rhs_ = M (v - v0) - f_
-ImpulseSolver::Gradient ImpulseSolver::momentum_balance(const ImpulseProblem& problem,
-                                                        const Island& island) {
+ImpulseSolver::Gradient ImpulseSolver::momentum_balance() {
   Gradient all;
-  for (const int t : island.trees) {
-    const int n = problem.size(t);
-    const std::size_t at = problem.first(t);
-    const double* M = problem.M(t);
+  for (const int t : island_->trees) {
+    const int n = problem_->size(t);
+    const std::size_t at = problem_->first(t);
+    const double* M = problem_->M(t);
     for (int k = 0; k < n; ++k)
-      delta_[at + static_cast<std::size_t>(k)] = problem.v(t)[k] - problem.v0(t)[k];
+      delta_[at + static_cast<std::size_t>(k)] = problem_->v(t)[k] - problem_->v0(t)[k];
     for (int r = 0; r < n; ++r) {
       double sum = -f_[at + static_cast<std::size_t>(r)];
       for (int k = 0; k < n; ++k) sum += M[r * n + k] * delta_[at + static_cast<std::size_t>(k)];
@@ -156,24 +146,20 @@ ImpulseSolver::Gradient ImpulseSolver::momentum_balance(const ImpulseProblem& pr
 }
 
 // dv_ = -(M + J^T D J)^-1 rhs_
-void ImpulseSolver::find_direction(const ImpulseProblem& problem, const Island& island,
-                                   bool symmetric) {
-  assemble(problem, island, symmetric);
+void ImpulseSolver::find_direction(bool symmetric) {
+  assemble(symmetric);
   matrix_.factorise(symmetric);
   matrix_.solve(rhs_.data());
-  for (const int t : island.trees)
-    for (int k = 0; k < problem.size(t); ++k)
-      dv_[problem.first(t) + static_cast<std::size_t>(k)] =
-          -rhs_[row_[t] + static_cast<std::size_t>(k)];
+  for_each_velocity([&](std::size_t k, std::size_t row) { dv_[k] = -rhs_[row]; });
 }
 
 // M + J^T D J; if symmetric, the lower triangle only.
-void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island, bool symmetric) {
+void ImpulseSolver::assemble(bool symmetric) {
   matrix_.set_zero();
-  for (const int t : island.trees) {
+  for (const int t : island_->trees) {
     const std::size_t at = row_[t];
-    const int n = problem.size(t);
-    const double* M = problem.M(t);
+    const int n = problem_->size(t);
+    const double* M = problem_->M(t);
     for (int r = 0; r < n; ++r)
       for (int k = 0; k <= r; ++k) {
         const std::size_t row = at + static_cast<std::size_t>(r);
@@ -181,44 +167,43 @@ void ImpulseSolver::assemble(const ImpulseProblem& problem, const Island& island
         if (!symmetric && k < r) matrix_.column(row, at)[k] += M[r * n + k];
       }
   }
-  const std::vector<ImpulseConstraint>& all = problem.constraints();
-  for (const int i : island.constraints) add_products(problem, all[i], all[i], D_[i], symmetric);
+  for (const int i : island_->constraints)
+    add_products(constraint(i), constraint(i), D_[i], symmetric);
   if (!symmetric)
     for (const CouplingBlock& block : coupling_blocks_)
-      add_products(problem, all[block.of], all[block.by], block.D, symmetric);
+      add_products(constraint(block.of), constraint(block.by), block.D, symmetric);
 }
 
 // J_left^T D J_right, both sides of each.
-void ImpulseSolver::add_products(const ImpulseProblem& problem, const ImpulseConstraint& left,
-                                 const ImpulseConstraint& right, const Mat& D, bool symmetric) {
+void ImpulseSolver::add_products(const ImpulseConstraint& left, const ImpulseConstraint& right,
+                                 const Mat& D, bool symmetric) {
   for (int side = 0; side < 2; ++side) {
     if (right.tree[side] == no_tree) continue;
-    const int n = problem.size(right.tree[side]);
+    const int n = problem_->size(right.tree[side]);
     DJ_.resize(std::max(DJ_.size(), static_cast<std::size_t>(3 * n)));
     if (&left == &right)
       with_shape(left.rows, n, [&](auto rows, auto size) {
-        product(D.data(), rows, problem.J(right, side), rows, size, DJ_.data());
+        product(D.data(), rows, problem_->J(right, side), rows, size, DJ_.data());
       });
     else
-      product(D.data(), left.rows, problem.J(right, side), right.rows, n, DJ_.data());
+      product(D.data(), left.rows, problem_->J(right, side), right.rows, n, DJ_.data());
     for (int other = 0; other < 2; ++other)
-      if (left.tree[other] != no_tree) add_block(problem, left, other, right, side, symmetric);
+      if (left.tree[other] != no_tree) add_block(left, other, right, side, symmetric);
   }
 }
 
 // J_s^T (D J)_t, s and t the trees of two sides; the upper triangle is column-major.
-void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstraint& left,
-                              int side_s, const ImpulseConstraint& right, int side_t,
-                              bool symmetric) {
+void ImpulseSolver::add_block(const ImpulseConstraint& left, int side_s,
+                              const ImpulseConstraint& right, int side_t, bool symmetric) {
   const int s = left.tree[side_s], t = right.tree[side_t];
   const std::size_t row = row_[s], column = row_[t];
   if (symmetric && row < column) return;
-  const double *J = problem.J(left, side_s), *DJ = DJ_.data();
+  const double *J = problem_->J(left, side_s), *DJ = DJ_.data();
   const auto below = [&](int k) { return matrix_.row(row + static_cast<std::size_t>(k), column); };
   const auto above = [&](int k) {
     return matrix_.column(column + static_cast<std::size_t>(k), row);
   };
-  with_shapes(left.rows, problem.size(s), problem.size(t), [&](auto rows, auto m, auto n) {
+  with_shapes(left.rows, problem_->size(s), problem_->size(t), [&](auto rows, auto m, auto n) {
     if (row > column) {
       add_product_rows(J, m, DJ, n, rows, below, [&](int) { return n; });
     } else if (row < column) {
@@ -231,12 +216,12 @@ void ImpulseSolver::add_block(const ImpulseProblem& problem, const ImpulseConstr
 }
 
 // Line search: zero of the slope along dv, which is monotone (convex objective).
-double ImpulseSolver::step_length(const ImpulseProblem& problem, const Island& island) {
+double ImpulseSolver::step_length() {
   double slope0 = 0, curvature = 0;  // of 1/2 |v - v0|_M^2
-  for (const int t : island.trees) {
-    const int n = problem.size(t);
-    const double *dv = dv_.data() + problem.first(t), *delta = delta_.data() + problem.first(t);
-    const double* M = problem.M(t);
+  for (const int t : island_->trees) {
+    const int n = problem_->size(t);
+    const double *dv = dv_.data() + problem_->first(t), *delta = delta_.data() + problem_->first(t);
+    const double* M = problem_->M(t);
     for (int r = 0; r < n; ++r)
       for (int k = 0; k < n; ++k) {
         slope0 += dv[r] * M[r * n + k] * delta[k];
@@ -244,16 +229,16 @@ double ImpulseSolver::step_length(const ImpulseProblem& problem, const Island& i
       }
   }
   double start = slope0;
-  for (const int i : island.constraints) {
-    problem.velocity(problem.constraints()[i], dv_.data(), du_[i]);
+  for (const int i : island_->constraints) {
+    problem_->velocity(constraint(i), dv_.data(), du_[i]);
     start -= dot(p_[i], du_[i]);
   }
   const auto slope = [&](double s) {
     double sum = slope0 + s * curvature;
-    for (const int i : island.constraints) {
+    for (const int i : island_->constraints) {
       Vec u = u_[i];
       for (int r = 0; r < 3; ++r) u[r] += s * du_[i][r];
-      sum -= dot(project_impulse(problem.constraints()[i], multipliers_[i], u), du_[i]);
+      sum -= dot(project_impulse(constraint(i), multipliers_[i], u), du_[i]);
     }
     return sum;
   };

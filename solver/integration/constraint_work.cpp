@@ -39,10 +39,6 @@ void ConstraintWork::start_step() {
   pending_ = false;
 }
 
-void ConstraintWork::before_projection(const State<double>& x) {
-  unprojected_ = x;
-}
-
 void ConstraintWork::after_projection(const State<double>& x, const LoopProjection& projection,
                                       const LoopClosures& at_start) {
   if (is_same(x, unprojected_)) {
@@ -88,10 +84,6 @@ void ConstraintWork::add_projection() {
   }
 }
 
-void ConstraintWork::add_separation(const State<double>& before, const State<double>& after) {
-  separation_ += energy_momentum(after) - energy_momentum(before);
-}
-
 void ConstraintWork::add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_segment) {
   if (!in_segment) {
     loops_[loop] += on_a;
@@ -100,14 +92,6 @@ void ConstraintWork::add_loop(std::size_t loop, const EnergyMomentum& on_a, bool
   double* sums = &segment_[kNumbers * loop];
   sums[0] += on_a.work;
   for (int c = 0; c < 3; ++c) sums[1 + c] += on_a.impulse[c], sums[4 + c] += on_a.moment[c];
-}
-
-void ConstraintWork::add_mimic(std::size_t mimic, double work, bool in_segment) {
-  (in_segment ? segment_[kNumbers * loops_.size() + mimic] : mimics_[mimic]) += work;
-}
-
-void ConstraintWork::start_segment() {
-  std::fill(segment_.begin(), segment_.end(), 0);
 }
 
 void ConstraintWork::add_segment() {

@@ -13,6 +13,7 @@
 // Allocates in the constructor.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <span>
 #include <vector>
@@ -34,18 +35,22 @@ class ConstraintWork {
 
   // Called around every projection. A later projection replaces the pending one, unless it changes
   // nothing in the pending one's result.
-  void before_projection(const State<double>& x);
+  void before_projection(const State<double>& x) { unprojected_ = x; }
   // `at_start`: loops as evaluated at the start of the step.
   void after_projection(const State<double>& x, const LoopProjection& projection,
                         const LoopClosures& at_start);
   void add_projection();  // adds the pending one
-  void add_separation(const State<double>& before, const State<double>& after);
+  void add_separation(const State<double>& before, const State<double>& after) {
+    separation_ += energy_momentum(after) - energy_momentum(before);
+  }
 
   // Impulse on link a; `work` includes that on link b.
   void add_loop(std::size_t loop, const EnergyMomentum& on_a, bool in_segment);
-  void add_mimic(std::size_t mimic, double work, bool in_segment);
+  void add_mimic(std::size_t mimic, double work, bool in_segment) {
+    (in_segment ? segment_[kNumbers * loops_.size() + mimic] : mimics_[mimic]) += work;
+  }
   // Segments of event_driven_step.h: sums of one column, extrapolated by the caller, then added.
-  void start_segment();
+  void start_segment() { std::fill(segment_.begin(), segment_.end(), 0); }
   std::vector<double>& segment() { return segment_; }
   void add_segment();
 

@@ -60,11 +60,6 @@ void Dopri5::step(IntegrationState& m, double h, bool one, StepReport& report) {
   }
 }
 
-void Dopri5::stages(IntegrationState& m, double h) {
-  const Tableau& tableau = tableau_of(Integrator::dopri5);
-  for (int s = 1; s < tableau.stages; ++s) rk_.stage(m, tableau, s, h);
-}
-
 // Size of the substep up to the first friction event, at most h; sets m.stage accordingly.
 double Dopri5::up_to_event(IntegrationState& m, double h, StepReport& report) {
   if (!m.dynamics.has_coulomb()) return h;
@@ -112,10 +107,6 @@ double Dopri5::error(const IntegrationState& m, double h) {
     err = largest(err, scaled(m.projection.correction_qd()[i], m.x.qd[i], m.stage.qd[i]));
   }
   return err;
-}
-
-double Dopri5::scaled(double error, double y, double y_new) const {
-  return std::abs(error) / (tolerance_ * (1 + std::max(std::abs(y), std::abs(y_new))));
 }
 
 // Step-size control after an attempt with h; `full`: h was not shortened to the end of the step.

@@ -9,6 +9,8 @@
 // in joints, where substeps end at friction events (friction_events.h).
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "solver/integration/explicit_integrators.h"
@@ -23,7 +25,7 @@ class Dopri5 {
   explicit Dopri5(const IntegrationState& m);
   void set_tolerance(double tolerance) { tolerance_ = tolerance; }
   double tolerance() const { return tolerance_; }
-  void serialize(StateArchive& archive) { archive.visit(h_next_), archive.visit(err_before_); }
+  void serialize(StateArchive& archive) { archive.visit(h_next_, err_before_); }
   void reset_step_size() { h_next_ = 0; }
 
   // Advances m.x including time by h, or with `one` by one accepted substep of at most h. The
@@ -31,11 +33,17 @@ class Dopri5 {
   void step(IntegrationState& m, double h, bool one, StepReport& report);
 
  private:
-  void stages(IntegrationState& m, double h);  // m.stage: the result
+  // Result: m.stage.
+  void stages(IntegrationState& m, double h) {
+    const Tableau& tableau = tableau_of(Integrator::dopri5);
+    for (int s = 1; s < tableau.stages; ++s) rk_.stage(m, tableau, s, h);
+  }
   double up_to_event(IntegrationState& m, double h, StepReport& report);
   void accept(IntegrationState& m, double t);
   double error(const IntegrationState& m, double h);
-  double scaled(double error, double y, double y_new) const;
+  double scaled(double error, double y, double y_new) const {
+    return std::abs(error) / (tolerance_ * (1 + std::max(std::abs(y), std::abs(y_new))));
+  }
   double first_substep(IntegrationState& m, double h_max);
   void choose_next(double h, bool full);
 

@@ -49,22 +49,12 @@ const Tableau& tableau_of(Integrator integrator) {
   }
 }
 
-RungeKutta::RungeKutta(std::size_t nv) : theta_(nv) {
-  rate_.fill(theta_);
-  qdd_.fill(theta_);
-}
-
 double RungeKutta::rate_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const {
   return weighted_sum(rate_, weight, stages, i);
 }
 
 double RungeKutta::qdd_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const {
   return weighted_sum(qdd_, weight, stages, i);
-}
-
-void RungeKutta::first_stage(const IntegrationState& m) {
-  rate_[0] = m.x.qd;  // dexpinv(0, v) = v
-  qdd_[0] = m.w.qdd;
 }
 
 void RungeKutta::stage(IntegrationState& m, const Tableau& tableau, int s, double h) {

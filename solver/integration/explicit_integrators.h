@@ -25,12 +25,18 @@ const Tableau& tableau_of(Integrator integrator);
 //   d theta/dt = dexpinv(theta, v),   dv/dt = a(q exp(theta), v).
 class RungeKutta {
  public:
-  explicit RungeKutta(std::size_t nv);
+  explicit RungeKutta(std::size_t nv) : theta_(nv) {
+    rate_.fill(theta_);
+    qdd_.fill(theta_);
+  }
   // Advances m.x by h; the caller updates time and kinematics.
   void step(IntegrationState& m, const Tableau& tableau, double h);
 
   // Stage 0 is at m.x, with its acceleration in m.w; later stages set m.stage and compute it.
-  void first_stage(const IntegrationState& m);
+  void first_stage(const IntegrationState& m) {
+    rate_[0] = m.x.qd;  // dexpinv(0, v) = v
+    qdd_[0] = m.w.qdd;
+  }
   void stage(IntegrationState& m, const Tableau& tableau, int s, double h);
   // Weighted sums of the stages' rates of theta and qd.
   double rate_sum(const Tableau::Row<double>& weight, int stages, std::size_t i) const;

@@ -34,7 +34,7 @@ void store_motion(const Model<double>& model, std::size_t body, const Prescribed
 
 void visit_state(StateArchive& archive, const Model<double>& model, State<double>& x) {
   std::vector<double> q = q_with_prescribed(model, x);
-  archive.visit(q), archive.visit(x.qd), archive.visit(x.t);
+  archive.visit(q, x.qd, x.t);
   if (q.size() != model.nq + model.np || x.qd.size() != model.nv)
     throw std::runtime_error("state size mismatch: the state belongs to another model");
   set_q_with_prescribed(model, q, x);
@@ -53,20 +53,10 @@ IntegrationState::IntegrationState(const Model<double>& model_of, State<double> 
   project_and_update();
 }
 
-void IntegrationState::set_prescribed_joints(State<double>& at) const {
-  for (const PrescribedJointMotion& joint : prescribed_joints)
-    store_motion(model, joint.body, joint.motion(at.t), at);
-}
-
 void IntegrationState::update_kinematics() {
   apply_mimics(model, x);
   set_prescribed_joints(x);
   forward_kinematics(model, x, k);
-}
-
-void IntegrationState::project_and_update() {
-  update_kinematics();
-  loop_position_error = project_loops(x, k);
 }
 
 double IntegrationState::project_loops(State<double>& at, Kinematics& k_at) {
@@ -85,11 +75,6 @@ void IntegrationState::start(State<double> from) {
   forward_kinematics(model, x, k);
   prepare_projection();
   project_and_update();
-}
-
-void IntegrationState::resume(State<double> from) {
-  x = std::move(from);
-  forward_kinematics(model, x, k);
 }
 
 void IntegrationState::set_loops(LoopClosures loops) {

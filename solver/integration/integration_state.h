@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "solver/dynamics/kinematics.h"
@@ -76,12 +77,18 @@ struct IntegrationState {
   void accelerate_stage();
   void accelerate_end(double t);
   // Sets mimic joints and prescribed joints at x.t, projects loops, updates k.
-  void project_and_update();
+  void project_and_update() {
+    update_kinematics();
+    loop_position_error = project_loops(x, k);
+  }
   void update_kinematics();  // the same without projection of loops
   // Sets the state. Throws InputError if loops are open by more than kMaxInitialError.
   void start(State<double> from);
   // Restores a state of project_and_update() bit-exactly, without projection.
-  void resume(State<double> from);
+  void resume(State<double> from) {
+    x = std::move(from);
+    forward_kinematics(model, x, k);
+  }
   void set_loops(LoopClosures loops);  // closed at x up to kMaxInitialError
   // Loops are projected with M and J of the last acceleration at x (loop_projection.h).
   // prepare_projection() computes them if there was none; start_projection() uses those of the last
@@ -95,7 +102,10 @@ struct IntegrationState {
  private:
   using FrictionRule = ForwardDynamics::FrictionRule;
   void accelerate(const State<double>& at, const Kinematics& k_at, FrictionRule rule, double h);
-  void set_prescribed_joints(State<double>& at) const;
+  void set_prescribed_joints(State<double>& at) const {
+    for (const PrescribedJointMotion& joint : prescribed_joints)
+      store_motion(model, joint.body, joint.motion(at.t), at);
+  }
   double project_loops(State<double>& at, Kinematics& k_at);
 };
 

@@ -1,6 +1,5 @@
 #include "solver/integration/integrator_step.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

@@ -49,10 +49,6 @@ void ForwardDynamics::set_friction(bool on) {
   std::fill(torques_.coulomb.begin(), torques_.coulomb.end(), 0);
 }
 
-bool ForwardDynamics::any_sticking() const {
-  return has_coulomb() && std::find(mode_.begin(), mode_.end(), Mode::sticking) != mode_.end();
-}
-
 double ForwardDynamics::friction_margin() const {
   double margin = 1;
   for (std::size_t k = 0; k < mode_.size(); ++k) {

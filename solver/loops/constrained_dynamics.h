@@ -18,6 +18,7 @@
 //                 (solver/integration/friction_events.h ends the step there).
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "solver/forces/joint_friction.h"
@@ -55,7 +56,9 @@ class ForwardDynamics {
   bool has_coulomb() const { return friction_on_ && !friction_.groups().empty(); }
   const std::vector<CoulombFriction::MimicGroup>& groups() const { return friction_.groups(); }
   Mode mode(std::size_t group) const { return mode_[group]; }
-  bool any_sticking() const;
+  bool any_sticking() const {
+    return has_coulomb() && std::find(mode_.begin(), mode_.end(), Mode::sticking) != mode_.end();
+  }
   // Minimum distance of the sticking dofs' friction to its limits, relative to the width of the
   // limits; negative: a limit is exceeded. 1 if none is sticking.
   double friction_margin() const;

@@ -102,11 +102,6 @@ void ConstraintForceSolver::add_forces(std::vector<double>& mimic,
   }
 }
 
-void ConstraintForceSolver::project_acceleration(std::vector<double>& a) noexcept {
-  solve(a, b_);  // b_ is zero between calls of prepare()
-  add_accelerations(a);
-}
-
 void ConstraintForceSolver::project(std::vector<double>& y) noexcept {
   for (std::size_t j = 0; j < rows_ + held_.size(); ++j) lambda_[j] = -row_times(j, y.data());
   factors_.solve(lambda_.data());
@@ -121,10 +116,6 @@ void ConstraintForceSolver::correction(const Eigen::VectorXd& residual,
   factors_.solve(lambda_.data());
   std::fill(out.begin(), out.end(), 0);
   add_accelerations(out);
-}
-
-void ConstraintForceSolver::add_lambda(double s, std::vector<double>& sum) const {
-  for (std::size_t r = 0; r < loops_.rows(); ++r) sum[r] += s * lambda_[model_->mimics.size() + r];
 }
 
 void ConstraintForceSolver::correction_of_loop(std::size_t loop, const std::vector<double>& lambda,

@@ -39,13 +39,19 @@ class ConstraintForceSolver {
   // Adds A^T lambda, separately for mimic joints and loops.
   void add_forces(std::vector<double>& mimic, std::vector<double>& loop) const;
   // Adds the acceleration of the constraint forces to an acceleration a, or to y = M^-1 b.
-  void project_acceleration(std::vector<double>& a) noexcept;
+  void project_acceleration(std::vector<double>& a) noexcept {
+    solve(a, b_);  // b_ is zero between calls of prepare()
+    add_accelerations(a);
+  }
   void project(std::vector<double>& y) noexcept;
   // out = M^-1 A^T lambda with J out = -residual for the loops' rows, 0 for the other rows.
   void correction(const Eigen::VectorXd& residual, std::vector<double>& out) noexcept;
 
   // sum += s lambda for the loops' rows of the last solve() or correction().
-  void add_lambda(double s, std::vector<double>& sum) const;
+  void add_lambda(double s, std::vector<double>& sum) const {
+    for (std::size_t r = 0; r < loops_.rows(); ++r)
+      sum[r] += s * lambda_[model_->mimics.size() + r];
+  }
   // out = M^-1 A^T lambda of one loop's rows, with A of prepare(); lambda as in add_lambda().
   void correction_of_loop(std::size_t loop, const std::vector<double>& lambda,
                           std::vector<double>& out) const;

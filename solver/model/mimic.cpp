@@ -14,8 +14,7 @@ void apply_mimics(const Model<double>& model, State<double>& x) {
 std::vector<std::size_t> independent_dofs(const Model<double>& model) {
   std::vector<std::size_t> dofs;
   for (std::size_t d = 0; d < model.nv; ++d)
-    if (std::none_of(model.mimics.begin(), model.mimics.end(),
-                     [d](const Mimic& m) { return m.follower == d; }))
+    if (std::ranges::find(model.mimics, d, &Mimic::follower) == model.mimics.end())
       dofs.push_back(d);
   return dofs;
 }

@@ -37,21 +37,12 @@ void ConstrainedStep::step(IntegrationState& m, double h, StepReport& report) {
   report.iterations = report_.step.newton;
 }
 
-bool ConstrainedStep::resolve_impacts_now(IntegrationState& m) {
-  return impacts_.resolve(system_, m, 0, Phase::hit, report_) > 0;
-}
-
 void ConstrainedStep::smooth_step(IntegrationState& m, double h) {
   system_.accelerate(m, h);
   if (solve_step(m, h, Phase::flow))
     system_.trees.scatter(system_.problem, m.x.qd);
   else
     kick(m, h);
-}
-
-void ConstrainedStep::constrain_accelerations() {
-  at_instant_ = true;
-  system_.bilateral.constrain_accelerations();
 }
 
 void ConstrainedStep::serialize(StateArchive& archive, std::size_t loop_rows) {

@@ -37,11 +37,17 @@ class ConstrainedStep {
 
   // Parts used by event_driven_step.h, from m.x with m.k up to date; change velocities only.
   void start_report() { report_ = {}; }
-  bool resolve_impacts_now(IntegrationState& m);    // of closed gaps; false if there are none
+  // Of closed gaps; false if there are none.
+  bool resolve_impacts_now(IntegrationState& m) {
+    return impacts_.resolve(system_, m, 0, Phase::hit, report_) > 0;
+  }
   void smooth_step(IntegrationState& m, double h);  // with the active set of the sources
 
   // Forces at this instant: BilateralConstraints::constrain_accelerations(), no gyroscopic couples.
-  void constrain_accelerations();
+  void constrain_accelerations() {
+    at_instant_ = true;
+    system_.bilateral.constrain_accelerations();
+  }
   void serialize(StateArchive& archive, std::size_t loop_rows);
 
   const ConstraintReport& report() const { return report_; }

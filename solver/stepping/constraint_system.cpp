@@ -4,10 +4,6 @@
 
 namespace twinarm {
 
-void ConstraintSystem::begin_step(const IntegrationState& m, double h) {
-  for (ConstraintSource* source : sources) source->begin_step(m.k, m.x, h);
-}
-
 void ConstraintSystem::accelerate(IntegrationState& m, double h) {
   m.forces.clear();
   for (ForceSource* source : m.sources) source->add_forces(m.x, m.k, m.forces);
@@ -17,11 +13,6 @@ void ConstraintSystem::accelerate(IntegrationState& m, double h) {
   m.dynamics.bilateral().loops().evaluate(m.x, m.k);
   m.dynamics.bilateral().prepare(m.w);
   m.start_projection();
-}
-
-void ConstraintSystem::begin_problem(const Forces<double>* forces, Workspace<double>& w) {
-  problem.clear();
-  trees.add_to(problem, forces, w);
 }
 
 void ConstraintSystem::store_velocities(ConstraintFrame& frame) {
@@ -36,10 +27,6 @@ void ConstraintSystem::add_sources(const ConstraintFrame& frame) {
     first_.push_back(problem.constraints().size());
     source->add(frame, problem);
   }
-}
-
-void ConstraintSystem::distribute_impulses(const ConstraintFrame& frame) {
-  for (std::size_t s = 0; s < sources.size(); ++s) sources[s]->take(frame, problem, first_[s]);
 }
 
 }  // namespace twinarm

@@ -27,14 +27,22 @@ class ConstraintSystem {
   ImpulseSolver solver;
   std::vector<double> velocity;  // v0 at store_velocities()
 
-  void begin_step(const IntegrationState& m, double h);
+  void begin_step(const IntegrationState& m, double h) {
+    for (ConstraintSource* source : sources) source->begin_step(m.k, m.x, h);
+  }
   // m.w.qdd at m.x without constraints; m.k must be up to date.
   void accelerate(IntegrationState& m, double h);
   // Starts a problem without constraints, with the implicit terms of `forces` if given.
-  void begin_problem(const Forces<double>* forces, Workspace<double>& w);
+  void begin_problem(const Forces<double>* forces, Workspace<double>& w) {
+    problem.clear();
+    trees.add_to(problem, forces, w);
+  }
   void store_velocities(ConstraintFrame& frame);  // copies v0 of the problem
   void add_sources(const ConstraintFrame& frame);
-  void distribute_impulses(const ConstraintFrame& frame);  // passes the solution to the sources
+  // Passes the solution to the sources.
+  void distribute_impulses(const ConstraintFrame& frame) {
+    for (std::size_t s = 0; s < sources.size(); ++s) sources[s]->take(frame, problem, first_[s]);
+  }
 
   // Residuals [m/s]: of an accepted guess, of an accepted solution, target of the iteration.
   void set_accuracy(double good_guess, double accepted, double tolerance) {

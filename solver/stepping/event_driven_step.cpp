@@ -37,29 +37,30 @@ constexpr double kNoGap = 1;  // gap if there is none [m]
 
 void EventStep::step(ConstrainedStep& constrained, IntegrationState& m, double h,
                      Interrupted interrupted, StepReport& report) {
+  constrained_ = &constrained, m_ = &m;
   sources_.clear();
-  for (ConstraintSource* source : constrained.system().sources)
+  for (ConstraintSource* source : constrained_->system().sources)
     sources_.push_back(source->events());
-  constrained.system().set_accuracy(kGoodGuess, kAccepted, kSolverTolerance);
-  constrained.start_report();
-  m.begin_step(h);
-  const double t_end = m.x.t + h;
+  constrained_->system().set_accuracy(kGoodGuess, kAccepted, kSolverTolerance);
+  constrained_->start_report();
+  m_->begin_step(h);
+  const double t_end = m_->x.t + h;
   if (length_ <= 0) length_ = h;
   report.substeps = 0;
   solves_ = 0;
   interrupted_ = interrupted, is_interrupted_ = false;
-  for (double left = h; left > 1e-15 * h; left = t_end - m.x.t) {
-    const double s = smooth_segment(constrained, m, left, report);
+  for (double left = h; left > 1e-15 * h; left = t_end - m_->x.t) {
+    const double s = smooth_segment(left, report);
     if (s == 0) {
-      restore_segment_start(m);
+      restore_segment_start();
       report.interrupted = is_interrupted_;
       report.reached = !is_interrupted_;
-      if (!is_interrupted_) finish(constrained, m, t_end, report);
+      if (!is_interrupted_) finish(t_end, report);
       return;
     }
-    m.x.t = s == left ? t_end : start_.t + s;
-    m.project_and_update();
-    if (m.account) m.account->add_segment(), m.account->add_projection();
+    m_->x.t = s == left ? t_end : start_.t + s;
+    m_->project_and_update();
+    if (m_->account) m_->account->add_segment(), m_->account->add_projection();
     for (EventSource* source : sources_) source->commit_work();
     report.converged = report.converged && is_solved_;
     ++report.substeps;
@@ -67,63 +68,54 @@ void EventStep::step(ConstrainedStep& constrained, IntegrationState& m, double h
   }
 }
 
-// Interrupted, or too many constraints solved.
-bool EventStep::stops() {
-  if (!is_interrupted_ && interrupted_) is_interrupted_ = interrupted_();
-  return is_interrupted_ || solves_ >= kMaxLaws;
-}
-
-void EventStep::restore_segment_start(IntegrationState& m) {
-  m.x = start_;
-  forward_kinematics(*model_, m.x, m.k);
+void EventStep::restore_segment_start() {
+  m_->x = start_;
+  forward_kinematics(m_->model, m_->x, m_->k);
   for (EventSource* source : sources_) source->restore_active_set();
 }
 
 // The remainder as one step of fixed size; then a new active set.
-void EventStep::finish(ConstrainedStep& constrained, IntegrationState& m, double t_end,
-                       StepReport& report) {
+void EventStep::finish(double t_end, StepReport& report) {
   const bool is_converged = report.converged;
-  constrained.system().set_default_accuracy();
-  constrained.step(m, t_end - m.x.t, report);
-  m.x.t = t_end;
-  m.project_and_update();
-  constrained.system().begin_step(m, 0);
-  for (EventSource* source : sources_) source->hold(frame(constrained, m), true);
+  constrained_->system().set_default_accuracy();
+  constrained_->step(*m_, t_end - m_->x.t, report);
+  m_->x.t = t_end;
+  m_->project_and_update();
+  constrained_->system().begin_step(*m_, 0);
+  for (EventSource* source : sources_) source->hold(frame(), true);
   report.converged = report.converged && is_converged;
   report.located = false;
   ++report.substeps;
 }
 
 // Resolves impacts of closed gaps, then sets the active set.
-void EventStep::begin_segment(ConstrainedStep& constrained, IntegrationState& m, double s) {
-  constrained.system().begin_step(m, s);
-  const bool impact = constrained.resolve_impacts_now(m);
-  for (EventSource* source : sources_) source->hold(frame(constrained, m), impact);
-  start_ = m.x;
+void EventStep::begin_segment(double s) {
+  constrained_->system().begin_step(*m_, s);
+  const bool impact = constrained_->resolve_impacts_now(*m_);
+  for (EventSource* source : sources_) source->hold(frame(), impact);
+  start_ = m_->x;
 }
 
-EventSource::NextEvent EventStep::next_event(ConstrainedStep& constrained,
-                                             const IntegrationState& m) const {
+EventSource::NextEvent EventStep::next_event() const {
   EventSource::NextEvent nearest;
-  for (const EventSource* source : sources_) source->look(frame(constrained, m), nearest);
+  for (const EventSource* source : sources_) source->look(frame(), nearest);
   nearest.gap = std::min(nearest.gap, kNoGap);
   return nearest;
 }
 
-// Advances m by an accepted segment of at most max_length; returns its length, 0 if stopped.
-double EventStep::smooth_segment(ConstrainedStep& constrained, IntegrationState& m,
-                                 double max_length, StepReport& report) {
-  begin_segment(constrained, m, max_length);
-  const EventSource::NextEvent ahead = next_event(constrained, m);
+// Advances m_ by an accepted segment of at most max_length; returns its length, 0 if stopped.
+double EventStep::smooth_segment(double max_length, StepReport& report) {
+  begin_segment(max_length);
+  const EventSource::NextEvent ahead = next_event();
   double s = std::min(length_, max_length);
   if (max_length - s < 1e-3 * s) s = max_length;  // avoids a tiny remainder
   if (1.02 * ahead.time < s) s = std::max(1.02 * ahead.time, kMinLength);
   for (;; ++report.rejected) {
-    const Segment result = integrate_segment(constrained, m, s);
+    const Segment result = integrate_segment(s);
     if (result == Segment::stopped) return 0;
     if (result != Segment::accepted && s <= kMinLength) {
       ++report.events;
-      step_over_event(constrained, m, s);
+      step_over_event(s);
       return s;
     }
     if (result == Segment::mode_changed) {
@@ -134,13 +126,13 @@ double EventStep::smooth_segment(ConstrainedStep& constrained, IntegrationState&
       s *= std::clamp(0.9 * std::pow(error_, -1.0 / kColumns), 0.1, 0.7);
       continue;
     }
-    constrained.system().begin_step(m, s);
-    const EventSource::NextEvent end = next_event(constrained, m);
+    constrained_->system().begin_step(*m_, s);
+    const EventSource::NextEvent end = next_event();
     if (end.gap >= 0) break;
     if (ahead.has_closing_contact && ahead.gap > 0 && ahead.gap < kNoGap) {
       ++report.events;
       length_ = std::max(s, kMinLength);
-      return locate_contact(constrained, m, s, ahead.gap, end.gap);
+      return locate_contact(s, ahead.gap, end.gap);
     }
     if (s <= kMinLength) break;
     s *= 0.5;  // a gap opened and closed again
@@ -151,41 +143,38 @@ double EventStep::smooth_segment(ConstrainedStep& constrained, IntegrationState&
   return s;
 }
 
-double EventStep::locate_contact(ConstrainedStep& constrained, IntegrationState& m, double s,
-                                 double gap_start, double gap_end) {
+double EventStep::locate_contact(double s, double gap_start, double gap_end) {
   const double length = locate_zero(s, gap_start, gap_end, [&](double trial) {
-    m.x = start_;
-    forward_kinematics(*model_, m.x, m.k);
-    if (integrate_segment(constrained, m, trial) == Segment::stopped)
-      return 0.0;  // ends the search
-    constrained.system().begin_step(m, trial);
-    return next_event(constrained, m).gap;
+    m_->x = start_;
+    forward_kinematics(m_->model, m_->x, m_->k);
+    if (integrate_segment(trial) == Segment::stopped) return 0.0;  // ends the search
+    constrained_->system().begin_step(*m_, trial);
+    return next_event().gap;
   });
   return stops() ? 0 : length;
 }
 
 // One first-order step over a located event.
-void EventStep::step_over_event(ConstrainedStep& constrained, IntegrationState& m, double s) {
+void EventStep::step_over_event(double s) {
   is_solved_ = true;
   modes_.clear();
-  run_column(constrained, m, s, 1, ModeChange::accepted);
-  set_state(m, values_, s);
+  run_column(s, 1, ModeChange::accepted);
+  set_state(values_, s);
 }
 
-// From start_ by s by extrapolation; m is set to the result, accepted or not.
-EventStep::Segment EventStep::integrate_segment(ConstrainedStep& constrained, IntegrationState& m,
-                                                double s) {
+// From start_ by s by extrapolation; m_ is set to the result, accepted or not.
+EventStep::Segment EventStep::integrate_segment(double s) {
   modes_.clear();
   is_solved_ = true;
   table_.clear();
   for (int n = 1; n <= kColumns; ++n) {
-    if (!run_column(constrained, m, s, n, ModeChange::rejected))
+    if (!run_column(s, n, ModeChange::rejected))
       return stops() ? Segment::stopped : Segment::mode_changed;
     table_.add_row(values_);
   }
-  const std::size_t nv = model_->nv;
+  const std::size_t nv = m_->model.nv;
   size_.resize(nv);
-  coordinate_sizes(*model_, start_.q, size_);
+  coordinate_sizes(m_->model, start_.q, size_);
   error_ = 0;
   const std::vector<double>&best = table_.best(), &next = table_.next_best();
   for (std::size_t i = 0; i < nv; ++i) {
@@ -194,32 +183,31 @@ EventStep::Segment EventStep::integrate_segment(ConstrainedStep& constrained, In
     error_ = std::max({error_, q_error / kTolerance, qd_error / kTolerance});
     if (!std::isfinite(q_error + qd_error)) error_ = 1e300;
   }
-  set_state(m, best, s);
+  set_state(best, s);
   return error_ <= 1 ? Segment::accepted : Segment::inexact;
 }
 
 // n first-order steps; false if a contact mode changes and this is rejected, or if stopped.
-bool EventStep::run_column(ConstrainedStep& constrained, IntegrationState& m, double s, int n,
-                           ModeChange mode_change) {
+bool EventStep::run_column(double s, int n, ModeChange mode_change) {
   const bool rejects = mode_change == ModeChange::rejected;
-  const std::size_t nv = model_->nv;
+  const std::size_t nv = m_->model.nv;
   const double step = s / n;
-  m.x = start_;
-  if (m.account) m.account->start_segment();
+  m_->x = start_;
+  if (m_->account) m_->account->start_segment();
   for (EventSource* source : sources_) source->restore_active_set();
   theta_.assign(nv, 0);
   rate_.resize(nv);
   for (int i = 1; i <= n; ++i) {
     if (rejects && stops()) return false;
-    tangent_rate(*model_, theta_, m.x.qd, rate_);
+    tangent_rate(m_->model, theta_, m_->x.qd, rate_);
     for (std::size_t dof = 0; dof < nv; ++dof) theta_[dof] += step * rate_[dof];
-    integrate_coordinates(*model_, start_.q, theta_, m.x.q);
-    m.x.t = start_.t + i * step;
-    m.update_kinematics();
-    constrained.system().begin_step(m, 0);
-    constrained.smooth_step(m, step);
-    solves_ += 1 + static_cast<long>(constrained.system().problem.constraints().size());
-    is_solved_ = is_solved_ && constrained.report().step.converged;
+    integrate_coordinates(m_->model, start_.q, theta_, m_->x.q);
+    m_->x.t = start_.t + i * step;
+    m_->update_kinematics();
+    constrained_->system().begin_step(*m_, 0);
+    constrained_->smooth_step(*m_, step);
+    solves_ += 1 + static_cast<long>(constrained_->system().problem.constraints().size());
+    is_solved_ = is_solved_ && constrained_->report().step.converged;
     modes_now_.clear();
     for (EventSource* source : sources_) source->modes(modes_now_);
     if (n == 1) modes_ = modes_now_;
@@ -228,26 +216,26 @@ bool EventStep::run_column(ConstrainedStep& constrained, IntegrationState& m, do
     if (rejects && (reverses || modes_now_ != modes_)) return false;
   }
   values_ = theta_;
-  values_.insert(values_.end(), m.x.qd.begin(), m.x.qd.end());
+  values_.insert(values_.end(), m_->x.qd.begin(), m_->x.qd.end());
   for (EventSource* source : sources_)
     values_.insert(values_.end(), source->works().begin(), source->works().end());
-  if (m.account)
-    values_.insert(values_.end(), m.account->segment().begin(), m.account->segment().end());
+  if (m_->account)
+    values_.insert(values_.end(), m_->account->segment().begin(), m_->account->segment().end());
   return true;
 }
 
-void EventStep::set_state(IntegrationState& m, const std::vector<double>& row, double s) {
-  const std::size_t nv = model_->nv;
+void EventStep::set_state(const std::vector<double>& row, double s) {
+  const std::size_t nv = m_->model.nv;
   theta_.assign(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(nv));
-  integrate_coordinates(*model_, start_.q, theta_, m.x.q);
-  std::copy_n(row.begin() + static_cast<std::ptrdiff_t>(nv), nv, m.x.qd.begin());
-  m.x.t = start_.t + s;
-  m.update_kinematics();
+  integrate_coordinates(m_->model, start_.q, theta_, m_->x.q);
+  std::copy_n(row.begin() + static_cast<std::ptrdiff_t>(nv), nv, m_->x.qd.begin());
+  m_->x.t = start_.t + s;
+  m_->update_kinematics();
   std::size_t next = 2 * nv;
   for (EventSource* source : sources_)
     for (double& work : source->works()) work = row[next++];
-  if (m.account)
-    for (double& sum : m.account->segment()) sum = row[next++];
+  if (m_->account)
+    for (double& sum : m_->account->segment()) sum = row[next++];
 }
 
 }  // namespace twinarm

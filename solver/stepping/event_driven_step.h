@@ -50,7 +50,6 @@ class ExtrapolationTable {
 
 class EventStep {
  public:
-  explicit EventStep(const Model<double>& model) : model_(&model) {}
   void serialize(StateArchive& archive) { archive.visit(length_); }
   // `interrupted`, or null, is called before each solution; true ends the step at the start of the
   // current segment. All sources must have events().
@@ -65,25 +64,27 @@ class EventStep {
   enum class Segment { accepted, inexact, mode_changed, stopped };
   enum class ModeChange { rejected, accepted };
 
-  void begin_segment(ConstrainedStep& constrained, IntegrationState& m, double s);
-  double smooth_segment(ConstrainedStep& constrained, IntegrationState& m, double max_length,
-                        StepReport& report);
-  Segment integrate_segment(ConstrainedStep& constrained, IntegrationState& m, double s);
-  bool run_column(ConstrainedStep& constrained, IntegrationState& m, double s, int n,
-                  ModeChange mode_change);
-  double locate_contact(ConstrainedStep& constrained, IntegrationState& m, double s,
-                        double gap_start, double gap_end);
-  void step_over_event(ConstrainedStep& constrained, IntegrationState& m, double s);
-  void restore_segment_start(IntegrationState& m);
-  void finish(ConstrainedStep& constrained, IntegrationState& m, double t_end, StepReport& report);
-  bool stops();
-  EventSource::NextEvent next_event(ConstrainedStep& constrained, const IntegrationState& m) const;
-  void set_state(IntegrationState& m, const std::vector<double>& row, double s);
-  ConstraintFrame frame(const ConstrainedStep& constrained, const IntegrationState& m) const {
-    return {m.k, constrained.system().trees, m.x, Phase::flow, 0};
+  void begin_segment(double s);
+  double smooth_segment(double max_length, StepReport& report);
+  Segment integrate_segment(double s);
+  bool run_column(double s, int n, ModeChange mode_change);
+  double locate_contact(double s, double gap_start, double gap_end);
+  void step_over_event(double s);
+  void restore_segment_start();
+  void finish(double t_end, StepReport& report);
+  // Interrupted, or too many constraints solved.
+  bool stops() {
+    if (!is_interrupted_ && interrupted_) is_interrupted_ = interrupted_();
+    return is_interrupted_ || solves_ >= kMaxLaws;
+  }
+  EventSource::NextEvent next_event() const;
+  void set_state(const std::vector<double>& row, double s);
+  ConstraintFrame frame() const {
+    return {m_->k, constrained_->system().trees, m_->x, Phase::flow, 0};
   }
 
-  const Model<double>* model_;
+  ConstrainedStep* constrained_ = nullptr;  // of the current call of step()
+  IntegrationState* m_ = nullptr;           // likewise
   std::vector<EventSource*> sources_;
   double length_ = 0;  // of the next segment [s]
   State<double> start_;

@@ -25,10 +25,6 @@ void FrictionConstraints::add_to(ImpulseProblem& problem, const KinematicTrees& 
   }
 }
 
-void FrictionConstraints::clear() {
-  std::fill(torque_.begin(), torque_.end(), 0);
-}
-
 void FrictionConstraints::read_impulses(const ImpulseProblem& problem, double h) {
   std::size_t next = first_;
   for (std::size_t dof = 0; is_on_ && dof < model_->nv; ++dof)

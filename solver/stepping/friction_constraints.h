@@ -2,6 +2,7 @@
 // the end of the step (armature h b). Coulomb friction is a box-constrained impulse per dof.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "solver/impulses/kinematic_trees.h"
@@ -19,7 +20,8 @@ class FrictionConstraints {
   void add_to(ImpulseProblem& problem, const KinematicTrees& trees, double h);
   // Reads the solution of a step h: joint forces, and initial guesses of the next step.
   void read_impulses(const ImpulseProblem& problem, double h);
-  void clear();                                                  // sets torque() to zero
+  // Sets torque() to zero.
+  void clear() { std::fill(torque_.begin(), torque_.end(), 0); }
   const std::vector<double>& torque() const { return torque_; }  // by velocity [N m, N]
   void serialize(StateArchive& archive) { archive.visit_fixed(guess_); }
 

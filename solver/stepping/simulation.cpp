@@ -98,7 +98,7 @@ void Simulation::add(ConstraintSource& source) {
 
 void Simulation::locate_events() {
   check_parts({integrator(), true, m_.sources, constrained_.system().sources});
-  located_.emplace(m_.model);
+  located_.emplace();
 }
 
 void Simulation::set_integrator(Integrator integrator, double tolerance) {

@@ -68,10 +68,6 @@ void DiagnosticList::add(Diagnostic fault) {
 void DiagnosticList::add(const std::vector<Diagnostic>& more) {
   for (const Diagnostic& fault : more) add(fault);
 }
-void DiagnosticList::check() const {
-  if (!faults_.empty()) throw InputError(faults_);
-}
-
 void check_step_size(double h) {
   if (h > 0 && std::isfinite(h)) return;
   throw InputError({{"", 0, "step size", "is " + number_text(h) + " s, must be positive and finite",

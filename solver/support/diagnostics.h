@@ -55,7 +55,9 @@ class DiagnosticList {
   bool empty() const { return faults_.empty(); }
   bool is_full() const { return faults_.size() > kMaxFaults; }
   const std::vector<Diagnostic>& faults() const { return faults_; }
-  void check() const;
+  void check() const {
+    if (!faults_.empty()) throw InputError(faults_);
+  }
 
  private:
   std::vector<Diagnostic> faults_;

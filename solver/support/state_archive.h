@@ -51,6 +51,10 @@ class StateArchive {
     resize(values, sizeof(T));
     for (T& value : values) visit(value);
   }
+  template <class First, class Second, class... Rest>
+  void visit(First& first, Second& second, Rest&... rest) {
+    visit(first), visit(second), (visit(rest), ...);
+  }
   // Vector whose size is given by the scene.
   template <class T>
   void visit_fixed(std::vector<T>& values) {

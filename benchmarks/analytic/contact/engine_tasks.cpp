@@ -49,21 +49,6 @@ TaskBody ball(double mass, double radius, const Numbers& p) {
   return {false, {radius, radius, radius}, mass, p, {}};
 }
 
-// Constant forces of a task; body frames have their origin at the centre.
-class TaskForces final : public ForceSource {
- public:
-  explicit TaskForces(const Task& task) : task_(task) {}
-  void add_forces(const State<double>&, const Kinematics& k, Forces<double>& f) noexcept override {
-    for (std::size_t i = 0; i < task_.bodies.size(); ++i) {
-      const Vector3 F_B = k.R_WB[i + 1].transpose() * eigen(task_.bodies[i].push);
-      f.f_ext[i + 1].f += from_eigen(F_B);
-    }
-  }
-
- private:
-  const Task& task_;
-};
-
 // Mean error of a task in twinarm, steps of 1 ms, measured against the values of `truth`.
 double error_of(const Task& task, const Task& truth) {
   ContactScene scene;
@@ -73,8 +58,11 @@ double error_of(const Task& task, const Task& truth) {
   for (const TaskBody& b : task.bodies)
     scene.add({shape_of(b), surface(mu, e), b.mass, eigen(b.p)});
   scene.start();
-  TaskForces forces(task);
-  scene.simulation().add(forces);
+  // Body frames have their origin at the centre.
+  scene.apply([&task](const auto&, const Kinematics& k, Forces<double>& forces) {
+    for (std::size_t i = 0; i < task.bodies.size(); ++i)
+      forces.f_ext[i + 1].f += from_eigen(k.R_WB[i + 1].transpose() * eigen(task.bodies[i].push));
+  });
   MeanError error(truth);
   std::vector<Moving> bodies(task.bodies.size());
   double mean = NAN;

@@ -16,8 +16,7 @@ constexpr double kZeno = 4.063712768871578;  // t1 (1 + e) / (1 - e)
 // Ball 1 m above the floor.
 int add_falling_ball(ContactScene& scene, double restitution) {
   scene.add_floor(surface(0, restitution));
-  const int ball = scene.start({Sphere{kBallRadius}, surface(0, 1), 1, {0, 0, 1 + kBallRadius}});
-  return ball;
+  return scene.start({Sphere{kBallRadius}, surface(0, 1), 1, {0, 0, 1 + kBallRadius}});
 }
 
 constexpr std::array kTimes = {0.4515236409857309, 1.1739614665629,   1.751911727024636,
@@ -61,29 +60,23 @@ CaseResult bounce_fixed(double scale) {  // e
 
 // With located impacts, of which there are infinitely many, and with fixed steps.
 CaseResult rest_after_bounces(double scale) {  // e
-  double fastest = 0;
-  for (const bool located : {false, true}) {
+  return {max_over(std::array{false, true}, [scale](bool located) {
     ContactScene scene;
     const int ball = add_falling_ball(scene, scale * 0.8);
     if (located) scene.locate_events();
-    while (scene.t() < 6) {
-      scene.step(kStep);
-      if (scene.t() > kZeno + kStep) fastest = std::max(fastest, scene.v(ball).norm());
-    }
-  }
-  return {fastest};
+    return scene.max_until(6, kStep,
+                           [&] { return scene.t() > kZeno + kStep ? scene.v(ball).norm() : 0; });
+  })};
 }
 
 CaseResult bounce_energy(double scale) {  // weight; energy() uses the correct one
-  double rise = 0;
-  for (const double e : {0.0, 0.3, 0.5, 0.8, 0.95, 1.0}) {
+  return {max_over({0.0, 0.3, 0.5, 0.8, 0.95, 1.0}, [scale](double e) {
     ContactScene scene;
     const int ball = add_falling_ball(scene, e);
     scene.apply_force(ball, {0, 0, (1 - scale) * kGravity});
     scene.run(5, kStep);
-    rise = std::max(rise, scene.rise());
-  }
-  return {rise};
+    return scene.rise();
+  })};
 }
 
 // ---- plots ----
@@ -111,6 +104,19 @@ CaseResult two_balls(double scale) {  // e
   return {std::max(relative(scene.v(a).x(), -0.4), relative(scene.v(b).x(), 0.8))};
 }
 
+// Balls in a row along x, the first one at 1 m/s.
+void start_row(ContactScene& scene, int count, double gap, double restitution,
+               double third_mass = 1) {
+  const ContactSurface s = surface(0, std::sqrt(restitution));
+  for (int i = 0; i < count; ++i)
+    scene.add({Sphere{kBallRadius},
+               s,
+               i == 2 ? third_mass : 1,
+               {i * (2 * kBallRadius + gap), 0, 0},
+               {i == 0 ? 1.0 : 0.0, 0, 0}});
+  scene.start();
+}
+
 struct Row {
   std::array<double, 5> v{};  // after all impacts
   double momentum = 0, rise = 0;
@@ -119,17 +125,10 @@ struct Row {
 struct Flaw {
   double mass = 1, push = 0;
 };
-// Newton's cradle of five, the first one at 1 m/s.
+// Newton's cradle of five.
 Row cradle(double restitution, double gap, const Flaw& flaw = {}) {
   ContactScene scene(Vector3::Zero());
-  const ContactSurface s = surface(0, std::sqrt(restitution));
-  for (int i = 0; i < 5; ++i)
-    scene.add({Sphere{kBallRadius},
-               s,
-               i == 2 ? flaw.mass : 1,
-               {i * (2 * kBallRadius + gap), 0, 0},
-               {i == 0 ? 1.0 : 0.0, 0, 0}});
-  scene.start();
+  start_row(scene, 5, gap, restitution, flaw.mass);
   scene.apply_force(1, {flaw.push, 0, 0});
   Row row;
   for (int n = 0; n < 500; ++n) {
@@ -143,41 +142,30 @@ Row cradle(double restitution, double gap, const Flaw& flaw = {}) {
   return row;
 }
 CaseResult cradle_elastic(double scale) {  // e
-  double error = 0;
-  for (const double gap : {1e-4, 1e-3}) {
-    const Row row = cradle(scale, gap);
-    for (std::size_t i = 0; i < 5; ++i)
-      error = std::max(error, std::abs(row.v[i] - (i == 4 ? 1 : 0)));
-  }
-  return {error};
+  return {max_over({1e-4, 1e-3}, [scale](double gap) {
+    std::array<double, 5> v = cradle(scale, gap).v;
+    v[4] -= 1;
+    return max_over(v, [](double error) { return std::abs(error); });
+  })};
 }
 CaseResult cradle_lossy(double scale) {  // e
   return {relative(cradle(scale * 0.9, 1e-3).v[4], 0.81450625)};
 }
+double max_of_cradles(const Flaw& flaw, double Row::*number) {
+  return max_over({0.0, 0.5, 0.9, 1.0}, [&](double e) {
+    return max_over({0.0, 1e-4, 1e-3}, [&](double gap) { return cradle(e, gap, flaw).*number; });
+  });
+}
 CaseResult cradle_momentum(double scale) {  // mass of a ball
-  double error = 0;
-  for (const double e : {0.0, 0.5, 0.9, 1.0})
-    for (const double gap : {0.0, 1e-4, 1e-3})
-      error = std::max(error, cradle(e, gap, {scale, 0}).momentum);
-  return {error};
+  return {max_of_cradles({scale, 0}, &Row::momentum)};
 }
 CaseResult cradle_energy(double scale) {  // mutant: a force of scale - 1 on a ball [N]
-  double error = 0;
-  for (const double e : {0.0, 0.5, 0.9, 1.0})
-    for (const double gap : {0.0, 1e-4, 1e-3})
-      error = std::max(error, cradle(e, gap, {1, scale - 1}).rise);
-  return {error};
+  return {max_of_cradles({1, scale - 1}, &Row::rise)};
 }
 // Three touching balls, one simultaneous impact: (-1/3, 2/3, 2/3).
 CaseResult touching_balls(double scale) {  // e
   ContactScene scene(Vector3::Zero());
-  for (int i = 0; i < 3; ++i)
-    scene.add({Sphere{kBallRadius},
-               surface(0, std::sqrt(scale)),
-               1,
-               {i * 2 * kBallRadius, 0, 0},
-               {i == 0 ? 1.0 : 0.0, 0, 0}});
-  scene.start();
+  start_row(scene, 3, 0, scale);
   scene.run(0.1, kStep);
   return {std::max({relative(scene.v(1).x(), -1 / 3.0), relative(scene.v(2).x(), 2 / 3.0),
                     relative(scene.v(3).x(), 2 / 3.0)})};

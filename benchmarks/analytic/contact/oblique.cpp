@@ -1,6 +1,4 @@
 // E16: oblique impact with friction.
-#include <algorithm>
-#include <cmath>
 
 #include "benchmarks/analytic/support/contact_scene.h"
 
@@ -18,17 +16,15 @@ int start_ball(ContactScene& scene, double mu, double gap, double scale) {
 
 // Below mu = 0.1058 it slips during the whole impact, else it ends rolling.
 CaseResult oblique_from(double gap, double scale) {  // e
-  double error = 0;
-  for (const double mu : {0.05, 0.2}) {
+  return {max_over({0.05, 0.2}, [&](double mu) {
     ContactScene scene(Vector3::Zero());
     const int ball = start_ball(scene, mu, gap, scale);
     scene.run(0.1, kStep);
     const double vt = mu == 0.05 ? 1.73 : 10 / 7.0, rim = mu == 0.05 ? 0.675 : 10 / 7.0;
     const Vector3 wanted(vt, 2.4, rim);
     const Vector3 found(scene.v(ball).x(), scene.v(ball).z(), kBallRadius * scene.w(ball).y());
-    error = std::max(error, (found - wanted).cwiseAbs().maxCoeff() / 2.4);
-  }
-  return {error};
+    return (found - wanted).cwiseAbs().maxCoeff() / 2.4;
+  })};
 }
 CaseResult oblique(double scale) {
   return oblique_from(0, scale);

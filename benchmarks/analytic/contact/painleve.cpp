@@ -27,8 +27,7 @@ int add_rod(ContactScene& scene, double angle, double mu, double speed, double i
   rod.p = 0.5 * kLength * up + Vector3(0, 0, kRodRadius);
   rod.v = {-speed, 0, 0};
   rod.inertia = Vector3(inertia / 12, inertia / 12, 1e-6).asDiagonal();
-  const int body = scene.start(rod);
-  return body;
+  return scene.start(rod);
 }
 
 // mu at which n . J M^-1 J^T (n + mu x) changes its sign, by the solver's Jacobian and mass matrix.

@@ -53,15 +53,13 @@ CaseResult rolling_friction(double scale) {  // gravity
   return {relative(roll(kSphere, 0.5, scale).friction, 0.9586336017213744)};
 }
 CaseResult min_friction(double scale) {  // mu
-  double error = 0;
-  for (const Roller& roller : kRollers) {
+  return {max_over(kRollers, [scale](const Roller& roller) {
     const double limit = threshold(0.05, 0.25, 1e-5, [&](double mu) {
       const AfterASecond end = roll(roller, scale * mu);
       return end.v - end.rim < 1e-6;
     });
-    error = std::max(error, std::abs(limit - roller.min_friction));
-  }
-  return {error};
+    return std::abs(limit - roller.min_friction);
+  })};
 }
 CaseResult slipping(double scale) {  // mu
   const AfterASecond end = roll(kSphere, scale * 0.05);

@@ -63,13 +63,12 @@ RodMotion simulated(double mu, double restitution, double lean, double along, do
 }
 
 CaseResult velocities(double scale) {  // mu
-  double error = 0;
-  for (const double mu : {0.0, 0.3, 1.0}) {
+  const double error = max_over({0.0, 0.3, 1.0}, [scale](double mu) {
     const RodMotion wanted = closed_form(mu);
     const RodMotion found = simulated(scale * mu, kRestitution, std::numbers::pi / 4, 0);
-    error = std::max({error, std::abs(found.vx - wanted.vx), std::abs(found.vz - wanted.vz),
-                      std::abs(found.w - wanted.w) * kRodLength / 2});
-  }
+    return std::max({std::abs(found.vx - wanted.vx), std::abs(found.vz - wanted.vz),
+                     std::abs(found.w - wanted.w) * kRodLength / 2});
+  });
   return {error / kSpeed};
 }
 // With a velocity along the floor Newton's law could gain energy: T. R. Kane, D. A. Levinson, 1985.

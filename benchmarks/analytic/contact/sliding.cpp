@@ -17,19 +17,13 @@ constexpr double kSlide = 0.6571453944373284;  // g (sin 30 - 0.5 cos 30) [m/s^2
 // Cube of 2 kg, 0.2 m wide; on an incline x points downhill.
 int add_block(ContactScene& scene, double mu, const Vector3& v = Vector3::Zero()) {
   scene.add_floor(surface(mu));
-  const int block = scene.start({Box{Vector3::Constant(0.2)}, surface(mu), 2, {0, 0, 0.1}, v});
-  return block;
+  return scene.start({Box{Vector3::Constant(0.2)}, surface(mu), 2, {0, 0, 0.1}, v});
 }
 
 CaseResult creep(double scale) {  // mu
   ContactScene scene(tilted_gravity(kIncline));
   const int block = add_block(scene, scale * 0.6);
-  double creep = 0;
-  while (scene.t() < 10) {
-    scene.step(kStep);
-    creep = std::max(creep, (scene.p(block) - Vector3(0, 0, 0.1)).norm());
-  }
-  return {creep};
+  return {scene.max_until(10, kStep, [&] { return (scene.p(block) - Vector3(0, 0, 0.1)).norm(); })};
 }
 
 CaseResult holding_forces(double scale) {  // gravity
@@ -111,22 +105,18 @@ Stop launch(double heading_deg, double mu, double y_scale = 1) {
 }
 constexpr std::array kHeadings = {0.0, 15.0, 30.0, 45.0};
 CaseResult stopping(double scale) {  // mu
-  double error = 0;
-  for (const double heading : kHeadings) {
+  return {max_over(kHeadings, [scale](double heading) {
     const Stop stop = launch(heading, scale * 0.4);
-    error = std::max({error, std::abs(stop.time - 0.764525993883792),
-                      std::abs(stop.distance - 1.146788990825688) / 3});
-  }
-  return {error};
+    return std::max(std::abs(stop.time - 0.764525993883792),
+                    std::abs(stop.distance - 1.146788990825688) / 3);
+  })};
 }
 CaseResult headings(double scale) {  // velocity along y
   const double first = launch(kHeadings[0], 0.4).distance;
-  double spread = 0;
-  for (const double heading : kHeadings) {
+  return {max_over(kHeadings, [&](double heading) {
     const Stop stop = launch(heading, 0.4, scale);
-    spread = std::max({spread, relative(stop.distance, first), stop.sideways / first});
-  }
-  return {spread};
+    return std::max(relative(stop.distance, first), stop.sideways / first);
+  })};
 }
 
 CaseResult min_friction_to_hold(double scale) {  // mu

@@ -24,11 +24,8 @@ CaseResult coin(double scale) {  // gravity
   disc.inertia = 0.01 * R * R * Vector3(0.25, 0.25, 0.5).asDiagonal().toDenseMatrix();
   const int body = scene.start(disc);
   scene.locate_events();
-  double error = 0;
-  while (scene.t() < 1) {
-    scene.step(1e-3);
-    error = std::max(error, (scene.p(body) - disc.p).norm() / R);
-  }
+  const double error =
+      scene.max_until(1, kStep, [&] { return (scene.p(body) - disc.p).norm() / R; });
   return {error, scene.drift()};
 }
 // A sphere whose centre of mass lies 3 mm below its middle, inclined by 0.1 rad. A spin about the
@@ -91,8 +88,7 @@ int add_rattleback(ContactScene& scene, double spin, double Ixy_scale) {
   stone.p = {0, 0, -to_contact.z()};
   stone.w = spin * stone.R.col(2);
   stone.v = -stone.w.cross(to_contact);
-  const int body = scene.start(stone);
-  return body;
+  return scene.start(stone);
 }
 Rattle rattleback(double spin, double duration, double Ixy_scale) {
   constexpr double kFineStep = 1e-4;

@@ -40,31 +40,21 @@ CaseResult slide_or_topple(double scale) {  // width
   return {relative(limit, 0.4)};
 }
 
-// Force along x at the centre of the upper face of a free body.
-class TopForce final : public ForceSource {
- public:
-  TopForce(std::size_t dof, double force) : dof_(dof), force_(force) {}
-  void add_forces(const State<double>&, const Kinematics& k,
-                  Forces<double>& forces) noexcept override {
-    const Vector3 F(force_, 0, 0), arm = k.X_WL[1].R * Vector3(0, 0, kHeight / 2);
-    const Vector3 torque = k.X_WL[1].R.transpose() * arm.cross(F);  // in the body's axes
-    for (std::size_t i = 0; i < 3; ++i) {
-      forces.tau[dof_ + i] += torque[static_cast<Eigen::Index>(i)];
-      forces.tau[dof_ + 3 + i] += F[static_cast<Eigen::Index>(i)];
-    }
-  }
-
- private:
-  std::size_t dof_;
-  double force_;
-};
+// A force along x at the centre of the upper face.
 CaseResult push_limit(double scale) {  // width
   const double limit = threshold(0.1, 0.3, 1e-4, [scale](double part) {
     ContactScene scene;
     scene.add_floor(surface(1));
     const int body = scene.start(block(1, scale * kWidth));
-    TopForce force(scene.model().iv[1], part * kMass * kGravity);
-    scene.simulation().add(force);
+    scene.apply([F = Vector3(part * kMass * kGravity, 0, 0), dof = scene.model().iv[1]](
+                    const auto&, const Kinematics& k, Forces<double>& forces) {
+      const Vector3 arm = k.X_WL[1].R * Vector3(0, 0, kHeight / 2);
+      const Vector3 torque = k.X_WL[1].R.transpose() * arm.cross(F);  // in the body's axes
+      for (std::size_t i = 0; i < 3; ++i) {
+        forces.tau[dof + i] += torque[static_cast<Eigen::Index>(i)];
+        forces.tau[dof + 3 + i] += F[static_cast<Eigen::Index>(i)];
+      }
+    });
     scene.run(1, kStep);
     return tilt(scene, body) > 0.01;
   });
@@ -79,8 +69,7 @@ int start_at_curb(ContactScene& scene, double speed) {
   ContactScene::Body body = block(0);
   body.p.x() = 0.15 - kWidth / 2 - 1e-4;
   body.v.x() = speed;
-  const int number = scene.start(body);
-  return number;
+  return scene.start(body);
 }
 CaseResult curb_rate(double scale) {  // speed
   ContactScene scene;
@@ -111,11 +100,8 @@ CaseResult rocking(double scale) {  // width
   body.p = Vector3(half, 0, 0) - body.R * Vector3(half, 0, -kHeight / 2);
   const int number = scene.start(body);
   scene.locate_events();
-  double back = 0;  // largest inclination to the other side
-  while (scene.t() < 0.3) {
-    scene.step(kStep);
-    back = std::max(back, -scene.R(number)(0, 2));
-  }
+  // Largest inclination to the other side.
+  const double back = scene.max_until(0.3, kStep, [&] { return -scene.R(number)(0, 2); });
   const double alpha = std::atan(kWidth / kHeight);
   const auto lift = [&](double lean) { return std::cos(alpha - lean) - std::cos(alpha); };
   return {relative(lift(std::asin(back)) / lift(kLean), 0.629013079667063)};

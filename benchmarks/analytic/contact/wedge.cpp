@@ -2,7 +2,6 @@
 //
 // No gravity. The blocks are on a frictionless floor and are pressed together by 100 N; the wedge
 // points down and can only move up.
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -56,14 +55,12 @@ double rise(double half_angle, double mu) {
 }
 
 CaseResult self_locking(double scale) {  // mu
-  double error = 0;
-  for (const double angle : {5 * kDegree, 15 * kDegree, 30 * kDegree}) {
+  return {max_over({5 * kDegree, 15 * kDegree, 30 * kDegree}, [scale](double angle) {
     const double limit = std::tan(angle);
     const double found = threshold(0.8 * limit, 1.2 * limit, 1e-4 * limit,
                                    [&](double mu) { return rise(angle, scale * mu) < 1e-4; });
-    error = std::max(error, relative(found, limit));
-  }
-  return {error};
+    return relative(found, limit);
+  })};
 }
 
 }  // namespace

@@ -28,11 +28,7 @@ constexpr int kHeldSteps = 20;  // steps of the integrator in one held step
 // A target at rest.
 class ConstantTarget final : public OperatorMotion {
  public:
-  HandSample sample(double, double) const override {
-    HandSample zero;
-    for (std::size_t j = 0; j < 3; ++j) HandMapping().set_robot_angle(zero, j, 0, 0);
-    return zero;
-  }
+  HandSample sample(double, double) const override { return {}; }  // robot angles 0
   double duration() const override { return 1; }
   std::string description() const override { return "at rest"; }
 };

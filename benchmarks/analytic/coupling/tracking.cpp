@@ -189,13 +189,13 @@ double max_error(const std::vector<double>& found, const std::array<double, 2>& 
                  std::abs(found[1] / kDegree - exact_deg[1]));
 }
 // A motion, and the maximum and mean errors of its joints.
-void add_coupling(const char* motion, const char* largest, const char* mean,
-                  const TrackedCoupling& coupling, std::vector<AnalyticCase>& all) {
-  all.push_back({motion, 1e-8, tracking_motion(coupling)});
-  all.push_back({largest, 1e-4, [coupling](bool is_mutant) {
+void add_coupling(const std::string& name, const TrackedCoupling& coupling,
+                  std::vector<AnalyticCase>& all) {
+  all.push_back({name, 1e-8, tracking_motion(coupling)});
+  all.push_back({name + "-largest", 1e-4, [coupling](bool is_mutant) {
                    return CaseResult{max_error(tracked(coupling, is_mutant).max, coupling.max_deg)};
                  }});
-  all.push_back({mean, 1e-5, [coupling](bool is_mutant) {
+  all.push_back({name + "-mean", 1e-5, [coupling](bool is_mutant) {
                    return CaseResult{
                        max_error(tracked(coupling, is_mutant).mean, coupling.mean_deg)};
                  }});
@@ -205,10 +205,10 @@ void add_coupling(const char* motion, const char* largest, const char* mean,
 
 CaseFamily tracking_cases() {
   std::vector<AnalyticCase> all;
-  add_coupling("F3-world", "F3-world-largest", "F3-world-mean", kTracked[0], all);
-  add_coupling("F3-joint", "F3-joint-largest", "F3-joint-mean", kTracked[1], all);
-  add_coupling("F3-linear", "F3-linear-largest", "F3-linear-mean", kTracked[2], all);
-  add_coupling("F3-undamped", "F3-undamped-largest", "F3-undamped-mean", kTracked[3], all);
+  add_coupling("F3-world", kTracked[0], all);
+  add_coupling("F3-joint", kTracked[1], all);
+  add_coupling("F3-linear", kTracked[2], all);
+  add_coupling("F3-undamped", kTracked[3], all);
   return {340, all};
 }
 

@@ -6,11 +6,9 @@
 // G4, the slope of the error on C2 is the order (Hairer, Lubich, Wanner, Geometric Numerical
 // Integration, chapters I, VI).
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <numbers>
 
-#include "benchmarks/analytic/joints/golden_steps.h"
 #include "benchmarks/analytic/support/smooth_parts.h"
 #include "benchmarks/analytic/support/trajectory_case.h"
 #include "solver/dynamics/energy_momentum.h"
@@ -28,12 +26,10 @@ constexpr double kGoldenStep = 0.01;
 constexpr double kSquare = 100;  // w^2 [rad^2/s^2]
 
 CaseScene undamped_oscillator() {
-  ModelBuilder builder;
-  builder.set_gravity(Vector3::Zero());
-  builder.add_body("mass", 0, "slide", JointType::prismatic, {}, Vector3::UnitX(),
-                   {1, Vector3::Zero(), Matrix3::Identity()});
-  CaseScene scene = start_at(builder.build(), {0.1}, {0.5});
-  scene.sources = {std::make_shared<JointEffort>([](double, double x) { return -kSquare * x; })};
+  const BodyInertia mass{1, Vector3::Zero(), Matrix3::Identity()};
+  CaseScene scene =
+      start_at(weightless(one_body(JointType::prismatic, Vector3::UnitX(), mass)), {0.1}, {0.5});
+  scene.sources = {joint_effort([](double, double x) { return -kSquare * x; })};
   return not_conserving(scene);
 }
 double invariant_of(Integrator integrator, double x, double v) {
@@ -117,11 +113,11 @@ TrajectoryCase unit_quaternion() {
 // ---- G1 and G4, orders ----
 
 // Of a known motion at 1 s; each mutation is 0.1 % more gravity.
-double error_after_1s(const char* name, CaseMeasure measure, const Integration& integration,
+double error_after_1s(const std::string& name, CaseMeasure measure, const Integration& integration,
                       int mutations) {
   for (const CaseFamily& family : joint_cases())
     for (const AnalyticCase& known : family.cases) {
-      if (std::strcmp(known.name, name) != 0) continue;
+      if (known.name != name) continue;
       TrajectoryCase c = *known.trajectory;
       c.times = {1};
       c.measure = measure;
@@ -180,15 +176,15 @@ CaseFamily schemes_cases() {
   using enum Integrator;
   using Integrators = std::vector<Integrator>;
   std::vector<AnalyticCase> all;
-  const auto add = [&](const char* prefix, double tolerance, const Integrators& integrators,
+  const auto add = [&](const std::string& prefix, double tolerance, const Integrators& integrators,
                        CaseResult (*experiment)(Integrator, bool is_mutant)) {
     for (const Integrator integrator : integrators)
-      all.push_back({name_of_case(prefix, integrator), tolerance,
+      all.push_back({prefix + integrator_name(integrator), tolerance,
                      [=](bool is_mutant) { return experiment(integrator, is_mutant); }});
   };
   add("G1-order-", 0.05, {euler, semi_implicit, semi_implicit_xv, implicit_euler}, halving);
   for (const Integrator integrator : {semi_implicit, verlet})
-    all.push_back({name_of_case("G2-", integrator), 1e-12, invariant(integrator)});
+    all.push_back({std::string("G2-") + integrator_name(integrator), 1e-12, invariant(integrator)});
   add("G2-trend-", 1e-12, {semi_implicit, verlet}, trend);
   all.push_back({"G3", 1e-12, steady_rotation()});
   all.push_back({"G3-norm", 1e-12, unit_quaternion()});

@@ -29,7 +29,7 @@ struct CartPole {
     CaseScene all = start_at(builder.build(), {0, angle}, {0, 0});
     if (spring > 0) {
       const double k = spring;
-      all.sources = {std::make_shared<JointEffort>([k](double, double x) { return -k * x; })};
+      all.sources = {joint_effort([k](double, double x) { return -k * x; })};
       all.stored = [k](const State<double>& x) { return k * x.q[0] * x.q[0] / 2; };
     }
     return all;
@@ -82,7 +82,7 @@ TrajectoryCase cart_pole_centre() {
   c.integration = dopri5_with(1e-13);
   // A force on the cart.
   c.mutant = [](CaseScene& scene) {
-    scene.sources = {std::make_shared<JointEffort>([](double, double) { return 1e-9; })};
+    scene.sources = {joint_effort([](double, double) { return 1e-9; })};
   };
   return c;
 }
@@ -90,7 +90,7 @@ TrajectoryCase cart_pole_centre() {
 // About hanging and about upright; of a rod, and of a point mass at its centre.
 TrajectoryCase cart_pole_frequencies() {
   return evaluation(
-      [] { return kPlain.scene(0); }, {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
+      kPlain.scene(0), {"swinging [rad/s]", "falling [rad/s]", "point mass [rad/s]"},
       [](ModelRef model, StateRef x) {
         State<double> above = x;
         above.q[1] = std::numbers::pi;

@@ -59,7 +59,7 @@ TrajectoryCase furuta_motion() {
 TrajectoryCase furuta_evaluation() {
   special::Numbers dx(4);
   furuta_rates()(0, {0, 1, 2, 3}, dx);
-  return evaluation([] { return furuta(1, 2, 3); }, {"arm [rad/s2]", "pendulum [rad/s2]"},
+  return evaluation(furuta(1, 2, 3), {"arm [rad/s2]", "pendulum [rad/s2]"},
                     [](ModelRef model, StateRef x) { return evaluate(model, x).qdd; },
                     {static_cast<double>(dx[2]), static_cast<double>(dx[3])});
 }
@@ -80,9 +80,8 @@ TrajectoryCase furuta_special() {
     return values(std::sqrt(squared_frequencies_of(model, x).back()),
                   std::sqrt(-squared_frequencies_of(model, above).front()), std::cos(low));
   };
-  return evaluation([] { return furuta(0, 0, 0); },
-                    {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"}, observe,
-                    {w, w, weight / (kPivot * kWhirl * kWhirl)}, relative_each);
+  return evaluation(furuta(0, 0, 0), {"swinging [rad/s]", "falling [rad/s]", "cosine at 12 rad/s"},
+                    observe, {w, w, weight / (kPivot * kWhirl * kWhirl)}, relative_each);
 }
 
 // ---- C9 ----
@@ -127,11 +126,6 @@ TrajectoryCase babyboot_motion() {
           .observe = [](ModelRef, StateRef x) { return in_degrees(x.q); },
           .reference = [solved](double t) { return in_degrees(solved(t)); }};
 }
-TrajectoryCase babyboot_fine() {
-  TrajectoryCase c = babyboot_motion();
-  c.integration = rk4_with(2.5e-4);
-  return c;
-}
 TrajectoryCase babyboot_rates_at_end() {
   TrajectoryCase c = babyboot_motion();
   c.times = {10};
@@ -158,7 +152,7 @@ CaseFamily crossed_hinges_cases() {
            {"C8-start", 1e-12, furuta_evaluation()},
            {"C8-special", 1e-12, furuta_special()},
            {"C9", 1e-3, babyboot_motion()},
-           {"C9-fine", 1e-5, babyboot_fine()},
+           {"C9-fine", 1e-5, integrated_by(rk4_with(2.5e-4), babyboot_motion())},
            {"C9-end", 1e-5, babyboot_rates_at_end()}}};
 }
 

@@ -60,16 +60,15 @@ TrajectoryCase two_rods() {
           }};
 }
 TrajectoryCase two_rods_until(std::vector<double> times, const Integration& integration) {
-  TrajectoryCase c = two_rods();
+  TrajectoryCase c = integrated_by(integration, two_rods());
   c.times = std::move(times);
-  c.integration = integration;
   return c;
 }
 
 TrajectoryCase two_rods_modes() {
   const double part = 6 / std::sqrt(7.0);
-  return evaluation([] { return at_rest(plane_chain(rod_link(1, 1), 2)); },
-                    {"first [rad/s]", "second [rad/s]"}, small_frequencies,
+  return evaluation(at_rest(plane_chain(rod_link(1, 1), 2)), {"first [rad/s]", "second [rad/s]"},
+                    small_frequencies,
                     {std::sqrt((3 - part) * kGravity), std::sqrt((3 + part) * kGravity)},
                     relative_each);
 }

@@ -79,7 +79,7 @@ TrajectoryCase momenta() {
   CaseScene scene = not_conserving(tumbling(Vector3::Zero()));
   for (const std::size_t dof : {6, 9, 11})
     scene.sources.push_back(
-        std::make_shared<JointEffort>([](double t, double) { return 0.1 * std::cos(2 * t); }, dof));
+        joint_effort([](double t, double) { return 0.1 * std::cos(2 * t); }, dof));
   return {
       .scene = fixed(scene),
       .times = {2, 5, 10},

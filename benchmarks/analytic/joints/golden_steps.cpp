@@ -37,12 +37,6 @@ const std::array<GoldenSteps, 10>& golden_steps() {
   return all;
 }
 
-const char* name_of_case(const char* prefix, Integrator integrator) {
-  static std::vector<std::unique_ptr<std::string>> all;
-  all.push_back(std::make_unique<std::string>(std::string(prefix) + integrator_name(integrator)));
-  return all.back()->c_str();
-}
-
 namespace {
 
 using namespace smooth_parts;
@@ -74,10 +68,12 @@ TrajectoryCase golden_energy(const GoldenSteps& row) {
 CaseFamily golden_steps_cases() {
   std::vector<AnalyticCase> all;
   for (const GoldenSteps& row : golden_steps())
-    all.push_back({name_of_case("G1-", row.integrator), 1e-12, golden_motion(row)});
+    all.push_back(
+        {std::string("G1-") + integrator_name(row.integrator), 1e-12, golden_motion(row)});
   // The reference energies have four digits.
   for (const GoldenSteps& row : golden_steps())
-    all.push_back({name_of_case("G2-energy-", row.integrator), 5e-4, golden_energy(row)});
+    all.push_back(
+        {std::string("G2-energy-") + integrator_name(row.integrator), 5e-4, golden_energy(row)});
   return {360, all};
 }
 

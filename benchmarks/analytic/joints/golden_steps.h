@@ -17,7 +17,4 @@ struct GoldenSteps {
 
 const std::array<GoldenSteps, 10>& golden_steps();
 
-// Name of a case, "G1-rk4", valid until the program ends.
-const char* name_of_case(const char* prefix, Integrator integrator);
-
 }  // namespace twinarm

@@ -44,42 +44,31 @@ CaseScene spinning_top() {
 
 struct Nutation {
   Real u0 = std::sqrt(3.0L) / 2, b = 2 * Real(kMoment) / Real(I1), a = Real(I3) * kSpin / Real(I1);
-  Real u1, u2, k, m;
+  special::SquaredCd u;
   Nutation() {
     const Real p = a * a / (2 * b), root = std::sqrt(p * p - 2 * p * u0 + 1);
-    u2 = p + root;
-    u1 = (2 * p * u0 - 1) / u2;
-    k = std::sqrt(b * (u2 - u1)) / 2;
-    m = (u0 - u1) / (u2 - u1);
+    const Real u2 = p + root, u1 = (2 * p * u0 - 1) / u2;
+    u = {u0, u1, std::sqrt(b * (u2 - u1)) / 2, (u0 - u1) / (u2 - u1)};
   }
-  Real period() const { return 2 * special::quarter_period(m) / k; }
-  Real height(Real t) const {  // u
-    const special::Jacobi j = special::jacobi(k * t, m);
-    return u1 + (u0 - u1) * (j.cn / j.dn) * (j.cn / j.dn);
-  }
-  Real height_rate(Real t) const {
-    const special::Jacobi j = special::jacobi(k * t, m);
-    return -2 * k * (u0 - u1) * (1 - m) * j.cn * j.sn / (j.dn * j.dn * j.dn);
-  }
-  Real precession(Real u) const { return a * (u0 - u) / (1 - u * u); }
+  Real precession(Real height) const { return a * (u0 - height) / (1 - height * height); }
   Real azimuth(Real t) const {  // phi
-    return special::integral([this](Real s) { return precession(height(s)); }, 0, t);
+    return special::integral([this](Real s) { return precession(u.at(s)); }, 0, t);
   }
   Real spin_angle(Real t) const {  // psi
     return special::integral(
         [this](Real s) {
-          const Real u = height(s);
-          return kSpin - precession(u) * u;
+          const Real height = u.at(s);
+          return kSpin - precession(height) * height;
         },
         0, t);
   }
   Vector3 axis(Real t) const {
-    const Real u = height(t), s = std::sqrt(1 - u * u), phi = azimuth(t);
-    return {double(s * std::sin(phi)), double(-s * std::cos(phi)), double(u)};
+    const Real height = u.at(t), s = std::sqrt(1 - height * height), phi = azimuth(t);
+    return {double(s * std::sin(phi)), double(-s * std::cos(phi)), double(height)};
   }
   Vector3 rate(Real t) const {
-    const Real u = height(t), s = std::sqrt(1 - u * u), psi = spin_angle(t);
-    const Real along = -height_rate(t) / s, across = precession(u) * s;
+    const Real height = u.at(t), s = std::sqrt(1 - height * height), psi = spin_angle(t);
+    const Real along = -u.rate(t) / s, across = precession(height) * s;
     return {double(across * std::sin(psi) + along * std::cos(psi)),
             double(across * std::cos(psi) - along * std::sin(psi)), kSpin};
   }
@@ -90,8 +79,7 @@ const Nutation& nutation() {
 }
 
 CaseReadings observe_axis(ModelRef, StateRef x) {
-  const Vector3 e = attitude(x) * Vector3::UnitZ();
-  return {e.x(), e.y(), e.z()};
+  return values(Vector3(attitude(x) * Vector3::UnitZ()));
 }
 
 TrajectoryCase top_motion(double step) {
@@ -99,11 +87,7 @@ TrajectoryCase top_motion(double step) {
           .times = {0.1, 0.38054140391335806, 0.5, 1},
           .readings = {"x of the axis", "y of the axis", "z of the axis"},
           .observe = observe_axis,
-          .reference =
-              [](double t) {
-                const Vector3 e = nutation().axis(t);
-                return values(e.x(), e.y(), e.z());
-              },
+          .reference = [](double t) { return values(nutation().axis(t)); },
           .integration = rk4_with(step)};
 }
 
@@ -112,10 +96,7 @@ TrajectoryCase rates() {
   TrajectoryCase c = top_motion(1e-4);
   c.readings = {"w1 [rad/s]", "w2 [rad/s]", "w3 [rad/s]"};
   c.observe = [](ModelRef, StateRef x) { return x.qd; };
-  c.reference = [](double t) {
-    const Vector3 w = nutation().rate(t);
-    return values(w.x(), w.y(), w.z());
-  };
+  c.reference = [](double t) { return values(nutation().rate(t)); };
   return c;
 }
 
@@ -130,8 +111,8 @@ TrajectoryCase top_bounds() {
   };
   c.reference = [](double k) {
     const Nutation& n = nutation();
-    const Real t = n.period() * Real(k) / 2;
-    return values(double(t), double(std::acos(n.height(t))), double(n.azimuth(t)));
+    const Real t = n.u.half_period() * Real(k);
+    return values(t, std::acos(n.u.at(t)), n.azimuth(t));
   };
   c.events = {
       [](ModelRef, StateRef x) { return (attitude(x) * rate(x).cross(Vector3::UnitZ())).z(); }, 2,
@@ -176,24 +157,20 @@ TrajectoryCase steady() {
   };
   const double A = I1 * std::cos(kTilt), B = I3 * kSpin, root = B * B - 4 * A * kMoment;
   const double fast = (B + std::sqrt(root)) / (2 * A);
-  return evaluation(spinning_top, {"slow [rad/s]", "fast [rad/s]", "minimum spin [rad/s]"}, observe,
-                    {kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3});
+  return evaluation(spinning_top(), {"slow [rad/s]", "fast [rad/s]", "minimum spin [rad/s]"},
+                    observe, {kMoment / (A * fast), fast, std::sqrt(4 * A * kMoment) / I3});
 }
 
 // Upright, with z = z1 + i z2 the vertical and w = w1 + i w2 the angular velocity, in body axes:
 //   z' = -i w3 z + i w,   w' = -i D w - i F z,   D = (1 - I3 / I1) w3,  F = m g l / I1,
 // stable for (w3 - D)^2 >= 4 F. F and D are derivatives of the accelerations.
 TrajectoryCase sleeping() {
-  return evaluation(
-      [] {
-        return start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin});
-      },
-      {"minimum spin [rad/s]"},
-      [](ModelRef model, StateRef x) {
-        const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
-        return values(2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2]));
-      },
-      {2 * std::sqrt(kMoment * I1) / I3});
+  return evaluation(start_at(top(), {1, 0, 0, 0}, {0, 0, kSpin}), {"minimum spin [rad/s]"},
+                    [](ModelRef model, StateRef x) {
+                      const auto d = forward_dynamics_derivatives(model, x, Forces<double>(model));
+                      return values(2 * std::sqrt(d.dq(0, 0)) / (1 - d.dqd(0, 1) / x.qd[2]));
+                    },
+                    {2 * std::sqrt(kMoment * I1) / I3});
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ CaseScene oscillator(double x0, double damping, double coulomb, double force) {
       one_body(JointType::prismatic, Vector3::UnitX(), {1, Vector3::Zero(), Matrix3::Identity()},
                {0, 0, damping, coulomb, coulomb}),
       {x0}, {0}));
-  scene.sources = {std::make_shared<JointEffort>(
+  scene.sources = {joint_effort(
       [force](double t, double x) { return force * std::cos(kDrive * t) - kStiffness * x; })};
   return scene;
 }

@@ -78,14 +78,13 @@ void shift_com(CaseScene& scene) {
 using ArmReadings = CaseReadings (*)(const Model<double>& model, const ArmState& s);
 TrajectoryCase arm_case(const std::vector<std::string>& readings, ArmReadings seen,
                         CaseReadings (*exact)(const ArmState& s, const PlanarArmTerms& terms)) {
-  TrajectoryCase c =
-      evaluation([] { return at_rest(model_of({})); }, names_in_all_states(readings),
-                 [seen](ModelRef model, StateRef) {
-                   return in_all_states([&](const ArmState& s) { return seen(model, s); });
-                 },
-                 in_all_states([exact](const ArmState& s) {
-                   return exact(s, terms_of({}, s.q2, s.qd1, s.qd2));
-                 }));
+  TrajectoryCase c = evaluation(
+      at_rest(model_of({})), names_in_all_states(readings),
+      [seen](ModelRef model, StateRef) {
+        return in_all_states([&](const ArmState& s) { return seen(model, s); });
+      },
+      in_all_states(
+          [exact](const ArmState& s) { return exact(s, terms_of({}, s.q2, s.qd1, s.qd2)); }));
   c.mutant = shift_com;
   return c;
 }

@@ -146,8 +146,7 @@ using PumaReadings = CaseReadings (*)(const Model<double>& model);
 TrajectoryCase puma_case(std::vector<std::string> readings, PumaReadings seen, CaseReadings exact,
                          CaseMeasure measure = relative_by_six) {
   const CaseObserver observe = [seen](ModelRef model, StateRef) { return seen(model); };
-  return evaluation([] { return at_rest(puma()); }, std::move(readings), observe, std::move(exact),
-                    measure);
+  return evaluation(at_rest(puma()), std::move(readings), observe, std::move(exact), measure);
 }
 
 TrajectoryCase puma_weight() {

@@ -27,14 +27,14 @@ CaseScene screw(double damping) {
 TrajectoryCase screw_at_rest() {
   const double qdd =
       kSlidingMass * kGravity * kPitch / (kScrewInertia + kSlidingMass * kPitch * kPitch);
-  return evaluation([] { return screw(0); },
-                    {"rotation [rad/s2]", "translation [m/s2]", "holding torque [N m]"},
-                    [](ModelRef model, StateRef x) {
-                      const Workspace<double> w = evaluate(model, x);
-                      return values(w.qdd[0], -point_acceleration(model, w, 1, {}).z,
-                                    -inverse_dynamics(model, x, {0})[0]);
-                    },
-                    {qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch}, relative_each);
+  return evaluation(
+      screw(0), {"rotation [rad/s2]", "translation [m/s2]", "holding torque [N m]"},
+      [](ModelRef model, StateRef x) {
+        const Workspace<double> w = evaluate(model, x);
+        return values(w.qdd[0], -point_acceleration(model, w, 1, {}).z,
+                      -inverse_dynamics(model, x, {0})[0]);
+      },
+      {qdd, kPitch * qdd, kSlidingMass * kGravity * kPitch}, relative_each);
 }
 // Accelerations at rest and at a rate, of which they are a linear function.
 std::array<double, 2> accelerations(const Model<double>& model, const State<double>& x,
@@ -46,12 +46,13 @@ std::array<double, 2> accelerations(const Model<double>& model, const State<doub
 
 // Damped: terminal rate, and the approach to it.
 TrajectoryCase screw_terminal() {
-  return evaluation([] { return screw(0.01); }, {"terminal rate [rad/s]"},
-                    [](ModelRef model, StateRef x) {
-                      const auto [rest, fast] = accelerations(model, x, 32);
-                      return values(32 * rest / (rest - fast));
-                    },
-                    {kSlidingMass * kGravity * kPitch / 0.01}, relative_each);
+  return evaluation(
+      screw(0.01), {"terminal rate [rad/s]"},
+      [](ModelRef model, StateRef x) {
+        const auto [rest, fast] = accelerations(model, x, 32);
+        return values(32 * rest / (rest - fast));
+      },
+      {kSlidingMass * kGravity * kPitch / 0.01}, relative_each);
 }
 TrajectoryCase screw_motion() {
   TrajectoryCase c = screw_terminal();
@@ -82,7 +83,7 @@ TrajectoryCase incline() {
 }
 TrajectoryCase incline_start() {
   return evaluation(
-      incline().scene, {"start [m/s2]", "terminal speed [m/s]"},
+      incline().scene(), {"start [m/s2]", "terminal speed [m/s]"},
       [](ModelRef model, StateRef x) {
         const auto [rest, fast] = accelerations(model, x, 10);
         return values(rest, 10 * rest / (rest - fast));
@@ -96,7 +97,7 @@ TrajectoryCase cylindrical() {
   CaseScene scene =
       not_conserving(at_rest(one_body(JointType::cylindrical, Vector3::UnitZ(),
                                       {1.5, Vector3::Zero(), 0.02 * Matrix3::Identity()})));
-  scene.sources = {std::make_shared<JointEffort>([](double, double) { return 0.3; })};
+  scene.sources = {joint_effort([](double, double) { return 0.3; })};
   return {.scene = fixed(scene),
           .times = {1},
           .readings = {"angle [rad]", "z [m]", "rate [rad/s]", "speed [m/s]"},
@@ -137,8 +138,6 @@ TrajectoryCase thrown() {
 }  // namespace
 
 CaseFamily sliding_joints_cases() {
-  TrajectoryCase verlet = planar();
-  verlet.integration = {Integrator::verlet, 1e-2};
   return {70,
           {{"B4", 1e-12, screw_at_rest()},
            {"B4-terminal", 1e-12, screw_terminal()},
@@ -148,7 +147,7 @@ CaseFamily sliding_joints_cases() {
            {"B9-cylindrical", 1e-12, cylindrical()},
            {"B9-planar", 1e-12, planar()},
            {"B9-free", 1e-12, thrown()},
-           {"B9-verlet", 1e-12, verlet}}};
+           {"B9-verlet", 1e-12, integrated_by({Integrator::verlet, 1e-2}, planar())}}};
 }
 
 }  // namespace twinarm

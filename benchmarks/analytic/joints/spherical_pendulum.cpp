@@ -36,38 +36,27 @@ CaseScene start(JointType type, double tilt, double rate) {
 }
 
 struct ConeMotion {
-  Real g = 9.81L, L, z1, z2, z3, k, m;
+  Real g = 9.81L, L;
+  special::SquaredCd z;
   ConeMotion(Real tilt, Real rate) {
     const Real s = std::sin(tilt), v2 = rate * rate * s * s;
-    z2 = -std::cos(tilt);
+    const Real z2 = -std::cos(tilt);
     L = rate * s * s;
     const Real E = v2 / 2 + g * z2;
     const Real half = (E / g - z2) / 2, product = (L * L - 2 * E) / (2 * g) / z2;
-    z3 = half + std::sqrt(half * half - product);
-    z1 = product / z3;
-    k = std::sqrt(g * (z3 - z1) / 2);
-    m = (z2 - z1) / (z3 - z1);
-  }
-  Real height(Real t) const {
-    const special::Jacobi j = special::jacobi(k * t, m);
-    return z1 + (z2 - z1) * (j.cn / j.dn) * (j.cn / j.dn);
-  }
-  Real height_rate(Real t) const {
-    const special::Jacobi j = special::jacobi(k * t, m);
-    return -2 * k * (z2 - z1) * (1 - m) * j.cn * j.sn / (j.dn * j.dn * j.dn);
+    const Real z3 = half + std::sqrt(half * half - product), z1 = product / z3;
+    z = {z2, z1, std::sqrt(g * (z3 - z1) / 2), (z2 - z1) / (z3 - z1)};
   }
   CaseReadings place(Real t) const {
-    const Real z = height(t), vz = height_rate(t), r = std::sqrt(1 - z * z);
+    const Real height = z.at(t), vz = z.rate(t), r = std::sqrt(1 - height * height);
     const auto azimuth_rate = [this](Real s) {
-      const Real at = height(s);
+      const Real at = z.at(s);
       return L / (1 - at * at);
     };
-    const Real a = special::integral(azimuth_rate, 0, t), vr = -z * vz / r, va = L / r;
+    const Real a = special::integral(azimuth_rate, 0, t), vr = -height * vz / r, va = L / r;
     const Real c = std::cos(a), s = std::sin(a);
-    return {double(r * c),           double(r * s),           double(z),
-            double(vr * c - va * s), double(vr * s + va * c), double(vz)};
+    return values(r * c, r * s, height, vr * c - va * s, vr * s + va * c, vz);
   }
-  Real half_period() const { return special::quarter_period(m) / k; }
 };
 
 CaseReadings observe_place(ModelRef model, StateRef x) {
@@ -101,7 +90,7 @@ TrajectoryCase cone_bounds() {
     return CaseReadings(all.begin(), all.begin() + 3);
   };
   c.reference = [](double n) {
-    const Real t = wide().half_period() * Real(n);
+    const Real t = wide().z.half_period() * Real(n);
     const CaseReadings all = wide().place(t);
     return values(t, all[0], all[1], all[2]);
   };

@@ -53,7 +53,7 @@ TrajectoryCase hooke() {
   const double c = std::cos(kAngle), in = 30 * kDegree;
   const double C = std::cos(in) * c, S = std::sin(in);
   TrajectoryCase all = evaluation(
-      [] { return at_rest(shafts(kAngle)); },
+      at_rest(shafts(kAngle)),
       {"angle out at 30 degrees in [rad]", "ratio there", "ratio at 0", "ratio at 90 degrees"},
       [](ModelRef model, StateRef x) {
         const Output at_30 = output(model, x, 30 * kDegree);
@@ -67,14 +67,12 @@ TrajectoryCase hooke() {
 
 TrajectoryCase plate() {
   const Vector3 moments(1. / 12, 1.36 / 12, 0.36 / 12);
-  const auto hanging_plate = [moments] {
-    return at_rest(
-        one_body(JointType::universal, Vector3::UnitX(), {1, {0, 0, -0.5}, moments.asDiagonal()}));
-  };
+  const BodyInertia hanging{1, {0, 0, -0.5}, moments.asDiagonal()};
   const double torque = kGravity / 2;
-  return evaluation(
-      hanging_plate, {"about the normal [rad/s]", "about the edge [rad/s]"}, small_frequencies,
-      {std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)}, max_difference);
+  return evaluation(at_rest(one_body(JointType::universal, Vector3::UnitX(), hanging)),
+                    {"about the normal [rad/s]", "about the edge [rad/s]"}, small_frequencies,
+                    {std::sqrt(torque / (1.36 / 12 + 0.25)), std::sqrt(torque * 3)},
+                    max_difference);
 }
 
 }  // namespace

@@ -39,8 +39,10 @@ CaseScene scene_of(const LoopCase& c) {
   return scene;
 }
 
+using MakeLoopCase = std::function<LoopCase()>;
+
 // Each run creates its own mechanism, to which its sources refer.
-TrajectoryCase loop_motion(LoopCase (*make)()) {
+TrajectoryCase loop_motion(const MakeLoopCase& make) {
   const auto c = std::make_shared<const LoopCase>(make());
   TrajectoryCase motion{};
   motion.scene = [make] { return scene_of(make()); };
@@ -53,14 +55,14 @@ TrajectoryCase loop_motion(LoopCase (*make)()) {
   return motion;
 }
 // The same with a reference for all times.
-TrajectoryCase loop_motion(LoopCase (*make)(), CaseReference reference) {
+TrajectoryCase loop_motion(const MakeLoopCase& make, CaseReference reference) {
   TrajectoryCase motion = loop_motion(make);
   motion.reference = std::move(reference);
   motion.at_times_only = false;
   return motion;
 }
 // The same with other readings at one time.
-TrajectoryCase read_at(LoopCase (*make)(), double t, std::vector<std::string> readings,
+TrajectoryCase read_at(const MakeLoopCase& make, double t, std::vector<std::string> readings,
                        CaseObserver observer, CaseReadings known) {
   TrajectoryCase motion = loop_motion(make);
   motion.times = {t};
@@ -73,9 +75,8 @@ TrajectoryCase read_at(LoopCase (*make)(), double t, std::vector<std::string> re
 TrajectoryCase assembled(const std::shared_ptr<const LoopCase>& c,
                          std::vector<std::string> readings, CaseObserver observer,
                          CaseReadings known) {
-  const auto scene = [c] { return CaseScene{c->model, c->start}; };
-  TrajectoryCase result =
-      evaluation(scene, std::move(readings), std::move(observer), std::move(known), max_difference);
+  TrajectoryCase result = evaluation({c->model, c->start}, std::move(readings), std::move(observer),
+                                     std::move(known), max_difference);
   result.mutant = [](CaseScene& changed) {
     changed.model.Xtree[2].r = 1.001 * changed.model.Xtree[2].r;
   };
@@ -93,11 +94,10 @@ CaseReadings swinging(double t) {  // from 90 degrees at rest
 
 // ---- D2 ----
 
-template <int count>
-TrajectoryCase windows_motion(double step) {
+TrajectoryCase windows_motion(int count, double step) {
   TrajectoryCase motion = loop_motion(
-      [] { return windows(count); },
-      [](double t) {
+      [count] { return windows(count); },
+      [count](double t) {
         const Real n = count, c = ((n + 1) / 2 + n) / ((n + 1) / 3 + n), a = c * 9.81L;
         const Real W = std::sqrt(1 + 4 * a), m = 4 * a / (W * W);
         const special::Jacobi j = special::jacobi(W * Real(t) / 2 - special::quarter_period(m), m);
@@ -136,23 +136,17 @@ TrajectoryCase squeezer_rates() {
 }
 
 TrajectoryCase bricard_velocity() {
-  return read_at(bricard, 10, {"vx [m/s]", "vy [m/s]", "vz [m/s]"},
-                 [](ModelRef model, StateRef x) {
-                   const Vector3 v = kinematics_at(model, x).v_WLo[3];
-                   return values(v.x(), v.y(), v.z());
-                 },
-                 {-0.03245328022227769, 8.726822183481425e-06, -0.03244454987786557});
+  return read_at(
+      bricard, 10, {"vx [m/s]", "vy [m/s]", "vz [m/s]"},
+      [](ModelRef model, StateRef x) { return values(kinematics_at(model, x).v_WLo[3]); },
+      {-0.03245328022227769, 8.726822183481425e-06, -0.03244454987786557});
 }
 
 // ---- D5 ----
 
-template <Couplers couplers>
-LoopCase governor_with() {
-  return governor(couplers);
-}
 // Dofs of the governor: shaft, slider, rods.
 TrajectoryCase governor_end() {
-  return read_at(governor_with<Couplers::springs>, 10, {"alpha [rad]", "omega [rad/s]"},
+  return read_at([] { return governor(Couplers::springs); }, 10, {"alpha [rad]", "omega [rad/s]"},
                  [](ModelRef, StateRef x) { return values(x.q[2], x.qd[0]); },
                  {22.349576814742957 * std::numbers::pi / 180, 5.548203622654942});
 }
@@ -247,12 +241,13 @@ TrajectoryCase four_bar_place() {
 }  // namespace
 
 CaseFamily loop_motions_cases() {
-  constexpr auto springs = governor_with<Couplers::springs>, rods = governor_with<Couplers::rods>;
+  const auto springs = [] { return governor(Couplers::springs); };
+  const auto rods = [] { return governor(Couplers::rods); };
   return {160,
           {{"D1-hinge", pendulum_on_hinge().tolerance, loop_motion(pendulum_on_hinge, swinging)},
            {"D1-circle", pendulum_on_circle().tolerance, loop_motion(pendulum_on_circle, swinging)},
-           {"D2-2", windows(2).tolerance, windows_motion<2>(1e-3)},
-           {"D2-40", windows(40).tolerance, windows_motion<40>(8e-3)},
+           {"D2-2", windows(2).tolerance, windows_motion(2, 1e-3)},
+           {"D2-40", windows(40).tolerance, windows_motion(40, 8e-3)},
            {"D3", squeezer().tolerance, squeezer_motion()},
            {"D4", bricard().tolerance, loop_motion(bricard)},
            {"D5-springs", springs().tolerance, loop_motion(springs)},

@@ -8,8 +8,8 @@
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "benchmarks/analytic/mechanisms/loop_parts.h"
+#include "benchmarks/analytic/support/force_law.h"
 #include "solver/forces/spring.h"
-#include "solver/support/checkpointable.h"
 
 namespace twinarm {
 namespace {
@@ -21,13 +21,8 @@ const Vector3 kRodMiddle(0.5, 0, 0);  // in link axes
 constexpr double kSide = 0.05;        // of slider and hinges from the axis
 
 // Both couplers as forces along the lines between their ends.
-struct CouplerForces final : ForceSource, Checkpointable {
-  std::array<int, 2> rods;
-  int slider;
-  CouplerForces(std::array<int, 2> rod_bodies, int slider_body)
-      : rods(rod_bodies), slider(slider_body) {}
-  void add_forces(const State<double>&, const Kinematics& k,
-                  Forces<double>& forces) noexcept override {
+std::shared_ptr<ForceSource> coupler_forces(const std::array<int, 2>& rods, int slider) {
+  return std::make_shared<ForceLaw>([=](const auto&, const Kinematics& k, Forces<double>& forces) {
     for (const int body : rods) {
       const Vector3 to = k.position(slider, {body == rods[0] ? kSide : -kSide, 0, 0});
       const Vector3 from = k.position(body, kRodMiddle), line = to - from;
@@ -38,8 +33,8 @@ struct CouplerForces final : ForceSource, Checkpointable {
       add_point_force(k, body, from, f, forces);
       add_point_force(k, slider, to, -f, forces);
     }
-  }
-};
+  });
+}
 
 // Both as struts with a prismatic joint whose force is evaluated at the end of the step:
 // F = -k (x + h v') - b v', v' = v + h qdd: h b + h^2 k is an added armature
@@ -128,7 +123,7 @@ LoopCase governor(Couplers couplers) {
     struts[side] = c.model.iv[struts[side]];
     c.start.q[struts[side] - 1] = -2 * angle;
   }
-  if (couplers == Couplers::springs) c.source = std::make_shared<CouplerForces>(rods, slider);
+  if (couplers == Couplers::springs) c.source = coupler_forces(rods, slider);
   if (couplers == Couplers::implicit_struts) c.source = std::make_shared<StrutSprings>(struts);
   c.read = [i = iv(slider)](const State<double>& x, const Kinematics&) {
     return std::vector{x.q[i]};

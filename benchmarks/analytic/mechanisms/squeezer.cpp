@@ -9,8 +9,8 @@
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "benchmarks/analytic/mechanisms/loop_parts.h"
+#include "benchmarks/analytic/support/force_law.h"
 #include "solver/forces/spring.h"
-#include "solver/support/checkpointable.h"
 
 namespace twinarm {
 namespace {
@@ -24,23 +24,22 @@ const Vector3 A(-0.06934, -0.00227, 0), B(-0.03635, 0.03273, 0), C(0.014, 0.072,
 constexpr double c0 = 4530, l0 = 0.07785, motor = 0.033;
 
 // Motor on K1, spring from D on K3 to C in the world.
-struct MotorAndSpring final : ForceSource, Checkpointable {
-  std::size_t crank;
-  int k3;
-  MotorAndSpring(std::size_t crank_dof, int body) : crank(crank_dof), k3(body) {}
-  void add_forces(const State<double>&, const Kinematics& k,
-                  Forces<double>& forces) noexcept override {
-    forces.tau[crank] += motor;
-    const Vector3 p = k.position(k3, {sd, -sc, 0}), to_C = C - p;
-    const double length = to_C.norm();
-    add_point_force(k, k3, p, c0 * (length - l0) / length * to_C, forces);
-  }
+void add_motor_and_spring(LoopCase& c, std::size_t crank, int k3) {
+  c.source =
+      std::make_shared<ForceLaw>([=](const auto&, const Kinematics& k, Forces<double>& forces) {
+        forces.tau[crank] += motor;
+        const Vector3 p = k.position(k3, {sd, -sc, 0}), to_C = C - p;
+        const double length = to_C.norm();
+        add_point_force(k, k3, p, c0 * (length - l0) / length * to_C, forces);
+      });
   // Of the spring, and minus the work of the motor.
-  double energy(const State<double>& x, const Kinematics& k) const {
+  c.stored = [crank, k3, model = c.model](const State<double>& x) {
+    Kinematics k(model);
+    forward_kinematics(model, x, k);
     const double stretch = (C - k.position(k3, {sd, -sc, 0})).norm() - l0;
     return c0 / 2 * stretch * stretch - motor * x.q[crank];
-  }
-};
+  };
+}
 
 BodyInertia plate(double mass, double inertia, double x, double y) {
   return {mass, {x, y, 0}, inertia * Matrix3::Identity()};
@@ -83,13 +82,7 @@ LoopCase squeezer() {
                        0.487364979543842550,   -0.222668390165885885,
                        1.23054744454982119};
   for (std::size_t i = 0; i < 7; ++i) c.start.q[order[i]] = q0[i];
-  const auto source = std::make_shared<MotorAndSpring>(order[0], bodies[2]);
-  c.source = source;
-  c.stored = [source, model = c.model](const State<double>& x) {
-    Kinematics k(model);
-    forward_kinematics(model, x, k);
-    return source->energy(x, k);
-  };
+  add_motor_and_spring(c, order[0], bodies[2]);
   c.read = [order](const State<double>& x, const Kinematics&) {
     std::vector<double> angles;
     for (const std::size_t i : order) angles.push_back(x.q[i]);

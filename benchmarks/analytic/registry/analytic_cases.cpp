@@ -58,17 +58,13 @@ const std::vector<AnalyticCase>& analytic_cases() {
     for (const auto* folder :
          {&joint_cases(), &loop_cases(), &contact_cases(), &coupling_cases(), &integrator_cases()})
       families.insert(families.end(), folder->begin(), folder->end());
-    std::stable_sort(families.begin(), families.end(),
-                     [](const CaseFamily& a, const CaseFamily& b) { return a.order < b.order; });
+    std::ranges::stable_sort(families, {}, &CaseFamily::order);
     std::vector<AnalyticCase> cases;
     for (const CaseFamily& family : families)
       cases.insert(cases.end(), family.cases.begin(), family.cases.end());
     for (AnalyticCase& c : cases)
-      if (const auto text = case_texts().find(c.name); text != case_texts().end()) {
-        c.group = text->second.group.c_str();
-        c.reference = text->second.reference.c_str();
-        c.statement = text->second.statement.c_str();
-      }
+      if (const auto text = case_texts().find(c.name); text != case_texts().end())
+        static_cast<CaseText&>(c) = text->second;
     return cases;
   }();
   return all;

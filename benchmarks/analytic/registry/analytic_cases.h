@@ -13,11 +13,6 @@ namespace twinarm {
 // In the order of docs/reference/verification_cases.md. Names are unique.
 const std::vector<AnalyticCase>& analytic_cases();
 
-// From docs/reference/cases/GROUP.md: a paragraph with the known result, and below it the cases
-// that check it, as `- NAME, NAME: what is measured`.
-struct CaseText {
-  std::string group, reference, statement;
-};
 const std::map<std::string, CaseText>& case_texts();  // by the name of the case
 
 // Source text of benchmarks/analytic/, which the page of `twinarm compare` shows.

@@ -9,6 +9,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmarks/analytic/support/trajectory_case.h"
@@ -24,24 +26,29 @@ struct CaseResult {
 
 struct ContactCasePlot;
 
-struct AnalyticCase {
-  const char* name;  // "E1-times"
+// From docs/reference/cases/GROUP.md: a paragraph with the known result, and below it the cases
+// that check it, as `- NAME, NAME: what is measured`.
+struct CaseText {
+  std::string group{};      // "contact"
+  std::string reference{};  // what is measured, its unit and reference
+  std::string statement{};  // the known result, one paragraph of HTML with formulas in <p>
+};
+
+struct AnalyticCase : CaseText {
+  std::string name;  // "E1-times"
   double tolerance;  // the case passes if error <= tolerance; 0: no violation is allowed
   std::function<CaseResult()> run{};     // null: a trajectory
   std::function<CaseResult()> mutant{};  // run() with a wrong parameter, which must fail
   std::shared_ptr<const TrajectoryCase> trajectory{};
   std::shared_ptr<const ContactCasePlot> plot{};  // null: no figure
-  // From docs/reference/cases/: group, as "contact"; what is measured, its unit and reference; the
-  // known result, one paragraph of HTML with formulas in <p>.
-  const char *group = "", *reference = "", *statement = "";
 
-  AnalyticCase(const char* its_name, double its_tolerance, TrajectoryCase motion)
-      : name(its_name),
+  AnalyticCase(std::string its_name, double its_tolerance, TrajectoryCase motion)
+      : name(std::move(its_name)),
         tolerance(its_tolerance),
         trajectory(std::make_shared<const TrajectoryCase>(std::move(motion))) {}
-  AnalyticCase(const char* its_name, double its_tolerance,
+  AnalyticCase(std::string its_name, double its_tolerance,
                const std::function<CaseResult(bool is_mutant)>& experiment)
-      : name(its_name),
+      : name(std::move(its_name)),
         tolerance(its_tolerance),
         run([experiment] { return experiment(false); }),
         mutant([experiment] { return experiment(true); }) {}

@@ -9,20 +9,6 @@
 namespace twinarm {
 namespace {
 
-class ConstantForce final : public ForceSource {
- public:
-  ConstantForce(std::size_t dof, const Vector3& force) : dof_(dof), force_(force) {}
-  void add_forces(const State<double>&, const Kinematics&,
-                  Forces<double>& forces) noexcept override {
-    for (std::size_t i = 0; i < 3; ++i)
-      forces.tau[dof_ + i] += force_[static_cast<Eigen::Index>(i)];
-  }
-
- private:
-  std::size_t dof_;
-  Vector3 force_;
-};
-
 double scaled_step(double h) {
   return contact_recorder ? contact_recorder->step_scale * h : h;
 }
@@ -41,24 +27,24 @@ int ContactScene::add(const Body& body) {
   return count_;
 }
 
-void ContactScene::add_fixed(const Shape& shape, const ContactSurface& surface, const Pose& X_WG) {
-  fixed_.push_back({shape, surface, X_WG, 0});
-}
-
 void ContactScene::add_rotating(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
                                 double rate) {
   const std::string name = std::to_string(++count_);
   builder_.add_body(name, 0, "joint " + name, JointType::prescribed, {}, Vector3::UnitZ(), {});
-  fixed_.push_back({shape, surface, {}, count_});
-  rotating_.push_back({count_, X_WG, rate});
+  fixed_.push_back({"fixed", count_, {}, shape, surface});
+  rotating_.emplace_back(count_, [X_WG, rate](double t) {
+    PrescribedMotion motion;
+    motion.X_JL = {X_WG.R * rotation_about(Vector3::UnitZ(), rate * t), X_WG.p};
+    motion.angular_velocity = rate * X_WG.R.col(2);
+    return motion;
+  });
 }
 
 void ContactScene::start() {
   model_ = builder_.build();
   State<double> x(model_);
   contacts_ = std::make_unique<ContactConstraints>(model_, ContactResponse::rigid);
-  for (const Fixed& f : fixed_)
-    contacts_->bodies().add({"fixed", f.body, f.X_WG, f.shape, f.surface});
+  for (const ContactGeometry& geometry : fixed_) contacts_->bodies().add(geometry);
   for (const auto& [number, body] : bodies_) {
     double* q = x.q.data() + model_.iq[index(number)];
     double* qd = x.qd.data() + model_.iv[index(number)];
@@ -70,13 +56,7 @@ void ContactScene::start() {
         {"body", number, {Matrix3::Identity(), body.shape_at}, body.shape, body.surface});
   }
   simulation_ = std::make_unique<Simulation>(model_, x);
-  for (const Rotating& body : rotating_)
-    simulation_->prescribe(body.body, [body](double t) {
-      PrescribedMotion motion;
-      motion.X_JL = {body.X_WG.R * rotation_about(Vector3::UnitZ(), body.rate * t), body.X_WG.p};
-      motion.angular_velocity = body.rate * body.X_WG.R.col(2);
-      return motion;
-    });
+  for (const auto& [body, motion] : rotating_) simulation_->prescribe(body, motion);
   simulation_->add(*contacts_);
   start_energy_ = min_energy_ = energy();
   max_kinetic_ = kinetic_energy(model_, simulation_->state());
@@ -89,9 +69,17 @@ int ContactScene::start(const Body& body) {
   return number;
 }
 
-void ContactScene::apply_force(int body, const Vector3& force) {
-  forces_.push_back(std::make_unique<ConstantForce>(model_.iv[index(body)] + 3, force));
+void ContactScene::apply(ForceLaw::Law law) {
+  forces_.push_back(std::make_unique<ForceLaw>(std::move(law)));
   simulation_->add(*forces_.back());
+}
+
+void ContactScene::apply_force(int body, const Vector3& force) {
+  apply(
+      [dof = model_.iv[index(body)] + 3, force](const auto&, const auto&, Forces<double>& forces) {
+        for (std::size_t i = 0; i < 3; ++i)
+          forces.tau[dof + i] += force[static_cast<Eigen::Index>(i)];
+      });
 }
 
 double ContactScene::energy() const {

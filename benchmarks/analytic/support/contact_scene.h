@@ -4,9 +4,11 @@
 // velocities; an error of position is divided by the speed there and so becomes a time.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -15,6 +17,7 @@
 #include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
+#include "benchmarks/analytic/support/force_law.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/stepping/simulation.h"
@@ -102,19 +105,28 @@ class ContactScene {
   ContactScene& operator=(const ContactScene&) = delete;
 
   int add(const Body& body);
-  void add_fixed(const Shape& shape, const ContactSurface& surface, const Pose& X_WG = {});
+  void add_fixed(const Shape& shape, const ContactSurface& surface, const Pose& X_WG = {}) {
+    fixed_.push_back({"fixed", 0, X_WG, shape, surface});
+  }
   void add_floor(const ContactSurface& surface) { add_fixed(HalfSpace{}, surface); }
   void add_rotating(const Shape& shape, const ContactSurface& surface, const Pose& X_WG,
                     double rate);  // about z of its frame [rad/s]
   void start();
   int start(const Body& body);  // add() of the last body, and start()
-  // After start(): constant force at the centre of mass of a free body, world axes [N]. energy()
-  // does not include its work.
-  void apply_force(int body, const Vector3& force);
+  // After start(): a further force. energy() does not include its work.
+  void apply(ForceLaw::Law law);
+  void apply_force(int body, const Vector3& force);  // at a free body's centre of mass, world axes
   void locate_events() { simulation_->locate_events(); }
 
   bool step(double h);  // false: not finite or not solved
   void run(double duration, double h);
+  // Maximum of f(), at least 0, after each step of h to the time `end`.
+  template <class F>
+  double max_until(double end, double h, F&& f) {
+    double max = 0;
+    for (; t() < end; max = std::max(max, f())) step(h);
+    return max;
+  }
   double t() const { return simulation_->state().t; }
   Vector3 p(int body) const { return simulation_->kinematics().X_WL[index(body)].p; }
   Matrix3 R(int body) const { return simulation_->kinematics().X_WL[index(body)].R; }
@@ -136,26 +148,15 @@ class ContactScene {
   static std::size_t index(int body) { return static_cast<std::size_t>(body); }
   void update_energy();
 
-  struct Fixed {
-    Shape shape;
-    ContactSurface surface;
-    Pose X_WG;
-    int body;  // 0, or the rotating one
-  };
-  struct Rotating {
-    int body;
-    Pose X_WG;
-    double rate;
-  };
   ModelBuilder builder_;
   std::vector<std::pair<int, Body>> bodies_;
-  std::vector<Fixed> fixed_;
-  std::vector<Rotating> rotating_;
+  std::vector<ContactGeometry> fixed_;  // on the world and on rotating bodies
+  std::vector<std::pair<int, MotionFunction>> rotating_;
   int count_ = 0;
   Model<double> model_;
   std::unique_ptr<ContactConstraints> contacts_;
   std::unique_ptr<Simulation> simulation_;
-  std::vector<std::unique_ptr<ForceSource>> forces_;
+  std::vector<std::unique_ptr<ForceLaw>> forces_;
   double start_energy_ = 0, min_energy_ = 0, energy_error_ = 0, rise_ = 0, max_kinetic_ = 0;
   bool ok_ = true;
 };
@@ -171,6 +172,14 @@ double threshold(double low, double high, double width, Outcome&& outcome) {
     (is_above ? high : low) = middle;
   }
   return 0.5 * (low + high);
+}
+
+// Maximum of f over the values, at least 0.
+template <class Values = std::initializer_list<double>, class F>
+double max_over(const Values& values, F&& f) {
+  double max = 0;
+  for (const auto& value : values) max = std::max(max, f(value));
+  return max;
 }
 
 // Error at h, and the order of convergence from h to h / 4 unless the error there is rounding.

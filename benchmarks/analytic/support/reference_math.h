@@ -30,6 +30,19 @@ struct Jacobi {
 };
 Jacobi jacobi(long double u, long double m);  // 0 <= m <= 1
 long double quarter_period(long double m);    // K(m), m < 1
+// u = u1 + (u0 - u1) cd^2(k t, m), from u0 at t = 0 to u1 after half a period, K(m) / k.
+struct SquaredCd {
+  long double u0, u1, k, m;
+  long double at(long double t) const {
+    const Jacobi j = jacobi(k * t, m);
+    return u1 + (u0 - u1) * (j.cn / j.dn) * (j.cn / j.dn);
+  }
+  long double rate(long double t) const {
+    const Jacobi j = jacobi(k * t, m);
+    return -2 * k * (u0 - u1) * (1 - m) * j.cn * j.sn / (j.dn * j.dn * j.dn);
+  }
+  long double half_period() const { return quarter_period(m) / k; }
+};
 long double arithmetic_geometric_mean(long double a, long double b);
 double zero_of_bessel(int k);  // the k-th positive zero of J_0, k from 1
 

@@ -12,23 +12,25 @@
 
 namespace twinarm::smooth_parts {
 
+Model<double> weightless(Model<double> model) {
+  model.gravity = {};
+  return model;
+}
+
 Model<double> free_body(double mass, const Vector3& moments) {
-  ModelBuilder builder;
-  builder.set_gravity(Vector3::Zero());
-  builder.add_body("body", 0, "free", JointType::free, {}, Vector3::UnitZ(),
-                   {mass, Vector3::Zero(), moments.asDiagonal()});
-  return builder.build();
+  return weightless(
+      one_body(JointType::free, Vector3::UnitZ(), {mass, Vector3::Zero(), moments.asDiagonal()}));
 }
 
 Model<double> one_body(JointType type, const Vector3& axis, const BodyInertia& inertia,
-                       const JointProperties& properties, const Pose& X_PJ) {
+                       const JointProperties& properties) {
   ModelBuilder builder;
-  builder.add_body("body", 0, "joint", type, X_PJ, axis, inertia, properties);
+  builder.add_body("body", 0, "joint", type, {}, axis, inertia, properties);
   return builder.build();
 }
 
-Model<double> point_pendulum(double length) {
-  return one_body(JointType::revolute, Vector3::UnitY(), {1, {0, 0, -length}, Matrix3::Zero()});
+Model<double> point_pendulum() {
+  return one_body(JointType::revolute, Vector3::UnitY(), {1, {0, 0, -1}, Matrix3::Zero()});
 }
 
 CaseScene at_rest(Model<double> model) {
@@ -79,7 +81,7 @@ std::vector<double> squared_frequencies_of(ModelRef model, StateRef x) {
   const Eigen::VectorXcd values = eigenvalues_of(dq);
   std::vector<double> all;
   for (const std::complex<double>& value : values) all.push_back(-value.real());
-  std::sort(all.begin(), all.end());
+  std::ranges::sort(all);
   return all;
 }
 

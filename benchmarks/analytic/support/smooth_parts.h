@@ -5,12 +5,12 @@
 #include <numbers>
 
 #include "benchmarks/analytic/support/analytic_case.h"
+#include "benchmarks/analytic/support/force_law.h"
 #include "benchmarks/analytic/support/reference_math.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/model/workspace.h"
-#include "solver/support/checkpointable.h"
 
 namespace twinarm::smooth_parts {
 
@@ -21,38 +21,29 @@ inline constexpr Real kPi = std::numbers::pi_v<Real>;
 
 // ---- mechanisms ----
 
+Model<double> weightless(Model<double> model);  // without gravity
 // One free body, principal moments about its centre [kg m^2], no gravity.
 Model<double> free_body(double mass, const Vector3& moments);
 // One body on one joint at the world's origin, gravity (0, 0, -9.81).
 Model<double> one_body(JointType type, const Vector3& axis, const BodyInertia& inertia,
-                       const JointProperties& properties = {}, const Pose& X_PJ = {});
-// 1 kg on a massless rod, revolute joint about y; angle 0: at -z.
-Model<double> point_pendulum(double length = 1);
+                       const JointProperties& properties = {});
+// 1 kg on a massless rod of 1 m, revolute joint about y; angle 0: at -z.
+Model<double> point_pendulum();
 
 CaseScene at_rest(Model<double> model);
 // The same, marked as one whose energy changes.
 CaseScene not_conserving(CaseScene scene);
 CaseScene start_at(Model<double> model, std::vector<double> q, std::vector<double> qd);
-// The same scene for every run; its sources must have no internal state.
-inline std::function<CaseScene()> fixed(CaseScene scene) {
-  return [scene = std::move(scene)] { return scene; };
+
+// Torque or force law(t, q) on one dof, q its coordinate, which must have the same index among the
+// coordinates.
+template <class Law>
+std::shared_ptr<ForceSource> joint_effort(Law law, std::size_t dof = 0) {
+  return std::make_shared<ForceLaw>(
+      [law, dof](const State<double>& x, const Kinematics&, Forces<double>& forces) {
+        forces.tau[dof] += law(x.t, x.q[dof]);
+      });
 }
-
-// Torque or force on one dof as a function of time and of its coordinate, which must have the same
-// index among the coordinates.
-class JointEffort : public ForceSource, public Checkpointable {
- public:
-  using Law = std::function<double(double t, double q)>;
-  explicit JointEffort(Law law, std::size_t dof = 0) : law_(std::move(law)), dof_(dof) {}
-  void add_forces(const State<double>& x, const Kinematics&,
-                  Forces<double>& forces) noexcept override {
-    forces.tau[dof_] += law_(x.t, x.q[dof_]);
-  }
-
- private:
-  Law law_;
-  std::size_t dof_;
-};
 
 // ---- observers ----
 

@@ -171,9 +171,9 @@ double relative_to_largest(const CaseReadings& seen, const CaseReadings& exact) 
   return max_difference(seen, exact) / largest;
 }
 
-TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::string> readings,
-                          CaseObserver observe, CaseReadings exact, CaseMeasure measure) {
-  return {.scene = std::move(scene),
+TrajectoryCase evaluation(CaseScene scene, std::vector<std::string> readings, CaseObserver observe,
+                          CaseReadings exact, CaseMeasure measure) {
+  return {.scene = fixed(std::move(scene)),
           .times = {0},
           .readings = std::move(readings),
           .observe = std::move(observe),

@@ -14,6 +14,7 @@
 #include "solver/forces/force_source.h"
 #include "solver/integration/integrator.h"
 #include "solver/linear_algebra/nan_max.h"
+#include "solver/spatial/pose.h"
 
 namespace twinarm {
 
@@ -32,6 +33,11 @@ struct CaseScene {
   std::function<void(Simulation&)> prepare{};
 };
 
+// The same scene for every run; its sources must have no internal state.
+inline std::function<CaseScene()> fixed(CaseScene scene) {
+  return [scene = std::move(scene)] { return scene; };
+}
+
 // Integrator and step of a run.
 struct Integration {
   Integrator integrator = Integrator::rk4;
@@ -49,6 +55,9 @@ using CaseReadings = std::vector<double>;
 template <class... Number>
 CaseReadings values(Number... numbers) {
   return {static_cast<double>(numbers)...};
+}
+inline CaseReadings values(const Vector3& v) {
+  return {v.x(), v.y(), v.z()};
 }
 using CaseObserver = std::function<CaseReadings(const Model<double>&, const State<double>&)>;
 using CaseReference = std::function<CaseReadings(double)>;
@@ -90,9 +99,13 @@ struct TrajectoryCase {
 };
 
 // One evaluation in the initial state.
-TrajectoryCase evaluation(std::function<CaseScene()> scene, std::vector<std::string> readings,
-                          CaseObserver observe, CaseReadings exact,
-                          CaseMeasure measure = relative_to_largest);
+TrajectoryCase evaluation(CaseScene scene, std::vector<std::string> readings, CaseObserver observe,
+                          CaseReadings exact, CaseMeasure measure = relative_to_largest);
+// The same with another integrator or step.
+inline TrajectoryCase integrated_by(const Integration& integration, TrajectoryCase motion) {
+  motion.integration = integration;
+  return motion;
+}
 // The same motion, of which only the times of events are checked.
 TrajectoryCase times_of(TrajectoryCase motion, CaseEvents events, CaseReference reference);
 

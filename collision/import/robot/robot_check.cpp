@@ -190,8 +190,7 @@ RobotCheck check_robot(const RobotDescription& robot, bool strict) {
 }
 
 void throw_in_line_order(std::vector<Diagnostic> faults) {
-  std::stable_sort(faults.begin(), faults.end(),
-                   [](const Diagnostic& a, const Diagnostic& b) { return a.line < b.line; });
+  std::ranges::stable_sort(faults, {}, &Diagnostic::line);
   if (!faults.empty()) throw InputError(std::move(faults));
 }
 

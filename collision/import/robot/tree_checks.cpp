@@ -252,8 +252,7 @@ std::vector<std::size_t> joints_from_root(const RobotDescription& robot) {
     }
     order.push_back(j);
   }
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return sweep[a] < sweep[b]; });
+  std::ranges::stable_sort(order, {}, [&](std::size_t joint) { return sweep[joint]; });
   return order;
 }
 

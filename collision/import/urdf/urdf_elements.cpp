@@ -77,8 +77,7 @@ bool contains(const Names& names, std::string_view name) {
 
 const Word& word_of(std::string_view element) {
   static const std::vector<Word> words = vocabulary();
-  return *std::find_if(words.begin(), words.end(),
-                       [&](const Word& word) { return word.element == element; });
+  return *std::ranges::find(words, element, &Word::element);
 }
 
 void check_attributes(const XMLElement& element, const Word& word, const std::string& where,

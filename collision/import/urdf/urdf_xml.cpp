@@ -90,8 +90,7 @@ std::vector<Diagnostic> UrdfSource::warnings() const {
     all.push_back(kind.first);
     if (kind.count > 1) all.back().problem += " (the first of " + std::to_string(kind.count) + ")";
   }
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Diagnostic& a, const Diagnostic& b) { return a.line < b.line; });
+  std::ranges::stable_sort(all, {}, &Diagnostic::line);
   return all;
 }
 

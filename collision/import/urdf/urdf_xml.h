@@ -52,10 +52,8 @@ class UrdfSource {
     UrdfSource& source_;
     bool before_;
   };
-  std::size_t downgraded() const {
-    return downgraded_;
-  }  // errors that became warnings so far  Throws InputError with all errors in the order of their
-     // lines, if there are any.
+  std::size_t downgraded() const { return downgraded_; }  // errors that became warnings so far
+  // Throws InputError with all errors in the order of their lines, if there are any.
   void check();
   std::vector<Diagnostic> warnings() const;  // in the order of their lines
 

@@ -16,7 +16,7 @@ constexpr double kHangingMass = 2, kSpringRate = 50;
 CaseScene hanging_scene() {
   const BodyInertia mass{kHangingMass, Vector3::Zero(), Matrix3::Identity()};
   CaseScene s = at_rest(one_body(JointType::prismatic, Vector3::UnitZ(), mass));
-  s.sources = {std::make_shared<JointEffort>([](double, double z) { return -kSpringRate * z; })};
+  s.sources = {joint_effort([](double, double z) { return -kSpringRate * z; })};
   // Potential energy of the spring; without it the energy appears to drift.
   s.stored = [](const State<double>& x) { return kSpringRate / 2 * x.q[0] * x.q[0]; };
   return s;
