@@ -61,9 +61,10 @@ void EnergyBalance::find_rows(Integrator integrator, bool others_want_inner) {
   for (const Friction& f : friction_)
     integrals_.push_back({EnergyRowKind::joint_friction, "joint/" + f.joint + "/friction"});
   for (std::size_t c = 0; c < coupling_count(); ++c)
-    for (const auto& [kind, part] : {std::pair{EnergyRowKind::coupling_spring, "/spring"},
-                                     std::pair{EnergyRowKind::coupling_damper, "/damper"},
-                                     std::pair{EnergyRowKind::coupling_other, "/hand_on_damper"}})
+    for (const auto& [kind, part] :
+         {std::pair{EnergyRowKind::coupling_spring, "/spring"},
+          std::pair{EnergyRowKind::coupling_damper, "/damper"},
+          std::pair{EnergyRowKind::coupling_other, "/operator_on_damper"}})
       integrals_.push_back({kind, "coupling/" + couplings_->spec(c).name + part});
   implicit_.assign(coupling_count(), 0);
 

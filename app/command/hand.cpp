@@ -129,7 +129,7 @@ int run_hand(const HandOptions& options) {
   live.mapping = mapping_of(options, faults);
   live.step = options.step.value_or(0);
   const SceneModel scene = scene_of(options, faults);
-  const std::unique_ptr<HandDevice> device = open_device(options.device);
+  const std::unique_ptr<InputDevice> device = open_device(options.device);
   LiveRun run(scene, *device, live);
 
   if (options.picture) require_gnuplot();

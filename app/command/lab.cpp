@@ -147,7 +147,7 @@ class Lab {
       streamer_.look_again();
     };
     handlers.closed = [this](ClientId client) {
-      if (clients_.has_hand(client)) {  // releases what the closed page was dragging
+      if (clients_.has_control(client)) {  // releases what the closed page was dragging
         LabCommand drop;
         drop.what = LabCommand::Do::release;
         session_.push(std::move(drop));
@@ -162,7 +162,7 @@ class Lab {
   void handle(ClientId client, const std::string& text) {
     try {
       LabCommand command = parse_command(text);
-      if (needs_control(command.what) && !clients_.has_hand(client))
+      if (needs_control(command.what) && !clients_.has_control(client))
         return session_.note("warning", "another client has control; request it");
       if (!is_private_) check_shared_device(command);
       switch (command.what) {

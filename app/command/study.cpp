@@ -58,17 +58,17 @@ void add_options(const OptionAdder& add, StudyOptions& options) {
 // Records a device for the duration of the synthetic motion, as OUT/hand.csv, a valid trace.
 std::unique_ptr<OperatorMotion> record_device(const StudyOptions& options,
                                               const StudySettings& settings) {
-  const std::unique_ptr<HandDevice> device = open_device(options.device);
+  const std::unique_ptr<InputDevice> device = open_device(options.device);
   const bool real_time = !options.device.starts_with("virtual");
   make_folder(options.out);
   Progress progress(options.json);
   progress.stage("recording " + device->description(), 1);
-  auto hand = record_hand(*device, settings.operator_duration, real_time, [&](double t) {
+  auto hand = record_operator(*device, settings.operator_duration, real_time, [&](double t) {
     check_interrupt();
     progress.advance(t / settings.operator_duration);
   });
   progress.finish();
-  write_hand_log(*hand, options.out / "hand.csv");
+  write_device_log(*hand, options.out / "hand.csv");
   return hand;
 }
 
@@ -85,7 +85,7 @@ std::unique_ptr<OperatorMotion> operator_motion(const StudyOptions& options,
     throw InputError({{"", 0, "--trace", "cannot be combined with --device " + options.device,
                        "leave --device out, or give --device trace", "option.conflict"}});
   if (is_device(options)) return record_device(options, settings);
-  if (is_hand_log(options.trace)) return read_hand_log(options.trace);
+  if (is_device_log(options.trace)) return read_device_log(options.trace);
   if (!options.trace.empty()) {
     auto trace = std::make_unique<RecordedTrace>(options.trace);
     for (const std::string& warning : trace->quality().warnings)
@@ -96,11 +96,11 @@ std::unique_ptr<OperatorMotion> operator_motion(const StudyOptions& options,
                                              settings.operator_duration);
 }
 
-SceneHand scene_hand(const StudyOptions& options, const StudySettings& settings,
-                     const OperatorMotion& hand) {
-  if (!options.trace.empty()) return traced_hand(hand, options.trace);
-  if (is_device(options)) return traced_hand(hand, options.out / "hand.csv");
-  return synthetic_hand(hand, options.seed.value_or(settings.seed));
+StudyOperator scene_operator(const StudyOptions& options, const StudySettings& settings,
+                             const OperatorMotion& hand) {
+  if (!options.trace.empty()) return traced_operator(hand, options.trace);
+  if (is_device(options)) return traced_operator(hand, options.out / "hand.csv");
+  return synthetic_study_operator(hand, options.seed.value_or(settings.seed));
 }
 
 std::string command_of(const StudyOptions& options) {
@@ -117,7 +117,7 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
                      Progress& progress) {
   StudyResults results;
   results.calibration = calibration;
-  results.hand_description = hand.description();
+  results.operator_description = hand.description();
   results.command = command_of(options);
   results.settings_text = read_whole_file(inputs.settings.assets / "study" / "settings.toml");
   results.arm2_mass_scale = calibration.entry("chosen").numbers.at("arm2_mass_scale");
@@ -139,8 +139,9 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
   for (const auto type : {CouplingSpec::Type::linear, CouplingSpec::Type::torsional})
     results.obstacle.push_back(run_obstacle(inputs, robot, type));
   progress.stage("recordings", 0.1);
-  results.recordings = write_recordings(inputs, robot, scene_hand(options, inputs.settings, hand),
-                                        results, options.out / "recordings", progress);
+  results.recordings =
+      write_recordings(inputs, robot, scene_operator(options, inputs.settings, hand), results,
+                       options.out / "recordings", progress);
   progress.stage("pictures", 0.2);
   paint_pictures(results, options.out / "pictures", options.paper_view, progress);
   return results;
@@ -167,7 +168,7 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
   fmt::print(
       "\n\n  E3, E4: calibrated gains. E1, E2: the same gains, with another operator motion than "
       "the paper's ({}).\n\n",
-      results.hand_description);
+      results.operator_description);
   for (const std::string& sentence : results.answer) fmt::print("{}\n", sentence);
   fmt::print("\nReport: {}  ({:.0f} s)\n", report.string(), results.seconds);
 }
@@ -231,7 +232,7 @@ Command study_command() {
           "Run the experiments E1 to E4 of the paper, their analysis, and write a report\n\n"
           "Examples:\n"
           "  twinarm study --out out/study\n"
-          "  twinarm study --trace hand.csv --out out/my_hand",
+          "  twinarm study --trace hand.csv --out out/my_operator",
           add_options, run_study};
 }
 

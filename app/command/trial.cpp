@@ -89,7 +89,7 @@ std::vector<TrialCondition> write_conditions(const std::vector<std::string>& nam
                                              : "torsional springs pull the robot to your hand";
     condition.scene = folder / (name + ".toml");
     write_whole_file(condition.scene,
-                     scene_text({&inputs.settings, &robot, spec, device_hand(), false}));
+                     scene_text({&inputs.settings, &robot, spec, device_operator(), false}));
     conditions.push_back(std::move(condition));
   }
   return conditions;
@@ -167,7 +167,7 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
     count_down();
   }
   if (is_shown) task.show = TerminalShow(task.seconds);
-  const std::unique_ptr<HandDevice> device = open_device(options.device);
+  const std::unique_ptr<InputDevice> device = open_device(options.device);
   const std::string name = step.condition->name + (step.pick ? "_pick" : "_free");
   return run_task(*step.condition, *device, mapping, task, folder / (name + ".csv"));
 }

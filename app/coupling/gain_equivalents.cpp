@@ -115,10 +115,11 @@ std::vector<Equivalents> scene_equivalents(SimulateInput& input,
     if (!(coupling.gains.k > 0)) continue;  // god object, damper, component of a weld
     // A weld adds inertia: a spring with its frequency on the apparent inertia alone is softer.
     const double inertia = posed.apparent_inertia(c), d = spec.reference.impedance;
-    const double part = inertia / (inertia + coupling.felt_mass);
-    Equivalents found = equivalents_of({part * coupling.gains.k, part * coupling.gains.b}, inertia,
-                                       coupling.felt_mass > 0 ? MujocoImpedance{d, d} : impedance);
-    found.is_weld = coupling.felt_mass > 0;
+    const double part = inertia / (inertia + coupling.added_inertia);
+    Equivalents found =
+        equivalents_of({part * coupling.gains.k, part * coupling.gains.b}, inertia,
+                       coupling.added_inertia > 0 ? MujocoImpedance{d, d} : impedance);
+    found.is_weld = coupling.added_inertia > 0;
     found.name = coupling.name;
     found.kind = coupling.kind;
     found.is_length = coupling.is_length;

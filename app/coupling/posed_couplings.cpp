@@ -20,7 +20,7 @@ std::string kind_of(const SceneCoupling& spec) {
 }
 
 // Mass or inertia that a weld adds to its link at its point.
-double felt_mass(const SceneCoupling& spec) {
+double added_inertia(const SceneCoupling& spec) {
   const bool is_weld = spec.law == CouplingSpec::Type::weld_like && spec.spring.b > 0;
   return is_weld ? spec.spring.b / spec.reference.damping() : 0;
 }
@@ -97,7 +97,7 @@ void PosedCouplings::add_arms(const SceneCoupling& spec, const Vector3& offset, 
         const double r = distance(p), R_K = distance(target), k = spec.spring.k;
         if (r < 1e-9 || k == 0) return;  // no torque about this joint
         const double I =
-            all_M_(static_cast<Index>(dof), static_cast<Index>(dof)) + r * r * felt_mass(spec);
+            all_M_(static_cast<Index>(dof), static_cast<Index>(dof)) + r * r * added_inertia(spec);
         found.arms.push_back({model_.joint_name[body], r, R_K,
                               max_target_radius(I, r, k, spec.spring.b, h), k * r * R_K});
       });
@@ -116,8 +116,8 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   // The damper as printed has no linear part.
   const bool is_printed = spec.printed && spec.law == CouplingSpec::Type::torsional;
   found.B = (is_printed ? 0 : spec.spring.b) * square;
-  found.felt_mass = felt_mass(spec);
-  found.felt = found.felt_mass * square;
+  found.added_inertia = added_inertia(spec);
+  found.felt = found.added_inertia * square;
   if (spec.law == CouplingSpec::Type::god_object && spec.leads())
     found.landing = robot_inertia(spec);
   return found;

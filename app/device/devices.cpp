@@ -53,7 +53,7 @@ const Entry& entry_named(const std::vector<Entry>& entries, const std::string& n
 const std::vector<ScriptedMotion>& scripted_motions() {
   static const std::vector<ScriptedMotion> motions{
       {"paper", "", "the paper's automatic motion: three sweeps of one second each", true,
-       [](const std::string&) { return std::make_shared<AutomaticMotion>(HandMapping{}); }},
+       [](const std::string&) { return std::make_shared<AutomaticMotion>(OperatorMapping{}); }},
       {"step", "", "rests 1 s, jumps by 0.3 rad in every joint, rests", true,
        [](const std::string&) {
          return std::make_shared<StepMotion>(kPosture, posture_plus(kScriptAngle), 1.0, 5.0);
@@ -72,7 +72,7 @@ const std::vector<ScriptedMotion>& scripted_motions() {
       {"trace", ":FILE", "recorded operator motion, from a CSV file", false,
        [](const std::string& file) -> std::shared_ptr<const OperatorMotion> {
          if (file.empty()) refuse_spec("trace", "the file is missing", "give one: trace:hand.csv");
-         if (is_hand_log(file)) return read_hand_log(file);
+         if (is_device_log(file)) return read_device_log(file);
          auto trace = std::make_shared<RecordedTrace>(file);
          for (const std::string& warning : trace->quality().warnings)
            say("twinarm: warning: {}: {}\n", file, warning);
@@ -116,8 +116,8 @@ bool stays_inside(const std::string& spec) {
   return entry_named(scripted_motions(), split_at_colon(argument).first, "motion").stays_inside;
 }
 
-std::unique_ptr<HandDevice> open_device(const std::string& spec,
-                                        const VirtualOmniSettings& settings) {
+std::unique_ptr<InputDevice> open_device(const std::string& spec,
+                                         const VirtualOmniSettings& settings) {
   const auto [name, argument] = split_at_colon(spec);
   return entry_named(device_kinds(), name, "device").open(argument, settings);
 }

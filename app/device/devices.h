@@ -20,7 +20,7 @@ struct DeviceKind {
   std::string name, argument;  // "vrpn" and ":NAME@HOST[:PORT]"; [..] is optional
   std::string help;            // one line
   // Takes the text after name and colon. Throws InputError: no answer.
-  std::function<std::unique_ptr<HandDevice>(const std::string&, const VirtualOmniSettings&)> open;
+  std::function<std::unique_ptr<InputDevice>(const std::string&, const VirtualOmniSettings&)> open;
   bool has_motors = false;
   bool stays_inside = false;  // it opens no file, device or socket
 };
@@ -42,8 +42,8 @@ std::string device_list();
 // "virtual", "virtual:MOTION", "keyboard", "gamepad:/dev/input/js1", "vrpn:Phantom0@lab:3883"...
 // `settings`: of the virtual Omni, which keyboard, gamepad and space mouse move too. Throws
 // InputError: unknown name, or no answer.
-std::unique_ptr<HandDevice> open_device(const std::string& spec,
-                                        const VirtualOmniSettings& settings = {});
+std::unique_ptr<InputDevice> open_device(const std::string& spec,
+                                         const VirtualOmniSettings& settings = {});
 
 // Whether it opens no file, device or socket of this machine, so that remote clients may request
 // it. Throws InputError: unknown name.

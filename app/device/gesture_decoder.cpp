@@ -13,19 +13,20 @@ constexpr double kStickFull = 32767;     // of the kernel's joystick events
 constexpr double kSpaceMouseFull = 350;  // spacenavd at full deflection, sensitivity 1
 constexpr std::size_t kSpaceMousePacket = 32;
 
-std::size_t axis_index(HandAxis axis) {
+std::size_t axis_index(DeviceAxis axis) {
   return static_cast<std::size_t>(axis);
 }
 
 // Last byte of an arrow's escape sequence.
-constexpr KeyDecoder::Key kArrows[] = {{'A', HandAxis::up, true},
-                                       {'B', HandAxis::up, false},
-                                       {'C', HandAxis::right, true},
-                                       {'D', HandAxis::right, false}};
+constexpr KeyDecoder::Key kArrows[] = {{'A', DeviceAxis::up, true},
+                                       {'B', DeviceAxis::up, false},
+                                       {'C', DeviceAxis::right, true},
+                                       {'D', DeviceAxis::right, false}};
 constexpr KeyDecoder::Key kLetters[] = {
-    {'w', HandAxis::toward, false}, {'s', HandAxis::toward, true}, {'a', HandAxis::yaw, false},
-    {'d', HandAxis::yaw, true},     {'r', HandAxis::pitch, true},  {'f', HandAxis::pitch, false},
-    {'q', HandAxis::roll, true},    {'e', HandAxis::roll, false}};
+    {'w', DeviceAxis::toward, false}, {'s', DeviceAxis::toward, true},
+    {'a', DeviceAxis::yaw, false},    {'d', DeviceAxis::yaw, true},
+    {'r', DeviceAxis::pitch, true},   {'f', DeviceAxis::pitch, false},
+    {'q', DeviceAxis::roll, true},    {'e', DeviceAxis::roll, false}};
 
 // Calls `take` for each complete packet, in order.
 template <std::size_t size, class Take>
@@ -73,7 +74,7 @@ void KeyDecoder::press_key(std::span<const Key> keys, char code, double now, Des
     if (key.code == code) press(key.axis, key.positive, now, input);
 }
 
-void KeyDecoder::press(HandAxis axis, bool positive, double now, DesktopInput& input) {
+void KeyDecoder::press(DeviceAxis axis, bool positive, double now, DesktopInput& input) {
   const std::size_t direction = positive ? 1 : 0;
   stop(axis_index(axis), 1 - direction, input);
   if (until_[axis_index(axis)][direction] == 0) input.key(axis, positive, true);
@@ -83,7 +84,7 @@ void KeyDecoder::press(HandAxis axis, bool positive, double now, DesktopInput& i
 void KeyDecoder::stop(std::size_t axis, std::size_t direction, DesktopInput& input) {
   if (until_[axis][direction] == 0) return;
   until_[axis][direction] = 0;
-  input.key(static_cast<HandAxis>(axis), direction == 1, false);
+  input.key(static_cast<DeviceAxis>(axis), direction == 1, false);
 }
 
 void KeyDecoder::pass(double now, DesktopInput& input) {

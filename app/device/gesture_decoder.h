@@ -30,7 +30,7 @@ class KeyDecoder final : public GestureDecoder {
  public:
   struct Key {
     char code;
-    HandAxis axis;
+    DeviceAxis axis;
     bool positive;
   };
   explicit KeyDecoder(double hold = 0.2) : hold_(hold) {}
@@ -41,7 +41,7 @@ class KeyDecoder final : public GestureDecoder {
  private:
   void letter(std::uint8_t byte, double now, DesktopInput& input);
   void press_key(std::span<const Key> keys, char code, double now, DesktopInput& input);
-  void press(HandAxis axis, bool positive, double now, DesktopInput& input);
+  void press(DeviceAxis axis, bool positive, double now, DesktopInput& input);
   void stop(std::size_t axis, std::size_t direction, DesktopInput& input);
 
   double hold_;

@@ -25,7 +25,7 @@ struct GestureSource {
   std::shared_ptr<void> keep;       // lives as long as the device: a terminal's mode
 };
 
-class GestureDevice final : public HandDevice {
+class GestureDevice final : public InputDevice {
  public:
   GestureDevice(GestureSource source, const VirtualOmniSettings& settings);
   ~GestureDevice() override;

@@ -46,7 +46,7 @@ struct VrpnCounts {
   long broken = 0;                                       // connections lost, refused or closed
 };
 
-class VrpnDevice final : public HandDevice {
+class VrpnDevice final : public InputDevice {
  public:
   // Waits for the first pose, at most twice `patience`. Throws InputError: unknown host, connection
   // refused, not a VRPN server, unknown device.

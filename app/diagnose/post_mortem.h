@@ -39,7 +39,7 @@ struct SuggestedFix {
 
 // Best first; each gives a valid scene. Empty where no cause was found. `plan` is that of the
 // diverged run; `post_mortem` may lack what explain() adds.
-std::vector<SuggestedFix> remedies_of(const SimulatePlan& plan, const PostMortem& post_mortem);
+std::vector<SuggestedFix> fixes_of(const SimulatePlan& plan, const PostMortem& post_mortem);
 
 // The list `remedies` of docs/reference/lab_protocol.md.
 void write_remedies(const std::vector<SuggestedFix>& remedies, JsonWriter& json);

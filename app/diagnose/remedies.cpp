@@ -175,7 +175,7 @@ class RemedyFinder {
 
 }  // namespace
 
-std::vector<SuggestedFix> remedies_of(const SimulatePlan& plan, const PostMortem& post_mortem) {
+std::vector<SuggestedFix> fixes_of(const SimulatePlan& plan, const PostMortem& post_mortem) {
   if (plan.input.scene) return RemedyFinder(plan, post_mortem).find();
   const double step = rounded_down(0.25 * plan.run.step);
   return {{fmt::format("step {:g} ms", 1000 * step), {"step=" + number_text(step)}}};

@@ -111,7 +111,7 @@ std::string gain_fix(const SteppedCoupling& c, const StabilityViolation& s) {
   std::string torsional;
   if (c.spec->law == CouplingSpec::Type::bushing)
     torsional = fmt::format(" and rotational_stiffness <= {} N m/rad",
-                            short_number_text(k / c.spec->spring.k * c.spec->spring.k_turn));
+                            short_number_text(k / c.spec->spring.k * c.spec->spring.k_rotational));
   return fmt::format("stiffness <= {} {}/{}{}", short_number_text(k), force, per, torsional);
 }
 

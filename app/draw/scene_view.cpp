@@ -132,7 +132,7 @@ double Scales::metres_per(double largest) const {
   return largest > 0 ? round_down(0.4 * length / largest) : 0;
 }
 
-SceneView make_stage(const SceneModel& scene) {
+SceneView make_scene_view(const SceneModel& scene) {
   SceneView view;
   view.model = &scene.model;
   view.scene = &scene;
@@ -141,7 +141,7 @@ SceneView make_stage(const SceneModel& scene) {
   return view;
 }
 
-SceneView make_stage(const RobotDescription& robot, const Model<double>& model) {
+SceneView make_scene_view(const RobotDescription& robot, const Model<double>& model) {
   SceneView view;
   view.model = &model;
   view.cast = make_scene_meshes(robot, model, view.list);
@@ -151,7 +151,7 @@ SceneView make_stage(const RobotDescription& robot, const Model<double>& model) 
 
 void look_at(SceneView& view, const Snapshot& snapshot) {
   view.instants.emplace_back().add(view.cast, snapshot);
-  view.has_hand = view.has_hand || !snapshot.hands.empty();
+  view.has_operator = view.has_operator || !snapshot.hands.empty();
 }
 
 void look_ahead(SceneView& view, const Snapshot& snapshot) {
@@ -208,7 +208,7 @@ void set_view(SceneView& view, const CameraWish& wish, double aspect) {
     view.cast.notes.push_back(
         "the scene has no floor: the floor in the picture is only drawn, without contact");
   }
-  if (view.has_hand) place_device(view);
+  if (view.has_operator) place_device(view);
   view.list.camera = make_camera(wish, view.extent, aspect);
 }
 

@@ -44,7 +44,7 @@ struct SceneView {
   SceneMeshes cast;
   DrawList list;
   std::vector<Extent> instants;  // of the run and of its pictures
-  bool has_hand = false;         // an input device at one of them
+  bool has_operator = false;     // an input device at one of them
   Extent extent;                 // of all within `farthest`
   double farthest = 1e300;       // max_distance_of_interest()
   Scales scales;
@@ -54,8 +54,8 @@ struct SceneView {
   std::optional<Pose> X_WDevice;  // of the input device, if there is one
 };
 
-SceneView make_stage(const SceneModel& scene);
-SceneView make_stage(const RobotDescription& robot, const Model<double>& model);
+SceneView make_scene_view(const SceneModel& scene);
+SceneView make_scene_view(const RobotDescription& robot, const Model<double>& model);
 
 // Before the first picture, in this order: look_ahead() with snapshots of the whole run (framing,
 // trails), look_at() with those of the pictures; settle(); measure() with both (scales);

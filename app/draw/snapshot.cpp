@@ -98,7 +98,7 @@ std::vector<PairForce> pair_forces(const Snapshot& snapshot) {
   return all;
 }
 
-Snapshot moment_of(const Model<double>& model, const State<double>& x) {
+Snapshot snapshot_of(const Model<double>& model, const State<double>& x) {
   Snapshot snapshot(model);
   snapshot.x = x;
   forward_kinematics(model, x, snapshot.k);
@@ -107,9 +107,9 @@ Snapshot moment_of(const Model<double>& model, const State<double>& x) {
   return snapshot;
 }
 
-Snapshot moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
-                   const std::vector<Vector3>& pulls) {
-  Snapshot snapshot = moment_of(scene.model, x);
+Snapshot snapshot_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
+                     const std::vector<Vector3>& pulls) {
+  Snapshot snapshot = snapshot_of(scene.model, x);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     const Vector3 force = c < pulls.size() ? pulls[c] : Vector3(Vector3::Zero());
     snapshot.pulls.push_back(coupling_force_of(scene, couplings, c, snapshot, force));
@@ -120,7 +120,7 @@ Snapshot moment_of(const SceneModel& scene, SceneCouplings& couplings, const Sta
     snapshot.twins.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
     if (spec.target == CouplingTarget::Kind::start || spec.target == CouplingTarget::Kind::state)
       continue;
-    const HandSample hand = couplings.hand(c).sample(x.t, x.t + 1e-6);
+    const OperatorSample hand = couplings.hand(c).sample(x.t, x.t + 1e-6);
     snapshot.hands.push_back({hand.theta, hand.button});
   }
   return snapshot;

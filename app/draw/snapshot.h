@@ -44,7 +44,7 @@ struct ShownTargetRobot {
 };
 
 // The input device that moves a target robot.
-struct ShownHand {
+struct ShownDevice {
   std::array<double, 6> theta{};  // joints theta1..theta6 [rad]
   bool button = false;
   Vector3 force_W = Vector3::Zero();  // motor force at the stylus [N]
@@ -69,7 +69,7 @@ struct Snapshot {
   std::vector<ShownContact> contacts;
   std::vector<ShownCouplingForce> pulls;
   std::vector<ShownTargetRobot> twins;
-  std::vector<ShownHand> hands;  // of target robots moved by a device
+  std::vector<ShownDevice> hands;  // of target robots moved by a device
   std::optional<ShownMouseSpring> grip;
   std::vector<Pose> before;            // previous branch at this time, by body; or empty
   std::vector<ShownVariant> variants;  // the first: this run, without poses; or empty
@@ -83,10 +83,10 @@ ShownCouplingForce::Kind kind_of_coupling(const SceneModel& scene, std::size_t c
 std::vector<PairForce> pair_forces(const Snapshot& snapshot);
 
 // Without contacts.
-Snapshot moment_of(const Model<double>& model, const State<double>& x);
+Snapshot snapshot_of(const Model<double>& model, const State<double>& x);
 // Of a scene; `pulls`: SceneCouplings::pull() by coupling, or empty.
-Snapshot moment_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
-                   const std::vector<Vector3>& pulls);
+Snapshot snapshot_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
+                     const std::vector<Vector3>& pulls);
 
 // Centre of mass of a body; its origin if massless.
 Vector3 com_of(const Model<double>& model, const Kinematics& k, std::size_t body);

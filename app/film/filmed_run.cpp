@@ -224,7 +224,7 @@ FilmedRun film_run(const RobotOptions& options, const FilmTimes& times, const st
 SceneView view_of(const FilmedRun& run) {
   const SimulateInput& input = run.plan.input;
   SceneView view =
-      input.scene ? make_stage(*input.scene) : make_stage(input.robot.robot, run.model());
+      input.scene ? make_scene_view(*input.scene) : make_scene_view(input.robot.robot, run.model());
   for (const RunInstant& instant : run.around) look_ahead(view, run.snapshot(instant));
   for (const RunInstant& instant : run.shown) look_at(view, run.snapshot(instant));
   settle(view);
@@ -253,11 +253,11 @@ RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   return instant;
 }
 
-Snapshot moment_of(const SimulateInput& input, SceneCouplings* couplings,
-                   const RunInstant& instant) {
+Snapshot snapshot_of(const SimulateInput& input, SceneCouplings* couplings,
+                     const RunInstant& instant) {
   const SceneModel* scene = input.scene.get();
-  if (!scene || !couplings) return moment_of(input.robot.model, instant.x);
-  Snapshot snapshot = moment_of(*scene, *couplings, instant.x, instant.pulls);
+  if (!scene || !couplings) return snapshot_of(input.robot.model, instant.x);
+  Snapshot snapshot = snapshot_of(*scene, *couplings, instant.x, instant.pulls);
   const auto count = static_cast<int>(scene->geometries.size());
   for (const RecordedContact& c : instant.contacts)
     if (c.a >= 0 && c.b >= 0 && c.a < count && c.b < count)

@@ -28,8 +28,8 @@ bool moves_by_forces(const Model<double>& model, std::size_t body);
 
 RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model);
 // `couplings`: of the scene; null for a robot alone.
-Snapshot moment_of(const SimulateInput& input, SceneCouplings* couplings,
-                   const RunInstant& instant);
+Snapshot snapshot_of(const SimulateInput& input, SceneCouplings* couplings,
+                     const RunInstant& instant);
 
 struct FilmedRun {
   std::string name;  // of two runs side by side: the file's; empty: the scene's
@@ -41,7 +41,7 @@ struct FilmedRun {
 
   const Model<double>& model() const { return plan.input.robot.model; }
   Snapshot snapshot(const RunInstant& instant) const {
-    return moment_of(plan.input, plan.input.couplings.get(), instant);
+    return snapshot_of(plan.input, plan.input.couplings.get(), instant);
   }
 };
 

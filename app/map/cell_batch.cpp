@@ -33,8 +33,9 @@ bool is_plain(const SimulatePlan& plan) {
 }
 
 std::unique_ptr<OperatorMotion> motion_of(const SceneCoupling& coupling) {
-  if (coupling.target == CouplingTarget::Kind::trace) return read_hand_file(coupling.trace);
-  return std::make_unique<AutomaticMotion>(HandMapping{});  // of a target at rest it moves nothing
+  if (coupling.target == CouplingTarget::Kind::trace) return read_motion_file(coupling.trace);
+  return std::make_unique<AutomaticMotion>(
+      OperatorMapping{});  // of a target at rest it moves nothing
 }
 
 double number_or(const Value& table, const char* key, double otherwise) {
@@ -96,7 +97,8 @@ struct LaneRunner {
   // The target of the measured coupling is the first.
   void add_target(const SceneCoupling& coupling) {
     hands.push_back(motion_of(coupling));
-    setup.targets.push_back({hands.back().get(), HandMapping{}, coupling.driven, coupling.rest});
+    setup.targets.push_back(
+        {hands.back().get(), OperatorMapping{}, coupling.driven, coupling.rest});
   }
 
   // False if a joint with active limits is not measured.
@@ -175,12 +177,12 @@ struct LaneRunner {
     if (!result.finished ||
         !is_bounded(result.energy_created, target_energy(place, cell) + spring_energy(cell)))
       return unstable_cell();
-    CellValues values{1, 0, 0, result.energy_created, result.hand_work_least};
+    CellValues values{1, 0, 0, result.energy_created, result.input_work_min};
     for (std::size_t j = 0; j < joints.iq.size(); ++j) {
       const double error = result.max_error[j];
-      if (!(result.twin_low[j] - error > limits[j].lower))
+      if (!(result.target_lower[j] - error > limits[j].lower))
         return std::nullopt;  // may reach a limit
-      if (!(result.twin_high[j] + error < limits[j].upper)) return std::nullopt;
+      if (!(result.target_upper[j] + error < limits[j].upper)) return std::nullopt;
       values[1] = std::max(values[1], result.max_error[j]);
       values[2] = std::max(values[2], result.mean_error[j]);
     }

@@ -86,9 +86,9 @@ std::string inspect_page(const SimulateInput& input, const State<double>& x,
   require_form(bundle.inspect, bundle.missing, "--json needs none");
   const SceneModel* scene = input.scene.get();
   const Model<double>& model = input.robot.model;
-  SceneView view = scene ? make_stage(*scene) : make_stage(input.robot.robot, model);
+  SceneView view = scene ? make_scene_view(*scene) : make_scene_view(input.robot.robot, model);
   const Snapshot snapshot =
-      scene ? moment_of(*scene, *input.couplings, x, {}) : moment_of(model, x);
+      scene ? snapshot_of(*scene, *input.couplings, x, {}) : snapshot_of(model, x);
   look_ahead(view, snapshot);
   look_at(view, snapshot);
   settle(view);

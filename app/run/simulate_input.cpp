@@ -86,7 +86,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
       attempt(faults, [&] { return std::make_unique<SceneCouplings>(made, plan.step); });
   faults.check();
   std::vector<std::string> warnings = made.description.warnings;
-  if (!options.has_hand && std::ranges::any_of(made.couplings, [](const SceneCoupling& c) {
+  if (!options.has_operator && std::ranges::any_of(made.couplings, [](const SceneCoupling& c) {
         return c.target == CouplingTarget::Kind::device;
       }))
     warnings.push_back(

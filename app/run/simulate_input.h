@@ -37,7 +37,7 @@ struct SimulateOptions : RunSettings {
   std::filesystem::path post_mortem;   // recording of a diverged run; empty: in out/
   std::function<void(Value&, DiagnosticList&)> change_scene;  // before it is read; may be empty
   std::optional<Value> scene;                                 // instead of the file robot.model
-  bool has_hand = false;                                      // an input device is connected
+  bool has_operator = false;                                  // an input device is connected
 };
 
 struct RunDefaults {

@@ -106,7 +106,7 @@ std::vector<EnergyRow> SteppedRun::energy_balance() const {
   return all;
 }
 
-void SteppedRun::keep_books(const std::vector<EnergyRow>& earlier) {
+void SteppedRun::continue_balance(const std::vector<EnergyRow>& earlier) {
   carried_.clear();
   std::vector<EnergyRow> carried = earlier;
   for (const EnergyRow& row : energy_balance()) row_like(row, carried).work -= row.work;

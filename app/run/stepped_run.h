@@ -25,7 +25,7 @@ class SteppedRun final : public RunView {
              const RunStart* from = nullptr, OutsideForce* outside = nullptr);
 
   // Continues the energy balance from these rows, after a change of parameters.
-  void keep_books(const std::vector<EnergyRow>& earlier);
+  void continue_balance(const std::vector<EnergyRow>& earlier);
   // Calls RunWatch::look before the first step.
   void begin();
   // One step, or substep of an adaptive integrator. False at the end, after a divergence

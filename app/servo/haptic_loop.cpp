@@ -40,7 +40,7 @@ std::pair<int, Vector3> controlled_point(const SceneModel& scene,
 }
 
 HapticLoop::HapticLoop(const SceneModel& scene, const SceneCouplings& couplings,
-                       const std::vector<std::size_t>& driven, HandDevice& device,
+                       const std::vector<std::size_t>& driven, InputDevice& device,
                        const HapticLoopOptions& options)
     : model_(scene.model),
       couplings_(couplings),
@@ -52,7 +52,7 @@ HapticLoop::HapticLoop(const SceneModel& scene, const SceneCouplings& couplings,
   const State<double>& rest = scene.couplings[first_].rest;
   const MappedRobot robot{&scene.model, rest, driven_, {}, {}, body, p_L};
   mapping_ = make_mapping(options.mapping, device.figures(), robot);
-  force_ = std::make_unique<HandForce>(options.force, device.figures(), *mapping_);
+  force_ = std::make_unique<ForceFeedback>(options.force, device.figures(), *mapping_);
   for (const std::size_t c : driven)
     if (scene.couplings[c].leads() && !scene.couplings[c].soft_limits)
       reaction_.add(couplings.law(c), couplings.coupling(c));
@@ -68,7 +68,7 @@ void HapticLoop::begin(const std::vector<double>& q, double now) noexcept {
   mapping_->begin(device_.poll(now), target_.q);
 }
 
-const HandTarget& HapticLoop::before_step(const State<double>& x, double now, double h) noexcept {
+const MappedTarget& HapticLoop::before_step(const State<double>& x, double now, double h) noexcept {
   state_ = device_.poll(now);
   for (std::size_t j = 0; j < driven_.size(); ++j)
     q_D_[j] = x.q[model_.iq[static_cast<std::size_t>(driven_[j])]];

@@ -31,7 +31,7 @@ inline std::size_t steps_of_delay(double h) {
 
 struct HapticLoopOptions {
   MappingSpec mapping;
-  HandForceSpec force;
+  ForceFeedbackSpec force;
 };
 
 class HapticLoop {
@@ -39,17 +39,17 @@ class HapticLoop {
   // `driven`: indices of SceneModel::couplings whose targets the device moves, all by the same
   // joints. All arguments must outlive it. Throws InputError: the mapping cannot move these joints.
   HapticLoop(const SceneModel& scene, const SceneCouplings& couplings,
-             const std::vector<std::size_t>& driven, HandDevice& device,
+             const std::vector<std::size_t>& driven, InputDevice& device,
              const HapticLoopOptions& options);
 
   // The device moves the KVR from joint positions q on. `now`: time of the device.
   void begin(const std::vector<double>& q, double now) noexcept;
   // For the step [t, t + h] from x: q and qd of the KVR's driven joints at its start.
-  const HandTarget& before_step(const State<double>& x, double now, double h) noexcept;
+  const MappedTarget& before_step(const State<double>& x, double now, double h) noexcept;
   // Force for the step that led to the simulation's state; zero if that is not `finite`.
   const DeviceForce& after_step(const Simulation& simulation, double h, bool finite) noexcept;
 
-  const HandTarget& target() const { return target_; }
+  const MappedTarget& target() const { return target_; }
   const std::vector<double>& q_D() const { return q_D_; }  // of the DVR at the start of the step
   const DeviceState& device() const { return state_; }     // polled last
   const DeviceForce& force() const { return rendered_; }
@@ -59,14 +59,14 @@ class HapticLoop {
  private:
   const Model<double>& model_;
   const SceneCouplings& couplings_;
-  HandDevice& device_;
+  InputDevice& device_;
   std::size_t first_;  // driven coupling
   std::vector<int> driven_;
   std::unique_ptr<DeviceMapping> mapping_;
   CouplingReaction reaction_;
-  std::unique_ptr<HandForce> force_;
+  std::unique_ptr<ForceFeedback> force_;
   DeviceWatchdog watch_;
-  HandTarget target_;
+  MappedTarget target_;
   std::vector<double> q_D_;
   DeviceState state_;
   DeviceForce rendered_;

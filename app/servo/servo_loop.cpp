@@ -160,7 +160,7 @@ std::vector<std::size_t> device_couplings(const SceneModel& scene, double h) {
 
 }  // namespace
 
-LiveRun::LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options)
+LiveRun::LiveRun(const SceneModel& scene, InputDevice& device, const LiveOptions& options)
     : h_(step_of(scene, options)),
       driven_(device_couplings(scene, h_)),
       hand_(std::make_unique<DeviceMotion>(steps_of_delay(h_))),
@@ -177,7 +177,7 @@ LiveRun::LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions&
 TickResult LiveRun::tick() noexcept {
   TickResult result;
   const double t = time();
-  const HandTarget& target = loop_->before_step(simulation_.state(), t, h_);
+  const MappedTarget& target = loop_->before_step(simulation_.state(), t, h_);
   hand_->set(target, t, h_);
   result.hand = hand_->newest();
   const std::vector<double>& q_D = loop_->q_D();
@@ -193,7 +193,7 @@ TickResult LiveRun::tick() noexcept {
 namespace {
 
 // First state of a live device.
-DeviceState first_state(HandDevice& device, ServoClock& clock, bool real_time, double h) {
+DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, double h) {
   constexpr double kPatience = 5;  // [s]
   for (double waited = 0;; waited += h) {
     const DeviceState state = device.poll(0);
@@ -207,8 +207,8 @@ DeviceState first_state(HandDevice& device, ServoClock& clock, bool real_time, d
 
 }  // namespace
 
-std::unique_ptr<DeviceMotion> record_hand(HandDevice& device, double duration, bool real_time,
-                                          const std::function<void(double)>& tick) {
+std::unique_ptr<DeviceMotion> record_operator(InputDevice& device, double duration, bool real_time,
+                                              const std::function<void(double)>& tick) {
   const double h = 1 / device.figures().rate;
   const auto steps = static_cast<std::size_t>(std::ceil(duration / h - 1e-9));
   auto hand = std::make_unique<DeviceMotion>(steps);
@@ -220,7 +220,7 @@ std::unique_ptr<DeviceMotion> record_hand(HandDevice& device, double duration, b
     if (real_time) clock.wait();
     DeviceState now = device.poll(t);
     if (!now.alive) now = last;
-    HandStep step{t, h, {}};
+    DeviceStep step{t, h, {}};
     step.hand.theta = now.theta;
     for (std::size_t j = 0; j < now.theta.size(); ++j)
       step.hand.theta_dot[j] = (now.theta[j] - last.theta[j]) / h;

@@ -32,7 +32,7 @@ struct LiveOptions : HapticLoopOptions {
 
 // Result of a tick.
 struct TickResult {
-  HandStep hand;  // motion of the KVR
+  DeviceStep hand;  // motion of the KVR
   DeviceWatchdog::Mode mode = DeviceWatchdog::Mode::live;
   std::array<double, 3> felt{};   // motor torques [N m]
   std::array<double, 3> error{};  // q_K - q_D of the driven joints at the start of the step
@@ -44,7 +44,7 @@ class LiveRun {
   // Scene and device must outlive it. Throws InputError: step out of range, integrator not
   // semi-implicit, contact = "event", no coupling with target = "device", such couplings with
   // different driven joints, a mapping that cannot move them.
-  LiveRun(const SceneModel& scene, HandDevice& device, const LiveOptions& options);
+  LiveRun(const SceneModel& scene, InputDevice& device, const LiveOptions& options);
 
   TickResult tick() noexcept;
   double time() const { return simulation_.state().t; }
@@ -70,8 +70,8 @@ class LiveRun {
 // faster than real time. Rates are differences; while the device is silent it is at rest. No force
 // is rendered. `tick` gets the elapsed time, and may throw. Throws InputError: no data in five
 // seconds.
-std::unique_ptr<DeviceMotion> record_hand(HandDevice& device, double duration, bool real_time,
-                                          const std::function<void(double)>& tick);
+std::unique_ptr<DeviceMotion> record_operator(InputDevice& device, double duration, bool real_time,
+                                              const std::function<void(double)>& tick);
 
 // Histogram of durations, without allocation. Bins are 1/16 octave wide, from 50 ns to 13 s; a
 // quantile is the upper edge of its bin, at most 4.5 % too large. The maximum is exact.

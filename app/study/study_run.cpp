@@ -107,8 +107,8 @@ RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec
 void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose) {
   const RunSpec& spec = result.spec;
   const Model<double>& model = robot.dvr_model(spec.coupling.type);
-  const AutomaticMotion hand{HandMapping{}};
-  TargetRobot kvr(robot.kvr_model(), hand, HandMapping{}, robot.joints());
+  const AutomaticMotion hand{OperatorMapping{}};
+  TargetRobot kvr(robot.kvr_model(), hand, OperatorMapping{}, robot.joints());
   CouplingSpec main = spec.coupling;
   main.springs = robot.springs(spec.gains);
   const auto coupling = make_coupling(main, model, kvr);
@@ -138,7 +138,7 @@ ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
   ProtocolErrors errors;
   for (double T : sweep_times) {
     RunResult result;
-    measure(track(robot, AutomaticMotion(HandMapping{}, T), spec), result);
+    measure(track(robot, AutomaticMotion(OperatorMapping{}, T), spec), result);
     if (!result.stable) return {{180, 180}, {180, 180}, 1e6};
     for (std::size_t j = 0; j < 2; ++j) {
       errors.max_deg[j] = std::max(errors.max_deg[j], T * result.max_deg[j]);

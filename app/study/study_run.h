@@ -71,7 +71,7 @@ struct RunSpec {
   Gains gains;
   double rate = 60;       // of the coupling [Hz]
   int held_substeps = 1;  // physics steps per coupling evaluation
-  TargetRates kvr_rates = TargetRates::from_hand;
+  TargetRates kvr_rates = TargetRates::from_operator;
   Integrator integrator = Integrator::semi_implicit;
   RunSpec with_gains(const Gains& other) const {
     RunSpec spec = *this;

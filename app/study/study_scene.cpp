@@ -81,7 +81,8 @@ class SceneWriter {
 
   // The DVR starts in the pose of the KVR.
   std::string start() const {
-    const TargetRobot kvr(robot_.kvr_model(), *scene_.hand.source, HandMapping{}, robot_.joints());
+    const TargetRobot kvr(robot_.kvr_model(), *scene_.hand.source, OperatorMapping{},
+                          robot_.joints());
     std::vector<std::string> moved = robot_.joints().turned;
     moved.push_back(robot_.joints().gripper);
     for (std::string& joint : moved) {
@@ -172,21 +173,21 @@ class SceneWriter {
 
 }  // namespace
 
-SceneHand automatic_hand() {
-  static const AutomaticMotion motion{HandMapping{}};
+StudyOperator automatic_operator() {
+  static const AutomaticMotion motion{OperatorMapping{}};
   return {"\"paper\"", &motion};
 }
 
-SceneHand device_hand() {
+StudyOperator device_operator() {
   static const DeviceMotion at_zero(1);
   return {"\"device\"", &at_zero};
 }
 
-SceneHand synthetic_hand(const OperatorMotion& source, unsigned seed) {
+StudyOperator synthetic_study_operator(const OperatorMotion& source, unsigned seed) {
   return {fmt::format("{{ seed = {}, duration = {} }}", seed, real(source.duration())), &source};
 }
 
-SceneHand traced_hand(const OperatorMotion& source, const std::filesystem::path& trace) {
+StudyOperator traced_operator(const OperatorMotion& source, const std::filesystem::path& trace) {
   return {quoted(std::filesystem::absolute(trace).lexically_normal().string()), &source};
 }
 

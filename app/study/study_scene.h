@@ -8,21 +8,21 @@
 namespace twinarm {
 
 // Motion of the KVR: value of a coupling's `target` in TOML.
-struct SceneHand {
+struct StudyOperator {
   std::string target;
   const OperatorMotion* source = nullptr;  // the same motion
 };
-SceneHand automatic_hand();
-SceneHand synthetic_hand(const OperatorMotion& source, unsigned seed);
+StudyOperator automatic_operator();
+StudyOperator synthetic_study_operator(const OperatorMotion& source, unsigned seed);
 // A live input device; the robot starts where all device angles are zero.
-SceneHand device_hand();
-SceneHand traced_hand(const OperatorMotion& source, const std::filesystem::path& trace);
+StudyOperator device_operator();
+StudyOperator traced_operator(const OperatorMotion& source, const std::filesystem::path& trace);
 
 struct StudyScene {
   const StudySettings* settings = nullptr;
   const StudyRobot* robot = nullptr;
   RunSpec spec;
-  SceneHand hand;
+  StudyOperator hand;
   bool with_obstacle = false;  // and contacts
 };
 std::string scene_text(const StudyScene& scene);

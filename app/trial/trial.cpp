@@ -129,7 +129,7 @@ class TaskWatch {
     return static_cast<std::size_t>(model_.find_joint(joint));
   }
   void pose(const TickResult& tick, bool kinematic) {
-    const HandMapping mapping;
+    const OperatorMapping mapping;
     for (std::size_t j = 0; j < std::min<std::size_t>(3, driven_.size()); ++j)
       x_.q[model_.iq[driven_[j]]] =
           mapping.robot_angle(tick.hand.hand, j) - (kinematic ? 0 : tick.error[j]);
@@ -156,7 +156,7 @@ class TaskWatch {
 
 }  // namespace
 
-TrialResult run_task(const TrialCondition& condition, HandDevice& device,
+TrialResult run_task(const TrialCondition& condition, InputDevice& device,
                      const MappingSpec& mapping, const TrialTask& task,
                      const std::filesystem::path& log_file) {
   const SceneModel scene = build_scene(read_scene(condition.scene));

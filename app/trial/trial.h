@@ -37,7 +37,7 @@ struct TrialTask {
 };
 
 // One task under one condition; Ctrl-C ends it early, its results are kept. Throws InputError.
-TrialResult run_task(const TrialCondition& condition, HandDevice& device,
+TrialResult run_task(const TrialCondition& condition, InputDevice& device,
                      const MappingSpec& mapping, const TrialTask& task,
                      const std::filesystem::path& log);
 

@@ -62,10 +62,10 @@ class Network {
 class DelayedMotion final : public OperatorMotion {
  public:
   double before = 0, now = 0, t = 0, h = 1;
-  HandSample sample(double at, double) const override {
-    HandSample hand;
+  OperatorSample sample(double at, double) const override {
+    OperatorSample hand;
     const double part = std::clamp((at - t) / h, 0.0, 1.0);
-    HandMapping{}.set_robot_angle(hand, 0, before + part * (now - before), (now - before) / h);
+    OperatorMapping{}.set_robot_angle(hand, 0, before + part * (now - before), (now - before) / h);
     return hand;
   }
   double duration() const override { return kRunTime; }
@@ -98,7 +98,7 @@ struct RemoteRobot {
   CouplingReaction reaction{model, {1}};
 
   explicit RemoteRobot(double start)
-      : kvr(model, hand, HandMapping{}, {{"rail"}, "", 0, 0}), simulation(model, [&] {
+      : kvr(model, hand, OperatorMapping{}, {{"rail"}, "", 0, 0}), simulation(model, [&] {
           State<double> x(model);
           x.q[0] = start;
           return x;

@@ -73,7 +73,7 @@ std::vector<TrackingRow> measure_follows(const std::filesystem::path& assets, un
                                          const Tell& tell) {
   const TrackingCase cases[] = {{"S-103", "robots/s103/s103.urdf", {"joint1", "joint2", "joint3"}},
                                 {"PUMA 560", "robots/puma560/puma560.urdf", {"j1", "j2", "j3"}}};
-  const AutomaticMotion automatic{HandMapping{}};
+  const AutomaticMotion automatic{OperatorMapping{}};
   const SyntheticOperator synthetic(seed, 10);
   std::vector<TrackingRow> rows;
   double done = 0;

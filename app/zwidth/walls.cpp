@@ -58,8 +58,8 @@ class SoftWall final : public ForceSource {
 };
 
 DeviceMotion motion_at(double angle) {
-  HandStep step{0, 1, {}};
-  HandMapping{}.set_robot_angle(step.hand, 0, angle, 0);
+  DeviceStep step{0, 1, {}};
+  OperatorMapping{}.set_robot_angle(step.hand, 0, angle, 0);
   DeviceMotion motion(1);
   motion.set(step);
   return motion;
@@ -69,7 +69,7 @@ DeviceMotion motion_at(double angle) {
 double force_at_rest(double k_c, double k_e, double angle) {
   const Model<double> model = pressed_link();
   const DeviceMotion hand = motion_at(angle);
-  TargetRobot kvr(model, hand, HandMapping{}, {{"joint"}, "", 0, 0});
+  TargetRobot kvr(model, hand, OperatorMapping{}, {{"joint"}, "", 0, 0});
   CouplingSpec spec;
   spec.type = CouplingSpec::Type::linear;
   spec.discretization = Discretization::implicit;

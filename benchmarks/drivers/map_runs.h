@@ -161,7 +161,7 @@ class MapRuns {
   }
 
   Model<double> model_ = locked_s103();
-  HandMapping mapping_;
+  OperatorMapping mapping_;
   AutomaticMotion hand_{mapping_};
   BatchSetup setup_;
   std::vector<BatchCell> cells_;

@@ -30,10 +30,10 @@ struct TrackingSetup {
   const Model<double>* kvr_model = nullptr;  // no added masses
   const Model<double>* dvr_model = nullptr;  // same tree, masses as simulated
   const OperatorMotion* hand = nullptr;
-  HandMapping mapping;
+  OperatorMapping mapping;
   DrivenJoints joints;
   std::vector<CouplingSpec> couplings;  // forces of the first are recorded
-  TargetRates kvr_rates = TargetRates::from_hand;
+  TargetRates kvr_rates = TargetRates::from_operator;
   Integrator integrator = Integrator::semi_implicit;
   double h = 0.001;  // [s]
 };

@@ -23,7 +23,7 @@ namespace twinarm {
 // A target robot, at `rest` except for the driven joints.
 struct BatchTarget {
   const OperatorMotion* hand = nullptr;
-  HandMapping mapping;
+  OperatorMapping mapping;
   DrivenJoints joints;
   State<double> rest;
 };
@@ -46,7 +46,7 @@ struct BatchSetup {
       measured;         // coordinates with tracking errors, relative to the first target
   double duration = 0;  // [s]; the last step may be shorter
   double bound = 1e3;   // a cell stops if the sum of |q_K - q_D| is not below it
-  bool energy = false;  // compute energy_created and hand_work_least
+  bool energy = false;  // compute energy_created and input_work_min
 };
 
 // One run. Vectors by spring and by body of the model.
@@ -68,7 +68,7 @@ struct BatchResult {
   // By measured joint, as tracking_error(); infinite if diverged.
   std::vector<double> max_error, mean_error;
   // By measured joint, of a finished cell: range of the first target.
-  std::vector<double> twin_low, twin_high;
+  std::vector<double> target_lower, target_upper;
   // Maximum error of all measured joints in each quarter of the run (infinite after divergence).
   std::array<double, kWindows> window_error{};
   // Residual of the energy balance [J]: change of kinetic, potential and spring energy minus the
@@ -77,7 +77,7 @@ struct BatchResult {
   double energy_created = 0;
   // Minimum over time of the operator's accumulated work on springs and dampers [J], <= 0
   // (passivity observer).
-  double hand_work_least = 0;
+  double input_work_min = 0;
 };
 
 // Errors: joints other than revolute, prismatic, screw and fixed, mimic joints, Coulomb friction,

@@ -31,7 +31,7 @@ class LaneResults {
   }
 
   void start() {
-    for (S* sum : {&work_.dissipated_work, &work_.hand_work, &work_.hand_work_least}) *sum = S(0);
+    for (S* sum : {&work_.dissipated_work, &work_.input_work, &work_.input_work_min}) *sum = S(0);
     work_.window_error.fill(S(0));
     for (std::size_t j = 0; j < work_.measured.size(); ++j) {
       const double e = std::abs(motion_.q_K[j] - setup_.start.q[work_.measured[j]]);
@@ -54,7 +54,7 @@ class LaneResults {
                                    ? lane_of(work_.window_error[q], lane)
                                    : kInfinite;
     result.energy_created = kInfinite;
-    result.hand_work_least = -kInfinite;
+    result.input_work_min = -kInfinite;
   }
   // Results of a finished lane.
   void store(std::size_t lane, const BatchCell& cell, BatchResult& result) {
@@ -67,8 +67,8 @@ class LaneResults {
       result.max_error.push_back(lane_of(work_.error_max[j], lane));
       result.mean_error.push_back(0.5 * twice / setup_.duration);
     }
-    result.twin_low = motion_.low;
-    result.twin_high = motion_.high;
+    result.target_lower = motion_.low;
+    result.target_upper = motion_.high;
     for (std::size_t q = 0; q < BatchResult::kWindows; ++q)
       result.window_error[q] = lane_of(work_.window_error[q], lane);
     if (setup_.energy) store_energies(lane, cell, result);
@@ -86,8 +86,8 @@ class LaneResults {
     result.energy_created = energy(end) - energy(setup_.start) +
                             lane_of(work_.spring_energy, lane) -
                             lane_of(work_.spring_energy_at_start, lane) -
-                            lane_of(work_.hand_work, lane) + lane_of(work_.dissipated_work, lane);
-    result.hand_work_least = lane_of(work_.hand_work_least, lane);
+                            lane_of(work_.input_work, lane) + lane_of(work_.dissipated_work, lane);
+    result.input_work_min = lane_of(work_.input_work_min, lane);
   }
 
   const BatchSetup& setup_;

@@ -22,10 +22,10 @@ OmniAngles DesktopInput::angles(const Goal& goal, double t) const noexcept {
   return theta;
 }
 
-HandSample DesktopInput::sample(double t, double /*toward*/) const {
+OperatorSample DesktopInput::sample(double t, double /*toward*/) const {
   if (t > asked_.load(std::memory_order_relaxed)) asked_.store(t, std::memory_order_relaxed);
   const Goal& goal = newest_.read();
-  HandSample hand;
+  OperatorSample hand;
   hand.theta = angles(goal, t);
   hand.button = goal.buttons[0];
   hand.clutch = goal.buttons[1];

@@ -18,7 +18,7 @@
 namespace twinarm {
 
 // Axes of keys, sticks and a space mouse.
-enum class HandAxis { right, up, toward, yaw, pitch, roll };
+enum class DeviceAxis { right, up, toward, yaw, pitch, roll };
 
 struct DesktopInputSettings {
   double speed = 0.1, turn_rate = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
@@ -36,10 +36,10 @@ class DesktopInput final : public OperatorMotion {
     if (p.allFinite()) update([&] { goal_.p = p; });
   }
   void turn_stylus(const Vector3& by) noexcept;  // yaw, pitch, roll [rad]
-  void key(HandAxis axis, bool positive, bool down) noexcept {
+  void key(DeviceAxis axis, bool positive, bool down) noexcept {
     update([&] { keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down; });
   }
-  void axes(const std::array<double, 6>& rates) noexcept;  // in [-1, 1], by HandAxis
+  void axes(const std::array<double, 6>& rates) noexcept;  // in [-1, 1], by DeviceAxis
   // 0: gripper, 1: clutch
   void button(std::size_t index, bool down) noexcept {
     if (index < goal_.buttons.size()) update([&] { goal_.buttons[index] = down; });
@@ -50,7 +50,7 @@ class DesktopInput final : public OperatorMotion {
   }
 
   // For the thread of the virtual Omni.
-  HandSample sample(double t, double toward) const override;
+  OperatorSample sample(double t, double toward) const override;
   double duration() const override { return std::numeric_limits<double>::infinity(); }
   std::string description() const override {
     return "a point moved by mouse, keys or a game controller";
@@ -61,7 +61,7 @@ class DesktopInput final : public OperatorMotion {
     double t = 0;
     Vector3 p = Vector3::Zero();
     std::array<double, 3> gimbal{};
-    std::array<double, 6> rate{};  // by HandAxis
+    std::array<double, 6> rate{};  // by DeviceAxis
     std::array<bool, 2> buttons{};
   };
   OmniAngles angles(const Goal& goal, double t) const noexcept;

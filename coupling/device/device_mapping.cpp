@@ -35,7 +35,7 @@ class ClutchedMapping : public DeviceMapping {
     if (engaged_) engage(device);
   }
 
-  const HandTarget& map(const DeviceState& device, double h) noexcept override {
+  const MappedTarget& map(const DeviceState& device, double h) noexcept override {
     std::fill(target_.qd.begin(), target_.qd.end(), 0.0);
     if (device.alive) target_.gripper_closed = device.buttons[0];
     if (!is_engaged(device)) {
@@ -59,7 +59,7 @@ class ClutchedMapping : public DeviceMapping {
   virtual void engage_first(const DeviceState& device) = 0;  // no initial target given
   virtual void follow(const DeviceState& device, double h) = 0;
 
-  HandTarget target_;
+  MappedTarget target_;
   bool engaged_ = false;
 
  private:

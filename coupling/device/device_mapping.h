@@ -31,8 +31,8 @@ namespace twinarm {
 enum class MappingKind { paper, arm, cartesian };
 inline constexpr std::array<const char*, 3> kMappingNames{"paper", "arm", "cartesian"};
 
-// HandMapping: for joint mappings; `arm` has its own device joints.
-struct MappingSpec : HandMapping {
+// OperatorMapping: for joint mappings; `arm` has its own device joints.
+struct MappingSpec : OperatorMapping {
   MappingKind kind = MappingKind::paper;
   // cartesian: the robot's point follows p_start + scale (stylus - stylus at the start), world
   // axes. Default: workspace of 16 cm, reach of the robot 60 cm.
@@ -70,7 +70,7 @@ struct DrivenDofs {
 };
 
 // Commanded target, by joint of MappedRobot::turned.
-struct HandTarget {
+struct MappedTarget {
   std::vector<double> q, qd;  // [rad], [rad/s]
   bool gripper_closed = false;
 };
@@ -83,7 +83,7 @@ class DeviceMapping {
   virtual void begin(const DeviceState& device, const std::vector<double>& q) noexcept = 0;
   // `h`: time since the last call [s]. Velocities are backward differences, zero after an
   // interruption.
-  virtual const HandTarget& map(const DeviceState& device, double h) noexcept = 0;
+  virtual const MappedTarget& map(const DeviceState& device, double h) noexcept = 0;
   // Motor torques for joint forces tau on the driven joints of the target robot, after map(). Zero
   // while the clutch is pressed.
   virtual DeviceForce motor_torques(const DeviceState& device,

@@ -14,19 +14,19 @@
 
 namespace twinarm {
 
-void DeviceMotion::set(const HandTarget& target, double t, double h) noexcept {
-  HandStep step{t, h, {}};
+void DeviceMotion::set(const MappedTarget& target, double t, double h) noexcept {
+  DeviceStep step{t, h, {}};
   for (std::size_t j = 0; j < std::min<std::size_t>(3, target.q.size()); ++j)
     mapping_.set_robot_angle(step.hand, j, target.q[j], target.qd[j]);
   step.hand.button = target.gripper_closed;
   set(step);
 }
 
-void DeviceMotion::set(const HandStep& step) noexcept {
+void DeviceMotion::set(const DeviceStep& step) noexcept {
   steps_[count_++ % steps_.size()] = step;
 }
 
-HandSample DeviceMotion::sample(double t, double toward) const {
+OperatorSample DeviceMotion::sample(double t, double toward) const {
   if (count_ == 0) return {};
   // The step that contains an instant just inside, from the side of `toward`: binary search.
   double inside = t + 1e-9 * (toward - t);
@@ -38,8 +38,8 @@ HandSample DeviceMotion::sample(double t, double toward) const {
     const std::size_t middle = low + (high - low) / 2;
     (at(middle).t <= inside ? low : high) = middle;
   }
-  const HandStep& step = at(low);
-  HandSample hand = step.hand;
+  const DeviceStep& step = at(low);
+  OperatorSample hand = step.hand;
   const double since = std::clamp(t - step.t, 0.0, step.h);
   for (std::size_t j = 0; j < 6; ++j) hand.theta[j] += since * hand.theta_dot[j];
   const bool rests = inside < step.t || inside > step.t + step.h;
@@ -47,8 +47,8 @@ HandSample DeviceMotion::sample(double t, double toward) const {
   return hand;
 }
 
-std::vector<HandStep> DeviceMotion::steps() const {
-  std::vector<HandStep> all;
+std::vector<DeviceStep> DeviceMotion::steps() const {
+  std::vector<DeviceStep> all;
   for (std::size_t n = count_ - std::min(count_, steps_.size()); n < count_; ++n)
     all.push_back(at(n));
   return all;
@@ -70,8 +70,8 @@ std::vector<double> log_numbers(const std::string& line) {
   return values;
 }
 
-HandStep step_of(const std::vector<double>& values) {
-  HandStep step{values[0], values[1], {}};
+DeviceStep step_of(const std::vector<double>& values) {
+  DeviceStep step{values[0], values[1], {}};
   for (std::size_t j = 0; j < 6; ++j) {
     step.hand.theta[j] = values[2 + j];
     step.hand.theta_dot[j] = values[8 + j];
@@ -82,41 +82,41 @@ HandStep step_of(const std::vector<double>& values) {
 
 }  // namespace
 
-std::string hand_log_header() {
+std::string device_log_header() {
   std::string text = "t[s],h[s]";
   for (int j = 1; j <= 6; ++j) text += fmt::format(",theta{}[rad]", j);
   for (int j = 1; j <= 6; ++j) text += fmt::format(",theta{}_dot[rad/s]", j);
   return text + ",button\n";
 }
 
-std::string hand_log_line(const HandStep& step) {
+std::string device_log_line(const DeviceStep& step) {
   std::string text = fmt::format("{},{}", step.t, step.h);  // shortest exact digits
   for (const double angle : step.hand.theta) text += fmt::format(",{}", angle);
   for (const double rate : step.hand.theta_dot) text += fmt::format(",{}", rate);
   return text + (step.hand.button ? ",1\n" : ",0\n");
 }
 
-void write_hand_log(const DeviceMotion& hand, const std::filesystem::path& file) {
-  std::string text = hand_log_header();
-  for (const HandStep& step : hand.steps()) text += hand_log_line(step);
+void write_device_log(const DeviceMotion& hand, const std::filesystem::path& file) {
+  std::string text = device_log_header();
+  for (const DeviceStep& step : hand.steps()) text += device_log_line(step);
   write_whole_file(file, text);
 }
 
-bool is_hand_log(const std::filesystem::path& file) {
-  const std::string header = hand_log_header();
+bool is_device_log(const std::filesystem::path& file) {
+  const std::string header = device_log_header();
   std::string start(header.size(), '\0');
   std::ifstream stream(file);
   return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == header;
 }
 
-std::unique_ptr<DeviceMotion> read_hand_log(const std::filesystem::path& file) {
-  if (!is_hand_log(file))
+std::unique_ptr<DeviceMotion> read_device_log(const std::filesystem::path& file) {
+  if (!is_device_log(file))
     throw InputError({{file.string(), 1, "header", "the header is not that of a motion log",
                        "give a file written by `twinarm hand --log`", "hand.header"}});
   std::ifstream stream(file);
   std::string line;
   next_line(stream, line, file.string(), 1);
-  std::vector<HandStep> steps;
+  std::vector<DeviceStep> steps;
   DiagnosticList faults;
   for (int number = 2; next_line(stream, line, file.string(), number); ++number) {
     if (steps.size() == kMaxLogSteps) {
@@ -145,12 +145,12 @@ std::unique_ptr<DeviceMotion> read_hand_log(const std::filesystem::path& file) {
                 "hand.empty"});
   faults.check();
   auto hand = std::make_unique<DeviceMotion>(steps.size());
-  for (const HandStep& step : steps) hand->set(step);
+  for (const DeviceStep& step : steps) hand->set(step);
   return hand;
 }
 
-std::unique_ptr<OperatorMotion> read_hand_file(const std::filesystem::path& file) {
-  if (is_hand_log(file)) return read_hand_log(file);
+std::unique_ptr<OperatorMotion> read_motion_file(const std::filesystem::path& file) {
+  if (is_device_log(file)) return read_device_log(file);
   return std::make_unique<RecordedTrace>(file);
 }
 

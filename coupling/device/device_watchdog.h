@@ -23,7 +23,7 @@ class DeviceWatchdog {
 
   // One tick of h [s]. Updates `target`; q_D: driven joints of the DVR.
   void tick(const DeviceState& device, DeviceMapping& mapping, const std::vector<double>& q_D,
-            double h, HandTarget& target) noexcept {
+            double h, MappedTarget& target) noexcept {
     if (device.alive) {
       if (mode_ != Mode::live) mapping.begin(device, target.q);  // no jump
       mode_ = Mode::live;

@@ -83,15 +83,16 @@ double stylus_force(const OmniParameters& omni, const OmniAngles& theta, const V
   return (J * (A.inverse() * torque)).norm();
 }
 
-HandForce::HandForce(const HandForceSpec& spec, const OmniParameters& omni, DeviceMapping& mapping)
+ForceFeedback::ForceFeedback(const ForceFeedbackSpec& spec, const OmniParameters& omni,
+                             DeviceMapping& mapping)
     : spec_(spec),
       omni_(omni),
       mapping_(mapping),
       passivity_(omni.peak_force * spec.fastest / omni.rate,
                  0.5 * omni.apparent_mass * kMinLever * kMinLever * omni.rate * omni.rate) {}
 
-DeviceForce HandForce::tick(const DeviceState& device, const std::vector<double>& tau,
-                            double h) noexcept {
+DeviceForce ForceFeedback::tick(const DeviceState& device, const std::vector<double>& tau,
+                                double h) noexcept {
   const DeviceForce wanted = mapping_.motor_torques(device, tau);
   const Vector3 raw(wanted.torque[0], wanted.torque[1], wanted.torque[2]);
   const double part =

@@ -44,7 +44,7 @@ class CouplingReaction {
   std::vector<double> tau_;
 };
 
-struct HandForceSpec {
+struct ForceFeedbackSpec {
   double cutoff = 0;  // of the first-order low-pass [Hz]; 0: none
   bool passive = true;
   double fastest = 1.0;  // maximum operator speed, for the energy bound [m/s]
@@ -53,17 +53,17 @@ struct HandForceSpec {
 // Force of motor torques at the stylus [N]: |J^-T torque|.
 double stylus_force(const OmniParameters& omni, const OmniAngles& theta, const Vector3& torque);
 
-class HandForce {
+class ForceFeedback {
  public:
   // The mapping must outlive it.
-  HandForce(const HandForceSpec& spec, const OmniParameters& omni, DeviceMapping& mapping);
+  ForceFeedback(const ForceFeedbackSpec& spec, const OmniParameters& omni, DeviceMapping& mapping);
   // Motor torques until the next tick, after DeviceMapping::map() and the step. tau: by driven
   // joint of the KVR; h: tick [s].
   DeviceForce tick(const DeviceState& device, const std::vector<double>& tau, double h) noexcept;
   double energy() const { return passivity_.energy(); }  // observed energy of the operator [J]
 
  private:
-  HandForceSpec spec_;
+  ForceFeedbackSpec spec_;
   OmniParameters omni_;
   DeviceMapping& mapping_;
   PassivityControl passivity_;

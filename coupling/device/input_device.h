@@ -24,9 +24,9 @@ struct DeviceForce {
   std::array<double, 3> torque{};
 };
 
-class HandDevice {
+class InputDevice {
  public:
-  virtual ~HandDevice() = default;
+  virtual ~InputDevice() = default;
   // `now`: time of the tick [s], simulated or of the clock.
   virtual DeviceState poll(double now) noexcept = 0;
   // Force until the next call (zero-order hold), limited by the device.

@@ -80,7 +80,7 @@ VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> hand,
   response_ = {E(0, 0), E(0, 1), E(0, 2), E(1, 0), E(1, 1), E(1, 2)};
   sensed_.resize(ticks_of(delay_to_host_, period_));
   rendered_.resize(ticks_of(delay_to_motors_, period_));
-  look_at_hand();
+  update_angles();
   const auto q = omni_nearest(figures_, omni_position(figures_, wanted_.theta));
   truth_.theta = {q[0], q[1], q[2], 0, 0, 0};
   truth_.position = omni_position(figures_, truth_.theta);
@@ -123,7 +123,7 @@ void VirtualOmni::tick() noexcept {
     truth_.goal += h * goal_velocity;
   }
   ++tick_;
-  look_at_hand();
+  update_angles();
   sense();
 }
 
@@ -175,9 +175,9 @@ void VirtualOmni::stop_at_ranges() noexcept {
   truth_.position = stop;
 }
 
-void VirtualOmni::look_at_hand() noexcept {
+void VirtualOmni::update_angles() noexcept {
   const double t = static_cast<double>(tick_) * period_;
-  const HandSample now = hand_->sample(t, t + period_);
+  const OperatorSample now = hand_->sample(t, t + period_);
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(now.theta.begin(), now.theta.end(), finite) ||
       !std::all_of(now.theta_dot.begin(), now.theta_dot.end(), finite)) {

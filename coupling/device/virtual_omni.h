@@ -42,7 +42,7 @@ struct VirtualOmniSettings {
   double delay_to_host = 0, delay_to_motors = 0;  // [s]
 };
 
-class VirtualOmni final : public HandDevice {
+class VirtualOmni final : public InputDevice {
  public:
   // Starts at rest at the motion's pose at t = 0. Samples the motion once a tick, in the polling
   // thread. Throws InputError with all errors of the settings.
@@ -80,14 +80,14 @@ class VirtualOmni final : public HandDevice {
   void tick() noexcept;
   void substep(const Vector3& goal, const Vector3& goal_velocity) noexcept;
   void stop_at_ranges() noexcept;
-  void look_at_hand() noexcept;
+  void update_angles() noexcept;
   void sense() noexcept;
 
   std::shared_ptr<const OperatorMotion> hand_;
   OmniParameters figures_;
   double viscous_, period_, delay_to_host_, delay_to_motors_;
   Response response_;
-  HandSample wanted_;  // at the last tick
+  OperatorSample wanted_;  // at the last tick
   Truth truth_;
   std::vector<DeviceState> sensed_;  // of the last ticks, by tick
   std::vector<Rendered> rendered_;   // of the next ticks, by tick

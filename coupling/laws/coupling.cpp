@@ -24,8 +24,8 @@ Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, TargetR
     };
     check(spring.k, "stiffness");
     check(spring.b, "damping");
-    check(spring.k_turn, "torsional stiffness");
-    check(spring.b_turn, "torsional damping");
+    check(spring.k_rotational, "torsional stiffness");
+    check(spring.b_rotational, "torsional damping");
   }
   faults.check();
 }

@@ -14,13 +14,13 @@ namespace twinarm {
 
 // One spring-damper between a link of the KVR and of the DVR. Torsional: orientations or joint
 // angles, k [N m/rad], b [N m s/rad] (prismatic joint: k [N/m], b [N s/m]). Linear: points p_L, k
-// [N/m], b [N s/m]. Bushing: k, b linear and k_turn, b_turn torsional.
+// [N/m], b [N s/m]. Bushing: k, b linear and k_rotational, b_rotational torsional.
 struct Spring {
   std::string name;
   int body = 0;
   Vector3 p_L = Vector3::Zero();  // link frame; of couplings at a point [m]
   double k = 0, b = 0;
-  double k_turn = 0, b_turn = 0;  // of bushings and welds
+  double k_rotational = 0, b_rotational = 0;  // of bushings and welds
 };
 
 enum class SpringSpace {

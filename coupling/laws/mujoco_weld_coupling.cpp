@@ -67,10 +67,11 @@ class MujocoWeld final : public Coupling {
       const Spring& spring = springs_[s];
       SpringState &force = readings_[s], &torque = readings_[springs_.size() + s];
       apply_point_spring(spring, terms, k, force, forces);
-      apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, torque, forces);
+      apply_torsional_spring(spring.body, spring.k_rotational, spring.b_rotational, terms, k,
+                             torque, forces);
       const BiasAcceleration bias = bias_acceleration(model_, k, spring.body, force.p_D);
       force.pull -= spring.b / damping_ * bias.point;
-      torque.pull -= spring.b_turn / damping_ * bias.angular;
+      torque.pull -= spring.b_rotational / damping_ * bias.angular;
       force.size = force.pull.norm();
       torque.size = torque.pull.norm();
       add_point_force(k, spring.body, force.p_D, force.pull, forces);

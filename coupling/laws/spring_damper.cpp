@@ -27,7 +27,8 @@ void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& 
     if (hold_.is_fresh()) {
       if (at_point) apply_point_spring(spring, terms, k, force, forces);
       if (torsional && at_point)
-        apply_torsional_spring(spring.body, spring.k_turn, spring.b_turn, terms, k, torque, forces);
+        apply_torsional_spring(spring.body, spring.k_rotational, spring.b_rotational, terms, k,
+                               torque, forces);
       else if (torsional)
         apply_torsional_spring(spring.body, spring.k, spring.b, terms, k, torque, forces);
     }
@@ -113,7 +114,8 @@ Coupling::JointSpace joint_space_of_frames(const Model<double>& model, const Kin
                                            const std::vector<Spring>& springs) {
   Coupling::JointSpace sum = joint_space_of_points(model, k, springs), torsional(model.nv);
   for (const Spring& spring : springs)
-    torsional.add(spring.k_turn, spring.b_turn, rotation_jacobian(model, k, spring.body));
+    torsional.add(spring.k_rotational, spring.b_rotational,
+                  rotation_jacobian(model, k, spring.body));
   sum.K += torsional.K;
   sum.B += torsional.B;
   return sum;

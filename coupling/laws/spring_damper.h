@@ -91,8 +91,8 @@ void apply_point_spring(const Spring& spring, const DiscretizationTerms& terms, 
 void apply_torsional_spring(int body, double k, double b, const DiscretizationTerms& terms,
                             const Kinematics& D, SpringState& reading, Forces<double>& forces);
 
-// Sums of J^T k J and J^T b J with the Jacobians of the points; of frames also with k_turn, b_turn
-// and the rotation Jacobians.
+// Sums of J^T k J and J^T b J with the Jacobians of the points; of frames also with k_rotational,
+// b_rotational and the rotation Jacobians.
 Coupling::JointSpace joint_space_of_points(const Model<double>& model, const Kinematics& k,
                                            const std::vector<Spring>& springs);
 Coupling::JointSpace joint_space_of_frames(const Model<double>& model, const Kinematics& k,

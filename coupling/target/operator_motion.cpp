@@ -6,7 +6,7 @@
 
 namespace twinarm {
 
-HandSample AutomaticMotion::sample(double t, double toward) const {
+OperatorSample AutomaticMotion::sample(double t, double toward) const {
   constexpr double pi = std::numbers::pi;
   const double s = t / sweep_time_;
   // The sweep of a step between t and toward; an end of a sweep is met within rounding.
@@ -21,7 +21,7 @@ HandSample AutomaticMotion::sample(double t, double toward) const {
   const bool moving = inside >= 0 && inside < sweeps_;
   const double rate = moving ? direction / sweep_time_ : 0.0;
 
-  HandSample hand;
+  OperatorSample hand;
   mapping_.set_robot_angle(hand, 0, -pi * along, -pi * rate);
   mapping_.set_robot_angle(hand, 1, pi / 2 * along, pi / 2 * rate);
   return hand;

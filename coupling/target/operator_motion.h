@@ -12,7 +12,7 @@
 
 namespace twinarm {
 
-struct HandSample {
+struct OperatorSample {
   std::array<double, 6> theta{};      // device joints theta1..theta6 [rad]
   std::array<double, 6> theta_dot{};  // [rad/s]
   bool button = false;                // first button: closes the gripper
@@ -22,18 +22,18 @@ struct HandSample {
 // The paper's mapping: theta1, theta4, theta6 of the Phantom Omni move joints 1, 2, 3 of the robot
 // (Figures 2, 3); the stylus button moves the gripper. Gains are not published. Assumed: 2 for
 // joint 1 (theta1 reaches +-0.98 rad, the joint +-90 degrees), else 1.
-struct HandMapping {
+struct OperatorMapping {
   std::array<std::size_t, 3> device_joint{0, 3, 5};  // theta1, theta4, theta6
   std::array<double, 3> gain{2.0, 1.0, 1.0};
   std::array<double, 3> offset{0.0, 0.0, 0.0};  // robot angle at theta = 0 [rad]
 
-  double robot_angle(const HandSample& hand, std::size_t joint) const {
+  double robot_angle(const OperatorSample& hand, std::size_t joint) const {
     return offset[joint] + gain[joint] * hand.theta[device_joint[joint]];
   }
-  double robot_rate(const HandSample& hand, std::size_t joint) const {
+  double robot_rate(const OperatorSample& hand, std::size_t joint) const {
     return gain[joint] * hand.theta_dot[device_joint[joint]];
   }
-  void set_robot_angle(HandSample& hand, std::size_t joint, double angle, double rate) const {
+  void set_robot_angle(OperatorSample& hand, std::size_t joint, double angle, double rate) const {
     hand.theta[device_joint[joint]] = (angle - offset[joint]) / gain[joint];
     hand.theta_dot[device_joint[joint]] = rate / gain[joint];
   }
@@ -42,7 +42,7 @@ struct HandMapping {
 class OperatorMotion {
  public:
   virtual ~OperatorMotion() = default;
-  virtual HandSample sample(double t, double toward) const = 0;
+  virtual OperatorSample sample(double t, double toward) const = 0;
   virtual double duration() const = 0;          // [s]
   virtual std::string description() const = 0;  // one line
 };
@@ -53,14 +53,14 @@ class OperatorMotion {
 class AutomaticMotion final : public OperatorMotion {
  public:
   // sweep_time [s] of one sweep, 1 s in the paper.
-  AutomaticMotion(const HandMapping& mapping, double sweep_time = 1.0, int sweeps = 3)
+  AutomaticMotion(const OperatorMapping& mapping, double sweep_time = 1.0, int sweeps = 3)
       : mapping_(mapping), sweep_time_(sweep_time), sweeps_(sweeps) {}
-  HandSample sample(double t, double toward) const override;
+  OperatorSample sample(double t, double toward) const override;
   double duration() const override { return sweep_time_ * sweeps_; }
   std::string description() const override;
 
  private:
-  HandMapping mapping_;
+  OperatorMapping mapping_;
   double sweep_time_;
   int sweeps_;
 };
@@ -75,11 +75,11 @@ class DelayedMotion final : public OperatorMotion {
   DelayedMotion(const OperatorMotion& hand, double delay, double speed)
       : hand_(hand), delay_(delay), speed_(speed) {}
 
-  HandSample sample(double t, double toward) const override {
+  OperatorSample sample(double t, double toward) const override {
     constexpr double kSame = 1e-9;  // rounding of a sum of steps [s]
     const double s = t - delay_, s_toward = toward - delay_;
     const bool waits = s < -kSame || (s < kSame && s + s_toward < 0);
-    HandSample delayed =
+    OperatorSample delayed =
         waits ? hand_.sample(0, 1) : hand_.sample(speed_ * std::max(s, 0.0), speed_ * s_toward);
     for (double& rate : delayed.theta_dot) rate *= waits ? 0 : speed_;
     return delayed;

@@ -224,14 +224,14 @@ RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.str
   TraceReader(*this).read(stream);
 }
 
-HandSample RecordedTrace::sample(double t, double toward) const {
+OperatorSample RecordedTrace::sample(double t, double toward) const {
   // The interval of a step between t and toward.
   const double inside = t + 1e-9 * (toward - t);
   auto after = std::ranges::upper_bound(samples_, inside, {}, &Sample::t);
   after = std::clamp(after, samples_.begin() + 1, samples_.end() - 1);
   const Sample& a = *std::prev(after);
   const Sample& b = *after;
-  HandSample hand;
+  OperatorSample hand;
   const double s = std::clamp((t - a.t) / (b.t - a.t), 0.0, 1.0);
   const bool moving = t < samples_.back().t || toward < samples_.back().t;
   for (std::size_t j = 0; j < 6; ++j) {
@@ -254,7 +254,7 @@ void write_trace(const OperatorMotion& hand, double rate, const std::filesystem:
   const auto count = static_cast<long>(std::floor(hand.duration() * rate)) + 1;
   for (long n = 0; n < count; ++n) {
     const double t = static_cast<double>(n) / rate;
-    const HandSample sample = hand.sample(t, t + 1 / rate);
+    const OperatorSample sample = hand.sample(t, t + 1 / rate);
     text += fmt::format("{:.6f}", t);
     for (double theta : sample.theta) text += fmt::format(",{:.6f}", theta);
     text += sample.button ? ",1\n" : ",0\n";

@@ -30,7 +30,7 @@ class RecordedTrace final : public OperatorMotion {
   // Throws one InputError with all errors of the file: unreadable, missing columns, values that are
   // not finite numbers, time that does not increase, fewer than two samples, impossible angles.
   explicit RecordedTrace(const std::filesystem::path& file);
-  HandSample sample(double t, double toward) const override;
+  OperatorSample sample(double t, double toward) const override;
   double duration() const override { return samples_.back().t; }
   std::string description() const override;
   const TraceQuality& quality() const { return quality_; }

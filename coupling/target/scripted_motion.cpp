@@ -20,8 +20,8 @@ std::string seconds_text(double t) {
 
 }  // namespace
 
-HandSample StepMotion::sample(double t, double toward) const {
-  HandSample hand;
+OperatorSample StepMotion::sample(double t, double toward) const {
+  OperatorSample hand;
   hand.theta = is_after(t, toward, at_) ? to_ : from_;
   return hand;
 }
@@ -30,12 +30,12 @@ std::string StepMotion::description() const {
   return "scripted: a step after " + seconds_text(at_);
 }
 
-HandSample ChirpMotion::sample(double t, double toward) const {
+OperatorSample ChirpMotion::sample(double t, double toward) const {
   const double s = std::clamp(t, 0.0, duration_), slope = (f1_ - f0_) / duration_;
   const double phi = 2 * std::numbers::pi * (f0_ + 0.5 * slope * s) * s;
   const bool moves = is_after(t, toward, 0) && !is_after(t, toward, duration_);
   const double omega = moves ? 2 * std::numbers::pi * (f0_ + slope * s) : 0.0;
-  HandSample hand;
+  OperatorSample hand;
   for (std::size_t j = 0; j < 6; ++j) {
     hand.theta[j] = middle_[j] + amplitude_[j] * std::sin(phi);
     hand.theta_dot[j] = amplitude_[j] * omega * std::cos(phi);
@@ -49,7 +49,7 @@ std::string ChirpMotion::description() const {
 }
 
 void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s, double T,
-                      HandSample& hand) {
+                      OperatorSample& hand) {
   for (std::size_t j = 0; j < 6; ++j) {
     const double D = to[j] - from[j];
     hand.theta[j] = from[j] + D * s * s * s * (10 - 15 * s + 6 * s * s);

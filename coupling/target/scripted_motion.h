@@ -11,14 +11,14 @@ using DeviceAngles = std::array<double, 6>;  // theta1..theta6 of the device [ra
 
 // Minimum-jerk motion (Flash and Hogan 1985), s^3 (10 - 15 s + 6 s^2) with s = t/T in [0, 1].
 void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s, double T,
-                      HandSample& hand);
+                      OperatorSample& hand);
 
 // `from` before the time `at`, then `to`; the rates are zero.
 class StepMotion final : public OperatorMotion {
  public:
   StepMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double duration)
       : from_(from), to_(to), at_(at), duration_(duration) {}
-  HandSample sample(double t, double toward) const override;
+  OperatorSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override;
 
@@ -34,7 +34,7 @@ class ChirpMotion final : public OperatorMotion {
   ChirpMotion(const DeviceAngles& middle, const DeviceAngles& amplitude, double f0, double f1,
               double T)
       : middle_(middle), amplitude_(amplitude), f0_(f0), f1_(f1), duration_(T) {}
-  HandSample sample(double t, double toward) const override;
+  OperatorSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override;
 
@@ -48,8 +48,8 @@ class ReachMotion final : public OperatorMotion {
  public:
   ReachMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double T)
       : from_(from), to_(to), at_(at), T_(T) {}
-  HandSample sample(double t, double /*toward*/) const override {
-    HandSample hand;
+  OperatorSample sample(double t, double /*toward*/) const override {
+    OperatorSample hand;
     add_minimum_jerk(from_, to_, std::clamp((t - at_) / T_, 0.0, 1.0), T_, hand);
     return hand;
   }

@@ -56,8 +56,8 @@ SyntheticOperator::SyntheticOperator(unsigned seed, double duration)
               draw(0, 2 * std::numbers::pi)};
 }
 
-HandSample SyntheticOperator::sample(double t, double /*toward*/) const {
-  HandSample hand;
+OperatorSample SyntheticOperator::sample(double t, double /*toward*/) const {
+  OperatorSample hand;
   const auto after = std::ranges::upper_bound(reaches_, t, {}, &Reach::start);
   if (after != reaches_.begin()) {
     const Reach& reach = *std::prev(after);

@@ -12,7 +12,7 @@ namespace twinarm {
 class SyntheticOperator final : public OperatorMotion {
  public:
   explicit SyntheticOperator(unsigned seed, double duration = 20.0);
-  HandSample sample(double t, double toward) const override;
+  OperatorSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override {
     return "synthetic operator (not a person), seed " + std::to_string(seed_) +

@@ -10,7 +10,8 @@
 namespace twinarm {
 
 TargetRobot::TargetRobot(const Model<double>& model, const OperatorMotion& hand,
-                         const HandMapping& mapping, const DrivenJoints& joints, TargetRates rates)
+                         const OperatorMapping& mapping, const DrivenJoints& joints,
+                         TargetRates rates)
     : model_(model),
       hand_(hand),
       mapping_(mapping),
@@ -82,7 +83,7 @@ const TargetSample& TargetRobot::at(double t) {
 }
 
 bool TargetRobot::update(TargetSample& sample, double t, double toward) const {
-  const HandSample hand = hand_.sample(t, toward);
+  const OperatorSample hand = hand_.sample(t, toward);
   bool changed = std::isnan(sample.x.t);
   const auto put = [&](double& variable, double value) {
     changed = changed || variable != value;
@@ -91,7 +92,8 @@ bool TargetRobot::update(TargetSample& sample, double t, double toward) const {
   sample.x.t = t;
   for (std::size_t j = 0; j < iq_.size(); ++j) {
     put(sample.x.q[iq_[j]], mapping_.robot_angle(hand, j));
-    if (rates_ == TargetRates::from_hand) put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
+    if (rates_ == TargetRates::from_operator)
+      put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
     if (rates_ == TargetRates::backward_difference) put(sample.x.qd[iv_[j]], difference_[j]);
   }
   if (gripper_ > 0)

@@ -26,7 +26,7 @@ struct DrivenJoints {
 
 // Source of the KVR's velocity.
 enum class TargetRates {
-  from_hand,            // the motion's rate, one-sided at a velocity jump
+  from_operator,        // the motion's rate, one-sided at a velocity jump
   backward_difference,  // (q_n - q_n-1) / h, zero at first
   none                  // zero: absolute dampers
 };
@@ -35,8 +35,9 @@ class TargetRobot {
  public:
   // The model and the motion must outlive the robot. Throws InputError for joints that do not exist
   // or have several degrees of freedom.
-  TargetRobot(const Model<double>& model, const OperatorMotion& hand, const HandMapping& mapping,
-              const DrivenJoints& joints, TargetRates rates = TargetRates::from_hand);
+  TargetRobot(const Model<double>& model, const OperatorMotion& hand,
+              const OperatorMapping& mapping, const DrivenJoints& joints,
+              TargetRates rates = TargetRates::from_operator);
 
   // Sets the positions of the joints that are not driven (default: zero), before the first step.
   void set_pose(const State<double>& x);
@@ -61,7 +62,7 @@ class TargetRobot {
 
   const Model<double>& model_;
   const OperatorMotion& hand_;
-  HandMapping mapping_;
+  OperatorMapping mapping_;
   TargetRates rates_;
   std::vector<std::size_t> iq_, iv_;  // of the driven joints
   int gripper_ = -1;                  // body of the gripper joint

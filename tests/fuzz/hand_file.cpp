@@ -6,7 +6,7 @@ namespace twinarm::fuzz {
 
 void hand_file(Bytes bytes) {
   goes_through([&] {
-    const auto hand = read_hand_file(folder().write("hand.csv", bytes));
+    const auto hand = read_motion_file(folder().write("hand.csv", bytes));
     const double end = hand->duration();
     for (const double t : {0.0, 0.3 * end, end, -1.0, 2 * end + 1}) hand->sample(t, t + 0.001);
     require(!hand->description().empty(), "a hand has no description");

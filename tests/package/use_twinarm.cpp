@@ -72,7 +72,7 @@ void ball_on_a_floor() {
 
 // The hand of a kinematic robot that stands still.
 struct StillHand final : OperatorMotion {
-  HandSample sample(double, double) const override { return {}; }
+  OperatorSample sample(double, double) const override { return {}; }
   double duration() const override { return 1; }
   std::string description() const override { return "still"; }
 };

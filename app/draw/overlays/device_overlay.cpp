@@ -21,7 +21,7 @@ constexpr double kNextDevice = 0.35;                          // distance of dev
 constexpr double kForceLength = 0.165, kForceRadius = 0.007;  // of the peak force's arrow [m]
 constexpr double kMinShownForce = 0.01;                       // that is drawn [N]
 
-void draw_device(DrawList& list, const Pose& X_WD, const ShownHand& device) {
+void draw_device(DrawList& list, const Pose& X_WD, const ShownDevice& device) {
   const OmniParameters omni;
   const Vector3 shoulder = device_shoulder(), elbow = omni_elbow(omni, device.theta);
   const Pose X_WS = X_WD * omni_stylus(omni, device.theta);
@@ -48,7 +48,7 @@ void draw_device(DrawList& list, const Pose& X_WD, const ShownHand& device) {
 void show_device(SceneView& view, const Snapshot& snapshot) {
   if (snapshot.hands.empty() || !view.X_WDevice) return;
   Pose X_WD = *view.X_WDevice;
-  for (const ShownHand& device : snapshot.hands) {
+  for (const ShownDevice& device : snapshot.hands) {
     draw_device(view.list, X_WD, device);
     X_WD.p.x() -= kNextDevice;
   }
@@ -61,7 +61,7 @@ void show_device_force(SceneView& view, const Snapshot& snapshot) {
   const OmniParameters omni;
   const double peak = omni.peak_force;
   Pose X_WD = *view.X_WDevice;
-  for (const ShownHand& device : snapshot.hands) {
+  for (const ShownDevice& device : snapshot.hands) {
     const Vector3 p_W = X_WD * omni_position(omni, device.theta);
     X_WD.p.x() -= kNextDevice;
     const double size = device.force_W.norm();

@@ -47,7 +47,7 @@ bool Clients::give(ClientId from, ClientId to) {
   return true;
 }
 
-bool Clients::has_hand(ClientId client) const {
+bool Clients::has_control(ClientId client) const {
   const std::lock_guard lock(mutex_);
   return controller_ == client;
 }
@@ -58,7 +58,7 @@ std::string Clients::secret(ClientId client) const {
   return found == clients_.end() ? "" : found->second.secret;
 }
 
-bool Clients::has_hand(std::string_view secret) const {
+bool Clients::has_control(std::string_view secret) const {
   const std::lock_guard lock(mutex_);
   const auto found = clients_.find(controller_);
   return found != clients_.end() && is_secret(secret, found->second.secret);

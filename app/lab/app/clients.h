@@ -31,10 +31,10 @@ class Clients {
   void take(ClientId client);  // requests control
   // False: `from` is not in control, or `to` is not connected.
   bool give(ClientId from, ClientId to);
-  bool has_hand(ClientId client) const;  // is in control
+  bool has_control(ClientId client) const;  // is in control
   // HTTP requests do not name their client: each has a secret, sent in its own state message.
   std::string secret(ClientId client) const;  // empty: not connected
-  bool has_hand(std::string_view secret) const;
+  bool has_control(std::string_view secret) const;
 
   void want_layers(ClientId client, std::vector<std::string> names);
   void want_inspection(ClientId client, std::optional<long> body);

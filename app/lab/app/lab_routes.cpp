@@ -148,7 +148,7 @@ HttpReply LabRoutes::rendered(const HttpRequest& request) const {
 
 void LabRoutes::answer_open(const HttpRequest& request, const Answer& answer) {
   const std::string name = query_value(request.query, "name").value_or("");
-  if (!clients_.has_hand(query_value(request.query, "secret").value_or("")))
+  if (!clients_.has_control(query_value(request.query, "secret").value_or("")))
     return answer(reply_of(403, "another client has control; request it"));
   if (!is_plain(name))
     return answer(reply_of(422, "invalid file name '" + name + "'; use letters, digits, -"));

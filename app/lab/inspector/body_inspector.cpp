@@ -138,7 +138,7 @@ BodyInspector::BodyInspector(SimulatePlan plan)
 }
 
 // Replaces the motion of the couplings that the run's operator would drive.
-HandInPlace BodyInspector::in_place() {
+MotionReplacement BodyInspector::in_place() {
   return [this, in_run = override_->in_place()](
              std::size_t coupling,
              std::unique_ptr<OperatorMotion> own) -> std::unique_ptr<OperatorMotion> {
@@ -155,7 +155,7 @@ void BodyInspector::set_motion(const LabFrame& frame) {
   motion_.reset();
   if (!frame.hand || !frame.hand->active) return;
   const OperatorFrame& hand = *frame.hand;
-  HandTarget target{hand.q_K, hand.qd_K, hand.gripper_closed};
+  MappedTarget target{hand.q_K, hand.qd_K, hand.gripper_closed};
   target.qd.resize(target.q.size());
   for (std::size_t j = 0; j < target.q.size(); ++j) target.q[j] += plan_.run.step * target.qd[j];
   motion_.emplace(1);
@@ -166,7 +166,7 @@ Inspected BodyInspector::inspect(const LabFrame& frame) {
   StateArchive memory = simulation_memory(frame.recorded.memory);
   if (scene_) {
     set_motion(frame);
-    plan_.input.couplings->forget_hands();
+    plan_.input.couplings->forget_operator_motions();
     mouse_.set(frame.mouse);
     return scene_->look(&memory);
   }

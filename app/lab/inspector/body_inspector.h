@@ -53,7 +53,7 @@ class BodyInspector {
     std::optional<MouseSpringState> mouse_;
   };
 
-  HandInPlace in_place();
+  MotionReplacement in_place();
   void set_motion(const LabFrame& frame);
   Inspected inspect(const LabFrame& frame);
   void write(JsonWriter& json, const LabFrame& frame, const InspectRequest& request);

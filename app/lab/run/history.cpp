@@ -122,8 +122,8 @@ std::string LabHistory::operator_log() const {
   const long last = newest()->recorded.step;
   long first = last + 1;
   for (const LabInput* its = input(last); its && its->hand; its = input(first - 1)) --first;
-  std::string log = first <= last ? hand_log_header() : "";
-  for (long step = first; step <= last; ++step) log += hand_log_line(*input(step)->hand);
+  std::string log = first <= last ? device_log_header() : "";
+  for (long step = first; step <= last; ++step) log += device_log_line(*input(step)->hand);
   return log;
 }
 

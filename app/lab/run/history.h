@@ -72,8 +72,8 @@ struct MouseSpringInput {
 
 // External inputs of one step. Repeating the step with them reproduces it bit for bit.
 struct LabInput {
-  long step = 0;                 // the first of a run is 1
-  std::optional<HandStep> hand;  // absent: the scene's own motion
+  long step = 0;                   // the first of a run is 1
+  std::optional<DeviceStep> hand;  // absent: the scene's own motion
   std::optional<MouseSpringInput> mouse;
   double stamp = 0;  // of the newest command in it, as sent by the client
 };

@@ -47,7 +47,7 @@ void InputOverride::select_couplings() {
   target_.qd.assign(driven_.size(), 0);
 }
 
-HandInPlace InputOverride::in_place() {
+MotionReplacement InputOverride::in_place() {
   return [this](std::size_t coupling,
                 std::unique_ptr<OperatorMotion> own) -> std::unique_ptr<OperatorMotion> {
     if (std::ranges::find(coupled_, coupling) == coupled_.end()) return own;
@@ -86,10 +86,10 @@ void InputOverride::end_restored() {
 }
 
 std::vector<double> InputOverride::own_q(double t, double toward) const {
-  const HandSample sample = own_->sample(t, toward);
+  const OperatorSample sample = own_->sample(t, toward);
   std::vector<double> q;
   for (std::size_t j = 0; j < driven_.size(); ++j)
-    q.push_back(HandMapping{}.robot_angle(sample, j));
+    q.push_back(OperatorMapping{}.robot_angle(sample, j));
   return q;
 }
 
@@ -121,7 +121,7 @@ void InputOverride::invalidate_targets(double t) {
   for (const std::size_t coupling : coupled_) couplings_->target(coupling, t - 1);
 }
 
-std::optional<HandStep> InputOverride::before_step(const State<double>& x, double t, double h) {
+std::optional<DeviceStep> InputOverride::before_step(const State<double>& x, double t, double h) {
   if (coupled_.empty()) return std::nullopt;
   const OperatorInput::Source source = input_.source();
   end_restored();
@@ -165,7 +165,7 @@ std::optional<HandStep> InputOverride::before_step(const State<double>& x, doubl
   return live_.newest();
 }
 
-void InputOverride::replay_step(const std::optional<HandStep>& motion) {
+void InputOverride::replay_step(const std::optional<DeviceStep>& motion) {
   is_live_ = continues_ = false;
   end_restored();
   if (!motion || coupled_.empty()) {
@@ -177,8 +177,8 @@ void InputOverride::replay_step(const std::optional<HandStep>& motion) {
   if (!active_) first_.set(*motion);
   active_ = true;
   for (std::size_t j = 0; j < target_.q.size(); ++j) {
-    target_.q[j] = HandMapping{}.robot_angle(motion->hand, j);
-    target_.qd[j] = HandMapping{}.robot_rate(motion->hand, j);
+    target_.q[j] = OperatorMapping{}.robot_angle(motion->hand, j);
+    target_.qd[j] = OperatorMapping{}.robot_rate(motion->hand, j);
   }
   target_.gripper_closed = motion->hand.button;
 }

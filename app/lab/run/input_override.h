@@ -28,7 +28,7 @@ class OverridableMotion final : public OperatorMotion {
   using Substitute = std::function<const OperatorMotion*(double t, double toward)>;
   OverridableMotion(std::unique_ptr<OperatorMotion> own, Substitute substitute)
       : own_(std::move(own)), substitute_(std::move(substitute)) {}
-  HandSample sample(double t, double toward) const override {
+  OperatorSample sample(double t, double toward) const override {
     const OperatorMotion* other = substitute_(t, toward);
     return (other ? *other : *own_).sample(t, toward);
   }
@@ -46,7 +46,7 @@ class InputOverride {
   // made before the couplings, which take in_place(). All arguments must outlive it; scene may be
   // null.
   InputOverride(SceneModel* scene, OperatorInput& input, double h);
-  HandInPlace in_place();
+  MotionReplacement in_place();
   void attach(SceneCouplings& couplings) { couplings_ = &couplings; }
   // The next step begins with the target robot as in that frame.
   void continue_from(const OperatorFrame& frame);
@@ -55,8 +55,8 @@ class InputOverride {
 
   // For the step [t, t + h] from x: motion of the driven joints; none: the scene's own. Throws
   // InputError: the device's mapping cannot move these joints.
-  std::optional<HandStep> before_step(const State<double>& x, double t, double h);
-  void replay_step(const std::optional<HandStep>& motion);
+  std::optional<DeviceStep> before_step(const State<double>& x, double t, double h);
+  void replay_step(const std::optional<DeviceStep>& motion);
   void after_step(const Simulation& simulation, double h, bool finite) noexcept;
 
   std::optional<OperatorFrame> frame(double t) const;
@@ -85,7 +85,7 @@ class InputOverride {
   std::vector<int> driven_;
   const OperatorMotion* own_ = nullptr;  // of the first driven coupling
   DeviceMotion live_, first_;            // recent motion; its first step since the take-over
-  HandTarget target_;
+  MappedTarget target_;
   std::unique_ptr<HapticLoop> loop_;
   unsigned long loop_revision_ = 0;  // OperatorInput::revision() of loop_
   bool active_ = false, is_live_ = false, continues_ = false, is_fresh_ = false;

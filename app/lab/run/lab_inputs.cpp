@@ -23,7 +23,7 @@ OperatorInput::OperatorInput() {
 
 void OperatorInput::choose(Source source, const std::string& spec) {
   std::shared_ptr<DesktopInput> gestures;
-  std::unique_ptr<HandDevice> device;
+  std::unique_ptr<InputDevice> device;
   if (source == Source::device) device = open_device(spec);
   if (source == Source::drag) {
     VirtualOmniSettings settings;

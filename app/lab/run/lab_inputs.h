@@ -38,8 +38,8 @@ class OperatorInput {
 
   Source source() const { return source_; }
   const MappingSpec& mapping() const { return mapping_; }
-  const HandForceSpec& force() const { return force_; }
-  HandDevice* device() const { return device_.get(); }  // null: the source has none
+  const ForceFeedbackSpec& force() const { return force_; }
+  InputDevice* device() const { return device_.get(); }  // null: the source has none
   std::string description() const;
   const std::string& spec() const { return spec_; }
 
@@ -65,9 +65,9 @@ class OperatorInput {
   Source source_ = Source::scene;
   std::string spec_;
   MappingSpec mapping_;
-  HandForceSpec force_;
+  ForceFeedbackSpec force_;
   std::shared_ptr<DesktopInput> gestures_;
-  std::unique_ptr<HandDevice> device_;
+  std::unique_ptr<InputDevice> device_;
   std::optional<Vector3> tip_;
   std::vector<std::optional<double>> joints_;
   bool gripper_ = false;

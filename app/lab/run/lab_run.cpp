@@ -95,7 +95,7 @@ void LabRun::carry_over_energy(const LabFrame& from, const LabNames& names) {
         {EnergyRowKind::earlier, names.rows[from.recorded.rows[i]], from.recorded.works[i]});
   // Targets as in the frame: the balance contains the couplings' elastic energy.
   if (from.hand) override_->restore(*from.hand, from.recorded.t, plan_->prepared.run.step);
-  run_->keep_books(earlier);
+  run_->continue_balance(earlier);
 }
 
 bool LabRun::step(const LabInput* replayed) {

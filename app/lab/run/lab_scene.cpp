@@ -96,7 +96,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
     SimulateOptions options = files_->options(others);
     static_cast<RunSettings&>(options) = changed;
     options.robot.gravity = changed.robot.gravity;
-    options.has_hand = true;
+    options.has_operator = true;
     options.robot.roots = roots_;
     SimulatePlan prepared = prepare_simulation(options);
     if (prepared.run.is_adaptive() && !options.step)  // the tolerance alone sets none
@@ -142,7 +142,7 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
   describe_frames(planned->prepared, header);
   header.run.step = header.step;
   if (!is_scene()) return header;
-  const std::filesystem::path log = header.run.model.parent_path() / "lab_hand.csv";
+  const std::filesystem::path log = header.run.model.parent_path() / "lab_operator.csv";
   Value scene = tree(changes);
   for (Value& list : scene.members)
     for (const std::size_t index : hand.couplings)

@@ -11,7 +11,7 @@ namespace twinarm {
 namespace {
 
 // Operator motion of a step of the run, extrapolated to the step [t, t + h] of a variant.
-HandStep shifted_to(double t, double h, HandStep step) {
+DeviceStep shifted_to(double t, double h, DeviceStep step) {
   const double later = t - step.t;
   if (later != 0)
     for (std::size_t j = 0; j < step.hand.theta.size(); ++j)

@@ -141,7 +141,7 @@ void LabSession::show_end() {
   end.quantity = found->field;
   end.body = found->body;
   if (!found->violations.empty()) end.spring = found->violations.front().name;
-  end.remedies = remedies_of(state_.loop.run().prepared(), *found);
+  end.remedies = fixes_of(state_.loop.run().prepared(), *found);
   std::erase_if(end.remedies, [this](const SuggestedFix& fix) {
     return std::ranges::any_of(fix.changes, [this](const std::string& text) {
       return is_varied(state_.status, parse_change(text));

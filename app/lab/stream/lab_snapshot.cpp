@@ -8,7 +8,7 @@ namespace twinarm {
 namespace {
 
 // An operator motion at rest around that time.
-HandStep at_rest(const OperatorFrame& hand, double t) {
+DeviceStep at_rest(const OperatorFrame& hand, double t) {
   DeviceMotion motion(1);
   motion.set({hand.q_K, std::vector<double>(hand.q_K.size(), 0.0), hand.gripper_closed}, t - 2, 4);
   return motion.newest();
@@ -41,13 +41,13 @@ void LabSnapshots::set_targets(const LabFrame& frame) {
 
 Snapshot LabSnapshots::at_start() {
   last_time_ = plan_->input.robot.state.x.t;
-  return moment_of(plan_->input, couplings(), {plan_->input.robot.state.x, {}, {}});
+  return snapshot_of(plan_->input, couplings(), {plan_->input.robot.state.x, {}, {}});
 }
 
 Snapshot LabSnapshots::of(const LabFrame& frame) {
   set_targets(frame);
   const Model<double>& model = plan_->input.robot.model;
-  Snapshot snapshot = moment_of(plan_->input, couplings(), instant_of(frame.recorded, model));
+  Snapshot snapshot = snapshot_of(plan_->input, couplings(), instant_of(frame.recorded, model));
   if (const auto& hand = frame.hand; hand && hand->active) {
     snapshot.hands.clear();
     // Without a device all of its angles are zero.

@@ -22,8 +22,9 @@ LabView::LabView(std::uint32_t number, std::shared_ptr<const SimulatePlan> plan,
     : plan_(std::move(plan)),
       words_(std::move(words)),
       snapshots_(*plan_),
-      stage_(plan_->input.scene ? make_stage(*plan_->input.scene)
-                                : make_stage(plan_->input.robot.robot, plan_->input.robot.model)),
+      stage_(plan_->input.scene
+                 ? make_scene_view(*plan_->input.scene)
+                 : make_scene_view(plan_->input.robot.robot, plan_->input.robot.model)),
       channels_(plan_->input, header, snapshots_.components()),
       variants_(std::move(variants), plan_->input, channels_) {
   columns_.scene = number;

@@ -115,7 +115,7 @@ void extend_by_reach(SceneView& stage, const RobotInput& robots, const Snapshot&
 }
 
 void set_live_view(SceneView& stage, const Snapshot& start, bool has_device) {
-  stage.has_hand = true;  // a device may be chosen later
+  stage.has_operator = true;  // a device may be chosen later
   stage.frames_device = has_device;
   set_view(stage, {}, kAspect);
   stage.trace.span = kTrail;

@@ -59,7 +59,7 @@ struct SceneCouplings::Target {
   Target(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<OperatorMotion> motion)
       : hand(std::move(motion)),
         kvr(scene.model, *hand, {}, spec.driven,
-            spec.absolute_damper ? TargetRates::none : TargetRates::from_hand),
+            spec.absolute_damper ? TargetRates::none : TargetRates::from_operator),
         shown(scene.model, *hand, {}, spec.driven) {
     kvr.set_pose(spec.rest);
     shown.set_pose(spec.rest);
@@ -104,7 +104,7 @@ struct SceneCouplings::Active {
 };
 
 SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const OperatorMotion* device,
-                               const HandInPlace& in_place)
+                               const MotionReplacement& in_place)
     : scene_(scene) {
   DiagnosticList faults;
   const auto target_of = [&](std::size_t c) {
@@ -112,7 +112,7 @@ SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const Operator
       if (share_target(scene.couplings[before], scene.couplings[c]))
         return couplings_[before]->target;
     return std::make_shared<Target>(scene, scene.couplings[c],
-                                    make_hand(scene, c, device, in_place, faults));
+                                    make_operator_motion(scene, c, device, in_place, faults));
   };
   for (std::size_t c = 0; c < scene.couplings.size(); ++c)
     couplings_.push_back(
@@ -128,7 +128,7 @@ ForceSource* SceneCouplings::source(std::size_t c) {
   return spec(c).leader == c ? couplings_[c]->source.get() : nullptr;
 }
 
-void SceneCouplings::forget_hands() {
+void SceneCouplings::forget_operator_motions() {
   for (const std::shared_ptr<Active>& active : couplings_) {
     active->target->kvr.forget();
     active->target->shown.forget();

@@ -18,14 +18,15 @@
 namespace twinarm {
 
 // Replaces the operator motion `own` of a coupling; called once for each target robot.
-using HandInPlace = std::function<std::unique_ptr<OperatorMotion>(
+using MotionReplacement = std::function<std::unique_ptr<OperatorMotion>(
     std::size_t coupling, std::unique_ptr<OperatorMotion> own)>;
 
 // The operator motion of a coupling; `device`: that of target = "device", nullptr if none is
 // connected. Adds a diagnostic for a trace that cannot be read.
-std::unique_ptr<OperatorMotion> make_hand(const SceneModel& scene, std::size_t coupling,
-                                          const OperatorMotion* device, const HandInPlace& in_place,
-                                          DiagnosticList& faults);
+std::unique_ptr<OperatorMotion> make_operator_motion(const SceneModel& scene, std::size_t coupling,
+                                                     const OperatorMotion* device,
+                                                     const MotionReplacement& in_place,
+                                                     DiagnosticList& faults);
 
 // A spring-damper in one state, world axes. Linear: the points of the link in both robots.
 // Torsional: rotation vectors; at a joint its position, in the first component.
@@ -40,7 +41,7 @@ class SceneCouplings {
   // For steps of h [s]. Keeps references to scene and device. Without a device, targets "device"
   // stay at rest. Throws InputError for unreadable traces and for rates that do not divide 1/h.
   SceneCouplings(const SceneModel& scene, double h, const OperatorMotion* device = nullptr,
-                 const HandInPlace& in_place = {});
+                 const MotionReplacement& in_place = {});
   SceneCouplings(const SceneCouplings&) = delete;
   SceneCouplings& operator=(const SceneCouplings&) = delete;
   ~SceneCouplings();
@@ -67,7 +68,7 @@ class SceneCouplings {
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
   const OperatorMotion& hand(std::size_t c) const;
   // After a change of operator motions: discards cached targets.
-  void forget_hands();
+  void forget_operator_motions();
 
  private:
   struct Target;

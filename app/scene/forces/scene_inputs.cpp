@@ -13,7 +13,7 @@ namespace {
 // Moves no joint.
 class MotionAtRest final : public OperatorMotion {
  public:
-  HandSample sample(double, double) const override { return {}; }
+  OperatorSample sample(double, double) const override { return {}; }
   double duration() const override { return std::numeric_limits<double>::infinity(); }
   std::string description() const override { return "at rest"; }
 };
@@ -22,7 +22,9 @@ class MotionAtRest final : public OperatorMotion {
 class BorrowedMotion final : public OperatorMotion {
  public:
   explicit BorrowedMotion(const OperatorMotion& motion) : motion_(motion) {}
-  HandSample sample(double t, double toward) const override { return motion_.sample(t, toward); }
+  OperatorSample sample(double t, double toward) const override {
+    return motion_.sample(t, toward);
+  }
   double duration() const override { return motion_.duration(); }
   std::string description() const override { return motion_.description(); }
 
@@ -33,7 +35,7 @@ class BorrowedMotion final : public OperatorMotion {
 // Holds the driven joints at their rest positions: without a device, or until an input takes over.
 std::unique_ptr<OperatorMotion> rest_position(const Model<double>& model,
                                               const SceneCoupling& coupling) {
-  HandTarget target;
+  MappedTarget target;
   for (const std::string& joint : coupling.driven.turned) {
     const auto body = static_cast<std::size_t>(model.find_joint(joint));
     target.q.push_back(coupling.rest.q[model.iq[body]]);
@@ -50,10 +52,10 @@ std::unique_ptr<OperatorMotion> motion_of_target(const SceneModel& scene,
                                                  DiagnosticList& faults) {
   switch (coupling.target) {
     case CouplingTarget::Kind::paper:
-      return std::make_unique<AutomaticMotion>(HandMapping{});
+      return std::make_unique<AutomaticMotion>(OperatorMapping{});
     case CouplingTarget::Kind::trace:
       try {
-        return read_hand_file(coupling.trace);
+        return read_motion_file(coupling.trace);
       } catch (const InputError& error) {
         faults.add(error.faults());
       }
@@ -73,9 +75,10 @@ std::unique_ptr<OperatorMotion> motion_of_target(const SceneModel& scene,
 
 }  // namespace
 
-std::unique_ptr<OperatorMotion> make_hand(const SceneModel& scene, std::size_t index,
-                                          const OperatorMotion* device, const HandInPlace& in_place,
-                                          DiagnosticList& faults) {
+std::unique_ptr<OperatorMotion> make_operator_motion(const SceneModel& scene, std::size_t index,
+                                                     const OperatorMotion* device,
+                                                     const MotionReplacement& in_place,
+                                                     DiagnosticList& faults) {
   const SceneCoupling& coupling = scene.couplings[index];
   auto motion = motion_of_target(scene, coupling, device, faults);
   if (in_place) motion = in_place(index, std::move(motion));

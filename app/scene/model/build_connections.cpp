@@ -131,7 +131,7 @@ SceneCoupling without_components(const SceneModel& scene, std::size_t index) {
   made.rest = scene.start;
   made.rest.qd.assign(scene.model.nv, 0);
   set_coordinates(scene, made.robot, given.target.q, made.rest);
-  if (given.target.is_hand()) made.driven.turned = turned_joints(scene, made.robot);
+  if (given.target.is_operator()) made.driven.turned = turned_joints(scene, made.robot);
   if (!given.target.gripper.empty())
     made.driven.gripper = name_in_scene(scene.description, made.robot, given.target.gripper);
   made.driven.gripper_open = given.target.open;
@@ -156,7 +156,7 @@ void add_six_dimensions(SceneModel& scene, SceneCoupling made, const Spring& spr
   made.springs = {spring};
   add_component(scene, made, "force", Component::linear, spring);
   Spring rotational = spring;
-  rotational.k = spring.k_turn, rotational.b = spring.b_turn;
+  rotational.k = spring.k_rotational, rotational.b = spring.b_rotational;
   add_component(scene, made, "couple", Component::torsional, rotational);
 }
 

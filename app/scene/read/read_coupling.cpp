@@ -120,7 +120,7 @@ void read_gripper(SceneReader& reader, TableReader& table, const RobotDescriptio
                   CouplingTarget& target) {
   const Value* value = table.table("gripper");
   if (!value) return;
-  if (!target.is_hand())
+  if (!target.is_operator())
     table.fault("gripper", "needs an operator motion", "give one, as target = \"paper\"",
                 "scene.key-useless");
   TableReader gripper = reader.open(*value, table.where() + ", gripper");

@@ -92,7 +92,7 @@ struct CouplingTarget {
   double open = 0, closed = 0;  // its position with the button released, pressed
 
   // Moved by an operator motion.
-  bool is_hand() const { return kind != Kind::start && kind != Kind::state; }
+  bool is_operator() const { return kind != Kind::start && kind != Kind::state; }
 };
 
 // Common to a coupling and its components in the model (SceneCoupling).

@@ -47,9 +47,9 @@ class LiveLog {
     if (!stream_)
       throw InputError(
           {{file_, 0, "--out", "cannot write the log", "give a writable folder", "file.open"}});
-    stream_ << hand_log_header();
+    stream_ << device_log_header();
   }
-  void write(const HandStep& step) { stream_ << hand_log_line(step); }
+  void write(const DeviceStep& step) { stream_ << device_log_line(step); }
   void flush() { stream_.flush(); }
   bool is_whole() const { return stream_.good(); }  // everything was written
   // Throws InputError: not everything was written.

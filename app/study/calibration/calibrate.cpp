@@ -47,7 +47,7 @@ SharedRobot shared_s103(const StudyInputs& inputs, double arm2_mass_scale) {
 
 // Worst error when one gain of all springs changes by kGainChange.
 double sensitive_error(const StudyRobot& robot, RunSpec spec) {
-  const AutomaticMotion hand{HandMapping{}};
+  const AutomaticMotion hand{OperatorMapping{}};
   const Gains g = spec.gains;
   double worst = 0;
   for (double factor : {kGainChange, 1 / kGainChange}) {
@@ -68,7 +68,7 @@ Job fit_job(const std::string& name, std::vector<Parameter> parameters, const Ru
   job.entry.parameters = std::move(parameters);
   job.evaluations = kFitEvaluations;
   const auto result_of = [=](const CalibrationEntry& entry) {
-    const AutomaticMotion hand{HandMapping{}};
+    const AutomaticMotion hand{OperatorMapping{}};
     return run(*robot(entry), hand, spec.with_gains(entry.gains()));
   };
   job.objective = [=](const CalibrationEntry& entry) {

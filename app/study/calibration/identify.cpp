@@ -107,7 +107,7 @@ class IdentificationProblem {
     } else {
       spec.gains = entry.gains();
     }
-    return run(robot, AutomaticMotion(HandMapping{}, sweep), spec);
+    return run(robot, AutomaticMotion(OperatorMapping{}, sweep), spec);
   }
 
   double misfit(const CalibrationEntry& entry) const { return table_misfit(run_with(entry, 1)); }

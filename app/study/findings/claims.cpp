@@ -20,8 +20,8 @@ double mode_ratio(const StudyRobot& robot, const std::string& law) {
   const State<double> x(model);
   Kinematics k(model);
   forward_kinematics(model, x, k);
-  const AutomaticMotion hand{HandMapping{}};
-  TargetRobot kvr(model, hand, HandMapping{}, robot.joints());
+  const AutomaticMotion hand{OperatorMapping{}};
+  TargetRobot kvr(model, hand, OperatorMapping{}, robot.joints());
   CouplingSpec spec;
   spec.type = law == "linear" ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
   spec.measure = law == "joint" ? SpringSpace::joint : SpringSpace::world;
@@ -194,7 +194,7 @@ void add_differences(const StudyInputs& inputs, const StudyResults& results,
     RunSpec spec = row_spec("world", 60);
     spec.gains = results.calibration.entry(fmt::format("row/{}/world/60", name)).gains();
     const ProtocolErrors difference = run_protocol(robot, spec, inputs.settings.sweep_times);
-    spec.kvr_rates = TargetRates::from_hand;
+    spec.kvr_rates = TargetRates::from_operator;
     const ProtocolErrors current = run_protocol(robot, spec, inputs.settings.sweep_times);
     findings.push_back(
         {"differences",

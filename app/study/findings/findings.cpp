@@ -23,7 +23,7 @@ bool is_near(double measured, double predicted, double relative) {
 RunResult run_automatic(const StudyRobot& robot, RunSpec spec, double k, double b, double rate) {
   spec.gains = Gains::both(k, b);
   spec.rate = rate;
-  return run(robot, AutomaticMotion(HandMapping{}), spec);
+  return run(robot, AutomaticMotion(OperatorMapping{}), spec);
 }
 
 const char* robot_words(const std::string& name) {

@@ -84,7 +84,7 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
       gains_from_frequency(robot, spec.coupling, o.coupling_frequency_hz, o.coupling_damping_ratio);
   spec.rate = o.rate_hz;
 
-  const AutomaticMotion hand{HandMapping{}};
+  const AutomaticMotion hand{OperatorMapping{}};
   TrackingSystem system(tracking_setup(robot, hand, spec));
   JointStops stops("stops", model, robot.stops());
   system.simulation().add(stops);

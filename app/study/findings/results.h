@@ -48,8 +48,8 @@ struct StudyResults {
   std::map<std::string, ProtocolErrors> rows;  // of the two-link robots, by calibration entry
   std::vector<ObstacleRun> obstacle;           // linear, torsional
   std::vector<StudyRecording> recordings;
-  std::vector<std::string> answer;  // five sentences
-  std::string hand_description;     // of E1 and E2
+  std::vector<std::string> answer;   // five sentences
+  std::string operator_description;  // of E1 and E2
   double arm2_mass_scale = 1;
   double seconds = 0;         // wall time of the study
   std::string command;        // command line

@@ -137,7 +137,7 @@ std::vector<RunSpec> reproduction_specs(const Calibration& calibration) {
 
 std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibration& calibration,
                                         const OperatorMotion& hand) {
-  const AutomaticMotion automatic{HandMapping{}};
+  const AutomaticMotion automatic{OperatorMapping{}};
   std::vector<RunResult> results;
   for (RunSpec& spec : reproduction_specs(calibration)) {
     const bool by_user = spec.name < "E3";
@@ -153,7 +153,7 @@ std::vector<RunResult> run_variants(const StudyInputs& inputs, const StudyRobot&
   const std::size_t rates = inputs.settings.rates_hz.size();
   const auto expected =
       static_cast<double>(kTrialLaws.size() * (2 * rates - 1) + 2 * rates + 18 + 8);
-  const AutomaticMotion hand{HandMapping{}};
+  const AutomaticMotion hand{OperatorMapping{}};
   std::vector<RunResult> results;
   const Add add = [&](const std::string& name, const std::string& title, RunSpec spec) {
     check_interrupt();

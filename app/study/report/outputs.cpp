@@ -204,7 +204,7 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
   root["optimiser"] = results.calibration.optimiser;
   root["calibration_seed"] = results.calibration.seed;
   root["arm2_mass_scale"] = results.arm2_mass_scale;
-  root["hand"] = results.hand_description;
+  root["hand"] = results.operator_description;
   root["command"] = results.command;
   root["seconds"] = results.seconds;
   root["report"] = report_path;

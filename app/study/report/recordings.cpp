@@ -74,7 +74,7 @@ double time_of_largest_error(const TrackingSeries& series) {
 }  // namespace
 
 std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const StudyRobot& robot,
-                                             const SceneHand& hand, const StudyResults& results,
+                                             const StudyOperator& hand, const StudyResults& results,
                                              const std::filesystem::path& folder,
                                              Progress& progress) {
   std::vector<StudyRecording> all;
@@ -96,14 +96,14 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
   double done = 0;
   for (const RunResult& run : results.reproduction) {
     scene.spec = run.spec;
-    scene.hand = run.spec.name < "E3" ? hand : automatic_hand();
+    scene.hand = run.spec.name < "E3" ? hand : automatic_operator();
     std::vector<std::vector<double>> angles;
     for (const auto& q : run.series.q_D) angles.push_back(in_degrees(q));
     add(scene, angles, 0);
     progress.advance(++done / count);
   }
   scene.with_obstacle = true;
-  scene.hand = automatic_hand();
+  scene.hand = automatic_operator();
   for (const ObstacleRun& run : results.obstacle) {
     scene.spec = run.spec;
     add(scene, {run.q_D_deg.begin(), run.q_D_deg.end()}, kObstacleEvery);

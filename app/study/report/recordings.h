@@ -14,7 +14,7 @@ namespace twinarm {
 
 // Into `folder`: NAME.toml, NAME.twinrec and, if the program contains its pages, NAME.html.
 std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const StudyRobot& robot,
-                                             const SceneHand& hand, const StudyResults& results,
+                                             const StudyOperator& hand, const StudyResults& results,
                                              const std::filesystem::path& folder,
                                              Progress& progress);
 

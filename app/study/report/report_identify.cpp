@@ -233,7 +233,7 @@ void add_search(const StudyResults& results, Slots& slots) {
   slots["versions"] = escaped(versions());
   slots["command"] = escaped(results.command);
   slots["seconds"] = fmt::format("{:.1f}", results.seconds);
-  slots["hand"] = escaped(results.hand_description);
+  slots["hand"] = escaped(results.operator_description);
   slots["settings"] = escaped(results.settings_text);
   slots["arm2_mass_scale"] = rounded(results.arm2_mass_scale);
   for (const auto& [link, mass] : results.link_masses)

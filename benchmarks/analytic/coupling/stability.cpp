@@ -28,7 +28,7 @@ constexpr int kHeldSteps = 20;  // steps of the integrator in one held step
 // A target at rest.
 class ConstantTarget final : public OperatorMotion {
  public:
-  HandSample sample(double, double) const override { return {}; }  // robot angles 0
+  OperatorSample sample(double, double) const override { return {}; }  // robot angles 0
   double duration() const override { return 1; }
   std::string description() const override { return "at rest"; }
 };
@@ -74,7 +74,7 @@ bool grows(Stepping stepping, const Setting& at, double inertia) {
                             at.beta * kInertia / kFrame}};
   const Model<double> model = lone_hinge(inertia);
   const ConstantTarget input;
-  TargetRobot kvr(model, input, HandMapping(), {{"joint1"}, "", 0, 0});
+  TargetRobot kvr(model, input, OperatorMapping(), {{"joint1"}, "", 0, 0});
   const std::unique_ptr<Coupling> coupling = make_coupling(stepping.spec, model, kvr);
   State<double> start(model);
   start.q[0] = kAmplitude;

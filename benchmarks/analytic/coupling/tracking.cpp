@@ -133,8 +133,8 @@ class TargetCoupling final : public ForceSource, public Checkpointable {
  public:
   explicit TargetCoupling(const TrackedCoupling& coupling)
       : model_(model_of(uniform_arm())),
-        hand_(HandMapping{}),
-        kvr_(model_, hand_, HandMapping{}, {{"joint1", "joint2"}, "", 0, 0}),
+        hand_(OperatorMapping{}),
+        kvr_(model_, hand_, OperatorMapping{}, {{"joint1", "joint2"}, "", 0, 0}),
         coupling_(make_coupling(coupling_spec(coupling), model_, kvr_)) {}
   void begin_step(const Kinematics& k, double t, double h) noexcept override {
     coupling_->begin_step(k, t, h);
@@ -173,7 +173,7 @@ TrackingError tracked(const TrackedCoupling& coupling, bool is_mutant) {
   CaseScene dvr = at_rest(model_of(uniform_arm()));
   if (is_mutant) more_inertia(dvr);
   const Model<double> kvr = model_of(uniform_arm());
-  const AutomaticMotion hand(HandMapping{});
+  const AutomaticMotion hand(OperatorMapping{});
   TrackingSetup setup;
   setup.kvr_model = &kvr;
   setup.dvr_model = &dvr.model;

@@ -50,19 +50,19 @@ template <class S>
 TWINARM_KERNEL void add_work_at_jump(BatchWork<S>& b, std::size_t n) {
   const double* row = b.energy + n * b.energy_stride;
   const S before = S(0.5) * b.h_before, after = n < b.steps ? S(0.5) * b.h : S(0);
-  S hand_before = b.hand_work, hand_after(0), held(0);
+  S input_before = b.input_work, input_after(0), held(0);
   b.dissipated_work = b.dissipated_work + (before + after) * b.dissipated_power;  // in the joints
   for (const LaneSpring<S>& lane_spring : b.springs) {
     const SpringEnds<S> e = spring_ends(b, lane_spring, row + lane_spring.energy);
     const SpringPowers<S> was(lane_spring, e.offset, e.v_D, e.v_before),
         is(lane_spring, e.offset, e.v_D, e.v_after);
     b.dissipated_work = b.dissipated_work + before * was.dissipated + after * is.dissipated;
-    hand_before = hand_before + before * was.operator_;
-    hand_after = hand_after + after * is.operator_;
+    input_before = input_before + before * was.operator_;
+    input_after = input_after + after * is.operator_;
     held = held + S(0.5) * lane_spring.k * dot(e.offset, e.offset);
   }
-  b.hand_work_least = select(hand_before < b.hand_work_least, hand_before, b.hand_work_least);
-  b.hand_work = hand_before + hand_after;
+  b.input_work_min = select(input_before < b.input_work_min, input_before, b.input_work_min);
+  b.input_work = input_before + input_after;
   if (n == 0) b.spring_energy_at_start = held;
   if (n == b.steps) b.spring_energy = held;
 }
@@ -79,9 +79,9 @@ TWINARM_KERNEL void add_work(BatchWork<S>& b, std::size_t n) {
     add(b, SpringPowers<S>(lane_spring, e * v_K, v_D * v_K, v_K * v_K, v_D * v_D));
   }
   b.dissipated_work = b.dissipated_work + b.h * b.dissipated_power;
-  const S half = S(0.5) * b.h * b.operator_power, before = b.hand_work + half;
-  b.hand_work_least = select(before < b.hand_work_least, before, b.hand_work_least);
-  b.hand_work = before + half;
+  const S half = S(0.5) * b.h * b.operator_power, before = b.input_work + half;
+  b.input_work_min = select(before < b.input_work_min, before, b.input_work_min);
+  b.input_work = before + half;
 }
 
 template <class S>

@@ -101,7 +101,7 @@ struct BatchWork {
   std::vector<S> window_error_of;
   std::array<S, kWindows> window_error;
   // Work of the operator and of all dampers (trapezoidal rule), and spring energy [J].
-  S hand_work, hand_work_least, dissipated_work, spring_energy, spring_energy_at_start;
+  S input_work, input_work_min, dissipated_work, spring_energy, spring_energy_at_start;
   S operator_power,
       dissipated_power;  // at the current time  `stopped` stores the results of a diverged lane.
   std::size_t lanes_running = 0;

@@ -66,7 +66,7 @@ std::string scratch(const char* name) {
   return (std::filesystem::temp_directory_path() / (name + std::to_string(getpid()))).string();
 }
 // Polls a device in real time.
-DeviceState run_for(HandDevice& device, double seconds) {
+DeviceState run_for(InputDevice& device, double seconds) {
   const auto clock = [] {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
         .count();

@@ -33,7 +33,7 @@ position = [0, 0, 10]
     x.q[2] = 10 - 0.5 * 9.81 * t * t;
     std::fill(x.qd.begin(), x.qd.end(), 0.0);
     x.qd[5] = -9.81 * t;  // angular first
-    trace.add(&scene, moment_of(scene.model, x));
+    trace.add(&scene, snapshot_of(scene.model, x));
   }
   const Plot plot = trace.plots().front();
   const double m_g_h = 2 * 9.81 * 0.5 * 9.81;
@@ -47,7 +47,7 @@ TEST_CASE("curves: a curve that begins late starts with a gap") {
       "[[body]]\nname = \"b\"\nmass = 1\n"
       "shape = { sphere = { radius = 1 } }\n");
   CurveTrace trace(parse_curves("forces"));
-  Snapshot moment = moment_of(scene.model, scene.start);
+  Snapshot moment = snapshot_of(scene.model, scene.start);
   trace.add(&scene, moment);
   moment.x.t = 1;
   ShownCouplingForce pull;

@@ -100,8 +100,8 @@ TEST_CASE("framing: a floor that is not part of the scene intersects no body") {
       const SceneModel scene = built(
           "[[body]]\nname = \"table\"\nmass = 1\nshape = { cylinder = { radius = 1, length = " +
           std::to_string(thickness) + " } }\nposition = [0, 0, " + std::to_string(middle) + "]\n");
-      SceneView stage = make_stage(scene);
-      look_at(stage, moment_of(scene.model, scene.start));
+      SceneView stage = make_scene_view(scene);
+      look_at(stage, snapshot_of(scene.model, scene.start));
       settle(stage);
       set_view(stage, {}, 1.5);
       CHECK(stage.list.ground.height <= middle - 0.5 * thickness + 1e-12);

@@ -110,7 +110,7 @@ struct Evaluated {
 };
 inline Evaluated evaluated(const CouplingSpec& spec, const Model<double>& model,
                            const SteadyHand& hand, const Vector3& q, const Vector3& qd,
-                           double h = 1e-3, TargetRates rates = TargetRates::from_hand) {
+                           double h = 1e-3, TargetRates rates = TargetRates::from_operator) {
   TargetRobot kvr(model, hand, SteadyHand::mapping(), {kThreeJoints, "", 0, 0}, rates);
   const auto coupling = make_coupling(spec, model, kvr);
   const State<double> x = three_state(model, q, qd);

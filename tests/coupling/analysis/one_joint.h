@@ -13,15 +13,15 @@ namespace twinarm::testing {
 class SteadyHand final : public OperatorMotion {
  public:
   std::array<double, 3> angle{}, rate{};
-  HandSample sample(double t, double) const override {
-    HandSample hand;
+  OperatorSample sample(double t, double) const override {
+    OperatorSample hand;
     for (std::size_t j = 0; j < 3; ++j)
       mapping().set_robot_angle(hand, j, angle[j] + rate[j] * t, rate[j]);
     return hand;
   }
   double duration() const override { return 1; }
   std::string description() const override { return "steady"; }
-  static HandMapping mapping() { return {}; }
+  static OperatorMapping mapping() { return {}; }
 };
 
 // Revolute about z with inertia `inertia` [kg m^2], or prismatic along x with that mass [kg]; no

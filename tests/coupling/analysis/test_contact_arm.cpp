@@ -19,8 +19,8 @@ constexpr double kArm = 0.25, kFore = 0.35, kSpeed = 2.0, kTime = 0.45;  // m, m
 // Rotates joint 1 at kSpeed for kTime, then stops.
 class StoppingHand final : public OperatorMotion {
  public:
-  HandSample sample(double t, double) const override {
-    HandSample hand;
+  OperatorSample sample(double t, double) const override {
+    OperatorSample hand;
     const bool moves = t < kTime;
     SteadyHand::mapping().set_robot_angle(hand, 0, -0.9 + kSpeed * std::min(t, kTime),
                                           moves ? kSpeed : 0);

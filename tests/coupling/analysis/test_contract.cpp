@@ -30,7 +30,7 @@ double stored(const CouplingSpec& spec, const Law& law, const Model<double>& mod
       U += 0.5 * s.k * (J * (q_K - q)).squaredNorm();
     }
     if (law.on_orientation()) U += 0.5 * s.k * angle * angle;
-    if (law.in_six_dimensions()) U += 0.5 * s.k_turn * angle * angle;
+    if (law.in_six_dimensions()) U += 0.5 * s.k_rotational * angle * angle;
     if (law.on_joint()) U += 0.5 * s.k * e * e;
   }
   return U;
@@ -49,7 +49,7 @@ TEST_CASE("every coupling rejects negative and undefined gains, all springs at o
     bad[0].k = -1;
     bad[2].k = nan;
     bad[2].b = -2;
-    bad[2].k_turn = -3;
+    bad[2].k_rotational = -3;
     try {
       make_coupling(spec_of(law, bad), model, kvr);
       FAIL("not refused");

@@ -80,7 +80,7 @@ TEST_CASE("the consistent couplings have the force J^T (k e + b e'), with the KV
               s.k * (p_K - p_D) + s.b * (K.velocity(s.body, p_K) - D.velocity(s.body, p_D));
           expected += point_jacobian(model, D, s.body, p_D).transpose() * F;
         }
-        if (law.in_six_dimensions()) add_turn(s, s.k_turn, s.b_turn);
+        if (law.in_six_dimensions()) add_turn(s, s.k_rotational, s.b_rotational);
         if (law.on_orientation()) add_turn(s, s.k, s.b);
         if (law.on_joint()) expected[j] += s.k * (q_K[j] - q[j]) + s.b * (qd_K[j] - qd[j]);
       }

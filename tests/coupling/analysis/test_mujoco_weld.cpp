@@ -25,7 +25,7 @@ CouplingSpec weld(std::vector<Spring> springs, const SolrefParameters& reference
 
 // Point only: no torque.
 Spring point_alone(Spring spring) {
-  spring.k_turn = spring.b_turn = 0;
+  spring.k_rotational = spring.b_rotational = 0;
   return spring;
 }
 
@@ -46,7 +46,7 @@ TEST_CASE("weld: on a prismatic joint a step has a = (1 - d) a_0 + d a_ref, to 1
   const Spring spring = weld_spring("weld", model, start, 1, Vector3::Zero(), reference);
   CHECK(spring.b / b_ref == doctest::Approx(d / (1 - d) * 3 * m).epsilon(1e-12));
   CHECK(spring.k / spring.b == doctest::Approx(k_ref / b_ref).epsilon(1e-12));
-  CHECK(spring.k_turn == 0);  // no rotation
+  CHECK(spring.k_rotational == 0);  // no rotation
 
   // With m_0 = m the law is that of the documentation.
   const Spring alone{"weld", 1, Vector3::Zero(), d / (1 - d) * m * k_ref, d / (1 - d) * m * b_ref};
@@ -135,9 +135,9 @@ TEST_CASE("weld: with the added inertia's energy, a chain about a KVR at rest on
       const Eigen::AngleAxisd turn(K.X_WL[3].R * D.X_WL[3].R.transpose());
       return kinetic_energy(model, system.simulation.state()) +
              0.5 * spring.b / b_ref * D.velocity(3, p).squaredNorm() +
-             0.5 * spring.b_turn / b_ref * D.w_WL[3].squaredNorm() +
+             0.5 * spring.b_rotational / b_ref * D.w_WL[3].squaredNorm() +
              0.5 * spring.k * (K.position(3, spring.p_L) - p).squaredNorm() +
-             0.5 * spring.k_turn * turn.angle() * turn.angle();
+             0.5 * spring.k_rotational * turn.angle() * turn.angle();
     };
     double before = energy();
     const double first = before;
@@ -145,7 +145,7 @@ TEST_CASE("weld: with the added inertia's energy, a chain about a KVR at rest on
     for (int n = 0; n < 5000; ++n) {
       const Kinematics& D = system.simulation.kinematics();
       lost += h * (spring.b * D.velocity(3, D.position(3, spring.p_L)).squaredNorm() +
-                   spring.b_turn * D.w_WL[3].squaredNorm());
+                   spring.b_rotational * D.w_WL[3].squaredNorm());
       system.simulation.step(h);
       const double now = energy();
       risen = std::max(risen, now - before);

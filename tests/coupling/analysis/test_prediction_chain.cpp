@@ -22,7 +22,7 @@ constexpr double kMoveTime = 0.2;
 class BothJoints final : public OperatorMotion {
  public:
   BothJoints(bool ramp, Vector2d distance) : ramp_(ramp), D_(std::move(distance)) {}
-  HandSample sample(double t, double toward) const override {
+  OperatorSample sample(double t, double toward) const override {
     const bool before = t + toward / 2 < kMoveTime;
     const double s = t / kMoveTime, back = 2 - s;
     double x = before ? s : back, v = before ? 1 : -1;
@@ -31,7 +31,7 @@ class BothJoints final : public OperatorMotion {
       x = in * in * in * (10 - 15 * in + 6 * in * in);
       v = 30 * in * in * (1 - in) * (1 - in);
     }
-    HandSample hand;
+    OperatorSample hand;
     for (std::size_t j = 0; j < 2; ++j) {
       const double D = D_[static_cast<Eigen::Index>(j)];
       SteadyHand::mapping().set_robot_angle(hand, j, D * x, D * v / kMoveTime);
@@ -97,7 +97,7 @@ TEST_CASE(
           points ? arm.springs(22000, 400, 9000, 100) : arm.springs(600, 9, 200, 2);
       const CouplingSpec spec = points ? linear(springs) : torsional(springs, SpringSpace::world);
       const MultiJointTrackingError predicted(dynamics_of(model, spec, absolute));
-      const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_hand;
+      const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_operator;
       check_near(predicted.behind(MotionProfile::quintic, D, kMoveTime),
                  run_peaks(model, spec, BothJoints(false, D), rates, 0, 0.6), 0.01);
       check_near(predicted.after_start(v, kMoveTime),
@@ -114,7 +114,7 @@ TEST_CASE("a reversal from the steady state agrees with after_reversal, and K e 
     CAPTURE(absolute);
     const ChainDynamics dynamics = dynamics_of(model, linear(springs), absolute);
     const MultiJointTrackingError predicted(dynamics);
-    const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_hand;
+    const TargetRates rates = absolute ? TargetRates::none : TargetRates::from_operator;
     check_near(predicted.after_reversal(v, kMoveTime),
                run_peaks(model, linear(springs), BothJoints(true, D), rates, kMoveTime - 1e-4,
                          2 * kMoveTime),

@@ -25,11 +25,11 @@ constexpr double kTurn = 180 * kDegree, kFollower = 0.7;
 class MovingHand final : public OperatorMotion {
  public:
   MovingHand(MotionProfile move, double D, double T) : move_(move), D_(D), T_(T) {}
-  HandSample sample(double t, double toward) const override {
+  OperatorSample sample(double t, double toward) const override {
     const double middle = (t + toward) / 2, s = std::clamp(t / T_, 0.0, 1.0);
     const bool moving = middle > 0 && middle < T_;
     const auto [x, v] = along(s, middle / T_ < 0.5);
-    HandSample hand;
+    OperatorSample hand;
     SteadyHand::mapping().set_robot_angle(hand, 0, D_ * x, moving ? D_ / T_ * v : 0);
     return hand;
   }
@@ -97,7 +97,7 @@ TEST_CASE(
     for (const double zeta : {0.0, 0.2, 0.7, 1.0, 1.6})
       for (const double omega : {12.0, 50.0}) {
         const FollowingError error(move, kTurn, 1, omega, zeta);
-        const Deviation run = run_behind(move, omega, zeta, TargetRates::from_hand,
+        const Deviation run = run_behind(move, omega, zeta, TargetRates::from_operator,
                                          [&](double t) { return error.at(t); });
         CAPTURE(name_of(move));
         CAPTURE(zeta);
@@ -128,7 +128,7 @@ TEST_CASE("the peak after a velocity step is (V/w) exp(-z acos z / sqrt(1 - z^2)
   for (const double zeta : {0.0, 0.2, 0.7, 1.0, 1.6}) {
     CAPTURE(zeta);
     const double predicted = peak_after_jump(kTurn, 50, zeta);
-    const Deviation run = run_behind(MotionProfile::ramp, 50, zeta, TargetRates::from_hand,
+    const Deviation run = run_behind(MotionProfile::ramp, 50, zeta, TargetRates::from_operator,
                                      [](double) { return 0.0; });
     // Undamped, the step at the end interferes with the first: see the closed form above.
     if (zeta > 0) CHECK(run.peak == doctest::Approx(predicted).epsilon(0.01));

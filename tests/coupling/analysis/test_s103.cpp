@@ -29,8 +29,8 @@ class PressingHand final : public OperatorMotion {
  public:
   SteadyHand hand;
   bool pressed = false;
-  HandSample sample(double t, double toward) const override {
-    HandSample x = hand.sample(t, toward);
+  OperatorSample sample(double t, double toward) const override {
+    OperatorSample x = hand.sample(t, toward);
     x.button = pressed;
     return x;
   }

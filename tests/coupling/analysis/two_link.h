@@ -36,9 +36,9 @@ struct Tracking {
 };
 inline Tracking track(const TwoLink& robot, const CouplingSpec& spec, double h,
                       Integrator integrator = Integrator::semi_implicit,
-                      TargetRates rates = TargetRates::from_hand, double sweep_time = 1.0) {
+                      TargetRates rates = TargetRates::from_operator, double sweep_time = 1.0) {
   const Model<double> model = robot.model();
-  const HandMapping mapping;
+  const OperatorMapping mapping;
   const AutomaticMotion hand(mapping, sweep_time);
   TrackingSetup setup;
   setup.kvr_model = setup.dvr_model = &model;

@@ -30,8 +30,8 @@ inline constexpr std::array kBatchTreatments{
 class WavingHand final : public OperatorMotion {
  public:
   explicit WavingHand(double speed = 1, double delay = 0) : speed_(speed), delay_(delay) {}
-  HandSample sample(double t, double) const override {
-    HandSample hand;
+  OperatorSample sample(double t, double) const override {
+    OperatorSample hand;
     for (std::size_t j = 0; j < 3; ++j) {
       const double n = static_cast<double>(j), w = speed_ * (2 + n), size = 0.5 - 0.1 * n;
       const double begun = t < delay_ ? 0 : 1, phase = begun * w * (t - delay_);
@@ -43,7 +43,7 @@ class WavingHand final : public OperatorMotion {
   std::string description() const override { return "waving"; }
 
  private:
-  HandMapping mapping_;
+  OperatorMapping mapping_;
   double speed_, delay_;
 };
 
@@ -121,7 +121,7 @@ class OneByOne {
       : setup_(setup), cell_(cell), model_(scaled()), hand_(cell.speed, cell.delay) {
     for (std::size_t s = 0; s < setup.springs.size(); ++s) {
       const BatchSpring& spring = setup.springs[s];
-      kvrs_.push_back(kvr(spring.absolute_damper ? TargetRates::none : TargetRates::from_hand));
+      kvrs_.push_back(kvr(spring.absolute_damper ? TargetRates::none : TargetRates::from_operator));
       CouplingSpec spec;
       spec.type = spring.type;
       spec.measure = spring.measure;
@@ -130,7 +130,7 @@ class OneByOne {
           {"spring", spring.body, cell.springs[s].p_L, cell.springs[s].k, cell.springs[s].b}};
       couplings_.push_back(make_coupling(spec, model_, *kvrs_.back()));
     }
-    shown_ = kvr(TargetRates::from_hand);
+    shown_ = kvr(TargetRates::from_operator);
   }
   OneByOne(const OneByOne&) = delete;
 
@@ -145,7 +145,7 @@ class OneByOne {
     TrackingSeries series;
     series.q_K.resize(3), series.q_D.resize(3);
     const double held = held_energy(simulation);
-    double work = 0, hand_work = 0;
+    double work = 0, input_work = 0;
     Powers power = powers(simulation, 1e-6);
     look(simulation, series);
     for (result.steps = 0; result.steps < steps;) {
@@ -155,8 +155,8 @@ class OneByOne {
       if (!look(simulation, series)) return result;
       const Powers before = powers(simulation, -1e-6);
       work += 0.5 * h * (power.counted + before.counted);
-      hand_work += 0.5 * h * (power.hand + before.hand);
-      result.hand_work_least = std::min(result.hand_work_least, hand_work);
+      input_work += 0.5 * h * (power.hand + before.hand);
+      result.input_work_min = std::min(result.input_work_min, input_work);
       power = powers(simulation, 1e-6);
     }
     result.finished = true;
@@ -164,8 +164,8 @@ class OneByOne {
     result.mean_error = tracking_error(series).mean;
     result.energy_created = held_energy(simulation) - held - work;
     for (const auto& q : series.q_K) {
-      result.twin_low.push_back(*std::min_element(q.begin(), q.end()));
-      result.twin_high.push_back(*std::max_element(q.begin(), q.end()));
+      result.target_lower.push_back(*std::min_element(q.begin(), q.end()));
+      result.target_upper.push_back(*std::max_element(q.begin(), q.end()));
     }
     for (std::size_t j = 0; j < 3; ++j)
       for (std::size_t n = 0; n <= steps; ++n) {
@@ -190,7 +190,7 @@ class OneByOne {
     return model;
   }
   std::unique_ptr<TargetRobot> kvr(TargetRates rates) const {
-    auto robot = std::make_unique<TargetRobot>(*setup_.model, hand_, HandMapping{},
+    auto robot = std::make_unique<TargetRobot>(*setup_.model, hand_, OperatorMapping{},
                                                setup_.targets[0].joints, rates);
     robot->set_pose(setup_.targets[0].rest);
     return robot;

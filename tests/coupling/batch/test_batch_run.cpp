@@ -23,12 +23,12 @@ void check_equal(const BatchResult& a, const BatchResult& b, double scale) {
   for (std::size_t j = 0; j < 3; ++j) {
     CHECK(std::abs(a.max_error[j] - b.max_error[j]) < 1e-9);
     CHECK(std::abs(a.mean_error[j] - b.mean_error[j]) < 1e-9);
-    CHECK(std::abs(a.twin_low[j] - b.twin_low[j]) < 1e-12);
-    CHECK(std::abs(a.twin_high[j] - b.twin_high[j]) < 1e-12);
+    CHECK(std::abs(a.target_lower[j] - b.target_lower[j]) < 1e-12);
+    CHECK(std::abs(a.target_upper[j] - b.target_upper[j]) < 1e-12);
   }
   for (std::size_t q = 0; q < 4; ++q) CHECK(std::abs(a.window_error[q] - b.window_error[q]) < 1e-9);
   CHECK(std::abs(a.energy_created - b.energy_created) < 1e-9 * scale);
-  CHECK(std::abs(a.hand_work_least - b.hand_work_least) < 1e-9 * scale);
+  CHECK(std::abs(a.input_work_min - b.input_work_min) < 1e-9 * scale);
 }
 
 }  // namespace

@@ -12,13 +12,13 @@ using namespace twinarm::testing;
 
 namespace {
 
-const HandMapping kPacedMapping;
+const OperatorMapping kPacedMapping;
 
 // 0.3 + 2 t: non-zero initial position and velocity.
 class PacedRamp final : public OperatorMotion {
  public:
-  HandSample sample(double t, double) const override {
-    HandSample hand;
+  OperatorSample sample(double t, double) const override {
+    OperatorSample hand;
     kPacedMapping.set_robot_angle(hand, 0, 0.3 + 2 * t, 2);
     return hand;
   }
@@ -42,8 +42,8 @@ TEST_CASE("a delayed motion is at s = speed (t - delay) with rates times speed")
     const double delay = random.uniform(0, 0.3), speed = random.uniform(0.2, 4);
     const double t = random.uniform(0, 1.5);
     if (std::abs(t - delay) < 1e-6) continue;
-    const HandSample seen = DelayedMotion(waving, delay, speed).sample(t, t + 1e-3);
-    const HandSample wanted = WavingHand(speed, delay).sample(t, t + 1e-3);
+    const OperatorSample seen = DelayedMotion(waving, delay, speed).sample(t, t + 1e-3);
+    const OperatorSample wanted = WavingHand(speed, delay).sample(t, t + 1e-3);
     for (std::size_t j = 0; j < 3; ++j) {
       CHECK(std::abs(kPacedMapping.robot_angle(seen, j) - kPacedMapping.robot_angle(wanted, j)) <
             1e-13);

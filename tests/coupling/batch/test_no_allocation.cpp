@@ -24,7 +24,7 @@ std::vector<Run> runs() {
   for (const Law& law : all_laws()) {
     std::vector<Spring> springs =
         law.on_joint() || law.on_orientation() ? arm.springs(1200, 40) : arm.springs(22000, 400);
-    for (Spring& spring : springs) spring.k_turn = 1200, spring.b_turn = 40;
+    for (Spring& spring : springs) spring.k_rotational = 1200, spring.b_rotational = 40;
     const bool in_stages = law.discretization == Discretization::explicit_ && !law.own &&
                            !law.is(CouplingType::weld_like);
     for (const Integrator integrator :
@@ -37,7 +37,7 @@ std::vector<Run> runs() {
 
 struct System {
   Model<double> model = TwoLink().model();
-  AutomaticMotion hand{HandMapping{}, 0.05};  // velocity jumps within the run
+  AutomaticMotion hand{OperatorMapping{}, 0.05};  // velocity jumps within the run
   std::unique_ptr<TrackingSystem> system;
   explicit System(const Run& run, TargetRates rates) {
     TrackingSetup setup;
@@ -55,7 +55,7 @@ struct System {
 
 TEST_CASE("a step with a coupling does not allocate: all laws, discretizations, integrators") {
   for (const Run& run : runs())
-    for (const TargetRates rates : {TargetRates::from_hand, TargetRates::backward_difference}) {
+    for (const TargetRates rates : {TargetRates::from_operator, TargetRates::backward_difference}) {
       System s(run, rates);
       CAPTURE(static_cast<int>(run.integrator));
       CAPTURE(run.spec.name);
@@ -73,7 +73,7 @@ TEST_CASE("the serialised state of a coupling continues the run bit-identically"
     run.spec.options.hold_steps = 7;
     run.spec.options.difference = Difference::older;  // needs the last two evaluations
     if (run.integrator != Integrator::semi_implicit) continue;
-    System first(run, TargetRates::from_hand), second(run, TargetRates::from_hand);
+    System first(run, TargetRates::from_operator), second(run, TargetRates::from_operator);
     for (int n = 0; n < 59; ++n) first.system->simulation().step(1e-3);
     StateArchive written;
     first.system->coupling(0).serialize(written);
@@ -100,7 +100,7 @@ TEST_CASE("an implicit coupling is rejected by rk4 and by explicit Euler") {
     CAPTURE(law.name);
     for (const Integrator integrator : {Integrator::rk4, Integrator::euler})
       CHECK_THROWS_AS(
-          System({spec_of(law, TwoLink().springs(1, 1)), integrator}, TargetRates::from_hand),
+          System({spec_of(law, TwoLink().springs(1, 1)), integrator}, TargetRates::from_operator),
           std::invalid_argument);
   }
 }

@@ -14,10 +14,10 @@ using namespace twinarm;
 
 namespace {
 
-Vector3 point_of(const HandSample& hand) {
+Vector3 point_of(const OperatorSample& hand) {
   return omni_position({}, hand.theta);
 }
-Vector3 velocity_of(const HandSample& hand) {
+Vector3 velocity_of(const OperatorSample& hand) {
   const auto& rate = hand.theta_dot;
   return omni_jacobian({}, hand.theta) * Vector3(rate[0], rate[1], rate[2]);
 }
@@ -36,7 +36,7 @@ TEST_CASE("desktop input: the stylus moves to a point, and rotates by angles") {
   hand.place(start + Vector3(0.010, 0.005, -0.008));
   CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0.010, 0.005, -0.008)).norm() < 1e-12);
   hand.turn_stylus({0.6, -0.3, -0.12});
-  const HandSample turned = hand.sample(0, 1);
+  const OperatorSample turned = hand.sample(0, 1);
   CHECK(turned.theta[3] == doctest::Approx(0.6));
   CHECK(turned.theta[4] == doctest::Approx(0.6 - 0.3));
   CHECK(turned.theta[5] == doctest::Approx(-0.12));
@@ -46,24 +46,24 @@ TEST_CASE(
     "desktop input: keys and sticks move at constant rates in the reader's time, until released") {
   DesktopInput hand{OmniParameters{}};
   const Vector3 start = point_of(hand.sample(5, 6));
-  hand.key(HandAxis::right, true, true);
+  hand.key(DeviceAxis::right, true, true);
   hand.axes(
       {0.05, 0.54, 0, 0, 0, 1.5});  // at rest within the dead zone; half of the rest; too much
-  const HandSample later = hand.sample(5.2, 6);
+  const OperatorSample later = hand.sample(5.2, 6);
   CHECK((point_of(later) - start - Vector3(0.020, 0.010, 0)).norm() < 1e-12);
   CHECK((velocity_of(later) - Vector3(0.1, 0.05, 0)).norm() < 1e-3);
   CHECK(later.theta[5] == doctest::Approx(0.2 * 1.5));
   CHECK(later.theta_dot[5] == doctest::Approx(1.5));
-  hand.key(HandAxis::right, false, true);  // both keys: neither
+  hand.key(DeviceAxis::right, false, true);  // both keys: neither
   CHECK((point_of(hand.sample(5.3, 6)) - start - Vector3(0.020, 0.015, 0)).norm() < 1e-12);
-  hand.key(HandAxis::right, true, false);
+  hand.key(DeviceAxis::right, true, false);
   CHECK((point_of(hand.sample(5.4, 6)) - start - Vector3(0.010, 0.020, 0)).norm() < 1e-12);
   hand.button(0, true);
   hand.button(1, true);
   CHECK(hand.sample(5.4, 6).button);
   CHECK(hand.sample(5.4, 6).clutch);
   hand.release();
-  const HandSample rest = hand.sample(9, 10);
+  const OperatorSample rest = hand.sample(9, 10);
   CHECK((point_of(rest) - start - Vector3(0.010, 0.020, 0)).norm() < 1e-12);
   CHECK(rest.theta_dot == std::array<double, 6>{});
   CHECK_FALSE(rest.button);
@@ -75,7 +75,7 @@ TEST_CASE("desktop input: out of reach the goal is the nearest point, and it com
   DesktopInput hand{omni};
   const Vector3 start = point_of(hand.sample(0, 1));
   move(hand, {2, 0, 0});
-  const HandSample edge = hand.sample(0, 1);
+  const OperatorSample edge = hand.sample(0, 1);
   const auto expected = omni_nearest(omni, start + Vector3(2, 0, 0));
   CHECK((point_of(edge) - omni_position(omni, {expected[0], expected[1], expected[2]})).norm() <
         1e-12);
@@ -83,11 +83,11 @@ TEST_CASE("desktop input: out of reach the goal is the nearest point, and it com
   CHECK((point_of(hand.sample(0, 1)) - point_of(edge) - Vector3(-0.010, 0, 0)).norm() < 1e-9);
   // A pressed key at the boundary does not wind up either.
   move(hand, {2, 0, 0});
-  hand.key(HandAxis::right, true, true);
+  hand.key(DeviceAxis::right, true, true);
   hand.sample(10, 11);
-  hand.key(HandAxis::right, true, false);
+  hand.key(DeviceAxis::right, true, false);
   const Vector3 held = point_of(hand.sample(10, 11));
-  hand.key(HandAxis::right, false, true);
+  hand.key(DeviceAxis::right, false, true);
   CHECK((point_of(hand.sample(10.1, 11)) - held - Vector3(-0.010, 0, 0)).norm() < 1e-9);
   move(hand, {2, 0, 0}, 10.1);  // against the pressed key: it moves back from the boundary
   const Vector3 pushed = point_of(hand.sample(10.1, 11));
@@ -97,7 +97,7 @@ TEST_CASE("desktop input: out of reach the goal is the nearest point, and it com
     move(hand, {0.15 * std::sin(1.7 * n), 0.15 * std::cos(0.9 * n), 0.08 * std::sin(2.3 * n)},
          12 + 0.01 * n);
     hand.turn_stylus({3 * std::sin(n), 2.4 * std::cos(n), 2.4 * std::cos(3.1 * n)});
-    const HandSample now = hand.sample(12 + 0.01 * n, 20);
+    const OperatorSample now = hand.sample(12 + 0.01 * n, 20);
     for (std::size_t j = 0; j < 6; ++j)
       CHECK_UNARY(now.theta[j] >= omni.lower[j] && now.theta[j] <= omni.upper[j]);
   }

@@ -59,7 +59,7 @@ TEST_CASE("joint mappings: q = offset + gain theta, of theta1, 4, 6 or of theta1
     for (int n = 0; n < 50; ++n) {
       DeviceState device = device_at(kOmni, random_angles(kOmni, random));
       device.buttons[0] = n % 3 == 0;
-      const HandTarget& target = mapping->map(device, 0.01);
+      const MappedTarget& target = mapping->map(device, 0.01);
       CHECK(target.gripper_closed == (n % 3 == 0));
       for (std::size_t j = 0; j < 3; ++j) {
         CHECK(
@@ -210,7 +210,7 @@ TEST_CASE("no joint exceeds the maximum speed, and the robot catches up") {
   const DeviceState end = device_at(kOmni, theta);
   std::vector<double> before = q;
   for (int n = 0; n < 600; ++n) {
-    const HandTarget& target = mapping->map(end, 0.001);
+    const MappedTarget& target = mapping->map(end, 0.001);
     CHECK(max_change(target.q, before) < 0.002 * (1 + 1e-9));
     for (const double rate : target.qd) CHECK(std::abs(rate) < 2 * (1 + 1e-9));
     before = target.q;
@@ -243,7 +243,7 @@ TEST_CASE("no jump by the clutch, by a lost device, or by invalid values") {
       device.buttons[1] = away == 1;
       device.alive = away != 2;
       if (away == 3) device.theta[0] = std::nan("");
-      const HandTarget& target = mapping->map(device, 0.001);
+      const MappedTarget& target = mapping->map(device, 0.001);
       const double way = max_change(target.q, before);
       if (away) {
         CHECK(way == 0);

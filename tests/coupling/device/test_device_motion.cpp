@@ -15,7 +15,7 @@
 namespace twinarm {
 namespace {
 
-HandTarget target_at(double angle, double rate) {
+MappedTarget target_at(double angle, double rate) {
   return {{angle, 2 * angle, -angle}, {rate, 2 * rate, -rate}, angle > 0.5};
 }
 
@@ -24,7 +24,7 @@ std::filesystem::path log_file(const char* name) {
          (std::string("twinarm_") + std::to_string(getpid()) + "_" + name);
 }
 
-bool same_bits(const HandSample& a, const HandSample& b) {
+bool same_bits(const OperatorSample& a, const OperatorSample& b) {
   return std::memcmp(a.theta.data(), b.theta.data(), sizeof a.theta) == 0 &&
          std::memcmp(a.theta_dot.data(), b.theta_dot.data(), sizeof a.theta_dot) == 0 &&
          a.button == b.button;
@@ -33,7 +33,7 @@ bool same_bits(const HandSample& a, const HandSample& b) {
 }  // namespace
 
 TEST_CASE("device motion: a step is extrapolated with the newest rate; without renewal it stops") {
-  const HandMapping mapping;
+  const OperatorMapping mapping;
   DeviceMotion hand(8);
   CHECK(hand.sample(3, 4).theta[0] == 0);
   hand.set(target_at(0.2, 3), 1, 0.01);
@@ -54,7 +54,7 @@ TEST_CASE("device motion: a step is extrapolated with the newest rate; without r
 }
 
 TEST_CASE("device motion: at a jump each side has its own angle") {
-  const HandMapping mapping;
+  const OperatorMapping mapping;
   DeviceMotion hand(8);
   hand.set(target_at(0, 0), 0, 0.01);
   hand.set(target_at(1, 0), 0.01, 0.01);
@@ -72,7 +72,7 @@ TEST_CASE("device motion: with delay it is unchanged, as far back as it is store
     const double t = 0.001 * n;
     hand.set(target_at(std::sin(t), std::cos(t)), t, 0.001);
     if (n < 100) continue;
-    const double seen = HandMapping{}.robot_angle(late.sample(t, t + 0.001), 0);
+    const double seen = OperatorMapping{}.robot_angle(late.sample(t, t + 0.001), 0);
     CHECK(std::abs(seen - std::sin(t - 0.1)) < 1e-6);
   }
 }
@@ -81,18 +81,18 @@ TEST_CASE("motion log: written and read again it is bit-identical at every insta
   std::mt19937 random(4);
   std::normal_distribution<double> draw;
   DeviceMotion live(1000);
-  std::string text = hand_log_header();
+  std::string text = device_log_header();
   double t = 0.1;
   for (int n = 0; n < 300; ++n) {
     const double h = 0.001 * (1 + n % 3);
     live.set(target_at(draw(random), 100 * draw(random)), t, h);
-    text += hand_log_line(live.newest());
+    text += device_log_line(live.newest());
     t += h;
   }
   const auto file = log_file("log.csv");
   write_whole_file(file, text);
-  CHECK(is_hand_log(file));
-  const auto again = read_hand_log(file);
+  CHECK(is_device_log(file));
+  const auto again = read_device_log(file);
   std::filesystem::remove(file);
   CHECK(again->duration() == live.duration());
   for (double at = 0; at < 1.2; at += 0.00037) {
@@ -104,13 +104,13 @@ TEST_CASE("motion log: written and read again it is bit-identical at every insta
 TEST_CASE("motion log: an incomplete last line is ignored, every other error has its line") {
   DeviceMotion live(10);
   live.set(target_at(1, 2), 0, 0.001);
-  const std::string line = hand_log_line(live.newest());
+  const std::string line = device_log_line(live.newest());
   live.set(target_at(1, 2), 0.001, 0.001);
-  const std::string second = hand_log_line(live.newest());
+  const std::string second = device_log_line(live.newest());
   const auto file = log_file("torn.csv");
   const auto read = [&](const std::string& text) {
     write_whole_file(file, text);
-    return read_hand_log(file)->duration();
+    return read_device_log(file)->duration();
   };
   const auto fails_in_line = [&](const std::string& text, int number) {
     try {
@@ -121,12 +121,12 @@ TEST_CASE("motion log: an incomplete last line is ignored, every other error has
     }
     FAIL("accepted");
   };
-  CHECK(read(hand_log_header() + line + second) == 0.002);
-  CHECK(read(hand_log_header() + line + second.substr(0, 30)) == 0.001);
-  fails_in_line(hand_log_header() + line + line, 3);
-  fails_in_line(hand_log_header() + line + "nan" + second, 3);
-  fails_in_line(hand_log_header() + "0,0" + line.substr(7), 2);
-  fails_in_line(hand_log_header(), 0);
+  CHECK(read(device_log_header() + line + second) == 0.002);
+  CHECK(read(device_log_header() + line + second.substr(0, 30)) == 0.001);
+  fails_in_line(device_log_header() + line + line, 3);
+  fails_in_line(device_log_header() + line + "nan" + second, 3);
+  fails_in_line(device_log_header() + "0,0" + line.substr(7), 2);
+  fails_in_line(device_log_header(), 0);
   fails_in_line("t[s],theta1[rad]\n0,1\n", 1);
   std::filesystem::remove(file);
 }

@@ -74,7 +74,7 @@ struct Pressed {
       if (spec.type == CouplingSpec::Type::linear)
         sum += 0.5 * s.k * at_point;
       else if (spec.type == CouplingSpec::Type::bushing)
-        sum += 0.5 * s.k * at_point + 0.5 * s.k_turn * turned;
+        sum += 0.5 * s.k * at_point + 0.5 * s.k_rotational * turned;
       else
         sum += 0.5 * s.k * (spec.measure == SpringSpace::joint ? e * e : turned);
     }
@@ -91,7 +91,7 @@ std::vector<CouplingSpec> felt_laws(const TwoLink& arm) {
     all.push_back(torsional(arm.springs(150, 15), SpringSpace::joint, discretization));
     CouplingSpec bushing = linear(arm.springs(2000, 100), discretization);
     bushing.type = CouplingSpec::Type::bushing;
-    for (Spring& spring : bushing.springs) spring.k_turn = 60, spring.b_turn = 6;
+    for (Spring& spring : bushing.springs) spring.k_rotational = 60, spring.b_rotational = 6;
     all.push_back(bushing);
   }
   return all;
@@ -202,15 +202,15 @@ TEST_CASE("the reaction of an implicit coupling is the mean force on the body") 
 TEST_CASE("the force is at most the device's peak, with the specified low-pass") {
   const Pressed pressed(at_tip(40), 0.42, 20);
   TipHand hand(pressed);
-  HandForceSpec spec;
+  ForceFeedbackSpec spec;
   spec.passive = false;
-  HandForce strong(spec, hand.omni, *hand.mapping);
+  ForceFeedback strong(spec, hand.omni, *hand.mapping);
   const std::vector<double> much{500, -300};
   const Vector3 felt = hand.stylus_force_W(strong.tick(hand.device, much, 1e-3));
   CHECK(felt.norm() == doctest::Approx(3.3).epsilon(1e-3));
 
   spec.cutoff = 20;
-  HandForce soft(spec, hand.omni, *hand.mapping);
+  ForceFeedback soft(spec, hand.omni, *hand.mapping);
   const Vector3 whole = hand.stylus_force_W(hand.mapping->motor_torques(hand.device, pressed.tau));
   const double tau = 1 / (2 * std::numbers::pi * 20);
   Vector3 part;
@@ -222,7 +222,7 @@ TEST_CASE("the force is at most the device's peak, with the specified low-pass")
 TEST_CASE("reaction and force do not allocate") {
   Pressed pressed(at_tip(40), 0.42, 1);
   TipHand hand(pressed);
-  HandForce force(HandForceSpec{}, hand.omni, *hand.mapping);
+  ForceFeedback force(ForceFeedbackSpec{}, hand.omni, *hand.mapping);
   CHECK(allocations_in([&] {
           for (int n = 0; n < 100; ++n)
             force.tick(hand.device,

@@ -31,7 +31,7 @@ struct NamedHand {
 std::vector<NamedHand> all_hands() {
   const std::string trace = std::string(TWINARM_SOURCE_DIR) + "/assets/traces/synthetic_seed1.csv";
   return {
-      {"automatic", [] { return std::make_shared<AutomaticMotion>(HandMapping{}); }},
+      {"automatic", [] { return std::make_shared<AutomaticMotion>(OperatorMapping{}); }},
       {"synthetic", [] { return std::make_shared<SyntheticOperator>(3, 4.0); }},
       {"trace", [trace] { return std::make_shared<RecordedTrace>(trace); }},
       {"paced",
@@ -52,7 +52,7 @@ std::vector<NamedHand> all_hands() {
 // All devices, each moved by a motion.
 struct NamedDevice {
   std::string name;
-  std::function<std::unique_ptr<HandDevice>(std::shared_ptr<OperatorMotion>)> make;
+  std::function<std::unique_ptr<InputDevice>(std::shared_ptr<OperatorMotion>)> make;
 };
 std::vector<NamedDevice> all_devices() {
   const auto virtual_omni = [](const VirtualOmniSettings& settings) {
@@ -70,7 +70,7 @@ std::vector<NamedDevice> all_devices() {
 }
 
 // State of a device over a second, at times that are not its ticks, bit by bit.
-std::vector<double> story(HandDevice& device) {
+std::vector<double> story(InputDevice& device) {
   std::vector<double> all;
   for (int n = 0; n < 600; ++n) {
     const DeviceState seen = device.poll(100 + 0.0017 * n);
@@ -125,10 +125,10 @@ TEST_CASE("every motion: finite, deterministic, rates equal to the slope") {
     bool same = true, finite = true;
     for (int n = 0; n < 1000; ++n) {
       const double t = 0.0029 * n + 1e-4;
-      const HandSample x = hand->sample(t, t + 1e-3), y = again->sample(t, t + 1e-3);
+      const OperatorSample x = hand->sample(t, t + 1e-3), y = again->sample(t, t + 1e-3);
       same = same && std::memcmp(x.theta.data(), y.theta.data(), sizeof x.theta) == 0 &&
              std::memcmp(x.theta_dot.data(), y.theta_dot.data(), sizeof x.theta) == 0;
-      const HandSample next = hand->sample(t + e, t + 1e-3);
+      const OperatorSample next = hand->sample(t + e, t + 1e-3);
       for (std::size_t j = 0; j < 6; ++j) {
         finite = finite && std::isfinite(x.theta[j]) && std::isfinite(x.theta_dot[j]);
         if (std::abs(t - named.corner) > 1e-3)

@@ -14,7 +14,7 @@ using namespace twinarm;
 namespace {}
 
 TEST_CASE("the automatic motion sweeps joint 1 from 90 to -90, joint 2 from -45 to 45 degrees") {
-  const HandMapping mapping;
+  const OperatorMapping mapping;
   for (const double T : {1.0, 0.87}) {
     const AutomaticMotion hand(mapping, T);
     CHECK(hand.duration() == doctest::Approx(3 * T));
@@ -25,7 +25,7 @@ TEST_CASE("the automatic motion sweeps joint 1 from 90 to -90, joint 2 from -45 
                         {1.5, 0, 0, -1},      {1.75, 45, -22.5, -1}, {2.9, -72, 36, 1}};
     for (const Row& row : rows)
       for (const double toward : {-1e-3, 1e-3}) {
-        const HandSample x = hand.sample(row.s * T, row.s * T + toward);
+        const OperatorSample x = hand.sample(row.s * T, row.s * T + toward);
         CHECK(mapping.robot_angle(x, 0) == doctest::Approx(row.joint1_deg * kDegree));
         CHECK(mapping.robot_angle(x, 1) == doctest::Approx(row.joint2_deg * kDegree));
         CHECK(mapping.robot_angle(x, 2) == 0);
@@ -38,7 +38,7 @@ TEST_CASE("the automatic motion sweeps joint 1 from 90 to -90, joint 2 from -45 
 }
 
 TEST_CASE("at a velocity jump of the automatic motion the rate is one-sided") {
-  const HandMapping mapping;
+  const OperatorMapping mapping;
   const AutomaticMotion hand(mapping);
   const auto rate1 = [&](double t, double toward) {  // of joint 1, in sweeps of 180 deg/s
     return mapping.robot_rate(hand.sample(t, toward), 0) / (180 * kDegree);
@@ -64,10 +64,10 @@ TEST_CASE("at a velocity jump of the automatic motion the rate is one-sided") {
 }
 
 TEST_CASE("theta1, theta4, theta6 of the device move joints 1, 2, 3, by gain and offset") {
-  HandMapping mapping;
+  OperatorMapping mapping;
   mapping.gain = {2, -0.5, 3};
   mapping.offset = {0.1, 0.2, -0.3};
-  HandSample hand;
+  OperatorSample hand;
   hand.theta = {0.5, 9, 9, -0.4, 9, 0.7};
   hand.theta_dot = {1, 9, 9, 2, 9, -3};
   CHECK(mapping.robot_angle(hand, 0) == doctest::Approx(1.1));
@@ -82,7 +82,7 @@ TEST_CASE("theta1, theta4, theta6 of the device move joints 1, 2, 3, by gain and
     CHECK(mapping.robot_rate(hand, j) == doctest::Approx(-0.33));
   }
   // Joint 1 of the robot reaches 90 degrees within the Omni's +-0.98 rad.
-  CHECK(HandMapping{}.gain[0] * 0.98 > 90 * kDegree);
+  CHECK(OperatorMapping{}.gain[0] * 0.98 > 90 * kDegree);
 }
 
 TEST_CASE("synthetic operator: deterministic by seed, different for other seeds") {
@@ -90,7 +90,7 @@ TEST_CASE("synthetic operator: deterministic by seed, different for other seeds"
   bool differs = false;
   for (int n = 0; n <= 4000; ++n) {
     const double t = 0.005 * n;
-    const HandSample x = a.sample(t, t + 1), y = b.sample(t, t + 1), z = c.sample(t, t + 1);
+    const OperatorSample x = a.sample(t, t + 1), y = b.sample(t, t + 1), z = c.sample(t, t + 1);
     CHECK_UNARY(std::memcmp(x.theta.data(), y.theta.data(), sizeof x.theta) == 0);
     CHECK_UNARY(std::memcmp(x.theta_dot.data(), y.theta_dot.data(), sizeof x.theta_dot) == 0);
     CHECK_UNARY(x.button == y.button);
@@ -112,8 +112,8 @@ TEST_CASE("synthetic operator: theta_dot is the derivative of theta, within the 
     bool inside = true, pressed = false;
     for (int n = 1; n < 9999; ++n) {
       const double t = 0.002 * n, e = 1e-5;
-      const HandSample x = hand.sample(t, t), before = hand.sample(t - e, t),
-                       after = hand.sample(t + e, t);
+      const OperatorSample x = hand.sample(t, t), before = hand.sample(t - e, t),
+                           after = hand.sample(t + e, t);
       pressed = pressed || x.button;
       for (std::size_t j = 0; j < 6; ++j) {
         slope = (after.theta[j] - before.theta[j]) / (2 * e);

@@ -45,7 +45,7 @@ TEST_CASE("a trace that was written is read with six decimals, angles and button
   CHECK(trace.duration() == doctest::Approx(4.0));
   for (int n = 0; n <= 800; ++n) {
     const double t = n / 200.0;
-    const HandSample x = hand.sample(t, t + 1), y = trace.sample(t, t + 1);
+    const OperatorSample x = hand.sample(t, t + 1), y = trace.sample(t, t + 1);
     for (std::size_t j = 0; j < 6; ++j) CHECK_UNARY(std::abs(x.theta[j] - y.theta[j]) < 1e-6);
     CHECK_UNARY(x.button == y.button);
   }

@@ -19,7 +19,7 @@ position = [0, 0, 0.4]
 )";
 
 SceneView stage_at(const SceneModel& scene, const Snapshot& moment) {
-  SceneView stage = make_stage(scene);
+  SceneView stage = make_scene_view(scene);
   look_ahead(stage, moment);
   settle(stage);
   measure(stage, moment, Measured::of_picture);
@@ -44,7 +44,7 @@ mass = 1.7
 position = [1, 2, 3]
 orientation = [0.5, 0.5, 0.5, 0.5]
 )");
-  const Snapshot moment = moment_of(scene.model, scene.start);
+  const Snapshot moment = snapshot_of(scene.model, scene.start);
   SceneView stage = stage_at(scene, moment);
   const auto found = instances_of(stage, moment, "inertia");
   REQUIRE(found.size() == 1);
@@ -69,7 +69,7 @@ shape = { box = { size = [2, 2, 2] } }
 mass = 1
 position = [0, 0, 1]
 )");
-  Snapshot moment = moment_of(scene.model, scene.start);
+  Snapshot moment = snapshot_of(scene.model, scene.start);
   for (const double x : {-1.0, 1.0}) {
     ShownContact contact;
     contact.b = 1;
@@ -92,7 +92,7 @@ position = [0, 0, 1]
 
 TEST_CASE("overlays: each one accepts a snapshot without contacts, couplings or motion") {
   const SceneModel scene = built(kLargeBall);
-  const Snapshot moment = moment_of(scene.model, scene.start);
+  const Snapshot moment = snapshot_of(scene.model, scene.start);
   SceneView stage = stage_at(scene, moment);
   for (const Overlay& overlay : all_overlays()) {
     CAPTURE(overlay.name);
@@ -105,7 +105,7 @@ TEST_CASE("overlays: each one accepts a snapshot without contacts, couplings or 
 
 TEST_CASE("device: the stylus is at its forward kinematics, beside the scene") {
   const SceneModel scene = built(kLargeBall);
-  Snapshot moment = moment_of(scene.model, scene.start);
+  Snapshot moment = snapshot_of(scene.model, scene.start);
   SceneView none = stage_at(scene, moment);
   CHECK(instances_of(none, moment, "device").empty());
   moment.hands.push_back({});

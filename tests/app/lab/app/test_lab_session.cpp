@@ -223,7 +223,7 @@ TEST_CASE("uploads: files are opened or stored by type, or refused with a reason
 TEST_CASE("clients: the first one gets control, others in order of their requests") {
   Clients clients;
   for (const ClientId client : {11u, 12u, 13u}) clients.opened(client);
-  CHECK(clients.has_hand(11));
+  CHECK(clients.has_control(11));
   clients.take(13);
   clients.take(12);
   clients.take(13);
@@ -234,11 +234,11 @@ TEST_CASE("clients: the first one gets control, others in order of their request
   CHECK_FALSE(clients.give(12, 12));
   CHECK_FALSE(clients.give(11, 99));
   CHECK(clients.give(11, 12));
-  CHECK(clients.has_hand(12));
+  CHECK(clients.has_control(12));
   clients.closed(12);  // the next in order
-  CHECK(clients.has_hand(13));
+  CHECK(clients.has_control(13));
   clients.closed(13);
-  CHECK(clients.has_hand(11));  // the only one left
+  CHECK(clients.has_control(11));  // the only one left
   clients.closed(11);
   CHECK(clients.view().controller == 0);
 }

@@ -49,7 +49,7 @@ TEST_CASE("remedies: each offered one is stable for two seconds where the run ha
     const SimulateResult failure = run_plan(plan.input, plan.run, {});
     CHECK(failure.post_mortem);
     if (!failure.post_mortem) continue;
-    const std::vector<SuggestedFix> remedies = remedies_of(plan, *failure.post_mortem);
+    const std::vector<SuggestedFix> remedies = fixes_of(plan, *failure.post_mortem);
     CHECK(!remedies.empty());
     for (const SuggestedFix& fix : remedies) {
       INFO(fix.words);
@@ -73,7 +73,7 @@ TEST_CASE("remedies: step, gain and discretization are offered for too stiff a s
   const BadScene bad = bad_scenes().front();
   const SimulatePlan plan = planned(bad.file, bad.changes, 2000);
   std::vector<std::string> first;
-  for (const SuggestedFix& fix : remedies_of(plan, PostMortem())) first.push_back(fix.changes[0]);
+  for (const SuggestedFix& fix : fixes_of(plan, PostMortem())) first.push_back(fix.changes[0]);
   REQUIRE(first.size() == 3);
   CHECK(first[0].find("step=") == 0);
   CHECK(first[1].find("].stiffness=") != std::string::npos);
@@ -90,7 +90,7 @@ TEST_CASE("remedies: depend on kind and index of a violation, not on its name") 
     PostMortem failure;
     failure.violations = violations;
     std::vector<std::string> changes;
-    for (const SuggestedFix& fix : remedies_of(plan, failure))
+    for (const SuggestedFix& fix : fixes_of(plan, failure))
       changes.insert(changes.end(), fix.changes.begin(), fix.changes.end());
     return changes;
   };
@@ -113,7 +113,7 @@ TEST_CASE("remedies: depend on kind and index of a violation, not on its name") 
 TEST_CASE("remedies: without a violated limit only a shorter step is offered") {
   const auto folder = read_gallery().front().file.parent_path();
   const SimulatePlan plan = planned(folder / "tracking_map.toml", {});
-  for (const SuggestedFix& fix : remedies_of(plan, PostMortem())) {
+  for (const SuggestedFix& fix : fixes_of(plan, PostMortem())) {
     REQUIRE(fix.changes.size() == 1);
     CHECK(fix.changes[0].starts_with("step="));
   }

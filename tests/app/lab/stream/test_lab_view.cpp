@@ -106,7 +106,7 @@ TEST_CASE(
     "device") {
   const Watched watched = watched_arm();
   const SimulateInput& input = watched.plan->prepared.input;
-  const Snapshot moment = moment_of(*input.scene, *input.couplings, input.scene->start, {});
+  const Snapshot moment = snapshot_of(*input.scene, *input.couplings, input.scene->start, {});
   CHECK(moment.twins.size() == 1);
   CHECK(moment.hands.size() == 1);
 }
