@@ -10,7 +10,8 @@ import re
 import sys
 import urllib.parse
 
-FETCHED = {"img": "src", "script": "src", "link": "href", "source": "src", "iframe": "src"}
+FETCHED = {"img": ["src"], "script": ["src"], "link": ["href"], "source": ["src"], "iframe": ["src"],
+           "video": ["src", "poster"]}
 
 
 class Page(html.parser.HTMLParser):
@@ -28,8 +29,7 @@ class Page(html.parser.HTMLParser):
         self.anchors.update(values[key] for key in ("id", "name") if values.get(key))
         if tag == "a" and values.get("href"):
             self.links.append(values["href"])
-        if tag in FETCHED and values.get(FETCHED[tag]):
-            self.fetched.append(values[FETCHED[tag]])
+        self.fetched += [values[key] for key in FETCHED.get(tag, []) if values.get(key)]
 
     def handle_endtag(self, tag):
         self.in_title = False

@@ -131,6 +131,13 @@ def make_toctrees(app, docname, source):
         raise ValueError(f"docs/index.md does not link {', '.join(lost)}")
 
 
+def show_videos(app, pagename, templatename, context, doctree):
+    """A picture that links to an MP4 file becomes that video, with the picture as its poster."""
+    context["body"] = re.sub(
+        r'<a [^>]*href="([^"]+\.mp4)"[^>]*>\s*(?:<span[^>]*>)?<img alt="([^"]*)"[^>]* src="([^"]+)"[^>]*>(?:</span>)?\s*</a>',
+        r'<video controls preload="none" src="\1" poster="\3" aria-label="\2"></video>', context.get("body", ""))
+
+
 def bring_styles(app, error):
     """Adds KaTeX's styles, and what Debian's Furo lacks: its base style, the module that its script imports (a page
     opened from disk cannot import modules), and dark colours."""
@@ -151,6 +158,7 @@ def bring_styles(app, error):
 
 
 def setup(app):
+    app.connect("html-page-context", show_videos)
     app.connect("build-finished", bring_styles)
     app.connect("source-read", name_what_is_outside)
     app.connect("source-read", set_the_commands)

@@ -19,18 +19,34 @@ namespace {
 namespace fs = std::filesystem;
 constexpr unsigned kCaseSeconds = 60;  // of one case [s]; a sanitized build is slow
 
-std::vector<fs::path> cases_of(const fs::path& folder, const std::string& target) {
-  std::vector<fs::path> files, folders{folder / "seeds" / target, folder / "found" / target};
+struct Case {
+  fs::path file;
+  std::string before;  // a byte in front of the file's own: the format of a mesh
+};
+
+std::vector<Case> cases_of(const fs::path& folder, const std::string& target) {
+  std::vector<Case> cases;
+  std::vector<fs::path> folders{folder / "seeds" / target, folder / "found" / target};
   std::ifstream elsewhere(folder / "seeds" / "elsewhere.txt");
-  for (std::string name, place; elsewhere >> name >> place;)
-    if (const fs::path path = folder.parent_path().parent_path() / place; name == target)
-      (fs::is_directory(path) ? folders : files).push_back(path);
+  for (std::string line; std::getline(elsewhere, line);) {
+    std::istringstream words(line);
+    std::string name, place;
+    int byte = 0;
+    words >> name >> place;
+    if (name != target) continue;
+    const fs::path path = folder.parent_path().parent_path() / place;
+    if (fs::is_directory(path))
+      folders.push_back(path);
+    else
+      cases.push_back({path, words >> byte ? std::string(1, static_cast<char>(byte)) : ""});
+  }
   std::error_code ignored;
   for (const fs::path& seeds : folders)
     for (const auto& entry : fs::directory_iterator(seeds, ignored))
-      if (entry.is_regular_file()) files.push_back(entry.path());
-  std::sort(files.begin(), files.end());
-  return files;
+      if (entry.is_regular_file()) cases.push_back({entry.path(), ""});
+  std::sort(cases.begin(), cases.end(),
+            [](const Case& a, const Case& b) { return a.file < b.file; });
+  return cases;
 }
 
 // The name goes out before the case is tried: where it ends the process, it is the last one.
@@ -38,15 +54,15 @@ int run_target(const fs::path& folder, const std::string& name) {
   const auto& all = twinarm::fuzz::kTargets;
   const auto target =
       std::find_if(all.begin(), all.end(), [&](const auto& one) { return one.name == name; });
-  const std::vector<fs::path> files = cases_of(folder, name);
-  if (target == all.end() || files.empty()) {
+  const std::vector<Case> cases = cases_of(folder, name);
+  if (target == all.end() || cases.empty()) {
     std::cerr << "there is no target '" << name << "', or it has no seeds\n";
     return 1;
   }
-  for (const fs::path& file : files) {
+  for (const auto& [file, before] : cases) {
     std::cout << name << ": " << fs::relative(file, folder).string() << std::endl;
     std::ostringstream bytes;
-    bytes << std::ifstream(file, std::ios::binary).rdbuf();
+    bytes << before << std::ifstream(file, std::ios::binary).rdbuf();
     ::alarm(kCaseSeconds);
     target->run(bytes.str());
   }

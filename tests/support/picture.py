@@ -7,38 +7,41 @@ JUST_SEEN = 2.3  # of CIE 1976: a difference that an observer just sees
 
 
 def read_png(path):
-    """(width, height, rows): rows of bytes red, green, blue."""
+    """(width, height, rows): rows of bytes red, green, blue. With a palette too."""
     data = pathlib.Path(path).read_bytes()
     if data[:8] != b"\x89PNG\r\n\x1a\n":
         raise ValueError(f"{path} is no PNG")
-    at, packed = 8, b""
+    at, packed, palette = 8, b"", None
     while at < len(data):
         size, kind = struct.unpack(">I4s", data[at:at + 8])
         body = data[at + 8:at + 8 + size]
         if kind == b"IHDR":
             width, height, depth, color, _, _, laced = struct.unpack(">IIBBBBB", body)
-            if (depth, color, laced) != (8, 2, 0):
-                raise ValueError(f"{path} is not 8 bits of red, green and blue, row by row")
+            if depth != 8 or color not in (2, 3) or laced:
+                raise ValueError(f"{path} is not 8 bits of red, green and blue or of a palette, row by row")
+            wide = 3 if color == 2 else 1
+        elif kind == b"PLTE":
+            palette = [body[k:k + 3] for k in range(0, size, 3)]
         elif kind == b"IDAT":
             packed += body
         at += 12 + size
     raw = zlib.decompress(packed)
-    stride = 3 * width
+    stride = wide * width
     rows, above = [], bytearray(stride)
     for y in range(height):
         line = bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-        unfilter(raw[y * (stride + 1)], line, above)
-        rows.append(line)
+        unfilter(raw[y * (stride + 1)], line, above, wide)
+        rows.append(line if wide == 3 else bytearray(b"".join(palette[index] for index in line)))
         above = line
     return width, height, rows
 
 
-def unfilter(kind, line, above):
+def unfilter(kind, line, above, wide):
     """The five filters of PNG (W3C Recommendation, section 9), undone in place."""
     if kind == 0:
         return
     for i in range(len(line)):
-        left = line[i - 3] if i >= 3 else 0
+        left = line[i - wide] if i >= wide else 0
         up = above[i]
         if kind == 1:
             guess = left
@@ -47,7 +50,7 @@ def unfilter(kind, line, above):
         elif kind == 3:
             guess = (left + up) // 2
         else:
-            corner = above[i - 3] if i >= 3 else 0
+            corner = above[i - wide] if i >= wide else 0
             sum_ = left + up - corner
             far = (abs(sum_ - left), abs(sum_ - up), abs(sum_ - corner))
             guess = left if far[0] <= far[1] and far[0] <= far[2] else up if far[1] <= far[2] else corner

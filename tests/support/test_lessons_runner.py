@@ -16,12 +16,14 @@ GOOD = (ROOT / "tests/data/lesson.md").read_text()
 
 
 class Runner(unittest.TestCase):
-    def run_lesson(self, text, answers="[0](00_sum/lesson.md)", words=()):
+    def run_lesson(self, text, answers="[0](00_sum/lesson.md)", words=(), picture=None):
         with tempfile.TemporaryDirectory() as place:
             folder = pathlib.Path(place) / "00_sum"
             folder.mkdir()
             (folder / "lesson.md").write_text(text)
             (folder.parent / "instructor.md").write_text(answers)
+            if picture:
+                (folder / "sum.svg").write_text(picture)
             done = subprocess.run([ROOT / "scripts/check/lessons", "--program", "/bin/true", "--folder", place, *words],
                                   capture_output=True, text=True, timeout=TIMEOUT)
             self.left = sorted(file.name for file in folder.iterdir())
@@ -55,6 +57,18 @@ class Runner(unittest.TestCase):
                 ("## The trap\n", "", "its headings are"), (" +- 0.01", "", "is no check")):
             with self.subTest(told, new=new):
                 self.assert_fails(GOOD.replace(old, new), told)
+
+    def test_a_picture_that_is_no_longer_what_the_commands_make_is_a_fault(self):
+        drawing = "<svg><path d='M0.00,0.00 L10.00,{0}.00 L40.00,10.00'/><text>{1}</text></svg>" + 60 * "<!-- -->"
+        lesson = GOOD.replace("head -c 600 /dev/zero", f'echo "{drawing.format(10, "t [s]")}"')
+        for height, text, told in ((10, "t [s]", None), (12, "t [s]", None), (30, "t [s]", "path 0 is elsewhere at"),
+                                   (10, "t [ms]", "text 't [ms]' is now 't [s]'")):
+            with self.subTest(height=height, text=text):
+                picture = drawing.format(height, text)
+                if told:
+                    self.assert_fails(lesson, told, picture=picture)
+                else:
+                    self.assertEqual(self.run_lesson(lesson, picture=picture).returncode, 0)
 
     def test_the_instructor_must_have_its_answers(self):
         self.assert_fails(GOOD, "instructor.md has no answers to it", answers="none yet")

@@ -5,6 +5,7 @@
 """
 import importlib.util
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -50,6 +51,8 @@ class Checker(unittest.TestCase):
                            (title + "<a href='c.html'>", "leads nowhere"),
                            (title + "<a href='#there'>", "has no there"),
                            (title + "<img src='p.png'>", "leads nowhere"),
+                           (title + "<video src='f.mp4'>", "leads nowhere"),
+                           (title + "<video poster='p.png'>", "leads nowhere"),
                            (title + "<script src='https://cdn.example.org/x.js'></script>", "no network"),
                            (title + "<link href='//fonts.example.org/x.css'>", "no network")):
             faults = self.faults(a=body)
@@ -89,6 +92,15 @@ class Site(unittest.TestCase):
         lesson = (self.site / "learn/lessons/01_six_integrators/lesson.html").read_text()
         self.assertGreater(lesson.count('class="katex"'), 20)
         self.assertNotIn("$\\omega", lesson)
+
+    def test_a_picture_that_links_to_a_film_is_a_video(self):
+        shown = 0
+        for page in (ROOT / "docs").rglob("*.md"):
+            films = page.read_text().count(".mp4)")
+            html = (self.site / page.relative_to(ROOT / "docs")).with_suffix(".html").read_text()
+            self.assertEqual(len(re.findall(r'<video controls[^>]* src="[^"]*\.mp4" poster="[^"]*\.png"', html)), films, page)
+            shown += films
+        self.assertEqual(shown, 3)
 
     @unittest.skipUnless(find_browser(), NO_BROWSER)
     def test_theme_follows_the_browser_and_a_click(self):

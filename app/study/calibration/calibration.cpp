@@ -39,6 +39,21 @@ void read_fit(const nlohmann::json& item, const char* objective, CalibrationEntr
   fit.numbers = item.at("numbers").get<std::map<std::string, double>>();
 }
 
+// JSON with one line for each row of a series: a container of scalars takes one line.
+std::string rows_of(const ordered_json& value, std::size_t depth = 0) {
+  const auto is_structured = [](const ordered_json& one) { return one.is_structured(); };
+  if (std::none_of(value.begin(), value.end(), is_structured)) return value.dump();
+  const bool is_object = value.is_object();
+  const std::string line = "\n" + std::string(depth, ' ');
+  std::string text;
+  for (const auto& [key, item] : value.items()) {
+    text += (text.empty() ? "" : ",") + line + ' ';
+    if (is_object) text += ordered_json(key).dump() + ": ";
+    text += rows_of(item, depth + 1);
+  }
+  return (is_object ? '{' : '[') + text + line + (is_object ? '}' : ']');
+}
+
 // Passes the document to `read`. `option` of `twinarm study` writes the file again.
 template <class Read>
 auto read_file(const std::filesystem::path& file, const char* article, const std::string& thing,
@@ -156,7 +171,7 @@ void write_calibration(const Calibration& calibration, const std::filesystem::pa
   }
   root["optimiser"] = calibration.optimiser;
   root["seed"] = calibration.seed;
-  write_whole_file(file, root.dump(1) + "\n");
+  write_whole_file(file, rows_of(root) + "\n");
 }
 
 void write_identifications(const std::vector<Identification>& all,
@@ -189,7 +204,7 @@ void write_identifications(const std::vector<Identification>& all,
     }
     root["entries"].push_back(item);
   }
-  write_whole_file(file, root.dump(1) + "\n");
+  write_whole_file(file, rows_of(root) + "\n");
 }
 
 double worst_relative_error(const RunResult& result) {
