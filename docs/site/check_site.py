@@ -55,7 +55,8 @@ def faults_of(folder):
             faults += [f"{name}: {fault}" for fault in faults_of_link(link, file, pages)]
     for style in folder.rglob("*.css"):
         asked = [link.strip("'\"") for link in re.findall(r"url\(([^)]*)\)", style.read_text())]
-        faults += [f"{style.relative_to(folder)}: {fault}" for link in asked for fault in faults_of_link(link, style, {})]
+        faults += [f"{style.relative_to(folder)}: {fault}"
+                   for link in asked for fault in faults_of_link(link, style, {})]
     return faults, len(pages), sum(len(page.links) for page in pages.values())
 
 

@@ -5,7 +5,8 @@ import re
 
 def plain(line):
     """Text without roff markup."""
-    return re.sub(r"\\f[BIRP]", "", line).replace("\\-", "-").replace("\\&", "").replace("\\e", "\\").replace("\\(aq", "'")
+    line = re.sub(r"\\f[BIRP]", "", line)
+    return line.replace("\\-", "-").replace("\\&", "").replace("\\e", "\\").replace("\\(aq", "'")
 
 
 def written(line):

@@ -15,7 +15,7 @@ import sys
 HERE = pathlib.Path(__file__).parent
 sys.path.insert(0, str(HERE))
 sys.dont_write_bytecode = True
-import commands  # noqa: E402
+import commands
 
 PROGRAM = HERE.parents[1] / "build/release/twinarm"
 KATEX = pathlib.Path("/usr/share/javascript/katex")  # Debian's libjs-katex
@@ -102,8 +102,10 @@ def set_the_commands(app, docname, source):
         made = subprocess.run([program, "help", "--man"], capture_output=True, text=True, check=True, timeout=60)
         text = commands.markdown_of(made.stdout)
     except (OSError, subprocess.SubprocessError):
-        text = "**Not here: the program was not built when this site was made.** `scripts/build`, then `scripts/generate/site`."
-        print(f"scripts/generate/site: {program} is not built: the site is made without the list of commands", file=sys.stderr)
+        text = ("**Not here: the program was not built when this site was made.** "
+                "`scripts/build`, then `scripts/generate/site`.")
+        print(f"scripts/generate/site: {program} is not built: the site is made without the list of commands",
+              file=sys.stderr)
     source[0] = source[0].replace("<!-- commands -->", text)
 
 
@@ -114,8 +116,8 @@ def link_the_headers(app, docname, source):
 
 
 def make_toctrees(app, docname, source):
-    """index.md is the one table of contents: the links of each section become a toctree. A page that it does not link is
-    an error, except the lessons and the texts of the analytic cases."""
+    """index.md is the one table of contents: the links of each section become a toctree. A page that it does not link
+    is an error, except the lessons and the texts of the analytic cases."""
     if docname != root_doc:
         return
     listed = set()

@@ -1,6 +1,6 @@
 // Formulas from standard input, {"formula", "display"} a line; their HTML to standard output, likewise.
 const katex = require(process.argv[2]);
-const lines = require('readline').createInterface({ input: process.stdin });
+const lines = require('node:readline').createInterface({ input: process.stdin });
 lines.on('line', (line) => {
   const { formula, display } = JSON.parse(line);
   let answer;
@@ -9,5 +9,5 @@ lines.on('line', (line) => {
   } catch (error) {
     answer = { error: error.message };
   }
-  process.stdout.write(JSON.stringify(answer) + '\n');
+  process.stdout.write(`${JSON.stringify(answer)}\n`);
 });

@@ -2,7 +2,7 @@
 # To be sourced: checks that say what holds, and how many did. Set `log` to a file for the words of
 # what fails.
 passed=0 failed=0
-check() {  # check SENTENCE COMMAND...
+check() { # check SENTENCE COMMAND...
   local sentence=$1 start=$SECONDS
   shift
   if "$@" >"$log" 2>&1 </dev/null; then
@@ -15,7 +15,7 @@ check() {  # check SENTENCE COMMAND...
     return 1
   fi
 }
-summary() {  # the exit code says whether all did
+summary() { # the exit code says whether all did
   echo "$passed passed, $failed failed"
   [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
 }

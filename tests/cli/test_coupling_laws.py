@@ -220,7 +220,7 @@ class Errors(CouplingLaws):
             "s103.toml",
             S103.replace("MODEL", str(ROOT / "assets/robots/s103/s103.urdf")) +
             coupling("linear", link="arm1", point=[0.25, 0, 0.365], stiffness=4000,
-                            damping=200, target="hand.csv") +
+                     damping=200, target="hand.csv") +
             coupling("linear", link="arm2", point=[0.35, 0, 0.1], stiffness=2000, damping=100,
                      target="hand.csv").replace("pull", "outer") +
             coupling("torsional", link="quill", measure="joint", stiffness=20, damping=1,

@@ -9,6 +9,7 @@ from robot_command import PENDULUM, RobotCommand
 
 class Faults(RobotCommand):
     command = "dynamics"
+
     def test_a_quaternion_must_have_unit_length_but_for_the_digits_it_was_typed_with(self):
         nearly = [0.7071068, 0.7071068, 0, 0]
         answer = self.answer(str(DATA / "ball_joint.urdf"), state={"q": {"ball": nearly}})

@@ -148,7 +148,7 @@ class Recordings(RecordingCommand):
         for name in ("secret.png", "secret.stl"):
             (self.folder / name).write_bytes(secret)
         scene = BOXES + '[[body]]\nname = "ball"\nmass = 1\nshape = { sphere = { radius = 0.1 } }\n' \
-                             'position = [9, 9, 9]\ntexture = "secret.png"\n'
+            'position = [9, 9, 9]\ntexture = "secret.png"\n'
         mesh = PENDULUM.replace('<link name="base"/>', '<link name="base"><visual><geometry>'
                                 '<mesh filename="secret.stl"/></geometry></visual></link>')
         for text in (scene, mesh):

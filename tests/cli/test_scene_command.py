@@ -224,8 +224,8 @@ class Touching(Scenes):
         answer = self.answer("assets/scenes/box_stack.toml")
         self.assertEqual(answer["contacts"], 40)
         first, last = answer["samples"][0]["links"], answer["samples"][-1]["links"]
-        for name, link in first.items():
-            for before, after in zip(link["position"], last[name]["position"]):
+        for name, start in first.items():
+            for before, after in zip(start["position"], last[name]["position"]):
                 self.assertLess(abs(after - before), 1e-6)
 
     def test_a_linkage_of_seven_hinges_keeps_its_energy(self):
@@ -275,6 +275,7 @@ class DeepStart(Scenes):
         for gravity in ("[0, 0, 0]", "[0, 0, -9.81]"):
             answer = self.run_scene(self.BALLS.replace("[0, 0, 0]", gravity, 1), "--every", 0.001)
             samples = answer["samples"]
+
             def speed(sample):
                 return max(math.hypot(*sample["links"][name]["linear_velocity"])
                            for name in ("one", "two"))

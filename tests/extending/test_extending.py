@@ -22,8 +22,8 @@ PATCHES = sorted((ROOT / "tests/extending").glob("*.patch"))
 # of a scene's key is kept in a member, and used (a key of a member that is there: a row).
 PROMISED = {
     "analytic_case": (1, 0), "command": (1, 0), "coupling": (1, 0), "device": (1, 0), "engine": (1, 0),
-    "importer": (1, 0), "joint": (1, 0), "lab_parameter": (1, 0), "loop": (1, 1), "overlay": (1, 0), "run_column": (1, 0),
-    "scene_key": (1, 2), "shape": (1, 1)}
+    "importer": (1, 0), "joint": (1, 0), "lab_parameter": (1, 0), "loop": (1, 1), "overlay": (1, 0),
+    "run_column": (1, 0), "scene_key": (1, 2), "shape": (1, 1)}
 BUILD = False
 
 

@@ -10,9 +10,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 PRODUCT = ["solver", "collision", "coupling", "app", "benchmarks"]
 LONGER = {"aba": 80,  # three passes over the same bodies, told in one piece
           "coupling_keys": 70}  # a table
-# As clang-format has it: the head of a function ends its line with "{", its body with "}" below the head's first letter.
-HEAD = re.compile(r"^( *)(?!(?:namespace|struct|class|enum|union|extern|using|return|if|for|while|switch|else|do|try)\b)"
-                  r"[\w~<].*\)[^={};]*\{$")
+# As clang-format has it: the head of a function ends its line with "{", its body with "}" below the first letter.
+HEAD = re.compile(r"^( *)(?!(?:namespace|struct|class|enum|union|extern|using|return|if|for|while|switch|else|do|try)"
+                  r"\b)[\w~<].*\)[^={};]*\{$")
 NAME = re.compile(r"([\w~]+|operator\S+)\(")
 
 

@@ -11,10 +11,12 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 WORDS = re.compile(
-    r"\b(?:told|felt|rubs?|rubbing|blows?|struck|whoever|nobody|anew|mend(?:s|ed)?|witness|knobs?|glass|twins?|ghosts?|ledgers?"
-    r"|forks?|second ways?|hangs? on|lets? go|in vain|astray|gives? way|by right|upon each other|follows nobody)\b", re.IGNORECASE)
+    r"\b(?:told|felt|rubs?|rubbing|blows?|struck|whoever|nobody|anew|mend(?:s|ed)?|witness|knobs?|glass|twins?"
+    r"|ghosts?|ledgers?|forks?|second ways?|hangs? on|lets? go|in vain|astray|gives? way|by right"
+    r"|upon each other|follows nobody)\b", re.IGNORECASE)
 LITERAL = re.compile(r'R"(\w*)\((.*?)\)\1"|"((?:\\.|[^"\\\n])*)"|//[^\n]*|/\*.*?\*/', re.DOTALL)
-SCRIPT_LITERAL = re.compile(r"'((?:\\.|[^'\\\n])*)'|\"((?:\\.|[^\"\\\n])*)\"|`((?:\\.|[^`\\])*)`|//[^\n]*|/\*.*?\*/", re.DOTALL)
+SCRIPT_LITERAL = re.compile(
+    r"'((?:\\.|[^'\\\n])*)'|\"((?:\\.|[^\"\\\n])*)\"|`((?:\\.|[^`\\])*)`|//[^\n]*|/\*.*?\*/", re.DOTALL)
 # Where a word stands for what it says: the list itself, and a body of glass.
 EXCEPT = {"docs/reference/glossary.md"}
 
@@ -51,7 +53,8 @@ class Words(unittest.TestCase):
         for name in files("README.md", "CONTRIBUTING.md", "docs/*.md", "assets/scenes/*.toml", "assets/scenes/*.md"):
             text = (ROOT / name).read_text(encoding="utf-8")
             # Code blocks hold commands and keys.
-            text = re.sub(r"^<!--.*?^-->|^(```|~~~).*?^\1", lambda block: "\n" * block.group(0).count("\n"), text, flags=re.DOTALL | re.MULTILINE)
+            text = re.sub(r"^<!--.*?^-->|^(```|~~~).*?^\1", lambda block: "\n" * block.group(0).count("\n"), text,
+                          flags=re.DOTALL | re.MULTILINE)
             lines = text.splitlines()
             self.check(name, ((n + 1, re.sub(r"`[^`]*`|\]\([^)]*\)", "", line)) for n, line in enumerate(lines)))
 

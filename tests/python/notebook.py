@@ -10,14 +10,14 @@ import unittest
 import numpy as np
 
 import program as command
-from program import ROOT, ProgramTest
+from program import ROOT, ProgramTest  # noqa: F401: for the tests
 
 PUMA = "assets/robots/puma560/puma560.urdf"
 DOUBLE_PENDULUM = "assets/robots/teaching/double_pendulum.urdf"
 os.chdir(ROOT)
 sys.path.insert(0, sys.argv.pop(1))
 command.PROGRAM = os.path.abspath(sys.argv.pop(1))
-import twinarm  # noqa: E402
+import twinarm  # noqa: F401: for the tests
 
 # Where the module is watched by a sanitizer, Python has loaded its runtime first; the program has its own.
 PRELOADED = {name: os.environ.pop(name) for name in ["LD_PRELOAD"] if name in os.environ}

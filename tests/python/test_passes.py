@@ -139,7 +139,7 @@ class LikeTheProgram(ProgramTest):
         model = twinarm.load(PUMA)
         for n, (q, qd, third) in enumerate(zip(*states(model, 3, seed=7))):
             names = [j for j in model.joints if j in model.q_of]
-            by_joint = lambda values: dict(zip(names, values))  # noqa: E731
+            by_joint = lambda values: dict(zip(names, values))
             state = self.write(f"{n}.json", json.dumps(
                 {"q": by_joint(q), "qd": by_joint(qd), "tau": by_joint(third),
                  "qdd": by_joint(third)}))

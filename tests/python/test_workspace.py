@@ -31,7 +31,7 @@ class Workspace(ProgramTest):
         urdf = self.write("all.urdf", every_joint())
         model = twinarm.load(urdf)
         q, qd, tau = (rows[0] for rows in states(model, 1, seed=3))
-        value = lambda place, all: all[place].tolist() if place.stop - place.start > 1 else all[place][0]  # noqa
+        value = lambda place, all: all[place].tolist() if place.stop - place.start > 1 else all[place][0]
         state = {"q": {j: value(p, q) for j, p in model.q_of.items()},
                  "qd": {j: value(p, qd) for j, p in model.qd_of.items()},
                  "tau": {j: value(p, tau) for j, p in model.qd_of.items()}}

@@ -10,8 +10,8 @@ import subprocess
 import tomllib
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-import recording_format  # noqa: E402
-from waiting import TIMEOUT  # noqa: E402
+import recording_format
+from waiting import TIMEOUT
 
 SCENES = sorted((ROOT / "assets/scenes").glob("*.toml"))
 TABLE = ROOT / "tests/cli/golden_hashes.toml"

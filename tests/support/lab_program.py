@@ -1,4 +1,4 @@
-"""`twinarm lab` as a process, and clients of it that measure: for scripts/measure/lab_load and scripts/check/soak_lab."""
+"""`twinarm lab` as a process, and clients of it that measure, for scripts/measure/lab_load, scripts/check/soak_lab."""
 import json
 import math
 import os
@@ -23,6 +23,7 @@ def resident(pid):
 
 class Program:
     """twinarm lab, with figures of the operating system."""
+
     def __init__(self, program, *words):
         command = [program or ROOT / "build/release/twinarm", "lab", "--json", "--no-browser", *map(str, words)]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
@@ -66,6 +67,7 @@ class Program:
 
 class Watcher:
     """A client that measures arrivals of frames and latencies of inputs."""
+
     def __init__(self, lab):
         self.live = lab.live()
         self.clear()
@@ -92,6 +94,7 @@ class Watcher:
 
 class Hand:
     """Oscillates a driven joint about its position."""
+
     def __init__(self, live):
         self.live, self.next, self.start = live, time.time(), time.time()
         scene, state = json.loads(live.newest["scene"]), json.loads(live.newest["state"])

@@ -12,6 +12,7 @@ SCENE = data("rod.toml")
 
 class Running:
     """The lab with a scene, and its page's address."""
+
     def __init__(self, scene, *words, **more):
         self.process = start("lab", scene, *words, "--json", "--no-browser", **more)
         self.url = json.loads(self.process.stdout.readline())["url"]
@@ -25,6 +26,7 @@ class Running:
 
 class LabTest(ProgramTest):
     """A lab with rod.toml, and a client of it."""
+
     def setUp(self):
         super().setUp()
         self.write("rod.urdf", ROD)

@@ -33,6 +33,7 @@ Reply = collections.namedtuple("Reply", "status headers body")
 
 class Lab:
     """The server at an address: who has the token has the cookie from then on."""
+
     def __init__(self, url):
         parts = urllib.parse.urlsplit(url)
         self.host, self.port, self.url = parts.hostname, parts.port, url
@@ -78,6 +79,7 @@ class Lab:
 
 class LiveSocket:
     """One WebSocket. Pings are answered; of each kind the newest message is kept in `newest`."""
+
     def __init__(self, host, port, cookie):
         self.socket = socket.create_connection((host, port), timeout=TIMEOUT)
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -202,6 +204,7 @@ def decoded(kind, payload):
 
 class Arrays:
     """Typed arrays one after the other, each from the next multiple of 8 bytes."""
+
     def __init__(self, data, at):
         self.data, self.at = memoryview(data), at
 
@@ -217,6 +220,7 @@ class Arrays:
 
 class Frame:
     """A frame: its head as attributes, its arrays as flat memoryviews."""
+
     def __init__(self, data):
         (magic, self.scene, self.time, self.stamp, self.input_age, self.step, self.number, self.flags,
          channels, works, layers, instances, labels, size, bodies, _) = FRAME_HEAD.unpack_from(data)
@@ -255,6 +259,7 @@ class Frame:
 
 class History:
     """What is remembered: times, and channels and works of each."""
+
     def __init__(self, data):
         magic, self.scene, self.frames, self.channel_count, self.row_count, _ = struct.unpack_from("<6I", data)
         if magic != HISTORY_MAGIC:

@@ -15,6 +15,7 @@ from live_socket import CLOSE, FRAME_HEAD
 
 class Client:
     """Reads what comes. `tick` is called some sixty times a second, `take` when there is something to read."""
+
     def __init__(self, soak):
         self.soak, self.live = soak, None
         self.connect()

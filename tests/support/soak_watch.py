@@ -24,6 +24,7 @@ def clock(seconds):
 
 class Growth:
     """A series over time, and the straight line through it."""
+
     def __init__(self):
         self.times, self.values = [], []
 
@@ -59,6 +60,7 @@ def _tick(cost, done):
 
 class IdleLoop:
     """What this machine can do at all: a process that does nothing each millisecond, but as long as is said."""
+
     def __init__(self, cost):
         context = multiprocessing.get_context("fork")
         self.done = context.Value("q", 0, lock=False)
@@ -81,6 +83,7 @@ class IdleLoop:
 
 class Progress:
     """With the time that is left; a line each minute where stderr is no terminal."""
+
     def __init__(self, name, seconds):
         self.name, self.seconds, self.told, self.start = name, seconds, -60.0, time.monotonic()
         self.terminal = sys.stderr.isatty()
@@ -101,6 +104,7 @@ class Progress:
 
 class Checks:
     """What was watched, line by line; the last line is 'N passed, N failed'."""
+
     def __init__(self):
         self.rows = []
 

@@ -14,6 +14,7 @@ from waiting import TIMEOUT
 
 ARM = ROOT / "assets/scenes/robot_beside_obstacles.toml"
 
+
 def beginning_of(whole, file, words):
     """What is whole of a recording that was cut short must be the undisturbed one's beginning; its frames."""
     data = file.read_bytes()
@@ -89,8 +90,8 @@ class Map(Victim):
         demand(all(self.cells[place] == values for place, values in now.items()), "a cell has other values")
         self.kept = set(now)
         if is_done:
-            for name, data in self.whole.items():
-                demand((self.out / name).read_bytes() == data, f"{name} is not that of the undisturbed map")
+            for name, whole in self.whole.items():
+                demand((self.out / name).read_bytes() == whole, f"{name} is not that of the undisturbed map")
             self.begin_anew()
 
 
@@ -159,12 +160,13 @@ class Study(Victim):
 
     def look(self, is_done):
         if is_done:
-            for name, data in self.tables.items():
-                demand((self.out / "csv" / name).read_bytes() == data, f"csv/{name} is not the undisturbed one")
+            for name, table in self.tables.items():
+                demand((self.out / "csv" / name).read_bytes() == table, f"csv/{name} is not the undisturbed one")
 
 
 class BriefStudy(Study):
     """The same, struck in its first seconds, without an undisturbed one to compare with."""
+
     def prepare(self):
         self.length = 6
 

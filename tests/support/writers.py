@@ -36,6 +36,7 @@ WRITERS = {
 
 class WritersTest(ProgramTest):
     """The commands run in self.folder, below self.base."""
+
     def setUp(self):
         super().setUp()
         self.base, self.folder = self.folder, self.folder / "here"

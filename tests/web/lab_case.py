@@ -11,7 +11,7 @@ from browser import NO_BROWSER, Browser, find_browser, folder_for_pictures
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/support"))
-import program  # noqa: E402
+import program
 from live_socket import Lab
 from waiting import TIMEOUT, wait_for
 
@@ -22,6 +22,7 @@ PARAMETER = "document.getElementById('parameter-coupling-0--%s')"
 
 class Program:
     """`twinarm lab`, at .url; ends with the block."""
+
     def __init__(self, program, scene=SCENE):
         self.process = subprocess.Popen([program, "lab", str(scene), "--json", "--no-browser"],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)

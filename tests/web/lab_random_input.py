@@ -43,7 +43,8 @@ class RandomUser:
 
     def click_one_of(self, selector):
         """Clicks a random visible element."""
-        at = self.value("""(all => { const at = all[Math.floor(%r * all.length)]; at?.scrollIntoView({block: 'nearest'});
+        at = self.value("""(all => { const at = all[Math.floor(%r * all.length)];
+            at?.scrollIntoView({block: 'nearest'});
             const box = at?.getBoundingClientRect();
             return box ? [box.x + box.width / 2, box.y + box.height / 2] : null; })(
             [...document.querySelectorAll(%r)].filter(at => at.checkVisibility() && !at.disabled))""" %
@@ -113,8 +114,8 @@ class RandomUser:
         self.click_one_of(".remedies button") or self.click_one_of(".parameters > button")
 
     def act_key(self):
-        keys = list(" .,[]bhjxgcmMfadws+-rvo123456789npil\\et?") + ["Escape", "Tab", "End", "Enter",
-                "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "PageUp", "PageDown"]
+        keys = list(" .,[]bhjxgcmMfadws+-rvo123456789npil\\et?") + [
+            "Escape", "Tab", "End", "Enter", "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "PageUp", "PageDown"]
         for _ in range(self.chance.randint(1, 10)):
             self.page.press(self.chance.choice(keys))
 

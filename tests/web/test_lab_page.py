@@ -29,7 +29,8 @@ FAINT = """(() => {
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   for (let text; (text = walker.nextNode()); ) {
     const at = text.parentElement;
-    if (!text.data.trim() || !at.checkVisibility({visibilityProperty: true}) || at.closest(':disabled, svg, script')) continue;
+    if (!text.data.trim() || !at.checkVisibility({visibilityProperty: true})) continue;
+    if (at.closest(':disabled, svg, script')) continue;
     if (document.querySelector('dialog:modal') && !at.closest('dialog')) continue;
     const style = getComputedStyle(at), size = parseFloat(style.fontSize);
     const isLarge = size >= 24 || (size >= 18.66 && style.fontWeight >= 700);
@@ -39,7 +40,8 @@ FAINT = """(() => {
     const ink = [r, g, b].map((v, i) => a * shown * v + (1 - a * shown) * below[i]);
     const [low, high] = [lum(ink), lum(below)].sort((x, y) => x - y);
     const contrast = (high + .05) / (low + .05);
-    if (contrast < (isLarge ? 3 : 4.5)) faint.add(`${text.data.trim().slice(0, 30)} ${contrast.toFixed(2)} ${at.className}`);
+    if (contrast < (isLarge ? 3 : 4.5))
+      faint.add(`${text.data.trim().slice(0, 30)} ${contrast.toFixed(2)} ${at.className}`);
   }
   return [...faint];
 })()"""

@@ -4,7 +4,6 @@
 A T-handle rotates about its intermediate axis, with a small rate about another. Write down before you run: how much
 longer is the time between two flips if that rate is ten times smaller?
 """
-import numpy as np
 import twinarm
 
 from lesson import crossings, folder_of, picture, say

@@ -1,6 +1,6 @@
 // Two fingers pan and zoom the view. The first one always comes earlier: its drag is cancelled, its
 // rotation of the view is undone.
-import * as THREE from 'three';
+import type * as THREE from 'three';
 import type { Stage } from '../view/stage';
 
 const TOGETHER = 250; // [ms]

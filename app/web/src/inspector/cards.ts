@@ -2,7 +2,7 @@
 import type { Equation, Quantity, Term } from '../protocol/inspection';
 import type { BodyInspection } from '../protocol/messages';
 import { bold, fraction, math, mathNumber, operator, set, signedSum } from './math';
-import { quantityCard, unitOfSix, valueOf } from './quantity';
+import { quantityCard, shownValue, unitOfSix } from './quantity';
 import { element, largestOf, short, unitText } from '../ui/dom';
 import { numberCell, row, table } from '../ui/table';
 
@@ -103,9 +103,9 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
 function matrices(equation: Equation, body: string, unit: string): HTMLElement[] {
   const terms = equation.terms.map((term) => {
     const symbol = element('p.fine', math(term.symbol), ` ${whose(term, body)}`);
-    return element('div.term', symbol, valueOf({ value: term.value, unit }));
+    return element('div.term', symbol, shownValue({ value: term.value, unit }));
   });
-  const sum = valueOf({ value: equation.value, unit });
+  const sum = shownValue({ value: equation.value, unit });
   if (terms.length < 2) return [sum];
   return [sum, element('details.terms', element('summary.fine', `${terms.length} terms`), ...terms)];
 }

@@ -18,6 +18,7 @@ const dotted = (dots: string) => {
 };
 
 // Letters of RBDA with scripts; λ is the parent.
+// dprint-ignore
 const SCRIPTS: Record<string, string> = {
   XJ: 'X_J', Xtree: 'X_T', v_p: 'v_λ', a_p: 'a_λ', v_base: 'v_0', a_base: 'a_0', cJ: 'c_J', vJ: 'v_J',
   f_ext: 'f^x', IA: 'I^A', Ia: 'I^a', pA: 'p^A', pa: 'p^a',

@@ -41,7 +41,7 @@ export function unitOfSix({ value, unit, frame }: Numbers): string {
   return isJoint ? unit.split(';').reverse().join(';') : unit;
 }
 
-export function valueOf(quantity: Numbers): HTMLElement {
+export function shownValue(quantity: Numbers): HTMLElement {
   const { value } = quantity;
   const unit = unitOfSix(quantity);
   if (typeof value === 'number')
@@ -67,7 +67,7 @@ export function quantityCard(quantity: Quantity, content?: Node[]): HTMLElement 
     'article.quantity',
     { tabindex: '0', 'data-quantity': name, 'aria-label': `${name}: ${meaning}` },
     element('h4', math(name), element('span.fine', meaning)),
-    ...(content ?? [valueOf(quantity)]),
+    ...(content ?? [shownValue(quantity)]),
     tip,
   );
 }

@@ -14,7 +14,7 @@ export function csvText(columns: CsvColumn[], rows: number): string {
   const lines = [columns.map(({ name, unit }) => quoted(unit ? `${name} [${unit}]` : name)).join()];
   const text = (value: number) => (Number.isNaN(value) ? '' : String(value));
   for (let row = 0; row < rows; ++row) lines.push(columns.map(({ value }) => text(value(row))).join());
-  return lines.join('\r\n') + '\r\n';
+  return `${lines.join('\r\n')}\r\n`;
 }
 
 export function download(name: string, content: Blob): void {
