@@ -16,9 +16,7 @@ function glossary() {
   const rows = lines.map((line) => line.split(/ *(?<!\\)\| */)).filter((cells) => cells.length === 7);
   const plain = (cell) => cell.replace(/\[(.*?)\]\(.*?\)/g, '$1').replace(/[$`\\]/g, '');
   return Object.fromEntries(
-    rows.flatMap(([, terms, , , meaning]) =>
-      terms.toLowerCase().split(', ').map((term) => [term, plain(meaning)]),
-    ),
+    rows.flatMap(([, terms, , , meaning]) => terms.toLowerCase().split(', ').map((term) => [term, plain(meaning)])),
   );
 }
 

@@ -136,7 +136,8 @@ def make_toctrees(app, docname, source):
 def show_videos(app, pagename, templatename, context, doctree):
     """A picture that links to an MP4 file becomes that video, with the picture as its poster."""
     context["body"] = re.sub(
-        r'<a [^>]*href="([^"]+\.mp4)"[^>]*>\s*(?:<span[^>]*>)?<img alt="([^"]*)"[^>]* src="([^"]+)"[^>]*>(?:</span>)?\s*</a>',
+        r'<a [^>]*href="([^"]+\.mp4)"[^>]*>\s*(?:<span[^>]*>)?'
+        r'<img alt="([^"]*)"[^>]* src="([^"]+)"[^>]*>(?:</span>)?\s*</a>',
         r'<video controls preload="none" src="\1" poster="\3" aria-label="\2"></video>', context.get("body", ""))
 
 

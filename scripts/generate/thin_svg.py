@@ -15,7 +15,8 @@ import sys
 TOLERANCE = 0.2  # [pixels]
 NUMBER = re.compile(r"-?\d+\.\d+")
 PAIR = r"-?(?:\d+\.?\d*|\.\d+)[\s,]*-?(?:\d+\.?\d*|\.\d+)"
-MARKERS = re.compile(r"(?:<use xlink:href='#(\w+)' transform='translate\([^)]*\) scale\(([\d.]+)\)' color='([^']*)'/>\s*)"
+MARKERS = re.compile(r"(?:<use xlink:href='#(\w+)' transform='translate\([^)]*\) scale\(([\d.]+)\)' "
+                     r"color='([^']*)'/>\s*)"
                      r"(?:<use xlink:href='#\1' transform='translate\([^)]*\) scale\(\2\)' color='\3'/>\s*)*")
 
 
@@ -136,7 +137,8 @@ def thin(svg):
     head, defs, body = re.fullmatch(r"(.*?)(<defs>.*?</defs>|)((?:(?!<defs>).)*)", svg, re.S).groups() \
         if svg.count("<defs>") == 1 else (svg[:0], "", svg)
     body = re.sub(r"<!--.*?-->|<!DOCTYPE[^>]*>", "", body, flags=re.S)
-    body = re.sub(r"(<path\b[^>]*?\sd=)(['\"])(.*?)\2", lambda m: f"{m[1]}{m[2]}{path_data(m[3])}{m[2]}", body, flags=re.S)
+    body = re.sub(r"(<path\b[^>]*?\sd=)(['\"])(.*?)\2",
+                  lambda m: f"{m[1]}{m[2]}{path_data(m[3])}{m[2]}", body, flags=re.S)
     body = re.sub(r'(\bpoints=)(["\'])(.*?)\2',
                   lambda m: m[1] + m[2] + NUMBER.sub(lambda n: rounded(n[0]), m[3]).strip() + m[2], body, flags=re.S)
     body = MARKERS.sub(as_dots, body)

@@ -87,8 +87,8 @@ class CommandLine(ProgramTest):
         sources = {w["source"] for body in checks["balance"] for w in body["wrenches"]}
         self.assertIn("coupling/pull_joint1", sources)
         picture = self.folder / "both.png"
-        self.twinarm("render", made["E3"]["recording"], "--side-by-side", made["E4"]["recording"], "--png", picture, "--plot",
-                     "tracking-error", "--size", "320x200")
+        self.twinarm("render", made["E3"]["recording"], "--side-by-side", made["E4"]["recording"], "--png", picture,
+                     "--plot", "tracking-error", "--size", "320x200")
         self.assertTrue(picture.exists())
 
     # Bad names

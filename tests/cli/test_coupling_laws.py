@@ -198,7 +198,8 @@ class Errors(CouplingLaws):
     def test_behind_a_start_every_law_peaks_as_predicted(self):
         """Small gains, for the error of a step is of the order of w h."""
         point = {"stiffness": 400, "damping": 6, "point": [R, 0, 0]}
-        laws = {"linear": coupling("linear", **point), "equivalent-torsional": coupling("equivalent-torsional", **point),
+        laws = {"linear": coupling("linear", **point),
+                "equivalent-torsional": coupling("equivalent-torsional", **point),
                 "weld": coupling("weld", time_constant=0.1, damping_ratio=0.6),
                 "bushing": coupling("bushing", rotational_stiffness=20, rotational_damping=1,
                                     damper="absolute", **point),

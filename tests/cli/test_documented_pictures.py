@@ -42,7 +42,8 @@ def stills():
 
 
 class DocumentedPictures(unittest.TestCase):
-    @unittest.skipUnless(shutil.which("pngquant") and shutil.which("gnuplot"), "no pngquant or gnuplot: scripts/setup --docs")
+    @unittest.skipUnless(shutil.which("pngquant") and shutil.which("gnuplot"),
+                         "no pngquant or gnuplot: scripts/setup --docs")
     def test_stills_are_what_the_script_makes(self):
         names = sorted(stills() - LARGE)
         self.assertGreater(len(names), 13)
@@ -61,7 +62,8 @@ class DocumentedPictures(unittest.TestCase):
                 if made.read_bytes() == committed.read_bytes():
                     continue
                 with self.subTest(name, remedy=f"scripts/generate/pictures {name}"):
-                    self.assertLess(picture.share_seen(picture.read_png(committed), picture.read_png(made)), MAX_VISIBLE)
+                    self.assertLess(picture.share_seen(picture.read_png(
+                        committed), picture.read_png(made)), MAX_VISIBLE)
 
     def test_films_contain_the_recipe_of_today(self):
         printed = subprocess.run([SCRIPT, "--recipes"], check=True, capture_output=True, text=True).stdout
@@ -85,7 +87,8 @@ class DocumentedPictures(unittest.TestCase):
 
     def test_every_picture_has_a_script_and_all_are_small(self):
         self.assertEqual({file.stem for file in PICTURES.glob("*.[ps][nv]g")}, stills() | BY_HAND)
-        files = [file for file in (ROOT / "docs").rglob("*") if file.suffix in (".png", ".svg", ".mp4", ".gif", ".webm")]
+        files = [file for file in (ROOT / "docs").rglob("*")
+                 if file.suffix in (".png", ".svg", ".mp4", ".gif", ".webm")]
         self.assertLess(sum(file.stat().st_size for file in files), MAX_BYTES)
         self.assertEqual([file.name for file in files if file.suffix == ".gif"], [])
 

@@ -66,7 +66,8 @@ class LabRules(LabTest):
         self.assertIn("22", self.lab.get("/scene").body.decode())
 
     def test_the_energy_balance_continues_over_a_change(self):
-        gravity = self.live.wait_for("scene", lambda s: "gravity" in s["energy_balance"])["energy_balance"].index("gravity")
+        gravity = self.live.wait_for("scene", lambda s: "gravity" in s["energy_balance"])[
+            "energy_balance"].index("gravity")
         self.frame(lambda f: f.time > 0.4)
         before = self.stand()
         self.live.do("set", changes=[f"{B}=21"])
@@ -104,7 +105,8 @@ class LabRules(LabTest):
         self.live.do("play", on=True)
         self.lab.upload("ball.toml", ball, self.live)
         scene = self.live.wait_for("scene", lambda s: s["scene"] > number)
-        self.assertFalse([row for row in scene["energy_balance"] if "pull" in row or "hinge" in row], scene["energy_balance"])
+        self.assertFalse([row for row in scene["energy_balance"]
+                         if "pull" in row or "hinge" in row], scene["energy_balance"])
         self.assertLess(self.frame(lambda f: f.scene == scene["scene"]).time, 0.3)
         self.assertEqual(self.lab.history(0).scene, scene["scene"])
 

@@ -15,10 +15,10 @@ class Maps(MapCommand):
     def test_cells_and_the_curve_on_top_are_those_of_the_closed_form_of_each_scheme(self):
         """docs/understand/stability_of_spring_dampers.md."""
         for discretization, options, is_stable in (("explicit", (), lambda a, b: a < 4 - 2 * b),
-                                              ("semi-implicit", (), lambda a, b: a < 4 + 2 * b),
-                                              ("implicit", (), lambda a, b: True),
-                                              ("explicit", ("--integrator", "rk4"), is_stable_of_order(4)),
-                                              ("explicit", ("--integrator", "heun"), is_stable_of_order(2))):
+                                                   ("semi-implicit", (), lambda a, b: a < 4 + 2 * b),
+                                                   ("implicit", (), lambda a, b: True),
+                                                   ("explicit", ("--integrator", "rk4"), is_stable_of_order(4)),
+                                                   ("explicit", ("--integrator", "heun"), is_stable_of_order(2))):
             with self.subTest(discretization, options=options):
                 plane = self.map(self.scene(discretization), "--x", "coupling.damping:0.5:20:6", "--y",
                                  "step:0.005:0.15:30", *options, name=discretization + "".join(options))

@@ -23,7 +23,7 @@ MAX_VISIBLE = 0.002  # of the squares: 7 of the 3600
 SIZE = "480x270"
 GOLDEN = {
     "arm_and_target": [SCENES / "robot_beside_obstacles.toml", "--at", "1", "--camera", "128,25",
-                     "--show", "targets,couplings,contacts,forces,energy"],
+                       "--show", "targets,couplings,contacts,forces,energy"],
     "boxes": [SCENES / "box_stack.toml", "--at", "0.3", "--show", "contacts,forces,com,gravity"],
     "bars": [SCENES / "four_bar.toml", "--at", "0.4", "--show", "trails,labels,frames,momentum"],
     "sky": [SCENES / "turntable.toml", "--at", "0.5", "--camera", "30,8", "--background", "sky"],

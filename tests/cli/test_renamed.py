@@ -82,7 +82,7 @@ class Renamed(RecordingCommand):
         file = self.record(held(10, 1) + COUPLINGS + CAVITY + WELL, "--duration", 0.05)
         today = self.exported(file)
         seen = self.json_of("inspect", file)
-        blocks = [(kind, in_old_words(payload.decode()).encode() if b"[[coupling]]" in payload and kind == "D" else payload)
+        blocks = [(kind, in_old_words(payload.decode()).encode() if kind == "D" else payload)
                   for kind, payload in form.blocks(file.read_bytes())]
         self.assertIn(b"turn_stiffness", b"".join(payload for _, payload in blocks))
         file.write_bytes(form.file_of(blocks))

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""docs/reference/scene_file.md names each key that a scene may have, and no other; docs/reference/study_files.md each of the study's settings;
-docs/reference/exit_codes_and_errors.md each exit code.
+"""docs/reference/scene_file.md names each key that a scene may have, and no other; docs/reference/study_files.md each
+of the study's settings; docs/reference/exit_codes_and_errors.md each exit code.
 
     test_scene_reference.py PROGRAM
 
@@ -19,7 +19,8 @@ WORD = re.compile(r"[a-z][a-z_0-9]*")
 CELLS = re.compile(r"(?<!\\)\|")
 ROBOT = '[[robot]]\nname = "arm"\nmodel = "robots/s103/s103.urdf"\n'
 ARM = '[[coupling]]\nlink = "arm1"\nstiffness = 1\n'
-SHAPES = ("halfspace", "box", "sphere", "capsule", "cylinder", "ellipsoid", "spherical_cavity", "cylindrical_cavity", "mesh")
+SHAPES = ("halfspace", "box", "sphere", "capsule", "cylinder",
+          "ellipsoid", "spherical_cavity", "cylindrical_cavity", "mesh")
 
 
 def spans(text):
@@ -91,7 +92,8 @@ class Keys(unittest.TestCase):
     def check(self, heading, found, said=None):
         said = named(heading) if said is None else said
         self.assertEqual(sorted(found - said), [], f"docs/reference/scene_file.md, {heading}: not said, though there")
-        self.assertEqual(sorted(said - found), [], f"docs/reference/scene_file.md, {heading}: said, though there is none")
+        self.assertEqual(sorted(said - found), [],
+                         f"docs/reference/scene_file.md, {heading}: said, though there is none")
 
     def test_the_top(self):
         lists = {"robot", "body", "pair", "coupling", "constraint"}
@@ -109,7 +111,8 @@ class Keys(unittest.TestCase):
     def test_the_tables_of_numbers_are_those_that_the_program_prints(self):
         printed = run("help", "--scene-keys").stdout
         for table in printed.strip().split("\n\n"):
-            self.assertIn(f"\n{table}\n\n", PAGE, "docs/reference/scene_file.md: take the table from twinarm help --scene-keys")
+            self.assertIn(f"\n{table}\n\n", PAGE,
+                          "docs/reference/scene_file.md: take the table from twinarm help --scene-keys")
 
     def test_tables_within_tables(self):
         for heading, key, before, inside, extra in (
@@ -142,7 +145,8 @@ class Settings(ProgramTest):
                 if not place.startswith("settings, ")}  # the tables themselves
 
     def test_each_setting_is_in_docs_study_and_in_the_file_and_no_other(self):
-        text = re.search(r"^## Settings.*?\n(.*?)(?=^## )", (ROOT / "docs/reference/study_files.md").read_text(), re.M | re.S)[1]
+        text = re.search(r"^## Settings.*?\n(.*?)(?=^## )",
+                         (ROOT / "docs/reference/study_files.md").read_text(), re.M | re.S)[1]
         said = {key for line in text.splitlines() if line.startswith("| `") for key in spans(CELLS.split(line)[1])}
         self.assertEqual(sorted(said), sorted(self.missed()))
         shipped = set()
@@ -155,7 +159,8 @@ class Settings(ProgramTest):
 
 class ExitCodes(unittest.TestCase):
     def test_each_code_of_the_sources_is_in_the_table_and_no_other(self):
-        table = re.search(r"^## Exit codes\n(.*?)(?=^## )", (ROOT / "docs/reference/exit_codes_and_errors.md").read_text(), re.M | re.S)[1]
+        table = re.search(r"^## Exit codes\n(.*?)(?=^## )",
+                          (ROOT / "docs/reference/exit_codes_and_errors.md").read_text(), re.M | re.S)[1]
         said = {int(code) for code in re.findall(r"^\| (\d+) \|", table, re.M)}
         there = {0, 1}  # of commands whose result can fall short: no name of their own
         for file in (ROOT / "app").rglob("*.cpp"):

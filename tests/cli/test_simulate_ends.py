@@ -28,7 +28,7 @@ class Joules(RobotCommand):
             sample, energy_balance = answer["samples"][-1], answer["energy_balance"]
             self.close([sample["q"]["slide"], sample["qd"]["slide"]], [x, v], tolerance)
             self.assertEqual(list(energy_balance), ["gravity", "actuator/slide", "joint/slide/damping",
-                                            "numerical"])
+                                                    "numerical"])
             self.close(energy_balance["actuator/slide"], F * x, tolerance)
             self.close(energy_balance["joint/slide/damping"], m * v * v / 2 - F * x, tolerance)
             self.close(energy_balance["numerical"], 0, tolerance, integrator)

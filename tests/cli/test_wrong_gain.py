@@ -61,7 +61,7 @@ LAWS = {
     "weld": ({"type": "weld", "time_constant": 4e-4, "damping_ratio": 0.2}, ""),
     "published-linear": ({"type": "published-linear", "stiffness": 3e7, "damping": 600}, ""),
     "published-linear, seldom": ({"type": "published-linear", "stiffness": 3e5, "damping": 2000,
-                                "rate": 100}, ""),
+                                  "rate": 100}, ""),
     "published-torsional": ({"type": "published-torsional", "stiffness": 3e6, "damping": 5}, ""),
     "stable PD": ({"type": "stable-pd", "stiffness": 3e6, "damping": 20}, ""),
     "equivalent-torsional": ({"type": "equivalent-torsional", "stiffness": 3e7, "damping": 600}, ""),

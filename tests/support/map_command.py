@@ -23,7 +23,8 @@ class MapCommand(ProgramTest):
         self.write("hinge.urdf", data("hinge.urdf"))
 
     def scene(self, discretization="explicit", damping=1.0, duration=20.0, name="scene.toml"):
-        return self.write(name, data("map_hinge.toml", duration=duration, damping=damping, discretization=discretization))
+        return self.write(name, data("map_hinge.toml", duration=duration, damping=damping,
+                                     discretization=discretization))
 
     def map(self, scene, *options, name="work.twinmap"):
         return self.json_of("map", scene, *options, "--checkpoint", self.folder / name)

@@ -28,8 +28,8 @@ WRITERS = {
     "inspection": (["inspect", ROBOT, "--html", "robot.html"], set()),
     "cases": (["compare", "A1", "--html", "."], set()),
     "trace": (["trace", "--out", "trace.csv"], set()),
-    "trial": (["trial", "--simulated", "--yes", "--device", "virtual:synthetic", "--seconds", "0.5", "--time-limit", "0.5",
-               "--out", "."], set()),
+    "trial": (["trial", "--simulated", "--yes", "--device", "virtual:synthetic", "--seconds", "0.5", "--time-limit",
+               "0.5", "--out", "."], set()),
     "study": (["study", "--out", "."], set()),
 }
 

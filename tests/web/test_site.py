@@ -98,7 +98,8 @@ class Site(unittest.TestCase):
         for page in (ROOT / "docs").rglob("*.md"):
             films = page.read_text().count(".mp4)")
             html = (self.site / page.relative_to(ROOT / "docs")).with_suffix(".html").read_text()
-            self.assertEqual(len(re.findall(r'<video controls[^>]* src="[^"]*\.mp4" poster="[^"]*\.png"', html)), films, page)
+            self.assertEqual(
+                len(re.findall(r'<video controls[^>]* src="[^"]*\.mp4" poster="[^"]*\.png"', html)), films, page)
             shown += films
         self.assertEqual(shown, 3)
 

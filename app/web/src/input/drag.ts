@@ -204,8 +204,7 @@ export class Drag {
     const hit = pick(stage, frame, 0, at);
     const layer = scene.layers.findIndex(({ name }) => name === 'targets');
     const target = layer > 0 ? pick(stage, frame, layer, at) : null;
-    const joint =
-      target && scene.joints.find((j) => j.body === target.body && j.driven !== undefined && j.axis);
+    const joint = target && scene.joints.find((j) => j.body === target.body && j.driven !== undefined && j.axis);
     if (joint && (!hit || target.distance < hit.distance - 0.03 * scene.view.radius))
       return { kind: 'joint', joint, point: target.point } as const;
     return { kind: 'body', hit } as const;

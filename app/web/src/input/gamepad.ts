@@ -14,8 +14,10 @@ export class Controller {
   private readonly down = [false, false];
 
   constructor(private readonly operator: Operator, showMessage: (text: string) => void) {
-    addEventListener('gamepadconnected', ({ gamepad }) =>
-      showMessage(`${gamepad.id.split('(')[0].trim()}: sticks move the end effector, first button: gripper.`),
+    addEventListener(
+      'gamepadconnected',
+      ({ gamepad }) =>
+        showMessage(`${gamepad.id.split('(')[0].trim()}: sticks move the end effector, first button: gripper.`),
     );
   }
 

@@ -85,9 +85,7 @@ export class Handles {
     const [nx, ny] = [(-dy / length) * 5, (dx / length) * 5];
     const at = (share: number, side: number) =>
       `${(from.x + share * dx + side * nx).toFixed(1)} ${(from.y + share * dy + side * ny).toFixed(1)}`;
-    const coils = Array.from({ length: COILS }, (_, i) =>
-      at(0.12 + (0.76 * (i + 0.5)) / COILS, i % 2 ? 1 : -1),
-    );
+    const coils = Array.from({ length: COILS }, (_, i) => at(0.12 + (0.76 * (i + 0.5)) / COILS, i % 2 ? 1 : -1));
     const points = [at(0, 0), at(0.12, 0), ...coils, at(0.88, 0), at(1, 0)];
     this.spring.setAttribute('d', `M${points.join('L')}`);
     this.force.textContent = force;

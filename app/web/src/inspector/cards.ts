@@ -17,8 +17,7 @@ export function unitOf({ passes }: BodyInspection, unit: string): string {
 export function passCards(numbers: BodyInspection, which: number): HTMLElement[] {
   const step = numbers.passes!.find(({ pass }) => pass === which)!;
   const equations = (numbers.equations ?? []).filter(({ pass }) => pass === which);
-  const find = (name: string) =>
-    equations.find((equation) => equation.name === name || equation.name === `D ${name}`);
+  const find = (name: string) => equations.find((equation) => equation.name === name || equation.name === `D ${name}`);
   const card = (quantity: Quantity) => {
     const found = find(quantity.name);
     const isOne = typeof quantity.value === 'number';
@@ -93,7 +92,7 @@ function columns(equation: Equation, body: string, unit: string): HTMLElement {
         numberCell(numbers[k], sizes[isSix ? Math.floor(k / 3) : 0], i === parts.length - 1 ? 'total' : ''),
       ]),
       element('td.unit', k % 3 === 0 ? unitText(units[Math.floor(k / 3)] ?? units[0]) : ''),
-    ),
+    )
   );
   const style = { class: isSix ? 'columns six-rows' : 'columns' };
   return element('div.wide', table([element('td'), ...heads, element('td')], rows, style));

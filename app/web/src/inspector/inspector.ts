@@ -2,10 +2,7 @@
 // diagram, contacts, energy balance; while paused, a walk through one call of the algorithm.
 import './inspector.css';
 import type { BodyInspection, Vector } from '../protocol/messages';
-import {
-  adjacentCards, balanceTable, checkSummary, checkTable, contactTables, energyTable, jointTables, passTable,
-  wrenchColor,
-} from './tables';
+import { adjacentCards, balanceTable, checkSummary, checkTable, contactTables, energyTable, jointTables, passTable, wrenchColor } from './tables';
 import { button, element, icon, morph, short } from '../ui/dom';
 import { definition } from '../ui/glossary';
 import { key, listen } from '../ui/keys';
@@ -234,7 +231,7 @@ class Stepper {
         'div.row',
         button(PASSES[pass][0], PASSES[pass].join(': '), () => this.goPass(pass), 'pass'),
         ...this.chips.filter((_, i) => steps[i].pass === pass),
-      ),
+      )
     );
     this.root.replaceChildren(...this.rows);
   }

@@ -121,7 +121,7 @@ function swatch(i: number): HTMLElement {
 export function balanceTable(balance: Balance, axes: string, about: string): HTMLElement {
   const { body, wrenches, largest } = balance;
   const rows = wrenches.map(({ source, force, torque }, i) =>
-    row([swatch(i), source], ...[...force, ...torque].map((value) => numberCell(value, largest))),
+    row([swatch(i), source], ...[...force, ...torque].map((value) => numberCell(value, largest)))
   );
   const heads = ['', 'Fx', 'Fy', 'Fz [N]', 'Tx', 'Ty', 'Tz [N m]'];
   const title = element('span', ` ${axes} axes, about ${about}`);

@@ -215,7 +215,7 @@ class Page implements LabKeys {
       if (wasRequested && this.hasControl) this.showMessage('You have control now.');
       for (const listener of this.listeners) listener.onState?.(state);
     }
-    if (inspection) for (const panel of this.panels) panel.onInspection?.(inspection);
+    if (inspection) { for (const panel of this.panels) panel.onInspection?.(inspection); }
     if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
   }
 

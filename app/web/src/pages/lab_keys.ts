@@ -49,8 +49,10 @@ function inputKeys(page: LabKeys): Key[] {
   return [
     key('h', 'move the end effector with the arrow keys, page up, page down', () => keys.focusTip()),
     key('j', 'move the next joint with the arrow keys', () => keys.nextJoint()),
-    key('x', 'apply a spring force to the selected body with the arrow keys; x releases', () =>
-      keys.toggleSpring(page.selected),
+    key(
+      'x',
+      'apply a spring force to the selected body with the arrow keys; x releases',
+      () => keys.toggleSpring(page.selected),
     ),
     key('← →', 'otherwise: seek; with shift by 0.5 s', {
       ArrowLeft: move(-1, 0, 0),

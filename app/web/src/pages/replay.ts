@@ -78,7 +78,7 @@ class Page extends RecordedPage {
     const time = Number(this.hashValue('t') ?? NaN);
     if (Number.isFinite(time)) this.player.seek(time);
     const show = this.hashValue('show')?.split(',');
-    if (show) for (const { name } of this.run.layers) this.overlays.set(name, show.includes(name));
+    if (show) { for (const { name } of this.run.layers) this.overlays.set(name, show.includes(name)); }
     const tab = TABS.indexOf(this.hashValue('tab') ?? '');
     if (tab >= 0) this.tabs.show(tab);
   }

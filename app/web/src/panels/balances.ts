@@ -56,8 +56,7 @@ export class EnergyPanel implements Panel {
   private drawnAt = -Infinity;
 
   constructor(private readonly source: RunSource) {
-    const hint =
-      'Work of each force since the start. The rows sum to the change in kinetic energy; “numerical” ' +
+    const hint = 'Work of each force since the start. The rows sum to the change in kinetic energy; “numerical” ' +
       `is the residual, the error of the integrator. ${DIGITS}`;
     this.root.append(heading('Energy balance'), element('p.hint', hint), this.host);
     if (source.record) this.take(source.record);
@@ -125,7 +124,7 @@ export class MomentumPanel implements Panel {
         const value = i < rows.length ? values[6 * (frame * rows.length + i) + c] : sums[c];
         sums[c] += value;
         putNumber(cell, value);
-      }),
+      })
     );
   }
 }

@@ -22,8 +22,7 @@ export class BranchDialog {
     private readonly rewind: Rewind,
     private readonly changes: () => string[],
   ) {
-    const text =
-      'The run continues from this instant; recorded input is repeated. The previous branch remains ' +
+    const text = 'The run continues from this instant; recorded input is repeated. The previous branch remains ' +
       'visible: translucent in the view, dotted in the plots.';
     const form = element(
       'form',

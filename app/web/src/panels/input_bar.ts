@@ -1,9 +1,7 @@
 // Input of the target robot: source, device force, control among clients.
 import './input_bar.css';
 import { button, changeDetector, element, option, statusLine } from '../ui/dom';
-import {
-  type Command, type Frame, type InputState, isViewOnly, type SceneMessage, type StateMessage,
-} from '../source/link';
+import { type Command, type Frame, type InputState, isViewOnly, type SceneMessage, type StateMessage } from '../source/link';
 import { DEVICE_LIMIT } from '../plot/specs';
 import type { LabPage, Panel } from './panel';
 

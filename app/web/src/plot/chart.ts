@@ -5,10 +5,7 @@ import { axesOfTime, drawOver, Gestures } from './chart_parts';
 import { button, element, short } from '../ui/dom';
 import { definition } from '../ui/glossary';
 import { token } from '../ui/preferences';
-import {
-  branchCurves, type ChartExtras, colorOf, DASH, lines, lineSeries, rangeOf, stack, stackSeries, usualSize,
-  type Window,
-} from './chart_data';
+import { branchCurves, type ChartExtras, colorOf, DASH, lines, lineSeries, rangeOf, stack, stackSeries, usualSize, type Window } from './chart_data';
 import { type CsvColumn, savePicture } from './export';
 import { type Curve, type PlotSpec, screenUnit } from './specs';
 import type { RunRecord } from '../source/run_record';

@@ -105,7 +105,11 @@ export class Plots implements Panel, ChartPanel {
     const { scene, store, works } = this.record;
     const value = (column: number) => (row: number) => store.value(column, row);
     const channels = scene.channels.map(({ name, unit }, i) => ({ name, unit, value: value(i) }));
-    const rows = scene.energy_balance.map((name, i) => ({ name: `energy_balance/${name}`, unit: 'J', value: value(works + i) }));
+    const rows = scene.energy_balance.map((name, i) => ({
+      name: `energy_balance/${name}`,
+      unit: 'J',
+      value: value(works + i),
+    }));
     this.saveCsv('all', [...channels, ...rows]);
   }
 

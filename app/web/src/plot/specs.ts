@@ -134,8 +134,7 @@ export class PlotSpecs {
   private coordinates(unit: 'rad' | 'm'): PlotSpec[] {
     const targets = new Map(this.of('target').map((channel) => [channel.of, channel.column]));
     const all = this.of('coordinate').filter(
-      (channel) =>
-        channel.unit === unit && (targets.has(channel.of) || this.span(channel.column) > 1e-9),
+      (channel) => channel.unit === unit && (targets.has(channel.of) || this.span(channel.column) > 1e-9),
     );
     const driven = all.filter((channel) => targets.has(channel.of)).slice(0, MAX_CURVES);
     if (driven.length === 0 && this.of('variant').length > 0) return []; // shown per variant
@@ -180,7 +179,7 @@ export class PlotSpecs {
     return this.plain('device', 'Motor torques of the device', shown).map((spec) =>
       spec.unit === 'N'
         ? { ...spec, title: 'Device force', limit: { value: DEVICE_LIMIT, words, always: true } }
-        : spec,
+        : spec
     );
   }
 

@@ -27,8 +27,7 @@ export function decodeHistory(buffer: ArrayBuffer) {
   const [magic, scene, frames, channels, rows] = new Uint32Array(buffer, 0, 5);
   const numbers = frames * (1 + channels + rows);
   if (magic !== HISTORY_MAGIC || buffer.byteLength < HISTORY_HEADER + 8 * numbers) return null;
-  const part = (first: number, count: number) =>
-    new Float64Array(buffer, HISTORY_HEADER + 8 * first, count);
+  const part = (first: number, count: number) => new Float64Array(buffer, HISTORY_HEADER + 8 * first, count);
   return {
     scene,
     times: part(0, frames),
@@ -89,7 +88,7 @@ export class RunRecord {
     this.store.cut(first > 0 ? this.store.times[first - 1] : -Infinity);
     if (first === 0) this.began = NaN;
     times.forEach((time, f) =>
-      this.addRow(time, channels.subarray(f * C, (f + 1) * C), works.subarray(f * R, (f + 1) * R)),
+      this.addRow(time, channels.subarray(f * C, (f + 1) * C), works.subarray(f * R, (f + 1) * R))
     );
     if (later) this.replay(later, this, end);
   }
@@ -195,7 +194,7 @@ export function recordOf({ title, channels, energy_balance, times }: Run): RunRe
       time,
       channels.map(({ values }) => values[frame]),
       works.subarray(frame * rows.length, (frame + 1) * rows.length),
-    ),
+    )
   );
   return record;
 }

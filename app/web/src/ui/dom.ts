@@ -1,7 +1,6 @@
 // DOM and SVG elements: created in one call, updated in place.
 type TagOf<T extends string> = T extends `${infer Tag}.${string}` ? Tag : T;
-type Made<T extends string> =
-  TagOf<T> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<T>] : never;
+type Made<T extends string> = TagOf<T> extends keyof HTMLElementTagNameMap ? HTMLElementTagNameMap[TagOf<T>] : never;
 
 // Attributes; functions are listeners to the event of that name.
 type Attributes = Record<string, string | ((event: never) => void)>;

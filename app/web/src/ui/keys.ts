@@ -96,8 +96,7 @@ export function help(keys: Key[], mouse: string): HTMLDialogElement {
   return dialog;
 }
 
-export const PLOTS =
-  'Plots: drag to zoom, double-click for the whole run, click or drag the marker to seek.';
+export const PLOTS = 'Plots: drag to zoom, double-click for the whole run, click or drag the marker to seek.';
 export const MOUSE = 'Mouse: drag to rotate, right button to pan, wheel to zoom.';
 
 export function pageHeader(parts: Node[], dialog: HTMLDialogElement, toggleTheme: () => void): HTMLElement {

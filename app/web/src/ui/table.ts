@@ -23,9 +23,7 @@ export function table(
   attributes: Record<string, string> = {},
   foot?: Node,
 ): HTMLTableElement {
-  const cells = heads.map((head) =>
-    typeof head === 'string' ? element('th', { scope: 'col' }, head) : head,
-  );
+  const cells = heads.map((head) => typeof head === 'string' ? element('th', { scope: 'col' }, head) : head);
   return element(
     'table',
     attributes,

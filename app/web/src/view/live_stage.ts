@@ -132,8 +132,7 @@ function isSoftware(gl: WebGL2RenderingContext): boolean {
 
 const EVERY = 200; // [ms]
 const ALT = 'the robot, rendered by the server';
-const NO_WEBGL =
-  'WebGL is unavailable: showing images rendered by the server, 5 per second, from a fixed view. The ' +
+const NO_WEBGL = 'WebGL is unavailable: showing images rendered by the server, 5 per second, from a fixed view. The ' +
   'keyboard still moves the robot.';
 
 // Without WebGL: images rendered by the server. At most one request at a time.

@@ -1,9 +1,7 @@
 // Draws a draw list with three.js: entries with the same mesh and surface form one instanced mesh.
 import * as THREE from 'three';
 import type { InstanceColumns, MeshData } from '../protocol/run';
-import {
-  Batch, translucentMaterials, hiddenMaterials, ORDER, outlineMaterials, solidMaterial, type SurfaceOf,
-} from './surfaces';
+import { Batch, translucentMaterials, hiddenMaterials, ORDER, outlineMaterials, solidMaterial, type SurfaceOf } from './surfaces';
 
 // Frames a and b of one layer, interpolated by `share`. A live frame has layers in the place of frames.
 export interface Part {
