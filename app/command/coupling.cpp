@@ -22,7 +22,7 @@ struct CouplingPredictOptions {
   std::optional<double> stiffness, damping;
   std::optional<double> step;   // [s]; default: the scene's
   std::string integrator;       // empty: the scene's
-  double turn = 180, time = 1;  // move of the target [deg, or mm], [s]
+  double move = 180, time = 1;  // move of the target [deg, or mm], [s]
   std::optional<double> wall;   // [N/m]
   std::string along;            // "j1=1,j2=-0.5": factors of that move; empty: 1 for each joint
   bool json = false;
@@ -41,7 +41,7 @@ void add_options(const OptionAdder& add, CouplingPredictOptions& options) {
   add("--damping", options.damping, "damping [N s/m or N m s/rad]");
   add.group("Prediction");
   add.scene_step(options.step, options.integrator);
-  add("--move", options.turn, "move of the target [deg, or mm]");
+  add("--move", options.move, "move of the target [deg, or mm]");
   add("--time", options.time, "duration of the move [s]");
   add("--along", options.along,
       "joint=factor,..: factor of the move for each joint; default: 1 for all");
@@ -150,7 +150,7 @@ Value scene_of_options(const CouplingPredictOptions& options, DiagnosticList& fa
 
 int run_coupling_predict(const CouplingPredictOptions& options) {
   DiagnosticList faults;
-  check_positive("--move", options.turn, faults);
+  check_positive("--move", options.move, faults);
   check_positive("--time", options.time, faults);
   if (options.wall) check_positive("--wall", *options.wall, faults);
   const auto along = read_along(options.along, faults);
@@ -165,7 +165,7 @@ int run_coupling_predict(const CouplingPredictOptions& options) {
   if (!is_scene && has_coupling) scene = scene_of_options(options, faults);
   SimulatePlan prepared =
       prepare_couplings(options.robot, options.step, options.integrator, faults, std::move(scene));
-  const PredictTask task{options.turn * std::numbers::pi / 180, options.time, options.wall, along};
+  const PredictTask task{options.move * std::numbers::pi / 180, options.time, options.wall, along};
   const Predicted found = predict_couplings(prepared, task);
   fmt::print("{}\n", options.json ? predicted_json(found, task) : predicted_table(found, task));
   return 0;

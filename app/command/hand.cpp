@@ -25,7 +25,7 @@ struct HandOptions {
   std::string mapping = "paper";
   std::optional<double> scale, force_scale;  // of the mapping
   std::optional<double> duration, step;      // [s]; default: until Ctrl-C, the scene's
-  bool simulated = false, fifo = false, control = false, picture = false, record = false;
+  bool simulated = false, fifo = false, empty_loop = false, picture = false, record = false;
   std::filesystem::path out = "out/hand";
   bool json = false;
 };
@@ -47,7 +47,7 @@ void add_options(const OptionAdder& add, HandOptions& options) {
   add("--simulated", options.simulated,
       "run without real-time pacing: reproducible, for simulated devices");
   add("--fifo", options.fifo, "request SCHED_FIFO and locked memory; continue if they are refused");
-  add("--empty-loop", options.control,
+  add("--empty-loop", options.empty_loop,
       "alternate each second with an empty loop, to measure the machine's jitter");
   add.group("Output");
   add("--timing", options.picture, "write OUT/timing.svg: histograms of the ticks");
@@ -86,7 +86,7 @@ SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
     faults.add({options.scene.string(), 0, "scene", "is not a scene",
                 "give a TOML file with couplings whose target is \"device\"", "file.no-scene"});
   if (options.duration) check_positive("--duration", *options.duration, faults, " [s]");
-  if (options.control && options.simulated)
+  if (options.empty_loop && options.simulated)
     faults.add("--empty-loop", "measures real time, which --simulated does not keep",
                "leave --simulated out", "option.conflict");
   faults.check();
@@ -99,7 +99,7 @@ void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummar
   plan.duration = options.duration.value_or(HUGE_VAL);
   plan.real_time = !options.simulated;
   plan.ask_for_fifo = options.fifo;
-  plan.control = options.control;
+  plan.empty_loop = options.empty_loop;
   std::atomic<bool> stop{false};
   Progress progress(options.json || isatty(STDERR_FILENO) == 0);
   progress.stage("hand", 1);

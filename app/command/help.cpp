@@ -20,7 +20,7 @@ namespace {
 struct HelpOptions {
   CLI::App* program = nullptr;
   std::vector<std::string> words;
-  bool man = false, completion = false, scene_numbers = false;
+  bool man = false, completion = false, scene_keys = false;
 };
 
 void add_options(const OptionAdder& add, HelpOptions& options) {
@@ -31,7 +31,7 @@ void add_options(const OptionAdder& add, HelpOptions& options) {
   CLI::Option* completion = add("--completion", options.completion,
                                 "print the completion script for bash: commands, options, files")
                                 ->excludes(man);
-  add("--scene-keys", options.scene_numbers,
+  add("--scene-keys", options.scene_keys,
       "print tables of the numbers in a scene file: units, defaults, ranges, meanings")
       ->excludes(man)
       ->excludes(completion);
@@ -108,10 +108,10 @@ std::string help_of(const CLI::App& program, const std::vector<std::string>& wor
 
 int run_help(const HelpOptions& options) {
   CLI::App& program = *options.program;
-  fmt::print("{}", options.man             ? man_page(program, kProgramVersion)
-                   : options.completion    ? shell_completion(program)
-                   : options.scene_numbers ? scene_numbers()
-                                           : help_of(program, options.words));
+  fmt::print("{}", options.man          ? man_page(program, kProgramVersion)
+                   : options.completion ? shell_completion(program)
+                   : options.scene_keys ? scene_numbers()
+                                        : help_of(program, options.words));
   return 0;
 }
 

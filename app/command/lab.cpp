@@ -22,8 +22,8 @@ struct LabOptions {
   std::filesystem::path scene;  // empty: the first of the gallery
   std::string variants;         // "integrator=semi-implicit,rk4"; empty: the gallery's
   std::string listen = "127.0.0.1";
-  int port = 0;        // 0: any free port
-  int remember = 256;  // memory for the timeline [MB]
+  int port = 0;       // 0: any free port
+  int history = 256;  // memory for the timeline [MB]
   bool no_browser = false, json = false;
 };
 
@@ -35,7 +35,7 @@ void add_options(const OptionAdder& add, LabOptions& options) {
       "run variants side by side, one per value: PATH=VALUE,VALUE.., such as "
       "integrator=semi-implicit,rk4 or coupling.stiffness=500,2000")
       ->type_name("PATH=VALUES");
-  add("--history", options.remember, "memory for the timeline [MB]; 256 MB hold some minutes")
+  add("--history", options.history, "memory for the timeline [MB]; 256 MB hold some minutes")
       ->check(between(1, 65536));
   add.group("Server");
   add("--port", options.port, "port of the server; default: any free port")
@@ -111,7 +111,7 @@ class Lab {
       : gallery_(std::move(gallery)),
         is_private_(is_loopback(options.listen)),
         session_(build(first_request(options, gallery_)), gallery_,
-                 static_cast<std::size_t>(options.remember) << 20),
+                 static_cast<std::size_t>(options.history) << 20),
         streamer_(
             session_, clients_, gallery_,
             [this](ClientId client, MessageStreamer::Channel channel, Bytes bytes, bool binary) {

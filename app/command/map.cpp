@@ -28,7 +28,7 @@ void add_options(const OptionAdder& add, MapOptions& options) {
   add.group("Run");
   add("--duration", options.duration, "[s]; default: the scene's");
   add.scene_step(options.step, options.integrator);
-  add("--no-simd", options.alone, "run cells one at a time, not in SIMD batches");
+  add("--no-simd", options.no_simd, "run cells one at a time, not in SIMD batches");
   add("--threads", options.threads, "number of threads; default: all processors")->default_str("");
   add.group("Output");
   add("--svg", options.svg, "write the map as SVG, with predicted limits");
@@ -40,7 +40,7 @@ void add_options(const OptionAdder& add, MapOptions& options) {
   add("--cell", options.cell, "IX,IY: index of a cell, from 0");
   add("--record", options.record, "write the recording of that cell, and its scene beside it");
   add.group("Resume and share");
-  add("--checkpoint", options.work,
+  add("--checkpoint", options.checkpoint,
       "checkpoint file, from which an interrupted map resumes; default: in out/map");
   add("--jobs", options.jobs, "number of jobs that share the map")->default_str("");
   add("--job", options.job, "index of this job, from 0")->default_str("");
@@ -74,13 +74,13 @@ bool is_part(const MapOptions& options) {
 void check_modes(const MapOptions& options, DiagnosticList& faults) {
   const bool part = is_part(options);
   if (part && (options.jobs < 1 || options.job < 0 || options.job >= options.jobs))
-    faults.add("--jobs, --job", fmt::format("there is no tile {} of {}", options.job, options.jobs),
+    faults.add("--jobs, --job", fmt::format("there is no job {} of {}", options.job, options.jobs),
                "give --jobs N with N at least 1, and --job I with I from 0 to N - 1", "map.part");
   if (part && !(options.svg.empty() && options.png.empty() && options.csv.empty()))
-    faults.add("--job", "a single tile has no picture and no table",
+    faults.add("--job", "a single job has no picture and no table",
                "give --svg, --png and --csv together with --merge", "map.part-output");
   if (!options.merge.empty() && (part || !options.cell.empty()))
-    faults.add("--merge", "merges finished tiles", "leave --jobs, --job and --cell out",
+    faults.add("--merge", "merges finished files of jobs", "leave --jobs, --job and --cell out",
                "map.merge-options");
   if (!options.cell.empty() && part)
     faults.add("--cell", "cannot be combined with --job", "leave --job out", "map.cell-options");
@@ -95,7 +95,8 @@ void check_outputs(const MapOptions& options, DiagnosticList& faults) {
   check_output("--png", options.png, ".png", options.force, faults);
   check_output("--csv", options.csv, ".csv", options.force, faults);
   if (!options.svg.empty() || !options.png.empty()) attempt(faults, require_gnuplot);
-  if (!options.merge.empty()) check_output("--checkpoint", options.work, "", options.force, faults);
+  if (!options.merge.empty())
+    check_output("--checkpoint", options.checkpoint, "", options.force, faults);
   if (!options.record.empty()) {
     std::filesystem::path scene = options.record;
     scene.replace_extension(".toml");
@@ -109,7 +110,7 @@ void check_outputs(const MapOptions& options, DiagnosticList& faults) {
 
 // --checkpoint, or a file in out/map whose name is unique for the map.
 std::filesystem::path work_file(const MapOptions& options, const TileFile& empty) {
-  if (!options.work.empty()) return options.work;
+  if (!options.checkpoint.empty()) return options.checkpoint;
   std::string all;
   for (const std::string& line : empty.head)
     if (!line.starts_with("scene ")) all += line + "\n";
@@ -120,7 +121,7 @@ std::filesystem::path work_file(const MapOptions& options, const TileFile& empty
                      hash_of(all) & 0xffffffffU, part);
 }
 
-// Blocks tile, tile + tiles, ..: jobs of similar cost.
+// Blocks job, job + jobs, ..: jobs of similar cost.
 std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& blocks) {
   std::vector<int> wanted;
   const int step = is_part(options) ? options.jobs : 1;
@@ -128,7 +129,7 @@ std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& block
     wanted.push_back(b);
   if (wanted.empty())
     throw InputError({{"", 0, "--jobs",
-                       fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} tiles",
+                       fmt::format("the map has {} blocks of 16 x 16 cells, fewer than {} jobs",
                                    blocks.count(), options.jobs),
                        "give fewer --jobs", "map.part"}});
   return wanted;
@@ -190,7 +191,7 @@ MapOptions with_merged(MapOptions options) {
   take(options.y, "y");
   take(options.of, "of");
   take(options.integrator, "integrator");
-  options.alone = first.value_of("cells") == identity::kOneByOne;
+  options.no_simd = first.value_of("cells") == identity::kOneByOne;
   take_number(options.duration, "duration");
   take_number(options.step, "step");
   return options;
@@ -202,7 +203,7 @@ int compute(const MapOptions& options, const MapJob& job) {
   const std::filesystem::path work = work_file(options, empty);
   if (!options.merge.empty()) {
     const TileFile file = merge_tile_files(options.merge, empty, blocks);
-    if (!options.work.empty()) write_result("--checkpoint", work, to_text(file));
+    if (!options.checkpoint.empty()) write_result("--checkpoint", work, to_text(file));
     write_results(options, job, file);
     return 0;
   }

@@ -25,9 +25,9 @@ struct RenderOptions {
   std::string size = "1280x720", camera = "auto",
               show = fmt::format("{}", fmt::join(usual_overlays(Overlay::Shown::everywhere), ","));
   std::string plot = "none", quality = "normal", background = "studio", gl = "osmesa";
-  std::filesystem::path beside;  // a second recording; empty: none
-  double slow = 1;               // slow-motion factor
-  std::optional<double> fps;     // default: 30, GIF 25
+  std::filesystem::path side_by_side;  // a second recording; empty: none
+  double slow_motion = 1;              // slow-motion factor
+  std::optional<double> fps;           // default: 30, GIF 25
   bool json = false;
 };
 
@@ -42,7 +42,7 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
   add("--at", options.at, "time of the picture [s]; default: end of a recording, else the start");
   add("--from", options.from, "start of the video [s]; default: the start");
   add("--to", options.to, "end of the video [s]; default: the end");
-  add("--slow-motion", options.slow, "slow-motion factor");
+  add("--slow-motion", options.slow_motion, "slow-motion factor");
   add("--fps", options.fps, "frames per second; default 30, GIF 25");
   add.group("Content");
   add("--camera", options.camera,
@@ -52,7 +52,7 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
   add("--plot", options.plot,
       "curves below the picture: none, or some of: energy, forces, torques, contacts, "
       "tracking-error");
-  add("--side-by-side", options.beside,
+  add("--side-by-side", options.side_by_side,
       "second recording, shown to the right of the first in sync");
   add.group("Picture");
   add("--size", options.size, "size [pixels]");
@@ -148,10 +148,10 @@ RenderPlan read_render_options(const RenderOptions& options) {
     plan.picture.curves = *curves;
   plan.picture.camera = options.camera;
   plan.rate = options.fps.value_or(options.gif.empty() ? 30 : 25);  // GIF: units of 1/100 s
-  check_positive("--slow-motion", options.slow, faults);
+  check_positive("--slow-motion", options.slow_motion, faults);
   if (!(plan.rate > 0 && plan.rate <= 1000))
     faults.add("--fps", "must be above 0 and at most 1000", "", "option.range");
-  if (!options.beside.empty() && plan.picture.width < 64)
+  if (!options.side_by_side.empty() && plan.picture.width < 64)
     faults.add("--size", "is too narrow for two runs", "give a width of at least 64",
                "option.range");
   if (options.at && !(*options.at >= 0 && std::isfinite(*options.at)))
@@ -160,7 +160,7 @@ RenderPlan read_render_options(const RenderOptions& options) {
   plan.times.at = options.at;
   plan.times.from = options.from;
   plan.times.to = options.to;
-  plan.times.interval = 1 / (plan.rate * options.slow);
+  plan.times.interval = 1 / (plan.rate * options.slow_motion);
   return plan;
 }
 
@@ -187,10 +187,10 @@ int run_render(const RenderOptions& options) {
   Progress progress(options.json || !plan.times.is_film);
   progress.stage("run", 0.3);
   std::vector<FilmedRun> runs;
-  if (options.beside.empty())
+  if (options.side_by_side.empty())
     runs.push_back(film_run(options.robot, plan.times, options.camera, progress));
   else
-    runs = film_pair(options.robot.model, options.beside, plan.times);
+    runs = film_pair(options.robot.model, options.side_by_side, plan.times);
   progress.stage("paint", 0.7);
   std::vector<const FilmedRun*> shown;
   for (const FilmedRun& run : runs) shown.push_back(&run);

@@ -30,7 +30,7 @@ struct StudyOptions {
   std::filesystem::path trace;
   bool recalibrate = false, identify = false, paper_view = false, json = false;
   std::filesystem::path assets;  // empty: found beside the program
-  std::string ask;               // "ROW/LAW/RATE": only this identification, and no study
+  std::string identify_one;      // "ROW/LAW/RATE": only this identification, and no study
 };
 
 void add_options(const OptionAdder& add, StudyOptions& options) {
@@ -46,7 +46,7 @@ void add_options(const OptionAdder& add, StudyOptions& options) {
   add("--identify", options.identify,
       "re-run the parameter identification of Table 2 and overwrite "
       "assets/study/identification.json (10 min)");
-  add("--identify-one", options.ask,
+  add("--identify-one", options.identify_one,
       "ROW/LAW/RATE, such as E4/linear/60: print one identification as JSON and stop");
   add.group("Output");
   add("--out", options.out, "folder for report, figures, CSV");
@@ -176,8 +176,8 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
 int run_study(const StudyOptions& options) {
   const double start = steady_seconds();
   const std::filesystem::path assets = find_assets(options.assets);
-  if (!options.ask.empty()) {
-    fmt::print("{}\n", answer_json(ask(load_inputs(assets), options.ask)));
+  if (!options.identify_one.empty()) {
+    fmt::print("{}\n", answer_json(ask(load_inputs(assets), options.identify_one)));
     return 0;
   }
   const std::filesystem::path calibration_file = assets / "study" / "calibration.json";

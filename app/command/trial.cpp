@@ -24,10 +24,10 @@ namespace {
 struct TrialOptions {
   std::string device = "keyboard", mapping = "paper";
   std::string conditions = "torsional,linear,kinematic", tasks = "free,pick-and-place";
-  std::string participant;         // empty: the next free code
-  std::optional<unsigned> seed;    // of the order of conditions; default: as given
-  double seconds = 20, most = 60;  // free motion; limit of pick-and-place [s]
-  bool feel = false;               // force feedback; the paper has none
+  std::string participant;               // empty: the next free code
+  std::optional<unsigned> seed;          // of the order of conditions; default: as given
+  double seconds = 20, time_limit = 60;  // free motion; limit of pick-and-place [s]
+  bool force_feedback = false;           // force feedback; the paper has none
   bool yes = false, simulated = false, json = false;
   std::filesystem::path out = "out/trial", assets;
 };
@@ -36,7 +36,7 @@ void add_options(const OptionAdder& add, TrialOptions& options) {
   add.group("Device");
   add("--device", options.device, "input device, as in `twinarm hand --device list`");
   add("--mapping", options.mapping, "device to joints: paper (theta1, 4, 6) or arm (theta1, 2, 3)");
-  add("--force-feedback", options.feel,
+  add("--force-feedback", options.force_feedback,
       "force feedback, on a device with motors (the paper has none)");
   add("--simulated", options.simulated, "run without countdown and pacing, for a virtual device");
   add.group("Protocol");
@@ -46,7 +46,7 @@ void add_options(const OptionAdder& add, TrialOptions& options) {
   add("--participant", options.participant,
       "anonymous code of the participant; default: S1, S2, ...");
   add("--seconds", options.seconds, "duration of free motion [s]")->check(above_zero());
-  add("--time-limit", options.most, "time limit of pick-and-place [s]")->check(above_zero());
+  add("--time-limit", options.time_limit, "time limit of pick-and-place [s]")->check(above_zero());
   add("--yes", options.yes, "start without waiting for Enter");
   add.group("Output");
   add("--out", options.out, "folder of results.csv and of the logs");
@@ -153,7 +153,7 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
                      const std::filesystem::path& folder) {
   TrialTask task;
   task.is_pick_and_place = step.pick;
-  task.seconds = step.pick ? options.most : options.seconds;
+  task.seconds = step.pick ? options.time_limit : options.seconds;
   task.real_time = !options.simulated;
   const bool is_shown = !options.simulated && isatty(STDERR_FILENO) != 0;
   if (!options.simulated) {
@@ -179,7 +179,7 @@ int run_trial(const TrialOptions& options) {
   MappingSpec mapping;
   if (const auto kind = choose("--mapping", options.mapping, {"paper", "arm"}, "mappings", faults))
     mapping.kind = static_cast<MappingKind>(*kind);
-  mapping.force_scale = options.feel ? 1 : 0;
+  mapping.force_scale = options.force_feedback ? 1 : 0;
   if (options.simulated && !options.device.starts_with("virtual"))
     faults.add("--simulated", "needs a virtual device",
                "leave it out, or give --device virtual:HAND", "option.conflict");

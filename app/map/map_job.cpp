@@ -237,7 +237,7 @@ MapJob read_map_job(const MapOptions& options) {
       "integrator " + (options.integrator.empty() ? identity::kAsScene : options.integrator)};
   check_scene(job, options.of, faults);
   check_once(faults);
-  job.side_by_side = !options.alone && cell_batch(job);
+  job.side_by_side = !options.no_simd && cell_batch(job);
   job.identity.push_back(std::string("cells ") +
                          (job.side_by_side ? identity::kSideBySide : identity::kOneByOne));
   return job;

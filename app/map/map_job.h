@@ -21,13 +21,13 @@ struct MapOptions {
   std::optional<double> duration, step;  // [s]; default: the scene's
   std::string integrator;
   std::filesystem::path svg, png, csv;  // empty: none
-  std::filesystem::path work;           // checkpoint file; empty: in out/map
-  int tiles = 0, tile = -1;             // number of jobs, index of this one
+  std::filesystem::path checkpoint;     // checkpoint file; empty: in out/map
+  int jobs = 0, job = -1;               // number of jobs, index of this one
   std::vector<std::filesystem::path> merge;
   std::string cell;              // "IX,IY"
   std::filesystem::path record;  // recording of that cell
   unsigned threads = 0;          // 0: all processors
-  bool alone = false;            // no SIMD batches
+  bool no_simd = false;          // no SIMD batches
   bool force = false, json = false;
 };
 

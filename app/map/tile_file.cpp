@@ -111,7 +111,7 @@ TileFile read_tile_file(const std::filesystem::path& path) {
   const std::string text = read_whole_file(path);
   if (text.starts_with(kFirstLineOfOld))
     throw not_readable(path, 0, "has the format of an earlier version of twinarm",
-                       "delete it and compute its tile again", "map.old-file");
+                       "delete it and compute its job again", "map.old-file");
   if (!text.starts_with(kFirstLine))
     throw not_readable(path, 0, "is not a map file", kOtherFile, "map.file-form");
   TileFile file;
@@ -122,7 +122,7 @@ TileFile read_tile_file(const std::filesystem::path& path) {
     ++number;
     const auto damaged = [&](const std::string& how, std::string_view code) {
       return not_readable(path, number, "the map file is damaged: " + how,
-                          "delete it and compute its tile again", code);
+                          "delete it and compute its job again", code);
     };
     if (end == text.npos) throw damaged("it is truncated", "map.cut-short");
     const std::string line = text.substr(at, end - at);
@@ -155,7 +155,7 @@ void add_cells(const TileFile& from, const MapBlocks& blocks, const std::filesys
     const auto [iy, ix] = place;
     const auto fault = [&, x = ix, y = iy](const char* problem) {
       faults.add({path.string(), 0, fmt::format("cell {},{}", x, y), problem,
-                  "delete the file and compute its tile again", "map.blocks"});
+                  "delete the file and compute its job again", "map.blocks"});
     };
     if (ix >= blocks.nx || iy >= blocks.ny)
       fault("is outside the map");
@@ -193,7 +193,7 @@ TileFile merge_tile_files(const std::vector<std::filesystem::path>& parts, const
     faults.add("--merge",
                fmt::format("{} of {} blocks are missing:{}{}", count, blocks.count(), missing,
                            count > 10 ? " .." : ""),
-               "give the files of all tiles; repeat --job for those that failed",
+               "give the files of all jobs; repeat --job for those that failed",
                "map.blocks-missing");
   faults.check();
   return file;

@@ -26,7 +26,7 @@ class Servo {
     double last = 0, first = 0;
     long done = 0, total = 0;
     while (static_cast<double>(done) < ticks - 1e-9 && !stop_.load(std::memory_order_relaxed)) {
-      const bool is_empty = plan_.control && (total / each_second) % 2 == 1;
+      const bool is_empty = plan_.empty_loop && (total / each_second) % 2 == 1;
       TickFigures& figures = is_empty ? result_.empty : result_.run;
       wait(clock, figures, last, total % each_second == 0);
       if (total == 0) first = last;

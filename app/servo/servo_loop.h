@@ -149,7 +149,8 @@ struct ServoPlan {
   double duration = 0;    // of ticks that step the run [s]; may be infinite
   bool real_time = true;  // false: without pacing and timing figures
   bool ask_for_fifo = false;
-  bool control = false;  // every other second the ticks are empty, to measure the machine's jitter
+  bool empty_loop =
+      false;  // every other second the ticks are empty, to measure the machine's jitter
 };
 
 struct ServoResult {

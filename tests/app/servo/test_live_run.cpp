@@ -206,7 +206,7 @@ TEST_CASE("servo loop: takes the requested ticks in real time") {
   LiveRun run(scene, device, {});
   ServoPlan plan;
   plan.duration = 0.2;
-  plan.control = true;
+  plan.empty_loop = true;
   const std::atomic<bool> stop{false};
   long drained = 0;
   const double start = monotonic_time();
