@@ -11,7 +11,7 @@
 namespace twinarm {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string toml_string(const std::string& text) {
   std::ostringstream out;
   out << std::quoted(text);
   return out.str();
@@ -64,15 +64,16 @@ class SceneWriter {
   void write_robot() {
     const ModelOptions& masses = robot_.masses(scene_.spec.coupling.type);
     table("robot");
-    line("name", quoted(robot_.name()));
-    line("model", quoted(std::filesystem::absolute(settings_.urdf).lexically_normal().string()));
+    line("name", toml_string(robot_.name()));
+    line("model",
+         toml_string(std::filesystem::absolute(settings_.urdf).lexically_normal().string()));
     line("limits", "false");  // the gripper has stops, below
     if (!scene_.with_obstacle) line("collide", "false");
     std::vector<std::string> scales, loads;
     for (const auto& [link, factor] : masses.mass_scale)
-      scales.push_back(quoted(link) + " = " + real(factor));
+      scales.push_back(toml_string(link) + " = " + real(factor));
     for (const PointMass& load : masses.added_masses)
-      loads.push_back(fmt::format("{{ link = {}, point = {}, mass = {} }}", quoted(load.link),
+      loads.push_back(fmt::format("{{ link = {}, point = {}, mass = {} }}", toml_string(load.link),
                                   list(load.p_L), real(load.mass)));
     if (!scales.empty()) line("mass_scale", fmt::format("{{ {} }}", fmt::join(scales, ", ")));
     if (!loads.empty()) line("payload", fmt::format("[{}]", fmt::join(loads, ", ")));
@@ -87,7 +88,7 @@ class SceneWriter {
     moved.push_back(robot_.joints().gripper);
     for (std::string& joint : moved) {
       const auto body = static_cast<std::size_t>(model_.find_joint(joint));
-      joint = quoted(joint) + " = " + real(kvr.start().x.q[model_.iq[body]]);
+      joint = toml_string(joint) + " = " + real(kvr.start().x.q[model_.iq[body]]);
     }
     return fmt::format("{{ {} }}", fmt::join(moved, ", "));
   }
@@ -101,15 +102,15 @@ class SceneWriter {
     line("position", list(o.position));
     // The contact law of the study applies to this pair.
     table("pair");
-    line("a", quoted(robot_.name()));
+    line("a", toml_string(robot_.name()));
     line("b", "\"box\"");
     line("friction", real(o.friction));
     line("stiffness", real(o.contact_stiffness));
     line("dissipation", real(o.contact_dissipation));
     for (const std::string& b : {std::string("box"), robot_.name()}) {
       table("pair");  // no contacts of the base, none between links
-      line("a", quoted(b == "box" ? robot_.name() + "/" + link_of(1) : b));
-      line("b", quoted(b));
+      line("a", toml_string(b == "box" ? robot_.name() + "/" + link_of(1) : b));
+      line("b", toml_string(b));
       line("collide", "false");
     }
   }
@@ -117,8 +118,9 @@ class SceneWriter {
   void write_hand() {
     const DrivenJoints& joints = robot_.joints();
     line("target", scene_.hand.target);
-    line("gripper", fmt::format("{{ joint = {}, open = {}, closed = {} }}", quoted(joints.gripper),
-                                real(joints.gripper_open), real(joints.gripper_closed)));
+    line("gripper",
+         fmt::format("{{ joint = {}, open = {}, closed = {} }}", toml_string(joints.gripper),
+                     real(joints.gripper_open), real(joints.gripper_closed)));
   }
 
   void write_coupling() {
@@ -126,11 +128,11 @@ class SceneWriter {
     const bool linear = coupling.type == CouplingSpec::Type::linear;
     for (const Spring& spring : robot_.springs(scene_.spec.gains)) {
       table("coupling");
-      line("name", quoted("pull_" + spring.name));
-      line("type", quoted(facts_of(coupling.type, coupling.printed).name));
-      line("link", quoted(link_of(spring.body)));
+      line("name", toml_string("pull_" + spring.name));
+      line("type", toml_string(facts_of(coupling.type, coupling.printed).name));
+      line("link", toml_string(link_of(spring.body)));
       if (linear) line("point", list(spring.p_L));
-      if (!coupling.printed) line("discretization", quoted(discretization_name(coupling)));
+      if (!coupling.printed) line("discretization", toml_string(discretization_name(coupling)));
       line("stiffness", real(spring.k));
       line("damping", real(spring.b));
       write_hand();
@@ -141,10 +143,10 @@ class SceneWriter {
     for (const CouplingSpec& held : robot_.auxiliary())
       for (const Spring& spring : held.springs) {
         table("coupling");
-        line("name", quoted("hold_" + spring.name));
+        line("name", toml_string("hold_" + spring.name));
         line("type", "\"torsional\"");
         line("measure", "\"joint\"");
-        line("link", quoted(link_of(spring.body)));
+        line("link", toml_string(link_of(spring.body)));
         line("stiffness", real(spring.k));
         line("damping", real(spring.b));
         write_hand();
@@ -154,10 +156,10 @@ class SceneWriter {
   void write_stops() {
     for (const JointStops::Stop& stop : robot_.stops()) {
       table("coupling");
-      line("name", quoted("stop_" + model_.joint_name[static_cast<std::size_t>(stop.body)]));
+      line("name", toml_string("stop_" + model_.joint_name[static_cast<std::size_t>(stop.body)]));
       line("type", "\"torsional\"");
       line("measure", "\"joint\"");
-      line("link", quoted(link_of(stop.body)));
+      line("link", toml_string(link_of(stop.body)));
       line("soft_limits", "[" + real(stop.lower) + ", " + real(stop.upper) + "]");
       line("stiffness", real(stop.k));
       line("damping", real(stop.b));
@@ -188,7 +190,7 @@ StudyOperator synthetic_study_operator(const OperatorMotion& source, unsigned se
 }
 
 StudyOperator traced_operator(const OperatorMotion& source, const std::filesystem::path& trace) {
-  return {quoted(std::filesystem::absolute(trace).lexically_normal().string()), &source};
+  return {toml_string(std::filesystem::absolute(trace).lexically_normal().string()), &source};
 }
 
 std::string scene_text(const StudyScene& scene) {
