@@ -4,7 +4,8 @@
 // Gravity is exact, by its potential; so is a constant torque on a joint whose velocity is the rate
 // of its coordinate. The others are integrals of power over each step: trapezoidal rule for
 // integrators of order 1 and 2, Simpson's rule for order 4, Lobatto's rule of order 6 for order 5,
-// at states of side steps, so that the residual `numerical` is the integrator's error.
+// at states of side steps, so that the residual `numerical` is the integrator's error
+// (energy drift).
 //
 // Coupling force: k e + b (v_K - v), e' = v_K - v. Row `spring` is the work of the target on the
 // spring minus the change of k e^2 / 2; row `damper` the work of the damper on the link. An

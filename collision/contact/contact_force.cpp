@@ -1,3 +1,4 @@
+// Hunt-Crossley contact of the study alone; scenes: contact_constraints.h.
 #include "collision/contact/contact_force.h"
 
 #include <algorithm>

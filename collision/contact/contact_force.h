@@ -1,4 +1,5 @@
-// Contact of the study alone (scenes: contact_constraints.h, solver/impulses/impulse_law.h).
+// Hunt-Crossley contact of the study alone; scenes: contact_constraints.h.
+//
 // Contact of moving links with fixed obstacles: Hunt-Crossley normal force and regularised Coulomb
 // friction, both evaluated at the end of the step: stable at any stiffness
 // (solver/forces/spring.h).

@@ -1,5 +1,6 @@
-// Watchdog of an input device. Without data the target robot stops, then releases the couplings;
-// when the device is back it continues without a jump.
+// Watchdog of an input device (device timeout: `DeviceState::alive`; VRPN 0.1 s:
+// app/device/vrpn_client.h). Without data the target robot stops, then releases the couplings; when
+// the device is back it continues without a jump.
 //
 //   live      the device moves the target robot
 //   held      no data for less than `patience`: the target stays

@@ -1,5 +1,5 @@
-// Motion subspaces S, RBDA section 3.5, and their products in the algorithms (S of each joint type:
-// joints.h).
+// Types of motion subspaces S, RBDA section 3.5, and their products in the algorithms. S of each
+// joint: joints.h.
 //
 // The type of S encodes its sparsity: if the columns of S are unit vectors of R^6, IA S are columns
 // of IA, S^T U entries of U, and nothing is multiplied by 0 or 1. All quantities are in body axes.

@@ -1,4 +1,4 @@
-// Title, legend and labels on a finished picture.
+// Title, legend and labels of a picture; 3-D overlays: app/draw/overlays/.
 #pragma once
 
 #include <Eigen/Core>
