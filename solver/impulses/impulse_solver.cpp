@@ -144,10 +144,9 @@ double ImpulseSolver::solve_island(ImpulseReport& report) {
   guess_p_.resize(best_p_.size());
   const bool small = island_->constraints.size() <= kSmallIsland;
   const auto keep_best = [&](double residual) {
-    if (residual < best) {
-      best = residual;
-      for (const int i : island_->constraints) best_p_[i] = constraint(i).p;
-    }
+    if (!(residual < best)) return;  // also if it is not a number
+    best = residual;
+    for (const int i : island_->constraints) best_p_[i] = constraint(i).p;
   };
   const auto start_from = [&](const std::vector<Vec>& p) {
     for (const int i : island_->constraints) constraint(i).p = p[i];
@@ -168,8 +167,7 @@ double ImpulseSolver::solve_island(ImpulseReport& report) {
   if (best <= accepted) return best;
   const auto finish = [&](bool damped) {
     keep_best(apply_impulses());
-    if (best <= accepted) return;
-    iterate(max_newton, damped, kFirstRho);
+    if (best > accepted) iterate(max_newton, damped, kFirstRho);
   };
   report.interior = std::max(report.interior, interior_point_start());
   finish(false);
@@ -186,11 +184,10 @@ double ImpulseSolver::solve_island(ImpulseReport& report) {
   }
   // Restarts from the best p, damped and undamped in turn, while the residual decreases.
   for (int k = 0; k < kMaxRestarts && best > accepted; ++k) {
-    const bool damped = k % 2 == 0;
     const double before = best;
     start_from(best_p_);
-    iterate(kRestartFactor * max_newton, damped, kFirstRho);
-    if (!damped && best > 0.5 * before) break;
+    iterate(kRestartFactor * max_newton, k % 2 == 0, kFirstRho);
+    if (k % 2 == 1 && best > 0.5 * before) break;
   }
   // Infeasible problems (Painleve paradox): descent to a small residual, against penetration.
   const auto max_descents =
