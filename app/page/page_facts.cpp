@@ -18,7 +18,7 @@ constexpr std::size_t kLongestFile = 200'000;  // bytes; meshes are in the pictu
 std::string shell_word(const std::string& word) {
   const char* plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
   if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-  return "'" + replaced(word, "'", "'\\''") + "'";
+  return "'" + replace_all(word, "'", "'\\''") + "'";
 }
 
 std::string three_numbers(const Vector3& v) {

@@ -32,7 +32,7 @@ std::string fill_form(std::string_view form, const std::string& title, const Jso
   // "</script>" in a name would end the block of the JSON.
   const std::vector<std::pair<std::string, std::string>> parts{
       {"@TITLE@", escaped(title)},
-      {"@RUN@", replaced(json.str(), "<", "\\u003c")},
+      {"@RUN@", replace_all(json.str(), "<", "\\u003c")},
       {"@BYTES@", bytes.packed()}};
   std::string html;
   for (const auto& [mark, text] : parts) {  // each once, in this order

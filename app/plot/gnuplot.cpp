@@ -43,7 +43,7 @@ std::pair<double, double> finite_range(const std::vector<const std::vector<doubl
 }
 
 std::string in_quotes(const std::string& text) {
-  return "'" + replaced(text, "'", "''") + "'";
+  return "'" + replace_all(text, "'", "''") + "'";
 }
 
 Gnuplot::Gnuplot(std::filesystem::path folder)
@@ -141,7 +141,7 @@ std::string Gnuplot::svg(const std::string& name, const std::string& title, int 
           script);
   // Unique ids for several figures in a page, fallback fonts, the title.
   const auto replace = [&](const std::string& from, const std::string& to) {
-    drawn = replaced(std::move(drawn), from, to);
+    drawn = replace_all(std::move(drawn), from, to);
   };
   for (const std::string id : {"gnuplot_canvas", "textbox", "greybox"})
     for (const auto& [before, after] : {std::pair{"\"", "\""}, {"'", "'"}, {"#", ")"}})

@@ -59,7 +59,7 @@ inline std::vector<std::string> split(const std::string& text, char separator = 
 }
 
 // With `to` in each place of `from`.
-inline std::string replaced(std::string text, std::string_view from, std::string_view to) {
+inline std::string replace_all(std::string text, std::string_view from, std::string_view to) {
   for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
     text.replace(at, from.size(), to);
   return text;

@@ -87,7 +87,7 @@ void check_values(int argc, char** argv) {
 
 // For a command line that cannot be parsed.
 std::string parse_remedy(int argc, char** argv) {
-  for (const std::string word : std::vector<std::string>(argv, argv + argc)) {
+  for (const std::string& word : std::vector<std::string>(argv, argv + argc)) {
     const std::string option = word.substr(0, word.find('='));
     if (const std::string now = renamed("options", option); !now.empty())
       return fmt::format("'{}' is now '{}'", option, now);

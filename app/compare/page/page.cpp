@@ -173,7 +173,7 @@ std::string in_unicode(std::string words) {
   constexpr std::pair<const char*, const char*> kSigns[] = {
       {"^2", "²"},  {"m2", "m²"},   {"s2", "s²"},  {"J2", "J²"},   {"w2", "ω₂"},
       {"w3", "ω₃"}, {"alpha", "α"}, {"beta", "β"}, {" mu ", " μ "}};
-  for (const auto& [plain, sign] : kSigns) words = replaced(std::move(words), plain, sign);
+  for (const auto& [plain, sign] : kSigns) words = replace_all(std::move(words), plain, sign);
   return escaped(words);
 }
 

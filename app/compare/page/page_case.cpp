@@ -29,7 +29,8 @@ std::string figure(const std::string& drawn, const std::string& caption, const c
 
 // HTML with formulas in paragraphs.
 std::string statement_html(const AnalyticCase& c) {
-  return "<div class=statement>" + replaced(c.statement, "<p>", "<p class=formula>") + "</div>\n";
+  return "<div class=statement>" + replace_all(c.statement, "<p>", "<p class=formula>") +
+         "</div>\n";
 }
 
 std::string integration_words(const Integration& integration) {

@@ -58,7 +58,7 @@ std::string unit_of(const std::string& reading) {
   const std::size_t open = reading.find('['), close = reading.find(']');
   if (open == std::string::npos || close == std::string::npos || close < open) return "";
   const std::string unit = reading.substr(open + 1, close - open - 1);
-  return replaced(replaced(unit, "s2", "s²"), "m2", "m²");
+  return replace_all(replace_all(unit, "s2", "s²"), "m2", "m²");
 }
 std::string without_unit(const std::string& reading) {
   return reading.substr(0, reading.find(" ["));

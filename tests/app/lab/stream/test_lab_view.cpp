@@ -55,7 +55,7 @@ TEST_CASE(
 
 TEST_CASE("lab view: new channels are appended, and the revision increases") {
   const TemporaryFolder folder;
-  Watched watched(folder.write("drop.toml", with_text(kBoxes, "[0.5, 0, 0.1]", "[0.5, 0, 0.102]")));
+  Watched watched(folder.write("drop.toml", replaced(kBoxes, "[0.5, 0, 0.1]", "[0.5, 0, 0.102]")));
   const LabFrame first = watched.after(1);
   watched.view->frame(first, nullptr, {}, {});
   const auto before = texts_in(watched.view->scene_message(), "channels", "name");
