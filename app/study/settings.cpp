@@ -1,5 +1,6 @@
 #include "app/study/settings.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/data/table_reader.h"
@@ -111,6 +112,9 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   s.stop_stiffness = auxiliary.number("stop_stiffness");
   s.stop_damping = auxiliary.number("stop_damping");
   s.rates_hz = protocol.numbers("rates_hz");
+  if (!s.rates_hz.empty() && std::ranges::find(s.rates_hz, 60.0) == s.rates_hz.end())
+    protocol.fault("rates_hz", "lacks 60 Hz, at which the report compares the laws", "add 60",
+                   "study.rates");
   s.search_rates_hz = protocol.numbers("search_rates_hz");
   s.identification_rates_hz = protocol.numbers("identification_rates_hz");
   s.sweep_times = protocol.numbers("sweep_times");

@@ -67,6 +67,11 @@ class Settings(ProgramTest):
                                   "obstacle, friction": "must be finite, is inf",
                                   "obstacle, size": "must be a list of 3 finite numbers, is a list of 2"})
 
+    def test_the_rate_at_which_the_report_compares_the_laws_is_required(self):
+        errors = self.faults_of(SHIPPED.replace("\nrates_hz = [30, 60,", "\nrates_hz = [30,"))
+        self.assertEqual(list(errors), ["protocol, rates_hz"])
+        self.assertIn("lacks 60 Hz", errors["protocol, rates_hz"]["problem"])
+
 
 if __name__ == "__main__":
     main()
