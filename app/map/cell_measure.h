@@ -4,8 +4,8 @@
 //   mean_error  (1/T) integral of e of one joint, trapezoidal; the largest of them
 //   energy      rows `numerical` and `coupling/*/implicit`: energy that the method creates
 //   passivity   minimum over time of the input work since the start; at most 0
-//   stable      1 if the run reached its end and energy <= 100 A; else 0, and the other measures
-//   have
+//   stable      1 if the run reached its end and energy <= 100 A; else 0, and the
+//               other measures have
 //               no value.  A = KE(0) + energy of the springs at the start + weight times 1 mm
 //                            + 25 max over the target's motion of (KE_K + |PE_K - PE_K(0)|)
 //

@@ -2,8 +2,8 @@
 // boundary features (convex_hull.h), each with its support function:
 //   face with anything       the normal is known
 //   line with line           n is perpendicular to both
-//   line with quadric        n is perpendicular to the line: one unknown angle,
-//   minimise_on_circle() quadric with quadric     two unknown angles, minimise_on_sphere()
+//   line with quadric        n is perpendicular to the line: one angle, minimise_on_circle()
+//   quadric with quadric     two unknown angles, minimise_on_sphere()
 // Every direction is evaluated by overlap(n) of the whole bodies, an upper bound of the depth.
 // Pairs of features are skipped by two bounds: the touching points are as far apart as the depth or
 // distance; and along n the bodies overlap by at least as much as two of their features. For

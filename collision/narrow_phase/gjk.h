@@ -36,8 +36,8 @@ struct PreparedShape {
   Shape shape;
   Polytope core;
   BoundaryFeatures boundary;
-  std::shared_ptr<const MeshSurface> surface;  // of a triangle mesh, else null Bounding box in the
-                                               // shape frame, of shapes with vertices [m].
+  std::shared_ptr<const MeshSurface> surface;  // of a triangle mesh, else null
+  // Bounding box in the shape frame, of shapes with vertices [m].
   Vector3 centre = Vector3::Zero(), half = Vector3::Zero();
 };
 

@@ -71,9 +71,9 @@ void SeparatingAxis::try_faces(const PosedShape& body, const Posed& own, const P
 bool SeparatingAxis::is_difference_face(const Polytope::Edge& ea, const Vector3& da,
                                         const Polytope::Edge& eb, const Vector3& db, const Posed& a,
                                         const Posed& b) {
-  if (ea.f0 < 0 || eb.f0 < 0)
-    return true;  // a segment has all normals f0 traverses the edge forward: n(f0) x n(f1) is along
-                  // it, for either body.
+  if (ea.f0 < 0 || eb.f0 < 0) return true;  // a segment has all normals
+  // f0 traverses the edge forward: n(f0) x n(f1)
+  // is along it, for either body.
   const double r = -b.normals[eb.f0].dot(da), s = -b.normals[eb.f1].dot(da);
   const double p = a.normals[ea.f0].dot(db), q = a.normals[ea.f1].dot(db);
   return r * s < 0 && p * q < 0 && r * q > 0;

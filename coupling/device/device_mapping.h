@@ -1,9 +1,9 @@
 // Mapping from an input device to the target robot, and of the force back
 // (docs/understand/haptic_rendering.md).
 //
-//   paper      theta1, theta4, theta6 of the device move joints 1, 2, 3 of the robot. Only theta1
-//   has
-//              a motor: force feedback of joint 1 only.
+//   paper      theta1, theta4, theta6 of the device move joints 1, 2, 3 of the
+//              robot. Only theta1 has a motor: force feedback
+//              of joint 1 only.
 //   arm        theta1, theta2, theta3 move joints 1, 2, 3: force feedback of all three.
 //   cartesian  the stylus' point moves a point of the robot by inverse kinematics: feedback of the
 //              force on that point.

@@ -1,8 +1,8 @@
 // B1, B2, a point mass on a rod of 1 m, w0^2 = g / l (Landau, Lifshitz, Mechanics, section 11):
 //   released at th0:  th = 2 asin(k cd(w0 t, k^2)),  k = sin(th0 / 2),  T = 2 pi / (w0 agm(1, k')),
-//   full turns:       th = 2 am(W t / 2, k^2),  k = 2 w0 / W,  W the rate at the bottom; a turn
-//   takes
-//                     4 K / W,
+//   full turns:       th = 2 am(W t / 2, k^2),  k = 2 w0 / W,  W the rate at
+//                     the bottom; a turn
+//                     takes 4 K / W,
 //   separatrix:       th = 4 atan(exp(w0 t)) - pi.
 // B3, a uniform rod of 1 m, 1 kg, hinged at its end: a pendulum of 2/3 m. Released at the
 // horizontal it has qdd = 3 g / 2 L, and the hinge carries m g / 4; at the bottom 5/2 m g. Kater's
