@@ -10,7 +10,7 @@ const { PointDrag, JointDrag, Pace } = page;
 
 // Independent copy of the protocol's table.
 const ORDER = [
-  ['channels', Float64Array], ['works', Float64Array], ['link', Float32Array], ['twin', Float32Array],
+  ['channels', Float64Array], ['works', Float64Array], ['link', Float32Array], ['target', Float32Array],
   ['position', Float32Array], ['scale', Float32Array], ['turn', Int16Array],
   ['labelPosition', Float32Array], ['labelOffset', Int16Array], ['textEnd', Uint32Array],
   ['first', Uint32Array], ['firstLabel', Uint32Array], ['mesh', Uint16Array], ['body', Uint16Array],
@@ -43,7 +43,7 @@ function bytesOf(frame) {
 const text = Buffer.from('armµ2');
 const frame = {
   channels: [0.1, NaN, -3], works: [1e-9], link: [0, 0, 0, 0, 0, 0, 1, 1, 2, 3, 0, 0, 1, 0],
-  twin: [NaN, NaN, NaN, NaN, NaN, NaN, NaN, 4, 5, 6, 0, 0, 0, 1], position: [1, 2, 3], scale: [1, 1, 2],
+  target: [NaN, NaN, NaN, NaN, NaN, NaN, NaN, 4, 5, 6, 0, 0, 0, 1], position: [1, 2, 3], scale: [1, 1, 2],
   turn: [0, 0, 0, 32767], labelPosition: [1, 1, 1, 2, 2, 2], labelOffset: [10, -6, 0, 0],
   textEnd: [3, text.length], first: [0, 1, 1], firstLabel: [0, 0, 2], mesh: [5], body: [1],
   color: [1, 2, 3, 255], flags: [1], shininess: [80], texture: [0], text: [...text],
@@ -58,10 +58,10 @@ test('frame: all arrays are decoded, without a copy', () => {
   }
   assert.deepEqual([read.scene, read.time, read.stamp, read.delay, read.step, read.number],
     [7, 1.25, 99.5, 0.004, 1250, 3]);
-  assert.deepEqual([read.stands, read.lookedBack, read.dead], [false, true, true]);
+  assert.deepEqual([read.paused, read.lookedBack, read.diverged], [false, true, true]);
   assert.deepEqual([labelText(read, 0), labelText(read, 1)], ['arm', 'µ2']);
   assert.deepEqual(placeOf(read.link, 1), [1, 2, 3]);
-  assert.equal(placeOf(read.twin, 0), null);
+  assert.equal(placeOf(read.target, 0), null);
 });
 
 test('frame: truncated data gives null', () => {

@@ -66,7 +66,7 @@ TEST_CASE("curves: a curve that begins late starts with a gap") {
 TEST_CASE("curves: all misspelt names are reported") {
   CHECK(faults_of([] { parse_curves("energie,laag"); }).size() == 2);
   CHECK(parse_curves("none").empty());
-  CHECK(parse_curves("lag,energy").size() == 2);
+  CHECK(parse_curves("tracking-error,energy").size() == 2);
 }
 
 // Instants of a point at x = f(i).

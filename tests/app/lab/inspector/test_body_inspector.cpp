@@ -204,7 +204,7 @@ TEST_CASE("inspector: values that are not finite and frames of another scene giv
     broken.recorded.memory.replace(place, sizeof bad, reinterpret_cast<const char*>(&bad),
                                    sizeof bad);
     const Value message = parsed(sample.text(broken, 1, true));
-    CHECK(at(message, "kind").text == "glass");
+    CHECK(at(message, "kind").text == "inspection");
     if (std::isnan(bad)) CHECK(!at(message, "warnings").items.empty());
   }
   const RunSample other = sample_of("scenes/box_stack.toml", 3);

@@ -276,7 +276,7 @@ TEST_CASE("gallery: variants of an entry are read, and their faults reported") {
   const auto entry = [](const std::string& told) {
     return temporary_scene("variants",
                            "[[scene]]\nname = \"a\"\nfile = \"no.toml\"\ntitle = \"t\"\n"
-                           "look = [\"one\", \"two\", \"three\"]\nlanes = " +
+                           "look = [\"one\", \"two\", \"three\"]\nvariants = " +
                                told);
   };
   for (const char* told : {"{ path = \"step\", values = [0.1] }", "{ values = [0.1, 0.2] }",
