@@ -140,7 +140,7 @@ class CommandLine(ProgramTest):
         errors = json.loads(result.stdout)["errors"]
         self.assertEqual([error["line"] for error in errors], [3, 4])
         for error in errors:
-            self.assertEqual(sorted(error), ["code", "file", "line", "fix", "problem", "where"])
+            self.assertEqual(sorted(error), ["code", "file", "fix", "line", "problem", "where"])
             self.assertEqual(error["file"], str(file))
             self.assertTrue(error["problem"])
 

@@ -71,7 +71,7 @@ class DocumentedPictures(unittest.TestCase):
         self.assertEqual(sorted(recipes), sorted(film.stem for film in PICTURES.glob("*.mp4")))
         for name, recipe in recipes.items():
             with self.subTest(name, remedy=f"scripts/generate/pictures --films {name}"):
-                self.assertIn(f"recipe {recipe}".encode(), (PICTURES / f"{name}.mp4").read_bytes())
+                self.assertTrue(f"recipe {recipe}".encode() in (PICTURES / f"{name}.mp4").read_bytes())
 
     def test_layers_are_drawn_as_cmake_has_them(self):
         listed = pathlib.Path(program.PROGRAM).parent / "layers.txt"
