@@ -81,14 +81,14 @@ class LabCommand(LabTest):
     def test_a_diverged_run_stops_with_a_reason_and_its_fix_is_stable(self):
         self.frame(lambda f: f.time > 0.5)
         self.live.do("set", changes=["coupling[0].stiffness=1e8"])
-        dead = self.state(lambda s: s["failure"])["failure"]
-        self.assertIn("pull", dead["spring"])
-        self.assertTrue(dead["words"])
-        self.assertTrue(dead["remedies"])
-        self.assertLess(dead["from"], dead["time"])
-        self.assertTrue(self.frame(lambda f: f.is_dead))
-        for remedy in dead["remedies"]:
-            self.live.do("branch", at=dead["from"], changes=remedy["changes"])
+        failure = self.state(lambda s: s["failure"])["failure"]
+        self.assertIn("pull", failure["cause"])
+        self.assertTrue(failure["words"])
+        self.assertTrue(failure["remedies"])
+        self.assertLess(failure["from"], failure["time"])
+        self.assertTrue(self.frame(lambda f: f.diverged))
+        for remedy in failure["remedies"]:
+            self.live.do("branch", at=failure["from"], changes=remedy["changes"])
             self.state(lambda s: s["branch"] and not s["failure"])
             self.frame(lambda f: f.time > 1.5)
             self.assertIsNone(self.state()["failure"], remedy["words"])
@@ -264,7 +264,7 @@ class LabLanes(ProgramTest):
         stopped = self.state(lambda s: s["variants"]["stopped"][1])["variants"]["stopped"]
         self.assertIsNone(stopped[2])
         frame = self.live.wait_for("frame", lambda f: f.time > stopped[1] + 0.3)
-        self.assertFalse(frame.is_dead)
+        self.assertFalse(frame.diverged)
         self.assertTrue([t for t in frame.label_texts() if t.startswith("1e8: stopped at")])
         state = self.state()
         self.assertTrue(state["playing"])

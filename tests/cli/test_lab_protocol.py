@@ -112,9 +112,9 @@ class LabProtocol(LabTest):
         self.live.do("nonsense")
         self.live.do("branch", at=0.05, changes=["coupling[0].stiffness=1e8"])
         self.live.do("play", on=True)
-        dead = self.state(lambda s: s["failure"])
-        self.assertTrue(dead["branch"] and dead["failure"]["remedies"] and dead["notes"])
-        self.check("StateMessage", dead)
+        diverged = self.state(lambda s: s["failure"])
+        self.assertTrue(diverged["branch"] and diverged["failure"]["remedies"] and diverged["notes"])
+        self.check("StateMessage", diverged)
 
     def test_a_frame_has_the_described_arrays(self):
         table = re.search(r"const ARRAYS = \{(.*?)\n\}", (FOLDER / "frame.ts").read_text(), re.S)[1]

@@ -229,7 +229,7 @@ class Frame:
         arrays = Arrays(data, FRAME_HEAD.size)
         self.layers, self.instances, self.labels = layers, instances, labels
         self.channels, self.works = arrays.take("d", channels), arrays.take("d", works)
-        self.link, self.twin = arrays.take("f", 7 * bodies), arrays.take("f", 7 * bodies)
+        self.link, self.target = arrays.take("f", 7 * bodies), arrays.take("f", 7 * bodies)
         self.position, self.scale = arrays.take("f", 3 * instances), arrays.take("f", 3 * instances)
         self.turn = arrays.take("h", 4 * instances)
         self.label_position, self.label_offset = arrays.take("f", 3 * labels), arrays.take("h", 2 * labels)
@@ -242,9 +242,9 @@ class Frame:
         if arrays.at != len(data):
             raise ValueError(f"{len(data)} bytes, of which {arrays.at} are told of")
 
-    stands = property(lambda self: bool(self.flags & 1))
+    paused = property(lambda self: bool(self.flags & 1))
     looked_back = property(lambda self: bool(self.flags & 2))
-    is_dead = property(lambda self: bool(self.flags & 4))
+    diverged = property(lambda self: bool(self.flags & 4))
 
     def label_texts(self):
         data, start, texts = self.text.encode(), 0, []
