@@ -1,4 +1,4 @@
-// Solver of impulse_problem.h: exact constraint laws, any number of redundant contacts.
+// Solver of impulse_problem.h: exact friction cones and limits, any number of redundant contacts.
 //
 // Augmented Lagrangian (method of multipliers, Rockafellar 1976): with frozen multipliers and de
 // Saxce shifts, the inner problem

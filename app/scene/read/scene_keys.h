@@ -1,6 +1,6 @@
-// The numeric keys of a scene file, one row each. From the rows are made: what the reader accepts,
-// what a change of a coupling's type removes, the units of `map`, the sliders of the lab, and the
-// tables of docs/reference/scene_file.md. A new key is a row and the member that it fills.
+// The numeric keys of surfaces and couplings, a row each: for the reader, a change of a coupling's
+// type, units of `map`, sliders of the lab, tables of docs/reference/scene_file.md. A new key is a
+// row and the member that it fills. Keys of other tables (step, mass, ..) are read in read_*.cpp.
 #pragma once
 
 #include <optional>
