@@ -26,8 +26,7 @@ class Hand(ProgramTest):
         self.assertTrue(first["same_bits"])
         self.assertTrue(pathlib.Path(first["recording"]).is_file())
         again = self.simulated("--duration", 1.5, out=self.out / "again")
-        self.assertEqual((self.out / "hand.csv").read_bytes(),
-                         (self.out / "again/hand.csv").read_bytes())
+        self.assertEqual((self.out / "hand.csv").read_bytes(), (self.out / "again/hand.csv").read_bytes())
         self.assertEqual(first["tracking"], again["tracking"])
 
     def test_the_reported_errors_are_those_of_the_log_and_the_recording(self):

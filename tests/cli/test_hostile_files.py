@@ -63,9 +63,8 @@ class HostileFiles(ProgramTest):
         self.told("dynamics", self.write("a.urdf", b'<robot name="r">' + links + joints + b"</robot>"), code=0)
 
     def test_a_scene_nested_as_deep_as_its_size_allows(self):
-        for text in (b".".join([b"a"] * 500000) + b" = 1\n", b"a = " + b"[" * 1000000,
-                     b"a = { b = " * 300000, b"[" + b".".join([b"'a'"] * 300000) + b"]\n",
-                     (b"a." * 100 + b"a = { ") * 2000):
+        for text in (b".".join([b"a"] * 500000) + b" = 1\n", b"a = " + b"[" * 1000000, b"a = { b = " * 300000,
+                     b"[" + b".".join([b"'a'"] * 300000) + b"]\n", (b"a." * 100 + b"a = { ") * 2000):
             self.refused("depth exceeds 200", "simulate", self.write("a.toml", text), "--duration", "1")
 
     def test_dots_in_texts_and_comments_are_not_depth(self):

@@ -58,8 +58,7 @@ class Modes(RobotCommand):
         # Both joints slide along x: m1 + ratio^2 m2 on the spring of the mimicked joint.
         both = robot('<link name="base"/>', link("a", 2, (0, 0, 0)), link("b", 3, (0, 0, 0)),
                      joint("j1", "prismatic", "base", "a", axis="1 0 0"),
-                     joint("j2", "prismatic", "base", "b", axis="1 0 0",
-                           more='<mimic joint="j1" multiplier="2"/>'))
+                     joint("j2", "prismatic", "base", "b", axis="1 0 0", more='<mimic joint="j1" multiplier="2"/>'))
         scene = self.scene(both, '[[coupling]]\nname = "pull"\ntype = "torsional"\n'
                            'measure = "joint"\nlink = "a"\nstiffness = 56\ndamping = 0\n')
         mode, = self.answer(scene)["modes"]

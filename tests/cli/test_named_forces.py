@@ -130,8 +130,7 @@ class NamedForces(RobotCommand):
 
     def test_a_loop_in_motion_has_the_forces_of_the_instant(self):
         found = self.answer("assets/scenes/slider_crank.toml")
-        force = next(end["force"] for end in self.force(found, "constraint/pin")["on"]
-                     if end["body"] == "piston")
+        force = next(end["force"] for end in self.force(found, "constraint/pin")["on"] if end["body"] == "piston")
         r, length, rate, mass = 0.1, 0.3, 5, 1.5  # at dead centre
         self.close([force[0]], [-mass * r * rate**2 * (1 + r / length)], 1e-9)
 

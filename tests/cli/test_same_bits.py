@@ -57,9 +57,8 @@ class Threads(ProgramTest):
         pictures = []
         for threads in (0, 1, 3):  # 0: the painter's own
             file = self.folder / f"{threads}.png"
-            self.twinarm("render", "assets/scenes/robot_beside_obstacles.toml", "--png", file, "--at", 0.5,
-                         "--size", "320x200", "--show", "all",
-                         env=dict(os.environ, LP_NUM_THREADS=str(threads)))
+            self.twinarm("render", "assets/scenes/robot_beside_obstacles.toml", "--png", file, "--at", 0.5, "--size",
+                         "320x200", "--show", "all", env=dict(os.environ, LP_NUM_THREADS=str(threads)))
             pictures.append(file.read_bytes())
         self.same(pictures)
 

@@ -19,8 +19,7 @@ def link(name, mass=MASS, com=COM, inertia=INERTIA):
 
 def joint(name, kind, parent, child, xyz="0 0 0", rpy="0 0 0", axis="0 0 1", more=""):
     """`kind` also of the types that URDF lacks; those come by <twinarm type>."""
-    beyond = {"spherical": "floating", "universal": "continuous", "cylindrical": "continuous",
-              "screw": "continuous"}
+    beyond = {"spherical": "floating", "universal": "continuous", "cylindrical": "continuous", "screw": "continuous"}
     if kind in beyond:
         if "<twinarm" not in more:
             more += "<twinarm/>"

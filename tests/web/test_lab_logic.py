@@ -21,8 +21,7 @@ NODE = shutil.which("node") or shutil.which("nodejs")
 PARTS = {
     "lab_logic": ("ui/scale", "source/store", "source/run_record", "plot/export", "plot/specs",
                   "panels/input_bar", "panels/gallery"),
-    "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal",
-                 "view/pace"),
+    "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal", "view/pace"),
 }
 BUNDLE = """
 import { createRequire } from 'node:module';
