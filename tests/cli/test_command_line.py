@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""The command line as people and programs meet it: help, exit codes, all faults at once, Ctrl-C.
-
-    test_command_line.py PATH/TO/twinarm
-"""
+"""The command line as people and programs meet it: help, exit codes, all faults at once, Ctrl-C."""
 import json
 import pathlib
 import re

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm compare`: what it runs, what it tells, how it ends.
-
-    test_compare_command.py PATH/TO/twinarm
-"""
+"""`twinarm compare`: what it runs, what it tells, how it ends."""
 import html
 import html.parser
 import json

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm coupling predict` and `twinarm coupling gains`: closed forms, runs, and rejected input.
-
-    test_coupling_command.py PATH/TO/twinarm
-"""
+"""`twinarm coupling predict` and `twinarm coupling gains`: closed forms, runs, and rejected input."""
 import json
 import math
 

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""Every type of coupling in a scene, as a run books it, and a spring that passes its geometric limit.
-
-    test_coupling_types.py PATH/TO/twinarm
-"""
+"""Every type of coupling in a scene, as a run books it, and a spring that passes its geometric limit."""
 import math
 import re
 

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""Floating robots under semi-implicit Euler: warned of, with what the drift costs and what avoids it.
-
-    test_drift_warning.py PATH/TO/twinarm
-"""
+"""Floating robots under semi-implicit Euler: warned of, with what the drift costs and what avoids it."""
 import json
 import re
 

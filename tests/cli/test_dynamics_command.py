@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm dynamics`: its numbers against published values and closed forms.
-
-    test_dynamics_command.py PATH/TO/twinarm
-"""
+"""`twinarm dynamics`: its numbers against published values and closed forms."""
 import math
 
 from program import ROOT, main

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm dynamics`: one body on a joint of every type, against Lagrange's equations.
-
-    test_dynamics_joints.py PATH/TO/twinarm
-"""
+"""`twinarm dynamics`: one body on a joint of every type, against Lagrange's equations."""
 import cmath
 import math
 

@@ -1,9 +1,6 @@
 #!/usr/bin/env python3
 """Energy and momentum balance on every scene of assets/scenes, against energy and momentum from poses
-and velocities (bodies_of_scene.py).
-
-    test_energy_balances.py PATH/TO/twinarm
-"""
+and velocities (bodies_of_scene.py)."""
 import json
 
 import program

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""The scenes that the lab offers: each runs with its books in balance, and against closed forms.
-
-    test_gallery.py PATH/TO/twinarm
-"""
+"""The scenes that the lab offers: each runs with its books in balance, and against closed forms."""
 import json
 import math
 import struct

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm hand`: a scene driven by a device, and its log.
-
-    test_hand_command.py PROGRAM
-"""
+"""`twinarm hand`: a scene driven by a device, and its log."""
 import json
 import pathlib
 

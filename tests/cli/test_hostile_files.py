@@ -1,9 +1,6 @@
 #!/usr/bin/env python3
 """Files that are as large, as deep or as long as somebody means them to be: refused in seconds, within a
-gigabyte. What small files can do is tried by tests/fuzz.
-
-    test_hostile_files.py PATH/TO/twinarm
-"""
+gigabyte. What small files can do is tried by tests/fuzz."""
 import os
 import pathlib
 import resource

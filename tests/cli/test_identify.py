@@ -1,10 +1,7 @@
 #!/usr/bin/env python3
 """`twinarm study --identify-one ROW/LAW/RATE`: what a row of Table 2 tells of a law. Its best fit, run again as a
 scene by `twinarm simulate`, gives its numbers, its sensitivities and what follows for another motion;
-misfit and intervals are computed a second time.
-
-    test_identify.py PATH/TO/twinarm
-"""
+misfit and intervals are computed a second time."""
 import json
 import math
 

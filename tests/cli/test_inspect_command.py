@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm inspect`: quantities of the passes, wrenches that sum to zero, named forces, rejected input.
-
-    test_inspect_command.py PATH/TO/twinarm
-"""
+"""`twinarm inspect`: quantities of the passes, wrenches that sum to zero, named forces, rejected input."""
 import math
 import re
 

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm lab`: the whole program over its socket, with one and several clients.
-
-    test_lab_command.py PROGRAM
-"""
+"""`twinarm lab`: the whole program over its socket, with one and several clients."""
 import json
 import math
 import os

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""lock = [..] of a scene's robot: as if the joint were fixed where it starts.
-
-    test_locked_joints.py PATH/TO/twinarm
-"""
+"""lock = [..] of a scene's robot: as if the joint were fixed where it starts."""
 import math
 
 from program import ProgramTest, main

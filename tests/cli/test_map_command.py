@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm map`: planes against closed forms, cells against `simulate`, kills, parts, faults.
-
-    test_map_command.py PATH/TO/twinarm
-"""
+"""`twinarm map`: planes against closed forms, cells against `simulate`, kills, parts, faults."""
 import json
 import random
 import signal

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm map`: what its axes, measures, curves and files say, each against something of its own.
-
-    test_map_planes.py PATH/TO/twinarm
-"""
+"""`twinarm map`: what its axes, measures, curves and files say, each against something of its own."""
 import csv
 import json
 

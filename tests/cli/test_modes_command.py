@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm modes`: frequencies and damping against closed forms, and rejected input.
-
-    test_modes_command.py PATH/TO/twinarm
-"""
+"""`twinarm modes`: frequencies and damping against closed forms, and rejected input."""
 import math
 
 from program import main

@@ -1,9 +1,6 @@
 #!/usr/bin/env python3
 """`twinarm inspect` reads out the force of each constraint, contact and coupling by its name, in
-chosen axes and about a chosen point: against what statics and Newton say.
-
-    test_named_forces.py PATH/TO/twinarm
-"""
+chosen axes and about a chosen point: against what statics and Newton say."""
 import math
 
 from program import SCENES, data, main

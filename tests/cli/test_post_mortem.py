@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm inspect RECORDING --at T`, and the post-mortem of a diverged run.
-
-    test_post_mortem.py PATH/TO/twinarm
-"""
+"""`twinarm inspect RECORDING --at T`, and the post-mortem of a diverged run."""
 import json
 import math
 import re

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""Recordings: `simulate --record`, `export`, `replay`, and files that are damaged.
-
-    test_recording.py PATH/TO/twinarm
-"""
+"""Recordings: `simulate --record`, `export`, `replay`, and files that are damaged."""
 import csv
 import html
 import io

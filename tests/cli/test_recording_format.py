@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""The bytes of a recording, by a reader and writer of its own (recording_format.py), and damage.
-
-    test_recording_format.py PATH/TO/twinarm
-"""
+"""The bytes of a recording, by a reader and writer of its own (recording_format.py), and damage."""
 import json
 import random
 

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm render`: stills, films, rejected input.
-
-    test_render_command.py PATH/TO/twinarm
-"""
+"""`twinarm render`: stills, films, rejected input."""
 import os
 import struct
 

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""The same input gives the same bits: today's as those in the table, and whatever the number of threads.
-
-    test_same_bits.py PATH/TO/twinarm
-"""
+"""The same input gives the same bits: today's as those in the table, and whatever the number of threads."""
 import os
 import pathlib
 import tempfile

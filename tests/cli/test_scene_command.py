@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm simulate SCENE.toml`: free flight, several robots, couplings, what is refused.
-
-    test_scene_command.py PATH/TO/twinarm
-"""
+"""`twinarm simulate SCENE.toml`: free flight, several robots, couplings, what is refused."""
 import json
 import math
 

@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm simulate`: closed-form motions, samples, CSV and table.
-
-    test_simulate_command.py PATH/TO/twinarm
-"""
+"""`twinarm simulate`: closed-form motions, samples, CSV and table."""
 import csv
 import io
 import math

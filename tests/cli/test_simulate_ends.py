@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm simulate`: the energy balance, runs that stop, faults.
-
-    test_simulate_ends.py PATH/TO/twinarm
-"""
+"""`twinarm simulate`: the energy balance, runs that stop, faults."""
 import json
 import math
 import sys

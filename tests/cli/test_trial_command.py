@@ -1,8 +1,5 @@
 #!/usr/bin/env python3
-"""`twinarm trial`: a user study, with a trace as the operator.
-
-    test_trial_command.py PROGRAM
-"""
+"""`twinarm trial`: a user study, with a trace as the operator."""
 import csv
 import math
 import subprocess
