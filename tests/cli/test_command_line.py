@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The command line as people and programs meet it: help, exit codes, all faults at once, Ctrl-C."""
 import json
 import pathlib

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm compare`: what it runs, what it tells, how it ends."""
 import html
 import html.parser

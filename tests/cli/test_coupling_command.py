@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm coupling predict` and `twinarm coupling gains`: closed forms, runs, and rejected input."""
 import json
 import math

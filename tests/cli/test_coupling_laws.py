@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm coupling predict` of every law: its limit beside closed forms (runs on both sides of it: test_wrong_gain.py
 and tests/coupling/analysis), and its errors beside runs behind a target that moves."""
 import json

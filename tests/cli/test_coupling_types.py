@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Every type of coupling in a scene, as a run books it, and a spring that passes its geometric limit."""
 import math
 import re

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Numbers that pages show as output of a command are those that the program prints.
 
     test_documented_output.py PROGRAM

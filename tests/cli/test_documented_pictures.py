@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A committed picture of docs/pictures is what its script makes.
 
     test_documented_pictures.py PATH/TO/twinarm

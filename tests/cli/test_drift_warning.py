@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Floating robots under semi-implicit Euler: warned of, with what the drift costs and what avoids it."""
 import json
 import re

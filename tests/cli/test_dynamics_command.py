@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm dynamics`: its numbers against published values and closed forms."""
 import math
 

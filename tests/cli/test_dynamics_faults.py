@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm dynamics`: what is nearly a fault, and computed. What is refused: tests/data/refusals.toml."""
 from program import DATA, main
 from robot_command import PENDULUM, RobotCommand

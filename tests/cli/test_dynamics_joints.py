@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm dynamics`: one body on a joint of every type, against Lagrange's equations."""
 import cmath
 import math

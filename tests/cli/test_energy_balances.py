@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Energy and momentum balance on every scene of assets/scenes, against energy and momentum from poses
 and velocities (bodies_of_scene.py)."""
 import json

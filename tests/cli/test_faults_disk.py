@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A disk that is full, a folder that is read-only, a stdout that takes nothing: what each command that
 writes says then, with which code it ends, and that nothing half is left."""
 import json

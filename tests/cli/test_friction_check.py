@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Frictional contact problems of files: solutions that are known, and input that is refused.
 
     test_friction_check.py PATH/TO/friction_check

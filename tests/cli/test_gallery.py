@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The scenes that the lab offers: each runs with its books in balance, and against closed forms."""
 import json
 import math

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm hand`: a scene driven by a device, and its log."""
 import json
 import pathlib

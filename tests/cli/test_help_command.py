@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Help, glossary, manual, completion and version of the program, and its assets in any folder."""
 import os
 import re

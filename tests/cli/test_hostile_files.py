@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Files that are as large, as deep or as long as somebody means them to be: refused in seconds, within a
 gigabyte. What small files can do is tried by tests/fuzz."""
 import os

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm study --identify-one ROW/LAW/RATE`: what a row of Table 2 tells of a law. Its best fit, run again as a
 scene by `twinarm simulate`, gives its numbers, its sensitivities and what follows for another motion;
 misfit and intervals are computed a second time."""

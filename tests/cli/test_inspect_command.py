@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm inspect`: quantities of the passes, wrenches that sum to zero, named forces, rejected input."""
 import math
 import re

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm lab`: the whole program over its socket, with one and several clients."""
 import json
 import math

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Messages and commands of the lab against app/web/src/protocol."""
 import json
 import re

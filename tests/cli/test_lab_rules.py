@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm lab`: time, changes, history and files."""
 import json
 import os

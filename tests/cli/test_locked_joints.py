@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """lock = [..] of a scene's robot: as if the joint were fixed where it starts."""
 import math
 

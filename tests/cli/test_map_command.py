@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm map`: planes against closed forms, cells against `simulate`, kills, parts, faults."""
 import json
 import random

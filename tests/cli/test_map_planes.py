@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm map`: what its axes, measures, curves and files say, each against something of its own."""
 import csv
 import json

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A map through a real Slurm controller and node daemon on this machine, and through GNU parallel.
 
     test_map_slurm.py PATH/TO/twinarm

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm modes`: frequencies and damping against closed forms, and rejected input."""
 import math
 

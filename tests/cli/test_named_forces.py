@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm inspect` reads out the force of each constraint, contact and coupling by its name, in
 chosen axes and about a chosen point: against what statics and Newton say."""
 import math

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Pictures of `twinarm render` against reviewed ones (golden/).
 
     test_pictures.py PATH/TO/twinarm           compares

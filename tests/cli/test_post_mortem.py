@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm inspect RECORDING --at T`, and the post-mortem of a diverged run."""
 import json
 import math

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Recordings: `simulate --record`, `export`, `replay`, and files that are damaged."""
 import csv
 import html

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The bytes of a recording, by a reader and writer of its own (recording_format.py), and damage."""
 import json
 import random

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Command lines that are refused: exit code 2, all faults at once, on stderr and in JSON; nothing is made.
 
     test_refusals.py PATH/TO/twinarm

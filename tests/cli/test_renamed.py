@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Names before assets/renamed.json: refused with today's name; recordings that have them are read."""
 import json
 

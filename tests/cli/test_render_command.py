@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm render`: stills, films, rejected input."""
 import os
 import struct

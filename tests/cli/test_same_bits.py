@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The same input gives the same bits: today's as those in the table, and whatever the number of threads."""
 import os
 import pathlib

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm simulate SCENE.toml`: free flight, several robots, couplings, what is refused."""
 import json
 import math

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm simulate`: closed-form motions, samples, CSV and table."""
 import csv
 import io

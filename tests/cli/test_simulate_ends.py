@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm simulate`: the energy balance, runs that stop, faults."""
 import json
 import math

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Faults of the study's settings: all at once, each with its key, line and remedy."""
 import shutil
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm trial`: a user study, with a trace as the operator."""
 import csv
 import math

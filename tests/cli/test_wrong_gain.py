@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Gains above their stability limit: the post-mortem names the right one of two springs of the S-103, and
 each coupling law of a hinge; each suggested fix is stable, and the last steps can be inspected."""
 import json

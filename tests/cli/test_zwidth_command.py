@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """`twinarm zwidth`: figures against closed forms, pictures, faults."""
 import json
 import math

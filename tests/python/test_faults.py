@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What is wrong is refused, and told with its remedy; what a robot says of itself."""
 import numpy as np
 

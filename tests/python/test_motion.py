@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Simulation, simulate(), recordings and couplings, against theory and the program."""
 import csv
 import io

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """aba, rnea, crba, minv and what stands in world axes, against closed forms, one another and the program."""
 import json
 

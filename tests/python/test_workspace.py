@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """model.workspace(): the names that solver/model/workspace.h states, and the numbers that `twinarm inspect` shows."""
 import json
 import re

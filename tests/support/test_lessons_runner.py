@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The runner of the lessons says what is wrong with a lesson: a number, a command, a picture, its form.
 
     test_lessons.py

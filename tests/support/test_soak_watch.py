@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What the soaks in real time conclude from what they see, on series whose growth is known.
 
     test_soak_watch.py

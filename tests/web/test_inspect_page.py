@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Page of `inspect --html`: JSON of `inspect --json`, and steps through the passes.
 
     test_inspect_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The inspector alone in a browser: numbers, equations, diagram, walk through a call.
 
     test_inspector_panel.py FOLDER_OF_NODE_MODULES [FOLDER_FOR_PICTURES]

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Logic of the lab's page without a browser, in Node.
 
     test_lab_logic.py FOLDER_OF_MODULES

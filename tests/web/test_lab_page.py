@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The lab's page in a browser: input, parameters, time, files.
 
     test_lab_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The lab with touch input, in a browser with an emulated touch screen."""
 import math
 import time

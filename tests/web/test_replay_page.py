@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Replay page: its data, and the page in a browser.
 
     test_replay_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]

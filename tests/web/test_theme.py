@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Contrast of the pages' colours: text and curves against their background, curves among each other,
 with colour vision deficiencies too.
 
