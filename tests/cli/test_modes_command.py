@@ -2,7 +2,7 @@
 import math
 
 from program import main
-from robot_command import HINGE, HINGE_INERTIA, PENDULUM, RobotCommand, joint, link, robot, slider
+from robot_command import HINGE, HINGE_INERTIA, PENDULUM, WHEELS, RobotCommand, joint, link, robot, slider
 
 
 class Modes(RobotCommand):
@@ -150,11 +150,7 @@ class ModesOfLoops(RobotCommand):
         self.close(mode["frequency"], math.sqrt(9.81), 1e-11)
 
     def test_a_gear_adds_inertia_by_its_ratio(self):
-        wheels = robot('<link name="base"/>', link("a", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.2)),
-                       link("b", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
-                       joint("ja", "continuous", "base", "a"),
-                       joint("jb", "continuous", "base", "b"))
-        scene = self.scene(wheels, '[[constraint]]\nname = "mesh"\ntype = "gear"\n'
+        scene = self.scene(WHEELS, '[[constraint]]\nname = "mesh"\ntype = "gear"\n'
                            'a = "arm/ja"\nb = "arm/jb"\nratio = 3\n'
                            '[[coupling]]\nname = "pull"\ntype = "torsional"\n'
                            'measure = "joint"\nlink = "a"\nstiffness = 12\ndamping = 0\n')

@@ -3,7 +3,7 @@ chosen axes and about a chosen point: against what statics and Newton say."""
 import math
 
 from program import SCENES, data, main
-from robot_command import PENDULUM, RobotCommand, add, cross, joint, link, robot
+from robot_command import PENDULUM, WHEELS, RobotCommand, add, cross
 
 G = 9.81
 BODY = ('[[body]]\nname = "{name}"\nshape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\nmass = {mass}\n'
@@ -57,11 +57,7 @@ class NamedForces(RobotCommand):
         self.close(nail["torque"], [0, 0, 0], 1e-4)
 
     def test_a_gear_passes_torque_on_by_its_ratio(self):
-        wheels = robot('<link name="base"/>', link("a", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.2)),
-                       link("b", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
-                       joint("ja", "continuous", "base", "a"),
-                       joint("jb", "continuous", "base", "b"))
-        self.write("test.urdf", wheels)
+        self.write("test.urdf", WHEELS)
         self.write("state.json", '{"tau": {"ja": 7.0}}')
         found = self.scene('[[robot]]\nname = "arm"\nmodel = "test.urdf"\n[[constraint]]\n'
                            'name = "mesh"\ntype = "gear"\na = "arm/ja"\nb = "arm/jb"\nratio = 3\n',
