@@ -1,7 +1,5 @@
 """A map through a real Slurm controller and node daemon on this machine, and through GNU parallel.
 
-    test_map_slurm.py PATH/TO/twinarm
-
 Needs root, slurm-wlm and munge (scripts/setup --cluster); says so and is skipped where they are not
 installed. All daemons belong to this test, live in a temporary folder with ports of their own, and
 are ended by their process numbers. One part of the map dies on the way.

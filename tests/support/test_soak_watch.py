@@ -1,7 +1,4 @@
-"""What the soaks in real time conclude from what they see, on series whose growth is known.
-
-    test_soak_watch.py
-"""
+"""What the soaks in real time conclude from what they see, on series whose growth is known."""
 import contextlib
 import io
 import os
