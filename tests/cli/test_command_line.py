@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""The command line as people and programs meet it: help, exit codes, all faults at once, Ctrl-C.
-
-    test_command_line.py PATH/TO/twinarm
-"""
+"""The command line as people and programs meet it: help, exit codes, all faults at once, Ctrl-C."""
 import json
 import pathlib
 import re
@@ -23,8 +19,7 @@ class CommandLine(ProgramTest):
             self.assertIn(word, result.stderr)
 
     def written(self):
-        return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*")
-                      if p.is_file())
+        return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*") if p.is_file())
 
     def copy_of_assets(self):
         """All but the meshes to look at, which are large and come after what is tested here."""
@@ -54,10 +49,8 @@ class CommandLine(ProgramTest):
         self.assertEqual(len(study["answer"]), 5)
         self.assertGreaterEqual(len(study["left_open"]), 16)
         for fit in study["left_open"]:  # what is said of a fit follows from its four numbers
-            numbers = [fit["numbers"][f"{kind}{joint}_deg"]
-                       for kind in ("max", "mean") for joint in (1, 2)]
-            misfit = max(abs(value - number) / 0.05
-                         for value, number in zip(numbers, published[fit["row"]]))
+            numbers = [fit["numbers"][f"{kind}{joint}_deg"] for kind in ("max", "mean") for joint in (1, 2)]
+            misfit = max(abs(value - number) / 0.05 for value, number in zip(numbers, published[fit["row"]]))
             self.assertAlmostEqual(fit["misfit"], misfit, delta=1e-9 * misfit, msg=fit)
             if len(fit["parameters"]) == 5:  # of which four numbers cannot hold a combination
                 self.assertEqual(fit["singular_values"][-1], 0)
@@ -74,8 +67,7 @@ class CommandLine(ProgramTest):
 
     def check_recordings(self, made):
         """Scenes that run the study's own laws, and what the other commands make of them."""
-        self.assertEqual(list(made), ["E1", "E2", "E3", "E4", "obstacle_linear",
-                                      "obstacle_torsional"])
+        self.assertEqual(list(made), ["E1", "E2", "E3", "E4", "obstacle_linear", "obstacle_torsional"])
         for name in ("E1", "E2", "E3", "E4"):  # two programs' ways to the same numbers
             self.assertLess(made[name]["apart_deg"], 1e-9, name)
         for run_ in made.values():

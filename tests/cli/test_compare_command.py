@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm compare`: what it runs, what it tells, how it ends.
-
-    test_compare_command.py PATH/TO/twinarm
-"""
+"""`twinarm compare`: what it runs, what it tells, how it ends."""
 import html
 import html.parser
 import json
@@ -61,8 +57,7 @@ class Compare(ProgramTest):
     def test_people_get_a_table_with_a_row_for_each_and_the_sums(self):
         result = run("E6-two", "D7")
         rows = result.stdout.splitlines()
-        self.assertEqual(rows[0].split(), ["case", "error", "tolerance", "order", "energy",
-                                           "seconds"])
+        self.assertEqual(rows[0].split(), ["case", "error", "tolerance", "order", "energy", "seconds"])
         self.assertEqual([row.split()[0] for row in rows[1:3]], ["D7", "E6-two"])
         self.assertEqual([row.split()[3] for row in rows[1:3]], ["pass", "pass"])
         self.assertEqual(rows[-1], "2 passed, 0 failed")
@@ -76,8 +71,7 @@ class Compare(ProgramTest):
         self.assertTrue(all(c["pass"] for c in by_letter["cases"]))
 
     def test_a_known_motion_has_its_order_and_other_integrators_stand_beside(self):
-        answer = self.answer("A2", "B9-free", "D7", "--integrator", "verlet,dopri5",
-                             "--step", "0.002,0.001")
+        answer = self.answer("A2", "B9-free", "D7", "--integrator", "verlet,dopri5", "--step", "0.002,0.001")
         rows = {c["name"]: c for c in answer["cases"]}
         self.assertAlmostEqual(rows["A2"]["order"], 4, delta=0.1)
         self.assertLess(rows["A2"]["energy_drift"], 1e-12)
@@ -85,8 +79,7 @@ class Compare(ProgramTest):
         self.assertEqual(rows["D7"]["configurations"], [])
         lanes = rows["A2"]["configurations"]
         self.assertEqual([(lane["integrator"], lane["step"], lane["tolerance"]) for lane in lanes],
-                         [("verlet", 0.002, None), ("verlet", 0.001, None),
-                          ("dopri5", None, 1e-10)])
+                         [("verlet", 0.002, None), ("verlet", 0.001, None), ("dopri5", None, 1e-10)])
         self.assertAlmostEqual(lanes[0]["error"] / lanes[1]["error"], 4, delta=0.1)
         self.assertAlmostEqual(lanes[0]["order"], 2, delta=0.1)
         table = run("A2", "D7", "--integrator", "verlet", "--step", "0.002").stdout.splitlines()
@@ -118,8 +111,7 @@ class Compare(ProgramTest):
         rows = {c["name"]: c for c in answer["cases"]}
         self.assertEqual({c["group"] for c in answer["cases"]}, {"robots", "couplings"})
         self.assertTrue(all(c["pass"] for c in answer["cases"]), answer["cases"])
-        self.assertTrue({"F1-published", "F2-velocity", "F3-joint-mean", "F4-euler-difference"}
-                        <= set(rows))
+        self.assertTrue({"F1-published", "F2-velocity", "F3-joint-mean", "F4-euler-difference"} <= set(rows))
         self.assertAlmostEqual(rows["F3-joint"]["order"], 4, delta=0.2)
 
     def test_ctrl_c_ends_it_with_130_no_half_answer_and_no_page(self):
@@ -252,8 +244,7 @@ class Page(unittest.TestCase):
         self.assertIn(self.answer["skipped"][0]["why"], row)
 
     def test_a_motion_is_drawn_with_its_errors_and_energy_and_a_state_has_its_readings(self):
-        for name, figures in {"A1": 3, "B1-45": 3, "G1-rk4": 2, "A5-ballistic": 2,
-                              "D1-hinge": 3}.items():
+        for name, figures in {"A1": 3, "B1-45": 3, "G1-rk4": 2, "A5-ballistic": 2, "D1-hinge": 3}.items():
             self.assertEqual(self.sections[name].count("<svg"), figures, name)
         for scheme in ("euler", "verlet", "rk4", "dopri5", "trapezoid"):
             self.assertIn(scheme, self.sections["A1"])
@@ -264,8 +255,7 @@ class Page(unittest.TestCase):
             self.assertNotIn("<svg", self.sections[name])
 
     def test_a_contact_case_is_drawn_with_its_energy_and_its_error_or_why_it_has_none(self):
-        for name, figures in {"E1-times": 2, "E2-slide": 3, "E2-place": 3, "E2-threshold": 2,
-                              "E6-two": 3}.items():
+        for name, figures in {"E1-times": 2, "E2-slide": 3, "E2-place": 3, "E2-threshold": 2, "E6-two": 3}.items():
             self.assertEqual(self.sections[name].count("<svg"), figures, name)
         self.assertIn("does not depend on the step", self.sections["E1-times"])
         self.assertIn("bisection", self.sections["E2-threshold"])

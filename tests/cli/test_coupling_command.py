@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm coupling predict` and `twinarm coupling gains`: closed forms, runs, and rejected input.
-
-    test_coupling_command.py PATH/TO/twinarm
-"""
+"""`twinarm coupling predict` and `twinarm coupling gains`: closed forms, runs, and rejected input."""
 import json
 import math
 
@@ -35,8 +31,7 @@ class CouplingCommand(RobotCommand):
 
 class Predict(CouplingCommand):
     def torsional(self, k=30.0, b=0.4, **more):
-        keys = dict(name="pull", type="torsional", measure="joint", link="rod", stiffness=k,
-                    damping=b)
+        keys = dict(name="pull", type="torsional", measure="joint", link="rod", stiffness=k, damping=b)
         return coupling(**{**keys, **more})
 
     def test_a_hinge_has_its_frequency_its_damping_and_the_limits_of_the_table(self):
@@ -44,8 +39,7 @@ class Predict(CouplingCommand):
         found = self.predict(self.scene(HINGE, self.torsional(k, b, discretization="explicit")))
         w, z = math.sqrt(k / HINGE_INERTIA), b / (2 * math.sqrt(k * HINGE_INERTIA))
         mode, = found["modes"]
-        self.close([mode["frequency"], mode["damping_ratio"], mode["shape"]["hinge"]], [w, z, 1],
-                   1e-9)
+        self.close([mode["frequency"], mode["damping_ratio"], mode["shape"]["hinge"]], [w, z, 1], 1e-9)
         limits = {row["scheme"]: row for row in found["limits"]}
         root = math.sqrt(1 + z * z)
         for scheme, wh in (("explicit Euler", 2 * z), ("semi-implicit Euler", 2 * (root - z)),
@@ -53,11 +47,9 @@ class Predict(CouplingCommand):
             self.close(limits[scheme]["max_stable_step"], wh / w, 1e-7)
             # At the scene's step of 1 ms: the same limit, reached by a stiffer spring.
             if scheme != "explicit Euler":
-                self.close(limits[scheme]["stiffness_factor_same_zeta"] / (wh / (w * 1e-3)) ** 2, 1,
-                           1e-6)
+                self.close(limits[scheme]["stiffness_factor_same_zeta"] / (wh / (w * 1e-3)) ** 2, 1, 1e-6)
         self.assertIsNone(limits["spring and damper implicit"]["max_stable_step"])
-        self.assertEqual([s for s, row in limits.items() if row["selected"]],
-                         ["semi-implicit Euler"])
+        self.assertEqual([s for s, row in limits.items() if row["selected"]], ["semi-implicit Euler"])
         self.close(found["scene"]["max_stable_step"], 2 * (root - z) / w, 1e-7)
         self.assertTrue(found["scene"]["stable"])
 
@@ -104,8 +96,7 @@ class Predict(CouplingCommand):
 
     def test_off_its_target_a_point_spring_is_softer_by_the_cosine(self):
         k, r, e = 400.0, 0.3, 0.6
-        scene = self.scene(HINGE, coupling(name="pull", type="linear", link="rod",
-                                           point=[r, 0, 0], stiffness=k))
+        scene = self.scene(HINGE, coupling(name="pull", type="linear", link="rod", point=[r, 0, 0], stiffness=k))
         found = self.predict(scene, state={"q": {"hinge": e}})
         one, = found["couplings"]
         self.close(one["K"][0][0], k * r * r * math.cos(e), 1e-8)
@@ -114,20 +105,17 @@ class Predict(CouplingCommand):
         arm, = one["arms"]
         h = 1e-3
         self.close([arm["radius"], arm["target_radius"], arm["largest_torque"]], [r, r, k * r * r])
-        self.close(arm["largest_target_radius"],
-                   (4 * HINGE_INERTIA + 2 * r * r * h * h * k) / (h * h * k * r), 1e-9)
+        self.close(arm["largest_target_radius"], (4 * HINGE_INERTIA + 2 * r * r * h * h * k) / (h * h * k * r), 1e-9)
         # Beyond a right angle its stiffness is negative.
         over = self.predict(scene, state={"q": {"hinge": 2.0}})
         self.assertIn("push away", "".join(over["warnings"]))
 
     def test_static_deflection_is_torque_over_stiffness_and_null_without_coupling(self):
         k = 600.0
-        scene = self.scene(PENDULUM, coupling(name="pull", type="torsional", measure="joint",
-                                              link="bob", stiffness=k))
+        scene = self.scene(PENDULUM, coupling(name="pull", type="torsional", measure="joint", link="bob", stiffness=k))
         found = self.predict(scene, state={"q": {"hinge": 0.5}})
         self.close(abs(found["static_deflection"]["hinge"]), 9.81 * math.sin(0.5) / k, 1e-9)
-        both = robot('<link name="base"/>', link("a"), link("b"),
-                     joint("ja", "continuous", "base", "a", axis="0 1 0"),
+        both = robot('<link name="base"/>', link("a"), link("b"), joint("ja", "continuous", "base", "a", axis="0 1 0"),
                      joint("jb", "continuous", "base", "b", axis="0 1 0"))
         found = self.predict(self.scene(both, coupling(name="pull", type="torsional", link="a",
                                                        measure="joint", stiffness=k)))
@@ -135,8 +123,7 @@ class Predict(CouplingCommand):
         self.assertIsNotNone(found["static_deflection"]["ja"])
 
     def test_a_wall_through_a_coupling_is_two_springs_in_series(self):
-        scene = self.scene(HINGE, coupling(name="pull", type="linear", link="rod",
-                                           point=[0.3, 0, 0], stiffness=700))
+        scene = self.scene(HINGE, coupling(name="pull", type="linear", link="rod", point=[0.3, 0, 0], stiffness=700))
         one, = self.predict(scene, "--wall", "2000")["couplings"]
         self.close(one["through_wall"], 700 * 2000 / 2700)
         one, = self.predict(scene)["couplings"]
@@ -150,8 +137,7 @@ class Predict(CouplingCommand):
             self.assertIn(words, result.stdout)
         found = self.predict(BESIDE)
         self.assertEqual(found["rows"], ["joint1", "joint2", "joint3", "gripper_lift"])
-        total = [[sum(c["K"][i][j] for c in found["couplings"]) for j in range(4)]
-                 for i in range(4)]
+        total = [[sum(c["K"][i][j] for c in found["couplings"]) for j in range(4)] for i in range(4)]
         self.close(total, found["K"], 1e-9)
 
     def test_a_robot_and_a_coupling_by_options_equal_the_scene_with_both(self):
@@ -176,8 +162,7 @@ class Predict(CouplingCommand):
         # The motion of the scene starts like this; its angles are not small, hence 2 %.
         samples = self.json_of("simulate", BESIDE, "--duration", 0.3, "--every", 0.001)["samples"]
         for name in ("joint1", "joint2"):
-            peak = max(abs(next(iter(s["targets"].values()))["q"][name] - s["q"][name])
-                       for s in samples)
+            peak = max(abs(next(iter(s["targets"].values()))["q"][name] - s["q"][name]) for s in samples)
             self.assertAlmostEqual(found["start"][name] / peak, 1, delta=0.02)
 
     def test_on_a_slide_a_joints_spring_has_newtons_per_metre(self):
@@ -193,22 +178,18 @@ class Gains(CouplingCommand):
         k, b = one["gains"]["stiffness"], one["gains"]["damping"]
         self.close([k, b], [3 / 0.014 ** 2, 2 * 0.7 * 3 / 0.014], 1e-12)
         self.close(one["solref_direct"], [-k / 3, -b / 3], 1e-12)
-        again, = self.gains("--inertia", "3", "--solref",
-                            f"{one['solref_direct'][0]},{one['solref_direct'][1]}")
+        again, = self.gains("--inertia", "3", "--solref", f"{one['solref_direct'][0]},{one['solref_direct'][1]}")
         self.close(again["gains"]["stiffness"] / k, 1, 1e-12)
-        self.close([one["drive_force"]["stiffness"], one["drive_acceleration"]["stiffness"]],
-                   [k, k / 3], 1e-12)
+        self.close([one["drive_force"]["stiffness"], one["drive_acceleration"]["stiffness"]], [k, k / 3], 1e-12)
 
     def test_the_gains_of_a_frequency_give_a_scene_that_frequency(self):
-        one, = self.gains(self.scene(HINGE, coupling(name="pull", type="linear", link="rod",
-                                                     point=[0.3, 0, 0], stiffness=100)),
-                          "--frequency", "5", "--damping-ratio", "0.4")
+        one, = self.gains(self.scene(HINGE, coupling(name="pull", type="linear", link="rod", point=[0.3, 0, 0],
+                                                     stiffness=100)), "--frequency", "5", "--damping-ratio", "0.4")
         self.close(one["inertia"], HINGE_INERTIA / 0.09, 1e-9)
         self.close(one["torsional"]["stiffness"], 100 * 0.09, 1e-9)
         wanted = one["wanted"]
-        found = self.predict(self.scene(HINGE, coupling(
-            name="pull", type="linear", link="rod", point=[0.3, 0, 0],
-            stiffness=wanted["stiffness"], damping=wanted["damping"])))
+        found = self.predict(self.scene(HINGE, coupling(name="pull", type="linear", link="rod", point=[0.3, 0, 0],
+                                                        stiffness=wanted["stiffness"], damping=wanted["damping"])))
         mode, = found["modes"]
         self.close([mode["frequency"], mode["damping_ratio"]], [2 * math.pi * 5, 0.4], 1e-8)
 

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 """`twinarm coupling predict` of every law: its limit beside closed forms (runs on both sides of it: test_wrong_gain.py
-and tests/coupling/analysis), and its errors beside runs behind a target that moves.
-
-    test_coupling_laws.py PATH/TO/twinarm
-"""
+and tests/coupling/analysis), and its errors beside runs behind a target that moves."""
 import json
 import math
 
@@ -13,8 +9,7 @@ from robot_command import HAND_COLUMNS, RobotCommand, joint, link, robot
 INERTIA = 0.5
 # The centre of mass on the axis: a weld then holds the orientation alone.
 HINGE = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, INERTIA)),
-              joint("hinge", "continuous", "base", "rod",
-                    more='<dynamics damping="{damping}" friction="0"/>'))
+              joint("hinge", "continuous", "base", "rod", more='<dynamics damping="{damping}" friction="0"/>'))
 TWO = robot('<link name="base"/>', link("upper", 2, (0.2, 0, 0), (0.01, 0, 0, 0.04, 0, 0.04)),
             link("lower", 1, (0.15, 0, 0), (0.01, 0, 0, 0.02, 0, 0.02)),
             joint("shoulder", "continuous", "base", "upper"),
@@ -120,20 +115,17 @@ class Limits(CouplingLaws):
     def test_a_delay_leaves_the_limit_as_it_is(self):
         keys = dict(measure="joint", stiffness=300, damping=2)
         now = self.predict(self.scene(coupling("torsional", "explicit", **keys)))
-        late = self.predict(self.scene(coupling("torsional", "explicit", target="paper", delay=0.03,
-                                                **keys)))
+        late = self.predict(self.scene(coupling("torsional", "explicit", target="paper", delay=0.03, **keys)))
         self.assertEqual(late["scene"]["max_stable_step"], now["scene"]["max_stable_step"])
         self.assertIn("a target delay of 0.03 s", "".join(late["warnings"]))
 
     def test_the_matched_law_has_the_stiffness_of_its_targets_pose(self):
         """J at the KVR: a point of the lower link, 0.25 m from the elbow."""
         k, elbow = 700.0, 1.1
-        scene = self.scene(
-            coupling("equivalent-torsional", link="lower", stiffness=k, damping=0, point=[0.25, 0, 0]) +
-            f"target = {{ q = {{ elbow = {elbow} }} }}\n", urdf=TWO)
+        scene = self.scene(coupling("equivalent-torsional", link="lower", stiffness=k, damping=0,
+                                    point=[0.25, 0, 0]) + f"target = {{ q = {{ elbow = {elbow} }} }}\n", urdf=TWO)
         found = self.predict(scene)
-        J = [[-0.25 * math.sin(elbow), -0.25 * math.sin(elbow)],
-             [0.4 + 0.25 * math.cos(elbow), 0.25 * math.cos(elbow)]]
+        J = [[-0.25 * math.sin(elbow), -0.25 * math.sin(elbow)], [0.4 + 0.25 * math.cos(elbow), 0.25 * math.cos(elbow)]]
         K = [[k * sum(J[r][i] * J[r][j] for r in range(2)) for j in range(2)] for i in range(2)]
         self.close(found["K"], K, 1e-9)
 
@@ -174,8 +166,7 @@ class Errors(CouplingLaws):
             "linear": (coupling("linear", **point), 0, 0),
             "absolute": (coupling("torsional", damper="absolute", **turn), 0, 5 / 300),
             "late": (coupling("torsional", delay=0.07, **turn), 0, 0.07),
-            "late and absolute": (coupling("torsional", delay=0.07, damper="absolute", **turn), 0,
-                                  0.07 + 5 / 300),
+            "late and absolute": (coupling("torsional", delay=0.07, damper="absolute", **turn), 0, 0.07 + 5 / 300),
             "rusty": (coupling("torsional", **turn), 2, 2 / 300),
             "weld": (coupling("weld", time_constant=T, damping_ratio=z), 0, 2 * T * z * z),
             "equivalent-torsional": (coupling("equivalent-torsional", **point), 0, 0),
@@ -205,8 +196,7 @@ class Errors(CouplingLaws):
                                     damper="absolute", **point),
                 "stable PD": coupling("stable-pd", stiffness=30, damping=0.5),
                 "printed": coupling("published-linear", **point),
-                "absolute": coupling("torsional", measure="joint", damper="absolute", stiffness=30,
-                                     damping=2)}
+                "absolute": coupling("torsional", measure="joint", damper="absolute", stiffness=30, damping=2)}
         self.write("hand.csv", trace(lambda t: 0.1 * t, 5, 5))
         for name, text in laws.items():
             with self.subTest(name):
@@ -220,8 +210,7 @@ class Errors(CouplingLaws):
         return self.write(
             "s103.toml",
             S103.replace("MODEL", str(ROOT / "assets/robots/s103/s103.urdf")) +
-            coupling("linear", link="arm1", point=[0.25, 0, 0.365], stiffness=4000,
-                     damping=200, target="hand.csv") +
+            coupling("linear", link="arm1", point=[0.25, 0, 0.365], stiffness=4000, damping=200, target="hand.csv") +
             coupling("linear", link="arm2", point=[0.35, 0, 0.1], stiffness=2000, damping=100,
                      target="hand.csv").replace("pull", "outer") +
             coupling("torsional", link="quill", measure="joint", stiffness=20, damping=1,

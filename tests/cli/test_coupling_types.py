@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""Every type of coupling in a scene, as a run books it, and a spring that passes its geometric limit.
-
-    test_coupling_types.py PATH/TO/twinarm
-"""
+"""Every type of coupling in a scene, as a run books it, and a spring that passes its geometric limit."""
 import math
 import re
 
@@ -24,8 +20,7 @@ def chain(links, length=0.05, mass=0.1):
     along = mass * length ** 2 / 12
     parts = ['<link name="base"/>']
     for i in range(1, links + 1):
-        parts.append(link(f"rod{i}", mass, (length / 2, 0, 0),
-                          (0.1 * along, 0, 0, along, 0, along)))
+        parts.append(link(f"rod{i}", mass, (length / 2, 0, 0), (0.1 * along, 0, 0, along, 0, along)))
         parts.append(joint(f"joint{i}", "continuous", f"rod{i - 1}" if i > 1 else "base",
                            f"rod{i}", xyz=f"{length if i > 1 else 0} 0 0"))
     return robot(*parts)
@@ -40,8 +35,7 @@ class CouplingTypes(RobotCommand):
     def scene(self, kind):
         self.write("hand.csv", STEADY_HAND)
         linked = "" if kind == "god-object" else 'link = "rod"\n'
-        return (f'[[coupling]]\nname = "pull"\ntype = "{kind}"\n{linked}{TYPES[kind]}'
-                'target = "hand.csv"\n')
+        return (f'[[coupling]]\nname = "pull"\ntype = "{kind}"\n{linked}{TYPES[kind]}target = "hand.csv"\n')
 
     def test_on_one_hinge_all_that_happens_is_the_couplings_work(self):
         for kind in TYPES:

@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """Numbers that pages show as output of a command are those that the program prints.
-
-    test_documented_output.py PROGRAM
 
 A ```sh block followed by ```text blocks is an example: its commands run in an empty folder, with the program on the
 path. Each line of the text blocks must have the numbers, in order, of a line of the output; words are not compared.

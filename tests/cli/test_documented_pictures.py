@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """A committed picture of docs/pictures is what its script makes.
-
-    test_documented_pictures.py PATH/TO/twinarm
 
 Found: stills that scripts/generate/pictures now makes visibly different (another scene, overlay, legend or camera);
 films whose options or input files have changed; layers that are drawn otherwise than CMake has them; pictures of

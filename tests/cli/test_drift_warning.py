@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""Floating robots under semi-implicit Euler: warned of, with what the drift costs and what avoids it.
-
-    test_drift_warning.py PATH/TO/twinarm
-"""
+"""Floating robots under semi-implicit Euler: warned of, with what the drift costs and what avoids it."""
 import json
 import re
 
@@ -46,8 +42,7 @@ class DriftWarning(RobotCommand):
         drift, warnings = gain()
         self.assertAlmostEqual(drift, 0.14, delta=0.005)
         self.assertEqual(len(warnings), 1)
-        for part in ("'base'", "semi-implicit", "14 %", "--integrator rk4 or implicit-midpoint",
-                     "--step"):
+        for part in ("'base'", "semi-implicit", "14 %", "--integrator rk4 or implicit-midpoint", "--step"):
             self.assertIn(part, warnings[0])
         drift, warnings = gain("--integrator", "rk4")
         self.assertLess(abs(drift), 1e-9)

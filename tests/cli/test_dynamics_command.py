@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm dynamics`: its numbers against published values and closed forms.
-
-    test_dynamics_command.py PATH/TO/twinarm
-"""
+"""`twinarm dynamics`: its numbers against published values and closed forms."""
 import math
 
 from program import ROOT, main
@@ -25,15 +21,12 @@ class Puma560(RobotCommand):
     def test_gravity_loads_and_mass_matrix_in_the_nominal_pose(self):
         answer = self.answer(PUMA, state=STATES / "puma_qn.json")
         self.assertEqual(answer["joints"], [f"j{n}" for n in range(1, 7)])
-        self.close(answer["gravity"], [0, 31.639880378357127, 6.0351380230105125, 0,
-                                       0.028252800000000012, 0])
+        self.close(answer["gravity"], [0, 31.639880378357127, 6.0351380230105125, 0, 0.028252800000000012, 0])
         self.close(answer["bias"], answer["gravity"])
         M = answer["mass_matrix"]
-        self.close([M[i][i] for i in range(6)],
-                   [3.65937541215279, 4.413741933635791, 0.9378415752150396, 0.19253170612368,
-                    0.17134845165700002, 0.19410450566800005])
-        self.close([M[0][1], M[0][2], M[1][2]],
-                   [-0.4043612460415188, 0.10061364777978393, 0.35089066495641474])
+        self.close([M[i][i] for i in range(6)], [3.65937541215279, 4.413741933635791, 0.9378415752150396,
+                                                 0.19253170612368, 0.17134845165700002, 0.19410450566800005])
+        self.close([M[0][1], M[0][2], M[1][2]], [-0.4043612460415188, 0.10061364777978393, 0.35089066495641474])
         self.close(M, transpose(M), 0)
         self.close(answer["mass"], 23.45)
 
@@ -75,8 +68,7 @@ class ClosedForms(RobotCommand):
     def test_two_links_in_a_plane_have_the_mass_matrix_and_coriolis_terms_of_the_textbook(self):
         m1, m2, l1, c1, c2, I1, I2 = 3.0, 2.0, 0.5, 0.2, 0.3, 0.07, 0.05
         urdf = robot('<link name="base"/>', link("upper", m1, (c1, 0, 0), (I1, 0, 0, I1, 0, I1)),
-                     link("fore", m2, (c2, 0, 0), (I2, 0, 0, I2, 0, I2)),
-                     joint("j1", "continuous", "base", "upper"),
+                     link("fore", m2, (c2, 0, 0), (I2, 0, 0, I2, 0, I2)), joint("j1", "continuous", "base", "upper"),
                      joint("j2", "continuous", "upper", "fore", xyz=f"{l1} 0 0"))
         q2, v1, v2 = 0.9, 1.3, -0.7
         answer = self.answer(urdf, state={"q": {"j1": 0.4, "j2": q2}, "qd": {"j1": v1, "j2": v2},
@@ -89,10 +81,8 @@ class ClosedForms(RobotCommand):
         self.close(answer["mass_matrix"], [[M11, M12], [M12, M22]])
         self.close(answer["bias"], bias)
         self.close(answer["gravity"], [0, 0])
-        self.close(times(answer["mass_matrix"], list(answer["qdd"].values())),
-                   [0.6 - bias[0], -0.2 - bias[1]])
-        self.close(answer["kinetic_energy"],
-                   (M11 * v1 ** 2 + 2 * M12 * v1 * v2 + M22 * v2 ** 2) / 2)
+        self.close(times(answer["mass_matrix"], list(answer["qdd"].values())), [0.6 - bias[0], -0.2 - bias[1]])
+        self.close(answer["kinetic_energy"], (M11 * v1 ** 2 + 2 * M12 * v1 * v2 + M22 * v2 ** 2) / 2)
 
     def floating_state(self):
         return {"base": {"position": [1, 2, 3], "orientation": TURN,
@@ -116,8 +106,7 @@ class ClosedForms(RobotCommand):
         self.close(answer["bias"], bias)
         self.close(answer["gravity"], one_body(R, [0, 0, 0])[1])
         f2, r = times(R, f_link), add(point, scale(-1, p))
-        applied = add(force, f2) + add(torque, cross(r, force), times(R, t_link),
-                                       cross(times(R, p_link), f2))
+        applied = add(force, f2) + add(torque, cross(r, force), times(R, t_link), cross(times(R, p_link), f2))
         found = answer["base_acceleration"]["linear"] + answer["base_acceleration"]["angular"]
         self.close(add(times(M, found), bias), applied)
         given = base["linear_acceleration"] + base["angular_acceleration"]
@@ -129,10 +118,8 @@ class ClosedForms(RobotCommand):
         I_com = times(times(R, symmetric(*INERTIA)), transpose(R))
         self.close(answer["com"], add(p, c))
         self.close(answer["linear_momentum"], scale(MASS, v_com))
-        self.close(answer["angular_momentum"],
-                   add(times(I_com, w), scale(MASS, cross(add(p, c), v_com))))
-        self.close(answer["kinetic_energy"],
-                   MASS * dot(v_com, v_com) / 2 + dot(w, times(I_com, w)) / 2)
+        self.close(answer["angular_momentum"], add(times(I_com, w), scale(MASS, cross(add(p, c), v_com))))
+        self.close(answer["kinetic_energy"], MASS * dot(v_com, v_com) / 2 + dot(w, times(I_com, w)) / 2)
         self.close(answer["potential_energy"], MASS * 9.81 * (p[2] + c[2]))
         body = answer["links"]["body"]
         self.close(body["rotation"], R)
@@ -148,9 +135,8 @@ class ClosedForms(RobotCommand):
         velocity = state["linear_velocity"] + state["angular_velocity"]
         acceleration = state["linear_acceleration"] + state["angular_acceleration"]
         tau = [0.3, -0.4, 0.9, 0.2, 0.8, -0.1]
-        answer = self.answer(urdf, state={"q": {"free": [1, 2, 3, *TURN]},
-                                          "qd": {"free": velocity}, "qdd": {"free": acceleration},
-                                          "tau": {"free": tau}})
+        answer = self.answer(urdf, state={"q": {"free": [1, 2, 3, *TURN]}, "qd": {"free": velocity},
+                                          "qdd": {"free": acceleration}, "tau": {"free": tau}})
         J = rotation([1, 0, 0], roll, math.cos, math.sin)  # the joint's frame in the world
         g = times(transpose(J), [0, 0, -9.81])
         M, bias = one_body(from_quaternion(TURN), velocity[3:], g=g)
@@ -162,8 +148,7 @@ class ClosedForms(RobotCommand):
         self.close(answer["links"]["body"]["position"], add([0.1, 0, 0.2], times(J, [1, 2, 3])))
 
     def test_a_spherical_joint_has_rates_and_torques_in_the_childs_axes(self):
-        urdf = robot('<link name="base"/>', link("body"),
-                     joint("ball", "spherical", "base", "body"))
+        urdf = robot('<link name="base"/>', link("body"), joint("ball", "spherical", "base", "body"))
         w, alpha, tau = [1.2, -0.4, 0.8], [0.3, 0.5, -0.7], [0.1, 0.2, -0.3]
         answer = self.answer(urdf, state={"q": {"ball": TURN}, "qd": {"ball": w},
                                           "qdd": {"ball": alpha}, "tau": {"ball": tau}})
@@ -174,8 +159,7 @@ class ClosedForms(RobotCommand):
         self.close(answer["bias"], bias)
         self.close(answer["tau_inverse"]["ball"], add(times(I, alpha), bias))
         self.close(add(times(I, answer["qdd"]["ball"]), bias), tau)
-        self.close(answer["links"]["body"]["angular_velocity"],
-                   times(from_quaternion(TURN), w))
+        self.close(answer["links"]["body"]["angular_velocity"], times(from_quaternion(TURN), w))
 
     def test_a_fixed_root_counts_in_mass_and_centre_and_weighs_on_the_world(self):
         urdf = robot(link("base", 4, (1, 0, 0)), link("body", 2, (0, 0, 0)),

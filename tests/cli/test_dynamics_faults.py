@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm dynamics`: what is nearly a fault, and computed. What is refused: tests/data/refusals.toml.
-
-    test_dynamics_faults.py PATH/TO/twinarm
-"""
+"""`twinarm dynamics`: what is nearly a fault, and computed. What is refused: tests/data/refusals.toml."""
 from program import DATA, main
 from robot_command import PENDULUM, RobotCommand
 

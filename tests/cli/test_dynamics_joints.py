@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm dynamics`: one body on a joint of every type, against Lagrange's equations.
-
-    test_dynamics_joints.py PATH/TO/twinarm
-"""
+"""`twinarm dynamics`: one body on a joint of every type, against Lagrange's equations."""
 import cmath
 import math
 
@@ -50,11 +46,9 @@ class JointsByLagrange(RobotCommand):
 
         def slope(k):  # dM/dq_k, of order 4
             def at(shift):
-                return self.mass_matrix(local, [x + (shift if i == k else 0)
-                                                for i, x in enumerate(q)])
+                return self.mass_matrix(local, [x + (shift if i == k else 0) for i, x in enumerate(q)])
             a, b, c, d = at(-2 * h), at(-h), at(h), at(2 * h)
-            return [[(a[i][j] - 8 * b[i][j] + 8 * c[i][j] - d[i][j]) / (12 * h)
-                     for j in range(n)] for i in range(n)]
+            return [[(a[i][j] - 8 * b[i][j] + 8 * c[i][j] - d[i][j]) / (12 * h) for j in range(n)] for i in range(n)]
         dM = [slope(k) for k in range(n)]
         J, _ = self.jacobians(local, q)
         return [sum((dM[k][i][j] - dM[i][j][k] / 2) * qd[j] * qd[k]
@@ -66,11 +60,9 @@ class JointsByLagrange(RobotCommand):
                      joint("j", kind, "base", "body", xyz=" ".join(map(str, self.ROOT_XYZ)),
                            rpy=" ".join(map(str, self.ROOT_RPY)),
                            axis=" ".join(map(str, axis)), more=more))
-        qd, qdd, tau = ([0.9, -0.6, 1.3][:len(q)], [0.4, 0.7, -0.2][:len(q)],
-                        [1.1, -0.3, 0.5][:len(q)])
+        qd, qdd, tau = ([0.9, -0.6, 1.3][:len(q)], [0.4, 0.7, -0.2][:len(q)], [1.1, -0.3, 0.5][:len(q)])
         state = {"q": q, "qd": qd, "qdd": qdd, "tau": tau}
-        answer = self.answer(urdf, state={key: {"j": v[0] if len(v) == 1 else v}
-                                          for key, v in state.items()})
+        answer = self.answer(urdf, state={key: {"j": v[0] if len(v) == 1 else v} for key, v in state.items()})
 
         def values(key):
             value = answer[key]["j"]
@@ -84,10 +76,8 @@ class JointsByLagrange(RobotCommand):
         body = answer["links"]["body"]
         self.close(body["rotation"], R, 1e-12, kind)
         self.close(body["position"], [x.real for x in self.place(local, q)[1]], 1e-12, kind)
-        self.close(body["angular_velocity"],
-                   add(*[scale(rate, column[1]) for rate, column in zip(qd, J)]), 1e-12, kind)
-        self.close(body["linear_velocity"],
-                   add(*[scale(rate, column[2]) for rate, column in zip(qd, J)]), 1e-12, kind)
+        self.close(body["angular_velocity"], add(*[scale(rate, column[1]) for rate, column in zip(qd, J)]), 1e-12, kind)
+        self.close(body["linear_velocity"], add(*[scale(rate, column[2]) for rate, column in zip(qd, J)]), 1e-12, kind)
 
     def test_every_joint_of_one_to_three_coordinates_moves_as_lagrange_says(self):
         n = unit([1, 2, 2])
@@ -104,10 +94,8 @@ class JointsByLagrange(RobotCommand):
         self.check("screw", lambda q: (turn(n, q[0]), scale(0.3 * q[0] / (2 * math.pi), n)),
                    [2.4], n, '<twinarm pitch="0.3"/>')
         self.check("cylindrical", lambda q: (turn(n, q[0]), scale(q[1], n)), [0.7, 0.4], n)
-        self.check("universal", lambda q: (times(turn(n, q[0]), turn(y, q[1])), [0, 0, 0]),
-                   [0.7, 0.5], n)
-        self.check("planar", lambda q: (turn(n, q[2]), add(scale(q[0], x), scale(q[1], y))),
-                   [0.3, -0.6, 0.8], n)
+        self.check("universal", lambda q: (times(turn(n, q[0]), turn(y, q[1])), [0, 0, 0]), [0.7, 0.5], n)
+        self.check("planar", lambda q: (turn(n, q[2]), add(scale(q[0], x), scale(q[1], y))), [0.3, -0.6, 0.8], n)
 
     def test_a_screw_falls_as_its_pitch_lets_it(self):
         m, I, pitch = 2.0, 0.05, 0.1 / (2 * math.pi)

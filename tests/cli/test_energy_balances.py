@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 """Energy and momentum balance on every scene of assets/scenes, against energy and momentum from poses
-and velocities (bodies_of_scene.py).
-
-    test_energy_balances.py PATH/TO/twinarm
-"""
+and velocities (bodies_of_scene.py)."""
 import json
 
 import program
@@ -48,16 +44,14 @@ class EnergyBalances(RecordingCommand):
         moved = max([abs(w) for w in rows.values()] + [first.kinetic, last.kinetic, 1e-6])
         gained = last.kinetic - first.kinetic
         self.assertLess(abs(sum(rows.values()) - gained), 1e-12 * max(1, moved), scene.name)
-        self.assertLess(abs(rows["gravity"] + last.potential - first.potential),
-                        1e-12 * max(1, moved), scene.name)
+        self.assertLess(abs(rows["gravity"] + last.potential - first.potential), 1e-12 * max(1, moved), scene.name)
         pushed = {}
         for part, gain in (("linear", add(last.linear, first.linear, -1)),
                            ("angular", add(last.angular, first.angular, -1))):
             total = (0, 0, 0)
             for row in momenta.values():
                 total = add(total, row[part])
-            pushed[part] = max([size(r[part]) for r in momenta.values()] +
-                               [size(getattr(first, part)), 1e-6])
+            pushed[part] = max([size(r[part]) for r in momenta.values()] + [size(getattr(first, part)), 1e-6])
             self.assertLess(size(add(total, gain, -1)), 1e-11 * max(1, pushed[part]), scene.name)
         return {"energy": abs(rows["numerical"]) / moved,
                 "linear": size(momenta["numerical"]["linear"]) / pushed["linear"],
@@ -112,8 +106,7 @@ class EnergyBalances(RecordingCommand):
         by_impulse = self.write("floor.toml", DRIVEN.replace('integrator = "rk4"\n', "") + FLOOR)
         exact = self.balance(by_force, "--duration", 0.5, "--integrator", "dopri5", "--tolerance",
                              1e-11)["rows"]["constraint/hook"]
-        for contact, step, tolerance in (("event", 5e-3, 1e-8), ("rigid", 1e-3, 2e-2),
-                                         ("compliant", 5e-4, 1e-2)):
+        for contact, step, tolerance in (("event", 5e-3, 1e-8), ("rigid", 1e-3, 2e-2), ("compliant", 5e-4, 1e-2)):
             found = self.balance(by_impulse, "--duration", 0.5, "--contact", contact, "--step", step)
             self.assertLess(found["energy"], tolerance, contact)
             self.assertLess(found["linear"], tolerance, contact)
@@ -146,10 +139,8 @@ class EnergyBalances(RecordingCommand):
         scene = self.write("hammer.toml", data("blow.toml"))
         bodies = {"ball": (1, (0, 0, 0), symmetric(0.004, 0.004, 0.004)),
                   "head": (2, (0, 0, -0.6), symmetric(0.3, 0.3, 0.02))}
-        for contact, step, tolerance in (("rigid", 1e-3, 5e-3), ("rigid", 2.5e-4, 1.2e-3),
-                                         ("event", 0.02, 1e-3)):
-            found = self.balance(scene, "--duration", 0.3, "--contact", contact, "--step", step,
-                                 bodies=bodies)
+        for contact, step, tolerance in (("rigid", 1e-3, 5e-3), ("rigid", 2.5e-4, 1.2e-3), ("event", 0.02, 1e-3)):
+            found = self.balance(scene, "--duration", 0.3, "--contact", contact, "--step", step, bodies=bodies)
             self.assertIn("contact/head-ball/impact", found["rows"])
             for part in ("linear", "angular"):
                 self.assertLess(found[part], tolerance, f"{contact} {step} {part}")
@@ -184,8 +175,7 @@ class Joints(RecordingCommand):
                 gained = add(getattr(last, part), getattr(first, part), -1)
                 for row in ("gravity", "wrench/0", "joint/shoulder"):
                     gained = add(gained, rows[row][part], -1)
-                self.assertLess(size(gained), tolerance * size(rows["gravity"]["linear"]),
-                                f"{options} {part}")
+                self.assertLess(size(gained), tolerance * size(rows["gravity"]["linear"]), f"{options} {part}")
 
 
 if __name__ == "__main__":

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 """A disk that is full, a folder that is read-only, a stdout that takes nothing: what each command that
-writes says then, with which code it ends, and that nothing half is left.
-
-    test_faults_disk.py PATH/TO/twinarm
-"""
+writes says then, with which code it ends, and that nothing half is left."""
 import json
 import os
 import resource

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 """A world that is not as hoped: programs that are missing, a port that is taken, pages that vanish, a clock
-that jumps, another language's commas, names with spaces and umlauts, no place for temporary files.
-
-    test_faults_world.py PATH/TO/twinarm
-"""
+that jumps, another language's commas, names with spaces and umlauts, no place for temporary files."""
 import json
 import os
 import pathlib

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Frictional contact problems of files: solutions that are known, and input that is refused.
 
     test_friction_check.py PATH/TO/friction_check
@@ -22,8 +21,7 @@ class FrictionCheck(ProgramTest):
     def test_one_contact_that_opens_sticks_or_slips_is_solved_to_rounding(self):
         for q in ("1 0 0", "-1 0.2 0.1", "-1 3 -4"):
             found = self.answer(f"1\n0.5\n{q}\n{UNIT}")
-            self.assertEqual(list(found), ["contacts", "error", "law", "converged", "ms", "newton",
-                                           "interior", "path"])
+            self.assertEqual(list(found), ["contacts", "error", "law", "converged", "ms", "newton", "interior", "path"])
             self.assertEqual((found["contacts"], found["converged"]), (1, True), q)
             self.assertLess(found["error"], 1e-9, q)
             self.assertGreaterEqual(found["ms"], 0)

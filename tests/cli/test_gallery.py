@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""The scenes that the lab offers: each runs with its books in balance, and against closed forms.
-
-    test_gallery.py PATH/TO/twinarm
-"""
+"""The scenes that the lab offers: each runs with its books in balance, and against closed forms."""
 import json
 import math
 import struct
@@ -62,8 +58,7 @@ class Gallery(ProgramTest):
 
     def test_the_integrators_do_to_the_pendulum_what_the_gallery_says(self):
         def late(integrator):
-            answer = self.simulate("pendulum", "--integrator", integrator, "--duration", 20,
-                                   "--every", 0.02)
+            answer = self.simulate("pendulum", "--integrator", integrator, "--duration", 20, "--every", 0.02)
             return max(abs(s["q"]["hinge"]) for s in answer["samples"][-200:])
         start = math.radians(150)
         self.assertGreater(late("euler"), math.pi)  # over the top
@@ -77,8 +72,7 @@ class Gallery(ProgramTest):
         answer = self.simulate("gyroscope", "--at", ",".join(map(str, times)))
         for t, sample in zip(times, answer["samples"]):
             wheel = sample["links"]["wheel"]["position"]
-            for found, expected in zip(wheel, (0.1 * math.cos(omega * t), 0.1 * math.sin(omega * t),
-                                               0.18)):
+            for found, expected in zip(wheel, (0.1 * math.cos(omega * t), 0.1 * math.sin(omega * t), 0.18)):
                 self.assertAlmostEqual(found, expected, delta=1e-9)
 
     def test_the_t_handle_turns_over_with_the_period_of_eulers_equations(self):
@@ -87,16 +81,13 @@ class Gallery(ProgramTest):
         twice_energy = middle * spin ** 2 + large * 0 + small * aside ** 2
         square = (middle * spin) ** 2 + (small * aside) ** 2
         # Landau and Lifshitz, Mechanics, section 37: here L^2 < 2 T middle, roles of the ends swapped.
-        rate = math.sqrt((middle - small) * (large * twice_energy - square)
-                         / (small * middle * large))
-        m = ((large - middle) * (square - small * twice_energy)
-             / ((middle - small) * (large * twice_energy - square)))
+        rate = math.sqrt((middle - small) * (large * twice_energy - square) / (small * middle * large))
+        m = ((large - middle) * (square - small * twice_energy) / ((middle - small) * (large * twice_energy - square)))
         half = 2 * quarter_period(m) / rate
         self.assertIn(f"{half:.6f} s", (SCENES / "dzhanibekov.toml").read_text())
         answer = self.simulate("dzhanibekov", "--at", f"0,{half / 2},{half},{2 * half}")
         stem = [sum(a * b for a, b in zip([row[0] for row in s["links"]["handle"]["rotation"]],
-                                          s["links"]["handle"]["angular_velocity"]))
-                for s in answer["samples"]]
+                                          s["links"]["handle"]["angular_velocity"])) for s in answer["samples"]]
         for found, expected in zip(stem, (spin, 0, -spin, spin)):
             self.assertAlmostEqual(found, expected, delta=2e-4 * spin)
 
@@ -104,8 +95,7 @@ class Gallery(ProgramTest):
         answer = self.json_of("modes", "assets/robots/teaching/double_pendulum.urdf")
         found = [mode["frequency"] for mode in answer["modes"]]
         for omega, sign in zip(found, (-1, 1)):
-            self.assertAlmostEqual(omega, math.sqrt((3 + sign * 6 / math.sqrt(7)) * G / 0.5),
-                                   delta=1e-6 * omega)
+            self.assertAlmostEqual(omega, math.sqrt((3 + sign * 6 / math.sqrt(7)) * G / 0.5), delta=1e-6 * omega)
 
     def test_two_double_pendulums_part_and_keep_their_energy(self):
         answer = self.simulate("double_pendulum", "--duration", 5, "--every", 1)
@@ -116,8 +106,7 @@ class Gallery(ProgramTest):
         self.assertLess(abs(answer["energy_balance"]["numerical"]), 1e-5)
 
     def test_the_papers_experiments_have_the_gains_that_the_study_found(self):
-        entries = {e["name"]: e for e in
-                   json.loads((ROOT / "assets/study/calibration.json").read_text())["entries"]}
+        entries = {e["name"]: e for e in json.loads((ROOT / "assets/study/calibration.json").read_text())["entries"]}
         settings = tomllib.loads((ROOT / "assets/study/settings.toml").read_text())["robot"]
         chosen = entries["chosen"]
         rate = f'{chosen["rate_hz"]:g}'
@@ -149,8 +138,7 @@ class Gallery(ProgramTest):
             with self.subTest(name):
                 answer = self.simulate(name, "--duration", 3, "--every", 1 / 150)
                 for joint, most in zip(("joint1", "joint2"), published):
-                    miss = max(abs(s["q"][joint] - s["targets"]["pull_joint1"]["q"][joint])
-                               for s in answer["samples"])
+                    miss = max(abs(s["q"][joint] - s["targets"]["pull_joint1"]["q"][joint]) for s in answer["samples"])
                     self.assertAlmostEqual(math.degrees(miss), most, delta=apart * most)
 
 

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm hand`: a scene driven by a device, and its log.
-
-    test_hand_command.py PROGRAM
-"""
+"""`twinarm hand`: a scene driven by a device, and its log."""
 import json
 import pathlib
 
@@ -26,8 +22,7 @@ class Hand(ProgramTest):
         self.assertTrue(first["same_bits"])
         self.assertTrue(pathlib.Path(first["recording"]).is_file())
         again = self.simulated("--duration", 1.5, out=self.out / "again")
-        self.assertEqual((self.out / "hand.csv").read_bytes(),
-                         (self.out / "again/hand.csv").read_bytes())
+        self.assertEqual((self.out / "hand.csv").read_bytes(), (self.out / "again/hand.csv").read_bytes())
         self.assertEqual(first["tracking"], again["tracking"])
 
     def test_the_reported_errors_are_those_of_the_log_and_the_recording(self):

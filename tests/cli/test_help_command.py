@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""Help, glossary, manual, completion and version of the program, and its assets in any folder.
-
-    test_help_command.py PATH/TO/twinarm
-"""
+"""Help, glossary, manual, completion and version of the program, and its assets in any folder."""
 import os
 import re
 import subprocess

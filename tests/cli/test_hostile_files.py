@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 """Files that are as large, as deep or as long as somebody means them to be: refused in seconds, within a
-gigabyte. What small files can do is tried by tests/fuzz.
-
-    test_hostile_files.py PATH/TO/twinarm
-"""
+gigabyte. What small files can do is tried by tests/fuzz."""
 import os
 import pathlib
 import resource
@@ -63,9 +59,8 @@ class HostileFiles(ProgramTest):
         self.told("dynamics", self.write("a.urdf", b'<robot name="r">' + links + joints + b"</robot>"), code=0)
 
     def test_a_scene_nested_as_deep_as_its_size_allows(self):
-        for text in (b".".join([b"a"] * 500000) + b" = 1\n", b"a = " + b"[" * 1000000,
-                     b"a = { b = " * 300000, b"[" + b".".join([b"'a'"] * 300000) + b"]\n",
-                     (b"a." * 100 + b"a = { ") * 2000):
+        for text in (b".".join([b"a"] * 500000) + b" = 1\n", b"a = " + b"[" * 1000000, b"a = { b = " * 300000,
+                     b"[" + b".".join([b"'a'"] * 300000) + b"]\n", (b"a." * 100 + b"a = { ") * 2000):
             self.refused("depth exceeds 200", "simulate", self.write("a.toml", text), "--duration", "1")
 
     def test_dots_in_texts_and_comments_are_not_depth(self):

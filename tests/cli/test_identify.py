@@ -1,10 +1,6 @@
-#!/usr/bin/env python3
 """`twinarm study --identify-one ROW/LAW/RATE`: what a row of Table 2 tells of a law. Its best fit, run again as a
 scene by `twinarm simulate`, gives its numbers, its sensitivities and what follows for another motion;
-misfit and intervals are computed a second time.
-
-    test_identify.py PATH/TO/twinarm
-"""
+misfit and intervals are computed a second time."""
 import json
 import math
 
@@ -41,8 +37,7 @@ class Identify(ProgramTest):
     def numbers(self, law, values, speed=1.0):
         """Largest and mean errors of joints 1 and 2 [deg], by a scene."""
         m = values["arm2_mass_scale"]
-        text = SCENE.format(step=1 / RATE, duration=3 / speed, m=m, half=math.pi / 2,
-                            quarter=-math.pi / 4)
+        text = SCENE.format(step=1 / RATE, duration=3 / speed, m=m, half=math.pi / 2, quarter=-math.pi / 4)
         for i, link in enumerate(("arm1", "arm2"), 1):
             more = f"stiffness = {values[f'k{i}']!r}\ndamping = {values[f'b{i}']!r}"
             text += coupling(f"pull{i}", law, link, more, speed)
@@ -89,8 +84,7 @@ class Identify(ProgramTest):
         """|S v_i| = sigma_i, S by central differences of runs of the scene; the v_i orthonormal."""
         step, columns = 1e-3, []
         for name, value in best.items():
-            up, down = (self.numbers(law, {**best, name: value * math.exp(sign * step)})
-                        for sign in (1, -1))
+            up, down = (self.numbers(law, {**best, name: value * math.exp(sign * step)}) for sign in (1, -1))
             columns.append([(u - d) / (2 * step * 0.05) for u, d in zip(up, down)])
         size = max(found["singular_values"])
         for i, (sigma, v) in enumerate(zip(found["singular_values"], found["directions"])):
@@ -106,14 +100,12 @@ class Identify(ProgramTest):
         self.assertEqual(values, sorted(values))
         for x in points:  # the best times 1/10 .. 10
             factor = x["value"] / p["value"]
-            self.assertLess(min(abs(max(factor, 1 / factor) - f) for f in (1, 1.1, 1.3, 2, 4, 10)),
-                            1e-9)
+            self.assertLess(min(abs(max(factor, 1 / factor) - f) for f in (1, 1.1, 1.3, 2, 4, 10)), 1e-9)
             self.assertGreaterEqual(x["misfit"], 0.94 * found["misfit"])
         best = min(range(len(points)), key=lambda i: points[i]["misfit"])
         for side, step, key in ((0, -1, "low"), (1, 1, "high")):
             i = best
-            while 0 <= i + step < len(points) and \
-                    points[i + step]["misfit"] <= found["allowance"]:
+            while 0 <= i + step < len(points) and points[i + step]["misfit"] <= found["allowance"]:
                 i += step
             is_open = not 0 <= i + step < len(points)
             self.assertEqual(p["open"][side], is_open)

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm inspect`: quantities of the passes, wrenches that sum to zero, named forces, rejected input.
-
-    test_inspect_command.py PATH/TO/twinarm
-"""
+"""`twinarm inspect`: quantities of the passes, wrenches that sum to zero, named forces, rejected input."""
 import math
 import re
 
@@ -13,8 +9,7 @@ from robot_command import PENDULUM, RobotCommand, add, cross, joint, link, robot
 S103 = "assets/robots/s103/s103.urdf"
 PUMA = "assets/robots/puma560/puma560.urdf"
 MOVING = ROOT / "assets/states/puma_qn_moving.json"
-STATE = {"q": {"joint1": 0.3, "joint2": -0.8}, "qd": {"joint1": 1.2, "joint2": -0.5},
-         "tau": {"joint1": 2}}
+STATE = {"q": {"joint1": 0.3, "joint2": -0.8}, "qd": {"joint1": 1.2, "joint2": -0.5}, "tau": {"joint1": 2}}
 
 
 class Inspect(RobotCommand):
@@ -36,8 +31,7 @@ class Inspect(RobotCommand):
         for body in answer["balance"]:
             for part in ("force", "torque"):
                 total = add(*(w[part] for w in body["wrenches"]))
-                largest = max(abs(x) for w in body["wrenches"] for p in ("force", "torque")
-                              for x in w[p])
+                largest = max(abs(x) for w in body["wrenches"] for p in ("force", "torque") for x in w[p])
                 if largest > 1e-15:  # less is the rounding of a body on which nothing acts
                     self.assertLessEqual(max(map(abs, total)), 1e-10 * largest, body["body"])
             self.assertLess(body["residual"], 1e-10)
@@ -122,8 +116,7 @@ class Inspect(RobotCommand):
         page = page.split("## What each quantity is")[1].split("\n## ")[0]
         for step in self.answer(PUMA)["passes"]:
             for quantity in step["quantities"]:
-                row = [line for line in page.splitlines()
-                       if line.startswith(f"| `{quantity['name']}` |")]
+                row = [line for line in page.splitlines() if line.startswith(f"| `{quantity['name']}` |")]
                 self.assertEqual(len(row), 1, quantity["name"])
                 self.assertIn(quantity["equation"], row[0])
                 self.assertIn(quantity["meaning"], row[0])
@@ -159,8 +152,7 @@ class InspectScenes(RobotCommand):
         found = self.scene("box_stack")
         for body in found["balance"]:
             number = int(re.fullmatch(r"box(\d+)", body["body"])[1])
-            up = [w["force"][2] for w in body["wrenches"]
-                  if w["source"].startswith("contact/") and w["force"][2] > 0]
+            up = [w["force"][2] for w in body["wrenches"] if w["source"].startswith("contact/") and w["force"][2] > 0]
             self.assertAlmostEqual(sum(up), (11 - number) * 9.81, places=6)
 
     def test_closed_loops_have_a_cross_check_at_rest_and_in_motion(self):
@@ -192,8 +184,7 @@ class InspectScenes(RobotCommand):
             pull = self.wrenches_on(found, "bob")["coupling/pull"]["force"]
             # 100 N/m over the chord of 0.2 rad, from rest.
             size = sum(x * x for x in pull) ** 0.5
-            self.assertAlmostEqual(size, 100 * 2 * math.sin(0.1),
-                                   delta=1e-9 if discretization == "explicit" else 0.2)
+            self.assertAlmostEqual(size, 100 * 2 * math.sin(0.1), delta=1e-9 if discretization == "explicit" else 0.2)
 
 
 if __name__ == "__main__":

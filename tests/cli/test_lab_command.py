@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm lab`: the whole program over its socket, with one and several clients.
-
-    test_lab_command.py PROGRAM
-"""
+"""`twinarm lab`: the whole program over its socket, with one and several clients."""
 import json
 import math
 import os
@@ -63,8 +59,7 @@ class LabCommand(LabTest):
         self.state(lambda s: not s["playing"])
         first = self.by_step(self.saved("first.twinrec"))
         compared = {}
-        for changes, is_same in ((["coupling[0].stiffness=2000"], True),
-                                 (["coupling[0].stiffness=3500"], False)):
+        for changes, is_same in ((["coupling[0].stiffness=2000"], True), (["coupling[0].stiffness=3500"], False)):
             self.live.do("branch", at=0.5, changes=changes)
             state = self.state(lambda s: s["branch"] and s["branch"]["changes"] == changes)
             self.assertAlmostEqual(state["branch"]["from"], 0.5, delta=0.02)

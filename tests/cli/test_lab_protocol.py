@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""Messages and commands of the lab against app/web/src/protocol.
-
-    test_lab_protocol.py PROGRAM
-"""
+"""Messages and commands of the lab against app/web/src/protocol."""
 import json
 import re
 

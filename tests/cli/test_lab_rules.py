@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm lab`: time, changes, history and files.
-
-    test_lab_rules.py PROGRAM
-"""
+"""`twinarm lab`: time, changes, history and files."""
 import json
 import os
 import shutil

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""lock = [..] of a scene's robot: as if the joint were fixed where it starts.
-
-    test_locked_joints.py PATH/TO/twinarm
-"""
+"""lock = [..] of a scene's robot: as if the joint were fixed where it starts."""
 import math
 
 from program import ProgramTest, main
@@ -33,10 +29,8 @@ class LockedJoints(ProgramTest):
         Rq = [[R[i][0] * c + R[i][1] * s, -R[i][0] * s + R[i][1] * c, R[i][2]] for i in range(3)]
         roll, pitch = math.atan2(Rq[2][1], Rq[2][2]), math.asin(-Rq[2][0])
         yaw = math.atan2(Rq[1][0], Rq[0][0])
-        fixed_turn = joint("second", "fixed", "upper", "lower", xyz=place["xyz"],
-                           rpy=f"{roll!r} {pitch!r} {yaw!r}")
-        fixed_slide = joint("second", "fixed", "upper", "lower",
-                            xyz=" ".join(map(repr, moved)), rpy=place["rpy"])
+        fixed_turn = joint("second", "fixed", "upper", "lower", xyz=place["xyz"], rpy=f"{roll!r} {pitch!r} {yaw!r}")
+        fixed_slide = joint("second", "fixed", "upper", "lower", xyz=" ".join(map(repr, moved)), rpy=place["rpy"])
         for free, fixed in ((turns, fixed_turn), (slides, fixed_slide)):
             locked = self.simulate(self.arm(free), ", second = 0.25", 'lock = ["second"]')
             wanted = self.simulate(self.arm(fixed), "", "")

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm map`: planes against closed forms, cells against `simulate`, kills, parts, faults.
-
-    test_map_command.py PATH/TO/twinarm
-"""
+"""`twinarm map`: planes against closed forms, cells against `simulate`, kills, parts, faults."""
 import json
 import random
 import signal
@@ -45,10 +41,8 @@ class Maps(MapCommand):
     # Each cell is a run of `twinarm simulate`.
 
     def test_cells_run_again_through_simulate_agree(self):
-        axes = ["--x", "coupling.stiffness:1e4:1e6:16:log", "--y", "step:0.001:0.01:16:log",
-                "--duration", 0.8]
-        planes = {m: self.map(ARM, *axes, "--measure", m)["values"]
-                  for m in MEASURES}
+        axes = ["--x", "coupling.stiffness:1e4:1e6:16:log", "--y", "step:0.001:0.01:16:log", "--duration", 0.8]
+        planes = {m: self.map(ARM, *axes, "--measure", m)["values"] for m in MEASURES}
         random.seed(8)
         cells = random.sample([(ix, iy) for ix in range(16) for iy in range(16)], 50)
         stable = 0
@@ -58,8 +52,7 @@ class Maps(MapCommand):
             words = opened["command"].split()
             self.assertEqual(words[:2], ["twinarm", "simulate"])
             again = json.loads(run(*words[1:], "--every", opened["y"], "--json").stdout)
-            created = sum(v for k, v in again["energy_balance"].items()
-                          if k == "numerical" or k.endswith("/implicit"))
+            created = sum(v for k, v in again["energy_balance"].items() if k == "numerical" or k.endswith("/implicit"))
             if planes["stable"][iy][ix] == 0:
                 self.assertTrue("post_mortem" in again or created > 100)
                 self.assertIsNone(planes["max_error"][iy][ix])
@@ -77,8 +70,7 @@ class Maps(MapCommand):
                       "mean_error": mean, "energy": created}
             for measure, value in wanted.items():
                 found = planes[measure][iy][ix]
-                self.assertAlmostEqual(found, value, delta=1e-9 * max(1, abs(value)),
-                                       msg=f"{measure} of {ix},{iy}")
+                self.assertAlmostEqual(found, value, delta=1e-9 * max(1, abs(value)), msg=f"{measure} of {ix},{iy}")
                 self.assertAlmostEqual(opened[measure], value, delta=1e-9 * max(1, abs(value)))
             self.assertLessEqual(planes["passivity"][iy][ix], 0)
         self.assertGreater(stable, 10)
@@ -104,8 +96,7 @@ class Maps(MapCommand):
         axes = ["--x", "coupling.damping:0.5:20:40", "--y", "coupling.stiffness:10:1e5:35:log"]
         whole = self.folder / "whole.twinmap"
         text = self.twinarm("map", scene, *axes, "--checkpoint", whole, "--threads", 1, "--json").stdout
-        other = self.twinarm("map", scene, *axes, "--checkpoint", self.folder / "b", "--threads", 3,
-                             "--json").stdout
+        other = self.twinarm("map", scene, *axes, "--checkpoint", self.folder / "b", "--threads", 3, "--json").stdout
         self.assertEqual(other, text)
         self.assertEqual((self.folder / "b").read_bytes(), whole.read_bytes())
         parts = []
@@ -115,8 +106,7 @@ class Maps(MapCommand):
         joined = self.folder / "joined"
         random.seed(3)
         random.shuffle(parts)
-        self.assertEqual(self.twinarm("map", "--merge", *parts, "--checkpoint", joined, "--json").stdout,
-                         text)
+        self.assertEqual(self.twinarm("map", "--merge", *parts, "--checkpoint", joined, "--json").stdout, text)
         self.assertEqual(joined.read_bytes(), whole.read_bytes())
 
     def test_a_killed_map_goes_on_from_its_finished_cells(self):
@@ -149,9 +139,8 @@ class Faults(MapCommand):
         for path, low, high in (("coupling[0].stiffness", 1, 2), ("coupling.pull.stiffness", 1, 2),
                                 ("coupling.target.q.hinge", 0.1, 0.2), ("gravity[2]", -9, -1),
                                 ("duration", 0.05, 0.1), ("step", 0.001, 0.01)):
-            plane = self.map(scene, "--x", f"{path}:{low}:{high}:2", "--y",
-                             "coupling.damping:0:1:2", "--measure", "max_error",
-                             name=path + ".twinmap")
+            plane = self.map(scene, "--x", f"{path}:{low}:{high}:2", "--y", "coupling.damping:0:1:2", "--measure",
+                             "max_error", name=path + ".twinmap")
             self.assertEqual(plane["x"], [low, high])
 
     def test_files_of_another_map_are_refused_and_nothing_is_overwritten_without_force(self):

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm map`: what its axes, measures, curves and files say, each against something of its own.
-
-    test_map_planes.py PATH/TO/twinarm
-"""
+"""`twinarm map`: what its axes, measures, curves and files say, each against something of its own."""
 import csv
 import json
 
@@ -31,9 +27,8 @@ class Planes(MapCommand):
         planes = {m: self.map(scene, *axes, "--measure", m) for m in MEASURES}
         self.twinarm("map", scene, *axes, "--csv", table, "--checkpoint", self.folder / "work.twinmap")
         rows = list(csv.reader(table.read_text().splitlines()))
-        self.assertEqual(rows[0], ["coupling.damping[N m s/rad]", "step[s]", "stable[1]",
-                                   "max_error[rad]", "mean_error[rad]", "energy[J]",
-                                   "passivity[J]"])
+        self.assertEqual(rows[0], ["coupling.damping[N m s/rad]", "step[s]", "stable[1]", "max_error[rad]",
+                                   "mean_error[rad]", "energy[J]", "passivity[J]"])
         self.assertEqual({v for row in planes["stable"]["values"] for v in row}, {0, 1})
         cells = [(iy, ix) for iy in range(2) for ix in range(3)]
         for (iy, ix), row in zip(cells, rows[1:], strict=True):
@@ -42,15 +37,13 @@ class Planes(MapCommand):
             self.assertEqual([float(v) if v else None for v in row], wanted)
 
     def test_the_curve_of_the_worst_pose_is_the_lowest_of_the_poses_that_the_twin_passes(self):
-        axes = ("--x", "coupling.stiffness:1e5:1e6:2:log", "--y", "step:1e-3:1e-2:3:log",
-                "--duration", 0.05)
+        axes = ("--x", "coupling.stiffness:1e5:1e6:2:log", "--y", "step:1e-3:1e-2:3:log", "--duration", 0.05)
         text = (ROOT / ARM).read_text()
         starts, worst = [], None
         for bend in (-0.7853981633974483, -0.39269908169872414, 0, 0.39269908169872414):
             scene = self.folder / f"pose{len(starts)}.toml"
-            scene.write_text(text.replace("joint2 = -0.7853981633974483", f"joint2 = {bend:g}.0"
-                                          if bend == 0 else f"joint2 = {bend}")
-                             .replace("duration = 3\n", ""))
+            scene.write_text(text.replace("joint2 = -0.7853981633974483", f"joint2 = {bend:g}.0" if bend == 0
+                                          else f"joint2 = {bend}").replace("duration = 3\n", ""))
             curves = self.map(scene, *axes[:-1], 3, name=f"pose{len(starts)}")["curves"]
             starts.append(curves[0]["y"])
             if worst is None:
@@ -113,8 +106,7 @@ class Planes(MapCommand):
         for side in ("0.01", "-0.01"):
             scene = self.scene(duration=1, name=f"limit{side}.toml")
             scene.write_text(scene.read_text().replace("hinge = 0.01", f"hinge = {side}"))
-            planes = self.check_both_ways(scene, "--x", "coupling.damping:0.1:60:3", "--y",
-                                          "step:0.001:0.002:2")
+            planes = self.check_both_ways(scene, "--x", "coupling.damping:0.1:60:3", "--y", "step:0.001:0.002:2")
             self.assertLess(planes["mean_error"][0][0], 0.004)  # free, it would swing by 0.01
 
     def test_couplings_that_see_their_twin_each_in_its_own_time_are_run_as_they_are(self):
@@ -126,8 +118,7 @@ class Planes(MapCommand):
         axes = ("--x", "coupling.damping:0.5:20:3", "--y", "coupling.stiffness:100:500:3")
         work = self.folder / "work"
         self.twinarm("map", scene, *axes, "--checkpoint", work)
-        for option, value in (("--duration", 0.2), ("--step", 0.002), ("--integrator", "rk4"),
-                              ("--of", "pull")):
+        for option, value in (("--duration", 0.2), ("--step", 0.002), ("--integrator", "rk4"), ("--of", "pull")):
             told = self.faults(scene, *axes, option, value, "--checkpoint", work)
             self.assertEqual({fault["code"] for fault in told}, {"map.other-map"}, option)
         self.refused("map.other-map", "cells", scene, *axes, "--no-simd", "--checkpoint", work)

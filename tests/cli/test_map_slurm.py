@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """A map through a real Slurm controller and node daemon on this machine, and through GNU parallel.
-
-    test_map_slurm.py PATH/TO/twinarm
 
 Needs root, slurm-wlm and munge (scripts/setup --cluster); says so and is skipped where they are not
 installed. All daemons belong to this test, live in a temporary folder with ports of their own, and
@@ -48,8 +45,7 @@ class OnCluster(ProgramTest):
 
     def daemon(self, *command, log):
         with open(self.folder / log, "wb") as out:
-            process = subprocess.Popen([*map(str, command)], env=self.environment, stdout=out,
-                                       stderr=subprocess.STDOUT)
+            process = subprocess.Popen([*map(str, command)], env=self.environment, stdout=out, stderr=subprocess.STDOUT)
         self.addCleanup(self.end, process)
         return process
 
@@ -62,8 +58,7 @@ class OnCluster(ProgramTest):
             process.wait()
 
     def logs(self):
-        return "\n".join(f"{f.name}:\n{f.read_text(errors='replace')[-1500:]}"
-                         for f in self.folder.glob("*.log"))
+        return "\n".join(f"{f.name}:\n{f.read_text(errors='replace')[-1500:]}" for f in self.folder.glob("*.log"))
 
     def start_slurm(self):
         key = self.folder / "munge.key"
@@ -75,16 +70,14 @@ class OnCluster(ProgramTest):
         (self.folder / "slurm.conf").write_text(data("slurm.conf").format(
             host=host, ctld=free_port(), node=free_port(), folder=self.folder, user="root"))
         (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\n")
-        self.daemon("munged", "--foreground", "--force", "--key-file", key, "--socket",
-                    self.folder / "munge.socket", "--pid-file", self.folder / "munged.pid",
-                    "--log-file", self.folder / "munged.log", "--seed-file",
+        self.daemon("munged", "--foreground", "--force", "--key-file", key, "--socket", self.folder / "munge.socket",
+                    "--pid-file", self.folder / "munged.pid", "--log-file", self.folder / "munged.log", "--seed-file",
                     self.folder / "munged.seed", log="munged.out.log")
         wait_for(lambda: (self.folder / "munge.socket").exists(), "munged")
         self.daemon("slurmctld", "-D", log="slurmctld.out.log")
         self.daemon("slurmd", "-D", "-N", host, log="slurmd.out.log")
-        wait_for(lambda: subprocess.run(
-            ["sinfo", "--noheader", "--format=%T"], env=self.environment, capture_output=True,
-            text=True).stdout.strip() == "idle", "slurm")
+        wait_for(lambda: subprocess.run(["sinfo", "--noheader", "--format=%T"], env=self.environment,
+                                        capture_output=True, text=True).stdout.strip() == "idle", "slurm")
 
     def test_a_job_array_with_one_part_killed_gives_the_bytes_of_one_machine(self):
         absent = [p for p in NEEDED if not shutil.which(p)]

@@ -1,12 +1,8 @@
-#!/usr/bin/env python3
-"""`twinarm modes`: frequencies and damping against closed forms, and rejected input.
-
-    test_modes_command.py PATH/TO/twinarm
-"""
+"""`twinarm modes`: frequencies and damping against closed forms, and rejected input."""
 import math
 
 from program import main
-from robot_command import HINGE, HINGE_INERTIA, PENDULUM, RobotCommand, joint, link, robot, slider
+from robot_command import HINGE, HINGE_INERTIA, PENDULUM, WHEELS, RobotCommand, joint, link, robot, slider
 
 
 class Modes(RobotCommand):
@@ -58,8 +54,7 @@ class Modes(RobotCommand):
         # Both joints slide along x: m1 + ratio^2 m2 on the spring of the mimicked joint.
         both = robot('<link name="base"/>', link("a", 2, (0, 0, 0)), link("b", 3, (0, 0, 0)),
                      joint("j1", "prismatic", "base", "a", axis="1 0 0"),
-                     joint("j2", "prismatic", "base", "b", axis="1 0 0",
-                           more='<mimic joint="j1" multiplier="2"/>'))
+                     joint("j2", "prismatic", "base", "b", axis="1 0 0", more='<mimic joint="j1" multiplier="2"/>'))
         scene = self.scene(both, '[[coupling]]\nname = "pull"\ntype = "torsional"\n'
                            'measure = "joint"\nlink = "a"\nstiffness = 56\ndamping = 0\n')
         mode, = self.answer(scene)["modes"]
@@ -155,11 +150,7 @@ class ModesOfLoops(RobotCommand):
         self.close(mode["frequency"], math.sqrt(9.81), 1e-11)
 
     def test_a_gear_adds_inertia_by_its_ratio(self):
-        wheels = robot('<link name="base"/>', link("a", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.2)),
-                       link("b", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
-                       joint("ja", "continuous", "base", "a"),
-                       joint("jb", "continuous", "base", "b"))
-        scene = self.scene(wheels, '[[constraint]]\nname = "mesh"\ntype = "gear"\n'
+        scene = self.scene(WHEELS, '[[constraint]]\nname = "mesh"\ntype = "gear"\n'
                            'a = "arm/ja"\nb = "arm/jb"\nratio = 3\n'
                            '[[coupling]]\nname = "pull"\ntype = "torsional"\n'
                            'measure = "joint"\nlink = "a"\nstiffness = 12\ndamping = 0\n')

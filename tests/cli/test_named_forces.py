@@ -1,13 +1,9 @@
-#!/usr/bin/env python3
 """`twinarm inspect` reads out the force of each constraint, contact and coupling by its name, in
-chosen axes and about a chosen point: against what statics and Newton say.
-
-    test_named_forces.py PATH/TO/twinarm
-"""
+chosen axes and about a chosen point: against what statics and Newton say."""
 import math
 
 from program import SCENES, data, main
-from robot_command import PENDULUM, RobotCommand, add, cross, joint, link, robot
+from robot_command import PENDULUM, WHEELS, RobotCommand, add, cross
 
 G = 9.81
 BODY = ('[[body]]\nname = "{name}"\nshape = {{ box = {{ size = [0.1, 0.1, 0.1] }} }}\nmass = {mass}\n'
@@ -61,11 +57,7 @@ class NamedForces(RobotCommand):
         self.close(nail["torque"], [0, 0, 0], 1e-4)
 
     def test_a_gear_passes_torque_on_by_its_ratio(self):
-        wheels = robot('<link name="base"/>', link("a", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.2)),
-                       link("b", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
-                       joint("ja", "continuous", "base", "a"),
-                       joint("jb", "continuous", "base", "b"))
-        self.write("test.urdf", wheels)
+        self.write("test.urdf", WHEELS)
         self.write("state.json", '{"tau": {"ja": 7.0}}')
         found = self.scene('[[robot]]\nname = "arm"\nmodel = "test.urdf"\n[[constraint]]\n'
                            'name = "mesh"\ntype = "gear"\na = "arm/ja"\nb = "arm/jb"\nratio = 3\n',
@@ -130,8 +122,7 @@ class NamedForces(RobotCommand):
 
     def test_a_loop_in_motion_has_the_forces_of_the_instant(self):
         found = self.answer("assets/scenes/slider_crank.toml")
-        force = next(end["force"] for end in self.force(found, "constraint/pin")["on"]
-                     if end["body"] == "piston")
+        force = next(end["force"] for end in self.force(found, "constraint/pin")["on"] if end["body"] == "piston")
         r, length, rate, mass = 0.1, 0.3, 5, 1.5  # at dead centre
         self.close([force[0]], [-mass * r * rate**2 * (1 + r / length)], 1e-9)
 

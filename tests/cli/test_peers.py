@@ -51,10 +51,8 @@ class Peers(unittest.TestCase):
         schemes = ["verlet", "heun", "rk4"]
         result = subprocess.run([TWINARM, "compare", "C2", "--integrator", ",".join(schemes),
                                  "--json"], capture_output=True, text=True, timeout=TIMEOUT)
-        lanes = {lane["integrator"]: lane["error"]
-                 for lane in json.loads(result.stdout)["cases"][0]["configurations"]}
-        ours = {row["scheme"]: row["error"] for row in self.rows("C2")
-                if row["engine"] == "twinarm"}
+        lanes = {lane["integrator"]: lane["error"] for lane in json.loads(result.stdout)["cases"][0]["configurations"]}
+        ours = {row["scheme"]: row["error"] for row in self.rows("C2") if row["engine"] == "twinarm"}
         for scheme in schemes:  # the model is built again: another rounding
             self.assertAlmostEqual(ours[scheme] / lanes[scheme], 1, delta=1e-3, msg=scheme)
 
@@ -78,21 +76,18 @@ class Peers(unittest.TestCase):
                     (math.log(row["step"] or row["tolerance"]), math.log(row["error"])))
         self.assertLessEqual({engine for engine, _ in curves}, ENGINES)
         for name, points in curves.items():
-            slope = statistics.median((b[1] - a[1]) / (b[0] - a[0])
-                                      for a, b in zip(points, points[1:]))
+            slope = statistics.median((b[1] - a[1]) / (b[0] - a[0]) for a, b in zip(points, points[1:]))
             self.assertAlmostEqual(slope, ORDERS.get(name[1], 1), delta=0.2, msg=str(name))
         for engine in ENGINES - set(self.answer["missing"]):  # else it nears another motion
             self.assertIn(engine, {name[0] for name in curves})
 
     def test_a_run_above_the_budget_is_stopped_and_reported(self):
-        result = run("--cases", "E11", "--engines", "twinarm", "--repetitions", "1", "--budget",
-                     "1e-3")
+        result = run("--cases", "E11", "--engines", "twinarm", "--repetitions", "1", "--budget", "1e-3")
         rows = json.loads(result.stdout)["rows"]
         self.assertTrue(all("budget" in row["stopped"] for row in rows))
 
     def test_bad_options_end_with_2_and_say_which(self):
-        for arguments in (["--cases", "C99"], ["--engines", "havok"], ["--budget", "-1"],
-                          ["--nonsense"]):
+        for arguments in (["--cases", "C99"], ["--engines", "havok"], ["--budget", "-1"], ["--nonsense"]):
             result = run(*arguments)
             self.assertEqual(result.returncode, 2)
             self.assertIn(arguments[-1], result.stderr)

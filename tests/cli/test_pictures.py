@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Pictures of `twinarm render` against reviewed ones (golden/).
 
     test_pictures.py PATH/TO/twinarm           compares
@@ -48,8 +47,7 @@ class Pictures(unittest.TestCase):
         cls.holder.cleanup()
 
     def share(self, name, path):
-        return picture.share_seen(picture.read_png(HERE / "golden" / f"{name}.png"),
-                                  picture.read_png(path))
+        return picture.share_seen(picture.read_png(HERE / "golden" / f"{name}.png"), picture.read_png(path))
 
     def test_each_picture_equals_its_golden_picture_visibly(self):
         for name, path in self.painted.items():
@@ -62,29 +60,24 @@ class Pictures(unittest.TestCase):
                             ("no cones", [*words[:-1], "forces,com,gravity"]),
                             ("a degree", [*words, "--camera", "-51,22"])):
             with self.subTest(what=what):
-                self.assertGreater(self.share("boxes", paint(self.holder.name, "other", other)),
-                                   2 * MAX_VISIBLE)
+                self.assertGreater(self.share("boxes", paint(self.holder.name, "other", other)), 2 * MAX_VISIBLE)
         for background in ("studio", "white"):
             with self.subTest(what=background):
                 other = [*GOLDEN["sky"][:-1], background]
                 self.assertGreater(self.share("sky", paint(self.holder.name, "other", other)), 0.3)
         words = GOLDEN["bars"]
         later = [*words[:1], "--at", "0.41", *words[3:]]
-        self.assertGreater(self.share("bars", paint(self.holder.name, "other", later)),
-                           2 * MAX_VISIBLE)
+        self.assertGreater(self.share("bars", paint(self.holder.name, "other", later)), 2 * MAX_VISIBLE)
 
     def test_both_back_ends_and_any_number_of_threads_give_the_same_bytes(self):
         for gl in ("osmesa", "egl"):
             for threads in ("0", "1", "2", "5"):
                 with self.subTest(gl=gl, threads=threads):
-                    other = paint(self.holder.name, "other", [*GOLDEN["boxes"], "--gl", gl],
-                                  LP_NUM_THREADS=threads)
+                    other = paint(self.holder.name, "other", [*GOLDEN["boxes"], "--gl", gl], LP_NUM_THREADS=threads)
                     self.assertEqual(other.read_bytes(), self.painted["boxes"].read_bytes())
-        for quality, name in (("draft", "bars"), ("studio", "bars"), ("draft", "arm_and_target"),
-                              ("normal", "sky")):
+        for quality, name in (("draft", "bars"), ("studio", "bars"), ("draft", "arm_and_target"), ("normal", "sky")):
             a, b = (paint(self.holder.name, gl, [*GOLDEN[name], "--gl", gl, "--quality", quality],
-                          LP_NUM_THREADS=threads)
-                    for gl, threads in (("osmesa", "0"), ("egl", "3")))
+                          LP_NUM_THREADS=threads) for gl, threads in (("osmesa", "0"), ("egl", "3")))
             with self.subTest(quality=quality, picture=name):
                 self.assertEqual(a.read_bytes(), b.read_bytes())
 

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm inspect RECORDING --at T`, and the post-mortem of a diverged run.
-
-    test_post_mortem.py PATH/TO/twinarm
-"""
+"""`twinarm inspect RECORDING --at T`, and the post-mortem of a diverged run."""
 import json
 import math
 import re
@@ -29,8 +25,7 @@ class Instants(RecordingCommand):
         answer = self.json_of("inspect", file, "--at", 0.3)
         by_body = {b["body"]: b for b in answer["balance"]}
         self.assertLess(by_body["low"]["residual"], 1e-10)
-        self.assertTrue(any(w["source"].startswith("contact/")
-                            for w in by_body["low"]["wrenches"]))
+        self.assertTrue(any(w["source"].startswith("contact/") for w in by_body["low"]["wrenches"]))
 
     def test_an_instant_has_the_energy_balance_up_to_it(self):
         file = self.record(BOXES, "--duration", 0.4)
@@ -66,16 +61,14 @@ class PostMortems(RecordingCommand):
         self.assertGreater(found["energy_row_growth"], 1)
         # Stable below the reported limit, unstable above it.
         for step, code in ((0.9 * violation["max_stable_step"], 0), (1.2 * violation["max_stable_step"], 3)):
-            self.record(held(k, 0), "--duration", 1, "--step", step, "--post-mortem", file,
-                        code=code)
+            self.record(held(k, 0), "--duration", 1, "--step", step, "--post-mortem", file, code=code)
         self.record(held(0.9 * violation["max_stable_gain"], 0), "--duration", 1, "--step", h)
 
     def test_the_last_thousand_steps_are_those_of_the_run(self):
         """A spring 1e-5 above its limit: the full recording ends with the same steps."""
         k = 4 * 0.5 / 0.001 ** 2 * 1.00002
         last = self.folder / "last.twinrec"
-        full = self.record(held(k, 0), "--duration", 60, "--energy-bound", 1e25,
-                           "--post-mortem", last, code=3)
+        full = self.record(held(k, 0), "--duration", 60, "--energy-bound", 1e25, "--post-mortem", last, code=3)
         found = json.loads(self.simulated.stdout)["post_mortem"]
         self.assertIn("kinetic energy", found["reason"])
         ours, all_frames = self.exported(last)["frames"], self.exported(full)["frames"]
@@ -129,9 +122,8 @@ class PostMortems(RecordingCommand):
         self.assertGreater(1.0002 ** (answer["alarm"]["time"] / 0.001), 2)
 
     def test_an_explicit_joint_damper_beyond_its_limit_is_named(self):
-        self.record(slider(damping=1e5), "--duration", 1, "--integrator", "euler",
-                    "--energy-bound", "inf", "--post-mortem", self.folder / "last.twinrec",
-                    state={"qd": {"slide": 1}}, code=3)
+        self.record(slider(damping=1e5), "--duration", 1, "--integrator", "euler", "--energy-bound", "inf",
+                    "--post-mortem", self.folder / "last.twinrec", state={"qd": {"slide": 1}}, code=3)
         found = json.loads(self.simulated.stdout)["post_mortem"]
         self.assertIn("'slide'", found["violations"][0]["name"])
         self.close(found["violations"][0]["omega_h"], 1e5 / 2.0 * 0.001)

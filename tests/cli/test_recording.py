@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""Recordings: `simulate --record`, `export`, `replay`, and files that are damaged.
-
-    test_recording.py PATH/TO/twinarm
-"""
+"""Recordings: `simulate --record`, `export`, `replay`, and files that are damaged."""
 import csv
 import html
 import io
@@ -23,10 +19,8 @@ class Recordings(RecordingCommand):
     def test_a_robot_goes_on_with_the_same_bits_from_any_step_by_every_integrator(self):
         state = {"q": {"shoulder": 1.0, "elbow": 0.5}, "tau": {"elbow": 0.2},
                  "wrenches": [{"link": "lower", "point": [0, 0, -1.5], "force": [1, 0.5, 0]}]}
-        for integrator in ("semi-implicit", "semi-implicit-xv", "verlet", "rk4", "dopri5",
-                           "implicit-midpoint"):
-            file = self.record(DOUBLE, "--duration", 0.3, "--step", 0.01, "--integrator",
-                               integrator, state=state)
+        for integrator in ("semi-implicit", "semi-implicit-xv", "verlet", "rk4", "dopri5", "implicit-midpoint"):
+            file = self.record(DOUBLE, "--duration", 0.3, "--step", 0.01, "--integrator", integrator, state=state)
             self.goes_on_with_the_same_bits(file, (0, 0.05, 0.21))
 
     def test_contacts_go_on_with_the_same_bits(self):
@@ -56,13 +50,11 @@ class Recordings(RecordingCommand):
                                integrator, state={"qd": {"leader": 1}})
             self.goes_on_with_the_same_bits(file, (0, 0.05))
         for contact in ("rigid", "event"):  # within its limits, in a scene
-            file = self.record('[[robot]]\nname = "arm"\nmodel = "test.urdf"\nqd = { leader = 2 }\n',
-                               "--duration", 0.3, "--step", 0.002, "--contact", contact,
-                               urdf=follower)
+            file = self.record('[[robot]]\nname = "arm"\nmodel = "test.urdf"\nqd = { leader = 2 }\n', "--duration", 0.3,
+                               "--step", 0.002, "--contact", contact, urdf=follower)
             self.goes_on_with_the_same_bits(file, (0.05, 0.2))
         for integrator in ("rk4", "dopri5", "semi-implicit"):
-            file = self.record(DRIVEN, "--duration", 0.1, "--step", 0.002, "--integrator",
-                               integrator)
+            file = self.record(DRIVEN, "--duration", 0.1, "--step", 0.002, "--integrator", integrator)
             self.goes_on_with_the_same_bits(file, (0.01, 0.05))
 
     def test_a_held_force_goes_on_with_the_same_bits_between_two_evaluations(self):
@@ -92,8 +84,7 @@ class Recordings(RecordingCommand):
             fork = self.replayed(file, "--from", 0, "--set", f"{path}=800")
             self.assertTrue(fork["bit_exact"])
             by_name = {b["name"]: b for b in fork["branches"]}
-            other = self.exported(self.record(held(800, 2), "--duration", 0.3,
-                                              name="other.twinrec"))
+            other = self.exported(self.record(held(800, 2), "--duration", 0.3, name="other.twinrec"))
             column = [c["name"] for c in other["columns"]].index("q/hinge")
             wanted = [f["values"][column] for f in other["frames"]]
             self.assertEqual(by_name["branch"]["values"]["q/hinge[rad]"], wanted)
@@ -249,8 +240,7 @@ class Damage(RecordingCommand):
             file.write_bytes(data[:cut])
             exported = self.exported(file)
             self.assertEqual(len(exported["frames"]), sum(end <= cut for end in frames))
-            self.assertTrue(any("truncated" in n or "end block" in n
-                                for n in exported["notes"]), exported["notes"])
+            self.assertTrue(any("truncated" in n or "end block" in n for n in exported["notes"]), exported["notes"])
         for cut in (0, 5, 11, 12, 20, frames[0] - 1):
             file.write_bytes(data[:cut])
             code = "recording.empty" if cut == 0 else "recording.cut-short"

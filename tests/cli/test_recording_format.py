@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""The bytes of a recording, by a reader and writer of its own (recording_format.py), and damage.
-
-    test_recording_format.py PATH/TO/twinarm
-"""
+"""The bytes of a recording, by a reader and writer of its own (recording_format.py), and damage."""
 import json
 import random
 
@@ -16,9 +12,8 @@ TIED = held(4e6, 0) + BOXES.replace("step = 0.002", "")
 class Bytes(RecordingCommand):
     def test_every_kind_of_block_is_written_again_byte_for_byte(self):
         """A run with contacts and a coupling that comes to an alarm: all kinds are there."""
-        file = self.record(TIED, "--duration", 1, "--step", 1.0001e-3, "--record-every", 0.05,
-                           "--energy-bound", "inf", "--post-mortem", self.folder / "last.twinrec",
-                           code=3)
+        file = self.record(TIED, "--duration", 1, "--step", 1.0001e-3, "--record-every", 0.05, "--energy-bound", "inf",
+                           "--post-mortem", self.folder / "last.twinrec", code=3)
         data = file.read_bytes()
         found = form.blocks(data)
         self.assertEqual({kind for kind, _ in found}, set("HDNMFEA"))

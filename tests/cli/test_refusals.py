@@ -1,7 +1,4 @@
-#!/usr/bin/env python3
 """Command lines that are refused: exit code 2, all faults at once, on stderr and in JSON; nothing is made.
-
-    test_refusals.py PATH/TO/twinarm
 
 The rows are in tests/data/refusals.toml.
 """

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""Names before assets/renamed.json: refused with today's name; recordings that have them are read.
-
-    test_renamed.py PATH/TO/twinarm
-"""
+"""Names before assets/renamed.json: refused with today's name; recordings that have them are read."""
 import json
 
 import recording_format as form

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm render`: stills, films, rejected input.
-
-    test_render_command.py PATH/TO/twinarm
-"""
+"""`twinarm render`: stills, films, rejected input."""
 import os
 import struct
 
@@ -52,8 +48,7 @@ class Render(ProgramTest):
         for scene in scenes:
             with self.subTest(scene=scene.stem):
                 out = self.folder / f"{scene.stem}.png"
-                told = self.rendered(scene, "--png", out, "--size", "321x203", "--quality", "draft",
-                                     "--show", "all")
+                told = self.rendered(scene, "--png", out, "--size", "321x203", "--quality", "draft", "--show", "all")
                 self.assertEqual(png_size(out.read_bytes()), (321, 203))
                 self.assertEqual((told["width"], told["height"], told["pictures"]), (321, 203, 1))
 
@@ -74,8 +69,7 @@ class Render(ProgramTest):
         self.assertEqual(told["pictures"], 5)  # each 0.05 s, both ends
         self.assertAlmostEqual(told["from"], 0.1, places=9)
         self.assertAlmostEqual(told["to"], 0.3, places=9)
-        self.assertEqual(sorted(p.name for p in out.iterdir()),
-                         [f"frame_{i:05}.png" for i in range(5)])
+        self.assertEqual(sorted(p.name for p in out.iterdir()), [f"frame_{i:05}.png" for i in range(5)])
 
     def test_a_recording_gives_the_video_of_its_run(self):
         out = self.folder / "film"

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""The same input gives the same bits: today's as those in the table, and whatever the number of threads.
-
-    test_same_bits.py PATH/TO/twinarm
-"""
+"""The same input gives the same bits: today's as those in the table, and whatever the number of threads."""
 import os
 import pathlib
 import tempfile
@@ -57,9 +53,8 @@ class Threads(ProgramTest):
         pictures = []
         for threads in (0, 1, 3):  # 0: the painter's own
             file = self.folder / f"{threads}.png"
-            self.twinarm("render", "assets/scenes/robot_beside_obstacles.toml", "--png", file, "--at", 0.5,
-                         "--size", "320x200", "--show", "all",
-                         env=dict(os.environ, LP_NUM_THREADS=str(threads)))
+            self.twinarm("render", "assets/scenes/robot_beside_obstacles.toml", "--png", file, "--at", 0.5, "--size",
+                         "320x200", "--show", "all", env=dict(os.environ, LP_NUM_THREADS=str(threads)))
             pictures.append(file.read_bytes())
         self.same(pictures)
 

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm simulate SCENE.toml`: free flight, several robots, couplings, what is refused.
-
-    test_scene_command.py PATH/TO/twinarm
-"""
+"""`twinarm simulate SCENE.toml`: free flight, several robots, couplings, what is refused."""
 import json
 import math
 
@@ -17,8 +13,7 @@ def arm(name, more=""):
 
 
 def coupling(more, kind="torsional", measure='measure = "joint"'):
-    return (f'[[coupling]]\nname = "pull"\ntype = "{kind}"\n{measure}\nlink = "rod"\n'
-            f'{more}\n')
+    return (f'[[coupling]]\nname = "pull"\ntype = "{kind}"\n{measure}\nlink = "rod"\n{more}\n')
 
 
 class Scenes(RobotCommand):
@@ -56,8 +51,7 @@ class FreeFlight(Scenes):
         answer = self.run_scene(BALL, "--duration", 0.5, "--integrator", "rk4")
         self.assertEqual((answer["joints"], answer["step"], answer["contacts"]), ([], 0.001, 0))
         ball, t = answer["samples"][-1]["links"]["ball"], 0.5
-        self.close(ball["position"], add([0, 0, 1], scale(t, [1, 2, 3]),
-                                         [0, 0, -9.81 * t * t / 2]), 1e-12)
+        self.close(ball["position"], add([0, 0, 1], scale(t, [1, 2, 3]), [0, 0, -9.81 * t * t / 2]), 1e-12)
         self.close(ball["angular_velocity"], [0, 0, 4], 1e-12)
         self.close(ball["rotation"][0], [math.cos(2), -math.sin(2), 0], 1e-12)
         self.assertEqual(answer["samples"][0]["q"], {})
@@ -67,8 +61,7 @@ class FreeFlight(Scenes):
     def test_the_scene_gives_duration_step_and_integrator_and_options_outrank_it(self):
         head = 'duration = 0.25\nstep = 0.05\nintegrator = "verlet"\ngravity = [0, 0, -1]\n'
         answer = self.run_scene(head + BALL)
-        self.assertEqual((answer["integrator"], answer["step"], answer["steps"]),
-                         ("verlet", 0.05, 5))
+        self.assertEqual((answer["integrator"], answer["step"], answer["steps"]), ("verlet", 0.05, 5))
         self.close(answer["samples"][-1]["links"]["ball"]["linear_velocity"], [1, 2, 2.75])
         answer = self.run_scene(head + BALL, "--duration", 1, "--step", 0.1, "--integrator", "rk4",
                                 "--gravity", "0,0,-2")
@@ -76,8 +69,7 @@ class FreeFlight(Scenes):
         self.close(answer["samples"][-1]["links"]["ball"]["linear_velocity"], [1, 2, 1])
 
     def test_a_moved_body_goes_its_way_and_weighs_nothing(self):
-        answer = self.run_scene(BALL.replace("mass = 2", "motion = { linear = [1, 0, 0], "
-                                             "angular = [0, 0, 2] }")
+        answer = self.run_scene(BALL.replace("mass = 2", "motion = { linear = [1, 0, 0], angular = [0, 0, 2] }")
                                 .replace("linear_velocity = [1, 2, 3]", "")
                                 .replace("angular_velocity = [0, 0, 4]", ""), "--duration", 0.5)
         ball = answer["samples"][-1]["links"]["ball"]
@@ -86,8 +78,7 @@ class FreeFlight(Scenes):
         self.assertEqual(answer["samples"][-1]["kinetic_energy"], 0)
 
     def test_each_of_several_robots_moves_as_it_would_alone(self):
-        swing = robot('<link name="base"/>', link("rod"),
-                      joint("hinge", "continuous", "base", "rod", axis="0 1 0"))
+        swing = robot('<link name="base"/>', link("rod"), joint("hinge", "continuous", "base", "rod", axis="0 1 0"))
         off = "collide = false"
         both = self.run_scene(arm("a", off + "\nq = { hinge = 0.3 }") +
                               arm("b", off + "\nposition = [0, 5, 0]\nqd = { hinge = -2 }") + BALL,
@@ -98,21 +89,17 @@ class FreeFlight(Scenes):
             sample = both["samples"][-1]
             self.close(sample["q"][name + "/hinge"], alone["q"]["hinge"], 1e-12)
             self.close(sample["qd"][name + "/hinge"], alone["qd"]["hinge"], 1e-12)
-            self.close(sample["links"][name + "/rod"]["rotation"],
-                       alone["links"]["rod"]["rotation"], 1e-12)
-        self.assertEqual(sorted(both["samples"][0]["links"]),
-                         ["a/base", "a/rod", "b/base", "b/rod", "ball"])
+            self.close(sample["links"][name + "/rod"]["rotation"], alone["links"]["rod"]["rotation"], 1e-12)
+        self.assertEqual(sorted(both["samples"][0]["links"]), ["a/base", "a/rod", "b/base", "b/rod", "ball"])
 
     def test_a_floating_robot_alone_has_its_base_as_in_a_state_file(self):
         urdf = robot(link("body", 2, (0, 0, 0), (1, 0, 0, 1, 0, 1)))
-        answer = self.run_scene(arm("r", 'base = "floating"\nposition = [1, 0, 0]\n'
-                                         "linear_velocity = [0, 3, 0]"),
+        answer = self.run_scene(arm("r", 'base = "floating"\nposition = [1, 0, 0]\nlinear_velocity = [0, 3, 0]'),
                                 "--duration", 1, "--integrator", "rk4", urdf=urdf)
         self.close(answer["samples"][-1]["base"]["position"], [1, 3, -9.81 / 2], 1e-12)
 
     def test_a_state_file_changes_the_start_and_pushes_bodies(self):
-        state = {"q": {"hinge": 0.7},
-                 "wrenches": [{"link": "ball", "point": [0, 0, 1], "force": [4, 0, 0]}]}
+        state = {"q": {"hinge": 0.7}, "wrenches": [{"link": "ball", "point": [0, 0, 1], "force": [4, 0, 0]}]}
         answer = self.run_scene(arm("r", "qd = { hinge = 0.5 }") + BALL, "--duration", 1,
                                 "--integrator", "rk4", state=state)
         self.close(answer["samples"][0]["q"]["hinge"], 0.7)
@@ -129,8 +116,7 @@ class Couplings(Scenes):
     def test_an_implicit_spring_on_one_joint_is_backward_euler(self):
         k, b, h = 3e4, 20.0, 0.01
         answer = self.run_scene(arm("r", "q = { hinge = 0.1 }") +
-                                coupling(f"stiffness = {k}\ndamping = {b}\n"
-                                         "target = { q = { hinge = -0.2 } }"),
+                                coupling(f"stiffness = {k}\ndamping = {b}\n" "target = { q = { hinge = -0.2 } }"),
                                 "--duration", 0.2, "--step", h, "--every", h)
         x, v = 0.1, 0.0
         for sample in answer["samples"][1:]:
@@ -147,8 +133,7 @@ class Couplings(Scenes):
                                "--integrator", "dopri5", "--tolerance", 1e-12)
         change = self.balanced(exact)
         rows, end = exact["energy_balance"], exact["samples"][-1]
-        self.close(rows["coupling/pull/spring"],
-                   400 * (0.1 ** 2 - end["q"]["hinge"] ** 2), 1e-10)
+        self.close(rows["coupling/pull/spring"], 400 * (0.1 ** 2 - end["q"]["hinge"] ** 2), 1e-10)
         self.close(rows["numerical"], 0, 1e-9)
         self.assertLess(rows["coupling/pull/damper"], 0)
         self.assertNotIn("coupling/pull/implicit", rows)
@@ -160,8 +145,7 @@ class Couplings(Scenes):
             rows, end = answer["energy_balance"], answer["samples"][-1]
             # On one joint without other forces all that happens is the coupling's doing.
             self.close(rows["numerical"], 0, 1e-12)
-            self.close(rows["coupling/pull/spring"],
-                       400 * (0.1 ** 2 - end["q"]["hinge"] ** 2), 1e-10)
+            self.close(rows["coupling/pull/spring"], 400 * (0.1 ** 2 - end["q"]["hinge"] ** 2), 1e-10)
             if discretization == "implicit":  # both at the end of the step: backward Euler only takes
                 lost, x, v, h = 0.0, 0.1, 0.0, 0.001
                 for _ in range(300):
@@ -190,16 +174,13 @@ class Couplings(Scenes):
         lost = answer["input_work"]["pull"] - work - 25 * e * e
         n = 20000
         times = [(i + 0.5) * 0.7 / n for i in range(n)]
-        rates = [math.exp(-a * t / 2) * (math.cos(w * t) - a / (2 * w) * math.sin(w * t))
-                 for t in times]
+        rates = [math.exp(-a * t / 2) * (math.cos(w * t) - a / (2 * w) * math.sin(w * t)) for t in times]
         self.close(lost, sum(r * r for r in rates) * 0.7 / n, 1e-6)
-        self.close(de, math.exp(-a * 0.35) * (math.cos(w * 0.7) - a / (2 * w) * math.sin(w * 0.7)),
-                   1e-8)
+        self.close(de, math.exp(-a * 0.35) * (math.cos(w * 0.7) - a / (2 * w) * math.sin(w * 0.7)), 1e-8)
 
     def test_samples_between_the_steps_do_not_change_a_run_with_a_held_force(self):
         text = (arm("r", "q = { hinge = 0.5 }") +
-                coupling('stiffness = 40\ndamping = 2\nrate = 100\n'
-                         'target = { q = { hinge = 0 } }'))
+                coupling('stiffness = 40\ndamping = 2\nrate = 100\ntarget = { q = { hinge = 0 } }'))
         plain = self.run_scene(text, "--duration", 0.5)
         asked = self.run_scene(text, "--duration", 0.5, "--at", "0.00123,0.0155,0.25004,0.5")
         self.assertEqual(asked["samples"][-1], plain["samples"][-1])
@@ -268,8 +249,7 @@ class DeepStart(Scenes):
         self.assertIn("initial penetration of 'one' and 'two': 0.05 m", warning[0])
         self.assertIn("at 0.5 m/s or less", warning[0])
         self.assertIn("'one' and 'two'", json.loads(result.stdout)["warnings"][0])
-        self.assertEqual(self.simulate(self.BALLS.replace("0.15", "0.2001").replace("-0.09", "-1"))
-                         .stderr, "")
+        self.assertEqual(self.simulate(self.BALLS.replace("0.15", "0.2001").replace("-0.09", "-1")).stderr, "")
 
     def test_bodies_part_slowly(self):
         for gravity in ("[0, 0, 0]", "[0, 0, -9.81]"):
@@ -277,8 +257,7 @@ class DeepStart(Scenes):
             samples = answer["samples"]
 
             def speed(sample):
-                return max(math.hypot(*sample["links"][name]["linear_velocity"])
-                           for name in ("one", "two"))
+                return max(math.hypot(*sample["links"][name]["linear_velocity"]) for name in ("one", "two"))
             self.assertLess(max(map(speed, samples)), 0.02)
             self.assertLess(max(s["kinetic_energy"] for s in samples), 1e-3)
             last = samples[-1]["links"]

@@ -1,8 +1,5 @@
-#!/usr/bin/env python3
 """docs/reference/scene_file.md names each key that a scene may have, and no other; docs/reference/study_files.md each
 of the study's settings; docs/reference/exit_codes_and_errors.md each exit code.
-
-    test_scene_reference.py PROGRAM
 
 The program is asked: a scene whose tables have every word that may be a key is told which of them are none.
 """

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm simulate`: closed-form motions, samples, CSV and table.
-
-    test_simulate_command.py PATH/TO/twinarm
-"""
+"""`twinarm simulate`: closed-form motions, samples, CSV and table."""
 import csv
 import io
 import math
@@ -26,55 +22,43 @@ class Motions(RobotCommand):
         return answer["samples"][-1]
 
     def test_a_pendulum_from_90_degrees_follows_the_elliptic_functions(self):
-        exact = {1: (-1.4050273115247991, -1.7993090169070786),
-                 2: (0.91664758966324498, 3.4552068990593298),
-                 5: (1.2294518114853856, -2.5627875681926295),
-                 10: (0.27868067356998295, -4.3431606928646831)}
-        for options in (["--integrator", "rk4", "--step", "0.001"],
-                        ["--integrator", "dopri5", "--tolerance", "1e-12"]):
-            answer = self.answer(PENDULUM, "--duration", 10, "--at", "1,2,5,10", *options,
-                                 state=LEVEL)
+        exact = {1: (-1.4050273115247991, -1.7993090169070786), 2: (0.91664758966324498, 3.4552068990593298),
+                 5: (1.2294518114853856, -2.5627875681926295), 10: (0.27868067356998295, -4.3431606928646831)}
+        for options in (["--integrator", "rk4", "--step", "0.001"], ["--integrator", "dopri5", "--tolerance", "1e-12"]):
+            answer = self.answer(PENDULUM, "--duration", 10, "--at", "1,2,5,10", *options, state=LEVEL)
             self.assertEqual([sample["t"] for sample in answer["samples"]], [1, 2, 5, 10])
             for sample in answer["samples"]:
                 theta, rate = exact[sample["t"]]
                 self.close([sample["q"]["hinge"], sample["qd"]["hinge"]], [theta, rate], 1e-9)
-                self.close(sample["links"]["bob"]["rotation"][0],
-                           [math.cos(theta), 0, -math.sin(theta)], 1e-9)
+                self.close(sample["links"]["bob"]["rotation"][0], [math.cos(theta), 0, -math.sin(theta)], 1e-9)
             self.close(answer["energy_balance"]["numerical"], 0, 1e-9)
 
     def test_every_integrator_has_its_own_recurrence_to_rounding(self):
         for name, theta in INTEGRATORS.items():
-            answer = self.answer(PENDULUM, "--duration", 1, "--step", 0.01, "--integrator", name,
-                                 state=LEVEL)
+            answer = self.answer(PENDULUM, "--duration", 1, "--step", 0.01, "--integrator", name, state=LEVEL)
             self.close(self.end(answer)["q"]["hinge"], theta, 1e-12, name)
-            self.assertEqual((answer["integrator"], answer["step"], answer["steps"]),
-                             (name, 0.01, 100))
+            self.assertEqual((answer["integrator"], answer["step"], answer["steps"]), (name, 0.01, 100))
             self.assertIn(name, self.run_it("--help").stdout)
 
     def test_the_default_is_the_semi_implicit_method_with_a_step_of_a_millisecond(self):
         answer = self.answer(PENDULUM, "--duration", 0.1)
-        self.assertEqual((answer["integrator"], answer["step"], answer["steps"]),
-                         ("semi-implicit", 0.001, 100))
+        self.assertEqual((answer["integrator"], answer["step"], answer["steps"]), ("semi-implicit", 0.001, 100))
         self.assertEqual([sample["t"] for sample in answer["samples"]], [0, 0.1])
 
     def test_a_thrown_body_flies_on_a_parabola_and_turns_evenly_about_a_principal_axis(self):
         urdf = robot(link("body", 2, (0, 0, 0), (0.1, 0, 0, 0.2, 0, 0.3)))
         v, w, turn = [1.0, -2.0, 3.0], 4.0, unit([0.9, 0.1, -0.3, 0.2])
         spin = times(from_quaternion(turn), [0, 0, w])
-        state = {"base": {"position": [0, 1, 2], "orientation": turn, "linear_velocity": v,
-                          "angular_velocity": spin}}
-        answer = self.answer(urdf, "--floating", "--duration", 1.5, "--integrator", "rk4",
-                             "--step", 0.01, state=state)
+        state = {"base": {"position": [0, 1, 2], "orientation": turn, "linear_velocity": v, "angular_velocity": spin}}
+        answer = self.answer(urdf, "--floating", "--duration", 1.5, "--integrator", "rk4", "--step", 0.01, state=state)
         self.assertEqual(answer["joints"], [])
         sample, t = self.end(answer), 1.5
-        self.close(sample["base"]["position"],
-                   add([0, 1, 2], scale(t, v), [0, 0, -9.81 * t * t / 2]))
+        self.close(sample["base"]["position"], add([0, 1, 2], scale(t, v), [0, 0, -9.81 * t * t / 2]))
         self.close(sample["base"]["linear_velocity"], add(v, [0, 0, -9.81 * t]))
         self.close(sample["base"]["angular_velocity"], spin)
         half = w * t / 2
         a, b = turn, [math.cos(half), 0, 0, math.sin(half)]  # turns further about its own z
-        turned = [a[0] * b[0] - dot(a[1:], b[1:]),
-                  *add(scale(a[0], b[1:]), scale(b[0], a[1:]), cross(a[1:], b[1:]))]
+        turned = [a[0] * b[0] - dot(a[1:], b[1:]), *add(scale(a[0], b[1:]), scale(b[0], a[1:]), cross(a[1:], b[1:]))]
         self.close(from_quaternion(sample["base"]["orientation"]), from_quaternion(turned))
         self.close(answer["energy_balance"]["gravity"], -2 * 9.81 * (3 * t - 9.81 * t * t / 2))
         self.close(answer["energy_balance"]["numerical"], 0, 1e-12)
@@ -85,8 +69,7 @@ class Motions(RobotCommand):
         options = ["--floating", "--integrator", "rk4", "--step", 0.01]
         state = {"qd": {"ball": [1, 2, 3]}, "base": {"angular_velocity": [0, 1, 0]}}
         half = self.end(self.answer(urdf, *options, "--duration", 0.5, state=state))
-        again = self.answer(urdf, *options, "--duration", 0.5,
-                            state={key: half[key] for key in ("q", "qd", "base")})
+        again = self.answer(urdf, *options, "--duration", 0.5, state={key: half[key] for key in ("q", "qd", "base")})
         whole = self.answer(urdf, *options, "--duration", 1, state=state)
         for key in ("q", "qd", "base"):
             self.close([*self.end(again)[key].values()], [*self.end(whole)[key].values()], 1e-11)
@@ -94,12 +77,10 @@ class Motions(RobotCommand):
     def test_the_energy_balance_of_an_undamped_double_pendulum_closes_and_shows_what_a_method_creates(self):
         """Two rods let go from the level, 10 s: chaotic, and nothing may take or give energy."""
         rod = lambda name: link(name, 1, (0, 0, -0.5), (1 / 12, 0, 0, 1 / 12, 0, 1e-4))
-        urdf = robot('<link name="base"/>', rod("a"), rod("b"),
-                     joint("first", "continuous", "base", "a", axis="0 1 0"),
+        urdf = robot('<link name="base"/>', rod("a"), rod("b"), joint("first", "continuous", "base", "a", axis="0 1 0"),
                      joint("second", "continuous", "a", "b", xyz="0 0 -1", axis="0 1 0"))
         start = {"q": {"first": math.pi / 2, "second": 0}}
-        run = lambda *options: self.answer(urdf, "--duration", 10, "--every", 0.01, *options,
-                                           state=start)
+        run = lambda *options: self.answer(urdf, "--duration", 10, "--every", 0.01, *options, state=start)
         exact = run("--integrator", "dopri5", "--tolerance", "1e-11")
         most = max(sample["kinetic_energy"] for sample in exact["samples"])
         self.assertGreater(most, 10)
@@ -120,8 +101,7 @@ class Motions(RobotCommand):
                      joint("lead", "continuous", "base", "a", axis="0 1 0"),
                      joint("follow", "continuous", "a", "b", xyz="0.3 0 0", axis="0 1 0",
                            more='<mimic joint="lead" multiplier="-0.5" offset="0.1"/>'))
-        answer = self.answer(urdf, "--duration", 1, "--every", 0.25, "--integrator", "rk4",
-                             state={"qd": {"lead": 2}})
+        answer = self.answer(urdf, "--duration", 1, "--every", 0.25, "--integrator", "rk4", state={"qd": {"lead": 2}})
         for sample in answer["samples"]:
             theta = 0.5 * sample["q"]["lead"] + 0.1  # of b in the world
             self.close(sample["links"]["b"]["rotation"][0], [math.cos(theta), 0, math.sin(theta)])
@@ -137,10 +117,8 @@ class Samples(RobotCommand):
             options += [] if integrator == "dopri5" else ["--step", 0.01]
             urdf = PENDULUM.replace("</joint>", '<dynamics damping="0.1" friction="0.2"/></joint>')
             plain = self.answer(urdf, *options, state=LEVEL)
-            asked = self.answer(urdf, *options, "--at", "0,0.0123,0.3,0.30001,0.9999,1",
-                                state=LEVEL)
-            self.assertEqual([s["t"] for s in asked["samples"]],
-                             [0, 0.0123, 0.3, 0.30001, 0.9999, 1])
+            asked = self.answer(urdf, *options, "--at", "0,0.0123,0.3,0.30001,0.9999,1", state=LEVEL)
+            self.assertEqual([s["t"] for s in asked["samples"]], [0, 0.0123, 0.3, 0.30001, 0.9999, 1])
             self.assertEqual(asked["samples"][0], plain["samples"][0], integrator)
             self.assertEqual(asked["samples"][-1], plain["samples"][-1], integrator)
             self.assertEqual(asked["energy_balance"], plain["energy_balance"], integrator)
@@ -157,12 +135,10 @@ class Samples(RobotCommand):
         self.assertEqual(answer["steps"], 300)
 
     def test_csv_has_a_header_with_units_and_a_row_a_sample(self):
-        result = self.run_it(PENDULUM, "--duration", 0.2, "--every", 0.1, "--csv", "--floating",
-                             "--gravity", "0,0,0",
+        result = self.run_it(PENDULUM, "--duration", 0.2, "--every", 0.1, "--csv", "--floating", "--gravity", "0,0,0",
                              state={"base": {"linear_velocity": [1, 0, 0]}, "qd": {"hinge": 0}})
         self.assertEqual(result.returncode, 2)  # a base without mass cannot float
-        urdf = robot(link("body", 1, (0, 0, 0)), link("arm"),
-                     joint("j,1", "continuous", "body", "arm"))
+        urdf = robot(link("body", 1, (0, 0, 0)), link("arm"), joint("j,1", "continuous", "body", "arm"))
         result = self.run_it(urdf, "--duration", 0.2, "--every", 0.1, "--csv", "--floating",
                              "--gravity", "0,0,0", state={"base": {"linear_velocity": [1, 0, 0]}})
         self.assertEqual(result.returncode, 0, result.stderr)

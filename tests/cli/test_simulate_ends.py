@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm simulate`: the energy balance, runs that stop, faults.
-
-    test_simulate_ends.py PATH/TO/twinarm
-"""
+"""`twinarm simulate`: the energy balance, runs that stop, faults."""
 import json
 import math
 import sys
@@ -27,8 +23,7 @@ class Joules(RobotCommand):
                                  state={"tau": {"slide": F}})
             sample, energy_balance = answer["samples"][-1], answer["energy_balance"]
             self.close([sample["q"]["slide"], sample["qd"]["slide"]], [x, v], tolerance)
-            self.assertEqual(list(energy_balance), ["gravity", "actuator/slide", "joint/slide/damping",
-                                                    "numerical"])
+            self.assertEqual(list(energy_balance), ["gravity", "actuator/slide", "joint/slide/damping", "numerical"])
             self.close(energy_balance["actuator/slide"], F * x, tolerance)
             self.close(energy_balance["joint/slide/damping"], m * v * v / 2 - F * x, tolerance)
             self.close(energy_balance["numerical"], 0, tolerance, integrator)
@@ -44,8 +39,7 @@ class Joules(RobotCommand):
             tolerance = 1e-9 if integrator == "rk4" else 2e-3
             self.close(sample["q"]["slide"], m * v * v / 2 / f, tolerance, integrator)
             self.close(sum(answer["energy_balance"].values()), -m * v * v / 2, 1e-12, integrator)
-        kept = self.answer(slider(friction=f), "--no-friction", "--duration", 1,
-                           state={"qd": {"slide": v}})
+        kept = self.answer(slider(friction=f), "--no-friction", "--duration", 1, state={"qd": {"slide": v}})
         self.assertEqual(kept["samples"][-1]["qd"]["slide"], v)
         self.assertNotIn("joint/slide/friction", kept["energy_balance"])
 
@@ -63,22 +57,19 @@ class Joules(RobotCommand):
 
         # Momentum grows by force times time.
         com = answer["samples"][-1]["links"]["body"]
-        v = add(com["linear_velocity"],
-                cross(com["angular_velocity"], times(com["rotation"], list(COM))))
+        v = add(com["linear_velocity"], cross(com["angular_velocity"], times(com["rotation"], list(COM))))
         first = answer["samples"][0]["links"]["body"]
         v0 = cross(first["angular_velocity"], list(COM))
         self.close(scale(MASS, add(v, scale(-1, v0))), force, 1e-10)
 
-        state["wrenches"] = [{"link": "body", "frame": "link", "point": at, "force": force,
-                              "torque": torque}]
+        state["wrenches"] = [{"link": "body", "frame": "link", "point": at, "force": force, "torque": torque}]
         turning = self.answer(urdf, *options, state=state)
         self.close(turning["energy_balance"]["numerical"], 0, 1e-9)
         self.assertGreater(abs(turning["energy_balance"]["wrench/0"] - answer["energy_balance"]["wrench/0"]), 0.1)
 
     def test_the_remainder_is_the_error_of_the_integrator(self):
         for name, sign in (("euler", 1), ("implicit-euler", -1)):
-            answer = self.answer(PENDULUM, "--duration", 2, "--step", 0.01, "--integrator", name,
-                                 state=LEVEL)
+            answer = self.answer(PENDULUM, "--duration", 2, "--step", 0.01, "--integrator", name, state=LEVEL)
             first, last = answer["samples"][0], answer["samples"][-1]
 
             def energy(sample):

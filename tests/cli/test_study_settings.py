@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""Faults of the study's settings: all at once, each with its key, line and remedy.
-
-    test_study_settings.py PATH/TO/twinarm
-"""
+"""Faults of the study's settings: all at once, each with its key, line and remedy."""
 import shutil
 
 from program import ROOT, ProgramTest, main

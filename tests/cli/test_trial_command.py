@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm trial`: a user study, with a trace as the operator.
-
-    test_trial_command.py PROGRAM
-"""
+"""`twinarm trial`: a user study, with a trace as the operator."""
 import csv
 import math
 import subprocess
@@ -55,8 +51,7 @@ class Trial(ProgramTest):
     def test_the_task_is_done_when_the_object_is_released_at_the_goal(self):
         self.carries()
         told = self.trial("--tasks", "pick-and-place", "--time-limit", 20)
-        self.assertEqual([r["condition"] for r in told["results"]],
-                         ["torsional", "linear", "kinematic"])
+        self.assertEqual([r["condition"] for r in told["results"]], ["torsional", "linear", "kinematic"])
         for result in told["results"]:
             self.assertTrue(result["done"], result)
             self.assertEqual((result["picks"], result["drops"]), (1, 0))
@@ -83,10 +78,8 @@ class Trial(ProgramTest):
         self.assertEqual(second["participant"], "S2")
         rows = list(csv.DictReader((self.out / "results.csv").read_text().splitlines()))
         self.assertEqual([row["participant"] for row in rows], ["S1"] * 3 + ["S2"] * 3)
-        self.assertEqual({row["condition"] for row in rows[3:]},
-                         {"torsional", "linear", "kinematic"})
-        self.assertAlmostEqual(float(rows[0]["joint1_max[deg]"]),
-                               first["results"][0]["max_deg"][0], delta=1e-4)
+        self.assertEqual({row["condition"] for row in rows[3:]}, {"torsional", "linear", "kinematic"})
+        self.assertAlmostEqual(float(rows[0]["joint1_max[deg]"]), first["results"][0]["max_deg"][0], delta=1e-4)
 
     def test_the_log_of_a_task_repeats_the_run(self):
         self.carries()

@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 """Gains above their stability limit: the post-mortem names the right one of two springs of the S-103, and
-each coupling law of a hinge; each suggested fix is stable, and the last steps can be inspected.
-
-    test_wrong_gain.py PATH/TO/twinarm
-"""
+each coupling law of a hinge; each suggested fix is stable, and the last steps can be inspected."""
 import json
 import re
 
@@ -60,15 +56,13 @@ GOD = '[[coupling]]\nname = "god"\ntype = "god-object"\ntarget = { q = { hinge =
 LAWS = {
     "weld": ({"type": "weld", "time_constant": 4e-4, "damping_ratio": 0.2}, ""),
     "published-linear": ({"type": "published-linear", "stiffness": 3e7, "damping": 600}, ""),
-    "published-linear, seldom": ({"type": "published-linear", "stiffness": 3e5, "damping": 2000,
-                                  "rate": 100}, ""),
+    "published-linear, seldom": ({"type": "published-linear", "stiffness": 3e5, "damping": 2000, "rate": 100}, ""),
     "published-torsional": ({"type": "published-torsional", "stiffness": 3e6, "damping": 5}, ""),
     "stable PD": ({"type": "stable-pd", "stiffness": 3e6, "damping": 20}, ""),
     "equivalent-torsional": ({"type": "equivalent-torsional", "stiffness": 3e7, "damping": 600}, ""),
     "bushing": ({"type": "bushing", "discretization": "explicit", "stiffness": 3e7, "damping": 600,
                  "rotational_stiffness": 1e5, "rotational_damping": 2}, ""),
-    "held": ({"type": "linear", "discretization": "explicit", "stiffness": 3e5, "damping": 2000,
-              "rate": 100}, ""),
+    "held": ({"type": "linear", "discretization": "explicit", "stiffness": 3e5, "damping": 2000, "rate": 100}, ""),
     "beside a god object": ({"type": "torsional", "measure": "joint", "discretization": "explicit",
                              "stiffness": 1e6, "damping": 20}, GOD),
     "a damper": ({"type": "linear", "discretization": "explicit", "stiffness": 0, "damping": 3e4}, "")}

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""`twinarm zwidth`: figures against closed forms, pictures, faults.
-
-    test_zwidth_command.py PATH/TO/twinarm
-"""
+"""`twinarm zwidth`: figures against closed forms, pictures, faults."""
 import json
 import math
 import pathlib

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Adding a thing takes the files and lines that docs/develop/extending.md promises.
 
     test_extending.py              every patch applies, and touches no more than promised

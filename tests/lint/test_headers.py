@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Every header of the three rooms says at its head what it is for; the filter of the header pages keeps the code."""
 import importlib.util
 import pathlib

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """A folder is a library is a layer: what may include and call what, derived from the targets.
 
     test_layers.py BUILD_FOLDER

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Code for newer processors can never run on an older one.
 
     test_levels.py BUILD_FOLDER

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Tracing costs nothing when it is off: aba() without a trace is, instruction by instruction, what
 the compiler makes of the same text without the hook.
 

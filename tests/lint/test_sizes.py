@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What can be taken in at once: files below 300 lines, functions below 60, folders of about 25 sources."""
 import collections
 import pathlib

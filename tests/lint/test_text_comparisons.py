@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """No logic of the program depends on text that is written for people.
 
     test_text_comparisons.py

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The field's language: words of docs/reference/glossary.md ("Words that are not used") do not come back.
 
 What users read is held against the list: sentences in string literals of C++ and TypeScript, the documentation,

@@ -51,8 +51,7 @@ def every_joint():
              ("spherical", ""), ("universal", '<axis xyz="0.8 0 0.6"/>'),
              ("cylindrical", '<axis xyz="0 1 0"/>'), ("screw", '<axis xyz="0.6 0.8 0"/>'),
              ("planar", '<axis xyz="0.28 0 0.96"/>')]
-    beyond = {"spherical": "floating", "universal": "continuous", "cylindrical": "continuous",
-              "screw": "continuous"}
+    beyond = {"spherical": "floating", "universal": "continuous", "cylindrical": "continuous", "screw": "continuous"}
     text = f'<robot name="all"><link name="l0">{inertia(1)}</link>'
     for n, (kind, axis) in enumerate(kinds):
         more = ""

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The examples of app/python/examples, README.md and docs/use/python.md run and print what they show."""
 import importlib.machinery
 import importlib.util

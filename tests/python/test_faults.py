@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """What is wrong is refused, and told with its remedy; what a robot says of itself."""
 import numpy as np
 
@@ -19,14 +18,11 @@ class Faults(ProgramTest):
         z = self.zero
         self.told(ValueError, r"aba\(\): q has shape \(5,\), must have \(6,\) or \(N, 6\).*nq = 6",
                   twinarm.aba, self.puma, z[:5], z, z)
-        self.told(ValueError, r"rnea\(\): qdd has shape \(2, 3\)", twinarm.rnea, self.puma, z, z,
-                  np.zeros((2, 3)))
+        self.told(ValueError, r"rnea\(\): qdd has shape \(2, 3\)", twinarm.rnea, self.puma, z, z, np.zeros((2, 3)))
         self.told(ValueError, r"q has shape \(\)", twinarm.crba, self.puma, 1.0)
         self.told(ValueError, r"q has shape \(1, 1, 6\)", twinarm.crba, self.puma, np.zeros((1, 1, 6)))
-        self.told(ValueError, "3 rows, another 2", twinarm.aba, self.puma, np.zeros((3, 6)), z,
-                  np.zeros((2, 6)))
-        self.told(ValueError, r"f_ext has shape \(6,\), must have \(\d+, 6\)", twinarm.aba, self.puma,
-                  z, z, z, z)
+        self.told(ValueError, "3 rows, another 2", twinarm.aba, self.puma, np.zeros((3, 6)), z, np.zeros((2, 6)))
+        self.told(ValueError, r"f_ext has shape \(6,\), must have \(\d+, 6\)", twinarm.aba, self.puma, z, z, z, z)
         self.told(ValueError, r"poses\(\): q has shape \(5,\)", twinarm.poses, self.puma, z[:5])
         self.told(ValueError, "point has shape", twinarm.jacobian, self.puma, z, "link3", [1, 2])
         self.told(ValueError, "gravity has shape", setattr, self.puma, "gravity", [1, 2])
@@ -44,8 +40,7 @@ class Faults(ProgramTest):
         for bad in (np.nan, np.inf, -np.inf):
             q = self.zero.copy()
             q[4] = bad
-            self.told(ValueError, r"aba\(\): q\[4\] is -?(nan|inf)", twinarm.aba, self.puma, q,
-                      self.zero, self.zero)
+            self.told(ValueError, r"aba\(\): q\[4\] is -?(nan|inf)", twinarm.aba, self.puma, q, self.zero, self.zero)
             self.told(ValueError, r"energy\(\): qd\[4\]", twinarm.energy, self.puma, self.zero, q)
         rows = np.zeros((3, 6))
         rows[2, 1] = np.nan
@@ -55,8 +50,7 @@ class Faults(ProgramTest):
 
     def test_what_is_no_number_at_all_and_wrong_arguments_are_refused(self):
         z = self.zero
-        self.told(TypeError, "q must be an array of real numbers, is a str", twinarm.aba, self.puma,
-                  "here", z, z)
+        self.told(TypeError, "q must be an array of real numbers, is a str", twinarm.aba, self.puma, "here", z, z)
         self.told(TypeError, "is a ndarray", twinarm.crba, self.puma, z * 1j)
         self.told(TypeError, "must be a twinarm.Model, is a", twinarm.aba, z, z, z, z)
         self.told(TypeError, "'tau' is missing", twinarm.aba, self.puma, z, z)
@@ -64,12 +58,10 @@ class Faults(ProgramTest):
         self.told(TypeError, "'q' is given twice", twinarm.aba, self.puma, z, z, z, q=z)
         self.told(TypeError, "at most 3", twinarm.crba, self.puma, z, None, z)
         self.told(ValueError, "no body 'link33'.*'link3'", twinarm.jacobian, self.puma, z, "link33")
-        self.told(ValueError, "no integrator 'rk5'.*'rk4'", twinarm.Simulation, self.puma,
-                  integrator="rk5")
+        self.told(ValueError, "no integrator 'rk5'.*'rk4'", twinarm.Simulation, self.puma, integrator="rk5")
         self.told(ValueError, "h must be positive", twinarm.Simulation, self.puma, h=0)
         self.told(ValueError, "no scheme 'eulr'.*'explicit Euler'", twinarm.largest_omega_h, "eulr", 0)
-        self.told(ValueError, "must be square", twinarm.largest_stable_step, [[1, 2]], [[1]], [[1]],
-                  "explicit Euler")
+        self.told(ValueError, "must be square", twinarm.largest_stable_step, [[1, 2]], [[1]], [[1]], "explicit Euler")
 
     def test_a_quaternion_without_unit_length_is_refused(self):
         model = twinarm.load(self.write("all.urdf", every_joint()), floating=True)
@@ -84,8 +76,7 @@ class Faults(ProgramTest):
         self.told(ValueError, "nowhere.toml", twinarm.simulate, "nowhere.toml")
         self.told(twinarm.InputError, "nowhere.twinrec", twinarm.open_recording, "nowhere.twinrec")
         self.told(twinarm.InputError, "not a twinarm recording", twinarm.open_recording, PUMA)
-        self.told(twinarm.InputError, "has no coupling", twinarm.predict_couplings,
-                  "assets/scenes/pendulum.toml")
+        self.told(twinarm.InputError, "has no coupling", twinarm.predict_couplings, "assets/scenes/pendulum.toml")
         self.told(ValueError, "duration", twinarm.simulate, DOUBLE_PENDULUM)
         text = '<robot name="r"><link name="a"/><link name="b"><inertial><mass value="-1"/></inertial>' \
                '</link>\n<joint name="j" type="hinge"><parent link="a"/><child link="b"/></joint></robot>'

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Simulation, simulate(), recordings and couplings, against theory and the program."""
 import csv
 import io
@@ -89,8 +88,7 @@ class Scenes(ProgramTest):
                 np.testing.assert_array_equal(six[3:], told["momentum"][row]["linear"])
             for n, sample in enumerate(told["samples"]):
                 for joint, value in sample["q"].items():
-                    np.testing.assert_array_equal(
-                        np.ravel(run.q[n, run.model.q_of[joint]]), np.ravel(value))
+                    np.testing.assert_array_equal(np.ravel(run.q[n, run.model.q_of[joint]]), np.ravel(value))
 
     def test_a_spring_swings_with_the_frequency_of_theory_and_diverges_beyond_its_limit(self):
         I, k = 1.00144, 4000.0  # about the hinge
@@ -109,8 +107,7 @@ class Scenes(ProgramTest):
         found = twinarm.predict_couplings(scene)
         self.assertEqual(found, program("coupling", "predict", scene))
         self.assertAlmostEqual(found["K"][0][0], 400, places=9)
-        step = twinarm.largest_stable_step(found["mass_matrix"], found["K"], found["B"],
-                                           "semi-implicit Euler")
+        step = twinarm.largest_stable_step(found["mass_matrix"], found["K"], found["B"], "semi-implicit Euler")
         told = {row["scheme"]: row["max_stable_step"] for row in found["limits"]}
         self.assertEqual(step, told["semi-implicit Euler"])
         omega = math.sqrt(400 / 1.00144)
@@ -120,8 +117,7 @@ class Scenes(ProgramTest):
         self.assertEqual(twinarm.largest_omega_h("spring and damper implicit", 0.1), math.inf)
 
     def test_what_is_set_in_a_scene_is_as_if_its_file_said_so(self):
-        of_file = self.write("written.toml", spring(h=0.002, k=300.0, b=3.0).replace(
-            '"explicit"', '"implicit"') + "\n")
+        of_file = self.write("written.toml", spring(h=0.002, k=300.0, b=3.0).replace('"explicit"', '"implicit"') + "\n")
         other = self.write("spring.toml", spring(h=0.001, k=5.0, b=0.0))
         change = {"step": 0.002, "coupling.hold.stiffness": 300, "coupling.damping": np.float64(3.0),
                   "coupling.discretization": "implicit"}
@@ -187,8 +183,7 @@ class Recordings(ProgramTest):
         self.assertGreater(checked, 5)
         self.assertEqual(rec.q.shape, (len(rec.t), sum(n.startswith("q/") for n in rec.keys())))
         np.testing.assert_array_equal(rec.q[:, 0], rec[rec.keys()[0]])
-        np.testing.assert_array_equal(
-            rec.qd[:, 0], rec[next(n for n in rec.keys() if n.startswith("qd/"))])
+        np.testing.assert_array_equal(rec.qd[:, 0], rec[next(n for n in rec.keys() if n.startswith("qd/"))])
         self.assertEqual(list(rec.pulls), ["pull_arm1", "pull_arm2"])
         self.assertEqual(rec.units["kinetic_energy"], "J")
         self.assertEqual(rec.step[-1], 50)

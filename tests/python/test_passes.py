@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """aba, rnea, crba, minv and what stands in world axes, against closed forms, one another and the program."""
 import json
 
@@ -29,8 +28,7 @@ class ClosedForm(ProgramTest):
             M, bias = self.mass_matrix(q), self.bias(q, qd)
             np.testing.assert_allclose(twinarm.crba(model, q), M, rtol=1e-13)
             np.testing.assert_allclose(twinarm.rnea(model, q, qd, tau), M @ tau + bias, atol=1e-13)
-            np.testing.assert_allclose(twinarm.aba(model, q, qd, tau),
-                                       np.linalg.solve(M, tau - bias), atol=1e-11)
+            np.testing.assert_allclose(twinarm.aba(model, q, qd, tau), np.linalg.solve(M, tau - bias), atol=1e-11)
             np.testing.assert_allclose(twinarm.minv(model, q), np.linalg.inv(M), rtol=1e-12)
             T, V = twinarm.energy(model, q, qd)
             self.assertAlmostEqual(T, qd @ M @ qd / 2, places=13)
@@ -80,8 +78,7 @@ class EveryJoint(ProgramTest):
         out = np.empty((12, self.model.nv))
         given = twinarm.aba(self.model, self.q, self.qd[3], tau=self.third, out=out)
         self.assertIs(given, out)
-        np.testing.assert_array_equal(
-            out[5], twinarm.aba(self.model, self.q[5], self.qd[3], self.third[5]))
+        np.testing.assert_array_equal(out[5], twinarm.aba(self.model, self.q[5], self.qd[3], self.third[5]))
         M = np.empty((self.model.nv, self.model.nv))
         self.assertIs(twinarm.crba(self.model, self.q[0], M), M)
 
@@ -89,12 +86,10 @@ class EveryJoint(ProgramTest):
         q = self.q[0]
         wide = np.zeros((self.model.nv, 2))
         wide[:, 0] = self.third[0]
-        np.testing.assert_array_equal(
-            twinarm.aba(self.model, list(q), [0] * self.model.nv, wide[:, 0]),
-            twinarm.aba(self.model, q, np.zeros(self.model.nv), self.third[0]))
-        np.testing.assert_array_equal(
-            twinarm.rnea(self.model, q, np.ones(self.model.nv, dtype=int), self.third[0]),
-            twinarm.rnea(self.model, q, np.ones(self.model.nv), self.third[0]))
+        np.testing.assert_array_equal(twinarm.aba(self.model, list(q), [0] * self.model.nv, wide[:, 0]),
+                                      twinarm.aba(self.model, q, np.zeros(self.model.nv), self.third[0]))
+        np.testing.assert_array_equal(twinarm.rnea(self.model, q, np.ones(self.model.nv, dtype=int), self.third[0]),
+                                      twinarm.rnea(self.model, q, np.ones(self.model.nv), self.third[0]))
 
     def test_the_jacobian_of_a_point_maps_velocities_and_carries_forces_to_joints(self):
         point = [0.3, -0.1, 0.2]
@@ -106,8 +101,7 @@ class EveryJoint(ProgramTest):
             J = twinarm.jacobian(self.model, self.q[0], body, point)
             R = X[i, :3, :3]
             w, v = V[i, :3], V[i, 3:]
-            np.testing.assert_allclose(J @ self.qd[0], np.concatenate([w, v + np.cross(w, R @ point)]),
-                                       atol=1e-12)
+            np.testing.assert_allclose(J @ self.qd[0], np.concatenate([w, v + np.cross(w, R @ point)]), atol=1e-12)
             f_ext = np.zeros((len(self.model.bodies), 6))
             f_ext[i] = wrench
             at_origin = twinarm.jacobian(self.model, self.q[0], body)
@@ -141,8 +135,7 @@ class LikeTheProgram(ProgramTest):
             names = [j for j in model.joints if j in model.q_of]
             by_joint = lambda values: dict(zip(names, values))
             state = self.write(f"{n}.json", json.dumps(
-                {"q": by_joint(q), "qd": by_joint(qd), "tau": by_joint(third),
-                 "qdd": by_joint(third)}))
+                {"q": by_joint(q), "qd": by_joint(qd), "tau": by_joint(third), "qdd": by_joint(third)}))
             told = program("dynamics", PUMA, "--state", state)
             still = np.zeros(model.nv)
             bare = program("dynamics", PUMA, "--state", state, "--no-friction")
@@ -156,11 +149,9 @@ class LikeTheProgram(ProgramTest):
                 "linear_momentum": twinarm.momentum(model, q, qd)[3:]}
             for key, value in found.items():
                 np.testing.assert_array_equal(value, told[key], key)
-            np.testing.assert_array_equal(twinarm.forward_dynamics(model, q, qd, third),
-                                          list(told["qdd"].values()))
+            np.testing.assert_array_equal(twinarm.forward_dynamics(model, q, qd, third), list(told["qdd"].values()))
             np.testing.assert_array_equal(twinarm.aba(model, q, qd, third), list(bare["qdd"].values()))
-            np.testing.assert_array_equal(twinarm.rnea(model, q, qd, third),
-                                          list(bare["tau_inverse"].values()))
+            np.testing.assert_array_equal(twinarm.rnea(model, q, qd, third), list(bare["tau_inverse"].values()))
             X = twinarm.poses(model, q)
             for link in told["links"] if isinstance(told["links"], list) else []:
                 i = model.bodies.index(link["name"])

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """twinarm.pyi says what the module has: the same names, the same arguments, the same defaults."""
 import ast
 import inspect

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """model.workspace(): the names that solver/model/workspace.h states, and the numbers that `twinarm inspect` shows."""
 import json
 import re
@@ -22,8 +21,7 @@ class Workspace(ProgramTest):
         self.assertEqual(len(ws), len(names))
         words = {name: re.findall(r'"([^"]*)"', row) for name, row in zip(names, stated)}
         for row in ws.describe():
-            self.assertEqual([row["name"], row["meaning"], row["unit"], row["equation"]],
-                             words[row["name"]])
+            self.assertEqual([row["name"], row["meaning"], row["unit"], row["equation"]], words[row["name"]])
             self.assertEqual(row["shape"], ws[row["name"]].shape)
             self.assertIn(row["name"], repr(ws))
 

@@ -74,8 +74,7 @@ def bodies_of(scene):
             name = robot["name"] + "/" + link.get("name") if many else link.get("name")
             scale = robot.get("mass_scale", {}).get(link.get("name"), 1)
             bodies[name] = (scale * float(inertial.find("mass").get("value")), com,
-                            symmetric(*(scale * i[k] for k in ("ixx", "iyy", "izz",
-                                                               "ixy", "ixz", "iyz"))))
+                            symmetric(*(scale * i[k] for k in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz"))))
             for load in robot.get("payload", []):
                 if load["link"] == link.get("name"):
                     bodies[name] = with_point(*bodies[name], load["mass"], load["point"])

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Lists the tests that ctest skipped, why, and which packages they need.
 
     list_skipped.py REPORT.xml      of ctest --output-junit

@@ -21,9 +21,8 @@ HEADER_2 = (                                               # of version 2
     TEXT, NUMBER, NUMBER, WHOLE,                           # integrator, step, duration, seed
     listed((TEXT, TEXT)), listed(TEXT), listed(TEXT))      # columns, couplings, geometries
 CONTACT = ("i", "i", NUMBER, VECTOR, VECTOR, VECTOR, VECTOR)
-FRAME = (
-    WHOLE, NUMBER, COUNT, listed(NUMBER), listed(VECTOR), listed(CONTACT),
-    listed(SMALL), listed(NUMBER), listed(SMALL), listed(VECTOR), TEXT)
+FRAME = (WHOLE, NUMBER, COUNT, listed(NUMBER), listed(VECTOR), listed(CONTACT), listed(SMALL), listed(NUMBER),
+         listed(SMALL), listed(VECTOR), TEXT)
 
 
 class Reader:

@@ -19,8 +19,7 @@ def link(name, mass=MASS, com=COM, inertia=INERTIA):
 
 def joint(name, kind, parent, child, xyz="0 0 0", rpy="0 0 0", axis="0 0 1", more=""):
     """`kind` also of the types that URDF lacks; those come by <twinarm type>."""
-    beyond = {"spherical": "floating", "universal": "continuous", "cylindrical": "continuous",
-              "screw": "continuous"}
+    beyond = {"spherical": "floating", "universal": "continuous", "cylindrical": "continuous", "screw": "continuous"}
     if kind in beyond:
         if "<twinarm" not in more:
             more += "<twinarm/>"
@@ -44,6 +43,10 @@ PENDULUM = robot('<link name="base"/>', link("bob", 1, (0, 0, -1), (0,) * 6),
 HINGE_INERTIA = 0.5
 HINGE = robot('<link name="base"/>', link("rod", 1, (0, 0, 0), (1, 0, 0, 1, 0, HINGE_INERTIA)),
               joint("hinge", "continuous", "base", "rod"))
+# Two wheels on parallel axes through their centres of mass.
+WHEELS = robot('<link name="base"/>', link("a", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.2)),
+               link("b", 1, (0, 0, 0), (1, 0, 0, 1, 0, 0.5)),
+               joint("ja", "continuous", "base", "a"), joint("jb", "continuous", "base", "b"))
 # A hand that leads joint 1 (twice theta1) at 1 rad/s.
 HAND_COLUMNS = "t[s],theta1[rad],theta2[rad],theta3[rad],theta4[rad],theta5[rad],theta6[rad]\n"
 STEADY_HAND = HAND_COLUMNS + "0,0,0,0,0,0,0\n10,5,0,0,0,0,0\n"

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Runs a file of unittest so that skipped tests are visible.
 
     run_test.py TEST.py [ARGUMENT...]

@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""The runner of the lessons says what is wrong with a lesson: a number, a command, a picture, its form.
-
-    test_lessons.py
-"""
+"""The runner of the lessons says what is wrong with a lesson: a number, a command, a picture, its form."""
 import pathlib
 import subprocess
 import sys

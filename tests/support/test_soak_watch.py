@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""What the soaks in real time conclude from what they see, on series whose growth is known.
-
-    test_soak_watch.py
-"""
+"""What the soaks in real time conclude from what they see, on series whose growth is known."""
 import contextlib
 import io
 import os

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The tests' own tools: a test that could not run is never reported as passed.
 
     test_support.py BUILD_FOLDER

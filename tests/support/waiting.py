@@ -40,8 +40,3 @@ def processor_time_of_ended():
     """Of all child processes that have ended, and their children [s]."""
     usage = resource.getrusage(resource.RUSAGE_CHILDREN)
     return usage.ru_utime + usage.ru_stime
-
-
-def wait_for_work(process, seconds):
-    """Until the process has computed for so long."""
-    wait_while_running(process, lambda: processor_time(process) > seconds, f"{seconds:g} s of processor time")

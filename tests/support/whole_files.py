@@ -84,9 +84,8 @@ def ends_with(words):
     return check
 
 
-CHECKS = {".json": json.loads, ".svg": ends_with(b"</svg>"), ".html": ends_with(b"</html>"), ".png": png,
-          ".mp4": mp4, ".csv": table, ".twinrec": recording, ".twinmap": map_cells,
-          ".toml": lambda data: data.decode()}
+CHECKS = {".json": json.loads, ".svg": ends_with(b"</svg>"), ".html": ends_with(b"</html>"), ".png": png, ".mp4": mp4,
+          ".csv": table, ".twinrec": recording, ".twinmap": map_cells, ".toml": lambda data: data.decode()}
 
 
 def check_whole(path):

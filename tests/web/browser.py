@@ -151,8 +151,7 @@ class Browser:
             {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
     def evaluate(self, expression):
-        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True,
-                           awaitPromise=True)
+        result = self.call("Runtime.evaluate", expression=expression, returnByValue=True, awaitPromise=True)
         if "exceptionDetails" in result:
             raise RuntimeError(json.dumps(result["exceptionDetails"])[:800])
         return result["result"].get("value")
@@ -200,8 +199,7 @@ class Browser:
 
     def drag(self, start, end, button="left"):
         def mouse(kind, at):
-            self.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button=button,
-                      buttons=1, clickCount=1)
+            self.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button=button, buttons=1, clickCount=1)
         mouse("mouseMoved", start)
         mouse("mousePressed", start)
         mouse("mouseMoved", [(a + b) / 2 for a, b in zip(start, end)])

@@ -92,8 +92,7 @@ class LabCase(unittest.TestCase):
         self.page.press("Enter")
 
     def mouse(self, kind, at):
-        self.page.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left",
-                       buttons=1, clickCount=1)
+        self.page.call("Input.dispatchMouseEvent", type=kind, x=at[0], y=at[1], button="left", buttons=1, clickCount=1)
 
     def downloaded(self, end):
         return wait_for(lambda: next((f for f in self.path.iterdir() if f.name.endswith(end) and f.stat().st_size > 0),

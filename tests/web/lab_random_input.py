@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Random input to the lab's page in a headless Chromium, reproducible by its seed: drags, keys, text, dropped
 files, clicks. At the end the page must not have reloaded, must draw new frames, must not have logged errors,
 and its memory must be bounded.

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Page of `inspect --html`: JSON of `inspect --json`, and steps through the passes.
 
     test_inspect_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]
@@ -13,8 +12,7 @@ from page_file import PageTest, data_of, main, page_browser, setUpModule  # noqa
 from program import ROOT, twinarm
 
 ROBOT = ROOT / "assets" / "robots" / "s103" / "s103.urdf"
-STATE = {"q": {"joint1": 0.6, "joint2": -0.8}, "qd": {"joint1": 1.0, "joint2": -2.0},
-         "tau": {"joint1": 1.5}}
+STATE = {"q": {"joint1": 0.6, "joint2": -0.8}, "qd": {"joint1": 1.0, "joint2": -2.0}, "tau": {"joint1": 1.5}}
 
 
 class InspectPage(PageTest):
@@ -35,8 +33,7 @@ class InspectPage(PageTest):
     def test_each_body_has_a_layer(self):
         def entries(layer):
             return len(layer["instances"]["mesh"])
-        apart = {layer["name"]: entries(layer) for layer in self.page["layers"]
-                 if layer["name"].startswith("body/")}
+        apart = {layer["name"]: entries(layer) for layer in self.page["layers"] if layer["name"].startswith("body/")}
         bodies = {step["body"] for step in self.exported["passes"]}
         self.assertEqual(set(apart), {f"body/{name}" for name in bodies} | {"body/world"})
         whole = next(layer for layer in self.page["layers"] if layer["name"] == "bodies")

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The inspector alone in a browser: numbers, equations, diagram, walk through a call.
 
     test_inspector_panel.py FOLDER_OF_NODE_MODULES [FOLDER_FOR_PICTURES]
@@ -82,11 +81,9 @@ class InspectorPanel(unittest.TestCase):
                               f"b => b.textContent === {json.dumps(body)}).click()")
 
     def test_requests_the_first_body_of_the_robot_and_follows_the_selection(self):
-        self.assertEqual(self.browser.evaluate("inspector.sent.at(-1)"),
-                         {"do": "inspect", "on": True, "body": 2})
+        self.assertEqual(self.browser.evaluate("inspector.sent.at(-1)"), {"do": "inspect", "on": True, "body": 2})
         self.browser.evaluate("inspector.panel.onSelect(3)")
-        self.assertEqual(self.browser.evaluate("inspector.sent.at(-1)"),
-                         {"do": "inspect", "on": True, "body": 3})
+        self.assertEqual(self.browser.evaluate("inspector.sent.at(-1)"), {"do": "inspect", "on": True, "body": 3})
 
     def test_keys_step_through_one_call(self):
         links = self.names[1:]
@@ -156,8 +153,7 @@ class InspectorPanel(unittest.TestCase):
                     ".map(Number) : null]; })()" % figure)
                 if tip:
                     self.assertLess(math.dist(dot, tip), 2)  # of 200; the shortest are not drawn
-        self.assertEqual(len(self.browser.evaluate("inspector.arrows")),
-                         len(MESSAGE["balance"][0]["wrenches"]))
+        self.assertEqual(len(self.browser.evaluate("inspector.arrows")), len(MESSAGE["balance"][0]["wrenches"]))
 
     def test_tooltip_shows_on_focus_and_stays_while_numbers_change(self):
         self.go_to(3, MESSAGE["name"])
@@ -187,8 +183,7 @@ class InspectorPanel(unittest.TestCase):
         for pass_ in (1, 2, 3):
             self.go_to(pass_, MESSAGE["name"])
             self.give(broken)
-        self.give({"kind": "inspection", "scene": 1, "t": 1, "paused": True,
-                   "warnings": ["cannot be inspected"]})
+        self.give({"kind": "inspection", "scene": 1, "t": 1, "paused": True, "warnings": ["cannot be inspected"]})
         self.assertIn("cannot be inspected", self.browser.evaluate("document.body.textContent"))
 
     def test_pictures(self):

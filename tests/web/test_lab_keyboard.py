@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 """The lab by keyboard: each tab stop is visible and has an accessible name; time, branch, parameters,
-overlays, input, scenes, files and inspector; dialogs restore the focus.
-
-    test_lab_keyboard.py PATH/TO/twinarm
-"""
+overlays, input, scenes, files and inspector; dialogs restore the focus."""
 from lab_case import STATE, LabCase, main
 
 AT = "document.activeElement"

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Logic of the lab's page without a browser, in Node.
 
     test_lab_logic.py FOLDER_OF_MODULES
@@ -21,8 +20,7 @@ NODE = shutil.which("node") or shutil.which("nodejs")
 PARTS = {
     "lab_logic": ("ui/scale", "source/store", "source/run_record", "plot/export", "plot/specs",
                   "panels/input_bar", "panels/gallery"),
-    "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal",
-                 "view/pace"),
+    "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal", "view/pace"),
 }
 BUNDLE = """
 import { createRequire } from 'node:module';

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """The lab's page in a browser: input, parameters, time, files.
 
     test_lab_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]
@@ -103,8 +102,7 @@ class LabPage(LabCase):
 
     def test_seek_and_branch(self):
         self.until(f"{STATE}.time > 3")
-        bar = "document.querySelector('input[type=range][title^=instant], " \
-              "input[type=range][aria-label^=instant]')"
+        bar = "document.querySelector('input[type=range][title^=instant], input[type=range][aria-label^=instant]')"
         self.value(f"{bar}.value = (+{bar}.min + +{bar}.max) / 2; "
                    f"{bar}.dispatchEvent(new Event('input', {{bubbles: true}}))")
         self.until(f"{STATE}.at !== null && twinarm.page.frame.lookedBack")
@@ -207,8 +205,7 @@ class LabPage(LabCase):
             self.page.press("Escape")
 
     def test_dark_theme_and_tablet_layout(self):
-        self.value("[...document.querySelectorAll('header button')].find(b => "
-                   "b.title.startsWith('light')).click()")
+        self.value("[...document.querySelectorAll('header button')].find(b => b.title.startsWith('light')).click()")
         self.until("document.documentElement.dataset.theme === 'dark'")
         self.picture("dark")
         self.page.resize(820, 1180, mobile=True)

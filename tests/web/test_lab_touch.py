@@ -1,8 +1,4 @@
-#!/usr/bin/env python3
-"""The lab with touch input, in a browser with an emulated touch screen.
-
-    test_lab_touch.py PATH/TO/twinarm
-"""
+"""The lab with touch input, in a browser with an emulated touch screen."""
 import math
 import time
 

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """Replay page: its data, and the page in a browser.
 
     test_replay_page.py PATH/TO/twinarm [FOLDER_FOR_PICTURES]
@@ -255,10 +254,8 @@ class InTheBrowser(Pages):
 
     def test_each_layer_toggles(self):
         browser = self.open(self.arm, "#t=1.5")
-        names = browser.evaluate("[...document.querySelectorAll('[data-layer]')]"
-                                 ".map(box => box.dataset.layer)")
-        self.assertLessEqual({"targets", "couplings", "contacts", "joints", "com", "trails", "labels"},
-                             set(names))
+        names = browser.evaluate("[...document.querySelectorAll('[data-layer]')].map(box => box.dataset.layer)")
+        self.assertLessEqual({"targets", "couplings", "contacts", "joints", "com", "trails", "labels"}, set(names))
         before = browser.evaluate("window.twinarm.page.state.layers")
         for number in range(1, 10):
             browser.press(str(number))
@@ -270,8 +267,7 @@ class InTheBrowser(Pages):
                              f"document.querySelector('[data-layer={name}]').click()")
         browser.frames(2)
         self.picture(browser, "arm_all_layers")
-        self.assertEqual(set(browser.evaluate("window.twinarm.page.state.layers")),
-                         {"bodies", *names})
+        self.assertEqual(set(browser.evaluate("window.twinarm.page.state.layers")), {"bodies", *names})
         self.check_quiet(browser, self.arm)
 
     def test_plots_energy_and_setup_tabs(self):

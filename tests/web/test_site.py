@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 """docs/ as a site: titles, links, formulas, no console messages.
 
     test_site.py [FOLDER_FOR_PICTURES]

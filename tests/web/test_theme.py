@@ -1,9 +1,5 @@
-#!/usr/bin/env python3
 """Contrast of the pages' colours: text and curves against their background, curves among each other,
-with colour vision deficiencies too.
-
-    test_theme.py
-"""
+with colour vision deficiencies too."""
 import itertools
 import unittest
 
