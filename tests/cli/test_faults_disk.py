@@ -101,9 +101,9 @@ class FullDisk(Case):
         process.stdout.readline()
         wait_while_running(process, (self.folder / "run.twinrec.part").exists, "a recording that has begun")
         (self.folder / "run.twinrec").mkdir()
-        _, told = process.communicate(timeout=TIMEOUT)
-        self.told_well("recording", subprocess.CompletedProcess([], process.returncode, "", told))
-        self.assertIn("run.twinrec", told)
+        _, reported = process.communicate(timeout=TIMEOUT)
+        self.told_well("recording", subprocess.CompletedProcess([], process.returncode, "", reported))
+        self.assertIn("run.twinrec", reported)
         data = (self.folder / "run.twinrec.part").read_bytes()
         self.assertEqual(recorded_blocks(data)[-1][2], len(data))
 

@@ -53,9 +53,9 @@ class Missing(Case):
             for words in (WRITERS["picture of a map"][0], ["replay", "../run.twinrec"], WRITERS["fork"][0],
                           ["lab", PENDULUM, "--no-browser"]):
                 with self.subTest(words):
-                    told = self.refused(*words, TMPDIR=str(self.base / place))
-                    self.assertIn(str(self.base / place), told)
-                    self.assertIn("set TMPDIR", told)
+                    reported = self.refused(*words, TMPDIR=str(self.base / place))
+                    self.assertIn(str(self.base / place), reported)
+                    self.assertIn("set TMPDIR", reported)
 
 
 class Strange(Case):
@@ -132,8 +132,8 @@ class Clock(Case):
             wait_for(lambda: process.poll() is not None or (log.exists() and log.read_bytes().count(b"\n") > rows),
                      f"{rows} rows of the log")
             jumps.write_text(f"{days * DAY:+d}")
-        out, told = process.communicate(timeout=TIMEOUT)
-        self.assertEqual(process.returncode, 0, told)
+        out, reported = process.communicate(timeout=TIMEOUT)
+        self.assertEqual(process.returncode, 0, reported)
         answer = json.loads(out)
         self.assertEqual(answer["ticks"], 2000)
         self.assertTrue(answer["same_bits"])
@@ -152,9 +152,9 @@ class Pages(Case):
             taken.bind(("127.0.0.1", 0))
             taken.listen()
             port = taken.getsockname()[1]
-            told = self.refused("lab", PENDULUM, "--port", port, "--no-browser")
-        self.assertIn(str(port), told)
-        self.assertIn("omit --port", told)
+            reported = self.refused("lab", PENDULUM, "--port", port, "--no-browser")
+        self.assertIn(str(port), reported)
+        self.assertIn("omit --port", reported)
         _, url = self.lab("--port", str(port))  # it is free now
         self.assertIn(f":{port}/", url)
 
@@ -194,8 +194,8 @@ class Ends(Case):
         process = start(*words, cwd=self.folder, start_new_session=True)
         wait_while_running(process, lambda: is_ready(process), "it is at work")
         os.killpg(process.pid, blow)
-        out, told = process.communicate(timeout=TIMEOUT)
-        return process.returncode, out, told
+        out, reported = process.communicate(timeout=TIMEOUT)
+        return process.returncode, out, reported
 
     def test_a_terminal_that_is_closed_ends_it_as_ctrl_c_does(self):
         self.need_ffmpeg(["--mp4"])
@@ -213,9 +213,9 @@ class Ends(Case):
 
     def test_ctrl_c_ends_a_run_under_a_hand_and_its_recording_is_made_all_the_same(self):
         log = self.folder / "hand.csv"
-        code, out, told = self.struck(["hand", HAND, "--record", "--json", "--out", "."], signal.SIGINT,
-                                      lambda _: log.exists() and log.stat().st_size > 20000)
-        self.assertEqual(code, 0, told)
+        code, out, reported = self.struck(["hand", HAND, "--record", "--json", "--out", "."], signal.SIGINT,
+                                          lambda _: log.exists() and log.stat().st_size > 20000)
+        self.assertEqual(code, 0, reported)
         self.assertTrue(json.loads(out)["same_bits"])
         check_whole(self.folder / "run.twinrec")
 

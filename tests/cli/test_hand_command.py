@@ -26,7 +26,7 @@ class Hand(ProgramTest):
         self.assertEqual(first["tracking"], again["tracking"])
 
     def test_the_reported_errors_are_those_of_the_log_and_the_recording(self):
-        told = self.simulated("--duration", 1, "--record")["tracking"]
+        reported = self.simulated("--duration", 1, "--record")["tracking"]
         lines = (self.out / "hand.csv").read_text().splitlines()
         self.assertEqual(len(lines), 1001)
         column = lines[0].split(",").index("theta1[rad]")
@@ -34,7 +34,7 @@ class Hand(ProgramTest):
         again = self.json_of("simulate", self.out / "scene.toml", "--every", 0.001)
         dynamic = [sample["q"]["joint1"] for sample in again["samples"]]
         largest = max(abs(k - d) for k, d in zip(kinematic, dynamic))
-        self.assertAlmostEqual(largest, told["joint1"]["max"], delta=1e-9)
+        self.assertAlmostEqual(largest, reported["joint1"]["max"], delta=1e-9)
 
     def test_each_mapping_says_its_force_feedback(self):
         words = [self.twinarm("hand", SCENE, "--simulated", "--duration", 0.2, "--mapping", mapping, "--out",
@@ -44,9 +44,9 @@ class Hand(ProgramTest):
 
     def test_ctrl_c_ends_a_run_in_real_time_with_a_complete_log(self):
         log = self.out / "hand.csv"
-        told, _ = self.interrupted("hand", SCENE, "--json", "--out", self.out, code=0,
-                                   is_ready=lambda _: log.is_file() and log.stat().st_size > 20000)
-        summary = json.loads(told)
+        reported, _ = self.interrupted("hand", SCENE, "--json", "--out", self.out, code=0,
+                                       is_ready=lambda _: log.is_file() and log.stat().st_size > 20000)
+        summary = json.loads(reported)
         lines = log.read_text().splitlines()
         self.assertEqual(len(lines), summary["ticks"] + 1)
         self.assertGreater(summary["timing"]["cpu"]["median"], 0)

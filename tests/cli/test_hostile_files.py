@@ -30,14 +30,14 @@ class HostileFiles(ProgramTest):
         (self.folder / name).write_bytes(data)
         return self.folder / name
 
-    def told(self, *command, code=2):
+    def reported(self, *command, code=2):
         """What the program says; it refuses, and does not break."""
         done = self.twinarm(*command, code=code, errors="replace", preexec_fn=limited, cwd=self.folder)
         self.assertLess(len(done.stderr), 1 << 20)
         return done.stderr
 
     def refused(self, words, *command):
-        self.assertIn(words, self.told(*command))
+        self.assertIn(words, self.reported(*command))
 
     def test_a_robot_of_a_million_links(self):
         links = b"".join(b'<link name="%d"/><joint name="%d" type="fixed"><parent link="%d"/><child link="%d"/>'
@@ -48,7 +48,7 @@ class HostileFiles(ProgramTest):
         for part in (b"<link/>", b"<joint/>", b"<material/>", b"<a/>", b"<link><inertial/></link>",
                      b'<link name="a"><visual/></link>'):
             text = b"<robot name='r'>" + part * ((15 << 20) // len(part)) + b"</robot>"
-            self.told("dynamics", self.write("a.urdf", text))
+            self.reported("dynamics", self.write("a.urdf", text))
 
     def test_a_long_chain_is_computed(self):
         """Ten thousand links, the last of them first: each reader walks it once."""
@@ -56,7 +56,7 @@ class HostileFiles(ProgramTest):
         links = b"".join(b'<link name="%d"/>' % n for n in range(count))
         joints = b"".join(b'<joint name="%d" type="fixed"><parent link="%d"/><child link="%d"/></joint>'
                           % (n, n, n + 1) for n in reversed(range(count - 1)))
-        self.told("dynamics", self.write("a.urdf", b'<robot name="r">' + links + joints + b"</robot>"), code=0)
+        self.reported("dynamics", self.write("a.urdf", b'<robot name="r">' + links + joints + b"</robot>"), code=0)
 
     def test_a_scene_nested_as_deep_as_its_size_allows(self):
         for text in (b".".join([b"a"] * 500000) + b" = 1\n", b"a = " + b"[" * 1000000, b"a = { b = " * 300000,
@@ -67,14 +67,14 @@ class HostileFiles(ProgramTest):
         dots = b"." * 1000
         text = (b"# " + dots + b"[[[\n" + b'note = "' + dots + b'\\"[[{"\n' + BALL + b"friction = 0.5 # " + dots +
                 b"\n")
-        self.told("simulate", self.write("a.toml", text), code=0)
+        self.reported("simulate", self.write("a.toml", text), code=0)
 
     def test_a_scene_as_large_as_it_may_be(self):
         many = 4 << 20
         for part in (b"[[body]]\n", b'[[body]]\nname="a"\n', b"a%d = 1\n", b'[[body]]\nname="a%d"\n'):
             text = b"".join(part.replace(b"%d", b"%d" % n) for n in range(many // (len(part) + 5)))
-            self.told("simulate", self.write("a.toml", text), "--duration", "1")
-        self.told("simulate", self.write("a.toml", b"gravity = [" + b"1," * (2000000) + b"]\n"), "--duration", "1")
+            self.reported("simulate", self.write("a.toml", text), "--duration", "1")
+        self.reported("simulate", self.write("a.toml", b"gravity = [" + b"1," * (2000000) + b"]\n"), "--duration", "1")
         self.refused("4 MiB", "simulate", self.write("a.toml", BALL + b"#" * many))
 
     def test_a_state_as_large_as_it_may_be(self):
@@ -82,7 +82,7 @@ class HostileFiles(ProgramTest):
         keys = b",".join(b'"%d":1' % n for n in range(350000))
         for text in (b"[" * 1000000, b"[" + b"1," * 2000000 + b"1]", b"{" + keys + b"}", b'{"q":{' + keys + b"}}",
                      b'{"q":{"j":"' + b"a" * 4000000 + b'"}}'):
-            self.told("dynamics", robot, "--state", self.write("a.json", text))
+            self.reported("dynamics", robot, "--state", self.write("a.json", text))
         self.refused("4 MiB", "dynamics", robot, "--state", self.write("a.json", b" " * (5 << 20)))
 
     def test_a_hand_that_is_one_line_or_never_ends(self):
@@ -97,7 +97,7 @@ class HostileFiles(ProgramTest):
 
     def recorded(self, change):
         file = self.folder / "run.twinrec"
-        self.told("simulate", self.write("a.toml", BALL), "--record", file, code=0)
+        self.reported("simulate", self.write("a.toml", BALL), "--record", file, code=0)
         found = form.blocks(file.read_bytes())
         file.write_bytes(form.file_of(change(found)))
         return file
@@ -111,12 +111,12 @@ class HostileFiles(ProgramTest):
                 return [*found[:-2], ("F", bad)]
             return change
         for count in (1 << 60, (1 << 64) - 1, 1 << 32):
-            self.told("export", self.recorded(claims(count)), "--csv")
+            self.reported("export", self.recorded(claims(count)), "--csv")
         part = self.recorded(lambda found: found)
         with part.open("ab") as out:
             out.write(b"F" + struct.pack("<I", 0xffffffff))
             out.truncate(3 << 30)  # a hole: takes no room on the disk
-        self.told("export", part, "--csv", code=0)
+        self.reported("export", part, "--csv", code=0)
 
     def test_a_recording_writes_nothing_outside_of_its_own_folder(self):
         """Its files bear paths; one of them leads upwards from wherever it is unpacked."""
@@ -137,7 +137,7 @@ class HostileFiles(ProgramTest):
         os.mkdir(self.folder / "tmp")
         os.environ["TMPDIR"] = str(self.folder / "tmp")
         self.addCleanup(os.environ.pop, "TMPDIR")
-        self.told("replay", file)
+        self.reported("replay", file)
         self.assertEqual(list((self.folder / "tmp").iterdir()), [])
 
 

@@ -58,21 +58,21 @@ class Identify(ProgramTest):
     def check(self, row, law, agrees):
         found = self.answer_of(f"{row}/{law}/{RATE}")
         best = {p["name"]: p["value"] for p in found["parameters"]}
-        told = [found["numbers"][key] for key in ("max1_deg", "max2_deg", "mean1_deg", "mean2_deg")]
-        misfit = max(abs(x - p) for x, p in zip(told, PAPER[row])) / 0.05
+        reported = [found["numbers"][key] for key in ("max1_deg", "max2_deg", "mean1_deg", "mean2_deg")]
+        misfit = max(abs(x - p) for x, p in zip(reported, PAPER[row])) / 0.05
         self.assertAlmostEqual(found["misfit"], misfit, delta=1e-9 * misfit)
         self.assertEqual(misfit <= 1, agrees)
         self.assertEqual(found["allowance"], max(1, 2 * found["misfit"]))
         for p in found["parameters"]:
             self.check_profile(p, found)
-        return found, best, told
+        return found, best, reported
 
-    def check_runs(self, law, found, best, told):
+    def check_runs(self, law, found, best, reported):
         ran = self.numbers(law, best)
         for j in range(2):
-            self.assertAlmostEqual(told[j] / ran[j], 1, delta=1e-7)
+            self.assertAlmostEqual(reported[j] / ran[j], 1, delta=1e-7)
             # A mean over steps or over samples, the start among them or not.
-            self.assertAlmostEqual(told[2 + j], ran[2 + j], delta=0.01 * ran[2 + j])
+            self.assertAlmostEqual(reported[2 + j], ran[2 + j], delta=0.01 * ran[2 + j])
         self.check_sensitivity(found, law, best)
         other = self.numbers(law, best, speed=0.5)
         for p in found["parameters"]:
@@ -117,15 +117,15 @@ class Identify(ProgramTest):
             self.assertAlmostEqual(p[key] / end, 1, delta=1e-9)
 
     def test_a_law_that_agrees_has_the_numbers_of_its_scene(self):
-        found, best, told = self.check("E4", "stable-pd", True)
-        self.check_runs("stable-pd", found, best, told)
+        found, best, reported = self.check("E4", "stable-pd", True)
+        self.check_runs("stable-pd", found, best, reported)
         # Four numbers do not hold five parameters.
         self.assertEqual(found["singular_values"][4], 0)
         self.assertEqual(len(found["directions"]), 5)
 
     def test_a_weld_does_not_agree_and_says_by_how_much(self):
         # No scene says it a second time: the study's welds hold points, a scene's orientations too.
-        found, best, told = self.check("E4", "weld", False)
+        found, best, reported = self.check("E4", "weld", False)
         self.assertEqual([p["name"] for p in found["parameters"]],
                          ["time_constant", "damping_ratio", "arm2_mass_scale"])
 

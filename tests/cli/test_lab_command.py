@@ -135,7 +135,7 @@ class LabCommand(LabTest):
             second = self.state(live=other)
             self.assertEqual(second["controller"], you)
             other.do("set", changes=["coupling[0].stiffness=21"])
-            self.assertIn("control", self.told(self.state(lambda s: s["notes"], live=other)))
+            self.assertIn("control", self.reported(self.state(lambda s: s["notes"], live=other)))
             other.do("request_control")
             self.state(lambda s: s["control_requests"] == [second["you"]])
             self.live.do("grant_control", to=second["you"])
@@ -150,9 +150,9 @@ class LabCommand(LabTest):
                      '{"do": "set", "changes": ["coupling[0].stiffness=-5"]}',
                      '{"do": "set", "changes": ["step=0"]}', '{"do": "scene", "name": "nowhere"}',
                      '{"do": "input", "source": "device", "spec": "ouija"}'):
-            known = len(self.told(self.state())) if text else 0
+            known = len(self.reported(self.state())) if text else 0
             self.live.say(text)
-            self.state(lambda s: len(self.told(s)) > known)
+            self.state(lambda s: len(self.reported(s)) > known)
         bad = self.lab.upload("bad.toml", "[[robot]]\nmodel = 'no.urdf'\nmass = 3\n", self.live)
         self.assertEqual(bad.status, 422)
         self.assertIn("no.urdf", bad.body.decode())
@@ -236,8 +236,8 @@ class LabLanes(ProgramTest):
         gain = {lane: [e - of(lane, "total_energy")[0] for e in of(lane, "total_energy")]
                 for lane in variants["values"]}
         for lane, energies in gain.items():  # as in the energy balance
-            for made, told in zip(energies, of(lane, "numerical")):
-                self.assertAlmostEqual(made, told, delta=1e-9)
+            for made, reported in zip(energies, of(lane, "numerical")):
+                self.assertAlmostEqual(made, reported, delta=1e-9)
         late = [i for i, t in enumerate(history.time) if t > 10]
         self.assertGreater(min(gain["euler"][i] for i in late), 4.905)  # to the height of the hinge
         self.assertGreater(max(of("euler", "q/hinge")), math.pi)
@@ -283,8 +283,8 @@ class LabLanes(ProgramTest):
         last = self.stand_at(100)
         file = self.folder / "first.twinrec"
         file.write_bytes(self.lab.get("/save").body)
-        told = self.json_of("export", file)
-        values = dict(zip([c["name"] for c in told["columns"]], told["frames"][-1]["values"]))
+        reported = self.json_of("export", file)
+        values = dict(zip([c["name"] for c in reported["columns"]], reported["frames"][-1]["values"]))
         self.assertEqual(values["q/hinge"], last.channels[self.names.index("variant/q/hinge/rk4")])
         self.assertNotEqual(values["q/hinge"], last.channels[self.names.index("variant/q/hinge/euler")])
         self.assertIn('integrator = "rk4"', self.lab.get("/scene").body.decode())

@@ -140,7 +140,7 @@ class LabRules(LabTest):
             state = self.state(lambda s: s["name"] == name)
             self.assertEqual(state["input"]["source"], source)
         self.live.do("preset", name="E9")
-        self.state(lambda s: "E9" in self.told(s))
+        self.state(lambda s: "E9" in self.reported(s))
 
 
 class LabTemporaryFiles(ProgramTest):

@@ -44,8 +44,8 @@ class LockedJoints(ProgramTest):
         for keys, words in (('lock = ["secnd"]', "did you mean 'second'"),
                             ('lock = "second"', "must be a list of joints"),
                             ('lock = ["second"]\nqd = { second = 1 }', "has a velocity")):
-            told = self.simulate(self.arm(turns), "", keys, code=2)["errors"]
-            self.assertTrue(any(words in e["problem"] + e["fix"] for e in told), told)
+            reported = self.simulate(self.arm(turns), "", keys, code=2)["errors"]
+            self.assertTrue(any(words in e["problem"] + e["fix"] for e in reported), reported)
 
 
 def rotation_of(roll, pitch, yaw):

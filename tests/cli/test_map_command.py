@@ -112,17 +112,17 @@ class Maps(MapCommand):
     def test_a_killed_map_goes_on_from_its_finished_cells(self):
         scene = self.scene(duration=1)
         axes = ["--x", "coupling.damping:0.5:20:64", "--y", "coupling.stiffness:10:1e5:32:log",
-                "--no-simd"]  # slow enough to be struck
+                "--no-simd"]  # slow enough to be killed
         command = ["map", scene, *axes, "--json", "--checkpoint"]
         text = self.twinarm(*command, self.folder / "whole").stdout
         sizes, work = [], self.folder / "work"
         for blow, code in ((signal.SIGKILL, -signal.SIGKILL), (signal.SIGINT, 130)):
             before = work.stat().st_size if work.exists() else 0
-            out, told = self.interrupted(*command, work, blow=blow, code=code,
-                                         is_ready=lambda _: work.exists() and work.stat().st_size > before)
+            out, reported = self.interrupted(*command, work, blow=blow, code=code,
+                                             is_ready=lambda _: work.exists() and work.stat().st_size > before)
             self.assertEqual(out, "")
             if blow == signal.SIGINT:
-                self.assertRegex(told, r"\d+ of 8 blocks of cells are finished")
+                self.assertRegex(reported, r"\d+ of 8 blocks of cells are finished")
             sizes.append(work.stat().st_size)
         whole = (self.folder / "whole").stat().st_size
         self.assertLess(sizes[0], sizes[1])
@@ -150,13 +150,13 @@ class Faults(MapCommand):
         kept = work.read_bytes()
         self.refused("file.exists", "--svg", scene, *self.AXES, "--checkpoint", work, "--svg", picture)
         axes = ("--x", "coupling[0].damping:0.5:21:3", *self.AXES[2:])
-        told = self.faults(scene, *axes, "--checkpoint", work)
+        reported = self.faults(scene, *axes, "--checkpoint", work)
         for value in ("coupling[0].damping:0.5:20:3", "coupling[0].damping:0.5:21:3"):
-            self.tells(told, "map.other-map", value)
+            self.tells(reported, "map.other-map", value)
         scene.write_text(scene.read_text().replace("500", "501"))
-        told = self.faults(scene, *self.AXES, "--checkpoint", work)
-        self.assertEqual([fault["code"] for fault in told], ["map.other-map"])
-        self.tells(told, "map.other-map", "--force")
+        reported = self.faults(scene, *self.AXES, "--checkpoint", work)
+        self.assertEqual([fault["code"] for fault in reported], ["map.other-map"])
+        self.tells(reported, "map.other-map", "--force")
         self.assertEqual(work.read_bytes(), kept)
         self.twinarm("map", scene, *self.AXES, "--checkpoint", work, "--svg", picture, "--force")
         self.assertNotEqual(work.read_bytes(), kept)
@@ -168,15 +168,15 @@ class Faults(MapCommand):
         parts = [self.folder / f"p{i}" for i in range(3)]
         for i, part in enumerate(parts):
             self.twinarm("map", scene, *axes, "--jobs", 3, "--job", i, "--checkpoint", part)
-        told = self.faults("--merge", parts[0], parts[2])
+        reported = self.faults("--merge", parts[0], parts[2])
         for value in ("2 of 6", "1 4"):
-            self.tells(told, "map.blocks-missing", value)
+            self.tells(reported, "map.blocks-missing", value)
         self.twinarm("map", scene, *axes[:3], "step:0.005:0.04:20", "--jobs", 3, "--job", 1,
                      "--checkpoint", parts[1], "--force")
-        told = self.faults("--merge", *parts)
+        reported = self.faults("--merge", *parts)
         for value in ("step:0.005:0.04:20", "step:0.005:0.05:20"):
-            self.tells(told, "map.other-map", value)
-        self.tells(told, "map.blocks-missing", "2 of 6")
+            self.tells(reported, "map.other-map", value)
+        self.tells(reported, "map.blocks-missing", "2 of 6")
         data = parts[2].read_bytes()
         parts[2].write_bytes(data.replace(b"\n32,", b"\nx,", 1))
         self.refused("map.row", "p2", "--merge", *parts)

@@ -119,8 +119,8 @@ class Planes(MapCommand):
         work = self.folder / "work"
         self.twinarm("map", scene, *axes, "--checkpoint", work)
         for option, value in (("--duration", 0.2), ("--step", 0.002), ("--integrator", "rk4"), ("--of", "pull")):
-            told = self.faults(scene, *axes, option, value, "--checkpoint", work)
-            self.assertEqual({fault["code"] for fault in told}, {"map.other-map"}, option)
+            reported = self.faults(scene, *axes, option, value, "--checkpoint", work)
+            self.assertEqual({fault["code"] for fault in reported}, {"map.other-map"}, option)
         self.refused("map.other-map", "cells", scene, *axes, "--no-simd", "--checkpoint", work)
         self.assertIn("no whole step", str(self.faults(scene, *axes[:2], "--y", "step:0.05:100:4")))
 

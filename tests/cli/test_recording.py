@@ -95,7 +95,7 @@ class Recordings(RecordingCommand):
             self.close([fork["energy_balance"][row]["recorded"] for row in own], list(own.values()))
         table = self.twinarm("replay", file, "--from", 0.1, "--set", "coupling.stiffness=800")
         self.assertLessEqual(max(map(len, table.stdout.splitlines())), 100)
-        # One joint moves: it is told once, not as its link's three coordinates too.
+        # One joint moves: it is reported once, not as its link's three coordinates too.
         self.assertEqual(table.stdout.count("[rad]"), 1)
         self.assertNotIn("links/", table.stdout)
         for words in ("q/hinge [rad]", "coupling/pull/spring", "change of kinetic energy",

@@ -15,7 +15,7 @@ ROWS = [(command, row) for command, rows in tomllib.loads(data("refusals.toml"))
 
 
 def is_told(faults, wanted):
-    """Whether each of the wanted faults is told, and no other."""
+    """Whether each of the wanted faults is reported, and no other."""
     tells = [[all(part in fault for part in parts) for parts in wanted] for fault in faults]
     return len(faults) == len(wanted) and all(map(any, tells)) and all(map(any, zip(*tells)))
 
@@ -35,12 +35,12 @@ class Refusals(ProgramTest):
             words += ["--state", self.write("state.json", row["state"])]
         wanted = [[part.replace("{out}", str(self.folder)) for part in parts] for parts in row["faults"]]
         done = self.twinarm(*words, *([] if command in NO_JSON else ["--json"]), code=2)
-        told = [line for line in done.stderr.splitlines() if line.startswith("twinarm: ") and "warning" not in line]
+        reported = [line for line in done.stderr.splitlines() if line.startswith("twinarm: ") and "warning" not in line]
         if command not in NO_JSON:
             faults = json.loads(done.stdout)["errors"]
-            self.assertEqual(len(told), len(faults), done.stderr)
-            told = [f'{fault["code"]} {line_of(fault)}' for fault in faults]
-        self.assertTrue(is_told(told, wanted), told)
+            self.assertEqual(len(reported), len(faults), done.stderr)
+            reported = [f'{fault["code"]} {line_of(fault)}' for fault in faults]
+        self.assertTrue(is_told(reported, wanted), reported)
         self.assertLessEqual({path.name for path in self.folder.iterdir()}, {"state.json"})
 
 

@@ -60,9 +60,9 @@ class Renamed(RecordingCommand):
         for kind, more, old in (
                 ("keys", COUPLINGS, ("treatment", "turn_stiffness", "turn_damping", "outside")),
                 ("keys", CAVITY + WELL, ("hollow_sphere", "hollow_cylinder"))):
-            told = self.refused("simulate", self.write("old.toml", in_old_words(held(10, 1) + more)))
+            reported = self.refused("simulate", self.write("old.toml", in_old_words(held(10, 1) + more)))
             for name in old:
-                self.assertIn(f"'{name}' is now '{NAMES[kind][name]}'", told)
+                self.assertIn(f"'{name}' is now '{NAMES[kind][name]}'", reported)
         for old, new in NAMES["values"].items():
             scene = self.write("old.toml", data("held.toml").replace('"torsional"', f'"{old}"'))
             self.assertIn(f"'{old}' is now '{new}'", self.refused("simulate", scene))
@@ -70,9 +70,9 @@ class Renamed(RecordingCommand):
     def test_an_overlay_or_curve_that_was_renamed_is_refused_with_its_new_name(self):
         scene = ROOT / "assets/scenes/hand_and_obstacles.toml"
         for old, new in NAMES["choices"].items():
-            told = [self.refused("render", scene, option, old, "--png", self.folder / "a.png")
-                    for option in ("--show", "--plot")]
-            self.assertTrue(any(f"'{old}' is now '{new}'" in text for text in told), told)
+            reported = [self.refused("render", scene, option, old, "--png", self.folder / "a.png")
+                        for option in ("--show", "--plot")]
+            self.assertTrue(any(f"'{old}' is now '{new}'" in text for text in reported), reported)
 
     def test_a_recording_of_a_scene_with_old_names_is_inspected_and_exported_and_goes_on_with_the_same_bits(self):
         file = self.record(held(10, 1) + COUPLINGS + CAVITY + WELL, "--duration", 0.05)

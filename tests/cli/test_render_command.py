@@ -48,9 +48,10 @@ class Render(ProgramTest):
         for scene in scenes:
             with self.subTest(scene=scene.stem):
                 out = self.folder / f"{scene.stem}.png"
-                told = self.rendered(scene, "--png", out, "--size", "321x203", "--quality", "draft", "--show", "all")
+                reported = self.rendered(scene, "--png", out, "--size", "321x203",
+                                         "--quality", "draft", "--show", "all")
                 self.assertEqual(png_size(out.read_bytes()), (321, 203))
-                self.assertEqual((told["width"], told["height"], told["pictures"]), (321, 203, 1))
+                self.assertEqual((reported["width"], reported["height"], reported["pictures"]), (321, 203, 1))
 
     def test_the_same_picture_twice_has_the_same_bytes_and_another_instant_has_others(self):
         pictures = []
@@ -64,19 +65,19 @@ class Render(ProgramTest):
 
     def test_a_film_has_the_given_rate_and_slow_motion_factor(self):
         out = self.folder / "film"
-        told = self.rendered(self.ball, "--frames", out, "--size", "64x48", "--quality", "draft",
-                             "--from", 0.1, "--to", 0.3, "--slow-motion", 2, "--fps", 10)
-        self.assertEqual(told["pictures"], 5)  # each 0.05 s, both ends
-        self.assertAlmostEqual(told["from"], 0.1, places=9)
-        self.assertAlmostEqual(told["to"], 0.3, places=9)
+        reported = self.rendered(self.ball, "--frames", out, "--size", "64x48", "--quality", "draft",
+                                 "--from", 0.1, "--to", 0.3, "--slow-motion", 2, "--fps", 10)
+        self.assertEqual(reported["pictures"], 5)  # each 0.05 s, both ends
+        self.assertAlmostEqual(reported["from"], 0.1, places=9)
+        self.assertAlmostEqual(reported["to"], 0.3, places=9)
         self.assertEqual(sorted(p.name for p in out.iterdir()), [f"frame_{i:05}.png" for i in range(5)])
 
     def test_a_recording_gives_the_video_of_its_run(self):
         out = self.folder / "film"
-        told = self.rendered(self.record("run"), "--frames", out, "--size", "64x48", "--quality", "draft",
-                             "--fps", 10, "--show", "all")
-        self.assertEqual((told["pictures"], told["from"]), (6, 0))
-        self.assertAlmostEqual(told["to"], 0.5, places=9)
+        reported = self.rendered(self.record("run"), "--frames", out, "--size", "64x48", "--quality", "draft",
+                                 "--fps", 10, "--show", "all")
+        self.assertEqual((reported["pictures"], reported["from"]), (6, 0))
+        self.assertAlmostEqual(reported["to"], 0.5, places=9)
 
     def record(self, name, **changes):
         scene, recording = self.folder / f"{name}.toml", self.folder / f"{name}.twinrec"
@@ -87,9 +88,9 @@ class Render(ProgramTest):
     def test_two_recordings_are_shown_side_by_side_to_the_end_of_the_longer_one(self):
         left, right = self.record("a"), self.record("b", duration=0.3)
         out = self.folder / "film"
-        told = self.rendered(left, "--side-by-side", right, "--frames", out, "--size", "200x60", "--fps",
-                             10, "--show", "none", "--plot", "energy")
-        self.assertEqual(told["pictures"], 6)
+        reported = self.rendered(left, "--side-by-side", right, "--frames", out, "--size", "200x60", "--fps",
+                                 10, "--show", "none", "--plot", "energy")
+        self.assertEqual(reported["pictures"], 6)
         pictures = [picture.read_png(p) for p in sorted(out.iterdir())]
         left_of = [[bytes(row[:3 * 90]) for row in rows] for _, _, rows in pictures]
         right_of = [[bytes(row[3 * 110:]) for row in rows] for _, _, rows in pictures]
@@ -116,10 +117,10 @@ class Render(ProgramTest):
         path = self.fake_ffmpeg()
         for option, format_word in (("--mp4", "mp4"), ("--gif", "gif")):
             out = self.folder / f"film.{format_word}"
-            told = self.rendered(self.ball, option, out, "--size", "33x17", "--quality", "draft",
-                                 "--to", 0.2, "--fps", 10, path=path)
+            reported = self.rendered(self.ball, option, out, "--size", "33x17", "--quality", "draft",
+                                     "--to", 0.2, "--fps", 10, path=path)
             words, count = out.read_text().splitlines()
-            self.assertEqual(int(count), told["pictures"] * 33 * 17 * 4)
+            self.assertEqual(int(count), reported["pictures"] * 33 * 17 * 4)
             self.assertIn("-s 33x17 -r 10", words)
             self.assertIn(f"-f {format_word} ", words)
         self.assertEqual(list(self.folder.glob("*.part")), [])
@@ -156,8 +157,8 @@ class Render(ProgramTest):
 <visual><geometry><mesh filename="gone.stl"/></geometry></visual>
 <collision><geometry><box size="1 1 1"/></geometry></collision></link></robot>""")
         out = self.folder / "rod.png"
-        told = self.rendered(urdf, "--png", out, "--size", "64x48")
-        self.assertTrue(any("'base'" in w and "collision shapes" in w for w in told["warnings"]))
+        reported = self.rendered(urdf, "--png", out, "--size", "64x48")
+        self.assertTrue(any("'base'" in w and "collision shapes" in w for w in reported["warnings"]))
 
 
 if __name__ == "__main__":

@@ -40,13 +40,13 @@ class Threads(ProgramTest):
 
     def test_a_map_has_the_same_bytes_with_one_two_and_three_threads(self):
         for way in ([], ["--no-simd"]):
-            told, files = [], []
+            reported, files = [], []
             for threads in (1, 2, 3):
                 file = self.folder / f"{threads}{len(way)}"
-                told.append(self.json_of("map", *MAP, *way, "--threads", threads, "--checkpoint", file, "--csv",
-                                         f"{file}.csv"))
+                reported.append(self.json_of("map", *MAP, *way, "--threads", threads, "--checkpoint", file, "--csv",
+                                             f"{file}.csv"))
                 files.append((file.read_bytes(), pathlib.Path(f"{file}.csv").read_bytes()))
-            self.same(told)
+            self.same(reported)
             self.same(files)
 
     def test_a_picture_has_the_same_bytes_with_none_one_and_three_threads_of_mesa(self):
@@ -59,7 +59,7 @@ class Threads(ProgramTest):
         self.same(pictures)
 
     def test_compare_finds_the_same_numbers_on_one_processor_and_on_all(self):
-        told = []
+        reported = []
         for processors in ({min(os.sched_getaffinity(0))}, None):
             pinned = (lambda: os.sched_setaffinity(0, processors)) if processors else None  # fewer threads
             answer = self.json_of("compare", "A1", "A2", "B1", "C2", "--integrator", "rk4,verlet", preexec_fn=pinned)
@@ -67,9 +67,9 @@ class Threads(ProgramTest):
                 case.pop("seconds")
                 for lane in case["configurations"]:
                     lane.pop("seconds")
-            told.append(answer)
-        self.assertGreater(len(told[0]["cases"]), 2)
-        self.same(told)
+            reported.append(answer)
+        self.assertGreater(len(reported[0]["cases"]), 2)
+        self.same(reported)
 
 
 if __name__ == "__main__":

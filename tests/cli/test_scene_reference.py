@@ -1,7 +1,7 @@
 """docs/reference/scene_file.md names each key that a scene may have, and no other; docs/reference/study_files.md each
 of the study's settings; docs/reference/exit_codes_and_errors.md each exit code.
 
-The program is asked: a scene whose tables have every word that may be a key is told which of them are none.
+The program is asked: a scene whose tables have every word that may be a key is reported which of them are none.
 """
 import pathlib
 import re
@@ -68,7 +68,7 @@ def known(before, skip=(), inside=None):
     """Those of all words that the program takes as keys of the table that ends `before`."""
     taken = set()
     words = [word for word in words_of_sources() if word not in skip]
-    # So few at once that all faults are told: the program stops at 200.
+    # So few at once that all faults are reported: the program stops at 200.
     for first in range(0, len(words), 80):
         some = words[first:first + 80]
         body = inside % ", ".join(f"{word} = []" for word in some) if inside else "\n".join(f"{w} = []" for w in some)
@@ -120,10 +120,10 @@ class Keys(unittest.TestCase):
                 self.check(heading, known(before, inside=inside), named_within(heading, key))
 
     def test_each_shape(self):
-        told = {shape: set(spans(cells[1])) for header, cells in rows("`[[body]]`") if header[0] == "shape"
-                for shape in spans(cells[0])}
-        self.assertEqual(sorted(told), sorted(SHAPES))
-        for shape, keys in told.items():
+        reported = {shape: set(spans(cells[1])) for header, cells in rows("`[[body]]`") if header[0] == "shape"
+                    for shape in spans(cells[0])}
+        self.assertEqual(sorted(reported), sorted(SHAPES))
+        for shape, keys in reported.items():
             with self.subTest(shape):
                 self.check(f"shape {shape}", known("[[body]]", inside=f"shape = {{ {shape} = {{ %s }} }}"), keys)
 

@@ -50,21 +50,21 @@ class Trial(ProgramTest):
 
     def test_the_task_is_done_when_the_object_is_released_at_the_goal(self):
         self.carries()
-        told = self.trial("--tasks", "pick-and-place", "--time-limit", 20)
-        self.assertEqual([r["condition"] for r in told["results"]], ["torsional", "linear", "kinematic"])
-        for result in told["results"]:
+        reported = self.trial("--tasks", "pick-and-place", "--time-limit", 20)
+        self.assertEqual([r["condition"] for r in reported["results"]], ["torsional", "linear", "kinematic"])
+        for result in reported["results"]:
             self.assertTrue(result["done"], result)
             self.assertEqual((result["picks"], result["drops"]), (1, 0))
             self.assertLess(abs(result["seconds"] - 7.5), 0.1)  # the button is released at 7.5 s
             self.assertLess(abs(result["picked_at"] - 3.0), 0.1)
             self.assertLess(result["placement_error_mm"], 30)
-        self.assertEqual(told["results"][2]["max_deg"], [])  # no tracking error of the target robot
-        self.assertGreater(told["results"][0]["max_deg"][0], 0.1)
+        self.assertEqual(reported["results"][2]["max_deg"], [])  # no tracking error of the target robot
+        self.assertGreater(reported["results"][0]["max_deg"][0], 0.1)
 
     def test_an_object_released_elsewhere_is_a_drop_and_no_success(self):
         self.carries(to=(0.45, -0.15))
-        told = self.trial("--tasks", "pick-and-place", "--time-limit", 12, "--conditions", "kinematic")
-        result = told["results"][0]
+        reported = self.trial("--tasks", "pick-and-place", "--time-limit", 12, "--conditions", "kinematic")
+        result = reported["results"][0]
         self.assertFalse(result["done"])
         self.assertEqual((result["picks"], result["drops"]), (1, 1))
         self.assertAlmostEqual(result["seconds"], 12, delta=0.01)
@@ -83,9 +83,9 @@ class Trial(ProgramTest):
 
     def test_the_log_of_a_task_repeats_the_run(self):
         self.carries()
-        told = self.trial("--tasks", "free", "--seconds", 3, "--conditions", "linear")
+        reported = self.trial("--tasks", "free", "--seconds", 3, "--conditions", "linear")
         scene = self.out / "S1/linear.toml"
-        log = told["results"][0]["log"]
+        log = reported["results"][0]["log"]
         scene.write_text(scene.read_text().replace('"device"', f'"{log}"'))
         sample = self.json_of("simulate", scene, "--duration", 3)["samples"][-1]
         # At the object after 1.5 s.

@@ -104,15 +104,15 @@ class WrongGainOfALaw(ProgramTest):
                 self.assertNotEqual("rate" in keys, bool(step))
                 if step:
                     self.check_holds(keys, beside, float(step[1]) / 1000)
-                told = {key: float(found[1]) for key, pattern in WORDS.items()
-                        if (found := re.search(pattern, broken.stderr))}
-                rate = told.pop("rate", None)
+                reported = {key: float(found[1]) for key, pattern in WORDS.items()
+                            if (found := re.search(pattern, broken.stderr))}
+                rate = reported.pop("rate", None)
                 self.assertEqual("rate" in keys, rate is not None, broken.stderr)
                 if rate:
                     self.check_holds({**keys, "rate": rate}, beside)
-                self.assertTrue(told or rate, broken.stderr)
-                if told:
-                    self.check_holds({**keys, **told}, beside)
+                self.assertTrue(reported or rate, broken.stderr)
+                if reported:
+                    self.check_holds({**keys, **reported}, beside)
                 law = re.search(r'(?:type = "(\S+)", )?(measure = "joint", )?discretization = "implicit"',
                                 broken.stderr)
                 other = {**keys, "type": law[1] or keys["type"], "discretization": "implicit"}

@@ -7,7 +7,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PRODUCT = ["solver", "collision", "coupling", "app", "benchmarks"]
-LONGER = {"aba": 80,  # three passes over the same bodies, told in one piece
+LONGER = {"aba": 80,  # three passes over the same bodies, reported in one piece
           "coupling_keys": 70}  # a table
 # As clang-format has it: the head of a function ends its line with "{", its body with "}" below the first letter.
 HEAD = re.compile(r"^( *)(?!(?:namespace|struct|class|enum|union|extern|using|return|if|for|while|switch|else|do|try)"

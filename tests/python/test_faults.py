@@ -1,4 +1,4 @@
-"""What is wrong is refused, and told with its remedy; what a robot says of itself."""
+"""What is wrong is refused, and reported with its remedy; what a robot says of itself."""
 import numpy as np
 
 from notebook import DOUBLE_PENDULUM, PUMA, ProgramTest, every_joint, main, states, twinarm
@@ -10,74 +10,76 @@ class Faults(ProgramTest):
         self.puma = twinarm.load(PUMA)
         self.zero = np.zeros(6)
 
-    def told(self, kind, words, function, *arguments, **named):
+    def reported(self, kind, words, function, *arguments, **named):
         with self.assertRaisesRegex(kind, words):
             function(*arguments, **named)
 
     def test_wrong_shapes_are_refused_with_the_right_one(self):
         z = self.zero
-        self.told(ValueError, r"aba\(\): q has shape \(5,\), must have \(6,\) or \(N, 6\).*nq = 6",
-                  twinarm.aba, self.puma, z[:5], z, z)
-        self.told(ValueError, r"rnea\(\): qdd has shape \(2, 3\)", twinarm.rnea, self.puma, z, z, np.zeros((2, 3)))
-        self.told(ValueError, r"q has shape \(\)", twinarm.crba, self.puma, 1.0)
-        self.told(ValueError, r"q has shape \(1, 1, 6\)", twinarm.crba, self.puma, np.zeros((1, 1, 6)))
-        self.told(ValueError, "3 rows, another 2", twinarm.aba, self.puma, np.zeros((3, 6)), z, np.zeros((2, 6)))
-        self.told(ValueError, r"f_ext has shape \(6,\), must have \(\d+, 6\)", twinarm.aba, self.puma, z, z, z, z)
-        self.told(ValueError, r"poses\(\): q has shape \(5,\)", twinarm.poses, self.puma, z[:5])
-        self.told(ValueError, "point has shape", twinarm.jacobian, self.puma, z, "link3", [1, 2])
-        self.told(ValueError, "gravity has shape", setattr, self.puma, "gravity", [1, 2])
+        self.reported(ValueError, r"aba\(\): q has shape \(5,\), must have \(6,\) or \(N, 6\).*nq = 6",
+                      twinarm.aba, self.puma, z[:5], z, z)
+        self.reported(ValueError, r"rnea\(\): qdd has shape \(2, 3\)", twinarm.rnea, self.puma, z, z, np.zeros((2, 3)))
+        self.reported(ValueError, r"q has shape \(\)", twinarm.crba, self.puma, 1.0)
+        self.reported(ValueError, r"q has shape \(1, 1, 6\)", twinarm.crba, self.puma, np.zeros((1, 1, 6)))
+        self.reported(ValueError, "3 rows, another 2", twinarm.aba, self.puma, np.zeros((3, 6)), z, np.zeros((2, 6)))
+        self.reported(ValueError, r"f_ext has shape \(6,\), must have \(\d+, 6\)", twinarm.aba, self.puma, z, z, z, z)
+        self.reported(ValueError, r"poses\(\): q has shape \(5,\)", twinarm.poses, self.puma, z[:5])
+        self.reported(ValueError, "point has shape", twinarm.jacobian, self.puma, z, "link3", [1, 2])
+        self.reported(ValueError, "gravity has shape", setattr, self.puma, "gravity", [1, 2])
 
     def test_an_out_that_does_not_fit_is_refused_and_nothing_is_written(self):
         frozen = np.full(6, 7.0)
         frozen.flags.writeable = False
         for out in (np.full(5, 7.0), np.full((1, 6), 7.0), np.full(6, 7.0, dtype=np.float32),
                     np.full((6, 2), 7.0)[:, 0], frozen, [7.0] * 6):
-            self.told(ValueError, r"out must be a writeable array of shape \(6,\)", twinarm.aba,
-                      self.puma, self.zero, self.zero, self.zero, out=out)
+            self.reported(ValueError, r"out must be a writeable array of shape \(6,\)", twinarm.aba,
+                          self.puma, self.zero, self.zero, self.zero, out=out)
             self.assertTrue(np.all(np.asarray(out) == 7))
 
     def test_what_is_no_finite_number_is_refused_with_its_place(self):
         for bad in (np.nan, np.inf, -np.inf):
             q = self.zero.copy()
             q[4] = bad
-            self.told(ValueError, r"aba\(\): q\[4\] is -?(nan|inf)", twinarm.aba, self.puma, q, self.zero, self.zero)
-            self.told(ValueError, r"energy\(\): qd\[4\]", twinarm.energy, self.puma, self.zero, q)
+            self.reported(ValueError, r"aba\(\): q\[4\] is -?(nan|inf)",
+                          twinarm.aba, self.puma, q, self.zero, self.zero)
+            self.reported(ValueError, r"energy\(\): qd\[4\]", twinarm.energy, self.puma, self.zero, q)
         rows = np.zeros((3, 6))
         rows[2, 1] = np.nan
-        self.told(ValueError, r"crba\(\): q\[2\]\[1\] is nan", twinarm.crba, self.puma, rows)
+        self.reported(ValueError, r"crba\(\): q\[2\]\[1\] is nan", twinarm.crba, self.puma, rows)
         sim = twinarm.Simulation(self.puma)
-        self.told(ValueError, r"tau\[0\] is nan", setattr, sim, "tau", rows[2][[1] * 6])
+        self.reported(ValueError, r"tau\[0\] is nan", setattr, sim, "tau", rows[2][[1] * 6])
 
     def test_what_is_no_number_at_all_and_wrong_arguments_are_refused(self):
         z = self.zero
-        self.told(TypeError, "q must be an array of real numbers, is a str", twinarm.aba, self.puma, "here", z, z)
-        self.told(TypeError, "is a ndarray", twinarm.crba, self.puma, z * 1j)
-        self.told(TypeError, "must be a twinarm.Model, is a", twinarm.aba, z, z, z, z)
-        self.told(TypeError, "'tau' is missing", twinarm.aba, self.puma, z, z)
-        self.told(TypeError, "'torque' is not an argument", twinarm.aba, self.puma, z, z, torque=z)
-        self.told(TypeError, "'q' is given twice", twinarm.aba, self.puma, z, z, z, q=z)
-        self.told(TypeError, "at most 3", twinarm.crba, self.puma, z, None, z)
-        self.told(ValueError, "no body 'link33'.*'link3'", twinarm.jacobian, self.puma, z, "link33")
-        self.told(ValueError, "no integrator 'rk5'.*'rk4'", twinarm.Simulation, self.puma, integrator="rk5")
-        self.told(ValueError, "h must be positive", twinarm.Simulation, self.puma, h=0)
-        self.told(ValueError, "no scheme 'eulr'.*'explicit Euler'", twinarm.largest_omega_h, "eulr", 0)
-        self.told(ValueError, "must be square", twinarm.largest_stable_step, [[1, 2]], [[1]], [[1]], "explicit Euler")
+        self.reported(TypeError, "q must be an array of real numbers, is a str", twinarm.aba, self.puma, "here", z, z)
+        self.reported(TypeError, "is a ndarray", twinarm.crba, self.puma, z * 1j)
+        self.reported(TypeError, "must be a twinarm.Model, is a", twinarm.aba, z, z, z, z)
+        self.reported(TypeError, "'tau' is missing", twinarm.aba, self.puma, z, z)
+        self.reported(TypeError, "'torque' is not an argument", twinarm.aba, self.puma, z, z, torque=z)
+        self.reported(TypeError, "'q' is given twice", twinarm.aba, self.puma, z, z, z, q=z)
+        self.reported(TypeError, "at most 3", twinarm.crba, self.puma, z, None, z)
+        self.reported(ValueError, "no body 'link33'.*'link3'", twinarm.jacobian, self.puma, z, "link33")
+        self.reported(ValueError, "no integrator 'rk5'.*'rk4'", twinarm.Simulation, self.puma, integrator="rk5")
+        self.reported(ValueError, "h must be positive", twinarm.Simulation, self.puma, h=0)
+        self.reported(ValueError, "no scheme 'eulr'.*'explicit Euler'", twinarm.largest_omega_h, "eulr", 0)
+        self.reported(ValueError, "must be square", twinarm.largest_stable_step,
+                      [[1, 2]], [[1]], [[1]], "explicit Euler")
 
     def test_a_quaternion_without_unit_length_is_refused(self):
         model = twinarm.load(self.write("all.urdf", every_joint()), floating=True)
         q, qd, tau = (rows[0] for rows in states(model, 1))
         place = model.q_of["spherical"]
         q[place] *= 1.1
-        self.told(ValueError, rf"q\[{place.start}:{place.stop}\] must be a unit quaternion.*1.1",
-                  twinarm.aba, model, q, qd, tau)
+        self.reported(ValueError, rf"q\[{place.start}:{place.stop}\] must be a unit quaternion.*1.1",
+                      twinarm.aba, model, q, qd, tau)
 
     def test_files_that_are_missing_or_wrong_are_reported_with_all_faults(self):
-        self.told(twinarm.InputError, "nowhere.urdf", twinarm.load, "nowhere.urdf")
-        self.told(ValueError, "nowhere.toml", twinarm.simulate, "nowhere.toml")
-        self.told(twinarm.InputError, "nowhere.twinrec", twinarm.open_recording, "nowhere.twinrec")
-        self.told(twinarm.InputError, "not a twinarm recording", twinarm.open_recording, PUMA)
-        self.told(twinarm.InputError, "has no coupling", twinarm.predict_couplings, "assets/scenes/pendulum.toml")
-        self.told(ValueError, "duration", twinarm.simulate, DOUBLE_PENDULUM)
+        self.reported(twinarm.InputError, "nowhere.urdf", twinarm.load, "nowhere.urdf")
+        self.reported(ValueError, "nowhere.toml", twinarm.simulate, "nowhere.toml")
+        self.reported(twinarm.InputError, "nowhere.twinrec", twinarm.open_recording, "nowhere.twinrec")
+        self.reported(twinarm.InputError, "not a twinarm recording", twinarm.open_recording, PUMA)
+        self.reported(twinarm.InputError, "has no coupling", twinarm.predict_couplings, "assets/scenes/pendulum.toml")
+        self.reported(ValueError, "duration", twinarm.simulate, DOUBLE_PENDULUM)
         text = '<robot name="r"><link name="a"/><link name="b"><inertial><mass value="-1"/></inertial>' \
                '</link>\n<joint name="j" type="hinge"><parent link="a"/><child link="b"/></joint></robot>'
         with self.assertRaises(twinarm.InputError) as caught:

@@ -73,20 +73,20 @@ class Steps(ProgramTest):
 class Scenes(ProgramTest):
     def test_a_scene_has_the_bits_of_twinarm_simulate(self):
         for scene in ("assets/scenes/double_pendulum.toml", "assets/scenes/box_stack.toml"):
-            told = program("simulate", scene, "--duration", 0.2, "--every", 0.05)
+            reported = program("simulate", scene, "--duration", 0.2, "--every", 0.05)
             run = twinarm.simulate(scene, duration=0.2, every=0.05)
-            np.testing.assert_array_equal(run.t, [s["t"] for s in told["samples"]])
+            np.testing.assert_array_equal(run.t, [s["t"] for s in reported["samples"]])
             for key in ("kinetic_energy", "potential_energy"):
-                np.testing.assert_array_equal(getattr(run, key), [s[key] for s in told["samples"]])
-            self.assertEqual(run.energy_balance, told["energy_balance"])
-            self.assertEqual(run.contacts, told["contacts"])
-            self.assertEqual(run.steps, told["steps"])
-            self.assertEqual(run.warnings, told["warnings"])
+                np.testing.assert_array_equal(getattr(run, key), [s[key] for s in reported["samples"]])
+            self.assertEqual(run.energy_balance, reported["energy_balance"])
+            self.assertEqual(run.contacts, reported["contacts"])
+            self.assertEqual(run.steps, reported["steps"])
+            self.assertEqual(run.warnings, reported["warnings"])
             self.assertIsNone(run.stopped)
             for row, six in run.momentum.items():
-                np.testing.assert_array_equal(six[:3], told["momentum"][row]["angular"])
-                np.testing.assert_array_equal(six[3:], told["momentum"][row]["linear"])
-            for n, sample in enumerate(told["samples"]):
+                np.testing.assert_array_equal(six[:3], reported["momentum"][row]["angular"])
+                np.testing.assert_array_equal(six[3:], reported["momentum"][row]["linear"])
+            for n, sample in enumerate(reported["samples"]):
                 for joint, value in sample["q"].items():
                     np.testing.assert_array_equal(np.ravel(run.q[n, run.model.q_of[joint]]), np.ravel(value))
 
@@ -108,12 +108,12 @@ class Scenes(ProgramTest):
         self.assertEqual(found, program("coupling", "predict", scene))
         self.assertAlmostEqual(found["K"][0][0], 400, places=9)
         step = twinarm.largest_stable_step(found["mass_matrix"], found["K"], found["B"], "semi-implicit Euler")
-        told = {row["scheme"]: row["max_stable_step"] for row in found["limits"]}
-        self.assertEqual(step, told["semi-implicit Euler"])
+        reported = {row["scheme"]: row["max_stable_step"] for row in found["limits"]}
+        self.assertEqual(step, reported["semi-implicit Euler"])
         omega = math.sqrt(400 / 1.00144)
         zeta = 3 / (2 * math.sqrt(400 * 1.00144))
         self.assertAlmostEqual(step * omega, twinarm.largest_omega_h("semi-implicit Euler", zeta), places=6)
-        self.assertEqual(set(told), set(twinarm.schemes()))
+        self.assertEqual(set(reported), set(twinarm.schemes()))
         self.assertEqual(twinarm.largest_omega_h("spring and damper implicit", 0.1), math.inf)
 
     def test_what_is_set_in_a_scene_is_as_if_its_file_said_so(self):
@@ -143,10 +143,10 @@ class Scenes(ProgramTest):
 
     def test_targets_are_where_the_program_has_them(self):
         scene = ROOT / "docs" / "learn" / "lessons" / "04_torsional_or_linear" / "arm_linear.toml"
-        told = program("simulate", scene, "--duration", 0.4, "--every", 0.1)
+        reported = program("simulate", scene, "--duration", 0.4, "--every", 0.1)
         run = twinarm.simulate(scene, duration=0.4, every=0.1)
         self.assertEqual(list(run.targets), ["pull1", "pull2"])
-        for n, sample in enumerate(told["samples"]):
+        for n, sample in enumerate(reported["samples"]):
             for pull, q in run.targets.items():
                 for joint, value in sample["targets"][pull]["q"].items():
                     np.testing.assert_array_equal(np.ravel(q[n, run.model.q_of[joint]]), np.ravel(value))

@@ -136,7 +136,7 @@ class LikeTheProgram(ProgramTest):
             by_joint = lambda values: dict(zip(names, values))
             state = self.write(f"{n}.json", json.dumps(
                 {"q": by_joint(q), "qd": by_joint(qd), "tau": by_joint(third), "qdd": by_joint(third)}))
-            told = program("dynamics", PUMA, "--state", state)
+            reported = program("dynamics", PUMA, "--state", state)
             still = np.zeros(model.nv)
             bare = program("dynamics", PUMA, "--state", state, "--no-friction")
             found = {
@@ -148,12 +148,12 @@ class LikeTheProgram(ProgramTest):
                 "angular_momentum": twinarm.momentum(model, q, qd)[:3],
                 "linear_momentum": twinarm.momentum(model, q, qd)[3:]}
             for key, value in found.items():
-                np.testing.assert_array_equal(value, told[key], key)
-            np.testing.assert_array_equal(twinarm.forward_dynamics(model, q, qd, third), list(told["qdd"].values()))
+                np.testing.assert_array_equal(value, reported[key], key)
+            np.testing.assert_array_equal(twinarm.forward_dynamics(model, q, qd, third), list(reported["qdd"].values()))
             np.testing.assert_array_equal(twinarm.aba(model, q, qd, third), list(bare["qdd"].values()))
             np.testing.assert_array_equal(twinarm.rnea(model, q, qd, third), list(bare["tau_inverse"].values()))
             X = twinarm.poses(model, q)
-            for link in told["links"] if isinstance(told["links"], list) else []:
+            for link in reported["links"] if isinstance(reported["links"], list) else []:
                 i = model.bodies.index(link["name"])
                 np.testing.assert_allclose(X[i, :3, 3], link["position"], atol=1e-14)
 

@@ -22,7 +22,7 @@ def arguments(function):
     return [(name, kind, "none" if d is None else ast.literal_eval(d)) for name, kind, d in found]
 
 
-def told(function):
+def reported(function):
     """The same of the module, from the first line of its documentation."""
     if inspect.isbuiltin(function) and function.__text_signature__:
         kinds = {inspect.Parameter.POSITIONAL_OR_KEYWORD: "either", inspect.Parameter.KEYWORD_ONLY: "by name"}
@@ -76,14 +76,14 @@ class Stub(unittest.TestCase):
         checked = 0
         for name, node in defined(STUB.body).items():
             if isinstance(node, ast.FunctionDef):
-                self.assertEqual(arguments(node), told(getattr(twinarm, name)), name)
+                self.assertEqual(arguments(node), reported(getattr(twinarm, name)), name)
                 checked += 1
             for inner in node.body if isinstance(node, ast.ClassDef) else []:
                 if not isinstance(inner, ast.FunctionDef) or inner.decorator_list:
                     continue
                 if name == "Simulation" or inner.name != "__init__":
                     there = getattr(getattr(twinarm, name), inner.name)
-                    found = told(there)
+                    found = reported(there)
                     self.assertEqual(arguments(inner), found, f"{name}.{inner.name}")
                     checked += 1
         self.assertGreater(checked, 25)

@@ -33,12 +33,12 @@ class Workspace(ProgramTest):
         state = {"q": {j: value(p, q) for j, p in model.q_of.items()},
                  "qd": {j: value(p, qd) for j, p in model.qd_of.items()},
                  "tau": {j: value(p, tau) for j, p in model.qd_of.items()}}
-        told = program("inspect", urdf, "--state", self.write("state.json", json.dumps(state)))
+        reported = program("inspect", urdf, "--state", self.write("state.json", json.dumps(state)))
         twinarm.aba(model, q, qd, tau)
         ws = model.workspace()
         frames = {row["name"]: row["frame"] for row in ws.describe()}
         seen = set()
-        for entry in told["passes"]:
+        for entry in reported["passes"]:
             body = model.bodies.index(entry["body"])
             place = model.qd_of.get(entry["joint"], slice(0, 0))
             for quantity in entry["quantities"]:

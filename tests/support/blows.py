@@ -86,9 +86,9 @@ class Victim:
         found = {}
         for path in self.files():
             if path.name.endswith((".part", ".csv")):
-                told = path.stat()
-                if told.st_mtime_ns > since:
-                    found[path] = told.st_size
+                reported = path.stat()
+                if reported.st_mtime_ns > since:
+                    found[path] = reported.st_size
         return found
 
     def start(self):
@@ -107,7 +107,7 @@ class Victim:
                     os.killpg(process.pid, blow)
                 else:
                     process.send_signal(blow)
-            _, self.told = process.communicate(timeout=TIMEOUT)
+            _, self.reported = process.communicate(timeout=TIMEOUT)
         finally:
             if process.poll() is None:
                 process.kill()
@@ -119,7 +119,7 @@ class Victim:
         code, is_done = process.returncode, process.returncode == self.done_code
         # Before it listens to them, a soft blow ends it at once, with nothing made yet.
         stopped = (-blow,) if blow == signal.SIGKILL else (*self.stopped_codes, -blow)
-        demand(is_done or code in stopped, f"ended with {code}: {self.told[-500:]}")
+        demand(is_done or code in stopped, f"ended with {code}: {self.reported[-500:]}")
         self.no_child_lives()
         whole, left = [], []
         for path in self.files():

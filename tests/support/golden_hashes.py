@@ -49,8 +49,8 @@ def run(program, scene, steps, file, every_step=False, environment=GENERIC):
 
 
 def steps_of(scene):
-    told = tomllib.loads(scene.read_text())
-    return min(STEPS, round(told["duration"] / told["step"]))
+    reported = tomllib.loads(scene.read_text())
+    return min(STEPS, round(reported["duration"] / reported["step"]))
 
 
 def frames(file):

@@ -56,12 +56,12 @@ class LabTest(ProgramTest):
         file.write_bytes(self.lab.get("/save").body)
         return file
 
-    def told(self, state):
+    def reported(self, state):
         return " ".join(note["text"] for note in state["notes"])
 
     def by_step(self, file):
         """Of a recording: coordinates and link positions by step."""
-        told = self.json_of("export", file)
-        names = [column["name"] for column in told["columns"]]
+        reported = self.json_of("export", file)
+        names = [column["name"] for column in reported["columns"]]
         return {frame["step"]: {"t": frame["t"], "values": dict(zip(names, frame["values"]))}
-                for frame in told["frames"]}
+                for frame in reported["frames"]}

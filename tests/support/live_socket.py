@@ -212,7 +212,7 @@ class Arrays:
         self.at = (self.at + 7) // 8 * 8
         size = struct.calcsize(code) * count
         if self.at + size > len(self.data):
-            raise ValueError(f"{len(self.data)} bytes are too few: {self.at + size} are told")
+            raise ValueError(f"{len(self.data)} bytes are too few: {self.at + size} are reported")
         array = self.data[self.at:self.at + size].cast(code)
         self.at += size
         return array
@@ -240,7 +240,7 @@ class Frame:
         self.shininess, self.texture = arrays.take("B", instances), arrays.take("B", instances)
         self.text = bytes(arrays.take("B", size)).decode()
         if arrays.at != len(data):
-            raise ValueError(f"{len(data)} bytes, of which {arrays.at} are told of")
+            raise ValueError(f"{len(data)} bytes, of which {arrays.at} are reported of")
 
     paused = property(lambda self: bool(self.flags & 1))
     looked_back = property(lambda self: bool(self.flags & 2))

@@ -57,8 +57,8 @@ class Client:
         """The newest; of the same text the same object."""
         text = self.live.newest["state"]
         if text is not self.read:
-            self.read, self.told = text, json.loads(text)
-        return self.told
+            self.read, self.reported = text, json.loads(text)
+        return self.reported
 
 
 class Staller(Client):
@@ -81,7 +81,7 @@ class Staller(Client):
 
 
 class Comer(Client):
-    """Comes, is told everything, and goes."""
+    """Comes, is reported everything, and goes."""
     until = 0.0
 
     def tick(self, now):

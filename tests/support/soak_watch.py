@@ -85,7 +85,7 @@ class Progress:
     """With the time that is left; a line each minute where stderr is no terminal."""
 
     def __init__(self, name, seconds):
-        self.name, self.seconds, self.told, self.start = name, seconds, -60.0, time.monotonic()
+        self.name, self.seconds, self.reported, self.start = name, seconds, -60.0, time.monotonic()
         self.terminal = sys.stderr.isatty()
 
     def tell(self, words=""):
@@ -93,8 +93,8 @@ class Progress:
         text = f"{self.name}: {clock(gone)} of {clock(self.seconds)}, {clock(max(0, self.seconds - gone))} left{words}"
         if self.terminal:
             say(f"\r{text}   ", end="")
-        elif gone - self.told >= 60:
-            self.told = gone
+        elif gone - self.reported >= 60:
+            self.reported = gone
             say(text)
 
     def finish(self):

@@ -42,7 +42,7 @@ class Runner(unittest.TestCase):
 
     def test_each_fault_of_a_lesson_is_told(self):
         not_said = "41.5 is checked, but the lesson's text does not say it"
-        for old, new, told in (
+        for old, new, message in (
                 ('"sum": 41.5', '"sum": 41.52', "lesson.md:23: run.sum is 41.52"),
                 ('"sum": 41.5', '"sum": null', "'run.sum' has no value"),
                 ("x > 1.5", "x > 2.5", 'named(run.list, name="b").x is 2'),
@@ -51,18 +51,18 @@ class Runner(unittest.TestCase):
                 ("head -c 600", "head -c 6", "its commands make no out/sum.svg"),
                 ("## The law\n", "## The law\n\n```sh\ntrue\n```\n", "a command stands before the prediction"),
                 ("## The trap\n", "", "its headings are"), (" +- 0.01", "", "is no check")):
-            with self.subTest(told, new=new):
-                self.assert_fails(GOOD.replace(old, new), told)
+            with self.subTest(message, new=new):
+                self.assert_fails(GOOD.replace(old, new), message)
 
     def test_a_picture_that_is_no_longer_what_the_commands_make_is_a_fault(self):
         drawing = "<svg><path d='M0.00,0.00 L10.00,{0}.00 L40.00,10.00'/><text>{1}</text></svg>" + 60 * "<!-- -->"
         lesson = GOOD.replace("head -c 600 /dev/zero", f'echo "{drawing.format(10, "t [s]")}"')
-        for height, text, told in ((10, "t [s]", None), (12, "t [s]", None), (30, "t [s]", "path 0 is elsewhere at"),
-                                   (10, "t [ms]", "text 't [ms]' is now 't [s]'")):
+        for height, text, message in ((10, "t [s]", None), (12, "t [s]", None), (30, "t [s]", "path 0 is elsewhere at"),
+                                      (10, "t [ms]", "text 't [ms]' is now 't [s]'")):
             with self.subTest(height=height, text=text):
                 picture = drawing.format(height, text)
-                if told:
-                    self.assert_fails(lesson, told, picture=picture)
+                if message:
+                    self.assert_fails(lesson, message, picture=picture)
                 else:
                     self.assertEqual(self.run_lesson(lesson, picture=picture).returncode, 0)
 

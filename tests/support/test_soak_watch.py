@@ -29,13 +29,13 @@ class SoakWatch(unittest.TestCase):
 
     def test_the_last_line_counts_and_a_failure_is_an_exit_code(self):
         for failures in (0, 2):
-            checks, told = Checks(), io.StringIO()
+            checks, reported = Checks(), io.StringIO()
             checks.add("good", True, "as it is to be")
             for _ in range(failures):
                 checks.add("bad", False, "as it is not")
-            with contextlib.redirect_stdout(told):
+            with contextlib.redirect_stdout(reported):
                 self.assertEqual(checks.finish(), 1 if failures else 0)
-            lines = told.getvalue().splitlines()
+            lines = reported.getvalue().splitlines()
             self.assertEqual(lines[-1], f"1 passed, {failures} failed")
             self.assertEqual(sum(line.startswith("FAILED") for line in lines), failures)
 

@@ -84,10 +84,10 @@ class Report(unittest.TestCase):
 class Registered(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        told = subprocess.run(["ctest", "--test-dir", BUILD, "--show-only=json-v1"], capture_output=True, text=True,
-                              check=True, timeout=TIMEOUT).stdout
+        reported = subprocess.run(["ctest", "--test-dir", BUILD, "--show-only=json-v1"], capture_output=True, text=True,
+                                  check=True, timeout=TIMEOUT).stdout
         cls.tests = {test["name"]: {p["name"]: p["value"] for p in test["properties"]}
-                     for test in json.loads(told)["tests"]}
+                     for test in json.loads(reported)["tests"]}
 
     def test_every_test_can_be_skipped_and_none_is_then_counted_as_passed(self):
         self.assertGreater(len(self.tests), 50)

@@ -186,7 +186,7 @@ class LabUnderFire(Victim):
         self.length, self.saved = 4, threading.Event()
 
     def finish(self):
-        """It lives until a run is saved, then ends as it is told to."""
+        """It lives until a run is saved, then ends as it is reported to."""
         self.saved.clear()
         self.length = None
         code = self.strike(signal.SIGTERM)
