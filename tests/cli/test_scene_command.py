@@ -225,13 +225,13 @@ class Compliance(Scenes):
 
     def test_each_ball_rests_m_g_over_the_stiffness_of_its_pair_deep(self):
         answer = self.run_scene(SOFT)
-        for name, mass, k in (("tyre", 2, 5e4), ("steel", 3, 3e7 / 101), ("reported", 1, 1e4)):
+        for name, mass, k in (("tyre", 2, 5e4), ("steel", 3, 3e7 / 101), ("paired", 1, 1e4)):
             expected = mass * 9.81 / k
             self.close(self.depth(answer, name), expected, 1e-6 * expected, name)
 
     def test_the_command_line_outranks_the_response_of_the_scene(self):
         rigid = self.run_scene(SOFT, "--contact", "rigid")
-        for name in ("tyre", "steel", "reported"):
+        for name in ("tyre", "steel", "paired"):
             self.close(self.depth(rigid, name), 0, 1e-9, name)
         soft = self.run_scene(SOFT.replace('"compliant"', '"rigid"'), "--contact", "compliant")
         self.assertEqual(soft["samples"], self.run_scene(SOFT)["samples"])
