@@ -19,7 +19,7 @@ ContactConstraints::ContactConstraints(const Model<double>& model, ContactRespon
 
 bool ContactConstraints::has_closing_contact(const ConstraintFrame& frame) noexcept {
   if (response_ == ContactResponse::compliant) return false;
-  const bool located = frame.phase == Phase::hit;
+  const bool located = frame.phase == Phase::impact_at_event;
   bool any = false;
   for (ContactPoint& p : found_.points) {
     p.has_closing_contact = false;
@@ -40,18 +40,18 @@ bool ContactConstraints::needs_position_correction() const noexcept {
 
 void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
                               std::size_t) noexcept {
-  if (frame.phase == Phase::separate) return;
-  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::hit;
+  if (frame.phase == Phase::position_correction) return;
+  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::impact_at_event;
   if (!jumps)
     for (ContactPoint& point : found_.points) point.force_W = point.couple_W = Vector3::Zero();
-  if (frame.phase == Phase::flow) active_.begin_flow();
+  if (frame.phase == Phase::smooth) active_.clear_modes();
   for (const ContactRows::Part& part : rows_.parts()) {
     const ImpulseConstraint& c = problem.constraints()[part.row];
     ContactPoint& point = found_.points[part.point];
     const Matrix3 axes = contact_axes(point.contact.n_W);
     const Vector3 impulse_W = axes * Vector3(c.p[0], c.p[1], c.p[2]);
     point.impulse_W += impulse_W;
-    if (frame.phase != Phase::flow) {
+    if (frame.phase != Phase::smooth) {
       ContactWork& work = works_.of(point.contact.a, point.contact.b);
       work.impulse_W += impulse_W;
       work.moment_W += bodies_.impulse_moment(point.contact, impulse_W);
@@ -102,7 +102,8 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
       friction += couple.p[r] * (couple.u[r] - couple.b[r]);
     }
   }
-  if (frame.phase == Phase::flow) return active_.take_flow(point, c, frame.h, normal, friction);
+  if (frame.phase == Phase::smooth)
+    return active_.read_smooth_impulses(point, c, frame.h, normal, friction);
   ContactWork& work = works_.of(point.contact.a, point.contact.b);
   work.moment_W += frame.h * point.couple_W;
   const bool is_impact = c.p[0] > 0 && start[0] < -kMinBounceSpeed && u_n > start[0];

@@ -5,7 +5,7 @@
 //   has_closing_contact  before each impact, with the current velocities
 //   extend_detection     after a velocity jump
 //   add, take            Phase::impact, while contacts close; Phase::step once;
-//                        Phase::separate if any source needs_position_correction()
+//                        Phase::position_correction if any source needs_position_correction()
 // Event-driven steps also use events(): event_source.h.
 // None of them may throw, or allocate after the first steps.
 #pragma once
@@ -17,12 +17,12 @@
 namespace twinarm {
 
 enum class Phase {
-  impact,    // velocity jump; v0: velocities before
-  step,      // v0: velocities at the end of the step without impulses
-  separate,  // position correction: v0 = 0, v is a small displacement [m, rad]
+  impact,               // velocity jump; v0: velocities before
+  step,                 // v0: velocities at the end of the step without impulses
+  position_correction,  // v0 = 0, v is a small displacement [m, rad]
   // event_driven_step.h only:
-  hit,  // as impact, for closed gaps only
-  flow  // as step, for the active set only
+  impact_at_event,  // as impact, for closed gaps only
+  smooth            // as step, for the active set only
 };
 
 struct ConstraintFrame {
