@@ -38,8 +38,8 @@ bool ContactConstraints::needs_position_correction() const noexcept {
   return std::ranges::any_of(found_.points, [](const auto& p) { return p.gap_after < -kSlop; });
 }
 
-void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-                              std::size_t) noexcept {
+void ContactConstraints::read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                                       std::size_t) noexcept {
   if (frame.phase == Phase::position_correction) return;
   const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::impact_at_event;
   if (!jumps)
@@ -64,13 +64,13 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
       for (std::size_t r = 0; r < 3; ++r)
         works_.of(point.contact.a, point.contact.b).impact += 0.5 * c.p[r] * (before[r] + after[r]);
     } else {
-      take_step(frame, problem, part, axes);
+      read_step(frame, problem, part, axes);
     }
   }
 }
 
 // Second phase: forces, gap at the end of the step, and work p . (u_before + u_after)/2.
-void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
+void ContactConstraints::read_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
                                    const ContactRows::Part& part, const Matrix3& axes) {
   const ImpulseConstraint& c = problem.constraints()[part.row];
   ContactPoint& point = found_.points[part.point];

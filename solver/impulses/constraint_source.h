@@ -4,8 +4,8 @@
 //   begin_step           once, with the kinematics at its start: contact detection, gaps
 //   has_closing_contact  before each impact, with the current velocities
 //   extend_detection     after a velocity jump
-//   add, take            Phase::impact, while contacts close; Phase::step once;
-//                        Phase::position_correction if any source needs_position_correction()
+//   add_constraints,     Phase::impact, while contacts close; Phase::step once;
+//   read_impulses        Phase::position_correction if any source needs_position_correction()
 // Event-driven steps also use events(): event_source.h.
 // None of them may throw, or allocate after the first steps.
 #pragma once
@@ -57,10 +57,10 @@ class ConstraintSource {
   virtual bool extend_detection(const Kinematics&, double /*h*/) noexcept { return false; }
   virtual bool needs_position_correction() const noexcept { return false; }
   // Adds constraints, with the last impulses as initial guess.
-  virtual void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept = 0;
+  virtual void add_constraints(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept = 0;
   // Reads the solution of the same constraints, from index `first` on.
-  virtual void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-                    std::size_t first) noexcept = 0;
+  virtual void read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                             std::size_t first) noexcept = 0;
   virtual EventSource* events() { return nullptr; }  // null: no event location
 };
 

@@ -38,7 +38,7 @@ bool JointLimits::needs_position_correction() const noexcept {
   return std::ranges::any_of(rows_, [](const Row& row) { return row.after < -kTolerance; });
 }
 
-void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
+void JointLimits::add_constraints(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
   for (const Row& row : rows_) {
     if (!is_included(frame, row)) continue;
     const std::size_t dof = model_->iv[static_cast<std::size_t>(limits_[row.limit].body)];
@@ -67,8 +67,8 @@ void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noe
   }
 }
 
-void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-                       std::size_t first) noexcept {
+void JointLimits::read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                                std::size_t first) noexcept {
   if (frame.phase == Phase::position_correction) return;
   const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::impact_at_event;
   if (!jumps)

@@ -27,9 +27,9 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
 
   void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override;
   bool needs_position_correction() const noexcept override;
-  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
-  void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-            std::size_t first) noexcept override;
+  void add_constraints(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
+  void read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                     std::size_t first) noexcept override;
   bool has_closing_contact(const ConstraintFrame& frame) noexcept override;
   EventSource* events() override { return this; }
   void set_active_set(const ConstraintFrame& frame, bool impact) noexcept override;
