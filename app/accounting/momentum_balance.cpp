@@ -152,7 +152,7 @@ void MomentumBalance::add_couplings(double part, const State<double>& x,
     const SceneCoupling& spec = couplings_->spec(c);
     if (spec.rate > 0 || spec.printed || spec.third_row() == SceneCoupling::ThirdRow::drive) {
       // held force, or not a spring-damper
-      add_coupling_force(part, spec, couplings_->pull(c), k_, sums_[coupling(c)]);
+      add_coupling_force(part, spec, couplings_->force(c), k_, sums_[coupling(c)]);
       continue;
     }
     const CouplingEnds ends = couplings_->ends(c, x, k_, side);
@@ -168,7 +168,7 @@ void MomentumBalance::add_coupling_impulses(double h, const State<double>& at,
                                             const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
-    Vector3 impulse = h * couplings_->pull(c);
+    Vector3 impulse = h * couplings_->force(c);
     if (const double m_star = couplings_->m_star(c); m_star != 0) {
       State<double> mixed = at;  // position at the start, velocity at the end: J dqd
       mixed.qd = end.qd;

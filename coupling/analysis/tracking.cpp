@@ -51,8 +51,8 @@ void TrackingSystem::record(TrackingSeries& series) {
     series.q_K[j].push_back(kvr_->at(x.t).x.q[iq_[j]]);
     series.q_D[j].push_back(x.q[iq_[j]]);
   }
-  for (std::size_t s = 0; s < series.pull.size(); ++s)
-    series.pull[s].push_back(couplings_.front()->readings()[s].size);
+  for (std::size_t s = 0; s < series.coupling_force.size(); ++s)
+    series.coupling_force[s].push_back(couplings_.front()->readings()[s].size);
 }
 
 TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step) {
@@ -60,7 +60,7 @@ TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step)
   TrackingSeries series;
   series.q_K.resize(iq_.size());
   series.q_D.resize(iq_.size());
-  series.pull.resize(couplings_.empty() ? 0 : couplings_.front()->springs().size());
+  series.coupling_force.resize(couplings_.empty() ? 0 : couplings_.front()->springs().size());
   const auto steps = static_cast<std::size_t>(std::lround(setup_.hand->duration() / setup_.h));
   const auto sample = [&] {
     record(series);

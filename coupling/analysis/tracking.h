@@ -14,10 +14,10 @@ namespace twinarm {
 
 // One run, by step; joints of DrivenJoints::turned.
 struct TrackingSeries {
-  std::vector<double> t;                      // [s]
-  std::vector<std::vector<double>> q_K, q_D;  // [joint][step], rad (m for a prismatic joint)
-  std::vector<std::vector<double>> pull;      // [spring of the main coupling][step], N or N m
-  bool finite = true;                         // false: stopped, diverged
+  std::vector<double> t;                            // [s]
+  std::vector<std::vector<double>> q_K, q_D;        // [joint][step], rad (m for a prismatic joint)
+  std::vector<std::vector<double>> coupling_force;  // [spring of the main coupling][step], N or N m
+  bool finite = true;                               // false: stopped, diverged
 };
 // The paper's measure |theta_K - theta_D| [rad] by joint: maximum over the samples, and time
 // average (trapezoidal rule).

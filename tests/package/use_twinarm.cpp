@@ -93,8 +93,8 @@ void rod_under_a_spring(const char* urdf) {
   Simulation simulation(model, start);
   simulation.add(*pull);
   simulation.step(h);
-  check("the spring pulls to the twin", pull->readings().at(0).pull.y(), k * l);
-  check("and up", pull->readings().at(0).pull.z(), k * l);
+  check("the spring pulls to the twin", pull->readings().at(0).force_W.y(), k * l);
+  check("and up", pull->readings().at(0).force_W.z(), k * l);
   check("the rod follows", simulation.state().qd[0], h * k * l * l / I);
 }
 

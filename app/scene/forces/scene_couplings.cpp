@@ -175,10 +175,10 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
   return ends;
 }
 
-Vector3 SceneCouplings::pull(std::size_t c) const {
+Vector3 SceneCouplings::force(std::size_t c) const {
   const SceneCoupling& spec = scene_.couplings[c];
   const SpringState& reading = couplings_[c]->source->readings()[spec.reading(c)];
-  return spec.at_joint() ? Vector3(reading.size, 0, 0) : reading.pull;
+  return spec.at_joint() ? Vector3(reading.size, 0, 0) : reading.force_W;
 }
 
 const CouplingSpec& SceneCouplings::law(std::size_t c) const {

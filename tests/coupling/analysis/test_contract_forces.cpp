@@ -137,7 +137,7 @@ TEST_CASE("action equals reaction of a relative damper; between two points excep
       if (law.is(CouplingType::linear) || law.in_six_dimensions()) {
         const Evaluated all = evaluated(spec, model, hand_at(q_K, qd_K), q, qd);
         for (std::size_t s = 0; s < 3; ++s)
-          left += (all.readings[s].p_D - all.readings[s].p_K).cross(all.readings[s].pull);
+          left += (all.readings[s].p_D - all.readings[s].p_K).cross(all.readings[s].force_W);
         CHECK(left.norm() > 1e-4 * size);
       }
       CHECK((on.force + back.force).norm() < 1e-12 * size);
@@ -175,12 +175,12 @@ TEST_CASE("a relative damper dissipates energy of the relative motion, whatever 
       for (std::size_t r = 0; r < all.readings.size(); ++r) {
         const SpringState& reading = all.readings[r];
         const bool turn = r >= 3 || law.on_orientation();
-        const Vector3 pull = law.on_joint() ? Vector3(reading.size, 0, 0) : reading.pull;
+        const Vector3 force = law.on_joint() ? Vector3(reading.size, 0, 0) : reading.force_W;
         const Vector3 v = relative_velocity(law, model, all, spec.springs[r % 3], qd_K, qd, turn);
         // Targets at the end of the step have rotated by h.
-        CHECK(pull.dot(v) < 1e-2 * pull.norm() * v.norm());
+        CHECK(force.dot(v) < 1e-2 * force.norm() * v.norm());
         if (law.discretization == Discretization::explicit_ && !law.own)
-          CHECK(pull.dot(v) == doctest::Approx(-pull.norm() * v.norm()).epsilon(1e-12));
+          CHECK(force.dot(v) == doctest::Approx(-force.norm() * v.norm()).epsilon(1e-12));
       }
     }
   }
@@ -200,8 +200,8 @@ TEST_CASE("the as-published torsional damper accelerates a DVR that is too fast:
     Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0}, {sign > 0 ? 1.0 : 0.2}));
     for (int n = 0; n < 2; ++n) system.simulation.step(1e-4);  // velocities are differences
     const double relative = system.simulation.state().qd[0] - 0.5;
-    const double pull = system.coupling->readings()[0].pull.z();
-    CHECK(pull * relative > 0.1);
+    const double force = system.coupling->readings()[0].force_W.z();
+    CHECK(force * relative > 0.1);
   }
 }
 

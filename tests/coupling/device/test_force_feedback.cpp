@@ -148,7 +148,7 @@ TEST_CASE("at a wall: the stylus force is the wall's force and the coupling forc
   const Pressed pressed(at_tip(40), 0.42, 20);
   TipHand hand(pressed);
   const Vector3 felt = hand.stylus_force_W(hand.mapping->motor_torques(hand.device, pressed.tau));
-  const Vector3 pull = pressed.coupling->readings()[0].pull;
+  const Vector3 pull = pressed.coupling->readings()[0].force_W;
   const Vector3 tip = pressed.simulation->kinematics().position(2, pressed.wall.p_L);
   const double of_wall = -pressed.wall.k * (tip.y() - pressed.wall.place);
   CHECK(of_wall < -1);
