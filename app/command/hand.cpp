@@ -77,7 +77,7 @@ void add_tick(const TickResult& view, double step, LiveSummary& summary) {
     summary.sum_error[j] += error;
   }
   for (std::size_t j = 0; j < 3; ++j)
-    summary.max_torque[j] = std::max(summary.max_torque[j], std::abs(view.felt[j]));
+    summary.max_torque[j] = std::max(summary.max_torque[j], std::abs(view.motor_torques[j]));
   summary.duration = view.hand.t + step;
 }
 
@@ -139,7 +139,7 @@ int run_hand(const HandOptions& options) {
   summary.scene = options.scene.string();
   summary.device = device->description();
   summary.mapping = options.mapping;
-  summary.felt = run.mapping().force_feedback_description();
+  summary.force_feedback = run.mapping().force_feedback_description();
   summary.joints = scene.couplings[run.leader()].driven.turned;
   summary.max_error.assign(summary.joints.size(), 0);
   summary.sum_error.assign(summary.joints.size(), 0);

@@ -117,7 +117,7 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   const bool is_printed = spec.printed && spec.law == CouplingSpec::Type::torsional;
   found.B = (is_printed ? 0 : spec.spring.b) * square;
   found.added_inertia = added_inertia(spec);
-  found.felt = found.added_inertia * square;
+  found.M_added = found.added_inertia * square;
   if (spec.law == CouplingSpec::Type::god_object && spec.leads())
     found.landing = robot_inertia(spec);
   return found;
@@ -130,7 +130,7 @@ PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
   found.offset = offset.norm();
   const bool matched = spec.law == CouplingSpec::Type::matched;  // linear in the joints' errors
   if (!matched) found.K = tangent(c);
-  const SpringModes modes = spring_modes(M() + found.felt, found.K, found.B);
+  const SpringModes modes = spring_modes(M() + found.M_added, found.K, found.B);
   if (modes.size() > 0) {
     const Index last = modes.size() - 1;
     found.alone = {modes.omega(last), modes.zeta(last)};

@@ -247,7 +247,7 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
       coupling.with_wall = series_stiffness(coupling.gains.k, *task.wall);
     found.K += coupling.K;
     found.B += coupling.B;
-    found.M += coupling.felt;
+    found.M += coupling.M_added;
   }
   if (found.couplings.empty())
     throw InputError({{scene.description.file.string(), 0, "scene",

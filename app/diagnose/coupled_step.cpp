@@ -44,7 +44,7 @@ CoupledStep::CoupledStep(const SimulatePlan& plan)
     else if (component.b > 0)
       component.square = found.B / component.b;
     component.part = step_part(found, step_);
-    M_ += found.felt;
+    M_ += found.M_added;
     components_.push_back(std::move(component));
   }
 }

@@ -173,7 +173,7 @@ void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>
       const SceneCoupling& its = couplings.spec(other);
       if (other != c && its.leader == c) {
         const PredictedCoupling more = posed.about_zero(other);
-        all.K += more.K, all.K_zero += more.K_zero, all.B += more.B, all.felt += more.felt;
+        all.K += more.K, all.K_zero += more.K_zero, all.B += more.B, all.M_added += more.M_added;
       }
       if (its.law != CouplingSpec::Type::god_object || its.leader != other ||
           its.robot != spec.robot)
@@ -183,7 +183,7 @@ void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>
     }
     stepped.spec = &spec;
     stepped.part = step_part(all, prepared.run.step);
-    stepped.M = posed.M() + all.felt;
+    stepped.M = posed.M() + all.M_added;
     stepped.integrator = prepared.run.integrator;
     stepped.h = prepared.run.step;
     const SpringModes modes = spring_modes(stepped.M, all.K, all.B);

@@ -186,7 +186,7 @@ TickResult LiveRun::tick() noexcept {
   result.mode = loop_->watch().mode();
   if (!stopped_) stopped_ = !simulation_.step(h_).finite;
   result.finite = !stopped_;
-  result.felt = loop_->after_step(simulation_, h_, result.finite).torque;
+  result.motor_torques = loop_->after_step(simulation_, h_, result.finite).torque;
   return result;
 }
 

@@ -117,7 +117,7 @@ TEST_CASE("live run: after a device timeout the target holds, then is released, 
     held += view.mode == DeviceWatchdog::Mode::held ? 1 : 0;
     released += view.mode == DeviceWatchdog::Mode::released ? 1 : 0;
     if (n == 2400) slack = std::abs(view.error[0]);
-    if (view.mode != DeviceWatchdog::Mode::live) CHECK(view.felt[0] == 0);
+    if (view.mode != DeviceWatchdog::Mode::live) CHECK(view.motor_torques[0] == 0);
   }
   CHECK(held > 990);
   CHECK(held < 1010);
