@@ -50,12 +50,12 @@ class VrpnDevice final : public InputDevice {
  public:
   // Waits for the first pose, at most twice `patience`. Throws InputError: unknown host, connection
   // refused, not a VRPN server, unknown device.
-  VrpnDevice(const VrpnAddress& address, const OmniParameters& figures,
+  VrpnDevice(const VrpnAddress& address, const OmniParameters& parameters,
              const VrpnSettings& settings = {});
   ~VrpnDevice() override;  // ends the force
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override;
-  const OmniParameters& figures() const override { return figures_; }
+  const OmniParameters& parameters() const override { return parameters_; }
   std::string description() const override { return description_; }
   bool has_motors() const override;  // whether the server accepts forces
   VrpnCounts counts() const;
@@ -63,7 +63,7 @@ class VrpnDevice final : public InputDevice {
  private:
   class Link;
   std::unique_ptr<Link> link_;
-  OmniParameters figures_;
+  OmniParameters parameters_;
   std::string description_;
   double silence_;
   // Motion from one report to the next.

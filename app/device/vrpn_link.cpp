@@ -31,9 +31,9 @@ double unwrapped(double angle, double last) {
 
 }  // namespace
 
-VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& figures, VrpnSettings settings)
+VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& parameters, VrpnSettings settings)
     : address_(std::move(address)),
-      figures_(figures),
+      parameters_(parameters),
       settings_(std::move(settings)),
       name_(fmt::format("{}@{}:{}", address_.device, address_.host, address_.port)),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -216,7 +216,7 @@ void VrpnDevice::Link::take(const VrpnStream& stream) {
     last_pose_ = report_.arrival = steady_seconds();
     ++report_.number;
     stylus_ = stream.pose().p;
-    if (const auto theta = omni_inverse(figures_, stream.pose())) {
+    if (const auto theta = omni_inverse(parameters_, stream.pose())) {
       for (std::size_t j = 0; j < 6; ++j)
         report_.theta[j] = unwrapped((*theta)[j], report_.theta[j]);
     } else {

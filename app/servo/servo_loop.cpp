@@ -209,7 +209,7 @@ DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, 
 
 std::unique_ptr<DeviceMotion> record_operator(InputDevice& device, double duration, bool real_time,
                                               const std::function<void(double)>& tick) {
-  const double h = 1 / device.figures().rate;
+  const double h = 1 / device.parameters().rate;
   const auto steps = static_cast<std::size_t>(std::ceil(duration / h - 1e-9));
   auto hand = std::make_unique<DeviceMotion>(steps);
   ServoClock clock(h);

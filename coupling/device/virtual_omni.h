@@ -36,7 +36,7 @@ struct ArmImpedance {
 };
 
 struct VirtualOmniSettings {
-  OmniParameters figures;
+  OmniParameters parameters;
   ArmImpedance arm;
   double device_damping = 0;                      // of the device [N s/m]
   double delay_to_host = 0, delay_to_motors = 0;  // [s]
@@ -50,7 +50,7 @@ class VirtualOmni final : public InputDevice {
 
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override;
-  const OmniParameters& figures() const override { return figures_; }
+  const OmniParameters& parameters() const override { return parameters_; }
   std::string description() const override {
     return "virtual Phantom Omni, moved by: " + hand_->description();
   }
@@ -84,7 +84,7 @@ class VirtualOmni final : public InputDevice {
   void sense() noexcept;
 
   std::shared_ptr<const OperatorMotion> hand_;
-  OmniParameters figures_;
+  OmniParameters parameters_;
   double viscous_, period_, delay_to_host_, delay_to_motors_;
   Response response_;
   OperatorSample wanted_;  // at the last tick

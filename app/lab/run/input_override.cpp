@@ -197,10 +197,10 @@ std::optional<OperatorFrame> InputOverride::frame(double t) const {
   frame.gripper_closed = frame.active ? target_.gripper_closed : own_->sample(t, t - 1e-6).button;
   // A device chosen since the last step has not moved anything yet.
   if (!loop_ || !is_live_ || loop_revision_ != input_.revision()) return frame;
-  const OmniParameters& figures = input_.device()->figures();
+  const OmniParameters& parameters = input_.device()->parameters();
   frame.theta = loop_->device().theta;
   frame.torque = loop_->force().torque;
-  frame.force_W = world_from_device(omni_force(figures, frame.theta, frame.torque));
+  frame.force_W = world_from_device(omni_force(parameters, frame.theta, frame.torque));
   frame.mode = static_cast<int>(loop_->watch().mode());
   return frame;
 }

@@ -27,8 +27,8 @@ void OperatorInput::choose(Source source, const std::string& spec) {
   if (source == Source::device) device = open_device(spec);
   if (source == Source::drag) {
     VirtualOmniSettings settings;
-    settings.figures.resolution = 0;  // scaled encoder counts per millisecond disturb the dampers
-    gestures = std::make_shared<DesktopInput>(settings.figures);
+    settings.parameters.resolution = 0;  // scaled encoder counts per tick disturb the dampers
+    gestures = std::make_shared<DesktopInput>(settings.parameters);
     device = std::make_unique<VirtualOmni>(gestures, settings);
     gestures->button(0, gripper_);
   }

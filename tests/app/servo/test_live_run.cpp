@@ -23,7 +23,7 @@ class TestDevice final : public InputDevice {
     return at;
   }
   void render(const DeviceForce& force) noexcept override { rendered = force; }
-  const OmniParameters& figures() const override { return omni_; }
+  const OmniParameters& parameters() const override { return omni_; }
   std::string description() const override { return "a test"; }
   bool has_motors() const override { return true; }
 
@@ -86,11 +86,11 @@ position = [0.3, 0.16, 0.3]
   CHECK(device.rendered.torque[1] == 0);
   const Vector3 torque(device.rendered.torque[0], device.rendered.torque[1],
                        device.rendered.torque[2]);
-  const double most = device.figures().peak_force;
-  const double rendered = stylus_force(device.figures(), turned(0.2).theta, torque);
+  const double most = device.parameters().peak_force;
+  const double rendered = stylus_force(device.parameters(), turned(0.2).theta, torque);
   // Twice the spring's torque, limited by the motors.
   const double wanted =
-      stylus_force(device.figures(), turned(0.2).theta, Vector3(2 * spring, 0, 0));
+      stylus_force(device.parameters(), turned(0.2).theta, Vector3(2 * spring, 0, 0));
   CHECK(rendered == doctest::Approx(std::min(most, wanted)).epsilon(1e-6));
 }
 

@@ -121,7 +121,7 @@ TEST_CASE("desktop input: values that are not finite are ignored, no allocation"
 TEST_CASE("desktop input moves the virtual Omni's stylus to the point, through the arm") {
   const auto hand = std::make_shared<DesktopInput>(OmniParameters{});
   VirtualOmniSettings settings;
-  settings.figures.friction = 0;
+  settings.parameters.friction = 0;
   VirtualOmni omni(hand, settings);
   omni.poll(0);
   const Vector3 start = omni.truth().position;
