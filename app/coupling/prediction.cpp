@@ -86,7 +86,7 @@ void add_modes(const PredictTask& task, Predicted& found) {
     mode.shape.cwiseAbs().maxCoeff(&largest);
     mode.shape /= double(mode.shape[largest]);
     if (mode.omega > 0) mode.errors = errors_of_mode(mode.omega, mode.zeta, task);
-    if (modes.squares[i] < 0)
+    if (modes.omega_squared[i] < 0)
       found.warnings.push_back(fmt::format(
           "negative stiffness along a mode, mainly of '{}': the couplings push away from their "
           "targets (a point spring acts with the sine of the angle to its target)",

@@ -13,7 +13,7 @@
 // last render().
 //
 // After `silence` without a report `alive` is false. A connection that breaks, sends invalid data
-// or no pose for `patience` is closed and retried at increasing intervals. Each kind of trouble is
+// or no pose for `timeout` is closed and retried at increasing intervals. Each kind of trouble is
 // reported once, and counted.
 #pragma once
 
@@ -32,7 +32,7 @@ struct VrpnAddress {
 
 struct VrpnSettings {
   double silence = 0.1;                         // [s]
-  double patience = 3;                          // [s]
+  double timeout = 3;                           // [s]
   double first_retry = 0.1, longest_retry = 2;  // [s]
   double force_timeout = 0.1;                   // [s]
   double rate = 1000;                           // requested from the server [Hz]
@@ -48,7 +48,7 @@ struct VrpnCounts {
 
 class VrpnDevice final : public InputDevice {
  public:
-  // Waits for the first pose, at most twice `patience`. Throws InputError: unknown host, connection
+  // Waits for the first pose, at most twice `timeout`. Throws InputError: unknown host, connection
   // refused, not a VRPN server, unknown device.
   VrpnDevice(const VrpnAddress& address, const OmniParameters& parameters,
              const VrpnSettings& settings = {});

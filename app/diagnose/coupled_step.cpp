@@ -101,21 +101,21 @@ CoupledStep::Component CoupledStep::with_gain(const Component& component, Gain g
   return other;
 }
 
-bool CoupledStep::holds_with_gain(int coupling, Gain gain, double value) const {
+bool CoupledStep::is_stable_with_gain(int coupling, Gain gain, double value) const {
   Components changed = components_;
   for (Component& c : changed)
     if (coupling < 0 || c.coupling == coupling) c = with_gain(c, gain, value);
   return is_stable(changed, step_);
 }
 
-bool CoupledStep::holds_with_hold(int coupling, int steps) const {
+bool CoupledStep::is_stable_with_hold(int coupling, int steps) const {
   Components changed = components_;
   for (Component& c : changed)
     if (c.coupling == coupling) c.part.hold_steps = steps;
   return is_stable(changed, step_);
 }
 
-bool CoupledStep::holds_with_softer(const std::vector<int>& couplings, double factor) const {
+bool CoupledStep::is_stable_with_softer(const std::vector<int>& couplings, double factor) const {
   Components changed = components_;
   for (Component& c : changed) {
     if (!contains(couplings, c.coupling)) continue;
@@ -126,7 +126,7 @@ bool CoupledStep::holds_with_softer(const std::vector<int>& couplings, double fa
   return is_stable(changed, step_);
 }
 
-bool CoupledStep::holds_implicitly(const std::vector<int>& couplings) const {
+bool CoupledStep::is_stable_with_implicit(const std::vector<int>& couplings) const {
   Components others = components_;
   for (Component& c : others) {
     if (!contains(couplings, c.coupling)) continue;

@@ -49,7 +49,7 @@ struct SteppedCoupling {
     all.push_back(its);
     return all;
   }
-  bool holds(const CoupledTerm& its) const {
+  bool is_stable(const CoupledTerm& its) const {
     constexpr double kGrowthRounding = 1e-9;
     return spectral_radius(M, parts(its), integrator, h) <= 1 + kGrowthRounding;
   }
@@ -94,9 +94,9 @@ std::string rate_fix(const SteppedCoupling& c, double max_step) {
   CoupledTerm its = c.part;
   for (its.hold_steps = static_cast<int>(kMargin * max_step / c.h); its.hold_steps > 0;
        --its.hold_steps)
-    if (c.holds(its))
+    if (c.is_stable(its))
       return fmt::format("rate >= {} Hz", short_number_text(1 / (its.hold_steps * c.h)));
-  return c.holds(its) ? "no rate (a force at each step)" : "";
+  return c.is_stable(its) ? "no rate (a force at each step)" : "";
 }
 
 std::string gain_fix(const SteppedCoupling& c, const StabilityViolation& s) {
@@ -148,7 +148,7 @@ StabilityViolation violation_of(const SteppedCoupling& c) {
   s.limit = c.fastest * s.max_step;
   s.gain = c.is_weld() ? "time constant" : c.is_spring() ? "stiffness" : "damping";
   if (s.step <= s.max_step) return s;
-  const double part = max_stable_factor([&](double factor) { return c.holds(c.scaled(factor)); });
+  const double part = max_stable_factor([&](double f) { return c.is_stable(c.scaled(f)); });
   if (part > 0)
     s.max_gain = c.is_weld()     ? spec.reference.time_constant / part
                  : c.is_spring() ? part * spec.spring.k

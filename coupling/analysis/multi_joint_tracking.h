@@ -52,7 +52,7 @@ class MultiJointTrackingError {
 
   ChainDynamics chain_;
   Eigen::MatrixXd shapes_, damping_;
-  Eigen::VectorXd squares_;
+  Eigen::VectorXd omega_squared_;
   std::vector<bool> held_;
   double slowest_ = 0, fastest_ = 0;  // [rad/s]; 0: no mode has a frequency
 };
