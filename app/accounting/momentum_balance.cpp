@@ -89,10 +89,10 @@ void MomentumBalance::add_step(double h, std::span<const double> weights,
   }
   const ConstraintWork& account = *after.mechanism().account;
   if (rule_ != Rule::located)
-    for (const ConstraintWork::Push& push : account.pushes())
+    for (const ConstraintWork::Projection& projection : account.projections())
       for (std::size_t t = 0; t < trees_.size(); ++t)
         sums_[tree(t)] +=
-            contents(trees_[t].bodies, push.to) - contents(trees_[t].bodies, push.from);
+            contents(trees_[t].bodies, projection.to) - contents(trees_[t].bodies, projection.from);
   for (std::size_t l = 0; l < loop_count_; ++l) {
     sums_[loop(l)] += account.loops()[l];
     stabilisation_[l] += account.stabilisation()[l];

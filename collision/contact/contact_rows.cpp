@@ -136,8 +136,8 @@ void ContactRows::add_friction_couples(const ConstraintFrame& frame, const Conta
     ImpulseConstraint& c = problem.add(ConstraintType::friction_disc, rows, tree[0], tree[1]);
     c.radius = radius;
     c.of = of;
-    frame.trees.add_turn_rows(frame.k, body_a, about, rows, -1, problem.J(c, 0));
-    frame.trees.add_turn_rows(frame.k, body_b, about, rows, 1, problem.J(c, one_tree ? 0 : 1));
+    frame.trees.add_rotation_rows(frame.k, body_a, about, rows, -1, problem.J(c, 0));
+    frame.trees.add_rotation_rows(frame.k, body_b, about, rows, 1, problem.J(c, one_tree ? 0 : 1));
     if (has_drives_) {
       const Vector3 w = about.transpose() * (frame.k.w_WL[static_cast<std::size_t>(body_b)] -
                                              frame.k.w_WL[static_cast<std::size_t>(body_a)]);

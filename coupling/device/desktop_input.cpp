@@ -47,12 +47,12 @@ void DesktopInput::publish() noexcept {
   for (std::size_t j = 0; j < 6; ++j) {
     const double keys = (keys_[j][1] ? 1.0 : 0.0) - (keys_[j][0] ? 1.0 : 0.0);
     const double rate = std::clamp(keys + axes_[j], -1.0, 1.0);
-    goal_.rate[j] = rate * (j < 3 ? settings_.speed : settings_.turn_rate);
+    goal_.rate[j] = rate * (j < 3 ? settings_.speed : settings_.angular_speed);
   }
   newest_.write(goal_);
 }
 
-void DesktopInput::turn_stylus(const Vector3& by) noexcept {
+void DesktopInput::rotate_stylus(const Vector3& by) noexcept {
   if (!by.allFinite()) return;
   update([&] {
     for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];

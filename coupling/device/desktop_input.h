@@ -21,8 +21,8 @@ namespace twinarm {
 enum class DeviceAxis { right, up, toward, yaw, pitch, roll };
 
 struct DesktopInputSettings {
-  double speed = 0.1, turn_rate = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
-  double dead_zone = 0.08;              // of axes
+  double speed = 0.1, angular_speed = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
+  double dead_zone = 0.08;                  // of axes
   OmniAngles start{0, 0.7, 0.2, 0, 0.6, 0};
 };
 
@@ -35,7 +35,7 @@ class DesktopInput final : public OperatorMotion {
   void place(const Vector3& p) noexcept {
     if (p.allFinite()) update([&] { goal_.p = p; });
   }
-  void turn_stylus(const Vector3& by) noexcept;  // yaw, pitch, roll [rad]
+  void rotate_stylus(const Vector3& by) noexcept;  // yaw, pitch, roll [rad]
   void key(DeviceAxis axis, bool positive, bool down) noexcept {
     update([&] { keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down; });
   }

@@ -61,7 +61,7 @@ void OperatorInput::joint(std::size_t driven, double value, double stamp) {
 }
 
 void OperatorInput::rotate_stylus(double yaw, double pitch, double roll, double stamp) {
-  if (gestures_) gestures_->turn_stylus({yaw, pitch, roll});
+  if (gestures_) gestures_->rotate_stylus({yaw, pitch, roll});
   stamp_ = stamp;
 }
 
