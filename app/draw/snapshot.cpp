@@ -120,8 +120,8 @@ Snapshot snapshot_of(const SceneModel& scene, SceneCouplings& couplings, const S
     snapshot.targets.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
     if (spec.target == CouplingTarget::Kind::start || spec.target == CouplingTarget::Kind::state)
       continue;
-    const OperatorSample hand = couplings.hand(c).sample(x.t, x.t + 1e-6);
-    snapshot.devices.push_back({hand.theta, hand.button});
+    const OperatorSample sampled = couplings.motion(c).sample(x.t, x.t + 1e-6);
+    snapshot.devices.push_back({sampled.theta, sampled.button});
   }
   return snapshot;
 }

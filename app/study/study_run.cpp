@@ -82,7 +82,7 @@ TrackingSetup tracking_setup(const StudyRobot& robot, const OperatorMotion& hand
   TrackingSetup setup;
   setup.kvr_model = &robot.kvr_model();
   setup.dvr_model = &robot.dvr_model(spec.coupling.type);
-  setup.hand = &hand;
+  setup.motion = &hand;
   setup.joints = robot.joints();
   setup.kvr_rates = spec.kvr_rates;
   setup.integrator = spec.integrator;

@@ -30,7 +30,7 @@ TrackingError tracking_error(const TrackingSeries& series) {
 
 TrackingSystem::TrackingSystem(const TrackingSetup& setup) : setup_(setup) {
   check_step_size(setup.h);
-  kvr_ = std::make_unique<TargetRobot>(*setup.kvr_model, *setup.hand, setup.mapping, setup.joints,
+  kvr_ = std::make_unique<TargetRobot>(*setup.kvr_model, *setup.motion, setup.mapping, setup.joints,
                                        setup.kvr_rates);
   State<double> start(*setup.dvr_model);
   start.q = kvr_->start().x.q;  // at rest at the KVR's pose
@@ -61,7 +61,7 @@ TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step)
   series.q_K.resize(iq_.size());
   series.q_D.resize(iq_.size());
   series.coupling_force.resize(couplings_.empty() ? 0 : couplings_.front()->springs().size());
-  const auto steps = static_cast<std::size_t>(std::lround(setup_.hand->duration() / setup_.h));
+  const auto steps = static_cast<std::size_t>(std::lround(setup_.motion->duration() / setup_.h));
   const auto sample = [&] {
     record(series);
     if (each_step) each_step(simulation_->state().t);

@@ -29,7 +29,7 @@ TrackingError tracking_error(const TrackingSeries& series);
 struct TrackingSetup {
   const Model<double>* kvr_model = nullptr;  // no added masses
   const Model<double>* dvr_model = nullptr;  // same tree, masses as simulated
-  const OperatorMotion* hand = nullptr;
+  const OperatorMotion* motion = nullptr;
   OperatorMapping mapping;
   DrivenJoints joints;
   std::vector<CouplingSpec> couplings;  // forces of the first are recorded

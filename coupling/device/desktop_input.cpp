@@ -23,17 +23,18 @@ OmniAngles DesktopInput::angles(const Goal& goal, double t) const noexcept {
 }
 
 OperatorSample DesktopInput::sample(double t, double /*toward*/) const {
-  if (t > asked_.load(std::memory_order_relaxed)) asked_.store(t, std::memory_order_relaxed);
+  if (t > last_sample_time_.load(std::memory_order_relaxed))
+    last_sample_time_.store(t, std::memory_order_relaxed);
   const Goal& goal = newest_.read();
-  OperatorSample hand;
-  hand.theta = angles(goal, t);
-  hand.button = goal.buttons[0];
-  hand.clutch = goal.buttons[1];
-  if (goal.rate == std::array<double, 6>{}) return hand;
+  OperatorSample sampled;
+  sampled.theta = angles(goal, t);
+  sampled.button = goal.buttons[0];
+  sampled.clutch = goal.buttons[1];
+  if (goal.rate == std::array<double, 6>{}) return sampled;
   constexpr double kAhead = 1e-6;  // [s]; finite difference, also along the workspace boundary
   const OmniAngles next = angles(goal, t + kAhead);
-  for (std::size_t j = 0; j < 6; ++j) hand.theta_dot[j] = (next[j] - hand.theta[j]) / kAhead;
-  return hand;
+  for (std::size_t j = 0; j < 6; ++j) sampled.theta_dot[j] = (next[j] - sampled.theta[j]) / kAhead;
+  return sampled;
 }
 
 void DesktopInput::move_goal(double t) noexcept {

@@ -39,12 +39,12 @@ OperatorSample DeviceMotion::sample(double t, double toward) const {
     (at(middle).t <= inside ? low : high) = middle;
   }
   const DeviceStep& step = at(low);
-  OperatorSample hand = step.hand;
+  OperatorSample sampled = step.hand;
   const double since = std::clamp(t - step.t, 0.0, step.h);
-  for (std::size_t j = 0; j < 6; ++j) hand.theta[j] += since * hand.theta_dot[j];
+  for (std::size_t j = 0; j < 6; ++j) sampled.theta[j] += since * sampled.theta_dot[j];
   const bool rests = inside < step.t || inside > step.t + step.h;
-  if (rests) hand.theta_dot.fill(0);
-  return hand;
+  if (rests) sampled.theta_dot.fill(0);
+  return sampled;
 }
 
 std::vector<DeviceStep> DeviceMotion::steps() const {
@@ -96,9 +96,9 @@ std::string device_log_line(const DeviceStep& step) {
   return text + (step.hand.button ? ",1\n" : ",0\n");
 }
 
-void write_device_log(const DeviceMotion& hand, const std::filesystem::path& file) {
+void write_device_log(const DeviceMotion& motion, const std::filesystem::path& file) {
   std::string text = device_log_header();
-  for (const DeviceStep& step : hand.steps()) text += device_log_line(step);
+  for (const DeviceStep& step : motion.steps()) text += device_log_line(step);
   write_whole_file(file, text);
 }
 
@@ -144,9 +144,9 @@ std::unique_ptr<DeviceMotion> read_device_log(const std::filesystem::path& file)
     faults.add({file.string(), 0, "", "the log has no steps", "record a run of at least one step",
                 "hand.empty"});
   faults.check();
-  auto hand = std::make_unique<DeviceMotion>(steps.size());
-  for (const DeviceStep& step : steps) hand->set(step);
-  return hand;
+  auto motion = std::make_unique<DeviceMotion>(steps.size());
+  for (const DeviceStep& step : steps) motion->set(step);
+  return motion;
 }
 
 std::unique_ptr<OperatorMotion> read_motion_file(const std::filesystem::path& file) {

@@ -64,9 +64,9 @@ std::size_t ticks_of(double delay, double period) {
 
 }  // namespace
 
-VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> hand,
+VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> motion,
                          const VirtualOmniSettings& settings)
-    : hand_(std::move(hand)),
+    : motion_(std::move(motion)),
       parameters_(settings.parameters),
       viscous_(settings.device_damping),
       period_(1 / settings.parameters.rate),
@@ -178,7 +178,7 @@ void VirtualOmni::stop_at_ranges() noexcept {
 
 void VirtualOmni::update_angles() noexcept {
   const double t = static_cast<double>(tick_) * period_;
-  const OperatorSample now = hand_->sample(t, t + period_);
+  const OperatorSample now = motion_->sample(t, t + period_);
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(now.theta.begin(), now.theta.end(), finite) ||
       !std::all_of(now.theta_dot.begin(), now.theta_dot.end(), finite)) {

@@ -56,16 +56,16 @@ bool share_target(const SceneCoupling& a, const SceneCoupling& b) {
 }  // namespace
 
 struct SceneCouplings::Target {
-  Target(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<OperatorMotion> motion)
-      : hand(std::move(motion)),
-        kvr(scene.model, *hand, {}, spec.driven,
+  Target(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<OperatorMotion> given)
+      : motion(std::move(given)),
+        kvr(scene.model, *motion, {}, spec.driven,
             spec.absolute_damper ? TargetRates::none : TargetRates::from_operator),
-        shown(scene.model, *hand, {}, spec.driven) {
+        shown(scene.model, *motion, {}, spec.driven) {
     kvr.set_pose(spec.rest);
     shown.set_pose(spec.rest);
   }
 
-  std::unique_ptr<OperatorMotion> hand;
+  std::unique_ptr<OperatorMotion> motion;
   TargetRobot kvr, shown;
 };
 
@@ -134,8 +134,8 @@ void SceneCouplings::forget_operator_motions() {
     active->target->shown.forget();
   }
 }
-const OperatorMotion& SceneCouplings::hand(std::size_t c) const {
-  return *couplings_[c]->target->hand;
+const OperatorMotion& SceneCouplings::motion(std::size_t c) const {
+  return *couplings_[c]->target->motion;
 }
 
 const Coupling& SceneCouplings::coupling(std::size_t c) const {

@@ -66,7 +66,7 @@ class SceneCouplings {
   Vector3 force(std::size_t c) const;
   double m_star(std::size_t c) const;  // added inertia in the last step
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
-  const OperatorMotion& hand(std::size_t c) const;
+  const OperatorMotion& motion(std::size_t c) const;
   // After a change of operator motions: discards cached targets.
   void forget_operator_motions();
 

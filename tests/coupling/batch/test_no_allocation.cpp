@@ -42,7 +42,7 @@ struct System {
   explicit System(const Run& run, TargetRates rates) {
     TrackingSetup setup;
     setup.kvr_model = setup.dvr_model = &model;
-    setup.hand = &hand;
+    setup.motion = &hand;
     setup.joints.turned = {"joint1", "joint2"};
     setup.couplings = {run.spec};
     setup.integrator = run.integrator;
