@@ -78,7 +78,7 @@ void add_tick(const TickResult& view, double step, LiveSummary& summary) {
   }
   for (std::size_t j = 0; j < 3; ++j)
     summary.max_torque[j] = std::max(summary.max_torque[j], std::abs(view.motor_torques[j]));
-  summary.duration = view.hand.t + step;
+  summary.duration = view.motion.t + step;
 }
 
 SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
@@ -106,7 +106,7 @@ void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummar
   summary.servo = run_servo(run, plan, stop, [&](SpscRing<TickResult>& ring) {
     for (TickResult view; ring.pop(view);) {
       add_tick(view, run.step(), summary);
-      log.write(view.hand);
+      log.write(view.motion);
     }
     log.flush();
     // After Ctrl-C the results so far are kept.

@@ -20,7 +20,7 @@ namespace twinarm {
 // Device angles and rates of the step [t, t + h].
 struct DeviceStep {
   double t = 0, h = 0;  // [s]
-  OperatorSample hand;
+  OperatorSample sample;
 };
 
 class DeviceMotion final : public OperatorMotion {

@@ -177,10 +177,10 @@ void InputOverride::replay_step(const std::optional<DeviceStep>& motion) {
   if (!active_) first_.set(*motion);
   active_ = true;
   for (std::size_t j = 0; j < target_.q.size(); ++j) {
-    target_.q[j] = OperatorMapping{}.robot_angle(motion->hand, j);
-    target_.qd[j] = OperatorMapping{}.robot_rate(motion->hand, j);
+    target_.q[j] = OperatorMapping{}.robot_angle(motion->sample, j);
+    target_.qd[j] = OperatorMapping{}.robot_rate(motion->sample, j);
   }
-  target_.gripper_closed = motion->hand.button;
+  target_.gripper_closed = motion->sample.button;
 }
 
 void InputOverride::after_step(const Simulation& simulation, double h, bool finite) noexcept {

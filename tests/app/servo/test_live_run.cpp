@@ -54,7 +54,7 @@ TEST_CASE("live run: the target robot follows the device by the gain, and pulls 
   double farthest = 0;
   for (int n = 0; n < 2000; ++n) {
     const TickResult view = run.tick();
-    CHECK(std::abs(OperatorMapping{}.robot_angle(view.hand.hand, 0) -
+    CHECK(std::abs(OperatorMapping{}.robot_angle(view.motion.sample, 0) -
                    2 * 0.3 * std::sin(2 * run.time() - 0.002)) < 1e-3);
     farthest = std::max(farthest, std::abs(view.error[0]));
   }
@@ -111,7 +111,7 @@ TEST_CASE("live run: after a device timeout the target holds, then is released, 
   int held = 0, released = 0;
   for (int n = 0; n < 4000; ++n) {
     const TickResult view = run.tick();
-    const double angle = OperatorMapping{}.robot_angle(view.hand.hand, 0);
+    const double angle = OperatorMapping{}.robot_angle(view.motion.sample, 0);
     fastest = std::max(fastest, std::abs(angle - last));
     last = angle;
     held += view.mode == DeviceWatchdog::Mode::held ? 1 : 0;
@@ -135,7 +135,7 @@ TEST_CASE("live run: a device state that is not finite leaves the target robot a
   TickResult view;
   for (int n = 0; n < 300; ++n) view = run.tick();
   CHECK(view.finite);
-  CHECK(std::abs(OperatorMapping{}.robot_angle(view.hand.hand, 0) - 0.02) < 1e-3);
+  CHECK(std::abs(OperatorMapping{}.robot_angle(view.motion.sample, 0) - 0.02) < 1e-3);
 }
 
 TEST_CASE("live run: a diverged robot is not stepped any more, and renders no force") {
@@ -212,7 +212,7 @@ TEST_CASE("servo loop: takes the requested ticks in real time") {
   const double start = monotonic_time();
   const ServoResult result = run_servo(run, plan, stop, [&](SpscRing<TickResult>& ring) {
     for (TickResult view; ring.pop(view);) {
-      CHECK(view.hand.t == doctest::Approx(0.001 * static_cast<double>(drained)).epsilon(1e-9));
+      CHECK(view.motion.t == doctest::Approx(0.001 * static_cast<double>(drained)).epsilon(1e-9));
       ++drained;
     }
   });
