@@ -44,7 +44,7 @@ class TargetRobot {
   // Samples the motion for the step [t, t + h]; a repeated call costs nothing.
   void begin_step(double t, double h);
   // Discards the samples, after a change of the motion.
-  void forget() { started_ = false; }
+  void invalidate() { started_ = false; }
   const TargetSample& start() const { return start_; }
   const TargetSample& end() const { return end_; }
   // At a stage within the step, with one-sided velocities.

@@ -130,8 +130,8 @@ ForceSource* SceneCouplings::source(std::size_t c) {
 
 void SceneCouplings::forget_operator_motions() {
   for (const std::shared_ptr<Active>& active : couplings_) {
-    active->target->kvr.forget();
-    active->target->shown.forget();
+    active->target->kvr.invalidate();
+    active->target->shown.invalidate();
   }
 }
 const OperatorMotion& SceneCouplings::motion(std::size_t c) const {
