@@ -68,10 +68,9 @@ ModeErrors errors_of_mode(double omega, double zeta, const PredictTask& task) {
   errors.start = peak_after_jump(v, omega, zeta);
   errors.reversal = peak_after_jump(2 * v, omega, zeta);
   for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
-    errors.smooth[i] =
-        FollowingError(kSmoothMoves[i], task.distance, task.time, omega, zeta).peak();
-  errors.absolute_lag = absolute_damper_lag(v, omega, zeta);
-  errors.weld_lag = mocap_weld_lag(v, 1 / omega);
+    errors.smooth[i] = ProfileError(kSmoothMoves[i], task.distance, task.time, omega, zeta).peak();
+  errors.absolute_lag = absolute_damper_error(v, omega, zeta);
+  errors.weld_lag = mocap_weld_error(v, 1 / omega);
   return errors;
 }
 
@@ -150,7 +149,8 @@ void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& fo
   errors.reversal = behind.after_reversal(v, task.time);
   for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
     errors.smooth[i] = behind.behind(kSmoothMoves[i], distance, task.time);
-  errors.lag = MultiJointTrackingError({found.M, found.K, found.B + friction, late}).lag(v);
+  const MultiJointTrackingError delayed({found.M, found.K, found.B + friction, late});
+  errors.lag = delayed.steady_state(v);
   found.errors = std::move(errors);
 }
 

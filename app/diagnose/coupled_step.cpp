@@ -137,7 +137,7 @@ bool CoupledStep::is_stable_with_implicit(const std::vector<int>& couplings) con
   return growth_of(others, Integrator::semi_implicit, step_) <= 1 + kRounding;
 }
 
-CoupledStep::Lag CoupledStep::lag(const VectorXd& v) const {
+CoupledStep::Errors CoupledStep::tracking_errors(const VectorXd& v) const {
   const MatrixXd none = MatrixXd::Zero(M_.rows(), M_.cols());
   MatrixXd K = none, B = joint_damping_, absolute = joint_damping_, late = joint_damping_;
   for (const Component& c : components_) {
@@ -148,7 +148,7 @@ CoupledStep::Lag CoupledStep::lag(const VectorXd& v) const {
     late += c.delay * c.part.K;
   }
   return {MultiJointTrackingError({M_, K, B, absolute}).after_start(v, 1),
-          MultiJointTrackingError({M_, K, B, late}).lag(v)};
+          MultiJointTrackingError({M_, K, B, late}).steady_state(v)};
 }
 
 }  // namespace twinarm

@@ -36,10 +36,10 @@ class CoupledStep {
 
   // Tracking error of each joint when all targets start at velocity v: maximum and steady state;
   // rows as in app/coupling/prediction.h. Empty where it is unbounded.
-  struct Lag {
+  struct Errors {
     Eigen::VectorXd start, later;
   };
-  Lag lag(const Eigen::VectorXd& v) const;
+  Errors tracking_errors(const Eigen::VectorXd& v) const;
   Eigen::Index rows() const { return M_.rows(); }
 
  private:

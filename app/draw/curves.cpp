@@ -41,7 +41,7 @@ std::vector<CurveSample> sample_contacts(const SceneModel*, const Snapshot& snap
 }
 
 // Of each joint the angle between target and robot.
-std::vector<CurveSample> sample_lag(const SceneModel* scene, const Snapshot& snapshot) {
+std::vector<CurveSample> sample_tracking_error(const SceneModel* scene, const Snapshot& snapshot) {
   std::vector<CurveSample> all;
   if (!scene) return all;
   const Model<double>& model = scene->model;
@@ -82,7 +82,7 @@ const std::vector<CurveKind>& all_curves() {
       {"forces", "spring-dampers [N]", sample_coupling_forces<Kind::force>},
       {"torques", "spring-dampers [N m]", sample_coupling_forces<Kind::couple>},
       {"contacts", "contact forces [N]", sample_contacts},
-      {"tracking-error", "tracking error [deg]", sample_lag}};
+      {"tracking-error", "tracking error [deg]", sample_tracking_error}};
   return all;
 }
 

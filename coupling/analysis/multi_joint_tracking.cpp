@@ -87,7 +87,7 @@ VectorXd MultiJointTrackingError::behind(MotionProfile move, const VectorXd& dis
                std::numbers::pi / time);
 }
 
-VectorXd MultiJointTrackingError::lag(const VectorXd& v) const {
+VectorXd MultiJointTrackingError::steady_state(const VectorXd& v) const {
   const VectorXd load = shapes_.transpose() * (chain_.absolute * restrict_to_held(v, 0));
   VectorXd y = VectorXd::Zero(load.size());
   for (Index i = 0; i < y.size(); ++i)

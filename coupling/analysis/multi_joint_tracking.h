@@ -40,10 +40,10 @@ class MultiJointTrackingError {
   }
   Eigen::VectorXd after_reversal(const Eigen::VectorXd& v, double time) const {
     const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
-    return peaks({{0, -2, {}, {{-1}}}}, v, lag(v), end, 0);
+    return peaks({{0, -2, {}, {{-1}}}}, v, steady_state(v), end, 0);
   }
   // Steady-state error at constant velocity v: K e = A v. NaN if unbounded.
-  Eigen::VectorXd lag(const Eigen::VectorXd& v) const;
+  Eigen::VectorXd steady_state(const Eigen::VectorXd& v) const;
 
  private:
   Eigen::VectorXd peaks(const std::vector<ProfileSegment>& pieces, const Eigen::VectorXd& along,

@@ -155,14 +155,14 @@ std::vector<ProfileSegment> segments_of(MotionProfile move, double D, double T) 
   return pieces;
 }
 
-FollowingError::FollowingError(MotionProfile move, double D, double T, double omega, double zeta,
-                               Damper damper)
+ProfileError::ProfileError(MotionProfile move, double D, double T, double omega, double zeta,
+                           Damper damper)
     : time_(T), omega_(omega), zeta_(zeta), W_(std::numbers::pi / T), damper_(damper) {
   for (const ProfileSegment& piece : segments_of(move, D, T)) add_piece(piece);
   solve();
 }
 
-void FollowingError::add_piece(const ProfileSegment& move) {
+void ProfileError::add_piece(const ProfileSegment& move) {
   Piece piece{move.start, move.jump, move.acceleration, {}};
   const Forcing& velocity = move.velocity;
   if (damper_ == Damper::absolute) {
@@ -178,7 +178,7 @@ void FollowingError::add_piece(const ProfileSegment& move) {
 
 // Powers, from the highest down: w^2 p_n + 2 z w (n+1) p_n+1 + (n+1)(n+2) p_n+2 = f_n.
 // (c cos + d sin): (w^2 - W^2) C + 2 z w W D = c,  (w^2 - W^2) D - 2 z w W C = d.
-void FollowingError::solve() {
+void ProfileError::solve() {
   const double w2 = omega_ * omega_, b = 2 * zeta_ * omega_;
   Motion end{0, 0};
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -203,7 +203,7 @@ void FollowingError::solve() {
   }
 }
 
-FollowingError::Motion FollowingError::of_particular(const Piece& piece, double s) const {
+ProfileError::Motion ProfileError::of_particular(const Piece& piece, double s) const {
   Motion motion{0, 0};
   const std::vector<double>& p = piece.particular.power;
   for (std::size_t n = p.size(); n-- > 0;) {
@@ -217,7 +217,7 @@ FollowingError::Motion FollowingError::of_particular(const Piece& piece, double 
 
 // e'' + 2 z w e' + w^2 e = 0. With r^2 = w^2 |1 - z^2|, c and s of cos, sin or of cosh, sinh:
 // e = exp(-z w t) (e_0 c(r t) + (e'_0 + z w e_0) s(r t)/r).
-FollowingError::Motion FollowingError::free_motion(double e, double e_dot, double t) const {
+ProfileError::Motion ProfileError::free_motion(double e, double e_dot, double t) const {
   const double r = omega_ * std::sqrt(std::abs(1 - zeta_ * zeta_)), zw = zeta_ * omega_;
   const double rate = e_dot + zw * e;
   double c, s_by_r, back;  // back: of c' = back s_by_r
@@ -239,7 +239,7 @@ FollowingError::Motion FollowingError::free_motion(double e, double e_dot, doubl
   return {now, -zw * now + e * back * s_by_r + rate * c};
 }
 
-double FollowingError::at(double t) const {
+double ProfileError::at(double t) const {
   const Piece* piece = &pieces_.front();
   for (const Piece& next : pieces_)
     if (t >= next.start) piece = &next;
@@ -248,7 +248,7 @@ double FollowingError::at(double t) const {
 
 // Maximum on a fine grid over the move and one period after it, refined by a parabola through three
 // points.
-double FollowingError::peak() const {
+double ProfileError::peak() const {
   constexpr double kPerPeriod = 400, kMin = 4000, kMax = 4e6;
   const double period = 2 * std::numbers::pi / omega_, end = time_ + period;
   const double count = std::clamp(kPerPeriod * end / period, kMin, kMax), dt = end / count;

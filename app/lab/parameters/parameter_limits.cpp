@@ -195,7 +195,7 @@ class TrackingErrors {
     Eigen::VectorXd v = Eigen::VectorXd::Ones(step_.rows());
     for (const NamedJoint& joint : input_.robot.coordinates.all())
       if (is_translational(joint.type)) v[static_cast<Eigen::Index>(joint.row)] = 0.1;
-    error_ = step_.lag(v);
+    error_ = step_.tracking_errors(v);
   }
   // Empty where no coupling acts on the joint, or it does not have one degree of freedom.
   std::string of(int coupling) const {
@@ -229,7 +229,7 @@ class TrackingErrors {
 
   const SimulateInput& input_;
   CoupledStep step_;
-  CoupledStep::Lag error_;
+  CoupledStep::Errors error_;
 };
 
 }  // namespace
