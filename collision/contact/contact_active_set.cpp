@@ -50,8 +50,8 @@ void ContactActiveSet::find_next_event(const ConstraintFrame& frame,
                    p.contact.n_W.dot(bodies_.relative_velocity(p.contact, frame.k)));
 }
 
-void ContactActiveSet::read_smooth_impulses(ContactPoint& point, const ImpulseConstraint& c,
-                                            double h, double normal, double friction) {
+void ContactActiveSet::read_smooth(ContactPoint& point, const ImpulseConstraint& c, double h,
+                                   double normal, double friction) {
   const bool moves = std::hypot(c.u[1], c.u[2]) > kMoves;
   const bool slid = c.law == ConstraintType::coulomb_cone && point.slip_W.norm() > kMoves;
   const bool same_direction = moves && point.slip_W.dot(point.velocity_W) > 0;

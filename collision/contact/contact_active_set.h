@@ -45,8 +45,8 @@ class ContactActiveSet final : public EventSource {
 
   // Reads a solution of Phase::smooth: contact modes and work of the active contacts.
   void clear_modes() { modes_.clear(); }
-  void read_smooth_impulses(ContactPoint& point, const ImpulseConstraint& c, double h,
-                            double normal, double friction);
+  void read_smooth(ContactPoint& point, const ImpulseConstraint& c, double h, double normal,
+                   double friction);
 
  private:
   // By pair: work of the normal force, work of friction, impulse (3), moment (3).

@@ -102,8 +102,7 @@ void ContactConstraints::read_step(const ConstraintFrame& frame, const ImpulsePr
       friction += couple.p[r] * (couple.u[r] - couple.b[r]);
     }
   }
-  if (frame.phase == Phase::smooth)
-    return active_.read_smooth_impulses(point, c, frame.h, normal, friction);
+  if (frame.phase == Phase::smooth) return active_.read_smooth(point, c, frame.h, normal, friction);
   ContactWork& work = works_.of(point.contact.a, point.contact.b);
   work.moment_W += frame.h * point.couple_W;
   const bool is_impact = c.p[0] > 0 && start[0] < -kMinBounceSpeed && u_n > start[0];

@@ -82,9 +82,7 @@ struct SpringModes {
   // [rad/s]; 0 if w^2 <= 0
   double omega(Eigen::Index i) const { return std::sqrt(std::max(0.0, omega_squared[i])); }
   // Damping / (2 w); exact for proportional damping.
-  double zeta(Eigen::Index i) const {
-    return omega_squared[i] > 0 ? damping(i, i) / (2 * omega(i)) : 0;
-  }
+  double zeta(Eigen::Index i) const { return omega(i) > 0 ? damping(i, i) / (2 * omega(i)) : 0; }
 };
 SpringModes spring_modes(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
                          const Eigen::MatrixXd& B);

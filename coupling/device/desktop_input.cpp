@@ -23,8 +23,7 @@ OmniAngles DesktopInput::angles(const Goal& goal, double t) const noexcept {
 }
 
 OperatorSample DesktopInput::sample(double t, double /*toward*/) const {
-  if (t > last_sample_time_.load(std::memory_order_relaxed))
-    last_sample_time_.store(t, std::memory_order_relaxed);
+  if (t > last_t_.load(std::memory_order_relaxed)) last_t_.store(t, std::memory_order_relaxed);
   const Goal& goal = newest_.read();
   OperatorSample sampled;
   sampled.theta = angles(goal, t);

@@ -69,7 +69,7 @@ class DesktopInput final : public OperatorMotion {
   void publish() noexcept;
   template <class Change>
   void update(Change change) noexcept {
-    const double t = last_sample_time_.load(std::memory_order_relaxed);
+    const double t = last_t_.load(std::memory_order_relaxed);
     move_goal(t);
     goal_.t = std::max(t, goal_.t);
     change();
@@ -82,7 +82,7 @@ class DesktopInput final : public OperatorMotion {
   std::array<std::array<bool, 2>, 6> keys_{};  // pressed, by axis and direction
   std::array<double, 6> axes_{};
   mutable TripleBuffer<Goal> newest_;
-  mutable std::atomic<double> last_sample_time_ = 0;  // newest time of a sample
+  mutable std::atomic<double> last_t_ = 0;  // newest time of a sample
 };
 
 }  // namespace twinarm

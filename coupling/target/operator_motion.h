@@ -27,16 +27,15 @@ struct OperatorMapping {
   std::array<double, 3> gain{2.0, 1.0, 1.0};
   std::array<double, 3> offset{0.0, 0.0, 0.0};  // robot angle at theta = 0 [rad]
 
-  double robot_angle(const OperatorSample& sampled, std::size_t joint) const {
-    return offset[joint] + gain[joint] * sampled.theta[device_joint[joint]];
+  double robot_angle(const OperatorSample& sample, std::size_t joint) const {
+    return offset[joint] + gain[joint] * sample.theta[device_joint[joint]];
   }
-  double robot_rate(const OperatorSample& sampled, std::size_t joint) const {
-    return gain[joint] * sampled.theta_dot[device_joint[joint]];
+  double robot_rate(const OperatorSample& sample, std::size_t joint) const {
+    return gain[joint] * sample.theta_dot[device_joint[joint]];
   }
-  void set_robot_angle(OperatorSample& sampled, std::size_t joint, double angle,
-                       double rate) const {
-    sampled.theta[device_joint[joint]] = (angle - offset[joint]) / gain[joint];
-    sampled.theta_dot[device_joint[joint]] = rate / gain[joint];
+  void set_robot_angle(OperatorSample& sample, std::size_t joint, double angle, double rate) const {
+    sample.theta[device_joint[joint]] = (angle - offset[joint]) / gain[joint];
+    sample.theta_dot[device_joint[joint]] = rate / gain[joint];
   }
 };
 

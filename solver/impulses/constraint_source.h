@@ -52,8 +52,7 @@ class ConstraintSource {
   virtual ~ConstraintSource() = default;
   virtual void begin_step(const Kinematics&, const State<double>&, double /*h*/) noexcept {}
   virtual bool has_closing_contact(const ConstraintFrame&) noexcept { return false; }
-  // After a velocity jump to the velocities of k: adds contacts that can now be reached. True if
-  // there are new ones.
+  // Adds contacts that can be reached after a velocity jump to that of k; true if there are any.
   virtual bool extend_detection(const Kinematics&, double /*h*/) noexcept { return false; }
   virtual bool needs_position_correction() const noexcept { return false; }
   // Adds constraints, with the last impulses as initial guess.

@@ -42,8 +42,7 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
   }
   void append_modes(std::vector<char>& modes) const noexcept override {
     for (const Row& row : rows_)
-      if (const Active* a = find_active(row))
-        modes.push_back(a->is_separating ? ContactMode::separating : ContactMode::sticking);
+      if (auto* a = find_active(row)) modes.push_back(a->is_separating ? separating : sticking);
   }
   std::span<double> work_integrals() noexcept override { return integrals_; }
   void commit_work() noexcept override {

@@ -147,15 +147,14 @@ TEST_CASE("at a wall: the reaction torques are the derivative of the springs' en
 TEST_CASE("at a wall: the stylus force is the wall's force and the coupling force") {
   const Pressed pressed(at_tip(40), 0.42, 20);
   TipHand hand(pressed);
-  const Vector3 on_stylus =
-      hand.stylus_force_W(hand.mapping->motor_torques(hand.device, pressed.tau));
+  const Vector3 force = hand.stylus_force_W(hand.mapping->motor_torques(hand.device, pressed.tau));
   const Vector3 coupling_force = pressed.coupling->readings()[0].force_W;
   const Vector3 tip = pressed.simulation->kinematics().position(2, pressed.wall.p_L);
   const double of_wall = -pressed.wall.k * (tip.y() - pressed.wall.place);
   CHECK(of_wall < -1);
-  CHECK(on_stylus.y() == doctest::Approx(of_wall).epsilon(1e-3));
-  CHECK((on_stylus + coupling_force).head<2>().norm() < 1e-6 * coupling_force.norm());
-  CHECK(std::abs(on_stylus.z()) < 1e-9);
+  CHECK(force.y() == doctest::Approx(of_wall).epsilon(1e-3));
+  CHECK((force + coupling_force).head<2>().norm() < 1e-6 * coupling_force.norm());
+  CHECK(std::abs(force.z()) < 1e-9);
 }
 
 TEST_CASE("in slow free motion the force feedback is almost zero") {
@@ -207,8 +206,8 @@ TEST_CASE("the force is at most the device's peak, with the specified low-pass")
   spec.passive = false;
   ForceFeedback strong(spec, hand.omni, *hand.mapping);
   const std::vector<double> much{500, -300};
-  const Vector3 on_stylus = hand.stylus_force_W(strong.tick(hand.device, much, 1e-3));
-  CHECK(on_stylus.norm() == doctest::Approx(3.3).epsilon(1e-3));
+  const Vector3 force = hand.stylus_force_W(strong.tick(hand.device, much, 1e-3));
+  CHECK(force.norm() == doctest::Approx(3.3).epsilon(1e-3));
 
   spec.cutoff = 20;
   ForceFeedback soft(spec, hand.omni, *hand.mapping);
