@@ -54,7 +54,7 @@ struct SteppedCoupling {
     return spectral_radius(M, parts(its), integrator, h) <= 1 + kGrowthRounding;
   }
   bool is_spring() const { return !part.K.isZero(0); }
-  bool is_weld() const { return spec->law == CouplingSpec::Type::weld_like; }
+  bool is_weld() const { return spec->law == CouplingSpec::Type::weld; }
   // With the stiffness, or where there is none the damping, times `factor`; a weld's time constant
   // divided by it.
   CoupledTerm scaled(double factor) const {
@@ -120,7 +120,7 @@ std::string law_fix(const SceneCoupling& spec) {
   std::string type;
   if (spec.law == Type::stable_pd)
     type = "type = \"torsional\", measure = \"joint\", ";
-  else if (spec.printed || spec.law == Type::matched)
+  else if (spec.printed || spec.law == Type::equivalent_torsional)
     type = fmt::format("type = \"{}\", ", spec.law == Type::torsional ? "torsional" : "linear");
   else if (spec.rate > 0)
     type = "no rate, ";

@@ -160,7 +160,8 @@ const char* discretization_name(const CouplingSpec& spec) {
 
 std::string coupling_words(const CouplingSpec& spec) {
   if (spec.type == CouplingSpec::Type::linear) return "linear";
-  if (spec.type == CouplingSpec::Type::matched) return "torsional, full K_q of the linear coupling";
+  if (spec.type == CouplingSpec::Type::equivalent_torsional)
+    return "torsional, full K_q of the linear coupling";
   const SpringSpace measure = spec.printed ? spec.options.measure : spec.measure;
   return measure == SpringSpace::world ? "torsional, world orientation" : "torsional, joint angle";
 }

@@ -88,8 +88,7 @@ void ContactConstraints::read_step(const ConstraintFrame& frame, const ImpulsePr
   const double normal = 0.5 * c.p[0] * (before[0] + after[0]);
   double friction = 0;
   for (const std::size_t r : {1, 2}) friction += 0.5 * c.p[r] * (before[r] + after[r]);
-  if (c.law ==
-      ConstraintType::compliant) {  // bristle deflection from the force (also while sliding)
+  if (c.law == ConstraintType::compliant) {  // bristle deflection, also while sliding
     const double stiff = c.h * c.k_t, damp = c.h * c.b_t;
     Vector3 anchor = Vector3::Zero();
     for (int r = 1; r < 3; ++r) anchor += axes.col(r) * (-(p[r] + damp * c.u[r]) / stiff);

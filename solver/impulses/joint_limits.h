@@ -1,5 +1,4 @@
-// Position limits of joints with one degree of freedom as unilateral constraints: q in [lower,
-// upper], inelastic.
+// Position limits of joints with one degree of freedom: unilateral, q in [lower, upper], inelastic.
 #pragma once
 
 #include <algorithm>

@@ -154,7 +154,7 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
   const TargetSample& kvr = target(c, x.t, side);
   const auto i = static_cast<std::size_t>(spec.spring.body);
   CouplingEnds ends;
-  if (spec.law == CouplingSpec::Type::matched) {
+  if (spec.law == CouplingSpec::Type::equivalent_torsional) {
     ends = matched_ends(scene_.model, spec.spring, kvr, x);
   } else if (spec.is_linear()) {
     const Vector3 p_D = k.position(spec.spring.body, spec.spring.p_L);
