@@ -138,7 +138,7 @@ void EnergyBalance::add_implicit(double h, const State<double>& end) {
     const CouplingEnds after = couplings_->ends(c, end, k_);
     const Vector3 mean = 0.5 * (before.velocity + after.velocity);
     implicit_[c] +=
-        (h * couplings_->pull(c) - m_star * (after.velocity - before.velocity)).dot(mean);
+        (h * couplings_->force(c) - m_star * (after.velocity - before.velocity)).dot(mean);
   }
 }
 

@@ -89,10 +89,10 @@ void MomentumBalance::add_step(double h, std::span<const double> weights,
   }
   const ConstraintWork& account = *after.mechanism().account;
   if (rule_ != Rule::located)
-    for (const ConstraintWork::Push& push : account.pushes())
+    for (const ConstraintWork::Projection& projection : account.projections())
       for (std::size_t t = 0; t < trees_.size(); ++t)
         sums_[tree(t)] +=
-            contents(trees_[t].bodies, push.to) - contents(trees_[t].bodies, push.from);
+            contents(trees_[t].bodies, projection.to) - contents(trees_[t].bodies, projection.from);
   for (std::size_t l = 0; l < loop_count_; ++l) {
     sums_[loop(l)] += account.loops()[l];
     stabilisation_[l] += account.stabilisation()[l];
@@ -152,7 +152,7 @@ void MomentumBalance::add_couplings(double part, const State<double>& x,
     const SceneCoupling& spec = couplings_->spec(c);
     if (spec.rate > 0 || spec.printed || spec.third_row() == SceneCoupling::ThirdRow::drive) {
       // held force, or not a spring-damper
-      add_coupling_force(part, spec, couplings_->pull(c), k_, sums_[coupling(c)]);
+      add_coupling_force(part, spec, couplings_->force(c), k_, sums_[coupling(c)]);
       continue;
     }
     const CouplingEnds ends = couplings_->ends(c, x, k_, side);
@@ -168,7 +168,7 @@ void MomentumBalance::add_coupling_impulses(double h, const State<double>& at,
                                             const State<double>& end) {
   for (std::size_t c = 0; c < coupling_count_; ++c) {
     const SceneCoupling& spec = couplings_->spec(c);
-    Vector3 impulse = h * couplings_->pull(c);
+    Vector3 impulse = h * couplings_->force(c);
     if (const double m_star = couplings_->m_star(c); m_star != 0) {
       State<double> mixed = at;  // position at the start, velocity at the end: J dqd
       mixed.qd = end.qd;

@@ -77,8 +77,8 @@ void add_tick(const TickResult& view, double step, LiveSummary& summary) {
     summary.sum_error[j] += error;
   }
   for (std::size_t j = 0; j < 3; ++j)
-    summary.max_torque[j] = std::max(summary.max_torque[j], std::abs(view.felt[j]));
-  summary.duration = view.hand.t + step;
+    summary.max_torque[j] = std::max(summary.max_torque[j], std::abs(view.motor_torques[j]));
+  summary.duration = view.motion.t + step;
 }
 
 SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
@@ -106,7 +106,7 @@ void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummar
   summary.servo = run_servo(run, plan, stop, [&](SpscRing<TickResult>& ring) {
     for (TickResult view; ring.pop(view);) {
       add_tick(view, run.step(), summary);
-      log.write(view.hand);
+      log.write(view.motion);
     }
     log.flush();
     // After Ctrl-C the results so far are kept.
@@ -139,7 +139,7 @@ int run_hand(const HandOptions& options) {
   summary.scene = options.scene.string();
   summary.device = device->description();
   summary.mapping = options.mapping;
-  summary.felt = run.mapping().force_feedback_description();
+  summary.force_feedback = run.mapping().force_feedback_description();
   summary.joints = scene.couplings[run.leader()].driven.turned;
   summary.max_error.assign(summary.joints.size(), 0);
   summary.sum_error.assign(summary.joints.size(), 0);

@@ -21,7 +21,7 @@ std::string kind_of(const SceneCoupling& spec) {
 
 // Mass or inertia that a weld adds to its link at its point.
 double added_inertia(const SceneCoupling& spec) {
-  const bool is_weld = spec.law == CouplingSpec::Type::weld_like && spec.spring.b > 0;
+  const bool is_weld = spec.law == CouplingSpec::Type::weld && spec.spring.b > 0;
   return is_weld ? spec.spring.b / spec.reference.damping() : 0;
 }
 
@@ -55,8 +55,9 @@ MatrixXd PosedCouplings::jacobian(std::size_t c) const {
   const SceneCoupling& spec = input_.couplings->spec(c);
   const int body = spec.spring.body;
   if (spec.is_linear()) {
-    const Kinematics& k =
-        spec.law == CouplingSpec::Type::matched ? input_.couplings->target(c, x_.t).k : k_;
+    const Kinematics& k = spec.law == CouplingSpec::Type::equivalent_torsional
+                              ? input_.couplings->target(c, x_.t).k
+                              : k_;
     return point_jacobian(model_, k, body, k.position(body, spec.spring.p_L));
   }
   if (spec.measure == SpringSpace::world) return rotation_jacobian(model_, k_, body);
@@ -117,7 +118,7 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   const bool is_printed = spec.printed && spec.law == CouplingSpec::Type::torsional;
   found.B = (is_printed ? 0 : spec.spring.b) * square;
   found.added_inertia = added_inertia(spec);
-  found.felt = found.added_inertia * square;
+  found.M_added = found.added_inertia * square;
   if (spec.law == CouplingSpec::Type::god_object && spec.leads())
     found.landing = robot_inertia(spec);
   return found;
@@ -128,9 +129,9 @@ PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
   PredictedCoupling found = about_zero(c);
   const Vector3 offset = input_.couplings->ends(c, x_, k_).offset;
   found.offset = offset.norm();
-  const bool matched = spec.law == CouplingSpec::Type::matched;  // linear in the joints' errors
+  const bool matched = spec.law == CouplingSpec::Type::equivalent_torsional;  // linear in errors
   if (!matched) found.K = tangent(c);
-  const SpringModes modes = spring_modes(M() + found.felt, found.K, found.B);
+  const SpringModes modes = spring_modes(M() + found.M_added, found.K, found.B);
   if (modes.size() > 0) {
     const Index last = modes.size() - 1;
     found.alone = {modes.omega(last), modes.zeta(last)};

@@ -68,10 +68,9 @@ ModeErrors errors_of_mode(double omega, double zeta, const PredictTask& task) {
   errors.start = peak_after_jump(v, omega, zeta);
   errors.reversal = peak_after_jump(2 * v, omega, zeta);
   for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
-    errors.smooth[i] =
-        FollowingError(kSmoothMoves[i], task.distance, task.time, omega, zeta).peak();
-  errors.absolute_lag = absolute_damper_lag(v, omega, zeta);
-  errors.weld_lag = mocap_weld_lag(v, 1 / omega);
+    errors.smooth[i] = ProfileError(kSmoothMoves[i], task.distance, task.time, omega, zeta).peak();
+  errors.absolute_lag = absolute_damper_error(v, omega, zeta);
+  errors.weld_lag = mocap_weld_error(v, 1 / omega);
   return errors;
 }
 
@@ -86,7 +85,7 @@ void add_modes(const PredictTask& task, Predicted& found) {
     mode.shape.cwiseAbs().maxCoeff(&largest);
     mode.shape /= double(mode.shape[largest]);
     if (mode.omega > 0) mode.errors = errors_of_mode(mode.omega, mode.zeta, task);
-    if (modes.squares[i] < 0)
+    if (modes.omega_squared[i] < 0)
       found.warnings.push_back(fmt::format(
           "negative stiffness along a mode, mainly of '{}': the couplings push away from their "
           "targets (a point spring acts with the sine of the angle to its target)",
@@ -150,7 +149,8 @@ void add_errors(const PredictTask& task, const MatrixXd& friction, Predicted& fo
   errors.reversal = behind.after_reversal(v, task.time);
   for (std::size_t i = 0; i < kSmoothMoves.size(); ++i)
     errors.smooth[i] = behind.behind(kSmoothMoves[i], distance, task.time);
-  errors.lag = MultiJointTrackingError({found.M, found.K, found.B + friction, late}).lag(v);
+  const MultiJointTrackingError delayed({found.M, found.K, found.B + friction, late});
+  errors.lag = delayed.steady_state(v);
   found.errors = std::move(errors);
 }
 
@@ -247,7 +247,7 @@ Predicted predict_couplings(SimulatePlan& prepared, const PredictTask& task) {
       coupling.with_wall = series_stiffness(coupling.gains.k, *task.wall);
     found.K += coupling.K;
     found.B += coupling.B;
-    found.M += coupling.felt;
+    found.M += coupling.M_added;
   }
   if (found.couplings.empty())
     throw InputError({{scene.description.file.string(), 0, "scene",

@@ -44,7 +44,7 @@ struct PredictedCoupling : CouplingTraits {
   double offset = 0;                // of the target [m or rad]
   Eigen::MatrixXd K, K_zero, B;     // stiffness; the same without geometric part; damping
   double added_inertia = 0;         // added by the law [kg or kg m^2]
-  Eigen::MatrixXd felt;             // inertia that the law adds (coupling/laws/mujoco_weld.h)
+  Eigen::MatrixXd M_added;          // inertia that the law adds (coupling/laws/mujoco_weld.h)
   Eigen::MatrixXd landing;          // of a god object: rows of M of its robot; else empty
   SpringResponse alone;             // highest mode with this coupling alone
   std::vector<SpringArm> arms;      // linear only

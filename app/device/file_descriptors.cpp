@@ -17,9 +17,9 @@ namespace twinarm {
 namespace {
 
 // Of a pending connection; 0: connected.
-int connect_error(int socket, double patience, int stop) {
+int connect_error(int socket, double timeout, int stop) {
   pollfd ready[2] = {{socket, POLLOUT, 0}, {stop, POLLIN, 0}};
-  ::poll(ready, 2, static_cast<int>(1000 * patience));
+  ::poll(ready, 2, static_cast<int>(1000 * timeout));
   if (ready[0].revents == 0) return ETIMEDOUT;
   int error = 0;
   socklen_t size = sizeof error;
@@ -62,13 +62,13 @@ TcpPeer::TcpPeer(const std::string& host, int port) {
   freeaddrinfo(found);
 }
 
-OwnedFd TcpPeer::connect(double patience, int stop, std::string& why_not) const {
+OwnedFd TcpPeer::connect(double timeout, int stop, std::string& why_not) const {
   for (const Address& address : addresses_) {
     OwnedFd fd(::socket(address.family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
     const auto* name = reinterpret_cast<const sockaddr*>(address.bytes.data());
     const auto size = static_cast<socklen_t>(address.bytes.size());
     int error = ::connect(fd.get(), name, size) == 0 ? 0 : errno;
-    if (error == EINPROGRESS) error = connect_error(fd.get(), patience, stop);
+    if (error == EINPROGRESS) error = connect_error(fd.get(), timeout, stop);
     if (error == 0) {
       const int on = 1;  // no delay: forces are small messages
       setsockopt(fd.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);

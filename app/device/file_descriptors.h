@@ -31,9 +31,9 @@ class TcpPeer {
  public:
   // Waits for the name service. Throws std::runtime_error with its message.
   TcpPeer(const std::string& host, int port);
-  // A non-blocking socket, or none and the reason. Waits at most `patience` [s] for each address of
+  // A non-blocking socket, or none and the reason. Waits at most `timeout` [s] for each address of
   // the host, or until `stop` is readable.
-  OwnedFd connect(double patience, int stop, std::string& why_not) const;
+  OwnedFd connect(double timeout, int stop, std::string& why_not) const;
 
  private:
   struct Address {

@@ -54,7 +54,7 @@ OwnedFd open_socket(const std::string& path) {
 
 GestureDevice::GestureDevice(GestureSource source, const VirtualOmniSettings& settings)
     : source_(std::move(source)),
-      input_(std::make_shared<DesktopInput>(settings.figures)),
+      input_(std::make_shared<DesktopInput>(settings.parameters)),
       omni_(input_, settings),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)),
       thread_([this] { run(); }) {}

@@ -31,7 +31,7 @@ class GestureDevice final : public InputDevice {
   ~GestureDevice() override;
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override { omni_.render(force); }
-  const OmniParameters& figures() const override { return omni_.figures(); }
+  const OmniParameters& parameters() const override { return omni_.parameters(); }
   std::string description() const override { return source_.description; }
   bool has_motors() const override { return false; }
 

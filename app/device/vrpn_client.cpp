@@ -17,10 +17,10 @@ constexpr double kReportShare = 1.0 / 8;   // of the newest interval in the runn
 
 }  // namespace
 
-VrpnDevice::VrpnDevice(const VrpnAddress& address, const OmniParameters& figures,
+VrpnDevice::VrpnDevice(const VrpnAddress& address, const OmniParameters& parameters,
                        const VrpnSettings& settings)
-    : link_(std::make_unique<Link>(address, figures, settings)),
-      figures_(figures),
+    : link_(std::make_unique<Link>(address, parameters, settings)),
+      parameters_(parameters),
       description_(
           fmt::format("VRPN device {} at {}:{}", address.device, address.host, address.port)),
       silence_(settings.silence),
@@ -48,15 +48,15 @@ DeviceState VrpnDevice::poll(double now) noexcept {
   const double age = clock - report.arrival;
   state.t = now - age;
   state.theta = at_;
-  state.stylus = omni_stylus(figures_, at_);
+  state.stylus = omni_stylus(parameters_, at_);
   state.buttons = report.buttons;
   state.alive = seen_ > 0 && age < silence_;
   return state;
 }
 
 void VrpnDevice::render(const DeviceForce& force) noexcept {
-  const auto torque = omni_limit(figures_, at_, force.torque);
-  link_->forces.write({++rendered_, omni_force(figures_, at_, torque)});
+  const auto torque = omni_limit(parameters_, at_, force.torque);
+  link_->forces.write({++rendered_, omni_force(parameters_, at_, torque)});
 }
 
 bool VrpnDevice::has_motors() const {

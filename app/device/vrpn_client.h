@@ -13,7 +13,7 @@
 // last render().
 //
 // After `silence` without a report `alive` is false. A connection that breaks, sends invalid data
-// or no pose for `patience` is closed and retried at increasing intervals. Each kind of trouble is
+// or no pose for `timeout` is closed and retried at increasing intervals. Each kind of trouble is
 // reported once, and counted.
 #pragma once
 
@@ -32,7 +32,7 @@ struct VrpnAddress {
 
 struct VrpnSettings {
   double silence = 0.1;                         // [s]
-  double patience = 3;                          // [s]
+  double timeout = 3;                           // [s]
   double first_retry = 0.1, longest_retry = 2;  // [s]
   double force_timeout = 0.1;                   // [s]
   double rate = 1000;                           // requested from the server [Hz]
@@ -48,14 +48,14 @@ struct VrpnCounts {
 
 class VrpnDevice final : public InputDevice {
  public:
-  // Waits for the first pose, at most twice `patience`. Throws InputError: unknown host, connection
+  // Waits for the first pose, at most twice `timeout`. Throws InputError: unknown host, connection
   // refused, not a VRPN server, unknown device.
-  VrpnDevice(const VrpnAddress& address, const OmniParameters& figures,
+  VrpnDevice(const VrpnAddress& address, const OmniParameters& parameters,
              const VrpnSettings& settings = {});
   ~VrpnDevice() override;  // ends the force
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override;
-  const OmniParameters& figures() const override { return figures_; }
+  const OmniParameters& parameters() const override { return parameters_; }
   std::string description() const override { return description_; }
   bool has_motors() const override;  // whether the server accepts forces
   VrpnCounts counts() const;
@@ -63,7 +63,7 @@ class VrpnDevice final : public InputDevice {
  private:
   class Link;
   std::unique_ptr<Link> link_;
-  OmniParameters figures_;
+  OmniParameters parameters_;
   std::string description_;
   double silence_;
   // Motion from one report to the next.

@@ -38,7 +38,7 @@ DeviceKind vrpn_kind() {
           .help = "device of a VRPN server",
           .open =
               [](const std::string& address, const VirtualOmniSettings& settings) {
-                return std::make_unique<VrpnDevice>(vrpn_address(address), settings.figures);
+                return std::make_unique<VrpnDevice>(vrpn_address(address), settings.parameters);
               },
           .has_motors = true};
 }

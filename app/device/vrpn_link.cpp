@@ -31,9 +31,9 @@ double unwrapped(double angle, double last) {
 
 }  // namespace
 
-VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& figures, VrpnSettings settings)
+VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& parameters, VrpnSettings settings)
     : address_(std::move(address)),
-      figures_(figures),
+      parameters_(parameters),
       settings_(std::move(settings)),
       name_(fmt::format("{}@{}:{}", address_.device, address_.host, address_.port)),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -106,7 +106,7 @@ void VrpnDevice::Link::warn_once(unsigned kind, const std::string& text) {
 
 VrpnDevice::Link::Trouble VrpnDevice::Link::connect_and_run() {
   std::string why_not;
-  const OwnedFd socket = peer_->connect(settings_.patience, stop_.get(), why_not);
+  const OwnedFd socket = peer_->connect(settings_.timeout, stop_.get(), why_not);
   if (socket.get() < 0)
     return {Trouble::refused, fmt::format("no connection: {}", why_not),
             fmt::format("start vrpn_server on {} or give its port: vrpn:NAME@HOST:PORT",
@@ -187,7 +187,7 @@ std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::send_pending(int sock
 
 std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::timeout_trouble(
     const VrpnStream& stream) const {
-  if (steady_seconds() - last_pose_ < settings_.patience) return std::nullopt;
+  if (steady_seconds() - last_pose_ < settings_.timeout) return std::nullopt;
   if (stream.version().empty())
     return Trouble{Trouble::silent, "no VRPN handshake from the peer",
                    "give the port of a VRPN server, 3883 by default"};
@@ -195,7 +195,7 @@ std::optional<VrpnDevice::Link::Trouble> VrpnDevice::Link::timeout_trouble(
     return Trouble{Trouble::unknown,
                    fmt::format("unknown device '{}' of the server", address_.device),
                    name_remedy(address_.device, stream.devices(), "devices")};
-  return Trouble{Trouble::silent, fmt::format("no pose for {:g} s", settings_.patience),
+  return Trouble{Trouble::silent, fmt::format("no pose for {:g} s", settings_.timeout),
                  "switch on the device, calibrate it, and move its stylus"};
 }
 
@@ -216,7 +216,7 @@ void VrpnDevice::Link::take(const VrpnStream& stream) {
     last_pose_ = report_.arrival = steady_seconds();
     ++report_.number;
     stylus_ = stream.pose().p;
-    if (const auto theta = omni_inverse(figures_, stream.pose())) {
+    if (const auto theta = omni_inverse(parameters_, stream.pose())) {
       for (std::size_t j = 0; j < 6; ++j)
         report_.theta[j] = unwrapped((*theta)[j], report_.theta[j]);
     } else {

@@ -31,7 +31,7 @@ struct VrpnForce {
 
 class VrpnDevice::Link {
  public:
-  Link(VrpnAddress address, const OmniParameters& figures, VrpnSettings settings);
+  Link(VrpnAddress address, const OmniParameters& parameters, VrpnSettings settings);
   ~Link();
   TripleBuffer<VrpnReport> reports{VrpnReport{}};  // written here
   TripleBuffer<VrpnForce> forces{VrpnForce{}};     // read here
@@ -58,7 +58,7 @@ class VrpnDevice::Link {
   bool wait(double seconds) const;  // false: stop requested
 
   VrpnAddress address_;
-  OmniParameters figures_;
+  OmniParameters parameters_;
   VrpnSettings settings_;
   std::string name_;  // DEVICE@HOST:PORT
   std::optional<TcpPeer> peer_;

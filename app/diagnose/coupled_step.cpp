@@ -44,7 +44,7 @@ CoupledStep::CoupledStep(const SimulatePlan& plan)
     else if (component.b > 0)
       component.square = found.B / component.b;
     component.part = step_part(found, step_);
-    M_ += found.felt;
+    M_ += found.M_added;
     components_.push_back(std::move(component));
   }
 }
@@ -101,21 +101,21 @@ CoupledStep::Component CoupledStep::with_gain(const Component& component, Gain g
   return other;
 }
 
-bool CoupledStep::holds_with_gain(int coupling, Gain gain, double value) const {
+bool CoupledStep::is_stable_with_gain(int coupling, Gain gain, double value) const {
   Components changed = components_;
   for (Component& c : changed)
     if (coupling < 0 || c.coupling == coupling) c = with_gain(c, gain, value);
   return is_stable(changed, step_);
 }
 
-bool CoupledStep::holds_with_hold(int coupling, int steps) const {
+bool CoupledStep::is_stable_with_hold(int coupling, int steps) const {
   Components changed = components_;
   for (Component& c : changed)
     if (c.coupling == coupling) c.part.hold_steps = steps;
   return is_stable(changed, step_);
 }
 
-bool CoupledStep::holds_with_softer(const std::vector<int>& couplings, double factor) const {
+bool CoupledStep::is_stable_with_softer(const std::vector<int>& couplings, double factor) const {
   Components changed = components_;
   for (Component& c : changed) {
     if (!contains(couplings, c.coupling)) continue;
@@ -126,7 +126,7 @@ bool CoupledStep::holds_with_softer(const std::vector<int>& couplings, double fa
   return is_stable(changed, step_);
 }
 
-bool CoupledStep::holds_implicitly(const std::vector<int>& couplings) const {
+bool CoupledStep::is_stable_with_implicit(const std::vector<int>& couplings) const {
   Components others = components_;
   for (Component& c : others) {
     if (!contains(couplings, c.coupling)) continue;
@@ -137,7 +137,7 @@ bool CoupledStep::holds_implicitly(const std::vector<int>& couplings) const {
   return growth_of(others, Integrator::semi_implicit, step_) <= 1 + kRounding;
 }
 
-CoupledStep::Lag CoupledStep::lag(const VectorXd& v) const {
+CoupledStep::Errors CoupledStep::tracking_errors(const VectorXd& v) const {
   const MatrixXd none = MatrixXd::Zero(M_.rows(), M_.cols());
   MatrixXd K = none, B = joint_damping_, absolute = joint_damping_, late = joint_damping_;
   for (const Component& c : components_) {
@@ -148,7 +148,7 @@ CoupledStep::Lag CoupledStep::lag(const VectorXd& v) const {
     late += c.delay * c.part.K;
   }
   return {MultiJointTrackingError({M_, K, B, absolute}).after_start(v, 1),
-          MultiJointTrackingError({M_, K, B, late}).lag(v)};
+          MultiJointTrackingError({M_, K, B, late}).steady_state(v)};
 }
 
 }  // namespace twinarm

@@ -23,23 +23,23 @@ class CoupledStep {
   bool is_empty() const { return components_.empty(); }
   double step() const { return step_; }
   double growth() const { return growth_of(components_, integrator_, step_); }
-  bool holds() const { return is_stable(components_, step_); }
-  bool holds_at_step(double step) const { return is_stable(components_, step); }
+  bool is_stable() const { return is_stable(components_, step_); }
+  bool is_stable_at_step(double step) const { return is_stable(components_, step); }
   // With this gain of a coupling (index in the scene; -1: of all).
-  bool holds_with_gain(int coupling, Gain gain, double value) const;
+  bool is_stable_with_gain(int coupling, Gain gain, double value) const;
   // With its force held for that number of steps.
-  bool holds_with_hold(int coupling, int steps) const;
+  bool is_stable_with_hold(int coupling, int steps) const;
   // With the stiffnesses of `couplings` times `factor` and their dampings times its square root.
-  bool holds_with_softer(const std::vector<int>& couplings, double factor) const;
+  bool is_stable_with_softer(const std::vector<int>& couplings, double factor) const;
   // With `couplings` as implicit springs and the semi-implicit integrator.
-  bool holds_implicitly(const std::vector<int>& couplings) const;
+  bool is_stable_with_implicit(const std::vector<int>& couplings) const;
 
   // Tracking error of each joint when all targets start at velocity v: maximum and steady state;
   // rows as in app/coupling/prediction.h. Empty where it is unbounded.
-  struct Lag {
+  struct Errors {
     Eigen::VectorXd start, later;
   };
-  Lag lag(const Eigen::VectorXd& v) const;
+  Errors tracking_errors(const Eigen::VectorXd& v) const;
   Eigen::Index rows() const { return M_.rows(); }
 
  private:

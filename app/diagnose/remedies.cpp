@@ -44,7 +44,7 @@ class RemedyFinder {
       else
         unstable_.push_back(static_cast<int>(s.index));
     }
-    if (unstable_.empty() && !step_.holds()) take_all_couplings();
+    if (unstable_.empty() && !step_.is_stable()) take_all_couplings();
   }
 
   std::vector<SuggestedFix> find() {
@@ -88,7 +88,7 @@ class RemedyFinder {
     const double h = step_.step();
     if (any_rate()) return higher_rate();
     const double factor =
-        max_stable_power_of_two([&](double f) { return step_.holds_at_step(f * h); });
+        max_stable_power_of_two([&](double f) { return step_.is_stable_at_step(f * h); });
     if (!(factor > 0)) return;
     const double step = rounded_down(kHalf * factor * h);
     add(fmt::format("step {:g} ms", 1000 * step), {"step=" + number_text(step)});
@@ -101,9 +101,9 @@ class RemedyFinder {
       if (!(rate > 0)) continue;
       const int now = static_cast<int>(std::lround(1 / (rate * step_.step())));
       int steps = now;
-      while (steps > 1 && !step_.holds_with_hold(i, steps)) steps /= 2;
+      while (steps > 1 && !step_.is_stable_with_hold(i, steps)) steps /= 2;
       steps = std::max(1, steps / 2);
-      if (steps == now || !step_.holds_with_hold(i, steps)) return;
+      if (steps == now || !step_.is_stable_with_hold(i, steps)) return;
       changes.push_back("coupling[" + std::to_string(i) +
                         "].rate=" + number_text(1 / (steps * step_.step())));
     }
@@ -112,7 +112,7 @@ class RemedyFinder {
 
   void softer() {
     const double factor = kHalf * kHalf * max_stable_power_of_two([&](double f) {
-                            return step_.holds_with_softer(unstable_, f);
+                            return step_.is_stable_with_softer(unstable_, f);
                           });
     if (!(factor > 0)) return;
     std::vector<std::string> changes;
@@ -151,7 +151,7 @@ class RemedyFinder {
     }
     if (!facts_of(plan_.run.integrator).implicit_force)
       changes.emplace_back("integrator=semi-implicit");
-    if (!step_.holds_implicitly(unstable_)) return;
+    if (!step_.is_stable_with_implicit(unstable_)) return;
     add("implicit discretization: stable at this step for any stiffness", std::move(changes));
   }
 

@@ -49,12 +49,12 @@ struct SteppedCoupling {
     all.push_back(its);
     return all;
   }
-  bool holds(const CoupledTerm& its) const {
+  bool is_stable(const CoupledTerm& its) const {
     constexpr double kGrowthRounding = 1e-9;
     return spectral_radius(M, parts(its), integrator, h) <= 1 + kGrowthRounding;
   }
   bool is_spring() const { return !part.K.isZero(0); }
-  bool is_weld() const { return spec->law == CouplingSpec::Type::weld_like; }
+  bool is_weld() const { return spec->law == CouplingSpec::Type::weld; }
   // With the stiffness, or where there is none the damping, times `factor`; a weld's time constant
   // divided by it.
   CoupledTerm scaled(double factor) const {
@@ -94,9 +94,9 @@ std::string rate_fix(const SteppedCoupling& c, double max_step) {
   CoupledTerm its = c.part;
   for (its.hold_steps = static_cast<int>(kMargin * max_step / c.h); its.hold_steps > 0;
        --its.hold_steps)
-    if (c.holds(its))
+    if (c.is_stable(its))
       return fmt::format("rate >= {} Hz", short_number_text(1 / (its.hold_steps * c.h)));
-  return c.holds(its) ? "no rate (a force at each step)" : "";
+  return c.is_stable(its) ? "no rate (a force at each step)" : "";
 }
 
 std::string gain_fix(const SteppedCoupling& c, const StabilityViolation& s) {
@@ -120,7 +120,7 @@ std::string law_fix(const SceneCoupling& spec) {
   std::string type;
   if (spec.law == Type::stable_pd)
     type = "type = \"torsional\", measure = \"joint\", ";
-  else if (spec.printed || spec.law == Type::matched)
+  else if (spec.printed || spec.law == Type::equivalent_torsional)
     type = fmt::format("type = \"{}\", ", spec.law == Type::torsional ? "torsional" : "linear");
   else if (spec.rate > 0)
     type = "no rate, ";
@@ -148,7 +148,7 @@ StabilityViolation violation_of(const SteppedCoupling& c) {
   s.limit = c.fastest * s.max_step;
   s.gain = c.is_weld() ? "time constant" : c.is_spring() ? "stiffness" : "damping";
   if (s.step <= s.max_step) return s;
-  const double part = max_stable_factor([&](double factor) { return c.holds(c.scaled(factor)); });
+  const double part = max_stable_factor([&](double f) { return c.is_stable(c.scaled(f)); });
   if (part > 0)
     s.max_gain = c.is_weld()     ? spec.reference.time_constant / part
                  : c.is_spring() ? part * spec.spring.k
@@ -173,7 +173,7 @@ void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>
       const SceneCoupling& its = couplings.spec(other);
       if (other != c && its.leader == c) {
         const PredictedCoupling more = posed.about_zero(other);
-        all.K += more.K, all.K_zero += more.K_zero, all.B += more.B, all.felt += more.felt;
+        all.K += more.K, all.K_zero += more.K_zero, all.B += more.B, all.M_added += more.M_added;
       }
       if (its.law != CouplingSpec::Type::god_object || its.leader != other ||
           its.robot != spec.robot)
@@ -183,7 +183,7 @@ void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>
     }
     stepped.spec = &spec;
     stepped.part = step_part(all, prepared.run.step);
-    stepped.M = posed.M() + all.felt;
+    stepped.M = posed.M() + all.M_added;
     stepped.integrator = prepared.run.integrator;
     stepped.h = prepared.run.step;
     const SpringModes modes = spring_modes(stepped.M, all.K, all.B);

@@ -53,7 +53,7 @@ void Extent::add(const SceneMeshes& meshes, const Snapshot& snapshot) {
       add(X_WM * part.box_M.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   };
   for (const ScenePart& part : meshes.parts) add_box_of(part, snapshot.k.X_WL[part.body]);
-  for (const ShownTargetRobot& target : snapshot.twins)
+  for (const ShownTargetRobot& target : snapshot.targets)
     for (const ScenePart& part : meshes.parts)
       if (part.robot == static_cast<int>(target.robot)) add_box_of(part, target.X_WL[part.body]);
   for (const DistanceConstraintLine& tie : meshes.ties) {

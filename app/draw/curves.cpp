@@ -17,16 +17,16 @@ constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
 std::vector<CurveSample> sample_energy(const SceneModel*, const Snapshot& snapshot) {
   std::vector<CurveSample> all{{"potential", snapshot.potential, true},
                                {"kinetic", snapshot.kinetic}};
-  if (!snapshot.pulls.empty()) all.push_back({"in springs", snapshot.elastic});
+  if (!snapshot.coupling_forces.empty()) all.push_back({"in springs", snapshot.elastic});
   all.push_back({"sum", snapshot.potential + snapshot.kinetic + snapshot.elastic, true});
   return all;
 }
 
 template <ShownCouplingForce::Kind kind>
-std::vector<CurveSample> sample_pulls(const SceneModel*, const Snapshot& snapshot) {
+std::vector<CurveSample> sample_coupling_forces(const SceneModel*, const Snapshot& snapshot) {
   std::vector<CurveSample> all;
-  for (const ShownCouplingForce& coupling : snapshot.pulls)
-    if (coupling.kind == kind) all.push_back({coupling.name, coupling.pull_W.norm()});
+  for (const ShownCouplingForce& coupling : snapshot.coupling_forces)
+    if (coupling.kind == kind) all.push_back({coupling.name, coupling.force_W.norm()});
   return all;
 }
 
@@ -41,11 +41,11 @@ std::vector<CurveSample> sample_contacts(const SceneModel*, const Snapshot& snap
 }
 
 // Of each joint the angle between target and robot.
-std::vector<CurveSample> sample_lag(const SceneModel* scene, const Snapshot& snapshot) {
+std::vector<CurveSample> sample_tracking_error(const SceneModel* scene, const Snapshot& snapshot) {
   std::vector<CurveSample> all;
   if (!scene) return all;
   const Model<double>& model = scene->model;
-  for (const ShownTargetRobot& target : snapshot.twins) {
+  for (const ShownTargetRobot& target : snapshot.targets) {
     const auto [first, last] = scene->bodies_of_robot(target.robot);
     for (auto i = static_cast<std::size_t>(first); i <= static_cast<std::size_t>(last); ++i) {
       if (model.joint[i] == JointType::fixed || model.joint[i] == JointType::prismatic) continue;
@@ -79,10 +79,10 @@ const std::vector<CurveKind>& all_curves() {
   using Kind = ShownCouplingForce::Kind;
   static const std::vector<CurveKind> all{
       {"energy", "energy [J]", sample_energy},
-      {"forces", "spring-dampers [N]", sample_pulls<Kind::force>},
-      {"torques", "spring-dampers [N m]", sample_pulls<Kind::couple>},
+      {"forces", "spring-dampers [N]", sample_coupling_forces<Kind::force>},
+      {"torques", "spring-dampers [N m]", sample_coupling_forces<Kind::couple>},
       {"contacts", "contact forces [N]", sample_contacts},
-      {"tracking-error", "tracking error [deg]", sample_lag}};
+      {"tracking-error", "tracking error [deg]", sample_tracking_error}};
   return all;
 }
 

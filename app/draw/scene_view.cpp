@@ -100,9 +100,9 @@ void Scales::widen_contacts(const Snapshot& snapshot) {
 }
 
 void Scales::widen_run(const Model<double>& model, const Snapshot& snapshot) {
-  for (const ShownCouplingForce& coupling : snapshot.pulls)
+  for (const ShownCouplingForce& coupling : snapshot.coupling_forces)
     widen_to(coupling.kind == ShownCouplingForce::Kind::force ? force : couple,
-             coupling.pull_W.norm());
+             coupling.force_W.norm());
   const TotalMotion total = total_motion(model, snapshot.k);
   widen_to(momentum, total.linear.norm());
   widen_to(angular, total.angular.norm());
@@ -151,7 +151,7 @@ SceneView make_scene_view(const RobotDescription& robot, const Model<double>& mo
 
 void look_at(SceneView& view, const Snapshot& snapshot) {
   view.instants.emplace_back().add(view.cast, snapshot);
-  view.has_operator = view.has_operator || !snapshot.hands.empty();
+  view.has_operator = view.has_operator || !snapshot.devices.empty();
 }
 
 void look_ahead(SceneView& view, const Snapshot& snapshot) {

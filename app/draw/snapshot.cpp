@@ -49,7 +49,7 @@ ShownCouplingForce coupling_force_of(const SceneModel& scene, SceneCouplings& co
   shown.kind = kind_of_coupling(scene, c);
   shown.has_ends = spec.type == CouplingDescription::Type::linear;
   shown.body = static_cast<std::size_t>(spec.spring.body);
-  shown.pull_W = force;
+  shown.force_W = force;
   shown.energy = 0.5 * spec.spring.k * ends.offset.squaredNorm();
   if (shown.has_ends) {
     shown.p_D = snapshot.k.position(spec.spring.body, spec.spring.p_L);
@@ -59,7 +59,7 @@ ShownCouplingForce coupling_force_of(const SceneModel& scene, SceneCouplings& co
   shown.p_D = shown.p_K = snapshot.k.X_WL[shown.body].p;
   // The axis of a joint with one degree of freedom is z of the body frame.
   if (spec.measure == SpringSpace::joint)
-    shown.pull_W = force.x() * snapshot.k.R_WB[shown.body].col(2);
+    shown.force_W = force.x() * snapshot.k.R_WB[shown.body].col(2);
   return shown;
 }
 
@@ -108,20 +108,20 @@ Snapshot snapshot_of(const Model<double>& model, const State<double>& x) {
 }
 
 Snapshot snapshot_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
-                     const std::vector<Vector3>& pulls) {
+                     const std::vector<Vector3>& forces) {
   Snapshot snapshot = snapshot_of(scene.model, x);
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    const Vector3 force = c < pulls.size() ? pulls[c] : Vector3(Vector3::Zero());
-    snapshot.pulls.push_back(coupling_force_of(scene, couplings, c, snapshot, force));
-    snapshot.elastic += snapshot.pulls.back().energy;
+    const Vector3 force = c < forces.size() ? forces[c] : Vector3(Vector3::Zero());
+    snapshot.coupling_forces.push_back(coupling_force_of(scene, couplings, c, snapshot, force));
+    snapshot.elastic += snapshot.coupling_forces.back().energy;
   }
   for (const std::size_t c : shown_couplings(scene)) {
     const SceneCoupling& spec = scene.couplings[c];
-    snapshot.twins.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
+    snapshot.targets.push_back({spec.robot, couplings.target(c, x.t).k.X_WL});
     if (spec.target == CouplingTarget::Kind::start || spec.target == CouplingTarget::Kind::state)
       continue;
-    const OperatorSample hand = couplings.hand(c).sample(x.t, x.t + 1e-6);
-    snapshot.hands.push_back({hand.theta, hand.button});
+    const OperatorSample sampled = couplings.motion(c).sample(x.t, x.t + 1e-6);
+    snapshot.devices.push_back({sampled.theta, sampled.button});
   }
   return snapshot;
 }

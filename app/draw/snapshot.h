@@ -27,7 +27,7 @@ struct ShownCouplingForce {
   bool has_ends = false;  // between two points: drawn as a spring
   std::size_t body = 0;
   Vector3 p_D = Vector3::Zero(), p_K = Vector3::Zero();  // on the robot, on the target robot
-  Vector3 pull_W = Vector3::Zero();                      // on the robot [N] or [N m]
+  Vector3 force_W = Vector3::Zero();                     // on the robot [N] or [N m]
   double energy = 0;                                     // of its spring [J]
 };
 
@@ -67,10 +67,10 @@ struct Snapshot {
   State<double> x;
   Kinematics k;
   std::vector<ShownContact> contacts;
-  std::vector<ShownCouplingForce> pulls;
-  std::vector<ShownTargetRobot> twins;
-  std::vector<ShownDevice> hands;  // of target robots moved by a device
-  std::optional<ShownMouseSpring> grip;
+  std::vector<ShownCouplingForce> coupling_forces;
+  std::vector<ShownTargetRobot> targets;
+  std::vector<ShownDevice> devices;  // of target robots moved by a device
+  std::optional<ShownMouseSpring> mouse_spring;
   std::vector<Pose> before;            // previous branch at this time, by body; or empty
   std::vector<ShownVariant> variants;  // the first: this run, without poses; or empty
   double kinetic = 0, potential = 0, elastic = 0;  // [J]
@@ -84,9 +84,9 @@ std::vector<PairForce> pair_forces(const Snapshot& snapshot);
 
 // Without contacts.
 Snapshot snapshot_of(const Model<double>& model, const State<double>& x);
-// Of a scene; `pulls`: SceneCouplings::pull() by coupling, or empty.
+// Of a scene; `forces`: SceneCouplings::force() by coupling, or empty.
 Snapshot snapshot_of(const SceneModel& scene, SceneCouplings& couplings, const State<double>& x,
-                     const std::vector<Vector3>& pulls);
+                     const std::vector<Vector3>& forces);
 
 // Centre of mass of a body; its origin if massless.
 Vector3 com_of(const Model<double>& model, const Kinematics& k, std::size_t body);

@@ -140,7 +140,7 @@ class BodyEquations {
   Matrix D() const { return axes_.square(in_.w.D); }
   // In the link axes of that body, which may be the base.
   Vector6 of(std::size_t body, const std::vector<Motion<double>>& field) const {
-    const Matrix3 R_LB = to_eigen(in_.model.turn[body]).transpose();
+    const Matrix3 R_LB = to_eigen(in_.model.R_BL[body]).transpose();
     return (Vector6() << R_LB * to_eigen(field[body].w), R_LB * to_eigen(field[body].v)).finished();
   }
   static Equation sum_of(const std::string& name, std::vector<EquationTerm> terms, Matrix value) {

@@ -20,7 +20,7 @@ bool is_zero(const ArticulatedInertia<double>& a) {
 }
 
 Matrix3 link_from_body(const Model<double>& model, std::size_t body) {
-  return to_eigen(model.turn[body]).transpose();
+  return to_eigen(model.R_BL[body]).transpose();
 }
 
 struct QuantityConverter {

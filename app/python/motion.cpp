@@ -29,7 +29,7 @@ Array poses(Robot& robot, const py::object& q) {
   Array all = zeros({n, 4, 4});
   for (py::ssize_t i = 0; i < n; ++i) {
     const auto body = static_cast<std::size_t>(i);
-    const Mat3<double>& R_BL = robot.model.turn[body];
+    const Mat3<double>& R_BL = robot.model.R_BL[body];
     double* X = all.mutable_data(i, 0, 0);
     const Vec3<double> columns[3] = {{R_BL.r0.x, R_BL.r1.x, R_BL.r2.x},
                                      {R_BL.r0.y, R_BL.r1.y, R_BL.r2.y},
@@ -62,7 +62,7 @@ Array body_jacobian(Robot& robot, const py::object& q, const std::string& body,
   Vec3<double> p_B;
   if (!point.is_none()) {
     const auto p = vector_of(point, 3, "jacobian(): point", "x, y, z in link axes [m]");
-    p_B = robot.model.turn[i] * Vec3<double>{p[0], p[1], p[2]};
+    p_B = robot.model.R_BL[i] * Vec3<double>{p[0], p[1], p[2]};
   }
   std::vector<Motion<double>> columns(robot.model.nv);
   jacobian(robot.model, robot.w, i, p_B, columns);

@@ -36,7 +36,7 @@ void take_wrenches(const char* function, PyObject* given, const Robot& robot,
   check_finite(numbers.data(), static_cast<std::size_t>(numbers.size()), what);
   for (std::size_t i = 1; i < f_ext.size(); ++i) {
     const double* of = numbers.data() + 6 * i;
-    const Mat3<double>& R_BL = robot.model.turn[i];
+    const Mat3<double>& R_BL = robot.model.R_BL[i];
     f_ext[i] = {R_BL * Vec3<double>{of[0], of[1], of[2]}, R_BL * Vec3<double>{of[3], of[4], of[5]}};
   }
 }

@@ -153,7 +153,7 @@ class TimeGrid {
   long steps() const { return steps_; }
   double time(long n) const { return n >= steps_ ? duration_ : static_cast<double>(n) * step_; }
   // Whether t after n steps is a time of the grid.
-  bool holds(long n, double t) const { return std::abs(t - time(n)) <= kSameTime * step_; }
+  bool contains(long n, double t) const { return std::abs(t - time(n)) <= kSameTime * step_; }
   // Length of the step from t, which need not be on the grid: the last step may be shorter.
   double length(double t) const {
     const double rest = duration_ - t;

@@ -37,7 +37,7 @@ void check_discretizations(const SceneModel& scene, const RunPlan& plan, Diagnos
                 integrator_name(plan.integrator),
             std::string(facts_of(coupling.law, coupling.printed).discretizations ==
                                     CouplingFacts::Discretizations::all &&
-                                coupling.law != CouplingSpec::Type::weld_like
+                                coupling.law != CouplingSpec::Type::weld
                             ? "give discretization = \"explicit\", or "
                             : "give ") +
                 "--integrator semi-implicit");

@@ -170,7 +170,7 @@ void SteppedRun::go_on_from(const RunStart& start) {
   result_.end = start.time;
   if (!start.anew) take_back(start.memory);
   last_step_ = start.last_step;
-  on_grid_ = TimeGrid(plan_.step, plan_.duration).holds(result_.steps, result_.end);
+  on_grid_ = TimeGrid(plan_.step, plan_.duration).contains(result_.steps, result_.end);
   const double now = result_.end;
   while (next_ < plan_.times.size() && plan_.times[next_] < now) ++next_;
 }

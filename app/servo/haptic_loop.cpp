@@ -51,8 +51,8 @@ HapticLoop::HapticLoop(const SceneModel& scene, const SceneCouplings& couplings,
   const auto [body, p_L] = controlled_point(scene, driven);
   const State<double>& rest = scene.couplings[first_].rest;
   const MappedRobot robot{&scene.model, rest, driven_, {}, {}, body, p_L};
-  mapping_ = make_mapping(options.mapping, device.figures(), robot);
-  force_ = std::make_unique<ForceFeedback>(options.force, device.figures(), *mapping_);
+  mapping_ = make_mapping(options.mapping, device.parameters(), robot);
+  force_ = std::make_unique<ForceFeedback>(options.force, device.parameters(), *mapping_);
   for (const std::size_t c : driven)
     if (scene.couplings[c].leads() && !scene.couplings[c].soft_limits)
       reaction_.add(couplings.law(c), couplings.coupling(c));

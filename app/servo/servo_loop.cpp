@@ -179,14 +179,14 @@ TickResult LiveRun::tick() noexcept {
   const double t = time();
   const MappedTarget& target = loop_->before_step(simulation_.state(), t, h_);
   hand_->set(target, t, h_);
-  result.hand = hand_->newest();
+  result.motion = hand_->newest();
   const std::vector<double>& q_D = loop_->q_D();
   for (std::size_t j = 0; j < std::min(result.error.size(), q_D.size()); ++j)
     result.error[j] = target.q[j] - q_D[j];
   result.mode = loop_->watch().mode();
   if (!stopped_) stopped_ = !simulation_.step(h_).finite;
   result.finite = !stopped_;
-  result.felt = loop_->after_step(simulation_, h_, result.finite).torque;
+  result.motor_torques = loop_->after_step(simulation_, h_, result.finite).torque;
   return result;
 }
 
@@ -209,7 +209,7 @@ DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, 
 
 std::unique_ptr<DeviceMotion> record_operator(InputDevice& device, double duration, bool real_time,
                                               const std::function<void(double)>& tick) {
-  const double h = 1 / device.figures().rate;
+  const double h = 1 / device.parameters().rate;
   const auto steps = static_cast<std::size_t>(std::ceil(duration / h - 1e-9));
   auto hand = std::make_unique<DeviceMotion>(steps);
   ServoClock clock(h);
@@ -221,10 +221,10 @@ std::unique_ptr<DeviceMotion> record_operator(InputDevice& device, double durati
     DeviceState now = device.poll(t);
     if (!now.alive) now = last;
     DeviceStep step{t, h, {}};
-    step.hand.theta = now.theta;
+    step.sample.theta = now.theta;
     for (std::size_t j = 0; j < now.theta.size(); ++j)
-      step.hand.theta_dot[j] = (now.theta[j] - last.theta[j]) / h;
-    step.hand.button = now.buttons[0];
+      step.sample.theta_dot[j] = (now.theta[j] - last.theta[j]) / h;
+    step.sample.button = now.buttons[0];
     hand->set(step);
     device.render({});
     last = now;

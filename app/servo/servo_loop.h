@@ -32,11 +32,11 @@ struct LiveOptions : HapticLoopOptions {
 
 // Result of a tick.
 struct TickResult {
-  DeviceStep hand;  // motion of the KVR
+  DeviceStep motion;  // of the KVR
   DeviceWatchdog::Mode mode = DeviceWatchdog::Mode::live;
-  std::array<double, 3> felt{};   // motor torques [N m]
-  std::array<double, 3> error{};  // q_K - q_D of the driven joints at the start of the step
-  bool finite = true;             // false: the DVR has diverged, and is not stepped any more
+  std::array<double, 3> motor_torques{};  // [N m]
+  std::array<double, 3> error{};          // q_K - q_D of the driven joints at the start of the step
+  bool finite = true;  // false: the DVR has diverged, and is not stepped any more
 };
 
 class LiveRun {

@@ -82,7 +82,7 @@ TrackingSetup tracking_setup(const StudyRobot& robot, const OperatorMotion& hand
   TrackingSetup setup;
   setup.kvr_model = &robot.kvr_model();
   setup.dvr_model = &robot.dvr_model(spec.coupling.type);
-  setup.hand = &hand;
+  setup.motion = &hand;
   setup.joints = robot.joints();
   setup.kvr_rates = spec.kvr_rates;
   setup.integrator = spec.integrator;
@@ -160,7 +160,8 @@ const char* discretization_name(const CouplingSpec& spec) {
 
 std::string coupling_words(const CouplingSpec& spec) {
   if (spec.type == CouplingSpec::Type::linear) return "linear";
-  if (spec.type == CouplingSpec::Type::matched) return "torsional, full K_q of the linear coupling";
+  if (spec.type == CouplingSpec::Type::equivalent_torsional)
+    return "torsional, full K_q of the linear coupling";
   const SpringSpace measure = spec.printed ? spec.options.measure : spec.measure;
   return measure == SpringSpace::world ? "torsional, world orientation" : "torsional, joint angle";
 }

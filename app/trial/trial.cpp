@@ -100,7 +100,7 @@ class TaskWatch {
       sum_[j] += std::abs(tick.error[j]);
     }
     pose(tick, is_kinematic_);
-    if (task) task->tick(tick.hand.t + tick.hand.h, k_.X_WL[tip_].p, tick.hand.hand.button);
+    if (task) task->tick(tick.motion.t + tick.motion.h, k_.X_WL[tip_].p, tick.motion.sample.button);
   }
   std::string picture(const TickResult& tick, const PickAndPlace* task) {
     TopView table;
@@ -132,7 +132,7 @@ class TaskWatch {
     const OperatorMapping mapping;
     for (std::size_t j = 0; j < std::min<std::size_t>(3, driven_.size()); ++j)
       x_.q[model_.iq[driven_[j]]] =
-          mapping.robot_angle(tick.hand.hand, j) - (kinematic ? 0 : tick.error[j]);
+          mapping.robot_angle(tick.motion.sample, j) - (kinematic ? 0 : tick.error[j]);
     forward_kinematics(model_, x_, k_);
   }
   void draw(TopView& table, char mark) const {
@@ -179,10 +179,10 @@ TrialResult run_task(const TrialCondition& condition, InputDevice& device,
     bool any = false;
     while (!progress.is_placed && ring.pop(tick)) {
       watch.look(tick, pick);
-      log.write(tick.hand);
+      log.write(tick.motion);
       newest = tick;
       any = true;
-      reached = tick.hand.t + tick.hand.h;
+      reached = tick.motion.t + tick.motion.h;
     }
     log.flush();
     if (any && task.show) task.show(watch.picture(newest, pick), reached);

@@ -41,7 +41,7 @@ void follow(const TrackingCase& what, const Model<double>& model, const Operator
             std::vector<TrackingRow>& rows) {
   TrackingSetup setup;
   setup.kvr_model = setup.dvr_model = &model;
-  setup.hand = &motion;
+  setup.motion = &motion;
   setup.joints.turned = what.driven;
   const TargetRobot begin(model, motion, setup.mapping, setup.joints);
   setup.couplings = {joint_springs(model, begin.start().x)};

@@ -59,7 +59,7 @@ class SoftWall final : public ForceSource {
 
 DeviceMotion motion_at(double angle) {
   DeviceStep step{0, 1, {}};
-  OperatorMapping{}.set_robot_angle(step.hand, 0, angle, 0);
+  OperatorMapping{}.set_robot_angle(step.sample, 0, angle, 0);
   DeviceMotion motion(1);
   motion.set(step);
   return motion;

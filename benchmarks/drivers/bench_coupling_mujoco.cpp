@@ -146,7 +146,7 @@ bool weld_error() {
     engine.data->mocap_pos[0] = v * n * h;
     engine.step();
   }
-  return report("tracking error of a mocap weld, 2 v timeconst [m]", mocap_weld_lag(v, timeconst),
+  return report("tracking error of a mocap weld, 2 v timeconst [m]", mocap_weld_error(v, timeconst),
                 engine.data->mocap_pos[0] - engine.q(), 0.01);
 }
 

@@ -35,7 +35,7 @@ class ScenePushes final : public ForceSource {
   const Scene& scene_;
 };
 
-// Contacts with timers around detection and around the solver's part between add and take.
+// Contacts with timers around detection and the solver (from add_constraints to read_impulses).
 class WatchedContacts final : public ContactConstraints {
  public:
   using ContactConstraints::ContactConstraints;
@@ -47,14 +47,14 @@ class WatchedContacts final : public ContactConstraints {
     ContactConstraints::begin_step(k, x, h);
     detection += now() - start;
   }
-  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
-    ContactConstraints::add(frame, problem);
+  void add_constraints(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
+    ContactConstraints::add_constraints(frame, problem);
     added_ = now();
   }
-  void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-            std::size_t first) noexcept override {
+  void read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                     std::size_t first) noexcept override {
     solver += now() - added_;
-    ContactConstraints::take(frame, problem, first);
+    ContactConstraints::read_impulses(frame, problem, first);
   }
 
  private:

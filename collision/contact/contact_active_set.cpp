@@ -24,44 +24,45 @@ void ContactWorks::serialize(StateArchive& memory, std::size_t count) {
   }
 }
 
-void ContactActiveSet::hold(const ConstraintFrame& frame, bool impact) noexcept {
+void ContactActiveSet::set_active_set(const ConstraintFrame& frame, bool impact) noexcept {
   bodies_.locates_events = true;
   held_pairs_.clear();
   for (ContactPoint& p : points_) {
     const Vector3 velocity = bodies_.relative_velocity(p.contact, frame.k);
     const double u = p.contact.n_W.dot(velocity);
-    const bool stays_held = p.is_held && !p.opens && !impact;
+    const bool stays_held = p.is_held && !p.is_separating && !impact;
     p.is_held = stays_held || (p.contact.depth >= -kClosed && u <= kRest);
-    p.opens = false;
+    p.is_separating = false;
     p.slip_W = velocity - u * p.contact.n_W;
     const std::pair pair(p.contact.a, p.contact.b);
     if (p.is_held && (held_pairs_.empty() || held_pairs_.back() != pair))
       held_pairs_.push_back(pair);
   }
   held_ = points_;
-  flow_works_.assign(kFlowNumbers * held_pairs_.size(), 0);
+  integrals_.assign(kIntegrals * held_pairs_.size(), 0);
 }
 
-void ContactActiveSet::look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept {
+void ContactActiveSet::find_next_event(const ConstraintFrame& frame,
+                                       NextEvent& next) const noexcept {
   for (const ContactPoint& p : points_)
     if (!p.is_held)
-      nearest.see(-p.contact.depth,
-                  p.contact.n_W.dot(bodies_.relative_velocity(p.contact, frame.k)));
+      next.include(-p.contact.depth,
+                   p.contact.n_W.dot(bodies_.relative_velocity(p.contact, frame.k)));
 }
 
-void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c, double h,
-                                 double normal, double friction) {
+void ContactActiveSet::read_smooth(ContactPoint& point, const ImpulseConstraint& c, double h,
+                                   double normal, double friction) {
   const bool moves = std::hypot(c.u[1], c.u[2]) > kMoves;
   const bool slid = c.law == ConstraintType::coulomb_cone && point.slip_W.norm() > kMoves;
   const bool same_direction = moves && point.slip_W.dot(point.velocity_W) > 0;
-  char mode = moves ? slides : rests;
-  if (slid && !same_direction) mode = turns;
-  point.opens = c.u[0] > kMoves;
-  if (point.opens) mode = opens;
+  char mode = moves ? sliding : sticking;
+  if (slid && !same_direction) mode = reversing;
+  point.is_separating = c.u[0] > kMoves;
+  if (point.is_separating) mode = separating;
   modes_.push_back(mode);
   const auto pair = std::lower_bound(held_pairs_.begin(), held_pairs_.end(),
                                      std::pair(point.contact.a, point.contact.b));
-  double* sums = &flow_works_[kFlowNumbers * static_cast<std::size_t>(pair - held_pairs_.begin())];
+  double* sums = &integrals_[kIntegrals * static_cast<std::size_t>(pair - held_pairs_.begin())];
   sums[0] += normal, sums[1] += friction;
   const Vector3 impulse_W = h * point.force_W;
   const Vector3 moment_W = bodies_.impulse_moment(point.contact, impulse_W) + h * point.couple_W;
@@ -71,7 +72,7 @@ void ContactActiveSet::take_flow(ContactPoint& point, const ImpulseConstraint& c
 void ContactActiveSet::commit_work() noexcept {
   for (std::size_t i = 0; i < held_pairs_.size(); ++i) {
     ContactWork& work = works_.of(held_pairs_[i].first, held_pairs_[i].second);
-    const double* sums = &flow_works_[kFlowNumbers * i];
+    const double* sums = &integrals_[kIntegrals * i];
     work.normal += sums[0], work.friction += sums[1];
     work.impulse_W += Vector3(sums[2], sums[3], sums[4]);
     work.moment_W += Vector3(sums[5], sums[6], sums[7]);

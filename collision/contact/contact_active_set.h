@@ -31,34 +31,34 @@ class ContactActiveSet final : public EventSource {
   ContactActiveSet(ContactBodies& bodies, std::vector<ContactPoint>& points, ContactWorks& works)
       : bodies_(bodies), points_(points), works_(works) {}
 
-  void hold(const ConstraintFrame& frame, bool struck) noexcept override;
+  void set_active_set(const ConstraintFrame& frame, bool impact) noexcept override;
   void restore_active_set() noexcept override {
     points_ = held_;
-    std::fill(flow_works_.begin(), flow_works_.end(), 0);
+    std::fill(integrals_.begin(), integrals_.end(), 0);
   }
-  void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept override;
-  void modes(std::vector<char>& modes) const noexcept override {
+  void find_next_event(const ConstraintFrame& frame, NextEvent& next) const noexcept override;
+  void append_modes(std::vector<char>& modes) const noexcept override {
     modes.insert(modes.end(), modes_.begin(), modes_.end());
   }
-  std::span<double> works() noexcept override { return flow_works_; }
+  std::span<double> work_integrals() noexcept override { return integrals_; }
   void commit_work() noexcept override;
 
-  // Reads a solution of Phase::flow: contact modes and work of the active contacts.
-  void begin_flow() { modes_.clear(); }
-  void take_flow(ContactPoint& point, const ImpulseConstraint& c, double h, double normal,
-                 double friction);
+  // Reads a solution of Phase::smooth: contact modes and work of the active contacts.
+  void clear_modes() { modes_.clear(); }
+  void read_smooth(ContactPoint& point, const ImpulseConstraint& c, double h, double normal,
+                   double friction);
 
  private:
   // By pair: work of the normal force, work of friction, impulse (3), moment (3).
-  static constexpr std::size_t kFlowNumbers = 8;
+  static constexpr std::size_t kIntegrals = 8;
 
   ContactBodies& bodies_;
   std::vector<ContactPoint>& points_;
   ContactWorks& works_;
-  std::vector<ContactPoint> held_;               // copy of the points after hold()
+  std::vector<ContactPoint> held_;               // copy of the points after set_active_set()
   std::vector<std::pair<int, int>> held_pairs_;  // ascending
-  std::vector<double> flow_works_;
-  std::vector<char> modes_;  // of the active contacts, after Phase::flow
+  std::vector<double> integrals_;
+  std::vector<char> modes_;  // of the active contacts, after Phase::smooth
 };
 
 }  // namespace twinarm

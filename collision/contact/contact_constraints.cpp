@@ -19,7 +19,7 @@ ContactConstraints::ContactConstraints(const Model<double>& model, ContactRespon
 
 bool ContactConstraints::has_closing_contact(const ConstraintFrame& frame) noexcept {
   if (response_ == ContactResponse::compliant) return false;
-  const bool located = frame.phase == Phase::hit;
+  const bool located = frame.phase == Phase::impact_at_event;
   bool any = false;
   for (ContactPoint& p : found_.points) {
     p.has_closing_contact = false;
@@ -38,20 +38,20 @@ bool ContactConstraints::needs_position_correction() const noexcept {
   return std::ranges::any_of(found_.points, [](const auto& p) { return p.gap_after < -kSlop; });
 }
 
-void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-                              std::size_t) noexcept {
-  if (frame.phase == Phase::separate) return;
-  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::hit;
+void ContactConstraints::read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                                       std::size_t) noexcept {
+  if (frame.phase == Phase::position_correction) return;
+  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::impact_at_event;
   if (!jumps)
     for (ContactPoint& point : found_.points) point.force_W = point.couple_W = Vector3::Zero();
-  if (frame.phase == Phase::flow) active_.begin_flow();
+  if (frame.phase == Phase::smooth) active_.clear_modes();
   for (const ContactRows::Part& part : rows_.parts()) {
     const ImpulseConstraint& c = problem.constraints()[part.row];
     ContactPoint& point = found_.points[part.point];
     const Matrix3 axes = contact_axes(point.contact.n_W);
     const Vector3 impulse_W = axes * Vector3(c.p[0], c.p[1], c.p[2]);
     point.impulse_W += impulse_W;
-    if (frame.phase != Phase::flow) {
+    if (frame.phase != Phase::smooth) {
       ContactWork& work = works_.of(point.contact.a, point.contact.b);
       work.impulse_W += impulse_W;
       work.moment_W += bodies_.impulse_moment(point.contact, impulse_W);
@@ -64,13 +64,13 @@ void ContactConstraints::take(const ConstraintFrame& frame, const ImpulseProblem
       for (std::size_t r = 0; r < 3; ++r)
         works_.of(point.contact.a, point.contact.b).impact += 0.5 * c.p[r] * (before[r] + after[r]);
     } else {
-      take_step(frame, problem, part, axes);
+      read_step(frame, problem, part, axes);
     }
   }
 }
 
 // Second phase: forces, gap at the end of the step, and work p . (u_before + u_after)/2.
-void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
+void ContactConstraints::read_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
                                    const ContactRows::Part& part, const Matrix3& axes) {
   const ImpulseConstraint& c = problem.constraints()[part.row];
   ContactPoint& point = found_.points[part.point];
@@ -88,8 +88,7 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
   const double normal = 0.5 * c.p[0] * (before[0] + after[0]);
   double friction = 0;
   for (const std::size_t r : {1, 2}) friction += 0.5 * c.p[r] * (before[r] + after[r]);
-  if (c.law ==
-      ConstraintType::compliant) {  // bristle deflection from the force (also while sliding)
+  if (c.law == ConstraintType::compliant) {  // bristle deflection, also while sliding
     const double stiff = c.h * c.k_t, damp = c.h * c.b_t;
     Vector3 anchor = Vector3::Zero();
     for (int r = 1; r < 3; ++r) anchor += axes.col(r) * (-(p[r] + damp * c.u[r]) / stiff);
@@ -102,7 +101,7 @@ void ContactConstraints::take_step(const ConstraintFrame& frame, const ImpulsePr
       friction += couple.p[r] * (couple.u[r] - couple.b[r]);
     }
   }
-  if (frame.phase == Phase::flow) return active_.take_flow(point, c, frame.h, normal, friction);
+  if (frame.phase == Phase::smooth) return active_.read_smooth(point, c, frame.h, normal, friction);
   ContactWork& work = works_.of(point.contact.a, point.contact.b);
   work.moment_W += frame.h * point.couple_W;
   const bool is_impact = c.p[0] > 0 && start[0] < -kMinBounceSpeed && u_n > start[0];

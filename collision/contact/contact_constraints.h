@@ -38,11 +38,11 @@ class ContactConstraints : public ConstraintSource, public Checkpointable {
     return found_.extend_detection(k, h);
   }
   bool needs_position_correction() const noexcept override;
-  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
+  void add_constraints(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override {
     rows_.add(frame, found_.points, problem);
   }
-  void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-            std::size_t first) noexcept override;
+  void read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                     std::size_t first) noexcept override;
   EventSource* events() override { return &active_; }
   void serialize(StateArchive& memory) override;
 
@@ -53,7 +53,7 @@ class ContactConstraints : public ConstraintSource, public Checkpointable {
   static constexpr double kSlop = ContactRows::kSlop;
 
  private:
-  void take_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
+  void read_step(const ConstraintFrame& frame, const ImpulseProblem& problem,
                  const ContactRows::Part& part, const Matrix3& axes);
 
   ContactResponse response_;

@@ -54,7 +54,7 @@ class ContactForce final : public ForceSource {
                   Forces<double>& forces) noexcept override;
   bool refine(const Kinematics& k, const Workspace<double>& w) noexcept override;
   bool needs_semi_implicit() const override { return true; }
-  bool needs_rounds() const override { return true; }
+  bool needs_iterations() const override { return true; }
 
   const std::vector<ContactReading>& readings() const { return readings_; }  // of the last step
   // Maximum penetration depth at a pose, 0 without penetration [m].

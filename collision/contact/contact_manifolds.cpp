@@ -37,7 +37,7 @@ ContactPoint ContactManifolds::start(const Contact& contact) const {
     point.force_W = before->force_W;
     point.couple_W = before->couple_W;
     point.anchor_W = before->anchor_W;
-    point.is_held = before->is_held, point.opens = before->opens;
+    point.is_held = before->is_held, point.is_separating = before->is_separating;
     point.slip_W = before->slip_W;
   }
   return point;
@@ -103,7 +103,7 @@ void ContactManifolds::serialize(StateArchive& memory) {
     memory.visit(p.contact.feature, p.contact.depth, p.friction, p.restitution,
                  p.compliance.stiffness, p.compliance.dissipation);
     memory.visit(p.contact.p_WC, p.contact.n_W, p.impulse_W, p.force_W, p.couple_W, p.anchor_W,
-                 p.velocity_W, p.slip_W, p.is_held, p.opens);
+                 p.velocity_W, p.slip_W, p.is_held, p.is_separating);
   }
 }
 

@@ -51,12 +51,12 @@ struct ContactPoint {
   Contact contact;  // at the start of the step
   double friction = 0, restitution = 0;
   Compliance compliance{};
-  Vector3 impulse_W = Vector3::Zero();   // on b, over the step, with impacts [N s]
-  Vector3 force_W = Vector3::Zero();     // on b, without impacts [N]
-  Vector3 couple_W = Vector3::Zero();    // on b: torsional and rolling friction [N m]
-  Vector3 anchor_W = Vector3::Zero();    // compliant: bristle deflection [m]
-  Vector3 velocity_W = Vector3::Zero();  // of b relative to a, at the end of the step [m/s]
-  bool is_held = false, opens = false;   // event_source.h
+  Vector3 impulse_W = Vector3::Zero();          // on b, over the step, with impacts [N s]
+  Vector3 force_W = Vector3::Zero();            // on b, without impacts [N]
+  Vector3 couple_W = Vector3::Zero();           // on b: torsional and rolling friction [N m]
+  Vector3 anchor_W = Vector3::Zero();           // compliant: bristle deflection [m]
+  Vector3 velocity_W = Vector3::Zero();         // of b relative to a, at the end of the step [m/s]
+  bool is_held = false, is_separating = false;  // event_source.h
   Vector3 slip_W = Vector3::Zero();  // if held: sliding velocity at the start of the segment [m/s]
   // Within a step:
   bool has_closing_contact = false;  // in the first phase: impact with restitution

@@ -45,9 +45,9 @@ bool ContactRows::takes_part(const ConstraintFrame& frame, const ContactPoint& p
   switch (frame.phase) {
     case Phase::impact:
       return point.has_closing_contact || point.contact.depth > -kTouching;
-    case Phase::hit:
+    case Phase::impact_at_event:
       return point.contact.depth >= -EventSource::kClosed;
-    case Phase::flow:
+    case Phase::smooth:
       return point.is_held;
     default:
       return true;
@@ -59,7 +59,7 @@ bool ContactRows::takes_part(const ConstraintFrame& frame, const ContactPoint& p
 // speed there is e U, which at the present position is w: w^2 = e^2 U^2 - 2 A gap.
 double ContactRows::bounce_speed(const ContactPoint& point, double u, const ConstraintFrame& frame,
                                  const ImpulseProblem& problem, const ImpulseConstraint& c) const {
-  if (frame.phase == Phase::hit) return point.restitution * std::abs(u);
+  if (frame.phase == Phase::impact_at_event) return point.restitution * std::abs(u);
   std::array<double, 3> acceleration;
   problem.velocity(c, frame.acceleration, acceleration);
   const double e = point.restitution, gap = std::max(0.0, -point.contact.depth);
@@ -70,7 +70,7 @@ double ContactRows::bounce_speed(const ContactPoint& point, double u, const Cons
 double ContactRows::allowed_closing_speed(const ConstraintFrame& frame,
                                           const ContactPoint& point) const {
   const double gap = -point.contact.depth;
-  if (frame.phase == Phase::flow) return EventSource::kGapRate * gap;
+  if (frame.phase == Phase::smooth) return EventSource::kGapRate * gap;
   if (response_ == ContactResponse::compliant) return 0;
   return std::max(0.0, gap - EventSource::kClosed) / frame.h;
 }
@@ -83,7 +83,7 @@ void ContactRows::add_contact(const ConstraintFrame& frame, const ContactPoint& 
   if (tree_a == ImpulseConstraint::no_tree && tree_b == ImpulseConstraint::no_tree) return;
   const bool one_tree = tree_a == tree_b;  // two links of one robot
   if (one_tree) tree_b = ImpulseConstraint::no_tree;
-  const bool separate = frame.phase == Phase::separate;
+  const bool separate = frame.phase == Phase::position_correction;
   const bool soft = response_ == ContactResponse::compliant;
   const bool smooth = !soft && point.friction <= 0;
   const int rows = separate || smooth ? 1 : 3;
@@ -110,7 +110,7 @@ void ContactRows::add_contact(const ConstraintFrame& frame, const ContactPoint& 
     problem.velocity(c, frame.v, c.b);
     for (int r = 0; r < rows; ++r) c.b[r] = u[r] - c.b[r];
   }
-  if (frame.phase == Phase::impact || frame.phase == Phase::hit) {
+  if (frame.phase == Phase::impact || frame.phase == Phase::impact_at_event) {
     if (point.has_closing_contact && !frame.is_plastic(c))
       c.b[0] -= bounce_speed(point, u[0], frame, problem, c);
     return;
@@ -136,8 +136,8 @@ void ContactRows::add_friction_couples(const ConstraintFrame& frame, const Conta
     ImpulseConstraint& c = problem.add(ConstraintType::friction_disc, rows, tree[0], tree[1]);
     c.radius = radius;
     c.of = of;
-    frame.trees.add_turn_rows(frame.k, body_a, about, rows, -1, problem.J(c, 0));
-    frame.trees.add_turn_rows(frame.k, body_b, about, rows, 1, problem.J(c, one_tree ? 0 : 1));
+    frame.trees.add_rotation_rows(frame.k, body_a, about, rows, -1, problem.J(c, 0));
+    frame.trees.add_rotation_rows(frame.k, body_b, about, rows, 1, problem.J(c, one_tree ? 0 : 1));
     if (has_drives_) {
       const Vector3 w = about.transpose() * (frame.k.w_WL[static_cast<std::size_t>(body_b)] -
                                              frame.k.w_WL[static_cast<std::size_t>(body_a)]);

@@ -66,10 +66,10 @@ double max_stable_step(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B,
                        SteppingScheme scheme) {
   const SpringModes modes = spring_modes(M, K, B);
   if (modes.size() == 0) return kNoLimit;
-  const MatrixXd squares = modes.squares.asDiagonal();
+  const MatrixXd omega_squared = modes.omega_squared.asDiagonal();
   const double rate = modes.max_rate();
   return max_stable(
-      [&](double h) { return is_stable_step(h * h * squares, h * modes.damping, scheme); },
+      [&](double h) { return is_stable_step(h * h * omega_squared, h * modes.damping, scheme); },
       1e-4 / rate, 1e4 / rate);
 }
 
@@ -78,10 +78,10 @@ double max_stiffness_factor(const MatrixXd& M, const MatrixXd& K, const MatrixXd
   check_step_size(h);
   const SpringModes modes = spring_modes(M, K, B);
   if (modes.size() == 0) return kNoLimit;
-  const MatrixXd squares = modes.squares.asDiagonal();
+  const MatrixXd omega_squared = modes.omega_squared.asDiagonal();
   const auto stable = [&](double factor) {
     const double of_b = keep == HoldConstant::damping_ratio ? std::sqrt(factor) : factor;
-    return is_stable_step(factor * h * h * squares, of_b * h * modes.damping, scheme);
+    return is_stable_step(factor * h * h * omega_squared, of_b * h * modes.damping, scheme);
   };
   const double product = std::max(modes.max_rate() * h, 1e-12);
   return max_stable(stable, 1e-6 / (product * product), 1e8);

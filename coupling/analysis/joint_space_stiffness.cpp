@@ -152,7 +152,7 @@ SpringModes spring_modes(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B
   for (std::size_t c = 0; c < kept.size(); ++c) {
     const auto column = static_cast<Index>(c);
     const double square = all.values[kept[c]];
-    modes.squares[column] = std::abs(square) > kZero * max_square ? square : 0;
+    modes.omega_squared[column] = std::abs(square) > kZero * max_square ? square : 0;
     modes.shapes.col(column) = all.vectors.col(kept[c]);
   }
   modes.damping = modes.shapes.transpose() * B * modes.shapes;

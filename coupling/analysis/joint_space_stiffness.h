@@ -71,18 +71,18 @@ Eigen::VectorXd squared_frequencies(const Eigen::MatrixXd& M, const Eigen::Matri
 
 // Undamped modes K x = w^2 M x, ascending, without those of zero stiffness and damping.
 struct SpringModes {
-  Eigen::VectorXd squares;  // w^2 [rad^2/s^2]; negative: statically unstable
-  Eigen::MatrixXd shapes;   // columns with x^T M x = 1
-  Eigen::MatrixXd damping;  // X^T B X [1/s]; diagonal: 2 z w
-  Eigen::Index size() const { return squares.size(); }
+  Eigen::VectorXd omega_squared;  // [rad^2/s^2]; negative: statically unstable
+  Eigen::MatrixXd shapes;         // columns with x^T M x = 1
+  Eigen::MatrixXd damping;        // X^T B X [1/s]; diagonal: 2 z w
+  Eigen::Index size() const { return omega_squared.size(); }
   // Maximum frequency or damping rate [1/s].
   double max_rate() const {
-    return std::max(std::sqrt(squares.cwiseAbs().maxCoeff()), damping.cwiseAbs().maxCoeff());
+    return std::max(std::sqrt(omega_squared.cwiseAbs().maxCoeff()), damping.cwiseAbs().maxCoeff());
   }
   // [rad/s]; 0 if w^2 <= 0
-  double omega(Eigen::Index i) const { return squares[i] > 0 ? std::sqrt(squares[i]) : 0; }
+  double omega(Eigen::Index i) const { return std::sqrt(std::max(0.0, omega_squared[i])); }
   // Damping / (2 w); exact for proportional damping.
-  double zeta(Eigen::Index i) const { return squares[i] > 0 ? damping(i, i) / (2 * omega(i)) : 0; }
+  double zeta(Eigen::Index i) const { return omega(i) > 0 ? damping(i, i) / (2 * omega(i)) : 0; }
 };
 SpringModes spring_modes(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
                          const Eigen::MatrixXd& B);

@@ -59,7 +59,7 @@ MultiJointTrackingError::MultiJointTrackingError(ChainDynamics dynamics)
   const SpringModes modes = spring_modes(chain_.M, chain_.K, chain_.B);
   shapes_ = modes.shapes;
   damping_ = modes.damping;
-  squares_ = modes.squares;
+  omega_squared_ = modes.omega_squared;
   // e_j is determined by the modes if row j of their projection is a unit row.
   const MatrixXd spanned = shapes_ * shapes_.transpose() * chain_.M;
   for (Index j = 0; j < spanned.rows(); ++j) {
@@ -87,12 +87,12 @@ VectorXd MultiJointTrackingError::behind(MotionProfile move, const VectorXd& dis
                std::numbers::pi / time);
 }
 
-VectorXd MultiJointTrackingError::lag(const VectorXd& v) const {
+VectorXd MultiJointTrackingError::steady_state(const VectorXd& v) const {
   const VectorXd load = shapes_.transpose() * (chain_.absolute * restrict_to_held(v, 0));
   VectorXd y = VectorXd::Zero(load.size());
   for (Index i = 0; i < y.size(); ++i)
     if (std::abs(load[i]) > 1e-10 * load.cwiseAbs().maxCoeff())
-      y[i] = squares_[i] > 0 ? load[i] / squares_[i] : kNone;
+      y[i] = omega_squared_[i] > 0 ? load[i] / omega_squared_[i] : kNone;
   return restrict_to_held(shapes_ * y, kNone);
 }
 
@@ -101,8 +101,8 @@ VectorXd MultiJointTrackingError::peaks(const std::vector<ProfileSegment>& piece
                                         const VectorXd& along, const VectorXd& e, double end,
                                         double W) const {
   constexpr double kPerPeriod = 400, kMin = 4000, kMax = 2e5;
-  const Index m = squares_.size();
-  if (m == 0 || squares_.minCoeff() < 0) return VectorXd::Constant(along.size(), kNone);
+  const Index m = omega_squared_.size();
+  if (m == 0 || omega_squared_.minCoeff() < 0) return VectorXd::Constant(along.size(), kNone);
   const VectorXd D = restrict_to_held(along, 0);
   const VectorXd by_a = shapes_.transpose() * (chain_.M * D);
   const VectorXd by_v = shapes_.transpose() * (chain_.absolute * D);
@@ -112,7 +112,7 @@ VectorXd MultiJointTrackingError::peaks(const std::vector<ProfileSegment>& piece
   z.head(m) = shapes_.transpose() * (chain_.M * restrict_to_held(e, 0));
   MatrixXd A = MatrixXd::Zero(z.size(), z.size());
   A.block(0, m, m, m).setIdentity();
-  A.block(m, 0, m, m).diagonal() = -squares_;
+  A.block(m, 0, m, m).diagonal() = -omega_squared_;
   A.block(m, m, m, m) = -damping_;
   A.bottomRightCorner(kTerms, kTerms) = rates_of_terms(W);
   for (std::size_t p = 0; p < pieces.size(); ++p) {

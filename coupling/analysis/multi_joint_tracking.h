@@ -40,10 +40,10 @@ class MultiJointTrackingError {
   }
   Eigen::VectorXd after_reversal(const Eigen::VectorXd& v, double time) const {
     const double end = std::max(time, slowest_ > 0 ? 2 * std::numbers::pi / slowest_ : 0);
-    return peaks({{0, -2, {}, {{-1}}}}, v, lag(v), end, 0);
+    return peaks({{0, -2, {}, {{-1}}}}, v, steady_state(v), end, 0);
   }
   // Steady-state error at constant velocity v: K e = A v. NaN if unbounded.
-  Eigen::VectorXd lag(const Eigen::VectorXd& v) const;
+  Eigen::VectorXd steady_state(const Eigen::VectorXd& v) const;
 
  private:
   Eigen::VectorXd peaks(const std::vector<ProfileSegment>& pieces, const Eigen::VectorXd& along,
@@ -52,7 +52,7 @@ class MultiJointTrackingError {
 
   ChainDynamics chain_;
   Eigen::MatrixXd shapes_, damping_;
-  Eigen::VectorXd squares_;
+  Eigen::VectorXd omega_squared_;
   std::vector<bool> held_;
   double slowest_ = 0, fastest_ = 0;  // [rad/s]; 0: no mode has a frequency
 };

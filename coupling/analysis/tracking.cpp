@@ -30,7 +30,7 @@ TrackingError tracking_error(const TrackingSeries& series) {
 
 TrackingSystem::TrackingSystem(const TrackingSetup& setup) : setup_(setup) {
   check_step_size(setup.h);
-  kvr_ = std::make_unique<TargetRobot>(*setup.kvr_model, *setup.hand, setup.mapping, setup.joints,
+  kvr_ = std::make_unique<TargetRobot>(*setup.kvr_model, *setup.motion, setup.mapping, setup.joints,
                                        setup.kvr_rates);
   State<double> start(*setup.dvr_model);
   start.q = kvr_->start().x.q;  // at rest at the KVR's pose
@@ -51,8 +51,8 @@ void TrackingSystem::record(TrackingSeries& series) {
     series.q_K[j].push_back(kvr_->at(x.t).x.q[iq_[j]]);
     series.q_D[j].push_back(x.q[iq_[j]]);
   }
-  for (std::size_t s = 0; s < series.pull.size(); ++s)
-    series.pull[s].push_back(couplings_.front()->readings()[s].size);
+  for (std::size_t s = 0; s < series.coupling_force.size(); ++s)
+    series.coupling_force[s].push_back(couplings_.front()->readings()[s].size);
 }
 
 TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step) {
@@ -60,8 +60,8 @@ TrackingSeries TrackingSystem::run(const std::function<void(double)>& each_step)
   TrackingSeries series;
   series.q_K.resize(iq_.size());
   series.q_D.resize(iq_.size());
-  series.pull.resize(couplings_.empty() ? 0 : couplings_.front()->springs().size());
-  const auto steps = static_cast<std::size_t>(std::lround(setup_.hand->duration() / setup_.h));
+  series.coupling_force.resize(couplings_.empty() ? 0 : couplings_.front()->springs().size());
+  const auto steps = static_cast<std::size_t>(std::lround(setup_.motion->duration() / setup_.h));
   const auto sample = [&] {
     record(series);
     if (each_step) each_step(simulation_->state().t);
@@ -155,14 +155,14 @@ std::vector<ProfileSegment> segments_of(MotionProfile move, double D, double T) 
   return pieces;
 }
 
-FollowingError::FollowingError(MotionProfile move, double D, double T, double omega, double zeta,
-                               Damper damper)
+ProfileError::ProfileError(MotionProfile move, double D, double T, double omega, double zeta,
+                           Damper damper)
     : time_(T), omega_(omega), zeta_(zeta), W_(std::numbers::pi / T), damper_(damper) {
   for (const ProfileSegment& piece : segments_of(move, D, T)) add_piece(piece);
   solve();
 }
 
-void FollowingError::add_piece(const ProfileSegment& move) {
+void ProfileError::add_piece(const ProfileSegment& move) {
   Piece piece{move.start, move.jump, move.acceleration, {}};
   const Forcing& velocity = move.velocity;
   if (damper_ == Damper::absolute) {
@@ -178,7 +178,7 @@ void FollowingError::add_piece(const ProfileSegment& move) {
 
 // Powers, from the highest down: w^2 p_n + 2 z w (n+1) p_n+1 + (n+1)(n+2) p_n+2 = f_n.
 // (c cos + d sin): (w^2 - W^2) C + 2 z w W D = c,  (w^2 - W^2) D - 2 z w W C = d.
-void FollowingError::solve() {
+void ProfileError::solve() {
   const double w2 = omega_ * omega_, b = 2 * zeta_ * omega_;
   Motion end{0, 0};
   for (std::size_t i = 0; i < pieces_.size(); ++i) {
@@ -203,7 +203,7 @@ void FollowingError::solve() {
   }
 }
 
-FollowingError::Motion FollowingError::of_particular(const Piece& piece, double s) const {
+ProfileError::Motion ProfileError::of_particular(const Piece& piece, double s) const {
   Motion motion{0, 0};
   const std::vector<double>& p = piece.particular.power;
   for (std::size_t n = p.size(); n-- > 0;) {
@@ -217,7 +217,7 @@ FollowingError::Motion FollowingError::of_particular(const Piece& piece, double 
 
 // e'' + 2 z w e' + w^2 e = 0. With r^2 = w^2 |1 - z^2|, c and s of cos, sin or of cosh, sinh:
 // e = exp(-z w t) (e_0 c(r t) + (e'_0 + z w e_0) s(r t)/r).
-FollowingError::Motion FollowingError::free_motion(double e, double e_dot, double t) const {
+ProfileError::Motion ProfileError::free_motion(double e, double e_dot, double t) const {
   const double r = omega_ * std::sqrt(std::abs(1 - zeta_ * zeta_)), zw = zeta_ * omega_;
   const double rate = e_dot + zw * e;
   double c, s_by_r, back;  // back: of c' = back s_by_r
@@ -239,7 +239,7 @@ FollowingError::Motion FollowingError::free_motion(double e, double e_dot, doubl
   return {now, -zw * now + e * back * s_by_r + rate * c};
 }
 
-double FollowingError::at(double t) const {
+double ProfileError::at(double t) const {
   const Piece* piece = &pieces_.front();
   for (const Piece& next : pieces_)
     if (t >= next.start) piece = &next;
@@ -248,7 +248,7 @@ double FollowingError::at(double t) const {
 
 // Maximum on a fine grid over the move and one period after it, refined by a parabola through three
 // points.
-double FollowingError::peak() const {
+double ProfileError::peak() const {
   constexpr double kPerPeriod = 400, kMin = 4000, kMax = 4e6;
   const double period = 2 * std::numbers::pi / omega_, end = time_ + period;
   const double count = std::clamp(kPerPeriod * end / period, kMin, kMax), dt = end / count;

@@ -14,10 +14,10 @@ namespace twinarm {
 
 // One run, by step; joints of DrivenJoints::turned.
 struct TrackingSeries {
-  std::vector<double> t;                      // [s]
-  std::vector<std::vector<double>> q_K, q_D;  // [joint][step], rad (m for a prismatic joint)
-  std::vector<std::vector<double>> pull;      // [spring of the main coupling][step], N or N m
-  bool finite = true;                         // false: stopped, diverged
+  std::vector<double> t;                            // [s]
+  std::vector<std::vector<double>> q_K, q_D;        // [joint][step], rad (m for a prismatic joint)
+  std::vector<std::vector<double>> coupling_force;  // [spring of the main coupling][step], N or N m
+  bool finite = true;                               // false: stopped, diverged
 };
 // The paper's measure |theta_K - theta_D| [rad] by joint: maximum over the samples, and time
 // average (trapezoidal rule).
@@ -29,7 +29,7 @@ TrackingError tracking_error(const TrackingSeries& series);
 struct TrackingSetup {
   const Model<double>* kvr_model = nullptr;  // no added masses
   const Model<double>* dvr_model = nullptr;  // same tree, masses as simulated
-  const OperatorMotion* hand = nullptr;
+  const OperatorMotion* motion = nullptr;
   OperatorMapping mapping;
   DrivenJoints joints;
   std::vector<CouplingSpec> couplings;  // forces of the first are recorded
@@ -85,12 +85,12 @@ JumpErrors response_to_velocity_steps(const Eigen::MatrixXd& M, const Eigen::Mat
 double peak_after_jump(double V, double omega, double zeta);
 
 // Steady-state error at constant target speed v with an absolute damper.
-inline double absolute_damper_lag(double v, double omega, double zeta) {
+inline double absolute_damper_error(double v, double omega, double zeta) {
   return 2 * zeta * v / omega;
 }
 // MuJoCo's weld to a mocap body, dampratio 1: absolute damper with w = 1/timeconst.
-inline double mocap_weld_lag(double v, double timeconst) {  // 2 v timeconst
-  return absolute_damper_lag(v, 1 / timeconst, 1);
+inline double mocap_weld_error(double v, double timeconst) {  // 2 v timeconst
+  return absolute_damper_error(v, 1 / timeconst, 1);
 }
 
 // Motion profiles from 0 to `distance` D in `time` T, at rest before and after.
@@ -117,11 +117,11 @@ struct ProfileSegment {
 std::vector<ProfileSegment> segments_of(MotionProfile move, double distance, double time);
 
 // Closed-form error for such a profile, from rest with e = 0.
-class FollowingError {
+class ProfileError {
  public:
   enum class Damper { relative, absolute };
-  FollowingError(MotionProfile move, double distance, double time, double omega, double zeta,
-                 Damper damper = Damper::relative);
+  ProfileError(MotionProfile move, double distance, double time, double omega, double zeta,
+               Damper damper = Damper::relative);
   // At a time t >= 0.
   double at(double t) const;
   // Maximum |e|.

@@ -11,7 +11,7 @@ ModelWithoutFixedJoints::ModelWithoutFixedJoints(const Model<double>& whole) : m
   I.resize(n);
   const auto clear = [](auto&... lists) { (lists.clear(), ...); };
   clear(model.body_name, model.joint_name, model.parent, model.last_child, model.joint, model.pitch,
-        model.iq, model.iv, model.Xtree, model.I, model.turn);
+        model.iq, model.iv, model.Xtree, model.I, model.R_BL);
   for (std::size_t i = 0; i < n; ++i) {
     const auto p = static_cast<std::size_t>(i > 0 ? whole.parent[i] : 0);
     const Transform<double> X_joint = i > 0 ? whole.Xtree[i] * X[p] : Transform<double>{};
@@ -31,7 +31,7 @@ ModelWithoutFixedJoints::ModelWithoutFixedJoints(const Model<double>& whole) : m
       model.iq.push_back(whole.iq[i]);
       model.iv.push_back(whole.iv[i]);
       model.Xtree.push_back(X_joint);
-      model.turn.push_back(whole.turn[i]);
+      model.R_BL.push_back(whole.R_BL[i]);
     }
     add_congruence(X[i], whole.I[i], I[i]);
   }
@@ -40,7 +40,7 @@ ModelWithoutFixedJoints::ModelWithoutFixedJoints(const Model<double>& whole) : m
 
 Vec3<double> ModelWithoutFixedJoints::point_of(const Model<double>& whole, std::size_t body,
                                                const Vector3& p_L) const {
-  return X[body].r + transpose_times(X[body].E, whole.turn[body] * from_eigen(p_L));
+  return X[body].r + transpose_times(X[body].E, whole.R_BL[body] * from_eigen(p_L));
 }
 
 std::vector<Inertia<double>> ModelWithoutFixedJoints::inertias(

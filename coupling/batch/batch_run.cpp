@@ -221,7 +221,7 @@ void check_spring(const BatchSetup& setup, std::size_t s, DiagnosticList& faults
   if (spring.target >= setup.targets.size())
     faults.add(where, "target " + std::to_string(spring.target) + " does not exist",
                "give an index below " + std::to_string(setup.targets.size()), "batch.target");
-  if (spring.type == CouplingSpec::Type::matched)
+  if (spring.type == CouplingSpec::Type::equivalent_torsional)
     faults.add(where, "batched runs support torsional and linear springs only", kSingleRuns,
                "batch.spring");
   if (spring.body <= 0 || spring.body >= model.body_count() || !moves(model, spring.body))

@@ -22,7 +22,7 @@ namespace twinarm {
 
 // A target robot, at `rest` except for the driven joints.
 struct BatchTarget {
-  const OperatorMotion* hand = nullptr;
+  const OperatorMotion* motion = nullptr;
   OperatorMapping mapping;
   DrivenJoints joints;
   State<double> rest;

@@ -68,12 +68,12 @@ void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& m
   energy.assign((steps + 1) * energy_stride, 0);
   q_K.assign((steps + 1) * joints, 0);
 
-  std::vector<DelayedMotion> hands;
+  std::vector<DelayedMotion> motions;
   std::vector<TargetRobot> kvrs;
-  hands.reserve(setup.targets.size());
+  motions.reserve(setup.targets.size());
   for (const BatchTarget& target : setup.targets) {
-    hands.emplace_back(*target.hand, cell.delay, cell.speed);
-    kvrs.emplace_back(merged.model, hands.back(), target.mapping, target.joints);
+    motions.emplace_back(*target.motion, cell.delay, cell.speed);
+    kvrs.emplace_back(merged.model, motions.back(), target.mapping, target.joints);
     kvrs.back().set_pose(target.rest);
   }
   std::vector<Reader> readers;

@@ -23,17 +23,17 @@ OmniAngles DesktopInput::angles(const Goal& goal, double t) const noexcept {
 }
 
 OperatorSample DesktopInput::sample(double t, double /*toward*/) const {
-  if (t > asked_.load(std::memory_order_relaxed)) asked_.store(t, std::memory_order_relaxed);
+  if (t > last_t_.load(std::memory_order_relaxed)) last_t_.store(t, std::memory_order_relaxed);
   const Goal& goal = newest_.read();
-  OperatorSample hand;
-  hand.theta = angles(goal, t);
-  hand.button = goal.buttons[0];
-  hand.clutch = goal.buttons[1];
-  if (goal.rate == std::array<double, 6>{}) return hand;
+  OperatorSample sampled;
+  sampled.theta = angles(goal, t);
+  sampled.button = goal.buttons[0];
+  sampled.clutch = goal.buttons[1];
+  if (goal.rate == std::array<double, 6>{}) return sampled;
   constexpr double kAhead = 1e-6;  // [s]; finite difference, also along the workspace boundary
   const OmniAngles next = angles(goal, t + kAhead);
-  for (std::size_t j = 0; j < 6; ++j) hand.theta_dot[j] = (next[j] - hand.theta[j]) / kAhead;
-  return hand;
+  for (std::size_t j = 0; j < 6; ++j) sampled.theta_dot[j] = (next[j] - sampled.theta[j]) / kAhead;
+  return sampled;
 }
 
 void DesktopInput::move_goal(double t) noexcept {
@@ -47,12 +47,12 @@ void DesktopInput::publish() noexcept {
   for (std::size_t j = 0; j < 6; ++j) {
     const double keys = (keys_[j][1] ? 1.0 : 0.0) - (keys_[j][0] ? 1.0 : 0.0);
     const double rate = std::clamp(keys + axes_[j], -1.0, 1.0);
-    goal_.rate[j] = rate * (j < 3 ? settings_.speed : settings_.turn_rate);
+    goal_.rate[j] = rate * (j < 3 ? settings_.speed : settings_.angular_speed);
   }
   newest_.write(goal_);
 }
 
-void DesktopInput::turn_stylus(const Vector3& by) noexcept {
+void DesktopInput::rotate_stylus(const Vector3& by) noexcept {
   if (!by.allFinite()) return;
   update([&] {
     for (std::size_t j = 0; j < 3; ++j) goal_.gimbal[j] += by[static_cast<Eigen::Index>(j)];

@@ -21,8 +21,8 @@ namespace twinarm {
 enum class DeviceAxis { right, up, toward, yaw, pitch, roll };
 
 struct DesktopInputSettings {
-  double speed = 0.1, turn_rate = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
-  double dead_zone = 0.08;              // of axes
+  double speed = 0.1, angular_speed = 1.5;  // of a key, or an axis at 1 [m/s], [rad/s]
+  double dead_zone = 0.08;                  // of axes
   OmniAngles start{0, 0.7, 0.2, 0, 0.6, 0};
 };
 
@@ -35,7 +35,7 @@ class DesktopInput final : public OperatorMotion {
   void place(const Vector3& p) noexcept {
     if (p.allFinite()) update([&] { goal_.p = p; });
   }
-  void turn_stylus(const Vector3& by) noexcept;  // yaw, pitch, roll [rad]
+  void rotate_stylus(const Vector3& by) noexcept;  // yaw, pitch, roll [rad]
   void key(DeviceAxis axis, bool positive, bool down) noexcept {
     update([&] { keys_[static_cast<std::size_t>(axis)][positive ? 1 : 0] = down; });
   }
@@ -69,7 +69,7 @@ class DesktopInput final : public OperatorMotion {
   void publish() noexcept;
   template <class Change>
   void update(Change change) noexcept {
-    const double t = asked_.load(std::memory_order_relaxed);
+    const double t = last_t_.load(std::memory_order_relaxed);
     move_goal(t);
     goal_.t = std::max(t, goal_.t);
     change();
@@ -82,7 +82,7 @@ class DesktopInput final : public OperatorMotion {
   std::array<std::array<bool, 2>, 6> keys_{};  // pressed, by axis and direction
   std::array<double, 6> axes_{};
   mutable TripleBuffer<Goal> newest_;
-  mutable std::atomic<double> asked_ = 0;  // newest time of a sample
+  mutable std::atomic<double> last_t_ = 0;  // newest time of a sample
 };
 
 }  // namespace twinarm

@@ -21,7 +21,7 @@ class ClutchedMapping : public DeviceMapping {
   explicit ClutchedMapping(const MappedRobot& robot) {
     for (const int body : robot.turned) {
       const std::size_t iq = robot.model->iq[static_cast<std::size_t>(body)];
-      target_.q.push_back(robot.stand.q.empty() ? 0.0 : robot.stand.q[iq]);
+      target_.q.push_back(robot.rest.q.empty() ? 0.0 : robot.rest.q[iq]);
     }
     target_.qd.assign(target_.q.size(), 0.0);
     before_ = target_.q;

@@ -45,7 +45,7 @@ struct MappingSpec : OperatorMapping {
 // The driven joints of the target robot, and the point that follows the stylus.
 struct MappedRobot {
   const Model<double>* model = nullptr;  // must outlive the mapping
-  State<double> stand;                   // positions of the other joints
+  State<double> rest;                    // positions of the other joints
   std::vector<int> turned;               // bodies of the driven joints
   std::vector<double> lower, upper;      // their ranges [rad, m]; empty: none
   int body = 0;                          // cartesian: the point's body
@@ -79,7 +79,7 @@ class DeviceMapping {
  public:
   virtual ~DeviceMapping() = default;
   // Continues from q without a jump. If never called, the specified offsets apply; cartesian starts
-  // from MappedRobot::stand.
+  // from MappedRobot::rest.
   virtual void begin(const DeviceState& device, const std::vector<double>& q) noexcept = 0;
   // `h`: time since the last call [s]. Velocities are backward differences, zero after an
   // interruption.

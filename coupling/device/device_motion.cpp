@@ -17,8 +17,8 @@ namespace twinarm {
 void DeviceMotion::set(const MappedTarget& target, double t, double h) noexcept {
   DeviceStep step{t, h, {}};
   for (std::size_t j = 0; j < std::min<std::size_t>(3, target.q.size()); ++j)
-    mapping_.set_robot_angle(step.hand, j, target.q[j], target.qd[j]);
-  step.hand.button = target.gripper_closed;
+    mapping_.set_robot_angle(step.sample, j, target.q[j], target.qd[j]);
+  step.sample.button = target.gripper_closed;
   set(step);
 }
 
@@ -39,12 +39,12 @@ OperatorSample DeviceMotion::sample(double t, double toward) const {
     (at(middle).t <= inside ? low : high) = middle;
   }
   const DeviceStep& step = at(low);
-  OperatorSample hand = step.hand;
+  OperatorSample sampled = step.sample;
   const double since = std::clamp(t - step.t, 0.0, step.h);
-  for (std::size_t j = 0; j < 6; ++j) hand.theta[j] += since * hand.theta_dot[j];
+  for (std::size_t j = 0; j < 6; ++j) sampled.theta[j] += since * sampled.theta_dot[j];
   const bool rests = inside < step.t || inside > step.t + step.h;
-  if (rests) hand.theta_dot.fill(0);
-  return hand;
+  if (rests) sampled.theta_dot.fill(0);
+  return sampled;
 }
 
 std::vector<DeviceStep> DeviceMotion::steps() const {
@@ -73,10 +73,10 @@ std::vector<double> log_numbers(const std::string& line) {
 DeviceStep step_of(const std::vector<double>& values) {
   DeviceStep step{values[0], values[1], {}};
   for (std::size_t j = 0; j < 6; ++j) {
-    step.hand.theta[j] = values[2 + j];
-    step.hand.theta_dot[j] = values[8 + j];
+    step.sample.theta[j] = values[2 + j];
+    step.sample.theta_dot[j] = values[8 + j];
   }
-  step.hand.button = values[14] != 0;
+  step.sample.button = values[14] != 0;
   return step;
 }
 
@@ -91,14 +91,14 @@ std::string device_log_header() {
 
 std::string device_log_line(const DeviceStep& step) {
   std::string text = fmt::format("{},{}", step.t, step.h);  // shortest exact digits
-  for (const double angle : step.hand.theta) text += fmt::format(",{}", angle);
-  for (const double rate : step.hand.theta_dot) text += fmt::format(",{}", rate);
-  return text + (step.hand.button ? ",1\n" : ",0\n");
+  for (const double angle : step.sample.theta) text += fmt::format(",{}", angle);
+  for (const double rate : step.sample.theta_dot) text += fmt::format(",{}", rate);
+  return text + (step.sample.button ? ",1\n" : ",0\n");
 }
 
-void write_device_log(const DeviceMotion& hand, const std::filesystem::path& file) {
+void write_device_log(const DeviceMotion& motion, const std::filesystem::path& file) {
   std::string text = device_log_header();
-  for (const DeviceStep& step : hand.steps()) text += device_log_line(step);
+  for (const DeviceStep& step : motion.steps()) text += device_log_line(step);
   write_whole_file(file, text);
 }
 
@@ -144,9 +144,9 @@ std::unique_ptr<DeviceMotion> read_device_log(const std::filesystem::path& file)
     faults.add({file.string(), 0, "", "the log has no steps", "record a run of at least one step",
                 "hand.empty"});
   faults.check();
-  auto hand = std::make_unique<DeviceMotion>(steps.size());
-  for (const DeviceStep& step : steps) hand->set(step);
-  return hand;
+  auto motion = std::make_unique<DeviceMotion>(steps.size());
+  for (const DeviceStep& step : steps) motion->set(step);
+  return motion;
 }
 
 std::unique_ptr<OperatorMotion> read_motion_file(const std::filesystem::path& file) {

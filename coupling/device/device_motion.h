@@ -20,7 +20,7 @@ namespace twinarm {
 // Device angles and rates of the step [t, t + h].
 struct DeviceStep {
   double t = 0, h = 0;  // [s]
-  OperatorSample hand;
+  OperatorSample sample;
 };
 
 class DeviceMotion final : public OperatorMotion {
@@ -56,7 +56,7 @@ std::string device_log_header();
 std::string device_log_line(const DeviceStep& step);
 
 // Writes all stored steps to a temporary name, then renames the file.
-void write_device_log(const DeviceMotion& hand, const std::filesystem::path& file);
+void write_device_log(const DeviceMotion& motion, const std::filesystem::path& file);
 
 // Whether the file has the header of a log (not of a trace). False if it cannot be read.
 bool is_device_log(const std::filesystem::path& file);

@@ -3,7 +3,7 @@
 // the device is back it continues without a jump.
 //
 //   live      the device moves the target robot
-//   held      no data for less than `patience`: the target stays
+//   held      no data for less than `timeout`: the target stays
 //   released  no data for longer: the target relaxes to the robot, d(q_K - q_D)/dt = -(q_K -
 //   q_D)/slack
 #pragma once
@@ -19,8 +19,8 @@ class DeviceWatchdog {
  public:
   enum class Mode { live, held, released };
 
-  explicit DeviceWatchdog(double patience = 1.0, double slack = 0.2)  // [s]
-      : patience_(patience), slack_(slack) {}
+  explicit DeviceWatchdog(double timeout = 1.0, double slack = 0.2)  // [s]
+      : timeout_(timeout), slack_(slack) {}
 
   // One tick of h [s]. Updates `target`; q_D: driven joints of the DVR.
   void tick(const DeviceState& device, DeviceMapping& mapping, const std::vector<double>& q_D,
@@ -34,7 +34,7 @@ class DeviceWatchdog {
     }
     if (mode_ == Mode::live) ++silences_;
     silent_ += h;
-    mode_ = silent_ < patience_ ? Mode::held : Mode::released;
+    mode_ = silent_ < timeout_ ? Mode::held : Mode::released;
     const double left = std::exp(-h / slack_);
     for (std::size_t j = 0; j < target.q.size(); ++j) {
       target.qd[j] = 0;
@@ -45,7 +45,7 @@ class DeviceWatchdog {
   long silences() const { return silences_; }
 
  private:
-  double patience_, slack_, silent_ = 0;
+  double timeout_, slack_, silent_ = 0;
   Mode mode_ = Mode::live;
   long silences_ = 0;
 };

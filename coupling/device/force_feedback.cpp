@@ -71,7 +71,7 @@ const std::vector<double>& CouplingReaction::after_step(const TargetSample& kvr,
     const Vector3 inertial = over_h * (velocity - part.velocity);
     part.velocity = velocity;
     part.known = true;
-    add_reaction(part, reading.pull - inertial, reading.size - inertial.x(), kvr.k);
+    add_reaction(part, reading.force_W - inertial, reading.size - inertial.x(), kvr.k);
   }
   return tau_;
 }

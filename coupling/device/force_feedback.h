@@ -36,7 +36,7 @@ class CouplingReaction {
     bool known;
   };
   Vector3 velocity_of(const Part& part, const State<double>& x, const Kinematics& D) const;
-  void add_reaction(const Part& part, const Vector3& pull, double size, const Kinematics& K);
+  void add_reaction(const Part& part, const Vector3& force, double size, const Kinematics& K);
 
   const Model<double>& model_;
   DrivenDofs driven_;

@@ -31,7 +31,7 @@ class InputDevice {
   virtual DeviceState poll(double now) noexcept = 0;
   // Force until the next call (zero-order hold), limited by the device.
   virtual void render(const DeviceForce& force) noexcept = 0;
-  virtual const OmniParameters& figures() const = 0;
+  virtual const OmniParameters& parameters() const = 0;
   virtual std::string description() const = 0;  // one line
   // False for devices without force feedback (trace, keyboard).
   virtual bool has_motors() const = 0;

@@ -22,7 +22,7 @@ PointInverseKinematics::PointInverseKinematics(const MappedRobot& robot)
     : model_(*robot.model),
       body_(robot.body),
       p_L_(robot.p_L),
-      x_(robot.stand.q.size() == robot.model->nq ? robot.stand : State<double>(*robot.model)),
+      x_(robot.rest.q.size() == robot.model->nq ? robot.rest : State<double>(*robot.model)),
       k_(*robot.model),
       driven_(*robot.model, robot.turned),
       lower_(robot.lower),

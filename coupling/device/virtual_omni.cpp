@@ -16,7 +16,7 @@ constexpr double kSameTick = 1e-6;  // rounding of a sum of steps [ticks]
 
 void check_settings(const VirtualOmniSettings& s) {
   DiagnosticList faults;
-  const OmniParameters& o = s.figures;
+  const OmniParameters& o = s.parameters;
   const auto demand = [&](bool valid, const char* where, double value, const char* allowed) {
     if (!valid)
       faults.add(where, "is " + std::to_string(value) + ", must be " + allowed,
@@ -64,26 +64,26 @@ std::size_t ticks_of(double delay, double period) {
 
 }  // namespace
 
-VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> hand,
+VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> motion,
                          const VirtualOmniSettings& settings)
-    : hand_(std::move(hand)),
-      figures_(settings.figures),
+    : motion_(std::move(motion)),
+      parameters_(settings.parameters),
       viscous_(settings.device_damping),
-      period_(1 / settings.figures.rate),
+      period_(1 / settings.parameters.rate),
       delay_to_host_(settings.delay_to_host),
       delay_to_motors_(settings.delay_to_motors),
       response_{} {
   check_settings(settings);
   const ArmImpedance& arm = settings.arm;
   const Matrix3 E = exponential_of_mass(arm.stiffness, arm.damping + viscous_,
-                                        figures_.apparent_mass + arm.mass, period_ / kSubsteps);
+                                        parameters_.apparent_mass + arm.mass, period_ / kSubsteps);
   response_ = {E(0, 0), E(0, 1), E(0, 2), E(1, 0), E(1, 1), E(1, 2)};
   sensed_.resize(ticks_of(delay_to_host_, period_));
   rendered_.resize(ticks_of(delay_to_motors_, period_));
   update_angles();
-  const auto q = omni_nearest(figures_, omni_position(figures_, wanted_.theta));
+  const auto q = omni_nearest(parameters_, omni_position(parameters_, wanted_.theta));
   truth_.theta = {q[0], q[1], q[2], 0, 0, 0};
-  truth_.position = omni_position(figures_, truth_.theta);
+  truth_.position = omni_position(parameters_, truth_.theta);
   sense();
 }
 
@@ -112,10 +112,10 @@ void VirtualOmni::render(const DeviceForce& force) noexcept {
 
 void VirtualOmni::tick() noexcept {
   const Rendered& next = rendered_[static_cast<std::size_t>(tick_) % rendered_.size()];
-  if (next.tick == tick_) held_ = omni_limit(figures_, truth_.theta, next.torque);
+  if (next.tick == tick_) held_ = omni_limit(parameters_, truth_.theta, next.torque);
 
   const double h = period_ / kSubsteps;
-  const Matrix3 J = omni_jacobian(figures_, wanted_.theta);
+  const Matrix3 J = omni_jacobian(parameters_, wanted_.theta);
   const auto& rate = wanted_.theta_dot;
   const Vector3 goal_velocity = J * Vector3(rate[0], rate[1], rate[2]);
   for (int n = 0; n < kSubsteps; ++n) {
@@ -130,9 +130,9 @@ void VirtualOmni::tick() noexcept {
 void VirtualOmni::substep(const Vector3& goal, const Vector3& goal_velocity) noexcept {
   Vector3 &x = truth_.position, &v = truth_.velocity;
   const bool at_rest = v.isZero(0);
-  truth_.motors = omni_force(figures_, truth_.theta, held_);
+  truth_.motors = omni_force(parameters_, truth_.theta, held_);
   const double force = truth_.motors.norm();  // changes with the pose although torques are held
-  if (force > figures_.peak_force) truth_.motors *= figures_.peak_force / force;
+  if (force > parameters_.peak_force) truth_.motors *= parameters_.peak_force / force;
 
   // Without friction, relative to a goal of constant velocity: u = x - g.
   const Response& r = response_;
@@ -144,12 +144,12 @@ void VirtualOmni::substep(const Vector3& goal, const Vector3& goal_velocity) noe
 
   // Constant friction force that stops the point within the substep, at most Coulomb's limit.
   const double speed = v_free.norm(), to_stop = speed / r.vf;
-  truth_.sticks = to_stop <= figures_.friction;
+  truth_.sticks = to_stop <= parameters_.friction;
   if (truth_.sticks) {
     if (!at_rest) x = x_free - r.xf / r.vf * v_free;
     v.setZero();
   } else {
-    const Vector3 against = figures_.friction / speed * v_free;
+    const Vector3 against = parameters_.friction / speed * v_free;
     x = x_free - r.xf * against;
     v = v_free - r.vf * against;
   }
@@ -158,17 +158,18 @@ void VirtualOmni::substep(const Vector3& goal, const Vector3& goal_velocity) noe
 
 void VirtualOmni::stop_at_ranges() noexcept {
   constexpr double kRounding = 1e-9;  // [rad]
-  const auto q = omni_inverse(figures_, truth_.position);
+  const auto q = omni_inverse(parameters_, truth_.position);
   bool within = q.has_value();
   for (std::size_t j = 0; within && j < 3; ++j)
-    within = (*q)[j] >= figures_.lower[j] - kRounding && (*q)[j] <= figures_.upper[j] + kRounding;
+    within =
+        (*q)[j] >= parameters_.lower[j] - kRounding && (*q)[j] <= parameters_.upper[j] + kRounding;
   if (within) {
     std::copy(q->begin(), q->end(), truth_.theta.begin());
     return;
   }
-  const auto edge = omni_nearest(figures_, truth_.position);
+  const auto edge = omni_nearest(parameters_, truth_.position);
   std::copy(edge.begin(), edge.end(), truth_.theta.begin());
-  const Vector3 stop = omni_position(figures_, truth_.theta);
+  const Vector3 stop = omni_position(parameters_, truth_.theta);
   const Vector3 beyond = truth_.position - stop;
   const double outward = truth_.velocity.dot(beyond);
   if (outward > 0) truth_.velocity -= outward / beyond.squaredNorm() * beyond;
@@ -177,7 +178,7 @@ void VirtualOmni::stop_at_ranges() noexcept {
 
 void VirtualOmni::update_angles() noexcept {
   const double t = static_cast<double>(tick_) * period_;
-  const OperatorSample now = hand_->sample(t, t + period_);
+  const OperatorSample now = motion_->sample(t, t + period_);
   const auto finite = [](double value) { return std::isfinite(value); };
   if (!std::all_of(now.theta.begin(), now.theta.end(), finite) ||
       !std::all_of(now.theta_dot.begin(), now.theta_dot.end(), finite)) {
@@ -185,20 +186,20 @@ void VirtualOmni::update_angles() noexcept {
   } else {
     wanted_ = now;
   }
-  truth_.goal = omni_position(figures_, wanted_.theta);
+  truth_.goal = omni_position(parameters_, wanted_.theta);
 }
 
 void VirtualOmni::sense() noexcept {
-  const double count = figures_.resolution / figures_.L1;
+  const double count = parameters_.resolution / parameters_.L1;
   DeviceState& state = sensed_[static_cast<std::size_t>(tick_) % sensed_.size()];
   for (std::size_t j = 0; j < 6; ++j) {
     double& theta = truth_.theta[j];
     if (j > 2) theta = wanted_.theta[j];
-    theta = std::clamp(theta, figures_.lower[j], figures_.upper[j]);
+    theta = std::clamp(theta, parameters_.lower[j], parameters_.upper[j]);
     const double seen = count > 0 ? count * std::round(theta / count) : theta;
-    state.theta[j] = std::clamp(seen, figures_.lower[j], figures_.upper[j]);
+    state.theta[j] = std::clamp(seen, parameters_.lower[j], parameters_.upper[j]);
   }
-  state.stylus = omni_stylus(figures_, state.theta);
+  state.stylus = omni_stylus(parameters_, state.theta);
   state.buttons = {wanted_.button, wanted_.clutch};
 }
 

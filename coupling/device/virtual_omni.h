@@ -36,7 +36,7 @@ struct ArmImpedance {
 };
 
 struct VirtualOmniSettings {
-  OmniParameters figures;
+  OmniParameters parameters;
   ArmImpedance arm;
   double device_damping = 0;                      // of the device [N s/m]
   double delay_to_host = 0, delay_to_motors = 0;  // [s]
@@ -46,13 +46,13 @@ class VirtualOmni final : public InputDevice {
  public:
   // Starts at rest at the motion's pose at t = 0. Samples the motion once a tick, in the polling
   // thread. Throws InputError with all errors of the settings.
-  VirtualOmni(std::shared_ptr<const OperatorMotion> hand, const VirtualOmniSettings& settings);
+  VirtualOmni(std::shared_ptr<const OperatorMotion> motion, const VirtualOmniSettings& settings);
 
   DeviceState poll(double now) noexcept override;
   void render(const DeviceForce& force) noexcept override;
-  const OmniParameters& figures() const override { return figures_; }
+  const OmniParameters& parameters() const override { return parameters_; }
   std::string description() const override {
-    return "virtual Phantom Omni, moved by: " + hand_->description();
+    return "virtual Phantom Omni, moved by: " + motion_->description();
   }
   bool has_motors() const override { return true; }
 
@@ -83,8 +83,8 @@ class VirtualOmni final : public InputDevice {
   void update_angles() noexcept;
   void sense() noexcept;
 
-  std::shared_ptr<const OperatorMotion> hand_;
-  OmniParameters figures_;
+  std::shared_ptr<const OperatorMotion> motion_;
+  OmniParameters parameters_;
   double viscous_, period_, delay_to_host_, delay_to_motors_;
   Response response_;
   OperatorSample wanted_;  // at the last tick

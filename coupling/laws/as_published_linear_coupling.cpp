@@ -12,7 +12,7 @@ class AsPublishedLinear final : public AsPublished<AsPublishedLinear, Vector3> {
   void add_forces(const State<double>&, const Kinematics& k,
                   Forces<double>& forces) noexcept override {
     for (std::size_t s = 0; s < springs_.size(); ++s)
-      add_point_force(k, springs_[s].body, pose(springs_[s], k), readings_[s].pull, forces);
+      add_point_force(k, springs_[s].body, pose(springs_[s], k), readings_[s].force_W, forces);
   }
   JointSpace joint_space(const Kinematics& k) const override {
     return joint_space_of_points(model_, k, springs_);
@@ -29,8 +29,8 @@ class AsPublishedLinear final : public AsPublished<AsPublishedLinear, Vector3> {
     SpringState& reading = readings_[s];
     reading.p_K = p_K;
     reading.p_D = p_D;
-    reading.pull = springs_[s].k * (p_K - p_D) - springs_[s].b * (v_D - v_K);
-    reading.size = reading.pull.norm();
+    reading.force_W = springs_[s].k * (p_K - p_D) - springs_[s].b * (v_D - v_K);
+    reading.size = reading.force_W.norm();
   }
 };
 

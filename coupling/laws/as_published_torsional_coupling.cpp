@@ -21,10 +21,10 @@ class AsPublishedTorsional final : public AsPublished<AsPublishedTorsional, Matr
                   Forces<double>& forces) noexcept override {
     for (std::size_t s = 0; s < springs_.size(); ++s) {
       const int body = springs_[s].body;
-      add_couple(k, body, readings_[s].pull, forces);
+      add_couple(k, body, readings_[s].force_W, forces);
       const int parent = model_.parent[static_cast<std::size_t>(body)];
       if (options_.measure == SpringSpace::joint && parent > 0)  // the reaction, on the parent link
-        add_couple(k, parent, -readings_[s].pull, forces);
+        add_couple(k, parent, -readings_[s].force_W, forces);
     }
   }
   // B_q = 0 for the folded and the unsigned damper, which have no linear part.
@@ -53,12 +53,12 @@ class AsPublishedTorsional final : public AsPublished<AsPublishedTorsional, Matr
     const Spring& spring = springs_[s];
     const auto i = static_cast<std::size_t>(spring.body);
     const Vector3 restoring = spring.k * (R_D * rotation_vector(R_D.transpose() * R_K));
-    const Vector3 pull = restoring + damping(spring, step_K, step_D, interval);
+    const Vector3 torque = restoring + damping(spring, step_K, step_D, interval);
     SpringState& reading = readings_[s];
     // In joint space the torque is in the parent's axes.
-    reading.pull =
-        options_.measure == SpringSpace::world ? pull : Vector3(k.X_WL[parent_of(i)].R * pull);
-    reading.size = pull.norm();
+    reading.force_W =
+        options_.measure == SpringSpace::world ? torque : Vector3(k.X_WL[parent_of(i)].R * torque);
+    reading.size = torque.norm();
     reading.p_K = kvr_.start().k.X_WL[i].p;
     reading.p_D = k.X_WL[i].p;
   }

@@ -23,22 +23,22 @@ struct CouplingSpec {
   struct Type {  // the registered name, with constants for types used in code
     std::string_view name;
     friend constexpr bool operator==(const Type&, const Type&) = default;
-    static const Type torsional, linear, matched, bushing, weld_like, stable_pd, god_object;
+    static const Type torsional, linear, equivalent_torsional, bushing, weld, stable_pd, god_object;
   };
   std::string name;
   Type type = Type::torsional;
   bool printed = false;  // as published (AsPublishedOptions), or the consistent form
   AsPublishedOptions options;
-  SpringSpace measure = SpringSpace::world;  // consistent torsional
-  Discretization discretization =
-      Discretization::explicit_;  // of types with several discretizations
-  int hold_steps = 0;             // zero-order hold of linear, torsional, bushing; 0: none
-  SolrefParameters reference;     // weld-like
+  SpringSpace measure = SpringSpace::world;                   // consistent torsional
+  Discretization discretization = Discretization::explicit_;  // of types with several
+  int hold_steps = 0;          // zero-order hold of linear, torsional, bushing; 0: none
+  SolrefParameters reference;  // weld
   std::vector<Spring> springs;
 };
 inline constexpr CouplingSpec::Type CouplingSpec::Type::torsional{"torsional"},
-    CouplingSpec::Type::linear{"linear"}, CouplingSpec::Type::matched{"equivalent-torsional"},
-    CouplingSpec::Type::bushing{"bushing"}, CouplingSpec::Type::weld_like{"weld"},
+    CouplingSpec::Type::linear{"linear"},
+    CouplingSpec::Type::equivalent_torsional{"equivalent-torsional"},
+    CouplingSpec::Type::bushing{"bushing"}, CouplingSpec::Type::weld{"weld"},
     CouplingSpec::Type::stable_pd{"stable-pd"}, CouplingSpec::Type::god_object{"god-object"};
 
 // Step law in linear theory (coupling/analysis/step_matrix.h).

@@ -70,12 +70,12 @@ class MujocoWeld final : public Coupling {
       apply_torsional_spring(spring.body, spring.k_rotational, spring.b_rotational, terms, k,
                              torque, forces);
       const BiasAcceleration bias = bias_acceleration(model_, k, spring.body, force.p_D);
-      force.pull -= spring.b / damping_ * bias.point;
-      torque.pull -= spring.b_rotational / damping_ * bias.angular;
-      force.size = force.pull.norm();
-      torque.size = torque.pull.norm();
-      add_point_force(k, spring.body, force.p_D, force.pull, forces);
-      add_couple(k, spring.body, torque.pull, forces);
+      force.force_W -= spring.b / damping_ * bias.point;
+      torque.force_W -= spring.b_rotational / damping_ * bias.angular;
+      force.size = force.force_W.norm();
+      torque.size = torque.force_W.norm();
+      add_point_force(k, spring.body, force.p_D, force.force_W, forces);
+      add_couple(k, spring.body, torque.force_W, forces);
     }
   }
   bool needs_semi_implicit() const override { return true; }

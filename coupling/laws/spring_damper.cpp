@@ -33,8 +33,8 @@ void SpringDamperCoupling::add_forces(const State<double>& x, const Kinematics& 
         apply_torsional_spring(spring.body, spring.k, spring.b, terms, k, torque, forces);
     }
     if (at_point)
-      add_point_force(k, spring.body, k.position(spring.body, spring.p_L), force.pull, forces);
-    if (torsional) add_couple(k, spring.body, torque.pull, forces);
+      add_point_force(k, spring.body, k.position(spring.body, spring.p_L), force.force_W, forces);
+    if (torsional) add_couple(k, spring.body, torque.force_W, forces);
   }
   hold_.computed();
 }
@@ -78,9 +78,9 @@ void apply_point_spring(const Spring& spring, const DiscretizationTerms& terms, 
   Vector3 v_K = Vector3::Zero();
   if (terms.is_relative_damper)
     v_K = K_damper.velocity(spring.body, K_damper.position(spring.body, spring.p_L));
-  reading.pull =
+  reading.force_W =
       spring.k * (reading.p_K - reading.p_D - terms.position_lead * v_D) + spring.b * (v_K - v_D);
-  reading.size = reading.pull.norm();
+  reading.size = reading.force_W.norm();
   reading.m_star = terms.m_star(spring.k, spring.b);
   if (reading.m_star > 0) add_particle(D, spring.body, reading.p_D, reading.m_star, forces);
 }
@@ -93,8 +93,8 @@ void apply_torsional_spring(int body, double k, double b, const DiscretizationTe
       rotation_vector(K.X_WL[i].R * D.X_WL[i].R.transpose()) - terms.position_lead * D.w_WL[i];
   Vector3 w_K = Vector3::Zero();
   if (terms.is_relative_damper) w_K = terms.damper_target->k.w_WL[i];
-  reading.pull = k * phi + b * (w_K - D.w_WL[i]);
-  reading.size = reading.pull.norm();
+  reading.force_W = k * phi + b * (w_K - D.w_WL[i]);
+  reading.size = reading.force_W.norm();
   reading.p_K = K.X_WL[i].p;
   reading.p_D = D.X_WL[i].p;
   reading.m_star = terms.m_star(k, b);

@@ -21,10 +21,10 @@ OperatorSample AutomaticMotion::sample(double t, double toward) const {
   const bool moving = inside >= 0 && inside < sweeps_;
   const double rate = moving ? direction / sweep_time_ : 0.0;
 
-  OperatorSample hand;
-  mapping_.set_robot_angle(hand, 0, -pi * along, -pi * rate);
-  mapping_.set_robot_angle(hand, 1, pi / 2 * along, pi / 2 * rate);
-  return hand;
+  OperatorSample sampled;
+  mapping_.set_robot_angle(sampled, 0, -pi * along, -pi * rate);
+  mapping_.set_robot_angle(sampled, 1, pi / 2 * along, pi / 2 * rate);
+  return sampled;
 }
 
 std::string AutomaticMotion::description() const {

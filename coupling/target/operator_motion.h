@@ -27,15 +27,15 @@ struct OperatorMapping {
   std::array<double, 3> gain{2.0, 1.0, 1.0};
   std::array<double, 3> offset{0.0, 0.0, 0.0};  // robot angle at theta = 0 [rad]
 
-  double robot_angle(const OperatorSample& hand, std::size_t joint) const {
-    return offset[joint] + gain[joint] * hand.theta[device_joint[joint]];
+  double robot_angle(const OperatorSample& sample, std::size_t joint) const {
+    return offset[joint] + gain[joint] * sample.theta[device_joint[joint]];
   }
-  double robot_rate(const OperatorSample& hand, std::size_t joint) const {
-    return gain[joint] * hand.theta_dot[device_joint[joint]];
+  double robot_rate(const OperatorSample& sample, std::size_t joint) const {
+    return gain[joint] * sample.theta_dot[device_joint[joint]];
   }
-  void set_robot_angle(OperatorSample& hand, std::size_t joint, double angle, double rate) const {
-    hand.theta[device_joint[joint]] = (angle - offset[joint]) / gain[joint];
-    hand.theta_dot[device_joint[joint]] = rate / gain[joint];
+  void set_robot_angle(OperatorSample& sample, std::size_t joint, double angle, double rate) const {
+    sample.theta[device_joint[joint]] = (angle - offset[joint]) / gain[joint];
+    sample.theta_dot[device_joint[joint]] = rate / gain[joint];
   }
 };
 
@@ -70,29 +70,29 @@ class AutomaticMotion final : public OperatorMotion {
 class DelayedMotion final : public OperatorMotion {
  public:
   // delay >= 0 [s], speed > 0. A motion passed by reference must outlive it.
-  DelayedMotion(std::unique_ptr<OperatorMotion> hand, double delay, double speed)
-      : owned_(std::move(hand)), hand_(*owned_), delay_(delay), speed_(speed) {}
-  DelayedMotion(const OperatorMotion& hand, double delay, double speed)
-      : hand_(hand), delay_(delay), speed_(speed) {}
+  DelayedMotion(std::unique_ptr<OperatorMotion> motion, double delay, double speed)
+      : owned_(std::move(motion)), motion_(*owned_), delay_(delay), speed_(speed) {}
+  DelayedMotion(const OperatorMotion& motion, double delay, double speed)
+      : motion_(motion), delay_(delay), speed_(speed) {}
 
   OperatorSample sample(double t, double toward) const override {
     constexpr double kSame = 1e-9;  // rounding of a sum of steps [s]
     const double s = t - delay_, s_toward = toward - delay_;
     const bool waits = s < -kSame || (s < kSame && s + s_toward < 0);
     OperatorSample delayed =
-        waits ? hand_.sample(0, 1) : hand_.sample(speed_ * std::max(s, 0.0), speed_ * s_toward);
+        waits ? motion_.sample(0, 1) : motion_.sample(speed_ * std::max(s, 0.0), speed_ * s_toward);
     for (double& rate : delayed.theta_dot) rate *= waits ? 0 : speed_;
     return delayed;
   }
-  double duration() const override { return delay_ + hand_.duration() / speed_; }
+  double duration() const override { return delay_ + motion_.duration() / speed_; }
   std::string description() const override {
-    return hand_.description() + "; " + std::to_string(delay_) + " s delay, " +
+    return motion_.description() + "; " + std::to_string(delay_) + " s delay, " +
            std::to_string(speed_) + " times as fast";
   }
 
  private:
   std::unique_ptr<OperatorMotion> owned_;
-  const OperatorMotion& hand_;
+  const OperatorMotion& motion_;
   double delay_, speed_;
 };
 

@@ -231,15 +231,15 @@ OperatorSample RecordedTrace::sample(double t, double toward) const {
   after = std::clamp(after, samples_.begin() + 1, samples_.end() - 1);
   const Sample& a = *std::prev(after);
   const Sample& b = *after;
-  OperatorSample hand;
+  OperatorSample sampled;
   const double s = std::clamp((t - a.t) / (b.t - a.t), 0.0, 1.0);
   const bool moving = t < samples_.back().t || toward < samples_.back().t;
   for (std::size_t j = 0; j < 6; ++j) {
-    hand.theta[j] = a.theta[j] + s * (b.theta[j] - a.theta[j]);
-    hand.theta_dot[j] = moving ? (b.theta[j] - a.theta[j]) / (b.t - a.t) : 0.0;
+    sampled.theta[j] = a.theta[j] + s * (b.theta[j] - a.theta[j]);
+    sampled.theta_dot[j] = moving ? (b.theta[j] - a.theta[j]) / (b.t - a.t) : 0.0;
   }
-  hand.button = t >= b.t ? b.button : a.button;
-  return hand;
+  sampled.button = t >= b.t ? b.button : a.button;
+  return sampled;
 }
 
 std::string RecordedTrace::description() const {
@@ -247,14 +247,14 @@ std::string RecordedTrace::description() const {
                      quality_.rate, duration());
 }
 
-void write_trace(const OperatorMotion& hand, double rate, const std::filesystem::path& file) {
-  std::string text = "# " + hand.description() + "\n";
+void write_trace(const OperatorMotion& motion, double rate, const std::filesystem::path& file) {
+  std::string text = "# " + motion.description() + "\n";
   for (const char* column : kColumns) text += fmt::format("{},", column);
   text += "button\n";
-  const auto count = static_cast<long>(std::floor(hand.duration() * rate)) + 1;
+  const auto count = static_cast<long>(std::floor(motion.duration() * rate)) + 1;
   for (long n = 0; n < count; ++n) {
     const double t = static_cast<double>(n) / rate;
-    const OperatorSample sample = hand.sample(t, t + 1 / rate);
+    const OperatorSample sample = motion.sample(t, t + 1 / rate);
     text += fmt::format("{:.6f}", t);
     for (double theta : sample.theta) text += fmt::format(",{:.6f}", theta);
     text += sample.button ? ",1\n" : ",0\n";

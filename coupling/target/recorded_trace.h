@@ -48,7 +48,7 @@ class RecordedTrace final : public OperatorMotion {
 };
 
 // Writes samples of a motion at a fixed rate [Hz], to a temporary name, then renamed.
-void write_trace(const OperatorMotion& hand, double rate, const std::filesystem::path& file);
+void write_trace(const OperatorMotion& motion, double rate, const std::filesystem::path& file);
 
 // As std::getline; throws InputError, with `file` and line `number`, for a line longer than 64 KiB.
 bool next_line(std::istream& stream, std::string& line, const std::string& file, int number);

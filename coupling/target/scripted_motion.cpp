@@ -21,9 +21,9 @@ std::string seconds_text(double t) {
 }  // namespace
 
 OperatorSample StepMotion::sample(double t, double toward) const {
-  OperatorSample hand;
-  hand.theta = is_after(t, toward, at_) ? to_ : from_;
-  return hand;
+  OperatorSample sampled;
+  sampled.theta = is_after(t, toward, at_) ? to_ : from_;
+  return sampled;
 }
 
 std::string StepMotion::description() const {
@@ -35,12 +35,12 @@ OperatorSample ChirpMotion::sample(double t, double toward) const {
   const double phi = 2 * std::numbers::pi * (f0_ + 0.5 * slope * s) * s;
   const bool moves = is_after(t, toward, 0) && !is_after(t, toward, duration_);
   const double omega = moves ? 2 * std::numbers::pi * (f0_ + slope * s) : 0.0;
-  OperatorSample hand;
+  OperatorSample sampled;
   for (std::size_t j = 0; j < 6; ++j) {
-    hand.theta[j] = middle_[j] + amplitude_[j] * std::sin(phi);
-    hand.theta_dot[j] = amplitude_[j] * omega * std::cos(phi);
+    sampled.theta[j] = middle_[j] + amplitude_[j] * std::sin(phi);
+    sampled.theta_dot[j] = amplitude_[j] * omega * std::cos(phi);
   }
-  return hand;
+  return sampled;
 }
 
 std::string ChirpMotion::description() const {
@@ -49,11 +49,11 @@ std::string ChirpMotion::description() const {
 }
 
 void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s, double T,
-                      OperatorSample& hand) {
+                      OperatorSample& sampled) {
   for (std::size_t j = 0; j < 6; ++j) {
     const double D = to[j] - from[j];
-    hand.theta[j] = from[j] + D * s * s * s * (10 - 15 * s + 6 * s * s);
-    hand.theta_dot[j] = D / T * 30 * s * s * (1 - s) * (1 - s);
+    sampled.theta[j] = from[j] + D * s * s * s * (10 - 15 * s + 6 * s * s);
+    sampled.theta_dot[j] = D / T * 30 * s * s * (1 - s) * (1 - s);
   }
 }
 

@@ -11,7 +11,7 @@ using DeviceAngles = std::array<double, 6>;  // theta1..theta6 of the device [ra
 
 // Minimum-jerk motion (Flash and Hogan 1985), s^3 (10 - 15 s + 6 s^2) with s = t/T in [0, 1].
 void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s, double T,
-                      OperatorSample& hand);
+                      OperatorSample& sampled);
 
 // `from` before the time `at`, then `to`; the rates are zero.
 class StepMotion final : public OperatorMotion {
@@ -49,9 +49,9 @@ class ReachMotion final : public OperatorMotion {
   ReachMotion(const DeviceAngles& from, const DeviceAngles& to, double at, double T)
       : from_(from), to_(to), at_(at), T_(T) {}
   OperatorSample sample(double t, double /*toward*/) const override {
-    OperatorSample hand;
-    add_minimum_jerk(from_, to_, std::clamp((t - at_) / T_, 0.0, 1.0), T_, hand);
-    return hand;
+    OperatorSample sampled;
+    add_minimum_jerk(from_, to_, std::clamp((t - at_) / T_, 0.0, 1.0), T_, sampled);
+    return sampled;
   }
   double duration() const override { return at_ + T_; }
   std::string description() const override;

@@ -57,23 +57,23 @@ SyntheticOperator::SyntheticOperator(unsigned seed, double duration)
 }
 
 OperatorSample SyntheticOperator::sample(double t, double /*toward*/) const {
-  OperatorSample hand;
+  OperatorSample sampled;
   const auto after = std::ranges::upper_bound(reaches_, t, {}, &Reach::start);
   if (after != reaches_.begin()) {
     const Reach& reach = *std::prev(after);
     const double T = reach.end - reach.start;
-    add_minimum_jerk(reach.from, reach.to, std::min((t - reach.start) / T, 1.0), T, hand);
-    hand.button = reach.button;
+    add_minimum_jerk(reach.from, reach.to, std::min((t - reach.start) / T, 1.0), T, sampled);
+    sampled.button = reach.button;
   } else if (!reaches_.empty()) {
-    hand.theta = reaches_.front().from;
+    sampled.theta = reaches_.front().from;
   }
   for (std::size_t j = 0; j < 6; ++j) {
     for (const Tremor& line : tremor_[j]) {
-      hand.theta[j] += line.amplitude * std::sin(line.omega * t + line.phase);
-      hand.theta_dot[j] += line.amplitude * line.omega * std::cos(line.omega * t + line.phase);
+      sampled.theta[j] += line.amplitude * std::sin(line.omega * t + line.phase);
+      sampled.theta_dot[j] += line.amplitude * line.omega * std::cos(line.omega * t + line.phase);
     }
   }
-  return hand;
+  return sampled;
 }
 
 }  // namespace twinarm

@@ -9,11 +9,11 @@
 
 namespace twinarm {
 
-TargetRobot::TargetRobot(const Model<double>& model, const OperatorMotion& hand,
+TargetRobot::TargetRobot(const Model<double>& model, const OperatorMotion& motion,
                          const OperatorMapping& mapping, const DrivenJoints& joints,
                          TargetRates rates)
     : model_(model),
-      hand_(hand),
+      motion_(motion),
       mapping_(mapping),
       rates_(rates),
       gripper_open_(joints.gripper_open),
@@ -83,7 +83,7 @@ const TargetSample& TargetRobot::at(double t) {
 }
 
 bool TargetRobot::update(TargetSample& sample, double t, double toward) const {
-  const OperatorSample hand = hand_.sample(t, toward);
+  const OperatorSample sampled = motion_.sample(t, toward);
   bool changed = std::isnan(sample.x.t);
   const auto put = [&](double& variable, double value) {
     changed = changed || variable != value;
@@ -91,14 +91,14 @@ bool TargetRobot::update(TargetSample& sample, double t, double toward) const {
   };
   sample.x.t = t;
   for (std::size_t j = 0; j < iq_.size(); ++j) {
-    put(sample.x.q[iq_[j]], mapping_.robot_angle(hand, j));
+    put(sample.x.q[iq_[j]], mapping_.robot_angle(sampled, j));
     if (rates_ == TargetRates::from_operator)
-      put(sample.x.qd[iv_[j]], mapping_.robot_rate(hand, j));
+      put(sample.x.qd[iv_[j]], mapping_.robot_rate(sampled, j));
     if (rates_ == TargetRates::backward_difference) put(sample.x.qd[iv_[j]], difference_[j]);
   }
   if (gripper_ > 0)
     put(sample.x.q[model_.iq[static_cast<std::size_t>(gripper_)]],
-        hand.button ? gripper_closed_ : gripper_open_);
+        sampled.button ? gripper_closed_ : gripper_open_);
   return changed;
 }
 

@@ -35,7 +35,7 @@ class TargetRobot {
  public:
   // The model and the motion must outlive the robot. Throws InputError for joints that do not exist
   // or have several degrees of freedom.
-  TargetRobot(const Model<double>& model, const OperatorMotion& hand,
+  TargetRobot(const Model<double>& model, const OperatorMotion& motion,
               const OperatorMapping& mapping, const DrivenJoints& joints,
               TargetRates rates = TargetRates::from_operator);
 
@@ -44,13 +44,11 @@ class TargetRobot {
   // Samples the motion for the step [t, t + h]; a repeated call costs nothing.
   void begin_step(double t, double h);
   // Discards the samples, after a change of the motion.
-  void forget() { started_ = false; }
+  void invalidate() { started_ = false; }
   const TargetSample& start() const { return start_; }
   const TargetSample& end() const { return end_; }
   // At a stage within the step, with one-sided velocities.
   const TargetSample& at(double t);
-
-  const OperatorMotion& hand() const { return hand_; }
 
  private:
   void set(TargetSample& sample, double t, double toward) const {
@@ -61,7 +59,7 @@ class TargetRobot {
   void pose(TargetSample& sample) const;
 
   const Model<double>& model_;
-  const OperatorMotion& hand_;
+  const OperatorMotion& motion_;
   OperatorMapping mapping_;
   TargetRates rates_;
   std::vector<std::size_t> iq_, iv_;  // of the driven joints

@@ -31,7 +31,7 @@ void forward_kinematics(const Model<double>& model, const State<double>& x, Kine
     k.a_bias[i] = w.Xup[i] * k.a_bias[p] + w.c[i];
     k.R_WB[i] = k.R_WB[p] * to_eigen(w.Xup[i].E).transpose();
     k.X_WL[i].p = k.X_WL[p].p + k.R_WB[p] * to_eigen(w.Xup[i].r);
-    k.X_WL[i].R = k.R_WB[i] * to_eigen(model.turn[i]);
+    k.X_WL[i].R = k.R_WB[i] * to_eigen(model.R_BL[i]);
     k.w_WL[i] = k.R_WB[i] * to_eigen(w.v[i].w);
     k.v_WLo[i] = k.R_WB[i] * to_eigen(w.v[i].v);
     for (std::size_t dof = model.iv[i]; dof < model.iv[i] + model.dofs(i); ++dof)

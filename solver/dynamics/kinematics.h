@@ -10,7 +10,7 @@
 
 namespace twinarm {
 
-// Indexed by body, including the base. W: world, L: link frame, B: body frame (Model::turn).
+// Indexed by body, including the base. W: world, L: link frame, B: body frame (Model::R_BL).
 struct Kinematics {
   std::vector<Pose> X_WL;              // pose of the link frame
   std::vector<Vector3> w_WL;           // angular velocity of the link, world axes [rad/s]

@@ -161,7 +161,7 @@ void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Ma
   model.ip.push_back(model.np);
   model.Xtree.push_back(to_transform(X_PbPl * body.X_PJ * X_LB));
   model.I.push_back(about_origin(body.inertia, R_LB.back().transpose()));
-  model.turn.push_back(to_mat3(R_LB.back().transpose()));
+  model.R_BL.push_back(to_mat3(R_LB.back().transpose()));
   visit_joint<double>(body.type, 0, [&](auto joint) {
     model.nq += joint.nq;
     model.nv += joint.nv;
@@ -185,7 +185,7 @@ Model<double> ModelBuilder::build() const {
   model.iq = model.iv = model.ip = {0};
   model.Xtree.resize(1);
   model.I.resize(1);
-  model.turn = {Mat3<double>::identity()};
+  model.R_BL = {Mat3<double>::identity()};
   std::vector<Matrix3> R_LB = {Matrix3::Identity()};
 
   Names names;

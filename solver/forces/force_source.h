@@ -23,7 +23,7 @@ enum class Discretization {
 
 class ForceSource {
  public:
-  static constexpr int kMaxRounds = 12;
+  static constexpr int kMaxIterations = 12;
 
   virtual ~ForceSource() = default;
   virtual void begin_step(const Kinematics&, double /*t*/, double /*h*/) noexcept {}
@@ -31,7 +31,7 @@ class ForceSource {
   virtual bool refine(const Kinematics&, const Workspace<double>&) noexcept { return false; }
   virtual bool needs_semi_implicit() const { return false; }  // incompatible with other integrators
   // Whether refine() may return true; incompatible with constrained steps.
-  virtual bool needs_rounds() const { return false; }
+  virtual bool needs_iterations() const { return false; }
 };
 
 }  // namespace twinarm

@@ -13,9 +13,9 @@ namespace twinarm {
 // Force of a spring on the robot (D) towards its target (K) at the last evaluation.
 struct SpringState {
   Vector3 p_K = Vector3::Zero(), p_D = Vector3::Zero();  // ends at target and robot, world [m]
-  Vector3 pull = Vector3::Zero();  // force [N] or couple [N m] on the robot, world axes
-  double size = 0;                 // |pull|; of a joint spring the signed joint force
-  double m_star = 0;               // added inertia [kg, kg m^2]
+  Vector3 force_W = Vector3::Zero();                     // force [N] or couple [N m] on the robot
+  double size = 0;    // |force_W|; of a joint spring the signed joint force
+  double m_star = 0;  // added inertia [kg, kg m^2]
 };
 
 class SpringSource : public ForceSource, public Checkpointable {
@@ -25,7 +25,7 @@ class SpringSource : public ForceSource, public Checkpointable {
   // Spring forces may be held over several steps. Overridden by laws with more state.
   void serialize(StateArchive& archive) override {
     for (SpringState& reading : readings_)
-      archive.visit(reading.p_K, reading.p_D, reading.pull, reading.size, reading.m_star);
+      archive.visit(reading.p_K, reading.p_D, reading.force_W, reading.size, reading.m_star);
   }
 
  protected:

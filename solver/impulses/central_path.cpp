@@ -27,8 +27,7 @@ namespace {
 
 constexpr int kMaxSteps = 1500, kMaxCorrections = 5, kMaxStartSteps = 60;
 constexpr double kNear = 0.1, kSlow = 0.7, kShorten = 0.3, kMaxLength = 0.95, kMinLength = 1e-6;
-constexpr double kSharpTurn =
-    1e-3;  // below this length, turns of more than 90 degrees are accepted
+constexpr double kSharpTurn = 1e-3;  // below this length, turns above 90 degrees are accepted
 constexpr double kToBoundary = 0.95;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -4,8 +4,8 @@
 //   begin_step           once, with the kinematics at its start: contact detection, gaps
 //   has_closing_contact  before each impact, with the current velocities
 //   extend_detection     after a velocity jump
-//   add, take            Phase::impact, while contacts close; Phase::step once;
-//                        Phase::separate if any source needs_position_correction()
+//   add_constraints,     Phase::impact, while contacts close; Phase::step once;
+//   read_impulses        Phase::position_correction if any source needs_position_correction()
 // Event-driven steps also use events(): event_source.h.
 // None of them may throw, or allocate after the first steps.
 #pragma once
@@ -17,12 +17,12 @@
 namespace twinarm {
 
 enum class Phase {
-  impact,    // velocity jump; v0: velocities before
-  step,      // v0: velocities at the end of the step without impulses
-  separate,  // position correction: v0 = 0, v is a small displacement [m, rad]
+  impact,               // velocity jump; v0: velocities before
+  step,                 // v0: velocities at the end of the step without impulses
+  position_correction,  // v0 = 0, v is a small displacement [m, rad]
   // event_driven_step.h only:
-  hit,  // as impact, for closed gaps only
-  flow  // as step, for the active set only
+  impact_at_event,  // as impact, for closed gaps only
+  smooth            // as step, for the active set only
 };
 
 struct ConstraintFrame {
@@ -52,15 +52,14 @@ class ConstraintSource {
   virtual ~ConstraintSource() = default;
   virtual void begin_step(const Kinematics&, const State<double>&, double /*h*/) noexcept {}
   virtual bool has_closing_contact(const ConstraintFrame&) noexcept { return false; }
-  // After a velocity jump to the velocities of k: adds contacts that can now be reached. True if
-  // there are new ones.
+  // Adds contacts that can be reached after a velocity jump to that of k; true if there are any.
   virtual bool extend_detection(const Kinematics&, double /*h*/) noexcept { return false; }
   virtual bool needs_position_correction() const noexcept { return false; }
   // Adds constraints, with the last impulses as initial guess.
-  virtual void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept = 0;
+  virtual void add_constraints(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept = 0;
   // Reads the solution of the same constraints, from index `first` on.
-  virtual void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-                    std::size_t first) noexcept = 0;
+  virtual void read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                             std::size_t first) noexcept = 0;
   virtual EventSource* events() { return nullptr; }  // null: no event location
 };
 

@@ -27,7 +27,7 @@ class EventSource {
 
   // After begin_step at the start of a segment: the active set are closed gaps, and without an
   // `impact` also the previous active set except separating members.
-  virtual void hold(const ConstraintFrame& frame, bool impact) noexcept = 0;
+  virtual void set_active_set(const ConstraintFrame& frame, bool impact) noexcept = 0;
   // Restores the active set of the start of the segment.
   virtual void restore_active_set() noexcept = 0;
 
@@ -38,25 +38,23 @@ class EventSource {
     bool has_closing_contact = true;                        // the minimum gap is closing
 
     // Includes a gap [m] with d gap/dt = rate [m/s].
-    void see(double gap_now, double rate) {
+    void include(double gap_now, double rate) {
       const bool closing = rate < -kRest;
       if (closing) time = std::min(time, std::max(0.0, gap_now) / -rate);
       if ((closing || gap_now < -10 * kClosed) && gap_now < gap)
         gap = gap_now, has_closing_contact = closing;
     }
   };
-  virtual void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept = 0;
+  virtual void find_next_event(const ConstraintFrame& frame, NextEvent& next) const noexcept = 0;
 
-  // After a solution in Phase::flow: appends the mode of each active constraint: sticking, sliding,
-  // separating, or reversing (sliding at the start, then stopped or reversed). Constant in a smooth
-  // segment; reversing is never smooth.
-  enum Mode : char { rests, slides, opens, turns };
-  virtual void modes(std::vector<char>& modes) const noexcept = 0;
+  // Appends the mode of each active constraint after a solution in Phase::smooth. reversing:
+  // sliding at the start, then stopped or reversed. Constant in a smooth segment, never reversing.
+  enum ContactMode : char { sticking, sliding, separating, reversing };
+  virtual void append_modes(std::vector<char>& modes) const noexcept = 0;
 
-  // Work integrals of the active constraints since restore_active_set(), extrapolated by the
-  // stepper [J].
-  virtual std::span<double> works() noexcept = 0;
-  virtual void commit_work() noexcept = 0;  // adds works() at the end of the segment
+  // Work integrals [J] of the active constraints since restore_active_set(), for extrapolation.
+  virtual std::span<double> work_integrals() noexcept = 0;
+  virtual void commit_work() noexcept = 0;  // adds work_integrals() at the end of the segment
 };
 
 }  // namespace twinarm

@@ -229,7 +229,7 @@ void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, Impulse
       update_multiplier(c, problem_->constraints(), c.u, c.p, multipliers_[i]);
       residual = nan_max(residual, law_residual(c, multipliers_[i], rho0_[i], c.u, c.p));
     }
-    report.rounds = std::max(report.rounds, ++iterations);
+    report.outer_iterations = std::max(report.outer_iterations, ++iterations);
     report.newton = std::max(report.newton, newton);
     if (residual <= 0.3 * tolerance) return;
     if (residual < best) {

@@ -38,7 +38,7 @@ bool JointLimits::needs_position_correction() const noexcept {
   return std::ranges::any_of(rows_, [](const Row& row) { return row.after < -kTolerance; });
 }
 
-void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
+void JointLimits::add_constraints(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept {
   for (const Row& row : rows_) {
     if (!is_included(frame, row)) continue;
     const std::size_t dof = model_->iv[static_cast<std::size_t>(limits_[row.limit].body)];
@@ -53,13 +53,13 @@ void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noe
         c.b[0] = std::max(0.0, row.gap - kClosed) / frame.h;
         c.p[0] = std::max(0.0, row.sign * limits_[row.limit].force * frame.h);
         break;
-      case Phase::hit:
+      case Phase::impact_at_event:
         break;
-      case Phase::flow:
+      case Phase::smooth:
         c.b[0] = kGapRate * row.gap;
         c.p[0] = std::max(0.0, row.sign * limits_[row.limit].force * frame.h);
         break;
-      case Phase::separate:
+      case Phase::position_correction:
         c.b[0] = row.after >= 0 ? row.after
                                 : std::min(0.0, kCorrectionFactor * (row.after + kTolerance));
         break;
@@ -67,10 +67,10 @@ void JointLimits::add(const ConstraintFrame& frame, ImpulseProblem& problem) noe
   }
 }
 
-void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-                       std::size_t first) noexcept {
-  if (frame.phase == Phase::separate) return;
-  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::hit;
+void JointLimits::read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                                std::size_t first) noexcept {
+  if (frame.phase == Phase::position_correction) return;
+  const bool jumps = frame.phase == Phase::impact || frame.phase == Phase::impact_at_event;
   if (!jumps)
     for (Limit& limit : limits_) limit.force = 0;
   for (Row& row : rows_) {
@@ -90,8 +90,8 @@ void JointLimits::take(const ConstraintFrame& frame, const ImpulseProblem& probl
     else
       for (std::size_t i = 0; i < held_.size(); ++i)
         if (held_[i].limit == row.limit && held_[i].sign == row.sign) {
-          held_[i].opens = c.u[0] > kMoves;
-          flow_works_[i] += work;
+          held_[i].is_separating = c.u[0] > kMoves;
+          integrals_[i] += work;
         }
   }
 }
@@ -104,21 +104,21 @@ const JointLimits::Active* JointLimits::find_active(const Row& row) const {
 
 // Limits are inelastic: in a step of fixed size the velocity phase enforces them.
 bool JointLimits::has_closing_contact(const ConstraintFrame& frame) noexcept {
-  if (frame.phase != Phase::hit) return false;
+  if (frame.phase != Phase::impact_at_event) return false;
   return std::ranges::any_of(
       rows_, [&](const Row& row) { return row.gap <= kClosed && speed(row, frame.x) < -kRest; });
 }
 
-void JointLimits::hold(const ConstraintFrame& frame, bool impact) noexcept {
+void JointLimits::set_active_set(const ConstraintFrame& frame, bool impact) noexcept {
   held_before_.clear();
   for (const Row& row : rows_) {
     const Active* before = find_active(row);
-    const bool remains = before && !before->opens && !impact;
+    const bool remains = before && !before->is_separating && !impact;
     if (remains || (row.gap <= kClosed && speed(row, frame.x) <= kRest))
       held_before_.push_back({row.limit, row.sign});
   }
   std::swap(held_, held_before_);
-  flow_works_.assign(held_.size(), 0);
+  integrals_.assign(held_.size(), 0);
 }
 
 }  // namespace twinarm

@@ -1,5 +1,4 @@
-// Position limits of joints with one degree of freedom as unilateral constraints: q in [lower,
-// upper], inelastic.
+// Position limits of joints with one degree of freedom: unilateral, q in [lower, upper], inelastic.
 #pragma once
 
 #include <algorithm>
@@ -27,26 +26,26 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
 
   void begin_step(const Kinematics& k, const State<double>& x, double h) noexcept override;
   bool needs_position_correction() const noexcept override;
-  void add(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
-  void take(const ConstraintFrame& frame, const ImpulseProblem& problem,
-            std::size_t first) noexcept override;
+  void add_constraints(const ConstraintFrame& frame, ImpulseProblem& problem) noexcept override;
+  void read_impulses(const ConstraintFrame& frame, const ImpulseProblem& problem,
+                     std::size_t first) noexcept override;
   bool has_closing_contact(const ConstraintFrame& frame) noexcept override;
   EventSource* events() override { return this; }
-  void hold(const ConstraintFrame& frame, bool impact) noexcept override;
+  void set_active_set(const ConstraintFrame& frame, bool impact) noexcept override;
   void restore_active_set() noexcept override {
-    std::fill(flow_works_.begin(), flow_works_.end(), 0);
+    std::fill(integrals_.begin(), integrals_.end(), 0);
   }
-  void look(const ConstraintFrame& frame, NextEvent& nearest) const noexcept override {
+  void find_next_event(const ConstraintFrame& frame, NextEvent& next) const noexcept override {
     for (const Row& row : rows_)
-      if (!find_active(row)) nearest.see(row.gap, speed(row, frame.x));
+      if (!find_active(row)) next.include(row.gap, speed(row, frame.x));
   }
-  void modes(std::vector<char>& modes) const noexcept override {
+  void append_modes(std::vector<char>& modes) const noexcept override {
     for (const Row& row : rows_)
-      if (const Active* a = find_active(row)) modes.push_back(a->opens ? Mode::opens : Mode::rests);
+      if (auto* a = find_active(row)) modes.push_back(a->is_separating ? separating : sticking);
   }
-  std::span<double> works() noexcept override { return flow_works_; }
+  std::span<double> work_integrals() noexcept override { return integrals_; }
   void commit_work() noexcept override {
-    for (std::size_t i = 0; i < held_.size(); ++i) limits_[held_[i].limit].work += flow_works_[i];
+    for (std::size_t i = 0; i < held_.size(); ++i) limits_[held_[i].limit].work += integrals_[i];
   }
 
   void serialize(StateArchive& archive) override {
@@ -54,7 +53,7 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
     archive.resize(held_, 2 * sizeof(double));
     for (Active& active : held_) {
       archive.visit_index(active.limit, limits_.size());
-      archive.visit(active.sign, active.opens);
+      archive.visit(active.sign, active.is_separating);
     }
   }
 
@@ -67,11 +66,11 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
   struct Active {
     std::size_t limit;
     double sign;
-    bool opens = false;
+    bool is_separating = false;
   };
   bool is_included(const ConstraintFrame& frame, const Row& row) const {
-    if (frame.phase == Phase::flow) return find_active(row) != nullptr;
-    return frame.phase != Phase::hit || row.gap <= kClosed;
+    if (frame.phase == Phase::smooth) return find_active(row) != nullptr;
+    return frame.phase != Phase::impact_at_event || row.gap <= kClosed;
   }
   const Active* find_active(const Row& row) const;
   // Velocity away from the limit.
@@ -82,7 +81,7 @@ class JointLimits final : public ConstraintSource, public EventSource, public Ch
   std::vector<Limit> limits_;
   std::vector<Row> rows_;  // reachable in this step
   std::vector<Active> held_, held_before_;
-  std::vector<double> flow_works_;  // by active limit
+  std::vector<double> integrals_;  // by active limit
 };
 
 }  // namespace twinarm

@@ -66,8 +66,8 @@ void KinematicTrees::add_point_rows(const Kinematics& k, int body, const Vector3
       });
 }
 
-void KinematicTrees::add_turn_rows(const Kinematics& k, int body, const Matrix3& axes, int count,
-                                   double sign, double* J) const {
+void KinematicTrees::add_rotation_rows(const Kinematics& k, int body, const Matrix3& axes,
+                                       int count, double sign, double* J) const {
   const int tree = tree_of(body);
   if (tree == ImpulseConstraint::no_tree) return;
   const auto n = static_cast<std::size_t>(size_[tree]);

@@ -42,8 +42,8 @@ class KinematicTrees {
   void add_point_rows(const Kinematics& k, int body, const Vector3& p_W, const Matrix3& axes,
                       int count, double sign, double* J) const;
   // The same for the angular velocity.
-  void add_turn_rows(const Kinematics& k, int body, const Matrix3& axes, int count, double sign,
-                     double* J) const;
+  void add_rotation_rows(const Kinematics& k, int body, const Matrix3& axes, int count, double sign,
+                         double* J) const;
 
  private:
   const Model<double>* model_;

@@ -25,8 +25,8 @@ ConstraintWork::ConstraintWork(const Model<double>& model, std::size_t loops, st
       share_qd_(share_q_),
       impulse_(loops),
       lambda_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(rows))) {
-  for (State<double>* x : {&unprojected_, &before_, &after_, &trial_, &pushes_[0].from,
-                           &pushes_[0].to, &pushes_[1].from, &pushes_[1].to})
+  for (State<double>* x : {&unprojected_, &before_, &after_, &trial_, &projections_[0].from,
+                           &projections_[0].to, &projections_[1].from, &projections_[1].to})
     *x = State<double>(model);
 }
 
@@ -35,7 +35,7 @@ void ConstraintWork::start_step() {
   std::fill(stabilisation_.begin(), stabilisation_.end(), EnergyMomentum{});
   std::fill(mimics_.begin(), mimics_.end(), 0);
   separation_ = {};
-  push_count_ = 0;
+  count_ = 0;
   pending_ = false;
 }
 
@@ -63,10 +63,10 @@ void ConstraintWork::after_projection(const State<double>& x, const LoopProjecti
 void ConstraintWork::add_projection() {
   if (!pending_) return;
   pending_ = false;
-  if (push_count_ < pushes_.size()) {
-    Push& push = pushes_[push_count_++];
-    push.from = push.to = after_;
-    push.from.qd = before_.qd;
+  if (count_ < projections_.size()) {
+    Projection& projection = projections_[count_++];
+    projection.from = projection.to = after_;
+    projection.from.qd = before_.qd;
   }
   const EnergyMomentum from = energy_momentum(before_);
   for (std::size_t l = 0; l < stabilisation_.size(); ++l) {

@@ -60,10 +60,10 @@ class ConstraintWork {
   const EnergyMomentum& separation() const { return separation_; }
   // Velocity projections at constant q: two in a step of semi-implicit-xv, else one; of
   // event-driven steps the first two.
-  struct Push {
+  struct Projection {
     State<double> from, to;
   };
-  std::span<const Push> pushes() const { return {pushes_.data(), push_count_}; }
+  std::span<const Projection> projections() const { return {projections_.data(), count_}; }
 
  private:
   static constexpr std::size_t kNumbers = 7;  // of an EnergyMomentum
@@ -77,8 +77,8 @@ class ConstraintWork {
   std::vector<std::vector<double>> share_q_, share_qd_;  // corrections by loop
   std::vector<EnergyMomentum> impulse_;                  // by loop
   Eigen::VectorXd lambda_;
-  std::array<Push, 2> pushes_;
-  std::size_t push_count_ = 0;
+  std::array<Projection, 2> projections_;
+  std::size_t count_ = 0;  // of projections_
   bool pending_ = false;
 };
 

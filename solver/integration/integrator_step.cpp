@@ -13,7 +13,7 @@ namespace {
 // Forces and ABA, with fixed-point iterations on request of a source.
 void solve_sources(IntegrationState& m, double h, StepReport& report) {
   bool again = true;
-  for (report.rounds = 0; again && report.rounds < ForceSource::kMaxRounds; ++report.rounds) {
+  for (int& n = report.force_iterations = 0; again && n < ForceSource::kMaxIterations; ++n) {
     m.accelerate_over(h);
     again = false;
     for (ForceSource* source : m.sources) again = source->refine(m.k, m.w) || again;

@@ -107,10 +107,10 @@ std::vector<std::vector<Diagnostic>> faults_by_loop(const Model<double>& model,
 }
 
 // Hinges and welds: g = 0 also holds for axes in opposite directions.
-bool is_turned_over(const LoopClosure& loop, const Kinematics& k) {
+bool has_opposite_axes(const LoopClosure& loop, const Kinematics& k) {
   const Matrix3 R = (k.X_WL[static_cast<std::size_t>(loop.body_a)].R * loop.X_LaC.R).transpose() *
                     k.X_WL[static_cast<std::size_t>(loop.body_b)].R * loop.X_LbC.R;
-  return visit_loop(loop.type, [&](auto type) { return type.is_turned_over(R); });
+  return visit_loop(loop.type, [&](auto type) { return type.has_opposite_axes(R); });
 }
 
 void add_open(const Model<double>& model, const LoopClosure& loop, const State<double>& x,
@@ -121,7 +121,7 @@ void add_open(const Model<double>& model, const LoopClosure& loop, const State<d
   alone.evaluate(x, k);
   const double error = alone.g().lpNorm<Eigen::Infinity>();
   const std::string fix = "give initial joint positions that close the loop";
-  if (is_turned_over(loop, k))
+  if (has_opposite_axes(loop, k))
     faults.push_back({"", 0, "loop '" + loop.name + "'",
                       "axes of the two frames point in opposite directions in the initial state",
                       fix, "loop.turned-over"});

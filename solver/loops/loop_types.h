@@ -6,7 +6,7 @@
 //   evaluate          writes g, g', gamma and J, and the data of wrench()
 //   wrench            wrench on link a from the multipliers of its rows
 //   problem           error in the closure's parameters; empty if none
-//   is_turned_over    whether axes point in opposite directions although g = 0
+//   has_opposite_axes whether axes point in opposite directions although g = 0
 //   g_of_pose         between bodies: g from poses only (cross-check in the inspector)
 #pragma once
 
@@ -78,7 +78,7 @@ struct AnyLoop {
   static constexpr LoopBetween ends = LoopBetween::bodies;
   static LoopWrench wrench(const LoopEnds&, const double*) { return {}; }
   static LoopProblem problem(const LoopClosure&) { return {}; }
-  static bool is_turned_over(const Matrix3&) { return false; }
+  static bool has_opposite_axes(const Matrix3&) { return false; }
   static Eigen::VectorXd g_of_pose(const Pose&, double) { return {}; }
 };
 
@@ -158,13 +158,13 @@ struct SphericalLoop : FrameLoop<> {
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) { return X_CaCb.p; }
 };
 struct RevoluteLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{0, 2, -1}> {
-  static bool is_turned_over(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
+  static bool has_opposite_axes(const Matrix3& R_CaCb) { return R_CaCb(2, 2) < 0; }
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {
     return (Eigen::VectorXd(5) << X_CaCb.p, X_CaCb.R(0, 2), X_CaCb.R(1, 2)).finished();
   }
 };
 struct WeldLoop : FrameLoop<AxisRow{1, 2, 1}, AxisRow{2, 0, 1}, AxisRow{0, 1, 1}> {
-  static bool is_turned_over(const Matrix3& R_CaCb) {
+  static bool has_opposite_axes(const Matrix3& R_CaCb) {
     return (R_CaCb.diagonal().array() < 0).any();
   }
   static Eigen::VectorXd g_of_pose(const Pose& X_CaCb, double) {

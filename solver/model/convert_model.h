@@ -32,7 +32,7 @@ Model<T> convert(const Model<double>& m) {
   out.ip = m.ip;
   out.Xtree = convert_all<Constant<T>>(m.Xtree);
   out.I = convert_all<Constant<T>>(m.I);
-  out.turn = convert_all<T>(m.turn);
+  out.R_BL = convert_all<T>(m.R_BL);
   out.gravity = convert<T>(m.gravity);
   out.nq = m.nq;
   out.nv = m.nv;

@@ -5,7 +5,7 @@
 // connects body i to its parent. Each body has two frames, both with the origin of joint i:
 //   body frame  rotated at build time so that the joint axis is z; used by the algorithms;
 //   link frame  axes of the user's file; used by everything outside solver/.
-// turn[i] = R_BL maps coordinates in link axes to coordinates in body axes.
+// R_BL[i] maps coordinates in link axes to coordinates in body axes.
 #pragma once
 
 #include <string>
@@ -55,7 +55,7 @@ struct Model {
   std::vector<std::size_t> iq, iv, ip;    // first index of joint i in q, qd and State::prescribed
   Constants<Transform, S> Xtree;          // XT_i: parent's body frame to joint i at q_i = identity
   Constants<Inertia, S> I;                // about the body's origin, body axes [kg, kg m, kg m^2]
-  std::vector<Mat3<S>> turn;              // R_BL
+  std::vector<Mat3<S>> R_BL;              // from link axes to body axes
   Vec3<S> gravity{S(0), S(0), S(-9.81)};  // world axes [m/s^2]
   std::size_t nq = 0, nv = 0, np = 0;
 

@@ -10,9 +10,9 @@
 namespace twinarm {
 
 struct NoTrace {
-  void moved() const {}  // after pass 1
+  void after_pass_1() const {}
   template <class... T>
-  void felt(const T&...) const {}
+  void transmitted(const T&...) const {}
 };
 
 // Indexed by body; zero for children of the base, for which aba() does not compute them.
@@ -21,9 +21,9 @@ struct FullTrace {
   std::vector<ArticulatedInertia<S>> Ia;  // IA - U D^-1 U^T
   std::vector<Force<S>> pa;               // pA + Ia c + U D^-1 u
   explicit FullTrace(std::size_t body_count) : Ia(body_count), pa(body_count) {}
-  void moved() const {}
+  void after_pass_1() const {}
   template <class Inertia>
-  void felt(std::size_t i, const Inertia& Ia_i, const Force<S>& pa_i) {
+  void transmitted(std::size_t i, const Inertia& Ia_i, const Force<S>& pa_i) {
     Ia[i] = ArticulatedInertia<S>(Ia_i);
     pa[i] = pa_i;
   }

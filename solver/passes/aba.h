@@ -49,7 +49,7 @@ template <class S, class M, class Trace = NoTrace>
       store_subspace(S_i, w.S_.data() + model.iv[i]);
     });
   }
-  trace.moved();
+  trace.after_pass_1();
 
   // pass 2, tips to base: articulated-body inertia and articulated-body bias force
   for (std::size_t i = n_bodies; i-- > 1;) {
@@ -74,7 +74,7 @@ template <class S, class M, class Trace = NoTrace>
           add_congruence(w.Xup[i], Ia, ArticulatedInertia<S>(model.I[p]), w.IA[p]);
         else  // IA_p += X^T Ia X
           add_congruence(w.Xup[i], Ia, w.IA[p], w.IA[p]);
-        trace.felt(i, Ia, pa);
+        trace.transmitted(i, Ia, pa);
       }
       store(U, w.U, iv), store(D, w.D, w.iD[i]);
       store(factors, w.D_factors, w.iD[i]), store(u, w.u, iv);

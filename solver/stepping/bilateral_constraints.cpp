@@ -43,7 +43,7 @@ void BilateralConstraints::keep_guesses(const ImpulseProblem& problem) {
 void BilateralConstraints::add_work(const ImpulseProblem& problem, const double* velocity_before,
                                     IntegrationState& m, Phase phase) {
   if (!m.account) return;
-  const bool in_segment = phase == Phase::flow;
+  const bool in_segment = phase == Phase::smooth;
   const auto work_of = [&](const ImpulseConstraint& c) {
     std::array<double, 3> before, after;
     problem.velocity(c, velocity_before, before);
@@ -93,16 +93,16 @@ void BilateralConstraints::add_loops(ImpulseProblem& problem, const KinematicTre
     ImpulseConstraint& c = problem.add(ConstraintType::bilateral, static_cast<int>(count), a, b);
     for (std::size_t r = 0; r < count; ++r) {
       const auto from = static_cast<Eigen::Index>(row + r);
-      c.b[r] = phase == Phase::separate ? 0 : loops.rate()[from];
+      c.b[r] = phase == Phase::position_correction ? 0 : loops.rate()[from];
       if (with_gamma_ && phase == Phase::step) c.b[r] += h * loops.gamma()[from];
-      if (phase == Phase::step || phase == Phase::flow) c.p[r] = loop_guess_[row + r];
+      if (phase == Phase::step || phase == Phase::smooth) c.p[r] = loop_guess_[row + r];
       for (const std::size_t dof : dofs) {
         const double entry = loops.J()(from, static_cast<Eigen::Index>(dof));
         const int tree = trees.tree_of_dof(dof);
         const std::size_t n = static_cast<std::size_t>(problem.size(tree));
         problem.J(c, tree == a ? 0 : 1)[r * n + trees.index_in_tree(dof)] = entry;
         // leaves the velocity of prescribed joints: g' - J qd
-        if (phase != Phase::separate) c.b[r] -= entry * m.x.qd[dof];
+        if (phase != Phase::position_correction) c.b[r] -= entry * m.x.qd[dof];
       }
     }
   }

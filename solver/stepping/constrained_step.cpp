@@ -33,13 +33,13 @@ void ConstrainedStep::step(IntegrationState& m, double h, StepReport& report) {
   update_positions(m, h);
   correct_positions(m, h);
   report.converged = report_.step.converged && report_.impact.converged;
-  report.rounds = report_.step.rounds;
+  report.force_iterations = report_.step.outer_iterations;
   report.iterations = report_.step.newton;
 }
 
 void ConstrainedStep::smooth_step(IntegrationState& m, double h) {
   system_.accelerate(m, h);
-  if (solve_step(m, h, Phase::flow))
+  if (solve_step(m, h, Phase::smooth))
     system_.trees.scatter(system_.problem, m.x.qd);
   else
     kick(m, h);
@@ -137,8 +137,8 @@ void ConstrainedStep::correct_positions(IntegrationState& m, double h) {
   if (std::none_of(system_.sources.begin(), system_.sources.end(), needed)) return;
   if (m.account) penetrating_ = m.x;
   system_.begin_problem(nullptr, m.w);
-  system_.add_sources({m.k, system_.trees, m.x, Phase::separate, h});
-  system_.bilateral.add_to(system_.problem, system_.trees, m, Phase::separate);
+  system_.add_sources({m.k, system_.trees, m.x, Phase::position_correction, h});
+  system_.bilateral.add_to(system_.problem, system_.trees, m, Phase::position_correction);
   system_.solver.solve(system_.problem);
   system_.trees.scatter(system_.problem, delta_);
   integrate_coordinates(*model_, m.x.q, delta_, m.x.q);

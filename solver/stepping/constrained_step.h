@@ -39,7 +39,7 @@ class ConstrainedStep {
   void start_report() { report_ = {}; }
   // Of closed gaps; false if there are none.
   bool resolve_impacts_now(IntegrationState& m) {
-    return impacts_.resolve(system_, m, 0, Phase::hit, report_) > 0;
+    return impacts_.resolve(system_, m, 0, Phase::impact_at_event, report_) > 0;
   }
   void smooth_step(IntegrationState& m, double h);  // with the active set of the sources
 

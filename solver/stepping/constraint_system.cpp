@@ -25,7 +25,7 @@ void ConstraintSystem::add_sources(const ConstraintFrame& frame) {
   first_.clear();
   for (ConstraintSource* source : sources) {
     first_.push_back(problem.constraints().size());
-    source->add(frame, problem);
+    source->add_constraints(frame, problem);
   }
 }
 

@@ -41,7 +41,8 @@ class ConstraintSystem {
   void add_sources(const ConstraintFrame& frame);
   // Passes the solution to the sources.
   void distribute_impulses(const ConstraintFrame& frame) {
-    for (std::size_t s = 0; s < sources.size(); ++s) sources[s]->take(frame, problem, first_[s]);
+    for (std::size_t s = 0; s < sources.size(); ++s)
+      sources[s]->read_impulses(frame, problem, first_[s]);
   }
 
   // Residuals [m/s]: of an accepted guess, of an accepted solution, target of the iteration.

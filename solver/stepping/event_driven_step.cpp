@@ -82,7 +82,7 @@ void EventStep::finish(double t_end, StepReport& report) {
   m_->x.t = t_end;
   m_->project_and_update();
   constrained_->system().begin_step(*m_, 0);
-  for (EventSource* source : sources_) source->hold(frame(), true);
+  for (EventSource* source : sources_) source->set_active_set(frame(), true);
   report.converged = report.converged && is_converged;
   report.located = false;
   ++report.substeps;
@@ -92,15 +92,15 @@ void EventStep::finish(double t_end, StepReport& report) {
 void EventStep::begin_segment(double s) {
   constrained_->system().begin_step(*m_, s);
   const bool impact = constrained_->resolve_impacts_now(*m_);
-  for (EventSource* source : sources_) source->hold(frame(), impact);
+  for (EventSource* source : sources_) source->set_active_set(frame(), impact);
   start_ = m_->x;
 }
 
 EventSource::NextEvent EventStep::next_event() const {
-  EventSource::NextEvent nearest;
-  for (const EventSource* source : sources_) source->look(frame(), nearest);
-  nearest.gap = std::min(nearest.gap, kNoGap);
-  return nearest;
+  EventSource::NextEvent next;
+  for (const EventSource* source : sources_) source->find_next_event(frame(), next);
+  next.gap = std::min(next.gap, kNoGap);
+  return next;
 }
 
 // Advances m_ by an accepted segment of at most max_length; returns its length, 0 if stopped.
@@ -209,16 +209,16 @@ bool EventStep::run_column(double s, int n, ModeChange mode_change) {
     solves_ += 1 + static_cast<long>(constrained_->system().problem.constraints().size());
     is_solved_ = is_solved_ && constrained_->report().step.converged;
     modes_now_.clear();
-    for (EventSource* source : sources_) source->modes(modes_now_);
+    for (EventSource* source : sources_) source->append_modes(modes_now_);
     if (n == 1) modes_ = modes_now_;
     const bool reverses =
-        std::count(modes_now_.begin(), modes_now_.end(), EventSource::Mode::turns) > 0;
+        std::count(modes_now_.begin(), modes_now_.end(), EventSource::ContactMode::reversing) > 0;
     if (rejects && (reverses || modes_now_ != modes_)) return false;
   }
   values_ = theta_;
   values_.insert(values_.end(), m_->x.qd.begin(), m_->x.qd.end());
   for (EventSource* source : sources_)
-    values_.insert(values_.end(), source->works().begin(), source->works().end());
+    values_.insert(values_.end(), source->work_integrals().begin(), source->work_integrals().end());
   if (m_->account)
     values_.insert(values_.end(), m_->account->segment().begin(), m_->account->segment().end());
   return true;
@@ -233,7 +233,7 @@ void EventStep::set_state(const std::vector<double>& row, double s) {
   m_->update_kinematics();
   std::size_t next = 2 * nv;
   for (EventSource* source : sources_)
-    for (double& work : source->works()) work = row[next++];
+    for (double& work : source->work_integrals()) work = row[next++];
   if (m_->account)
     for (double& sum : m_->account->segment()) sum = row[next++];
 }

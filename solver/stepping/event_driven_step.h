@@ -80,7 +80,7 @@ class EventStep {
   EventSource::NextEvent next_event() const;
   void set_state(const std::vector<double>& row, double s);
   ConstraintFrame frame() const {
-    return {m_->k, constrained_->system().trees, m_->x, Phase::flow, 0};
+    return {m_->k, constrained_->system().trees, m_->x, Phase::smooth, 0};
   }
 
   ConstrainedStep* constrained_ = nullptr;  // of the current call of step()

@@ -48,7 +48,7 @@ void check_parts(const StepParts& parts) {
   check_integrator(parts);
   if (parts.located) check_located(parts);
   for (const ForceSource* source : parts.forces)
-    if (!parts.constraints.empty() && source->needs_rounds())
+    if (!parts.constraints.empty() && source->needs_iterations())
       throw std::invalid_argument(
           "iterated force sources (ForceSource::refine) cannot be combined with contacts, limits "
           "and locks; use compliant contacts (ConstraintType::compliant) instead");

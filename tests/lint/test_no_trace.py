@@ -15,7 +15,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BUILD = ""
-HOOK = "trace.felt(i, Ia, pa);"
+HOOK = "trace.transmitted(i, Ia, pa);"
 
 
 def command():

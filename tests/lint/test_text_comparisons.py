@@ -13,8 +13,8 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 # Fields that people read, of C++ and of the pages, where a name or a source is a code of a message.
-FIELDS = {".ts": "felt|label|rule|remedy|text|title|words",
-          ".cpp": "description|felt|label|legend|name|remedy|row|rule|scheme|source|title|where|words"}
+FIELDS = {".ts": "force_feedback|label|rule|remedy|text|title|words",
+          ".cpp": "description|force_feedback|label|legend|name|remedy|row|rule|scheme|source|title|where|words"}
 CALLS = r"\??\.(?:starts_with|ends_with|r?find|contains|compare|startsWith|endsWith|includes|indexOf)\(\s*"
 COMPARED = re.compile(
     r"\b(?P<left>\w+)(?:\.trim\(\)|\[\w*\]|\(\))?\s*(?:[=!]==?\s*|" + CALLS +
@@ -85,7 +85,7 @@ class TextComparisons(unittest.TestCase):
                 ('if (row.name == "numerical")', ".cpp"), ('s.name.rfind("damper of joint", 0)', ".cpp"),
                 ('where != "restart"', ".h"), ('fault.where.find("\'" + prefix)', ".cpp"),
                 ('option == "as the scene says"', ".cpp"), ('row.name.ends_with("/implicit")', ".inl"),
-                ('s.name == "coupling \'" + name', ".cpp"), ("felt.includes('synthetic')", ".ts"),
+                ('s.name == "coupling \'" + name', ".cpp"), ("force_feedback.includes('synthetic')", ".ts"),
                 ("words.trim() === 'opened'", ".ts")):
             self.assertTrue(list(comparisons(text, suffix)), text)
         for text, suffix in (('file.extension() == ".toml"', ".cpp"), ("c == ' '", ".cpp"),

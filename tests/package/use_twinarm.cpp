@@ -88,13 +88,13 @@ void rod_under_a_spring(const char* urdf) {
   const int rod = model.find_body("rod");
   CouplingSpec spec{.name = "pull", .type = CouplingSpec::Type::linear};
   spec.springs = {{"tip", rod, {0, 0, -l}, k, 0}};
-  const auto pull = make_coupling(spec, model, twin);
+  const auto coupling = make_coupling(spec, model, twin);
 
   Simulation simulation(model, start);
-  simulation.add(*pull);
+  simulation.add(*coupling);
   simulation.step(h);
-  check("the spring pulls to the twin", pull->readings().at(0).pull.y(), k * l);
-  check("and up", pull->readings().at(0).pull.z(), k * l);
+  check("the spring pulls to the twin", coupling->readings().at(0).force_W.y(), k * l);
+  check("and up", coupling->readings().at(0).force_W.z(), k * l);
   check("the rod follows", simulation.state().qd[0], h * k * l * l / I);
 }
 

@@ -83,9 +83,9 @@ void EnergyBooks::add_step(const State<double>& x, const std::vector<double>& v_
   for (std::size_t c = 0; c < couplings_.size(); ++c) {
     const CouplingEnds a = couplings_.ends(c, x_, k_), b = couplings_.ends(c, between_, k_end_);
     const Vector3 change = couplings_.m_star(c) * (b.velocity - a.velocity);
-    const Vector3 pull = h * couplings_.pull(c) - change;
-    pulled += pull.dot(b.velocity);
-    by_hand += pull.dot(a.target_velocity);
+    const Vector3 impulse = h * couplings_.force(c) - change;
+    pulled += impulse.dot(b.velocity);
+    by_hand += impulse.dot(a.target_velocity);
   }
   rnea(scene_.model, x_, still_, no_forces_, w_);
   double bias = 0;

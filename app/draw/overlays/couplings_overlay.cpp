@@ -17,19 +17,19 @@ void draw_spring(SceneView& view, const ShownCouplingForce& coupling, const Colo
   add_spring(view.list, coupling.p_D, coupling.p_K, radius, color);
   add_sphere(view.list, coupling.p_D, 1.15 * radius, color);
   add_sphere(view.list, coupling.p_K, 1.15 * radius, palette::kTargetRobotSwatch);
-  add_label(view.list, 0.5 * (coupling.p_D + coupling.p_K), with_unit(coupling.pull_W.norm(), "N"),
+  add_label(view.list, 0.5 * (coupling.p_D + coupling.p_K), with_unit(coupling.force_W.norm(), "N"),
             {24, -34});
 }
 
 void draw_coupling_force(SceneView& view, const ShownCouplingForce& coupling, const Color& color) {
-  const double size = coupling.pull_W.norm(), radius = view.scales.radius();
+  const double size = coupling.force_W.norm(), radius = view.scales.radius();
   if (coupling.kind == ShownCouplingForce::Kind::force) {
     const double scale = view.scales.metres_per(view.scales.force);
-    add_arrow(view.list, coupling.p_D, coupling.p_D + scale * coupling.pull_W, radius, color);
+    add_arrow(view.list, coupling.p_D, coupling.p_D + scale * coupling.force_W, radius, color);
     add_label(view.list, coupling.p_D, with_unit(size, "N"), {24, -24});
   } else {
     const double share = std::max(0.3, std::sqrt(size / view.scales.couple));
-    add_rotation_arrow(view.list, coupling.p_D, coupling.pull_W, 0.16 * share * view.scales.length,
+    add_rotation_arrow(view.list, coupling.p_D, coupling.force_W, 0.16 * share * view.scales.length,
                        radius, color);
     add_label(view.list, coupling.p_D, with_unit(size, "N m"), {24, -24});
   }
@@ -39,10 +39,10 @@ void show_couplings(SceneView& view, const Snapshot& snapshot) {
   bool any_force = false, any_torque = false;
   const Model<double>& model = *view.model;
   const double weight = total_motion(model, snapshot.k).mass * to_eigen(model.gravity).norm();
-  for (const ShownCouplingForce& coupling : snapshot.pulls) {
+  for (const ShownCouplingForce& coupling : snapshot.coupling_forces) {
     const bool is_force = coupling.kind == ShownCouplingForce::Kind::force;
     const double largest = is_force ? view.scales.force : view.scales.couple;
-    const double size = coupling.pull_W.norm();
+    const double size = coupling.force_W.norm();
     // Forces far below the weight are not drawn as arrows.
     const double smallest =
         coupling.has_ends ? 0 : kMinArrow * weight * (is_force ? 1 : view.scales.length);
@@ -67,14 +67,14 @@ void show_couplings(SceneView& view, const Snapshot& snapshot) {
 }
 
 void show_mouse_spring(SceneView& view, const Snapshot& snapshot) {
-  if (!snapshot.grip) return;
-  const ShownMouseSpring& grip = *snapshot.grip;
+  if (!snapshot.mouse_spring) return;
+  const ShownMouseSpring& spring = *snapshot.mouse_spring;
   const double radius = 2.4 * view.scales.radius();
-  const OfBody mark(view.list, grip.body);
-  add_spring(view.list, grip.p_W, grip.goal_W, radius, palette::kMouse);
-  add_sphere(view.list, grip.p_W, 1.2 * radius, palette::kMouse);
-  add_sphere(view.list, grip.goal_W, 1.2 * radius, palette::kMouse);
-  add_label(view.list, grip.goal_W, with_unit(grip.force_W.norm(), "N"), {18, -20});
+  const OfBody mark(view.list, spring.body);
+  add_spring(view.list, spring.p_W, spring.goal_W, radius, palette::kMouse);
+  add_sphere(view.list, spring.p_W, 1.2 * radius, palette::kMouse);
+  add_sphere(view.list, spring.goal_W, 1.2 * radius, palette::kMouse);
+  add_label(view.list, spring.goal_W, with_unit(spring.force_W.norm(), "N"), {18, -20});
   view.list.legend.push_back({palette::kMouse, "mouse spring"});
 }
 

@@ -46,9 +46,9 @@ void draw_device(DrawList& list, const Pose& X_WD, const ShownDevice& device) {
 }
 
 void show_device(SceneView& view, const Snapshot& snapshot) {
-  if (snapshot.hands.empty() || !view.X_WDevice) return;
+  if (snapshot.devices.empty() || !view.X_WDevice) return;
   Pose X_WD = *view.X_WDevice;
-  for (const ShownDevice& device : snapshot.hands) {
+  for (const ShownDevice& device : snapshot.devices) {
     draw_device(view.list, X_WD, device);
     X_WD.p.x() -= kNextDevice;
   }
@@ -57,11 +57,11 @@ void show_device(SceneView& view, const Snapshot& snapshot) {
 
 // Force at the stylus beside the device's peak force; another colour at that limit.
 void show_device_force(SceneView& view, const Snapshot& snapshot) {
-  if (snapshot.hands.empty() || !view.X_WDevice) return;
+  if (snapshot.devices.empty() || !view.X_WDevice) return;
   const OmniParameters omni;
   const double peak = omni.peak_force;
   Pose X_WD = *view.X_WDevice;
-  for (const ShownDevice& device : snapshot.hands) {
+  for (const ShownDevice& device : snapshot.devices) {
     const Vector3 p_W = X_WD * omni_position(omni, device.theta);
     X_WD.p.x() -= kNextDevice;
     const double size = device.force_W.norm();

@@ -39,7 +39,7 @@ void show_energy(SceneView& view, const Snapshot& snapshot) {
   bars[3].value = bars[0].value + bars[1].value + bars[2].value;
   double top = 60;
   for (const Bar& bar : bars) {
-    if (bar.name == std::string("in springs") && snapshot.pulls.empty()) continue;
+    if (bar.name == std::string("in springs") && snapshot.coupling_forces.empty()) continue;
     draw_bar(view.list, bar, top, 1.02 * largest);
     top += 44;
   }

@@ -31,7 +31,7 @@ bool add_before(SceneView& view, const std::vector<Pose>& before, const std::vec
 
 void show_targets(SceneView& view, const Snapshot& snapshot) {
   bool any = false;
-  for (const ShownTargetRobot& target : snapshot.twins)
+  for (const ShownTargetRobot& target : snapshot.targets)
     for (const ScenePart& part : view.cast.parts) {
       if (part.robot != static_cast<int>(target.robot)) continue;
       const Pose& X_WL = target.X_WL[part.body];

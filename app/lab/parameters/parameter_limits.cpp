@@ -105,7 +105,7 @@ class Limits {
       : scene_(plan.input.scene->description),
         step_(plan),
         parameters_(parameters),
-        stable_now_(step_.holds()) {}
+        stable_now_(step_.is_stable()) {}
 
   void add() {
     if (step_.is_empty()) return;
@@ -140,7 +140,7 @@ class Limits {
   void add_step(LabParameter& parameter) {
     const double now = step_.step();
     const Limit limit = find_limit(now, 1e-7, 0.1, true, stable_now_,
-                                   [&](double h) { return step_.holds_at_step(h); });
+                                   [&](double h) { return step_.is_stable_at_step(h); });
     parameter.limit = described(limit, now, "s", " with these gains");
   }
 
@@ -149,7 +149,7 @@ class Limits {
     const bool is_positive = value > 0;
     const double now = is_positive ? value : parameter.low;
     const IsStable is_stable = [&](double x) {
-      return step_.holds_with_gain(coupling, key.gain, x);
+      return step_.is_stable_with_gain(coupling, key.gain, x);
     };
     const Limit limit =
         find_limit(now, parameter.low / kBeyond, parameter.high * kBeyond, key.upward,
@@ -163,7 +163,7 @@ class Limits {
     constexpr int kMaxSteps = 1000;
     const double rate = parse_number(parameter.text).value_or(1 / step_.step());
     const int now = std::max(1, static_cast<int>(std::lround(1 / (rate * step_.step()))));
-    const auto is_stable = [&](int steps) { return step_.holds_with_hold(coupling, steps); };
+    const auto is_stable = [&](int steps) { return step_.is_stable_with_hold(coupling, steps); };
     int good = is_stable(now) ? now : 0, bad = good ? 0 : now;
     for (int n = now; good && !bad && n < kMaxSteps;) {
       n *= 2;
@@ -195,7 +195,7 @@ class TrackingErrors {
     Eigen::VectorXd v = Eigen::VectorXd::Ones(step_.rows());
     for (const NamedJoint& joint : input_.robot.coordinates.all())
       if (is_translational(joint.type)) v[static_cast<Eigen::Index>(joint.row)] = 0.1;
-    error_ = step_.lag(v);
+    error_ = step_.tracking_errors(v);
   }
   // Empty where no coupling acts on the joint, or it does not have one degree of freedom.
   std::string of(int coupling) const {
@@ -229,7 +229,7 @@ class TrackingErrors {
 
   const SimulateInput& input_;
   CoupledStep step_;
-  CoupledStep::Lag error_;
+  CoupledStep::Errors error_;
 };
 
 }  // namespace

@@ -177,10 +177,10 @@ void InputOverride::replay_step(const std::optional<DeviceStep>& motion) {
   if (!active_) first_.set(*motion);
   active_ = true;
   for (std::size_t j = 0; j < target_.q.size(); ++j) {
-    target_.q[j] = OperatorMapping{}.robot_angle(motion->hand, j);
-    target_.qd[j] = OperatorMapping{}.robot_rate(motion->hand, j);
+    target_.q[j] = OperatorMapping{}.robot_angle(motion->sample, j);
+    target_.qd[j] = OperatorMapping{}.robot_rate(motion->sample, j);
   }
-  target_.gripper_closed = motion->hand.button;
+  target_.gripper_closed = motion->sample.button;
 }
 
 void InputOverride::after_step(const Simulation& simulation, double h, bool finite) noexcept {
@@ -197,10 +197,10 @@ std::optional<OperatorFrame> InputOverride::frame(double t) const {
   frame.gripper_closed = frame.active ? target_.gripper_closed : own_->sample(t, t - 1e-6).button;
   // A device chosen since the last step has not moved anything yet.
   if (!loop_ || !is_live_ || loop_revision_ != input_.revision()) return frame;
-  const OmniParameters& figures = input_.device()->figures();
+  const OmniParameters& parameters = input_.device()->parameters();
   frame.theta = loop_->device().theta;
   frame.torque = loop_->force().torque;
-  frame.force_W = world_from_device(omni_force(figures, frame.theta, frame.torque));
+  frame.force_W = world_from_device(omni_force(parameters, frame.theta, frame.torque));
   frame.mode = static_cast<int>(loop_->watch().mode());
   return frame;
 }

@@ -27,8 +27,8 @@ void OperatorInput::choose(Source source, const std::string& spec) {
   if (source == Source::device) device = open_device(spec);
   if (source == Source::drag) {
     VirtualOmniSettings settings;
-    settings.figures.resolution = 0;  // scaled encoder counts per millisecond disturb the dampers
-    gestures = std::make_shared<DesktopInput>(settings.figures);
+    settings.parameters.resolution = 0;  // scaled encoder counts per tick disturb the dampers
+    gestures = std::make_shared<DesktopInput>(settings.parameters);
     device = std::make_unique<VirtualOmni>(gestures, settings);
     gestures->button(0, gripper_);
   }
@@ -61,7 +61,7 @@ void OperatorInput::joint(std::size_t driven, double value, double stamp) {
 }
 
 void OperatorInput::rotate_stylus(double yaw, double pitch, double roll, double stamp) {
-  if (gestures_) gestures_->turn_stylus({yaw, pitch, roll});
+  if (gestures_) gestures_->rotate_stylus({yaw, pitch, roll});
   stamp_ = stamp;
 }
 

@@ -14,8 +14,8 @@ namespace {
 DeviceStep shifted_to(double t, double h, DeviceStep step) {
   const double later = t - step.t;
   if (later != 0)
-    for (std::size_t j = 0; j < step.hand.theta.size(); ++j)
-      step.hand.theta[j] += later * step.hand.theta_dot[j];
+    for (std::size_t j = 0; j < step.sample.theta.size(); ++j)
+      step.sample.theta[j] += later * step.sample.theta_dot[j];
   step.t = t;
   step.h = h;
   return step;

@@ -44,9 +44,9 @@ class Connection;
 struct Core : std::enable_shared_from_this<Core> {
   Core(const ServerOptions& given, ServerHandlers called)
       : options(given), handlers(std::move(called)) {}
-  Clock::duration patience(double part = 1) const {
+  Clock::duration timeout(double part = 1) const {
     return std::chrono::duration_cast<Clock::duration>(
-        std::chrono::duration<double>(part * options.patience));
+        std::chrono::duration<double>(part * options.timeout));
   }
   // Gzipped body; the last one is cached (the page).
   Bytes packed(const Bytes& body);

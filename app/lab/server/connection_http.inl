@@ -18,7 +18,7 @@ void Connection::start() {
   parser_->header_limit(kMaxHead);
   parser_->body_limit(core_.options.max_body);
   is_permitted_ = gives_cookie_ = false;
-  deadline_ = Clock::now() + core_.patience(0.25);
+  deadline_ = Clock::now() + core_.timeout(0.25);
   in_.empty() ? read_some() : parse();
 }
 
@@ -47,7 +47,7 @@ void Connection::parse() {
     is_more = !in_.empty() && !error;
   }
   if (parser_->is_done()) return serve();
-  if (is_permitted_) deadline_ = Clock::now() + core_.patience(0.25);
+  if (is_permitted_) deadline_ = Clock::now() + core_.timeout(0.25);
   read_some();
 }
 
@@ -108,7 +108,7 @@ void Connection::serve() {
   HttpRequest parsed{request.method() == http::verb::post ? "POST" : "GET", *path,
                      std::string(target.substr(std::min(target.size(), mark + 1))),
                      std::move(parser_->get().body())};
-  deadline_ = Clock::now() + 2 * core_.patience();
+  deadline_ = Clock::now() + 2 * core_.timeout();
   is_waiting_ = true;
   auto answer = [core = core_.weak_from_this(), self = weak_from_this(),
                  number = ++request_](HttpReply reply) {
@@ -166,7 +166,7 @@ void Connection::refuse(int status, const std::string& why) {
 void Connection::write(const ResponseHead& head, Bytes body) {
   head_ = to_string(head);
   body_ = body ? std::move(body) : shared_bytes("");
-  deadline_ = Clock::now() + core_.patience(0.25) +
+  deadline_ = Clock::now() + core_.timeout(0.25) +
               std::chrono::milliseconds(
                   static_cast<long>(1e3 * static_cast<double>(body_->size()) / kSlowestDownload));
   const std::array<net::const_buffer, 2> both{net::buffer(head_), net::buffer(*body_)};

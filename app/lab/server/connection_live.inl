@@ -14,7 +14,7 @@ void Connection::upgrade_to_websocket() {
   if (core_.live >= core_.options.max_clients)
     return refuse(503, std::to_string(core_.live) + " pages are open, the maximum: close one");
   ++core_.live;
-  deadline_ = Clock::now() + core_.patience(0.25);
+  deadline_ = Clock::now() + core_.timeout(0.25);
   ws_.emplace(std::move(socket_));
   ws_->auto_fragment(false);
   ws_->read_message_max(core_.options.max_message);
@@ -136,8 +136,8 @@ void Connection::check_timeouts(Clock::time_point now) {
     return;
   }
   const bool is_unanswered = writing_ || sent_ != answered_;
-  if (is_unanswered && now - progress_ > core_.patience()) return drop();
-  if (!is_unanswered && now - pinged_at_ > core_.patience(0.25)) {
+  if (is_unanswered && now - progress_ > core_.timeout()) return drop();
+  if (!is_unanswered && now - pinged_at_ > core_.timeout(0.25)) {
     ++sent_;  // ping as for a message, to detect a lost client
     progress_ = now;
     ping();

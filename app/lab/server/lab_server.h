@@ -49,7 +49,7 @@ struct ServerOptions {
   std::size_t max_message = 64 << 10;  // of a client [bytes]
   std::size_t max_body = 32 << 20;     // of a POST [bytes]
   double messages_per_second = 500;    // of a client; beyond: disconnected
-  double patience = 60;  // timeout of a client that reads nothing; of a request a quarter [s]
+  double timeout = 60;                 // of a client that reads nothing; of a request a quarter [s]
 };
 
 // 128 random bits in hexadecimal.

@@ -49,15 +49,16 @@ Snapshot LabSnapshots::of(const LabFrame& frame) {
   const Model<double>& model = plan_->input.robot.model;
   Snapshot snapshot = snapshot_of(plan_->input, couplings(), instant_of(frame.recorded, model));
   if (const auto& hand = frame.hand; hand && hand->active) {
-    snapshot.hands.clear();
+    snapshot.devices.clear();
     // Without a device all of its angles are zero.
     if (std::ranges::any_of(hand->theta, [](double angle) { return angle != 0; }))
-      snapshot.hands = {{hand->theta, hand->gripper_closed, hand->force_W}};
+      snapshot.devices = {{hand->theta, hand->gripper_closed, hand->force_W}};
   }
   if (frame.mouse && frame.mouse->body > 0 && frame.mouse->body < model.body_count()) {
     const MouseSpringState& mouse = *frame.mouse;
-    snapshot.grip = {static_cast<std::size_t>(mouse.body),
-                     snapshot.k.position(mouse.body, mouse.p_L), mouse.goal_W, mouse.force_W};
+    snapshot.mouse_spring = {static_cast<std::size_t>(mouse.body),
+                             snapshot.k.position(mouse.body, mouse.p_L), mouse.goal_W,
+                             mouse.force_W};
   }
   return snapshot;
 }

@@ -89,7 +89,7 @@ void LabView::take_poses(const Snapshot& snapshot) {
   columns_.link.assign(7 * links.size(), std::numeric_limits<float>::quiet_NaN());
   columns_.target = columns_.link;
   put_poses(links, 0, links.size(), columns_.link);
-  for (const ShownTargetRobot& target : snapshot.twins) {
+  for (const ShownTargetRobot& target : snapshot.targets) {
     const auto [first, last] = plan_->input.scene->bodies_of_robot(target.robot);
     put_poses(target.X_WL, static_cast<std::size_t>(first), static_cast<std::size_t>(last) + 1,
               columns_.target);

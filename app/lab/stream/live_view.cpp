@@ -126,7 +126,7 @@ void grow_scales(SceneView& stage, const Snapshot& snapshot) {
   Scales seen;
   seen.widen_run(*stage.model, snapshot);
   seen.widen_contacts(snapshot);
-  if (snapshot.grip) seen.force = std::max(seen.force, snapshot.grip->force_W.norm());
+  if (const auto& s = snapshot.mouse_spring) seen.force = std::max(seen.force, s->force_W.norm());
   for (double Scales::*scale_of :
        {&Scales::contact_force, &Scales::force, &Scales::couple, &Scales::momentum,
         &Scales::angular, &Scales::kinetic, &Scales::elastic}) {

@@ -56,16 +56,16 @@ bool share_target(const SceneCoupling& a, const SceneCoupling& b) {
 }  // namespace
 
 struct SceneCouplings::Target {
-  Target(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<OperatorMotion> motion)
-      : hand(std::move(motion)),
-        kvr(scene.model, *hand, {}, spec.driven,
+  Target(const SceneModel& scene, const SceneCoupling& spec, std::unique_ptr<OperatorMotion> given)
+      : motion(std::move(given)),
+        kvr(scene.model, *motion, {}, spec.driven,
             spec.absolute_damper ? TargetRates::none : TargetRates::from_operator),
-        shown(scene.model, *hand, {}, spec.driven) {
+        shown(scene.model, *motion, {}, spec.driven) {
     kvr.set_pose(spec.rest);
     shown.set_pose(spec.rest);
   }
 
-  std::unique_ptr<OperatorMotion> hand;
+  std::unique_ptr<OperatorMotion> motion;
   TargetRobot kvr, shown;
 };
 
@@ -130,12 +130,12 @@ ForceSource* SceneCouplings::source(std::size_t c) {
 
 void SceneCouplings::forget_operator_motions() {
   for (const std::shared_ptr<Active>& active : couplings_) {
-    active->target->kvr.forget();
-    active->target->shown.forget();
+    active->target->kvr.invalidate();
+    active->target->shown.invalidate();
   }
 }
-const OperatorMotion& SceneCouplings::hand(std::size_t c) const {
-  return *couplings_[c]->target->hand;
+const OperatorMotion& SceneCouplings::motion(std::size_t c) const {
+  return *couplings_[c]->target->motion;
 }
 
 const Coupling& SceneCouplings::coupling(std::size_t c) const {
@@ -154,7 +154,7 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
   const TargetSample& kvr = target(c, x.t, side);
   const auto i = static_cast<std::size_t>(spec.spring.body);
   CouplingEnds ends;
-  if (spec.law == CouplingSpec::Type::matched) {
+  if (spec.law == CouplingSpec::Type::equivalent_torsional) {
     ends = matched_ends(scene_.model, spec.spring, kvr, x);
   } else if (spec.is_linear()) {
     const Vector3 p_D = k.position(spec.spring.body, spec.spring.p_L);
@@ -175,10 +175,10 @@ CouplingEnds SceneCouplings::ends(std::size_t c, const State<double>& x, const K
   return ends;
 }
 
-Vector3 SceneCouplings::pull(std::size_t c) const {
+Vector3 SceneCouplings::force(std::size_t c) const {
   const SceneCoupling& spec = scene_.couplings[c];
   const SpringState& reading = couplings_[c]->source->readings()[spec.reading(c)];
-  return spec.at_joint() ? Vector3(reading.size, 0, 0) : reading.pull;
+  return spec.at_joint() ? Vector3(reading.size, 0, 0) : reading.force_W;
 }
 
 const CouplingSpec& SceneCouplings::law(std::size_t c) const {

@@ -63,10 +63,10 @@ class SceneCouplings {
   void hold_still(std::size_t c, const State<double>& x, const Kinematics& k,
                   Forces<double>& forces);
   // Coupling force of the last evaluation, in the same components.
-  Vector3 pull(std::size_t c) const;
+  Vector3 force(std::size_t c) const;
   double m_star(std::size_t c) const;  // added inertia in the last step
   const SceneCoupling& spec(std::size_t c) const { return scene_.couplings[c]; }
-  const OperatorMotion& hand(std::size_t c) const;
+  const OperatorMotion& motion(std::size_t c) const;
   // After a change of operator motions: discards cached targets.
   void forget_operator_motions();
 

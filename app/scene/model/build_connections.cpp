@@ -193,7 +193,7 @@ void build_couplings(SceneModel& scene) {
       continue;
     }
     const int body = body_of(scene, {-1, static_cast<int>(made.robot), given.link});
-    if (given.law == Law::weld_like) {
+    if (given.law == Law::weld) {
       add_six_dimensions(
           scene, std::move(made),
           weld_spring(given.name, scene.model, scene.start, body, given.point, given.reference));
@@ -216,7 +216,7 @@ void build_couplings(SceneModel& scene) {
 }
 
 bool SceneCoupling::needs_semi_implicit() const {
-  return discretization != Discretization::explicit_ || law == CouplingSpec::Type::weld_like ||
+  return discretization != Discretization::explicit_ || law == CouplingSpec::Type::weld ||
          facts_of(law, printed).discretizations == CouplingFacts::Discretizations::own;
 }
 

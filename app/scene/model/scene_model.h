@@ -62,7 +62,9 @@ struct SceneCoupling : CouplingTraits {
   // Index of this component, number `index`, in Coupling::readings().
   std::size_t reading(std::size_t index) const { return index - leader; }
   // Acts on the link from outside, not as a joint force.
-  bool is_external() const { return law != CouplingSpec::Type::matched && !at_joint(); }
+  bool is_external() const {
+    return law != CouplingSpec::Type::equivalent_torsional && !at_joint();
+  }
   // Discretization or law use the end of a semi-implicit step.
   bool needs_semi_implicit() const;
   // Row of the energy balance for work other than that of spring and damper.

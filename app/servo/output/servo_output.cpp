@@ -70,7 +70,7 @@ void write_figures(JsonWriter& json, const char* name, const TickFigures& figure
 std::string live_table(const LiveSummary& summary) {
   std::string text =
       fmt::format("{}\ndevice: {}\n{}\n\n{:.3f} s, {} ticks of {} s", summary.scene, summary.device,
-                  summary.felt, summary.duration, summary.ticks, summary.step);
+                  summary.force_feedback, summary.duration, summary.ticks, summary.step);
   if (summary.silences > 0)
     text += fmt::format("; device timeouts: {}, ticks held: {}, released: {}", summary.silences,
                         summary.held, summary.released);

@@ -15,7 +15,7 @@ namespace twinarm {
 
 // Collected from the ticks by the thread that drains the ring.
 struct LiveSummary {
-  std::string scene, device, mapping, felt;  // descriptions; felt: of the force
+  std::string scene, device, mapping, force_feedback;  // descriptions
   std::vector<std::string> joints;
   double step = 0, duration = 0;           // [s]; run time
   long ticks = 0, held = 0, released = 0;  // ticks in each mode of the watchdog

@@ -81,9 +81,10 @@ const std::vector<FamilyLaw>& family_laws() {
       consistent("torsional-joint-implicit", "torsional, joint angle, implicit", Type::torsional,
                  joint, implicit),
       consistent("linear-implicit", "linear, implicit", Type::linear, world, implicit),
-      consistent("matched", "torsional, full K_q of a linear coupling", Type::matched, world),
+      consistent("matched", "torsional, full K_q of a linear coupling", Type::equivalent_torsional,
+                 world),
       consistent("stable-pd", "stable PD at the joints", Type::stable_pd, joint),
-      consistent("weld", "weld of the points, as in MuJoCo", Type::weld_like, world)};
+      consistent("weld", "weld of the points, as in MuJoCo", Type::weld, world)};
   return laws;
 }
 

@@ -78,7 +78,7 @@ class IdentificationProblem {
 
  private:
   std::vector<Parameter> parameters() const {
-    if (law_.coupling.type == CouplingSpec::Type::weld_like)
+    if (law_.coupling.type == CouplingSpec::Type::weld)
       return {{"time_constant", 1e-3, 1, 0},
               {"damping_ratio", 0.01, 10, 0},
               {"arm2_mass_scale", 0.2, 4, 0}};
@@ -100,7 +100,7 @@ class IdentificationProblem {
     spec.coupling = law_.coupling;
     spec.rate = rate_;
     if (!law_.coupling.printed) spec.kvr_rates = TargetRates::backward_difference;
-    if (law_.coupling.type == CouplingSpec::Type::weld_like) {
+    if (law_.coupling.type == CouplingSpec::Type::weld) {
       spec.coupling.reference.time_constant = entry.value("time_constant");
       spec.coupling.reference.damping_ratio = entry.value("damping_ratio");
       spec.gains = weld_gains(robot, spec.coupling);

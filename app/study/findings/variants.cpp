@@ -46,7 +46,7 @@ void add_matched(const StudySettings& s, const Calibration& calibration, const A
   for (double rate : s.rates_hz) {
     const Gains gains = calibration.entry(fmt::format("trial/printed-linear/{:g}", rate)).gains();
     for (const auto& [name, type] : {std::pair{"linear", CouplingSpec::Type::linear},
-                                     {"torsional", CouplingSpec::Type::matched}}) {
+                                     {"torsional", CouplingSpec::Type::equivalent_torsional}}) {
       RunSpec spec = consistent(type, SpringSpace::joint, Discretization::explicit_, rate);
       spec.kvr_rates = TargetRates::backward_difference;
       add(fmt::format("matched/{}/{:g}", name, rate), "the same K_q and B_q",

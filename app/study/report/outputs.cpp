@@ -46,7 +46,7 @@ std::string run_csv(const RunResult& run) {
   };
   add("q_K", series.q_K, "rad");
   add("q_D", series.q_D, "rad");
-  add("pull", series.pull, run.spec.coupling_force_unit());
+  add("pull", series.coupling_force, run.spec.coupling_force_unit());
   return csv(columns);
 }
 

@@ -177,7 +177,7 @@ TrackingError tracked(const TrackedCoupling& coupling, bool is_mutant) {
   TrackingSetup setup;
   setup.kvr_model = &kvr;
   setup.dvr_model = &dvr.model;
-  setup.hand = &hand;
+  setup.motion = &hand;
   setup.joints.turned = {"joint1", "joint2"};
   setup.couplings = {coupling_spec(coupling)};
   setup.integrator = Integrator::rk4;

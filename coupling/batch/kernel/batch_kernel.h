@@ -99,8 +99,8 @@ struct LaneSprings {
   const double* row;
   std::size_t n;
   template <class... T>
-  void felt(const T&...) const {}
-  void moved() const {
+  void transmitted(const T&...) const {}
+  void after_pass_1() const {
     if (b.needs_rotations) update_rotations(b);
     if (b.needs_bias) update_bias(b);
     const bool smooth = b.has_energy && b.is_velocity_jump[n] == 0;

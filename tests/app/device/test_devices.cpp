@@ -62,8 +62,8 @@ TEST_CASE("devices: every scripted motion keeps a virtual Omni within its joint 
       const DeviceState state = device->poll(0.001 * n);
       CHECK_UNARY(state.alive);
       for (std::size_t j = 0; j < 3; ++j) {
-        CHECK_UNARY(state.theta[j] > device->figures().lower[j] - 1e-3);
-        CHECK_UNARY(state.theta[j] < device->figures().upper[j] + 1e-3);
+        CHECK_UNARY(state.theta[j] > device->parameters().lower[j] - 1e-3);
+        CHECK_UNARY(state.theta[j] < device->parameters().upper[j] + 1e-3);
       }
       low = std::min(low, state.theta[0]);
       high = std::max(high, state.theta[0]);

@@ -39,7 +39,7 @@ struct Said {
 VrpnSettings quick(Said& said) {
   VrpnSettings settings;
   settings.silence = 0.8;
-  settings.patience = 1.5;
+  settings.timeout = 1.5;
   settings.first_retry = 0.02;
   settings.longest_retry = 0.1;
   settings.say = [&said](const std::string& line) {
@@ -153,7 +153,7 @@ TEST_CASE("VRPN device: not alive and at rest while silent, alive again with the
   });
   Said said;
   VrpnSettings settings = quick(said);
-  settings.patience = 30;  // the connection is kept
+  settings.timeout = 30;  // the connection is kept
   VrpnDevice device({"Phantom0", "127.0.0.1", server.port()}, {}, settings);
   CHECK(soon(device, [](const DeviceState& s) { return s.alive; }));
   sends_poses = false;

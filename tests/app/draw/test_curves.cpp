@@ -50,10 +50,10 @@ TEST_CASE("curves: a curve that begins late starts with a gap") {
   Snapshot moment = snapshot_of(scene.model, scene.start);
   trace.add(&scene, moment);
   moment.x.t = 1;
-  ShownCouplingForce pull;
-  pull.name = "spring";
-  pull.pull_W = Vector3(3, 0, 4);
-  moment.pulls.push_back(pull);
+  ShownCouplingForce force;
+  force.name = "spring";
+  force.force_W = Vector3(3, 0, 4);
+  moment.coupling_forces.push_back(force);
   trace.add(&scene, moment);
   trace.add(&scene, moment);  // the same instant again: ignored
   const Plot plot = trace.plots().front();

@@ -23,7 +23,7 @@ class TestDevice final : public InputDevice {
     return at;
   }
   void render(const DeviceForce& force) noexcept override { rendered = force; }
-  const OmniParameters& figures() const override { return omni_; }
+  const OmniParameters& parameters() const override { return omni_; }
   std::string description() const override { return "a test"; }
   bool has_motors() const override { return true; }
 
@@ -54,7 +54,7 @@ TEST_CASE("live run: the target robot follows the device by the gain, and pulls 
   double farthest = 0;
   for (int n = 0; n < 2000; ++n) {
     const TickResult view = run.tick();
-    CHECK(std::abs(OperatorMapping{}.robot_angle(view.hand.hand, 0) -
+    CHECK(std::abs(OperatorMapping{}.robot_angle(view.motion.sample, 0) -
                    2 * 0.3 * std::sin(2 * run.time() - 0.002)) < 1e-3);
     farthest = std::max(farthest, std::abs(view.error[0]));
   }
@@ -86,11 +86,11 @@ position = [0.3, 0.16, 0.3]
   CHECK(device.rendered.torque[1] == 0);
   const Vector3 torque(device.rendered.torque[0], device.rendered.torque[1],
                        device.rendered.torque[2]);
-  const double most = device.figures().peak_force;
-  const double rendered = stylus_force(device.figures(), turned(0.2).theta, torque);
+  const double most = device.parameters().peak_force;
+  const double rendered = stylus_force(device.parameters(), turned(0.2).theta, torque);
   // Twice the spring's torque, limited by the motors.
   const double wanted =
-      stylus_force(device.figures(), turned(0.2).theta, Vector3(2 * spring, 0, 0));
+      stylus_force(device.parameters(), turned(0.2).theta, Vector3(2 * spring, 0, 0));
   CHECK(rendered == doctest::Approx(std::min(most, wanted)).epsilon(1e-6));
 }
 
@@ -111,13 +111,13 @@ TEST_CASE("live run: after a device timeout the target holds, then is released, 
   int held = 0, released = 0;
   for (int n = 0; n < 4000; ++n) {
     const TickResult view = run.tick();
-    const double angle = OperatorMapping{}.robot_angle(view.hand.hand, 0);
+    const double angle = OperatorMapping{}.robot_angle(view.motion.sample, 0);
     fastest = std::max(fastest, std::abs(angle - last));
     last = angle;
     held += view.mode == DeviceWatchdog::Mode::held ? 1 : 0;
     released += view.mode == DeviceWatchdog::Mode::released ? 1 : 0;
     if (n == 2400) slack = std::abs(view.error[0]);
-    if (view.mode != DeviceWatchdog::Mode::live) CHECK(view.felt[0] == 0);
+    if (view.mode != DeviceWatchdog::Mode::live) CHECK(view.motor_torques[0] == 0);
   }
   CHECK(held > 990);
   CHECK(held < 1010);
@@ -135,7 +135,7 @@ TEST_CASE("live run: a device state that is not finite leaves the target robot a
   TickResult view;
   for (int n = 0; n < 300; ++n) view = run.tick();
   CHECK(view.finite);
-  CHECK(std::abs(OperatorMapping{}.robot_angle(view.hand.hand, 0) - 0.02) < 1e-3);
+  CHECK(std::abs(OperatorMapping{}.robot_angle(view.motion.sample, 0) - 0.02) < 1e-3);
 }
 
 TEST_CASE("live run: a diverged robot is not stepped any more, and renders no force") {
@@ -212,7 +212,7 @@ TEST_CASE("servo loop: takes the requested ticks in real time") {
   const double start = monotonic_time();
   const ServoResult result = run_servo(run, plan, stop, [&](SpscRing<TickResult>& ring) {
     for (TickResult view; ring.pop(view);) {
-      CHECK(view.hand.t == doctest::Approx(0.001 * static_cast<double>(drained)).epsilon(1e-9));
+      CHECK(view.motion.t == doctest::Approx(0.001 * static_cast<double>(drained)).epsilon(1e-9));
       ++drained;
     }
   });

@@ -110,7 +110,7 @@ TEST_CASE("a block dropped at 3 m/s penetrates less than 0.5 mm at k = 1e8 and g
         for (int n = 0; n < 1500; ++n) {
           const StepReport report = block.simulation.step(kStep);
           REQUIRE_UNARY(report.finite);
-          CHECK_UNARY(report.rounds <= ForceSource::kMaxRounds);
+          CHECK_UNARY(report.force_iterations <= ForceSource::kMaxIterations);
           deepest = std::max(deepest, -block.z());
           most = std::max(most, energy());
         }
@@ -204,7 +204,8 @@ TEST_CASE("an iterated force and a constraint exclude each other, in any order")
                        std::invalid_argument);
   // The rejected source was not added.
   int most = 0;
-  for (int n = 0; n < 400; ++n) most = std::max(most, block.simulation.step(kStep).rounds);
+  for (int n = 0; n < 400; ++n)
+    most = std::max(most, block.simulation.step(kStep).force_iterations);
   CHECK(most > 1);
   CHECK(block.normal_force() == doctest::Approx(kMass * kGravity).epsilon(1e-6));
 

@@ -25,9 +25,7 @@ struct Law {
   const CouplingFacts& facts;
 
   bool is(CouplingType t) const { return type == t; }
-  bool in_six_dimensions() const {
-    return is(CouplingType::bushing) || is(CouplingType::weld_like);
-  }
+  bool in_six_dimensions() const { return is(CouplingType::bushing) || is(CouplingType::weld); }
   bool on_orientation() const { return !facts.at_point && !at_joint(); }
   bool on_joint() const { return at_joint() && facts.is_spring_damper; }
 

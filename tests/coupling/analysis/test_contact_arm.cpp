@@ -46,8 +46,8 @@ CouplingSpec coupling_of(int kind) {
 }
 
 // Joint force of the springs at rest, from the definition.
-std::array<double, 2> pull(int kind, const CouplingSpec& spec, const std::vector<double>& q,
-                           double q1_K, double q2_K) {
+std::array<double, 2> spring_torque(int kind, const CouplingSpec& spec,
+                                    const std::vector<double>& q, double q1_K, double q2_K) {
   const double k1 = spec.springs[0].k, k2 = spec.springs[1].k;
   const double e1 = q1_K - q[0], e12 = q1_K + q2_K - q[0] - q[1];
   if (kind == 1) return {k1 * e1 + k2 * e12, k2 * e12};  // torques on the links, in the world
@@ -100,7 +100,7 @@ TEST_CASE("an arm pushed against a box stays outside, at rest with the coupling'
     CHECK(most - least < 0.01 * most);                                  // no chatter
     CHECK(kvr.end().x.q[0] == doctest::Approx(-0.9 + kSpeed * kTime));  // inside the post
     const std::vector<double>& q = simulation.state().q;
-    const std::array<double, 2> expected = pull(kind, spec, q, -0.9 + kSpeed * kTime, 0.3);
+    const std::array<double, 2> expected = spring_torque(kind, spec, q, -0.9 + kSpeed * kTime, 0.3);
     for (std::size_t j = 0; j < 2; ++j)
       CHECK(simulation.constraints().constraint_force()[j] ==
             doctest::Approx(-expected[j]).epsilon(1e-6));

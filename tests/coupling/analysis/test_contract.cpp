@@ -25,7 +25,7 @@ double stored(const CouplingSpec& spec, const Law& law, const Model<double>& mod
     const double angle = Eigen::AngleAxisd(K.X_WL[i].R * D.X_WL[i].R.transpose()).angle();
     if (law.is(CouplingType::linear) || law.in_six_dimensions())
       U += 0.5 * s.k * (K.position(s.body, s.p_L) - D.position(s.body, s.p_L)).squaredNorm();
-    if (law.is(CouplingType::matched)) {
+    if (law.is(CouplingType::equivalent_torsional)) {
       const Eigen::Matrix3Xd J = point_jacobian(model, K, s.body, K.position(s.body, s.p_L));
       U += 0.5 * s.k * (J * (q_K - q)).squaredNorm();
     }
@@ -133,7 +133,7 @@ TEST_CASE("joint_space is the derivative of the joint force at zero error") {
     // The weld's damping adds inertia (test_mujoco_weld.cpp), stable PD has a position lead.
     if (law.discretization != Discretization::explicit_ || law.is(CouplingType::god_object))
       continue;
-    const bool springs_alone = law.printed || law.own || law.is(CouplingType::weld_like);
+    const bool springs_alone = law.printed || law.own || law.is(CouplingType::weld);
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, springs_alone ? 0 : 0.6));
     for (unsigned seed = 0; seed < 5; ++seed) {

@@ -37,7 +37,7 @@ Vector3 relative_velocity(const Law& law, const Model<double>& model, const Eval
                           const Spring& s, const Vector3& qd_K, const Vector3& qd, bool turn) {
   const auto i = static_cast<std::size_t>(s.body);
   if (law.on_joint()) return {qd[s.body - 1] - qd_K[s.body - 1], 0, 0};
-  if (law.is(CouplingType::matched))
+  if (law.is(CouplingType::equivalent_torsional))
     return point_jacobian(model, all.K, s.body, all.K.position(s.body, s.p_L)) * (qd - qd_K);
   if (turn) return all.D.w_WL[i] - all.K.w_WL[i];
   return all.D.velocity(s.body, all.D.position(s.body, s.p_L)) -
@@ -52,8 +52,8 @@ bool is_consistent(const Law& law) {
 TEST_CASE("the consistent couplings have the force J^T (k e + b e'), with the KVR moving or not") {
   Random random(7);
   for (const Law& law : all_laws()) {
-    if (!is_consistent(law) || law.own || law.is(CouplingType::matched) ||
-        law.is(CouplingType::weld_like) || law.discretization != Discretization::explicit_)
+    if (!is_consistent(law) || law.own || law.is(CouplingType::equivalent_torsional) ||
+        law.is(CouplingType::weld) || law.discretization != Discretization::explicit_)
       continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(10, 2));
@@ -106,7 +106,7 @@ TEST_CASE("action equals reaction: springs of all laws except the equivalent tor
       CHECK((on.force + back.force).norm() < 1e-12 * size);
       CHECK((on.moment + back.moment).norm() < 1e-12 * size);
       // The equivalent torsional law has its stiffness from the KVR's pose.
-      if (law.is(CouplingType::matched))
+      if (law.is(CouplingType::equivalent_torsional))
         CHECK((on.joints + back.joints).norm() > 1e-3 * size);
       else
         CHECK((on.joints + back.joints).norm() < 1e-12 * size);
@@ -117,7 +117,7 @@ TEST_CASE("action equals reaction: springs of all laws except the equivalent tor
 TEST_CASE("action equals reaction of a relative damper; between two points except for e x F") {
   Random random(9);
   for (const Law& law : all_laws()) {
-    if (!is_consistent(law) || law.is(CouplingType::matched) ||
+    if (!is_consistent(law) || law.is(CouplingType::equivalent_torsional) ||
         law.discretization != Discretization::explicit_)
       continue;
     CAPTURE(law.name);
@@ -128,7 +128,7 @@ TEST_CASE("action equals reaction of a relative damper; between two points excep
       const Vector3 qd_K = random.vector(3), qd = random.vector(3);
       const auto [on, back] = action_and_reaction(spec, model, q_K, qd_K, q, qd);
       const double size = on.force.norm() + on.moment.norm() + on.joints.norm();
-      if (law.is(CouplingType::weld_like)) {  // absolute damper
+      if (law.is(CouplingType::weld)) {  // absolute damper
         CHECK((on.force + back.force).norm() > 1e-3 * size);
         continue;
       }
@@ -137,7 +137,7 @@ TEST_CASE("action equals reaction of a relative damper; between two points excep
       if (law.is(CouplingType::linear) || law.in_six_dimensions()) {
         const Evaluated all = evaluated(spec, model, hand_at(q_K, qd_K), q, qd);
         for (std::size_t s = 0; s < 3; ++s)
-          left += (all.readings[s].p_D - all.readings[s].p_K).cross(all.readings[s].pull);
+          left += (all.readings[s].p_D - all.readings[s].p_K).cross(all.readings[s].force_W);
         CHECK(left.norm() > 1e-4 * size);
       }
       CHECK((on.force + back.force).norm() < 1e-12 * size);
@@ -150,7 +150,7 @@ TEST_CASE("action equals reaction of a relative damper; between two points excep
 TEST_CASE("a damper alone, with the KVR at rest, never does positive work on the DVR") {
   Random random(4);
   for (const Law& law : all_laws()) {
-    if (!is_consistent(law) || law.is(CouplingType::weld_like)) continue;  // test_mujoco_weld.cpp
+    if (!is_consistent(law) || law.is(CouplingType::weld)) continue;  // test_mujoco_weld.cpp
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(0, 5));
     for (unsigned seed = 0; seed < 20; ++seed) {
@@ -165,7 +165,7 @@ TEST_CASE("a damper alone, with the KVR at rest, never does positive work on the
 TEST_CASE("a relative damper dissipates energy of the relative motion, whatever the KVR's motion") {
   Random random(10);
   for (const Law& law : all_laws()) {
-    if (!is_consistent(law) || law.is(CouplingType::weld_like)) continue;
+    if (!is_consistent(law) || law.is(CouplingType::weld)) continue;
     CAPTURE(law.name);
     const CouplingSpec spec = spec_of(law, chain_springs(0, 5));
     for (unsigned seed = 0; seed < 20; ++seed) {
@@ -175,12 +175,12 @@ TEST_CASE("a relative damper dissipates energy of the relative motion, whatever 
       for (std::size_t r = 0; r < all.readings.size(); ++r) {
         const SpringState& reading = all.readings[r];
         const bool turn = r >= 3 || law.on_orientation();
-        const Vector3 pull = law.on_joint() ? Vector3(reading.size, 0, 0) : reading.pull;
+        const Vector3 force = law.on_joint() ? Vector3(reading.size, 0, 0) : reading.force_W;
         const Vector3 v = relative_velocity(law, model, all, spec.springs[r % 3], qd_K, qd, turn);
         // Targets at the end of the step have rotated by h.
-        CHECK(pull.dot(v) < 1e-2 * pull.norm() * v.norm());
+        CHECK(force.dot(v) < 1e-2 * force.norm() * v.norm());
         if (law.discretization == Discretization::explicit_ && !law.own)
-          CHECK(pull.dot(v) == doctest::Approx(-pull.norm() * v.norm()).epsilon(1e-12));
+          CHECK(force.dot(v) == doctest::Approx(-force.norm() * v.norm()).epsilon(1e-12));
       }
     }
   }
@@ -200,8 +200,8 @@ TEST_CASE("the as-published torsional damper accelerates a DVR that is too fast:
     Coupled system(model, hand, {"joint1"}, spec, state_of(model, {0}, {sign > 0 ? 1.0 : 0.2}));
     for (int n = 0; n < 2; ++n) system.simulation.step(1e-4);  // velocities are differences
     const double relative = system.simulation.state().qd[0] - 0.5;
-    const double pull = system.coupling->readings()[0].pull.z();
-    CHECK(pull * relative > 0.1);
+    const double force = system.coupling->readings()[0].force_W.z();
+    CHECK(force * relative > 0.1);
   }
 }
 

@@ -16,7 +16,7 @@ namespace {
 CouplingSpec weld(std::vector<Spring> springs, const SolrefParameters& reference,
                   Discretization discretization = Discretization::explicit_) {
   CouplingSpec spec;
-  spec.type = CouplingSpec::Type::weld_like;
+  spec.type = CouplingSpec::Type::weld;
   spec.reference = reference;
   spec.discretization = discretization;
   spec.springs = std::move(springs);

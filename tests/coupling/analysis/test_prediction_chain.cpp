@@ -119,9 +119,9 @@ TEST_CASE("a reversal from the steady state agrees with after_reversal, and K e 
                run_peaks(model, linear(springs), BothJoints(true, D), rates, kMoveTime - 1e-4,
                          2 * kMoveTime),
                0.01);
-    CHECK((dynamics.K * predicted.lag(v) - dynamics.absolute * v).norm() <
+    CHECK((dynamics.K * predicted.steady_state(v) - dynamics.absolute * v).norm() <
           1e-9 * (1 + (dynamics.absolute * v).norm()));
-    CHECK((predicted.lag(v).norm() > 1e-4) == absolute);
+    CHECK((predicted.steady_state(v).norm() > 1e-4) == absolute);
   }
 }
 
@@ -142,13 +142,13 @@ TEST_CASE("for one joint the errors of a chain are those of one degree of freedo
              {MotionProfile::ramp, MotionProfile::cubic, MotionProfile::quintic,
               MotionProfile::cosine, MotionProfile::bang_bang}) {
           CAPTURE(std::string(name_of(move)));
-          const FollowingError closed(
+          const ProfileError closed(
               move, D, T, omega, zeta,
-              absolute ? FollowingError::Damper::absolute : FollowingError::Damper::relative);
+              absolute ? ProfileError::Damper::absolute : ProfileError::Damper::relative);
           CHECK(chain.behind(move, distance, T)[0] == doctest::Approx(closed.peak()).epsilon(1e-4));
         }
-        CHECK(chain.lag(distance / T)[0] ==
-              doctest::Approx(absolute ? absolute_damper_lag(D / T, omega, zeta) : 0));
+        CHECK(chain.steady_state(distance / T)[0] ==
+              doctest::Approx(absolute ? absolute_damper_error(D / T, omega, zeta) : 0));
         if (absolute) continue;
         CHECK(chain.after_start(distance / T, T)[0] ==
               doctest::Approx(peak_after_jump(D / T, omega, zeta)).epsilon(1e-4));

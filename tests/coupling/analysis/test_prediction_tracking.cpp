@@ -96,7 +96,7 @@ TEST_CASE(
   for (const MotionProfile move : kMoves)
     for (const double zeta : {0.0, 0.2, 0.7, 1.0, 1.6})
       for (const double omega : {12.0, 50.0}) {
-        const FollowingError error(move, kTurn, 1, omega, zeta);
+        const ProfileError error(move, kTurn, 1, omega, zeta);
         const Deviation run = run_behind(move, omega, zeta, TargetRates::from_operator,
                                          [&](double t) { return error.at(t); });
         CAPTURE(name_of(move));
@@ -110,18 +110,17 @@ TEST_CASE(
 TEST_CASE("with an absolute damper as well, with the steady-state error 2 z v/w") {
   for (const MotionProfile move : kMoves)
     for (const double zeta : {0.2, 1.0}) {
-      const FollowingError error(move, kTurn, 1, 50, zeta, FollowingError::Damper::absolute);
+      const ProfileError error(move, kTurn, 1, 50, zeta, ProfileError::Damper::absolute);
       const Deviation run =
           run_behind(move, 50, zeta, TargetRates::none, [&](double t) { return error.at(t); });
       CAPTURE(name_of(move));
       CAPTURE(zeta);
       CHECK(run.largest < 1e-3 * run.peak);
     }
-  const FollowingError steady(MotionProfile::ramp, kTurn, 1, 50, 1,
-                              FollowingError::Damper::absolute);
+  const ProfileError steady(MotionProfile::ramp, kTurn, 1, 50, 1, ProfileError::Damper::absolute);
   CHECK(steady.at(0.999) / kDegree == doctest::Approx(7.2).epsilon(1e-9));
-  CHECK(absolute_damper_lag(kTurn, 50, 1) / kDegree == doctest::Approx(7.2).epsilon(1e-12));
-  CHECK(mocap_weld_lag(kTurn, 1 / 50.0) / kDegree == doctest::Approx(7.2).epsilon(1e-12));
+  CHECK(absolute_damper_error(kTurn, 50, 1) / kDegree == doctest::Approx(7.2).epsilon(1e-12));
+  CHECK(mocap_weld_error(kTurn, 1 / 50.0) / kDegree == doctest::Approx(7.2).epsilon(1e-12));
 }
 
 TEST_CASE("the peak after a velocity step is (V/w) exp(-z acos z / sqrt(1 - z^2)), to 1 percent") {
@@ -147,7 +146,7 @@ TEST_CASE("a_max/w^2 is the peak behind a quintic; factors of other profiles") {
   const auto times_rule = [](MotionProfile move, double omega, double zeta) {
     // Maximum acceleration of a unit profile in unit time, by MotionProfile; a ramp has none.
     const std::array largest{0.0, 6.0, 10 / std::sqrt(3.0), kPi * kPi / 2, 4.0};
-    return FollowingError(move, kTurn, 1, omega, zeta).peak() * omega * omega /
+    return ProfileError(move, kTurn, 1, omega, zeta).peak() * omega * omega /
            (largest[static_cast<std::size_t>(move)] * std::abs(kTurn));
   };
   CHECK(times_rule(MotionProfile::quintic, 200, 0.2) == doctest::Approx(1).epsilon(0.01));

@@ -42,7 +42,7 @@ inline Tracking track(const TwoLink& robot, const CouplingSpec& spec, double h,
   const AutomaticMotion hand(mapping, sweep_time);
   TrackingSetup setup;
   setup.kvr_model = setup.dvr_model = &model;
-  setup.hand = &hand;
+  setup.motion = &hand;
   setup.joints.turned = {"joint1", "joint2"};
   setup.couplings = {spec};
   setup.kvr_rates = rates;

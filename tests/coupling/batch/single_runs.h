@@ -79,7 +79,7 @@ struct CellBench {
     setup.model = &model;
     setup.start = State<double>(model);
     BatchTarget target;
-    target.hand = &hand;
+    target.motion = &hand;
     target.joints = {{"joint1", "joint2", "joint3"}, "", 0, 0};
     target.rest = State<double>(model);
     setup.targets = {target};

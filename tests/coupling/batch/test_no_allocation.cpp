@@ -25,8 +25,8 @@ std::vector<Run> runs() {
     std::vector<Spring> springs =
         law.on_joint() || law.on_orientation() ? arm.springs(1200, 40) : arm.springs(22000, 400);
     for (Spring& spring : springs) spring.k_rotational = 1200, spring.b_rotational = 40;
-    const bool in_stages = law.discretization == Discretization::explicit_ && !law.own &&
-                           !law.is(CouplingType::weld_like);
+    const bool in_stages =
+        law.discretization == Discretization::explicit_ && !law.own && !law.is(CouplingType::weld);
     for (const Integrator integrator :
          {Integrator::euler, Integrator::semi_implicit, Integrator::rk4})
       if (in_stages || integrator == Integrator::semi_implicit)
@@ -42,7 +42,7 @@ struct System {
   explicit System(const Run& run, TargetRates rates) {
     TrackingSetup setup;
     setup.kvr_model = setup.dvr_model = &model;
-    setup.hand = &hand;
+    setup.motion = &hand;
     setup.joints.turned = {"joint1", "joint2"};
     setup.couplings = {run.spec};
     setup.integrator = run.integrator;
@@ -94,8 +94,8 @@ TEST_CASE("the serialised state of a coupling continues the run bit-identically"
 
 TEST_CASE("an implicit coupling is rejected by rk4 and by explicit Euler") {
   for (const Law& law : all_laws()) {
-    const bool in_stages = law.discretization == Discretization::explicit_ && !law.own &&
-                           !law.is(CouplingType::weld_like);
+    const bool in_stages =
+        law.discretization == Discretization::explicit_ && !law.own && !law.is(CouplingType::weld);
     if (in_stages) continue;
     CAPTURE(law.name);
     for (const Integrator integrator : {Integrator::rk4, Integrator::euler})

@@ -109,7 +109,7 @@ TEST_CASE("a tracking run and predictions reject a step size that is not positiv
   const SteadyHand hand;
   TrackingSetup tracking;
   tracking.kvr_model = tracking.dvr_model = &model;
-  tracking.hand = &hand;
+  tracking.motion = &hand;
   tracking.joints.turned = kThreeJoints;
   const Eigen::MatrixXd one = Eigen::MatrixXd::Constant(1, 1, 1.0);
   for (const double h : kBadSteps) {

@@ -35,7 +35,7 @@ TEST_CASE("desktop input: the stylus moves to a point, and rotates by angles") {
   CHECK((start - omni_position({}, DesktopInputSettings{}.start)).norm() < 1e-12);
   hand.place(start + Vector3(0.010, 0.005, -0.008));
   CHECK((point_of(hand.sample(0, 1)) - start - Vector3(0.010, 0.005, -0.008)).norm() < 1e-12);
-  hand.turn_stylus({0.6, -0.3, -0.12});
+  hand.rotate_stylus({0.6, -0.3, -0.12});
   const OperatorSample turned = hand.sample(0, 1);
   CHECK(turned.theta[3] == doctest::Approx(0.6));
   CHECK(turned.theta[4] == doctest::Approx(0.6 - 0.3));
@@ -96,7 +96,7 @@ TEST_CASE("desktop input: out of reach the goal is the nearest point, and it com
   for (int n = 0; n < 400; ++n) {  // always within the ranges
     move(hand, {0.15 * std::sin(1.7 * n), 0.15 * std::cos(0.9 * n), 0.08 * std::sin(2.3 * n)},
          12 + 0.01 * n);
-    hand.turn_stylus({3 * std::sin(n), 2.4 * std::cos(n), 2.4 * std::cos(3.1 * n)});
+    hand.rotate_stylus({3 * std::sin(n), 2.4 * std::cos(n), 2.4 * std::cos(3.1 * n)});
     const OperatorSample now = hand.sample(12 + 0.01 * n, 20);
     for (std::size_t j = 0; j < 6; ++j)
       CHECK_UNARY(now.theta[j] >= omni.lower[j] && now.theta[j] <= omni.upper[j]);
@@ -109,7 +109,7 @@ TEST_CASE("desktop input: values that are not finite are ignored, no allocation"
   const Vector3 start = point_of(hand.sample(0, 1));
   const long taken = testing::allocations_in([&] {
     hand.place({nan, 0, 0});
-    hand.turn_stylus({0, 0, nan});
+    hand.rotate_stylus({0, 0, nan});
     hand.axes({nan, nan, 0, 0, nan, 1e300});
     hand.button(7, true);
     hand.sample(0, 1);
@@ -121,7 +121,7 @@ TEST_CASE("desktop input: values that are not finite are ignored, no allocation"
 TEST_CASE("desktop input moves the virtual Omni's stylus to the point, through the arm") {
   const auto hand = std::make_shared<DesktopInput>(OmniParameters{});
   VirtualOmniSettings settings;
-  settings.figures.friction = 0;
+  settings.parameters.friction = 0;
   VirtualOmni omni(hand, settings);
   omni.poll(0);
   const Vector3 start = omni.truth().position;

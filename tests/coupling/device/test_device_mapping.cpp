@@ -81,10 +81,10 @@ TEST_CASE("the paper's mapping gives no torque on theta2 and theta3") {
     const DeviceState device = device_at(kOmni, random_angles(kOmni, random));
     mapping->map(device, 0.001);
     const double tau = random.uniform(-9, 9);
-    const DeviceForce felt = mapping->motor_torques(device, {tau, random.uniform(-9, 9), 5});
-    CHECK(felt.torque[0] == doctest::Approx(2 * tau));
-    CHECK(felt.torque[1] == 0);
-    CHECK(felt.torque[2] == 0);
+    const DeviceForce motors = mapping->motor_torques(device, {tau, random.uniform(-9, 9), 5});
+    CHECK(motors.torque[0] == doctest::Approx(2 * tau));
+    CHECK(motors.torque[1] == 0);
+    CHECK(motors.torque[2] == 0);
   }
 }
 
@@ -114,13 +114,13 @@ TEST_CASE("the motors' power equals that of the robot's joints: all mappings, al
         };
         const std::vector<double> plus = moved(1), minus = moved(-1), here = moved(0);
         if (max_change(plus, minus) > 1e-3) continue;  // near a singularity
-        const DeviceForce felt = mapping->motor_torques(device_at(kOmni, theta), tau);
+        const DeviceForce motors = mapping->motor_torques(device_at(kOmni, theta), tau);
         double of_robot = 0, of_hand = 0, size = 0;
         for (std::size_t j = 0; j < q.size(); ++j) {
           of_robot += tau[j] * (plus[j] - minus[j]);
           size += std::abs(tau[j] * (plus[j] - minus[j]));
         }
-        for (std::size_t j = 0; j < 3; ++j) of_hand += felt.torque[j] * 2 * d[j];
+        for (std::size_t j = 0; j < 3; ++j) of_hand += motors.torque[j] * 2 * d[j];
         CHECK(std::abs(of_robot - of_hand) < 2e-4 * size + 1e-14);
         ++counted;
       }

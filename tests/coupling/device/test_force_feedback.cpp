@@ -115,8 +115,8 @@ struct TipHand {
     mapping->begin(device, {pressed.hand.angle[0], pressed.hand.angle[1]});
     mapping->map(device, 1e-3);
   }
-  Vector3 stylus_force_W(const DeviceForce& felt) const {
-    const Vector3 torque(felt.torque[0], felt.torque[1], felt.torque[2]);
+  Vector3 stylus_force_W(const DeviceForce& motors) const {
+    const Vector3 torque(motors.torque[0], motors.torque[1], motors.torque[2]);
     return world_from_device(solve_pivoted(omni_jacobian(omni, device.theta).transpose(), torque));
   }
 };
@@ -147,14 +147,14 @@ TEST_CASE("at a wall: the reaction torques are the derivative of the springs' en
 TEST_CASE("at a wall: the stylus force is the wall's force and the coupling force") {
   const Pressed pressed(at_tip(40), 0.42, 20);
   TipHand hand(pressed);
-  const Vector3 felt = hand.stylus_force_W(hand.mapping->motor_torques(hand.device, pressed.tau));
-  const Vector3 pull = pressed.coupling->readings()[0].pull;
+  const Vector3 force = hand.stylus_force_W(hand.mapping->motor_torques(hand.device, pressed.tau));
+  const Vector3 coupling_force = pressed.coupling->readings()[0].force_W;
   const Vector3 tip = pressed.simulation->kinematics().position(2, pressed.wall.p_L);
   const double of_wall = -pressed.wall.k * (tip.y() - pressed.wall.place);
   CHECK(of_wall < -1);
-  CHECK(felt.y() == doctest::Approx(of_wall).epsilon(1e-3));
-  CHECK((felt + pull).head<2>().norm() < 1e-6 * pull.norm());
-  CHECK(std::abs(felt.z()) < 1e-9);
+  CHECK(force.y() == doctest::Approx(of_wall).epsilon(1e-3));
+  CHECK((force + coupling_force).head<2>().norm() < 1e-6 * coupling_force.norm());
+  CHECK(std::abs(force.z()) < 1e-9);
 }
 
 TEST_CASE("in slow free motion the force feedback is almost zero") {
@@ -189,10 +189,10 @@ TEST_CASE("the reaction of an implicit coupling is the mean force on the body") 
       double before = 0;
       for (int n = 0; n < 300; ++n) {
         system.simulation.step(h);
-        const double felt = reaction.after_step(system.kvr.end(), system.simulation.state(),
-                                                system.simulation.kinematics(), h)[0];
+        const double force = reaction.after_step(system.kvr.end(), system.simulation.state(),
+                                                 system.simulation.kinematics(), h)[0];
         const double v = system.simulation.state().qd[0];
-        if (n > 0) CHECK(felt == doctest::Approx(-m * (v - before) / h).epsilon(1e-9));
+        if (n > 0) CHECK(force == doctest::Approx(-m * (v - before) / h).epsilon(1e-9));
         before = v;
       }
     }
@@ -206,8 +206,8 @@ TEST_CASE("the force is at most the device's peak, with the specified low-pass")
   spec.passive = false;
   ForceFeedback strong(spec, hand.omni, *hand.mapping);
   const std::vector<double> much{500, -300};
-  const Vector3 felt = hand.stylus_force_W(strong.tick(hand.device, much, 1e-3));
-  CHECK(felt.norm() == doctest::Approx(3.3).epsilon(1e-3));
+  const Vector3 force = hand.stylus_force_W(strong.tick(hand.device, much, 1e-3));
+  CHECK(force.norm() == doctest::Approx(3.3).epsilon(1e-3));
 
   spec.cutoff = 20;
   ForceFeedback soft(spec, hand.omni, *hand.mapping);

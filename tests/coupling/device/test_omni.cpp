@@ -127,9 +127,9 @@ TEST_CASE("Omni: motors are limited together, to 3.3 N at the stylus") {
   const OmniAngles q{0.3, 0.6, 0.2, 0, 0, 0};
   for (int n = 0; n < 500; ++n) {
     const Vector3 F = draw.vector(8);
-    const Vector3 felt = omni_force(o, q, omni_limit(o, q, omni_torque(o, q, F)));
-    CHECK_UNARY((felt.normalized() - F.normalized()).norm() < 1e-12);
-    CHECK_UNARY(std::abs(felt.norm() - std::min(F.norm(), 3.3)) < 1e-12);
+    const Vector3 limited = omni_force(o, q, omni_limit(o, q, omni_torque(o, q, F)));
+    CHECK_UNARY((limited.normalized() - F.normalized()).norm() < 1e-12);
+    CHECK_UNARY(std::abs(limited.norm() - std::min(F.norm(), 3.3)) < 1e-12);
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(omni_limit(o, q, {0.1, nan, 0}) == std::array<double, 3>{});

@@ -147,7 +147,7 @@ TEST_CASE("every device with every motion: within its ranges, increasing time, d
       CAPTURE(device.name);
       CAPTURE(hand.name);
       const auto one = device.make(hand.make()), other = device.make(hand.make());
-      const OmniParameters& o = one->figures();
+      const OmniParameters& o = one->parameters();
       const std::vector<double> story_one = story(*one), story_other = story(*other);
       CHECK(std::memcmp(story_one.data(), story_other.data(), 8 * story_one.size()) == 0);
       bool good = true;

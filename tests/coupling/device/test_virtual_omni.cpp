@@ -62,7 +62,7 @@ TEST_CASE("virtual Omni: no error behind a goal of constant velocity; closed-for
     const double u = std::exp(-z * w * t) * (std::cos(wd * t) + z * w / wd * std::sin(wd * t));
     OmniAngles goal{};
     std::copy(to.begin(), to.end(), goal.begin());
-    const Vector3 g = omni_position(omni.figures(), goal);
+    const Vector3 g = omni_position(omni.parameters(), goal);
     worst = std::max(worst, (omni.truth().position - g - u * (from - g)).norm());
   }
   CHECK(worst < 1e-12);
@@ -79,7 +79,7 @@ TEST_CASE("virtual Omni: no error behind a goal of constant velocity; closed-for
 
 TEST_CASE("virtual Omni: friction holds the point without creep, up to 0.26 N") {
   VirtualOmniSettings s = not_held(closed_form());
-  s.figures.friction = 0.26;
+  s.parameters.friction = 0.26;
   const Vector3 way = Vector3(-0.2, 1, 0.4).normalized();
   VirtualOmni held(resting_hand(), s), slides(resting_hand(), s);
   const Vector3 start = held.truth().position;
@@ -104,7 +104,7 @@ TEST_CASE("virtual Omni: friction holds the point without creep, up to 0.26 N") 
 
 TEST_CASE("virtual Omni: a slowly moving arm moves the stylus once its spring has 0.26 N") {
   VirtualOmniSettings s = closed_form();
-  s.figures.friction = 0.26;
+  s.parameters.friction = 0.26;
   s.arm.damping = 0.5;
   DeviceAngles to = kPosture;
   to[2] += 0.05;
@@ -130,7 +130,7 @@ TEST_CASE("virtual Omni: a slowly moving arm moves the stylus once its spring ha
 TEST_CASE("virtual Omni: without motors and with a goal at rest its energy never grows") {
   VirtualOmniSettings s = closed_form();
   for (const double friction : {0.0, 0.1}) {
-    s.figures.friction = friction;
+    s.parameters.friction = friction;
     s.arm.damping = friction > 0 ? 0 : 5;
     DeviceAngles away = kPosture;
     away[0] += 0.7, away[2] -= 0.6;  // beyond a joint limit on its way

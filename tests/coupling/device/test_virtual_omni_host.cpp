@@ -27,14 +27,14 @@ TEST_CASE(
       CHECK_UNARY(std::abs(seen.theta[j] - omni.truth().theta[j]) <= 0.5 * count + 1e-15);
       CHECK_UNARY(std::abs(seen.theta[j] / count - std::round(seen.theta[j] / count)) < 1e-9);
     }
-    CHECK_UNARY((seen.stylus.p - omni_stylus(s.figures, seen.theta).p).norm() == 0);
+    CHECK_UNARY((seen.stylus.p - omni_stylus(s.parameters, seen.theta).p).norm() == 0);
     values += seen.theta[2] != last ? 1 : 0;
     last = seen.theta[2];
   }
   CHECK(values > 100);
   OmniAngles a{0, 0.5, 0, 0, 0, 0}, b = a;
   b[2] += count;
-  CHECK((omni_position(s.figures, a) - omni_position(s.figures, b)).norm() ==
+  CHECK((omni_position(s.parameters, a) - omni_position(s.parameters, b)).norm() ==
         doctest::Approx(0.055e-3));
 }
 
@@ -42,7 +42,7 @@ TEST_CASE("virtual Omni: forces act from its own ticks on and are held between t
   const Vector3 way = Vector3(0, 1, 0);
   const auto torque = [&](const VirtualOmni& omni, double F) {
     OmniAngles at = kPosture;
-    return DeviceForce{omni_torque(omni.figures(), at, F * way)};
+    return DeviceForce{omni_torque(omni.parameters(), at, F * way)};
   };
   VirtualOmni plain(resting_hand(), closed_form()), quick(resting_hand(), closed_form()),
       slow(resting_hand(), closed_form()), often(resting_hand(), closed_form());
@@ -98,7 +98,7 @@ TEST_CASE("virtual Omni: joints stop at their limits, inelastically, and leave t
   far = {2.0, 2.5, -1.5, 3, 3, -3};
   VirtualOmniSettings s = closed_form();
   VirtualOmni omni(std::make_shared<StepMotion>(far, kPosture, 0.5, 1), s);
-  const OmniParameters& o = omni.figures();
+  const OmniParameters& o = omni.parameters();
   OmniAngles goal{};
   std::copy(far.begin(), far.end(), goal.begin());
   for (int n = 0; n < 1500; ++n) {
@@ -140,7 +140,7 @@ TEST_CASE("virtual Omni: robust against any force, without allocation") {
 
 TEST_CASE("virtual Omni: invalid settings are rejected with all their errors") {
   VirtualOmniSettings s;
-  s.figures.rate = 0;
+  s.parameters.rate = 0;
   s.arm.stiffness = -1;
   s.arm.mass = std::numeric_limits<double>::quiet_NaN();
   s.delay_to_host = -0.1;

@@ -20,8 +20,8 @@ inline std::shared_ptr<const OperatorMotion> resting_hand() {
 // No friction, no quantisation: closed forms.
 inline VirtualOmniSettings closed_form() {
   VirtualOmniSettings s;
-  s.figures.friction = 0;
-  s.figures.resolution = 0;
+  s.parameters.friction = 0;
+  s.parameters.resolution = 0;
   return s;
 }
 inline VirtualOmniSettings not_held(VirtualOmniSettings s) {
@@ -36,7 +36,7 @@ inline std::array<double, 3> omni_torque(const OmniParameters& omni, const OmniA
 }
 // A host that applies a force at the measured stylus pose.
 inline void push_stylus(VirtualOmni& omni, const DeviceState& seen, const Vector3& force) {
-  omni.render({omni_torque(omni.figures(), seen.theta, force)});
+  omni.render({omni_torque(omni.parameters(), seen.theta, force)});
 }
 // Tick by tick; `force` from the tick and the measured state.
 inline void run_ticks(VirtualOmni& omni, int from, int to,

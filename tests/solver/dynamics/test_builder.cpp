@@ -208,7 +208,7 @@ TEST_CASE("the body's z is the joint's axis, by the shortest rotation, for any d
         Vector3(1e-8, 1e-8, 1)}) {
     CAPTURE(axis.transpose());
     const Model<double> model = with(kBody, {}, JointType::revolute, axis).build();
-    const Matrix3 R_LB = to_eigen(model.turn[2]).transpose();
+    const Matrix3 R_LB = to_eigen(model.R_BL[2]).transpose();
     const Vector3 a = axis.normalized();
     CHECK((R_LB * kAxis - a).norm() < 4e-16);
     CHECK((R_LB.transpose() * R_LB - Matrix3::Identity()).norm() < 1e-15);
@@ -218,9 +218,9 @@ TEST_CASE("the body's z is the joint's axis, by the shortest rotation, for any d
     CHECK((R_LB * normal - normal).norm() <= 1e-15 * normal.norm() + 1e-300);
   }
   const Model<double> along = started().build();
-  CHECK(to_eigen(along.turn[1]) == Matrix3(Matrix3::Identity()));
+  CHECK(to_eigen(along.R_BL[1]) == Matrix3(Matrix3::Identity()));
   const Model<double> against = with(kBody, {}, JointType::revolute, -kAxis).build();
-  CHECK(to_eigen(against.turn[2]) == Matrix3(Vector3(1, -1, -1).asDiagonal()));
+  CHECK(to_eigen(against.R_BL[2]) == Matrix3(Vector3(1, -1, -1).asDiagonal()));
 }
 
 TEST_CASE("joint properties apply to each dof; pitch applies to screw joints only") {

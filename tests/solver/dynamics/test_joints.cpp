@@ -20,7 +20,7 @@ TEST_CASE("poses, velocities and accelerations of links follow the joint definit
       for (std::size_t i = 1; i < t.model.parent.size(); ++i) {
         const LinkMotion& link = t.links[i];
         const RealMatrix3 R = real(t.w.X0[i].E).transpose();  // R_WB
-        const RealMatrix3 R_WL = R * real(t.model.turn[i]);
+        const RealMatrix3 R_WL = R * real(t.model.R_BL[i]);
         pose = std::max(pose, static_cast<double>((R_WL - link.X.R).norm()));
         pose = std::max(pose, static_cast<double>((k.X_WL[i].R.cast<Real>() - link.X.R).norm()));
         pose = std::max(pose, length_of(real(t.w.X0[i].r) - link.X.p));
@@ -87,7 +87,7 @@ TEST_CASE("rnea and crba agree with the Newton-Euler equations of each body in t
       for (std::size_t i = 1; i < t.model.parent.size(); ++i) {
         const BodyInertia& body = t.bodies[i - 1].inertia;
         const LinkMotion& link = t.links[i];
-        const RealMatrix3 R_WB = link.X.R * real(t.model.turn[i]).transpose();
+        const RealMatrix3 R_WB = link.X.R * real(t.model.R_BL[i]).transpose();
         const RealVector3 c = link.X.R * body.com.cast<Real>();
         const RealMatrix3 I = link.X.R * body.inertia.cast<Real>() * link.X.R.transpose();
         const RealVector3 f = body.mass * (link.acceleration_of(c) - g);
@@ -133,7 +133,7 @@ TEST_CASE("the joint wrench is the sum of the Newton-Euler wrenches of the desce
     for (std::size_t i = 1; i < t.model.parent.size(); ++i) {
       const BodyInertia& body = t.bodies[i - 1].inertia;
       const LinkMotion& link = t.links[i];
-      const RealMatrix3 R_WB = link.X.R * real(t.model.turn[i]).transpose();
+      const RealMatrix3 R_WB = link.X.R * real(t.model.R_BL[i]).transpose();
       const RealVector3 c = link.X.R * body.com.cast<Real>();
       const RealMatrix3 I = link.X.R * body.inertia.cast<Real>() * link.X.R.transpose();
       const RealVector3 need = body.mass * (link.acceleration_of(c) - real(t.model.gravity));

@@ -236,7 +236,7 @@ TEST_CASE("a model in another scalar is the same model") {
     CHECK(lane_of(there.coulomb_plus, lane) == lane_of(model.coulomb_plus, 0));
     CHECK(lane_of(there.coulomb_minus, lane) == lane_of(model.coulomb_minus, 0));
     CHECK(there.gravity.z[lane] == model.gravity.z);
-    CHECK(there.turn[3].r1.z[lane] == model.turn[3].r1.z);
+    CHECK(there.R_BL[3].r1.z[lane] == model.R_BL[3].r1.z);
   }
   const State<double> x = random_state(random, model);
   const auto x_there = convert<Batch<4>>(x);

@@ -23,7 +23,7 @@ struct Point {
   RealVector3 r_W;
   Point(Random& random, const MovingTree& t)
       : body(t.bodies.size()), r_B(from_eigen(random.vector(0.5))) {
-    r_W = t.links[body].X.R * real(t.model.turn[body]).transpose() * real(r_B);
+    r_W = t.links[body].X.R * real(t.model.R_BL[body]).transpose() * real(r_B);
   }
 };
 // (angular; linear) by rows, a column for each velocity.
@@ -110,7 +110,7 @@ TEST_CASE("point_jacobian and rotation_jacobian agree with jacobian()") {
     Kinematics k(t.model);
     forward_kinematics(t.model, t.x, k);
     const int body = static_cast<int>(p.body);
-    const Vector3 p_L = to_eigen(t.model.turn[p.body]).transpose() * to_eigen(p.r_B);
+    const Vector3 p_L = to_eigen(t.model.R_BL[p.body]).transpose() * to_eigen(p.r_B);
     const Vector3 p_W = k.position(body, p_L);
     CHECK((p_W - to_eigen(point_position(t.w, p.body, p.r_B))).norm() < 1e-13);
     CHECK((k.velocity(body, p_W) - to_eigen(point_velocity(t.w, p.body, p.r_B))).norm() < 1e-12);

@@ -126,8 +126,9 @@ namespace {
 
 // No constraints, no events, not Checkpointable.
 struct Plain final : ConstraintSource {
-  void add(const ConstraintFrame&, ImpulseProblem&) noexcept override {}
-  void take(const ConstraintFrame&, const ImpulseProblem&, std::size_t) noexcept override {}
+  void add_constraints(const ConstraintFrame&, ImpulseProblem&) noexcept override {}
+  void read_impulses(const ConstraintFrame&, const ImpulseProblem&, std::size_t) noexcept override {
+  }
 };
 
 }  // namespace

@@ -108,9 +108,9 @@ TEST_CASE("device: the stylus is at its forward kinematics, beside the scene") {
   Snapshot moment = snapshot_of(scene.model, scene.start);
   SceneView none = stage_at(scene, moment);
   CHECK(instances_of(none, moment, "device").empty());
-  moment.hands.push_back({});
+  moment.devices.push_back({});
   const auto ball_of_stylus = [&](const std::array<double, 6>& theta) {
-    moment.hands[0].theta = theta;
+    moment.devices[0].theta = theta;
     SceneView stage = stage_at(scene, moment);
     const auto found = instances_of(stage, moment, "device");
     REQUIRE(found.size() > 6);

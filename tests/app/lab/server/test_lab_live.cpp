@@ -185,7 +185,7 @@ TEST_CASE("outgoing queues: no full channel starves, and channel 0 goes first") 
 TEST_CASE(
     "WebSocket: a client that reads nothing is dropped after the timeout; an idle one is kept") {
   ServerOptions options;
-  options.patience = 1;
+  options.timeout = 1;
   LabHost lab(options);
   RawClient stalled(lab.server.port()), idle(lab.server.port());
   lab.open(stalled);

@@ -200,7 +200,7 @@ TEST_CASE("lab server: immutable replies are cached; text is compressed if accep
 TEST_CASE("lab server: requests that are too long or too slow are cut off") {
   ServerOptions options;
   options.max_body = 1000;
-  options.patience = 2;  // half a second for a header
+  options.timeout = 2;  // half a second for a header
   const LabHost lab(options);
   const int port = lab.server.port();
   CHECK(RawClient(port).ask("GET / HTTP/1.1\r\nA: " + std::string(20000, 'a')).status == 431);

@@ -212,17 +212,17 @@ TEST_CASE("lab frame: the device force is an arrow at the stylus, proportional t
   REQUIRE(frame.hand);
   frame.hand->active = true;
   frame.hand->theta = {0.2, 0.7, 0.1, 0, 0, 0};
-  const std::size_t felt = watched.layer("device-force");
+  const std::size_t layer = watched.layer("device-force");
   const auto length = [&](double newton) {
     frame.hand->force_W = newton * Vector3(0, 0.6, 0.8);
     const ReadFrame read(watched.view->frame(frame, nullptr, {"device-force"}, {}));
-    const auto [first, last] = read.layer(felt);
+    const auto [first, last] = read.layer(layer);
     double reach = 0;  // from the point to the tip of the first arrow: shaft, head
     if (last > first) {
       CHECK((rotation_of(read, first).col(2) - Vector3(0, 0.6, 0.8)).norm() < 1e-3);
       reach = read.scale[3 * first + 2] + read.scale[3 * first + 5];
     }
-    return std::pair(reach, read.labels_of(felt));
+    return std::pair(reach, read.labels_of(layer));
   };
   const auto [one, text] = length(1.1);
   const auto [two, most] = length(3.3);

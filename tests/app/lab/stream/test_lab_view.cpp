@@ -107,8 +107,8 @@ TEST_CASE(
   const Watched watched = watched_arm();
   const SimulateInput& input = watched.plan->prepared.input;
   const Snapshot moment = snapshot_of(*input.scene, *input.couplings, input.scene->start, {});
-  CHECK(moment.twins.size() == 1);
-  CHECK(moment.hands.size() == 1);
+  CHECK(moment.targets.size() == 1);
+  CHECK(moment.devices.size() == 1);
 }
 
 TEST_CASE("lab history: channels and works of the frames, frame by frame") {

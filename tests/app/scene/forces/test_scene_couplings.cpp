@@ -63,7 +63,7 @@ TEST_CASE("scene: every type of coupling has a name, moves the robot and is one 
     // coupling has drawn it along.
     CHECK(run.simulation.state().q[0] < 1.5707963267948966 - 0.1);
     for (std::size_t c = 0; c < run.couplings.size(); ++c)
-      if (type != "weld") CHECK(run.couplings.pull(c).norm() > 0);
+      if (type != "weld") CHECK(run.couplings.force(c).norm() > 0);
   }
 }
 
@@ -114,7 +114,7 @@ TEST_CASE("scene: force times velocity of any coupling is its power at the joint
     }
     double sum = 0;
     for (std::size_t c = 0; c < couplings.size(); ++c)
-      sum += couplings.pull(c).dot(couplings.ends(c, x, k).velocity);
+      sum += couplings.force(c).dot(couplings.ends(c, x, k).velocity);
     if (forces.has_impedance) {  // m* a_bias is added to the coupling force
       for (std::size_t i = 1; i < scene.model.parent.size(); ++i) {
         const Force<double> back = forces.impedance[i] * k.a_bias[i];

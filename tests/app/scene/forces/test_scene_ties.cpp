@@ -102,7 +102,7 @@ TEST_CASE("scene: a coupling without target acts towards the start") {
   couplings.source(0)->begin_step(k, 0, 0.001);
   Forces<double> forces(scene.model);
   couplings.source(0)->add_forces(x, k, forces);
-  CHECK(close(couplings.coupling(0).readings()[0].pull, 300 * chord, 1e-12));
+  CHECK(close(couplings.coupling(0).readings()[0].force_W, 300 * chord, 1e-12));
 }
 
 TEST_CASE("scene: targets are a state, the paper's motion, a trace") {
