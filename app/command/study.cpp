@@ -6,6 +6,7 @@
 #include "app/plot/gnuplot.h"
 #include "app/servo/servo_loop.h"
 #include "app/study/calibration/calibration.h"
+#include "app/study/findings/ensemble.h"
 #include "app/study/findings/findings.h"
 #include "app/study/findings/variants.h"
 #include "app/study/report/recordings.h"
@@ -93,14 +94,15 @@ std::unique_ptr<OperatorMotion> operator_motion(const StudyOptions& options,
     return trace;
   }
   return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
-                                             settings.operator_duration);
+                                             settings.operator_duration, settings.operator_ranges);
 }
 
 StudyOperator scene_operator(const StudyOptions& options, const StudySettings& settings,
                              const OperatorMotion& hand) {
   if (!options.trace.empty()) return traced_operator(hand, options.trace);
   if (is_device(options)) return traced_operator(hand, options.out / "hand.csv");
-  return synthetic_study_operator(hand, options.seed.value_or(settings.seed));
+  return synthetic_study_operator(hand, options.seed.value_or(settings.seed),
+                                  settings.operator_ranges);
 }
 
 std::string command_of(const StudyOptions& options) {
@@ -130,6 +132,9 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
   const StudyRobot robot = StudyRobot::s103(inputs.settings, inputs.s103, results.arm2_mass_scale);
   progress.stage("E1 to E4", 0.02);
   results.reproduction = run_reproduction(robot, calibration, hand);
+  progress.stage("E1 and E2 with many operators", 0.15);
+  results.ensembles = run_ensembles(inputs, robot, calibration,
+                                    options.seed.value_or(inputs.settings.seed), progress);
   progress.stage("variants: gains by trial, matched, implicit, held, ablations", 0.18);
   results.variants = run_variants(inputs, robot, calibration, progress);
   progress.stage("findings", 0.15);
@@ -169,6 +174,17 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
       "\n\n  E3, E4: calibrated gains. E1, E2: the same gains, with another operator motion than "
       "the paper's ({}).\n\n",
       results.operator_description);
+  for (const Ensemble& all : results.ensembles) {
+    fmt::print("  {} with {} operators: median (10 to 90 %), published at percentile\n", all.name,
+               all.seeds);
+    for (const auto& [row, values] : {std::pair{"maximum", &all.max_deg}, {"mean", &all.mean_deg}})
+      for (std::size_t j = 0; j < 2; ++j) {
+        const Distribution& number = (*values)[j];
+        fmt::print("    {}, joint {}: {:.2f} ({:.2f} to {:.2f}), {:.0f} %\n", row, j + 1,
+                   number.median, number.p10, number.p90, number.percentile);
+      }
+  }
+  fmt::print("\n");
   for (const std::string& sentence : results.answer) fmt::print("{}\n", sentence);
   fmt::print("\nReport: {}  ({:.0f} s)\n", report.string(), results.seconds);
 }

@@ -43,6 +43,12 @@ class SettingsTable : public TableReader {
     fault(key, "must be a whole number of at least 0", kFix, "study.whole-number");
     return 0;
   }
+  std::array<double, 2> range(const std::string& key) {
+    const std::vector<double> pair = numbers(key);
+    if (pair.size() == 2 && pair[0] > 0 && pair[0] <= pair[1]) return {pair[0], pair[1]};
+    fault(key, "must be [low, high], both positive", kFix, "study.range");
+    return {1, 1};
+  }
   std::vector<double> numbers(const std::string& key) {
     std::vector<double> all;
     for (const Value& item : items(key, Value::Kind::number, "a list of finite numbers"))
@@ -122,6 +128,11 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   s.implicit_frequency_hz = protocol.number("implicit_frequency_hz");
   s.implicit_damping_ratio = protocol.number("implicit_damping_ratio");
   s.seed = person.whole("seed");
+  s.seeds = person.whole("seeds");
+  if (s.seeds < 10 || s.seeds > 10000)
+    person.fault("seeds", "must be 10 to 10000", "100 take some seconds", "study.whole-number");
+  s.operator_ranges.peak_speed = person.range("peak_speed");
+  s.operator_ranges.tremor = person.range("tremor");
   s.operator_duration = person.number("duration");
   s.obstacle.size = obstacle.vector("size");
   s.obstacle.position = obstacle.vector("position");

@@ -7,6 +7,7 @@
 
 #include "collision/import/robot/robot_description.h"
 #include "coupling/analysis/tracking.h"
+#include "coupling/target/synthetic_operator.h"
 #include "coupling/target/target_robot.h"
 #include "solver/model/model.h"
 
@@ -30,8 +31,10 @@ struct StudySettings {
   std::vector<double> rates_hz, search_rates_hz, identification_rates_hz, sweep_times;
   double held_physics_hz = 0, implicit_frequency_hz = 0, implicit_damping_ratio = 0;
 
-  unsigned seed = 1;
+  // Synthetic operators of E1 and E2: the first seed, and how many from it on.
+  unsigned seed = 1, seeds = 0;
   double operator_duration = 0;  // [s]
+  SyntheticRanges operator_ranges;
 
   struct Obstacle {
     Vector3 size = Vector3::Zero(), position = Vector3::Zero();

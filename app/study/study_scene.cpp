@@ -185,8 +185,14 @@ StudyOperator device_operator() {
   return {"\"device\"", &at_zero};
 }
 
-StudyOperator synthetic_study_operator(const OperatorMotion& source, unsigned seed) {
-  return {fmt::format("{{ seed = {}, duration = {} }}", seed, real(source.duration())), &source};
+StudyOperator synthetic_study_operator(const OperatorMotion& source, unsigned seed,
+                                       const SyntheticRanges& ranges) {
+  const auto range = [](const std::array<double, 2>& r) {
+    return fmt::format("[{}, {}]", real(r[0]), real(r[1]));
+  };
+  return {fmt::format("{{ seed = {}, duration = {}, peak_speed = {}, tremor = {} }}", seed,
+                      real(source.duration()), range(ranges.peak_speed), range(ranges.tremor)),
+          &source};
 }
 
 StudyOperator traced_operator(const OperatorMotion& source, const std::filesystem::path& trace) {

@@ -13,7 +13,8 @@ struct StudyOperator {
   const OperatorMotion* source = nullptr;  // the same motion
 };
 StudyOperator automatic_operator();
-StudyOperator synthetic_study_operator(const OperatorMotion& source, unsigned seed);
+StudyOperator synthetic_study_operator(const OperatorMotion& source, unsigned seed,
+                                       const SyntheticRanges& ranges);
 // A live input device; the robot starts where all device angles are zero.
 StudyOperator device_operator();
 StudyOperator traced_operator(const OperatorMotion& source, const std::filesystem::path& trace);

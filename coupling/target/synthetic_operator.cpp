@@ -13,7 +13,6 @@ namespace {
 // Ranges of the targets, inside the Phantom Omni's joint limits [rad].
 constexpr std::array<double, 6> kLow{-0.75, 0.4, -0.4, -1.2, -0.3, -1.2};
 constexpr std::array<double, 6> kHigh{0.75, 1.3, 0.8, 1.2, 1.2, 1.2};
-constexpr double kTremor = 0.004;  // amplitude of each of three sines [rad]
 
 // Uniform numbers, portable unlike the standard's distributions.
 class Draw {
@@ -29,7 +28,7 @@ class Draw {
 
 }  // namespace
 
-SyntheticOperator::SyntheticOperator(unsigned seed, double duration)
+SyntheticOperator::SyntheticOperator(unsigned seed, double duration, const SyntheticRanges& ranges)
     : seed_(seed), duration_(duration) {
   Draw draw(seed);
   std::array<double, 6> at{};
@@ -42,17 +41,19 @@ SyntheticOperator::SyntheticOperator(unsigned seed, double duration)
       reach.to[j] = draw(kLow[j], kHigh[j]);
       distance = std::max(distance, std::abs(reach.to[j] - at[j]));
     }
-    // Peak speed (15/8 of the mean) of 1.5 to 4 rad/s.
-    reach.end = t + std::max(0.25, 15.0 / 8.0 * distance / draw(1.5, 4.0));
+    const double peak_speed = draw(ranges.peak_speed[0], ranges.peak_speed[1]);
+    reach.end = t + std::max(0.25, 15.0 / 8.0 * distance / peak_speed);
     if (draw(0, 1) < 0.2) button = !button;
     reach.button = button;
     reaches_.push_back(reach);
     at = reach.to;
     t = reach.end + draw(0.05, 0.4);
   }
+  double tremor = ranges.tremor[0];
+  if (ranges.tremor[1] > tremor) tremor *= std::pow(ranges.tremor[1] / tremor, draw(0, 1));
   for (auto& lines : tremor_)
     for (Tremor& line : lines)
-      line = {kTremor * draw(0.5, 1.0), 2 * std::numbers::pi * draw(8, 12),
+      line = {tremor * draw(0.5, 1.0), 2 * std::numbers::pi * draw(8, 12),
               draw(0, 2 * std::numbers::pi)};
 }
 

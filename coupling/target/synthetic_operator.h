@@ -3,15 +3,25 @@
 // determines the motion, on every machine.
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 
+// What the motion is drawn from.
+struct SyntheticRanges {
+  std::array<double, 2> peak_speed{1.5, 4.0};  // of the fastest joint, for each reach [rad/s]
+  std::array<double, 2> tremor{0.004, 0.004};  // of each of three sines, once for an operator [rad]
+  bool operator==(const SyntheticRanges&) const = default;
+};
+
 class SyntheticOperator final : public OperatorMotion {
  public:
-  explicit SyntheticOperator(unsigned seed, double duration = 20.0);
+  explicit SyntheticOperator(unsigned seed, double duration = 20.0,
+                             const SyntheticRanges& ranges = {});
   OperatorSample sample(double t, double toward) const override;
   double duration() const override { return duration_; }
   std::string description() const override {

@@ -46,7 +46,9 @@ class CommandLine(ProgramTest):
         names = {variant["name"] for variant in study["variants"]}
         self.assertLessEqual({"trial/printed-linear/60", "held/printed-linear/60-held",
                               "implicit/linear/1000", "ablation/folded"}, names)
-        self.assertEqual(len(study["answer"]), 5)
+        self.assertEqual(len(study["answer"]), 6)
+        for name in ("E1", "E2"):
+            self.check_ensemble(study["runs"][name])
         self.assertGreaterEqual(len(study["left_open"]), 16)
         for fit in study["left_open"]:  # what is said of a fit follows from its four numbers
             numbers = [fit["numbers"][f"{kind}{joint}_deg"] for kind in ("max", "mean") for joint in (1, 2)]
@@ -60,10 +62,23 @@ class CommandLine(ProgramTest):
         report = pathlib.Path(study["report"]).read_text(encoding="utf-8")
         for outside in ("src=\"http", "href=\"http", "@import", "<script src"):
             self.assertNotIn(outside, report)
-        self.assertEqual(report.count("<svg"), 11)
+        self.assertEqual(report.count("<svg"), 12)
         self.assertEqual(report.count("data:image/png;base64"), 5)
         self.assertEqual([f for f in self.written() if f.endswith(".tmp")], [])
         self.check_recordings({run_["name"]: run_ for run_ in study["recordings"]})
+
+    def check_ensemble(self, run):
+        """Quantiles in order, and the percentile of the published number on their side of it."""
+        ensemble = run["ensemble"]
+        self.assertEqual((ensemble["seeds"], ensemble["unstable"]), (100, 0))
+        for row in ("max_deg", "mean_deg"):
+            for joint in ("joint1", "joint2"):
+                p10, median, p90, percentile = (ensemble[key][row][joint] for key in (
+                    "p10_deg", "median_deg", "p90_deg", "percentile_of_published"))
+                self.assertTrue(0 < p10 < median < p90 < 180, (row, joint))
+                published = run["paper"][row][joint]
+                for share, quantile in ((10, p10), (50, median), (90, p90)):
+                    self.assertEqual(percentile > share, published > quantile, (row, joint, share))
 
     def check_recordings(self, made):
         """Scenes that run the study's own laws, and what the other commands make of them."""

@@ -61,7 +61,7 @@ std::unique_ptr<OperatorMotion> motion_of_target(const SceneModel& scene,
       }
       break;
     case CouplingTarget::Kind::synthetic:
-      return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration);
+      return std::make_unique<SyntheticOperator>(coupling.seed, coupling.duration, coupling.ranges);
     case CouplingTarget::Kind::device:
       if (device) return std::make_unique<BorrowedMotion>(*device);
       return rest_position(scene.model, coupling);

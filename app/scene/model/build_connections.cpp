@@ -139,6 +139,7 @@ SceneCoupling without_components(const SceneModel& scene, std::size_t index) {
   made.trace = given.target.trace;
   made.seed = given.target.seed;
   made.duration = given.target.duration;
+  made.ranges = given.target.ranges;
   return made;
 }
 

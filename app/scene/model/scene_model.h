@@ -57,6 +57,7 @@ struct SceneCoupling : CouplingTraits {
   std::filesystem::path trace;
   unsigned seed = 1;     // of a synthetic operator
   double duration = 20;  // of a synthetic operator [s]
+  SyntheticRanges ranges;
 
   bool leads() const { return !springs.empty(); }  // is the first component
   // Index of this component, number `index`, in Coupling::readings().

@@ -138,6 +138,18 @@ void read_gripper(SceneReader& reader, TableReader& table, const RobotDescriptio
                   name_remedy(target.gripper, names, "joints"), "scene.unknown-name");
 }
 
+// [low, high] of a synthetic operator.
+void read_range(TableReader& motion, const char* key, double upper, std::array<double, 2>& range) {
+  const auto given = motion.numbers(key, 2);
+  if (!given) return;
+  const double low = given->front(), high = given->back();
+  if (low > 0 && low <= high && high <= upper)
+    range = {low, high};
+  else
+    motion.fault(key, fmt::format("must be [low, high] with 0 < low <= high <= {:g}", upper),
+                 fmt::format("give {} = [{:g}, {:g}]", key, range[0], range[1]), "scene.range");
+}
+
 void read_synthetic(TableReader& motion, CouplingTarget& target) {
   target.kind = CouplingTarget::Kind::synthetic;
   const double seed = motion.not_negative("seed").value_or(1);
@@ -148,6 +160,8 @@ void read_synthetic(TableReader& motion, CouplingTarget& target) {
   target.duration = motion.positive("duration").value_or(20);
   if (target.duration > 1e5)
     motion.fault("duration", "must be at most 100000 s", "give a shorter one", "scene.range");
+  read_range(motion, "peak_speed", 100, target.ranges.peak_speed);
+  read_range(motion, "tremor", 1, target.ranges.tremor);
 }
 
 // Adds the warnings of a trace. Its errors are reported when it is used.

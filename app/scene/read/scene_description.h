@@ -16,6 +16,7 @@
 #include "collision/import/robot/robot_description.h"
 #include "collision/import/robot/robot_model.h"
 #include "coupling/laws/coupling_spec.h"
+#include "coupling/target/synthetic_operator.h"
 #include "solver/forces/force_source.h"
 #include "solver/integration/integrator.h"
 #include "solver/loops/loop_closure.h"
@@ -88,6 +89,7 @@ struct CouplingTarget {
   std::filesystem::path trace;  // operator motion (CSV)
   unsigned seed = 1;            // of a synthetic operator
   double duration = 20;         // of a synthetic operator [s]
+  SyntheticRanges ranges;       // of a synthetic operator
   std::string gripper;          // joint that the button moves; may be empty
   double open = 0, closed = 0;  // its position with the button released, pressed
 

@@ -1,5 +1,5 @@
 // Claims about the paper's numbers, checked again in this run (docs/understand/paper_analysis.md),
-// and the answer to its question in five sentences.
+// and the answer to its question.
 #pragma once
 
 #include <array>

@@ -19,6 +19,22 @@ struct Finding {
   bool holds = false;
 };
 
+// Of one number of Table 2 over the operators [deg].
+struct Distribution {
+  double median = 0, p10 = 0, p90 = 0;  // quantiles
+  double percentile = 0;                // of the published number [%]
+};
+struct ErrorBand {  // quantiles of |error| at each time [s, deg]
+  std::vector<double> t, p10, median, p90;
+};
+// E1 or E2 with many synthetic operators (ensemble.h).
+struct Ensemble {
+  std::string name;
+  int seeds = 0, unstable = 0;
+  std::array<Distribution, 2> max_deg, mean_deg;  // by joint
+  std::array<ErrorBand, 2> band;
+};
+
 // Automatic motion into a box.
 struct ObstacleRun {
   RunSpec spec;  // "obstacle_linear", "obstacle_torsional"; the coupling has the short name
@@ -43,12 +59,13 @@ struct StudyRecording {
 
 struct StudyResults {
   std::vector<RunResult> reproduction;  // E1, E2, E3, E4, in this order
+  std::vector<Ensemble> ensembles;      // of E1, E2
   std::vector<RunResult> variants;
   std::vector<Finding> findings;
   std::map<std::string, ProtocolErrors> rows;  // of the two-link robots, by calibration entry
   std::vector<ObstacleRun> obstacle;           // linear, torsional
   std::vector<StudyRecording> recordings;
-  std::vector<std::string> answer;   // five sentences
+  std::vector<std::string> answer;   // sentences
   std::string operator_description;  // of E1 and E2
   double arm2_mass_scale = 1;
   double seconds = 0;         // wall time of the study

@@ -243,6 +243,7 @@ void write_figures(const StudyResults& results, const std::filesystem::path& fol
   const std::vector<RunResult>& runs = results.reproduction;
   const char* const names[] = {"fig6a", "fig6b", "fig7c", "fig7d"};
   for (std::size_t i = 0; i < runs.size(); ++i) draw_angles(gnuplot, names[i], runs[i]);
+  draw_ensembles(gnuplot, results.ensembles);
   draw_errors(gnuplot, runs[2], runs[3]);
   draw_rates(gnuplot, results.variants);
   draw_search(gnuplot, results);

@@ -8,6 +8,7 @@ namespace twinarm {
 
 // figures_time.cpp: over time
 void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run);
+void draw_ensembles(Gnuplot& gnuplot, const std::vector<Ensemble>& ensembles);
 void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& linear);
 void draw_obstacle(Gnuplot& gnuplot, const std::vector<ObstacleRun>& runs);
 

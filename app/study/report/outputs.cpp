@@ -114,6 +114,21 @@ ordered_json reproduction_json(const RunResult& run) {
   return json;
 }
 
+// Format: docs/reference/study_files.md.
+ordered_json ensemble_json(const Ensemble& ensemble) {
+  ordered_json json = {{"seeds", ensemble.seeds}, {"unstable", ensemble.unstable}};
+  const auto add = [&](const char* name, double Distribution::*number) {
+    for (const auto& [row, values] :
+         {std::pair{"max_deg", &ensemble.max_deg}, {"mean_deg", &ensemble.mean_deg}})
+      json[name][row] = by_joint({(*values)[0].*number, (*values)[1].*number});
+  };
+  add("median_deg", &Distribution::median);
+  add("p10_deg", &Distribution::p10);
+  add("p90_deg", &Distribution::p90);
+  add("percentile_of_published", &Distribution::percentile);
+  return json;
+}
+
 ordered_json variant_json(const RunResult& run) {
   ordered_json json = {{"name", run.spec.name}};
   json.update(run_json(run));
@@ -193,6 +208,8 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
   root["runs"] = ordered_json::object();
   for (const RunResult& run : results.reproduction)
     root["runs"][run.spec.name] = reproduction_json(run);
+  for (const Ensemble& ensemble : results.ensembles)
+    root["runs"][ensemble.name]["ensemble"] = ensemble_json(ensemble);
   root["variants"] = list_of(results.variants, variant_json);
   root["findings"] = list_of(results.findings, finding_json);
   root["obstacle"] = list_of(results.obstacle, obstacle_json);

@@ -23,11 +23,11 @@ bool has_theory(const RunResult& run) {
 std::string comparison_table(const std::vector<const RunResult*>& runs) {
   std::string top = "<tr><th rowspan=2>degrees</th>", second = "<tr>", body;
   for (const RunResult* run : runs) {
-    top += fmt::format("<th colspan={} class=\"first text\">{}: {}</th>", has_theory(*run) ? 5 : 4,
-                       run->spec.name, escaped(run->spec.title));
-    second += "<th class=first>measured</th>";
-    if (has_theory(*run)) second += "<th>by theory</th>";
-    second += "<th>published</th><th>deviation</th><th>15 %</th>";
+    top += fmt::format("<th colspan=5 class=\"first text\">{}: {}</th>", run->spec.name,
+                       escaped(run->spec.title));
+    second +=
+        "<th class=first>measured</th><th>by theory</th><th>published</th><th>deviation</th>"
+        "<th>15 %</th>";
   }
   for (std::size_t row = 0; row < 4; ++row) {
     const bool maximum = row < 2;
@@ -38,10 +38,8 @@ std::string comparison_table(const std::vector<const RunResult*>& runs) {
       const double measured = maximum ? run->max_deg[j] : run->mean_deg[j];
       const double published = maximum ? paper.max_deg[j] : paper.mean_deg[j];
       const double deviation = measured / published - 1;
-      body += fmt::format("<td class=\"first big\">{:.2f}</td>", measured);
-      if (has_theory(*run))
-        body += fmt::format("<td>{:.2f}</td>",
-                            maximum ? run->motion_max_deg[j] : run->motion_mean_deg[j]);
+      body += fmt::format("<td class=\"first big\">{:.2f}</td><td>{:.2f}</td>", measured,
+                          maximum ? run->motion_max_deg[j] : run->motion_mean_deg[j]);
       body += fmt::format("<td>{:.1f}{}</td>", published,
                           run->spec.name == "E4" && row == 1 ? " *" : "");
       body += !run->stable || !std::isfinite(deviation)
@@ -49,6 +47,38 @@ std::string comparison_table(const std::vector<const RunResult*>& runs) {
                   : fmt::format("<td>{}{:.1f} %</td><td>{}</td>", deviation < 0 ? "−" : "+",
                                 std::abs(100 * deviation),
                                 yes_no(std::abs(deviation) <= kNear, "within", "outside"));
+    }
+    body += "</tr>\n";
+  }
+  return "<div class=scroll><table class=dense><thead>" + top + "</tr>\n" + second +
+         "</tr></thead>\n<tbody>" + body + "</tbody></table></div>\n";
+}
+
+// E1 and E2 with many operators: the one that is shown, quantiles, published.
+std::string ensemble_table(const StudyResults& results) {
+  std::string top = "<tr><th rowspan=2>degrees</th>", second = "<tr>", body;
+  for (const Ensemble& all : results.ensembles) {
+    const RunResult& shown = *find_run(results.reproduction, all.name);
+    top += fmt::format("<th colspan=5 class=\"first text\">{}: {}, {} operators{}</th>", all.name,
+                       escaped(shown.spec.title), all.seeds,
+                       all.unstable ? fmt::format(", {} unstable", all.unstable) : "");
+    second +=
+        "<th class=first>shown</th><th>median</th><th>10 to 90 %</th><th>published</th>"
+        "<th>percentile</th>";
+  }
+  for (std::size_t row = 0; row < 4; ++row) {
+    const bool maximum = row < 2;
+    const std::size_t j = row % 2;
+    body += fmt::format("<tr><td>{}, joint {}</td>", maximum ? "maximum" : "mean", j + 1);
+    for (const Ensemble& all : results.ensembles) {
+      const RunResult& shown = *find_run(results.reproduction, all.name);
+      const PaperRow& paper = kPaperTable.at(all.name);
+      const Distribution& number = maximum ? all.max_deg[j] : all.mean_deg[j];
+      body += fmt::format(
+          "<td class=first>{:.2f}</td><td class=big>{:.2f}</td><td>{:.2f} to {:.2f}</td>"
+          "<td>{:.2f}</td><td>{:.0f} %</td>",
+          maximum ? shown.max_deg[j] : shown.mean_deg[j], number.median, number.p10, number.p90,
+          maximum ? paper.max_deg[j] : paper.mean_deg[j], number.percentile);
     }
     body += "</tr>\n";
   }
@@ -233,7 +263,7 @@ std::string recordings_rows(const std::vector<StudyRecording>& recordings) {
 
 void add_reproduction(const StudyResults& results, Slots& slots) {
   const std::vector<RunResult>& runs = results.reproduction;
-  slots["table2_user"] = comparison_table({&runs.at(0), &runs.at(1)});
+  slots["table2_user"] = ensemble_table(results);
   slots["table2_automatic"] = comparison_table({&runs.at(2), &runs.at(3)});
   for (const RunResult& run : runs) slots["caption_" + run.spec.name] = angle_caption(run);
   const RunResult &e3 = runs[2], &e4 = runs[3];
