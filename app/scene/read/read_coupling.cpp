@@ -1,4 +1,6 @@
 // Couplings between a robot and its target robot.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

@@ -25,20 +25,26 @@ std::vector<double> error_deg(const TrackingSeries& series, std::size_t joint) {
   return error;
 }
 
-// Quantiles of |error| over the operators at each time; of the runs that are as long as the first.
+// Quantiles of |error| over the operators, in windows of time.
 ErrorBand band_of(const std::vector<RunResult>& runs, std::size_t joint) {
+  constexpr double kWindow = 0.25;  // [s]
+  std::vector<std::vector<double>> windows;
+  for (const RunResult& run : runs) {
+    const std::vector<double> error = error_deg(run.series, joint);
+    for (std::size_t n = 0; n < error.size(); ++n) {
+      const auto window = static_cast<std::size_t>(run.series.t[n] / kWindow);
+      if (window >= windows.size()) windows.resize(window + 1);
+      windows[window].push_back(error[n]);
+    }
+  }
   ErrorBand band;
-  band.t = runs.front().series.t;
-  std::vector<std::vector<double>> errors;
-  for (const RunResult& run : runs)
-    if (run.series.t.size() == band.t.size()) errors.push_back(error_deg(run.series, joint));
-  std::vector<double> at(errors.size());
-  for (std::size_t n = 0; n < band.t.size(); ++n) {
-    for (std::size_t i = 0; i < errors.size(); ++i) at[i] = errors[i][n];
-    std::ranges::sort(at);
-    band.p10.push_back(quantile(at, 0.1));
-    band.median.push_back(quantile(at, 0.5));
-    band.p90.push_back(quantile(at, 0.9));
+  for (std::size_t w = 0; w < windows.size(); ++w) {
+    if (windows[w].size() < runs.size()) continue;  // the end, shorter than a window
+    std::ranges::sort(windows[w]);
+    band.t.push_back((static_cast<double>(w) + 0.5) * kWindow);
+    band.p10.push_back(quantile(windows[w], 0.1));
+    band.median.push_back(quantile(windows[w], 0.5));
+    band.p90.push_back(quantile(windows[w], 0.9));
   }
   return band;
 }

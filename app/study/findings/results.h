@@ -24,7 +24,7 @@ struct Distribution {
   double median = 0, p10 = 0, p90 = 0;  // quantiles
   double percentile = 0;                // of the published number [%]
 };
-struct ErrorBand {  // quantiles of |error| at each time [s, deg]
+struct ErrorBand {  // quantiles of |error| over time [s, deg]
   std::vector<double> t, p10, median, p90;
 };
 // E1 or E2 with many synthetic operators (ensemble.h).

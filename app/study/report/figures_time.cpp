@@ -156,13 +156,14 @@ void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run
                script + "unset multiplot\n");
 }
 
-// |error| of E1 and E2 over all operators: median, and a band from the 10 % to the 90 % quantile.
+// |error| of E1 and E2 over all operators, both on one logarithmic axis: median, and a band from
+// the 10 % to the 90 % quantile.
 void draw_ensembles(Gnuplot& gnuplot, const std::vector<Ensemble>& ensembles) {
   std::string script = "set multiplot\n";
   for (std::size_t j = 0; j < 2; ++j) {
     script += panel(static_cast<int>(j), fmt::format("|error|, joint {} [°]", j + 1),
                     ensembles.front().band[j].t.back());
-    script += value_axis(ensembles[0].band[j].p90, ensembles[1].band[j].p90) + "plot ";
+    script += "set logscale y\nset yrange [2e-3:50]\nset ytics (.01, .1, 1, 10)\nplot ";
     const std::pair<const char*, const char*> styles[] = {{palette::torsional, "E1, torsional"},
                                                           {palette::linear, "E2, linear"}};
     for (std::size_t e = 0; e < ensembles.size(); ++e) {
@@ -170,7 +171,7 @@ void draw_ensembles(Gnuplot& gnuplot, const std::vector<Ensemble>& ensembles) {
       const auto& [colour, words] = styles[e];
       script += fmt::format(
           "{}{} with filledcurves fs transparent solid 0.25 noborder lc '{}' title '{}, 10 to 90 "
-          "%', {} with lines lw 1.4 lc '{}' title 'median'",
+          "%', {} with lines lw 1.4 lc '{}' notitle",
           e ? ", " : "", gnuplot.data({band.t, band.p10, band.p90}), colour, words,
           gnuplot.curve(band.t, band.median), colour);
     }

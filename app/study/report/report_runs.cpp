@@ -59,8 +59,8 @@ std::string ensemble_table(const StudyResults& results) {
   std::string top = "<tr><th rowspan=2>degrees</th>", second = "<tr>", body;
   for (const Ensemble& all : results.ensembles) {
     const RunResult& shown = *find_run(results.reproduction, all.name);
-    top += fmt::format("<th colspan=5 class=\"first text\">{}: {}, {} operators{}</th>", all.name,
-                       escaped(shown.spec.title), all.seeds,
+    top += fmt::format("<th colspan=5 class=\"first text\">{}, {}: {} operators{}</th>", all.name,
+                       coupling_words(shown.spec.coupling), all.seeds,
                        all.unstable ? fmt::format(", {} unstable", all.unstable) : "");
     second +=
         "<th class=first>shown</th><th>median</th><th>10 to 90 %</th><th>published</th>"
