@@ -48,8 +48,8 @@ class LabTest(ProgramTest):
         """The frame of the pause: it comes before the state or after it."""
         self.live.do("play", on=False)
         self.state(lambda s: not s["playing"])
-        newest = Frame(self.live.newest["frame"])
-        return newest if newest.paused else self.frame(lambda f: f.paused)
+        newest = self.live.newest.get("frame")  # none if the pause came before the first
+        return Frame(newest) if newest and Frame(newest).paused else self.frame(lambda f: f.paused)
 
     def saved(self, name):
         file = self.folder / name
