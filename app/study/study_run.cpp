@@ -11,6 +11,8 @@
 namespace twinarm {
 namespace {
 
+const Eigen::Vector2d kSweep(-std::numbers::pi, std::numbers::pi / 2);  // of T = 1 s [rad/s]
+
 // With joint stops.
 TrackingSeries track(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec) {
   TrackingSystem system(tracking_setup(robot, hand, spec));
@@ -75,6 +77,48 @@ CouplingSpec joint_hold(const Model<double>& model, const std::string& joint, do
   return spec;
 }
 
+// The coupling with the gains, linear about a pose of the DVR; joints 1 and 2.
+class Linearisation {
+ public:
+  struct Matrices {
+    Eigen::Matrix2d M, K, B;
+  };
+  Linearisation(const StudyRobot& robot, const RunSpec& spec)
+      : model_(robot.dvr_model(spec.coupling.type)),
+        hand_(OperatorMapping{}),
+        kvr_(robot.kvr_model(), hand_, OperatorMapping{}, robot.joints()),
+        k_(model_) {
+    CouplingSpec main = spec.coupling;
+    main.springs = robot.springs(spec.gains);
+    coupling_ = make_coupling(main, model_, kvr_);
+  }
+  Matrices operator()(const State<double>& pose) {
+    forward_kinematics(model_, pose, k_);
+    const Coupling::JointSpace full = coupling_->joint_space(k_);
+    return {mass_matrix(model_, pose).topLeftCorner<2, 2>(), full.K.topLeftCorner<2, 2>(),
+            full.B.topLeftCorner<2, 2>()};
+  }
+
+ private:
+  const Model<double>& model_;
+  AutomaticMotion hand_;
+  TargetRobot kvr_;
+  std::unique_ptr<Coupling> coupling_;
+  Kinematics k_;
+};
+
+// visit(M, K, B) at equidistant poses of the first sweep, both ends included.
+template <class Visit>
+void for_poses_of_motion(const StudyRobot& robot, const RunSpec& spec, Visit&& visit) {
+  constexpr int kIntervals = 20;
+  Linearisation linearise(robot, spec);
+  for (int n = 0; n <= kIntervals; ++n) {
+    const auto [M, K, B] =
+        linearise(robot.pose_of_motion(static_cast<double>(n) / kIntervals));
+    visit(M, K, B);
+  }
+}
+
 }  // namespace
 
 TrackingSetup tracking_setup(const StudyRobot& robot, const OperatorMotion& hand,
@@ -106,25 +150,13 @@ RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec
 
 void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose) {
   const RunSpec& spec = result.spec;
-  const Model<double>& model = robot.dvr_model(spec.coupling.type);
-  const AutomaticMotion hand{OperatorMapping{}};
-  TargetRobot kvr(robot.kvr_model(), hand, OperatorMapping{}, robot.joints());
-  CouplingSpec main = spec.coupling;
-  main.springs = robot.springs(spec.gains);
-  const auto coupling = make_coupling(main, model, kvr);
-  Kinematics k(model);
-  forward_kinematics(model, pose, k);
-  const Coupling::JointSpace full = coupling->joint_space(k);
-  const Eigen::Matrix2d M = mass_matrix(model, pose).topLeftCorner<2, 2>();
-  const Eigen::Matrix2d K = full.K.topLeftCorner<2, 2>(), B = full.B.topLeftCorner<2, 2>();
-
+  const auto [M, K, B] = Linearisation(robot, spec)(pose);
   const Eigen::VectorXd squares = squared_frequencies(M, K);
   result.frequency = {std::sqrt(std::max(0.0, squares(0))), std::sqrt(std::max(0.0, squares(1)))};
   result.step_limit = max_stable_step(M, K, B, scheme_of(spec));
-  const Eigen::Vector2d sweep(-std::numbers::pi, std::numbers::pi / 2);  // [rad/s]
-  const Eigen::VectorXd peak = peak_after_jump(M, K, B, 2 * sweep, 1.0);
+  const Eigen::VectorXd peak = peak_after_jump(M, K, B, 2 * kSweep, 1.0);
   const JumpErrors motion =
-      response_to_velocity_steps(M, K, B, {{0, sweep}, {1, -2 * sweep}, {2, 2 * sweep}}, 3);
+      response_to_velocity_steps(M, K, B, {{0, kSweep}, {1, -2 * kSweep}, {2, 2 * kSweep}}, 3);
   for (Eigen::Index j = 0; j < 2; ++j) {
     const auto joint = static_cast<std::size_t>(j);
     result.peak_deg[joint] = peak(j) / kDegree;
@@ -133,13 +165,29 @@ void predict(const StudyRobot& robot, RunResult& result, const State<double>& po
   }
 }
 
+double step_limit_of_motion(const StudyRobot& robot, const RunSpec& spec) {
+  double limit = HUGE_VAL;
+  for_poses_of_motion(robot, spec, [&](const auto& M, const auto& K, const auto& B) {
+    limit = std::min(limit, max_stable_step(M, K, B, scheme_of(spec)));
+  });
+  return limit;
+}
+
+double reversal_peak_of_motion(const StudyRobot& robot, const RunSpec& spec) {
+  double sum = 0;
+  for_poses_of_motion(robot, spec, [&](const auto& M, const auto& K, const auto& B) {
+    sum = std::max(sum, peak_after_jump(M, K, B, 2 * kSweep, 1.0).cwiseAbs().sum());
+  });
+  return sum / kDegree;
+}
+
 ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
                             const std::vector<double>& sweep_times) {
   ProtocolErrors errors;
   for (double T : sweep_times) {
     RunResult result;
     measure(track(robot, AutomaticMotion(OperatorMapping{}, T), spec), result);
-    if (!result.stable) return {{180, 180}, {180, 180}, 1e6};
+    if (!result.stable) return {{180, 180}, {180, 180}, kUnstable};
     for (std::size_t j = 0; j < 2; ++j) {
       errors.max_deg[j] = std::max(errors.max_deg[j], T * result.max_deg[j]);
       errors.mean_deg[j] += T * result.mean_deg[j] / static_cast<double>(sweep_times.size());
@@ -209,13 +257,13 @@ std::vector<Spring> StudyRobot::springs(const Gains& g) const {
           {"joint2", body(1), mounts_[1].p_L, g.k2, g.b2}};
 }
 
-State<double> StudyRobot::start_state() const {
+State<double> StudyRobot::pose_of_motion(double share) const {
   State<double> x(kvr_model_);
   const auto set = [&](std::size_t j, double q) {
     x.q[kvr_model_.iq[static_cast<std::size_t>(kvr_model_.find_joint(joints_.turned[j]))]] = q;
   };
-  set(0, std::numbers::pi / 2);
-  set(1, -std::numbers::pi / 4);
+  set(0, std::numbers::pi / 2 - std::numbers::pi * share);
+  set(1, -std::numbers::pi / 4 + std::numbers::pi / 2 * share);
   return x;
 }
 

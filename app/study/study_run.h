@@ -52,7 +52,9 @@ class StudyRobot {
 
   // Inertia of joints 1 and 2, all others locked, at the start of the automatic motion.
   Eigen::Matrix2d start_inertia(CouplingSpec::Type type) const;
-  State<double> start_state() const;
+  // Of the automatic motion, after this share of its first sweep.
+  State<double> pose_of_motion(double share) const;
+  State<double> start_state() const { return pose_of_motion(0); }
 
  private:
   std::string name_;
@@ -105,12 +107,18 @@ TrackingSetup tracking_setup(const StudyRobot& robot, const OperatorMotion& hand
                              const RunSpec& spec);
 RunResult run(const StudyRobot& robot, const OperatorMotion& hand, const RunSpec& spec);
 void predict(const StudyRobot& robot, RunResult& result, const State<double>& pose);
+// Largest stable interval between evaluations of the coupling [s] by linear theory: the smallest
+// over the poses of the automatic motion.
+double step_limit_of_motion(const StudyRobot& robot, const RunSpec& spec);
+// Peak after a reversal by linear theory, sum of both joints [deg]: the largest over those poses.
+double reversal_peak_of_motion(const StudyRobot& robot, const RunSpec& spec);
 
 // Objective of the searches: errors for several sweep times T, weighted by T, so that no resonance
 // with one T is exploited.
+inline constexpr double kUnstable = 1e6;
 struct ProtocolErrors {
   std::array<double, 2> max_deg{}, mean_deg{};  // max over T of T max_i, mean over T of T mean_i
-  double objective = 0;                         // max over T of T (max_1 + max_2); 1e6 if unstable
+  double objective = 0;                         // max over T of T (max_1 + max_2), or kUnstable
 };
 ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
                             const std::vector<double>& sweep_times);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "app/support/parallel_for.h"
 
@@ -16,6 +17,8 @@ constexpr int kFitEvaluations = 4000, kTrialEvaluations = 700;
 // Change of a gain for the sensitivity of a fit; the folded law is sensitive to its gains.
 constexpr double kGainChange = 1.005;
 constexpr double kMinFrequency = 1;  // [Hz]; without it a pure damper would be optimal
+// Gains by trial are this far within their stability limit: those with 1 % more are stable too.
+constexpr double kStepMargin = 1.02;
 
 using Objective = std::function<double(const CalibrationEntry&)>;
 struct Job {
@@ -23,6 +26,9 @@ struct Job {
   Method method = Method::multistart;
   int evaluations = 0;
   Objective objective;
+  // If not empty: the search is repeated among the entries for which this holds, unless its result
+  // is one of them; the numbers keep the gains of the first search if they are better.
+  std::function<bool(const CalibrationEntry&)> allowed;
   std::function<void(CalibrationEntry&)> finish;  // writes the numbers of the entry
 };
 
@@ -103,7 +109,8 @@ Job e4_job(const StudyInputs& inputs, double rate, double arm2_mass_scale) {
   return job;
 }
 
-// One k and b with the minimum objective of the protocol. Keeps a reference to the robot.
+// One k and b with the minimum objective of the protocol, stable at every pose of the motion. Keeps
+// a reference to the robot.
 Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& robot,
               const std::vector<double>& sweep_times) {
   Job job;
@@ -120,6 +127,9 @@ Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& ro
     return run_protocol(robot, spec.with_gains(entry.gains()), sweep_times);
   };
   job.objective = [=](const CalibrationEntry& entry) { return errors(entry).objective; };
+  job.allowed = [=, &robot](const CalibrationEntry& entry) {
+    return kStepMargin / spec.rate <= step_limit_of_motion(robot, spec.with_gains(entry.gains()));
+  };
   job.finish = [=](CalibrationEntry& entry) {
     const ProtocolErrors e = errors(entry);
     entry.keep(e.max_deg, e.mean_deg);
@@ -129,12 +139,23 @@ Job trial_job(const std::string& name, const RunSpec& spec, const StudyRobot& ro
 
 constexpr unsigned kWorkers = 2;
 
+void run(Job& job) {
+  const CalibrationEntry start = job.entry;
+  minimise(job.entry, job.method, kSeed, job.evaluations, job.objective);
+  if (job.allowed && !job.allowed(job.entry)) {
+    const CalibrationEntry best = std::exchange(job.entry, start);
+    minimise(job.entry, job.method, kSeed, job.evaluations, [&](const CalibrationEntry& entry) {
+      return job.allowed(entry) ? job.objective(entry) : kUnstable;
+    });
+    if (best.objective < job.entry.objective)
+      job.entry.numbers.insert({{"unstable_k", best.value("k")}, {"unstable_b", best.value("b")}});
+  }
+  job.finish(job.entry);
+}
+
 // Every job has its own seed, so that the order does not matter.
 void run_jobs(std::vector<Job>& jobs, Calibration& calibration, Progress& progress) {
-  const auto work = [&](std::size_t i) {
-    minimise(jobs[i].entry, jobs[i].method, kSeed, jobs[i].evaluations, jobs[i].objective);
-    jobs[i].finish(jobs[i].entry);
-  };
+  const auto work = [&](std::size_t i) { run(jobs[i]); };
   const auto tick = [&](std::size_t done) {
     progress.advance(static_cast<double>(done) / static_cast<double>(jobs.size()));
   };

@@ -54,6 +54,12 @@ std::string rows_of(const ordered_json& value, std::size_t depth = 0) {
   return (is_object ? '{' : '[') + text + line + (is_object ? '}' : ']');
 }
 
+Gains with_ratio(double k, double b, const std::map<std::string, double>& numbers) {
+  const auto ratio = numbers.find("ratio");
+  const double r = ratio == numbers.end() ? 1.0 : ratio->second;
+  return {k, b, r * k, r * b};
+}
+
 // Passes the document to `read`. `option` of `twinarm study` writes the file again.
 template <class Read>
 auto read_file(const std::filesystem::path& file, const char* article, const std::string& thing,
@@ -83,10 +89,13 @@ Gains CalibrationEntry::gains() const {
   const bool per_link =
       std::ranges::any_of(parameters, [](const Parameter& p) { return p.name == "k1"; });
   if (per_link) return {value("k1"), value("b1"), value("k2"), value("b2")};
-  const double k = value("k"), b = value("b");
-  const auto ratio = numbers.find("ratio");
-  const double r = ratio == numbers.end() ? 1.0 : ratio->second;
-  return {k, b, r * k, r * b};
+  return with_ratio(value("k"), value("b"), numbers);
+}
+
+std::optional<Gains> CalibrationEntry::unstable_gains() const {
+  const auto k = numbers.find("unstable_k"), b = numbers.find("unstable_b");
+  if (k == numbers.end() || b == numbers.end()) return std::nullopt;
+  return with_ratio(k->second, b->second, numbers);
 }
 
 void CalibrationEntry::keep(const std::array<double, 2>& max_deg,

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct Parameter {
   std::string name;          // "k", "b", "k1", "arm2_mass_scale", ...
   double low = 0, high = 0;  // bounds; searched on a logarithmic scale
   double value = 0;
+  bool is_at_bound() const { return value <= 1.01 * low || value >= 0.99 * high; }
 };
 
 struct CalibrationEntry {
@@ -34,6 +36,8 @@ struct CalibrationEntry {
   // Sets max1_deg, max2_deg, mean1_deg, mean2_deg of the numbers.
   void keep(const std::array<double, 2>& max_deg, const std::array<double, 2>& mean_deg);
   Gains gains() const;  // from k, b, or k1, b1, k2, b2, or k, b and ratio
+  // Of the minimum without the stability limit, where that exceeds it.
+  std::optional<Gains> unstable_gains() const;
 };
 
 struct Calibration {

@@ -106,16 +106,20 @@ void add_equal_gains(const StudyInputs& inputs, const Value& predictions,
   add_exchanged_gains(inputs, findings);
 }
 
+bool have_equal_errors(const RunResult& linear, const RunResult& torsional) {
+  const auto agree = [&](std::size_t j) {
+    return std::abs(linear.max_deg[j] - torsional.max_deg[j]) <
+           std::max(0.1, 0.1 * linear.max_deg[j]);
+  };
+  return agree(0) && agree(1);
+}
+
 void add_matched_gains(const StudyResults& results, std::vector<Finding>& findings) {
   const auto get = [&](const std::string& name) { return find_run(results.variants, name); };
   for (double rate : {60.0, 1000.0}) {
     const RunResult* linear = get(fmt::format("matched/linear/{:g}", rate));
     const RunResult* full = get(fmt::format("matched/torsional/{:g}", rate));
     if (!linear || !full) continue;
-    const auto agree = [&](std::size_t j) {
-      return std::abs(linear->max_deg[j] - full->max_deg[j]) <
-             std::max(0.1, 0.1 * linear->max_deg[j]);
-    };
     findings.push_back({"matched gains",
                         fmt::format("S-103, {:g} Hz: a torsional coupling with the full K_q, B_q "
                                     "of the linear one has the "
@@ -123,7 +127,7 @@ void add_matched_gains(const StudyResults& results, std::vector<Finding>& findin
                                     rate),
                         fmt::format("linear {} deg, torsional {} deg", words(linear->max_deg),
                                     words(full->max_deg)),
-                        agree(0) && agree(1)});
+                        have_equal_errors(*linear, *full)});
   }
   const RunResult& equal = *get("trial/signed-torsional/60");
   const RunResult& ratio = *get("trial/signed-torsional-ratio/60");

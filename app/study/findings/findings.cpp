@@ -52,6 +52,18 @@ const Value* predicted_row(const Value& predictions, const std::string& robot,
   return nullptr;
 }
 
+// Why gains with smaller errors are none of a row: their errors and their stability limit.
+std::string beyond_limit(const StudyInputs& inputs, const std::string& robot,
+                         const RunSpec& unstable) {
+  const ProtocolErrors errors =
+      run_protocol(inputs.findings.at(robot), unstable, inputs.settings.sweep_times);
+  return fmt::format(
+      "; gains without a stability limit reach {} deg, but are stable at every pose only up to "
+      "steps of {:.4g} ms, not with {:.4g} ms",
+      words(errors.max_deg), 1e3 * step_limit_of_motion(inputs.findings.at(robot), unstable),
+      1e3 / unstable.rate);
+}
+
 // Every searched row of the two-link robots, run again and compared with its prediction, if any.
 void add_rows(const StudyInputs& inputs, const Value& predictions, StudyResults& results,
               Progress& progress) {
@@ -87,6 +99,8 @@ void add_rows(const StudyInputs& inputs, const Value& predictions, StudyResults&
       finding.measured += "; better than the predicted optimum";
     else if (!finding.holds && sum < 1.03 * predicted_sum)
       finding.measured += "; another optimum with the same sum of the maxima (within 3 %)";
+    else if (const auto gains = entry.unstable_gains(); !finding.holds && gains)
+      finding.measured += beyond_limit(inputs, robot, spec.with_gains(*gains));
     results.findings.push_back(finding);
   }
 }
@@ -112,6 +126,45 @@ void add_ratios(const StudyInputs& inputs, const StudyResults& results,
     }
 }
 
+// For each robot and rate: which coupling has the smaller errors, in the run and by linear theory.
+void add_orders(const StudyInputs& inputs, StudyResults& results) {
+  const auto add = [&](const StudyRobot& robot, const std::string& name, double rate,
+                       const CalibrationEntry& linear, const CalibrationEntry& torsional,
+                       const auto& spec_of, const auto& max_deg) {
+    const auto peak = [&](const CalibrationEntry& entry) {
+      return reversal_peak_of_motion(robot, spec_of(entry).with_gains(entry.gains()));
+    };
+    CouplingOrder order{name, rate, max_deg(linear), max_deg(torsional), peak(linear),
+                        peak(torsional)};
+    results.findings.push_back(
+        {"order of the couplings",
+         fmt::format("{}, {:g} Hz, best gains: linear theory (peak after a reversal, in the worst "
+                     "pose of the motion; sum of both joints) predicts which coupling has the "
+                     "smaller errors: linear {:.3g}, torsional {:.3g} deg",
+                     name, rate, order.linear_peak_deg, order.torsional_peak_deg),
+         fmt::format("linear {}, torsional {} deg", words(order.linear_deg),
+                     words(order.torsional_deg)),
+         order.is_predicted()});
+    results.orders.push_back(order);
+  };
+  const Calibration& c = results.calibration;
+  const StudyRobot s103 = StudyRobot::s103(inputs.settings, inputs.s103,
+                                           c.entry("chosen").numbers.at("arm2_mass_scale"));
+  for (double rate : inputs.settings.rates_hz) {
+    const auto entry = [&](const std::string& law) -> const CalibrationEntry& {
+      return c.entry(fmt::format("{}/{:g}", law, rate));
+    };
+    add(s103, "S-103", rate, entry("trial/printed-linear"), entry("trial/signed-torsional"),
+        [](const CalibrationEntry& e) { return trial_spec(split(e.name, '/')[1], e.rate); },
+        [&](const CalibrationEntry& e) { return find_run(results.variants, e.name)->max_deg; });
+    for (const std::string robot : kTwoLinkRobots)
+      add(inputs.findings.at(robot), robot_words(robot), rate, entry("row/" + robot + "/linear"),
+          entry("row/" + robot + "/world"),
+          [](const CalibrationEntry& e) { return row_spec(split(e.name, '/')[2], e.rate); },
+          [&](const CalibrationEntry& e) { return results.rows.at(e.name).max_deg; });
+  }
+}
+
 void add_reproduction(const StudyResults& results, std::vector<Finding>& findings) {
   for (const char* name : {"E3", "E4"}) {
     const RunResult* result = find_run(results.reproduction, name);
@@ -134,6 +187,7 @@ void derive_findings(const StudyInputs& inputs, StudyResults& results, Progress&
   add_equal_gains(inputs, predictions, findings);
   add_rows(inputs, predictions, results, progress);
   add_ratios(inputs, results, findings);
+  add_orders(inputs, results);
   add_damping(inputs, findings);
   add_differences(inputs, results, findings);
   add_stability(inputs, findings);

@@ -28,6 +28,8 @@ const Value& entry_of(const Value& predictions, const char* key);
 void add_equal_gains(const StudyInputs& inputs, const Value& predictions,
                      std::vector<Finding>& findings);
 void add_matched_gains(const StudyResults& results, std::vector<Finding>& findings);
+// Maxima within 0.1 degree or 10 % of the linear coupling's.
+bool have_equal_errors(const RunResult& linear, const RunResult& torsional);
 
 // Signs and differences of the damping term, and the largest stable step.
 void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings);

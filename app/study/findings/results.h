@@ -50,6 +50,21 @@ struct ObstacleRun {
   double contact_begin = -1, contact_end = -1;  // [s], of the longest contact
 };
 
+// Which coupling has the smaller errors at its gains by trial: run and prediction [deg].
+struct CouplingOrder {
+  std::string robot;
+  double rate = 0;                                      // [Hz]
+  std::array<double, 2> linear_deg{}, torsional_deg{};  // maxima of both joints
+  // Linear theory: reversal_peak_of_motion().
+  double linear_peak_deg = 0, torsional_peak_deg = 0;
+  bool torsional_smaller() const {
+    return torsional_deg[0] + torsional_deg[1] < linear_deg[0] + linear_deg[1];
+  }
+  bool is_predicted() const {
+    return torsional_smaller() == (torsional_peak_deg < linear_peak_deg);
+  }
+};
+
 // A recorded run (recordings.h).
 struct StudyRecording {
   std::string name, title;
@@ -63,6 +78,7 @@ struct StudyResults {
   std::vector<RunResult> variants;
   std::vector<Finding> findings;
   std::map<std::string, ProtocolErrors> rows;  // of the two-link robots, by calibration entry
+  std::vector<CouplingOrder> orders;           // of each robot and rate
   std::vector<ObstacleRun> obstacle;           // linear, torsional
   std::vector<StudyRecording> recordings;
   std::vector<std::string> answer;   // sentences

@@ -67,23 +67,6 @@ std::string filled(const std::filesystem::path& file, const Slots& slots) {
   }
 }
 
-using Pair = std::array<double, 2>;
-
-double worst(const Pair& p) {
-  return std::max(p[0], p[1]);
-}
-
-// Comparison of the larger of the two maxima.
-const char* verdict(const Pair& linear, const Pair& torsional) {
-  const double ratio = worst(torsional) / worst(linear);
-  return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
-}
-
-// Ratio of the squared natural frequencies.
-double spread(const RunResult& result) {
-  return std::pow(result.frequency[1] / result.frequency[0], 2);
-}
-
 }  // namespace
 
 std::string rounded(double value, int digits) {
@@ -133,69 +116,6 @@ void write_report(const StudyResults& results, const std::filesystem::path& asse
                 " Every number on this page was computed in that run, except where it says "
                 "published or calibrated.";
   write_whole_file(folder / "report.html", page.html());
-}
-
-// Answer to the paper's question. The sentences are derived from the numbers, so that they are
-// correct for other settings too.
-std::vector<std::string> answer_in_words(const StudyResults& results) {
-  const RunResult &e3 = results.reproduction[2], &e4 = results.reproduction[3];
-  const double error = std::max(worst_relative_error(e3), worst_relative_error(e4));
-  const auto variant = [&](const char* name) -> const RunResult& {
-    return *find_run(results.variants, name);
-  };
-  const auto max_deg = [&](const char* name) { return words(variant(name).max_deg); };
-  const ProtocolErrors& uniform_torsional = results.rows.at("row/findings_10_14/world/60");
-  const ProtocolErrors& uniform_linear = results.rows.at("row/findings_10_14/linear/60");
-  const RunResult& printed = variant("trial/printed-torsional/60");
-  const RunResult& torsional = variant("trial/signed-torsional/60");
-  const RunResult& linear = variant("trial/printed-linear/60");
-  std::size_t inside = 0, numbers = 0;  // published numbers of E1, E2 in the band of the operators
-  for (const Ensemble& all : results.ensembles)
-    for (const auto* row : {&all.max_deg, &all.mean_deg})
-      for (const Distribution& number : *row) {
-        inside += number.percentile >= 10 && number.percentile <= 90;
-        ++numbers;
-      }
-  const Ensemble &e1 = results.ensembles.at(0), &e2 = results.ensembles.at(1);
-  const auto medians = [](const std::array<Distribution, 2>& d) {
-    return words({d[0].median, d[1].median});
-  };
-  return {
-      fmt::format(
-          "At one rate of {:g} Hz the published laws reproduce all eight published numbers of E3 "
-          "and E4 within {:.0f} %: E3 {} deg (published 16.6/23.5), E4 {} deg (3.4/6.0).",
-          e3.spec.rate, std::ceil(100 * error), words(e3.max_deg), words(e4.max_deg)),
-      fmt::format("E1 and E2, with the same gains and {} synthetic operators: {} of the {} "
-                  "published numbers "
-                  "lie between the 10 % and the 90 % quantile; the medians of the "
-                  "maxima are {} and {} deg (published {} and {}).",
-                  e1.seeds, inside, numbers, medians(e1.max_deg), medians(e2.max_deg),
-                  words(kPaperTable.at(e1.name).max_deg), words(kPaperTable.at(e2.name).max_deg)),
-      fmt::format(
-          "Are the errors of a linear coupling smaller? With one k and b for both links at 60 Hz "
-          "it depends on the position of the springs: uniform arms, springs at the centres of "
-          "mass: linear {} against torsional {} deg, {}; S-103, springs at the ends of the arms: "
-          "{} against {} deg, {}.",
-          words(uniform_linear.max_deg), words(uniform_torsional.max_deg),
-          verdict(uniform_linear.max_deg, uniform_torsional.max_deg), words(linear.max_deg),
-          words(torsional.max_deg), verdict(linear.max_deg, torsional.max_deg)),
-      fmt::format(
-          "Reason: the fastest mode limits the step, the slowest one determines the error, so with "
-          "equal gains the ratio of the squared frequencies matters: {:.1f} torsional, {:.1f} "
-          "linear on the S-103; it is smallest for springs at the centres of mass with stiffness "
-          "proportional to mass.",
-          spread(torsional), spread(linear)),
-      fmt::format(
-          "The published torsional damper uses an unsigned angle and cannot dissipate energy: with "
-          "optimal gains at 60 Hz {} deg, mean {}; with a signed damper {} deg, mean {}.",
-          words(printed.max_deg), words(printed.mean_deg), words(torsional.max_deg),
-          words(torsional.mean_deg)),
-      fmt::format(
-          "The law is not the reason: with the full stiffness of the linear coupling the errors of "
-          "a torsional one are {} deg, of the linear one {}; implicit at 1 kHz torsional {} deg, "
-          "linear {} deg.",
-          max_deg("matched/torsional/60"), max_deg("matched/linear/60"),
-          max_deg("implicit/torsional-world/1000"), max_deg("implicit/linear/1000"))};
 }
 
 }  // namespace twinarm

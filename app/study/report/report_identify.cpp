@@ -156,10 +156,9 @@ std::string parameter_row(const CalibrationEntry& entry, double scale) {
                   entry.rate, rounded(scale * entry.objective), entry.evaluations);
   html += "<td class=text>";
   for (const Parameter& p : entry.parameters) {
-    const bool at_bound = p.value <= 1.01 * p.low || p.value >= 0.99 * p.high;
     html += fmt::format("<span class=value>{} = {}{} <span class=small>[{:g}, {:g}]</span></span> ",
                         escaped(p.name), rounded(p.value, 5),
-                        at_bound ? " <span class=no>at bound</span>" : "", p.low, p.high);
+                        p.is_at_bound() ? " <span class=no>at bound</span>" : "", p.low, p.high);
   }
   return html + "</td></tr>\n";
 }

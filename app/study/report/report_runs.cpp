@@ -185,7 +185,17 @@ std::string variant_table(const std::vector<RunResult>& variants,
          rows + "</tbody></table></div>\n";
 }
 
-std::string rates_rows(const std::vector<RunResult>& variants) {
+std::string bound_words(const CalibrationEntry& entry) {
+  for (const Parameter& p : entry.parameters)
+    if (p.is_at_bound())
+      return p.name == "k" && p.value < 2 * p.low
+                 ? "<br><small>a damper: k at its lower bound</small>"
+                 : fmt::format("<br><small>{} at a bound</small>", p.name);
+  return "";
+}
+
+std::string rates_rows(const StudyResults& results) {
+  const std::vector<RunResult>& variants = results.variants;
   std::set<double> rates;
   for (const RunResult& run : variants)
     if (run.spec.name.starts_with("trial/")) rates.insert(run.spec.rate);
@@ -196,7 +206,8 @@ std::string rates_rows(const std::vector<RunResult>& variants) {
       const RunResult& run = *find_run(variants, fmt::format("trial/{}/{:g}", law, rate));
       html += run.stable ? "<td>" + pair_of(run.max_deg) + "<br><small>" +
                                pair_of({std::abs(run.peak_deg[0]), std::abs(run.peak_deg[1])}) +
-                               "</small></td>"
+                               "</small>" + bound_words(results.calibration.entry(run.spec.name)) +
+                               "</td>"
                          : "<td class=no>unstable</td>";
     }
     html += "</tr>\n";
@@ -283,7 +294,7 @@ void add_reproduction(const StudyResults& results, Slots& slots) {
 }
 
 void add_other_runs(const StudyResults& results, Slots& slots) {
-  slots["rates_rows"] = rates_rows(results.variants);
+  slots["rates_rows"] = rates_rows(results);
   for (const char* group : {"trial", "matched", "held", "ablation"})
     slots[std::string("variants_") + group] =
         variant_table(results.variants, {std::string(group) + "/"});

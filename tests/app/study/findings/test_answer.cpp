@@ -1,0 +1,113 @@
+#include <doctest/doctest.h>
+
+#include "app/study/findings/findings.h"
+
+using namespace twinarm;
+
+namespace {
+
+RunResult run_with(const std::string& name, std::array<double, 2> max_deg,
+                   std::array<double, 2> mean_deg = {1, 1}) {
+  RunResult result;
+  result.spec.name = name;
+  result.spec.rate = 60;
+  result.stable = true;
+  result.max_deg = max_deg;
+  result.mean_deg = mean_deg;
+  return result;
+}
+
+Ensemble ensemble(const std::string& name, double percentile) {
+  Ensemble all;
+  all.name = name;
+  all.seeds = 100;
+  for (auto* row : {&all.max_deg, &all.mean_deg})
+    for (Distribution& number : *row) number = {2, 1, 3, percentile};
+  return all;
+}
+
+// Like the shipped study's: every "if" of the sentences is answered as there.
+StudyResults results() {
+  StudyResults r;
+  r.reproduction = {run_with("E1", {1, 1}), run_with("E2", {1, 1}),
+                    run_with("E3", {16.6, 23.5}, {8.6, 5.2}),
+                    run_with("E4", {3.4, 6.0}, {0.3, 0.6})};
+  r.ensembles = {ensemble("E1", 50), ensemble("E2", 100)};
+  r.variants = {run_with("trial/printed-torsional/60", {12, 11}),
+                run_with("trial/signed-torsional/60", {9, 8}),
+                run_with("trial/printed-linear/60", {9, 14}),
+                run_with("matched/torsional/60", {9, 14}),
+                run_with("matched/linear/60", {9, 14}),
+                run_with("implicit/torsional-world/1000", {0.2, 0.2}),
+                run_with("implicit/linear/1000", {0.2, 0.1})};
+  r.rows["row/findings_10_14/linear/60"].max_deg = {5, 3};
+  r.rows["row/findings_10_14/world/60"].max_deg = {9, 5};
+  r.orders = {{"S-103", 60, {9, 14}, {9, 8}, 30, 15}, {"arms", 60, {5, 3}, {9, 5}, 11, 13}};
+  return r;
+}
+
+RunResult& variant(StudyResults& r, const std::string& name) {
+  return *std::ranges::find(r.variants, name, [](const RunResult& v) { return v.spec.name; });
+}
+
+bool says(const StudyResults& r, std::size_t sentence, const std::string& words) {
+  const std::string text = answer_in_words(r).at(sentence);
+  CAPTURE(text);
+  CAPTURE(words);
+  const bool found = text.find(words) != std::string::npos;
+  WARN(found);
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("the answer says whether the published numbers of E3 and E4 are reproduced") {
+  StudyResults r = results();
+  CHECK(says(r, 0, "laws reproduce the eight published numbers"));
+  r.reproduction[3].mean_deg[1] = 0.8;
+  CHECK(says(r, 0, "laws do not reproduce the eight published numbers"));
+  CHECK(says(r, 0, "largest deviation 34 %"));
+}
+
+TEST_CASE("the answer counts the published numbers within the band of the operators") {
+  StudyResults r = results();
+  CHECK(says(r, 1, "4 of the 8 published numbers"));
+  r.ensembles[1] = ensemble("E2", 89);
+  CHECK(says(r, 1, "8 of the 8 published numbers"));
+}
+
+TEST_CASE("the answer prefers no coupling that has larger errors in the runs") {
+  StudyResults r = results();
+  CHECK(says(r, 2, "it depends on the position of the springs"));
+  variant(r, "trial/printed-linear/60").max_deg = {4, 3};
+  CHECK(says(r, 2, "yes, with both positions"));
+  variant(r, "trial/printed-linear/60").max_deg = {20, 3};
+  r.rows["row/findings_10_14/linear/60"].max_deg = {15, 3};
+  CHECK(says(r, 2, "no, with neither position"));
+}
+
+TEST_CASE("the answer explains the order of the couplings only where theory predicts it") {
+  StudyResults r = results();
+  CHECK(says(r, 3, "Reason: "));
+  CHECK(says(r, 3, "smaller errors in 2 of 2 rows."));
+  std::swap(r.orders[0].linear_peak_deg, r.orders[0].torsional_peak_deg);
+  CHECK(says(r, 3, "Not explained by linear theory"));
+  CHECK(says(r, 3, "in 1 of 2 rows. Not in: S-103, 60 Hz, linear 9/14 (predicted 15), torsional "
+                   "9/8 (30) deg."));
+}
+
+TEST_CASE("the answer blames the unsigned damper only where it costs accuracy") {
+  StudyResults r = results();
+  CHECK(says(r, 4, "its largest error is 1.3 times that of a signed one"));
+  variant(r, "trial/printed-torsional/60").max_deg = {9, 9};
+  CHECK(says(r, 4, "does not change the largest error"));
+  variant(r, "trial/printed-torsional/60").max_deg = {5, 5};
+  CHECK(says(r, 4, "a signed one has larger errors"));
+}
+
+TEST_CASE("the answer acquits the law only if errors at equal stiffness are equal") {
+  StudyResults r = results();
+  CHECK(says(r, 5, "The law is not the reason"));
+  variant(r, "matched/torsional/60").max_deg = {9, 18};
+  CHECK(says(r, 5, "The law is a reason of its own"));
+}
