@@ -113,8 +113,7 @@ void for_poses_of_motion(const StudyRobot& robot, const RunSpec& spec, Visit&& v
   constexpr int kIntervals = 20;
   Linearisation linearise(robot, spec);
   for (int n = 0; n <= kIntervals; ++n) {
-    const auto [M, K, B] =
-        linearise(robot.pose_of_motion(static_cast<double>(n) / kIntervals));
+    const auto [M, K, B] = linearise(robot.pose_of_motion(static_cast<double>(n) / kIntervals));
     visit(M, K, B);
   }
 }

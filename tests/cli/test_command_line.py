@@ -47,6 +47,12 @@ class CommandLine(ProgramTest):
         self.assertLessEqual({"trial/printed-linear/60", "held/printed-linear/60-held",
                               "implicit/linear/1000", "ablation/folded"}, names)
         self.assertEqual(len(study["answer"]), 6)
+        self.assertEqual(len(study["findings"]), 73)
+        refuted = [finding["measured"] for finding in study["findings"] if not finding["holds"]]
+        self.assertEqual(len(refuted), 14)
+        for measured in refuted:  # each with its computed explanation
+            self.assertRegex(measured, "better than the predicted optimum|another optimum with the same sum"
+                                       "|are stable at every pose only up to steps of .* ms, not with")
         for name in ("E1", "E2"):
             self.check_ensemble(study["runs"][name])
         self.assertGreaterEqual(len(study["left_open"]), 16)

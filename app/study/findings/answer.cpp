@@ -57,9 +57,9 @@ std::string comparison(const Pair& uniform_linear, const Pair& uniform_torsional
                        const Pair& linear, const Pair& torsional) {
   const std::string uniform = verdict(uniform_linear, uniform_torsional);
   const std::string s103 = verdict(linear, torsional);
-  const std::string answer = uniform != s103      ? "it depends on the position of the springs"
+  const std::string answer = uniform != s103     ? "it depends on the position of the springs"
                              : s103 == "smaller" ? "yes, with both positions of the springs"
-                                                  : "no, with neither position of the springs";
+                                                 : "no, with neither position of the springs";
   return fmt::format(
       "Are the errors of a linear coupling smaller? With one k and b for both links at 60 Hz {}: "
       "uniform arms, springs at the centres of mass: linear {} against torsional {} deg, {}; "
@@ -74,10 +74,10 @@ std::string reason(const std::vector<CouplingOrder>& orders) {
   for (const CouplingOrder& o : orders) {
     predicted += o.is_predicted();
     if (!o.is_predicted())
-      others += fmt::format("{}{}, {:g} Hz, linear {} (predicted {:.3g}), torsional {} ({:.3g})",
-                            others.empty() ? " Not in: " : "; ", o.robot, o.rate,
-                            words(o.linear_deg), o.linear_peak_deg, words(o.torsional_deg),
-                            o.torsional_peak_deg);
+      others +=
+          fmt::format("{}{}, {:g} Hz, linear {} (predicted {:.3g}), torsional {} ({:.3g})",
+                      others.empty() ? " Not in: " : "; ", o.robot, o.rate, words(o.linear_deg),
+                      o.linear_peak_deg, words(o.torsional_deg), o.torsional_peak_deg);
   }
   const double share = static_cast<double>(predicted) / static_cast<double>(orders.size());
   return fmt::format(
@@ -123,7 +123,8 @@ std::vector<std::string> answer_in_words(const StudyResults& results) {
           comparison(results.rows.at("row/findings_10_14/linear/60").max_deg,
                      results.rows.at("row/findings_10_14/world/60").max_deg,
                      variant("trial/printed-linear/60").max_deg, torsional.max_deg),
-          reason(results.orders), damper(variant("trial/printed-torsional/60"), torsional),
+          reason(results.orders),
+          damper(variant("trial/printed-torsional/60"), torsional),
           matched(variant("matched/torsional/60"), variant("matched/linear/60"),
                   variant("implicit/torsional-world/1000"), variant("implicit/linear/1000"))};
 }

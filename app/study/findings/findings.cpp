@@ -134,8 +134,8 @@ void add_orders(const StudyInputs& inputs, StudyResults& results) {
     const auto peak = [&](const CalibrationEntry& entry) {
       return reversal_peak_of_motion(robot, spec_of(entry).with_gains(entry.gains()));
     };
-    CouplingOrder order{name, rate, max_deg(linear), max_deg(torsional), peak(linear),
-                        peak(torsional)};
+    CouplingOrder order{name,         rate,           max_deg(linear), max_deg(torsional),
+                        peak(linear), peak(torsional)};
     results.findings.push_back(
         {"order of the couplings",
          fmt::format("{}, {:g} Hz, best gains: linear theory (peak after a reversal, in the worst "
@@ -154,11 +154,13 @@ void add_orders(const StudyInputs& inputs, StudyResults& results) {
     const auto entry = [&](const std::string& law) -> const CalibrationEntry& {
       return c.entry(fmt::format("{}/{:g}", law, rate));
     };
-    add(s103, "S-103", rate, entry("trial/printed-linear"), entry("trial/signed-torsional"),
+    add(
+        s103, "S-103", rate, entry("trial/printed-linear"), entry("trial/signed-torsional"),
         [](const CalibrationEntry& e) { return trial_spec(split(e.name, '/')[1], e.rate); },
         [&](const CalibrationEntry& e) { return find_run(results.variants, e.name)->max_deg; });
     for (const std::string robot : kTwoLinkRobots)
-      add(inputs.findings.at(robot), robot_words(robot), rate, entry("row/" + robot + "/linear"),
+      add(
+          inputs.findings.at(robot), robot_words(robot), rate, entry("row/" + robot + "/linear"),
           entry("row/" + robot + "/world"),
           [](const CalibrationEntry& e) { return row_spec(split(e.name, '/')[2], e.rate); },
           [&](const CalibrationEntry& e) { return results.rows.at(e.name).max_deg; });

@@ -88,14 +88,18 @@ ordered_json gains_json(const Gains& gains) {
 
 ordered_json run_json(const RunResult& run) {
   const RunSpec& spec = run.spec;
+  // Those of an unstable run are rounding errors that have grown.
+  const auto errors = [&](const std::array<double, 2>& deg) {
+    return run.stable ? by_joint(deg) : by_joint({NAN, NAN});
+  };
   return {{"title", spec.title},
           {"coupling", coupling_words(spec.coupling)},
           {"discretization", discretization_name(spec.coupling)},
           {"rate", spec.rate},
           {"step", spec.step()},
           {"gains", gains_json(spec.gains)},
-          {"max_deg", by_joint(run.max_deg)},
-          {"mean_deg", by_joint(run.mean_deg)},
+          {"max_deg", errors(run.max_deg)},
+          {"mean_deg", errors(run.mean_deg)},
           {"stable", run.stable},
           {"prediction",
            {{"frequency", run.frequency},

@@ -204,11 +204,11 @@ std::string rates_rows(const StudyResults& results) {
     html += fmt::format("<tr><td>{:g} Hz</td>", rate);
     for (const std::string& law : kTrialLaws) {
       const RunResult& run = *find_run(variants, fmt::format("trial/{}/{:g}", law, rate));
-      html += run.stable ? "<td>" + pair_of(run.max_deg) + "<br><small>" +
-                               pair_of({std::abs(run.peak_deg[0]), std::abs(run.peak_deg[1])}) +
-                               "</small>" + bound_words(results.calibration.entry(run.spec.name)) +
-                               "</td>"
-                         : "<td class=no>unstable</td>";
+      html += run.stable
+                  ? "<td>" + pair_of(run.max_deg) + "<br><small>" +
+                        pair_of({std::abs(run.peak_deg[0]), std::abs(run.peak_deg[1])}) +
+                        "</small>" + bound_words(results.calibration.entry(run.spec.name)) + "</td>"
+                  : "<td class=no>unstable</td>";
     }
     html += "</tr>\n";
   }
