@@ -1,12 +1,13 @@
 """Energy and momentum balance on every scene of assets/scenes, against energy and momentum from poses
 and velocities (bodies_of_scene.py)."""
 import json
+import math
 
 import program
 from program import data, main, run
 from bodies_of_scene import Contents, add, bodies_of, has_motors, size, symmetric
 from recording_command import DRIVEN, RecordingCommand
-from robot_command import COM, INERTIA, MASS, joint, link, robot
+from robot_command import COM, HINGE, HINGE_INERTIA, INERTIA, MASS, joint, link, robot
 
 SCENES = [scene for scene in sorted(program.SCENES.glob("*.toml")) if not has_motors(scene)]
 # Durations [s] that include contact.
@@ -150,6 +151,24 @@ class EnergyBalances(RecordingCommand):
 
 class Joints(RecordingCommand):
     command = "simulate"
+
+    def test_friction_and_damping_take_what_closed_forms_say_from_a_flywheel(self):
+        """I w' = -c, until it stands, and I w' = -b w; the row without the remainder is the loss."""
+        inertia, start, friction, damping = HINGE_INERTIA, 3, 0.4, 0.3
+        loss = {}
+        for duration in (1, 5):  # it stands after 3.75 s
+            speed = max(0, start - friction / inertia * duration)
+            loss[f'friction="{friction}"', duration] = ("friction", inertia / 2 * (speed**2 - start**2))
+        loss[f'damping="{damping}"', 1] = (
+            "damping", inertia / 2 * start**2 * (math.exp(-2 * damping / inertia) - 1))
+        for (dynamics, duration), (row, work) in loss.items():
+            flywheel = HINGE.replace("</joint>", f"<dynamics {dynamics}/></joint>")
+            for options, tolerance in ((["semi-implicit", "--step", 1e-3], 1e-3), (["rk4", "--step", 1e-3], 2e-4),
+                                       (["dopri5", "--tolerance", 1e-11], 1e-9)):
+                rows = self.answer(flywheel, "--duration", duration, "--integrator", *options,
+                                   state={"qd": {"hinge": start}})["energy_balance"]
+                self.assertEqual(list(rows), ["gravity", f"joint/hinge/{row}", "numerical"])
+                self.close(rows[f"joint/hinge/{row}"] / work, 1, tolerance, f"{dynamics} {options}")
 
     def test_the_impulse_through_the_joint_to_the_ground_is_newtons_law_for_the_robot(self):
         """With three integrators, motor, friction and wrench, from the total momentum of the links."""
