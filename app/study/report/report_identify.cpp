@@ -200,6 +200,15 @@ std::string versions() {
 
 }  // namespace
 
+std::string bound_words(const CalibrationEntry& entry) {
+  for (const Parameter& p : entry.parameters)
+    if (p.is_at_bound())
+      return p.name == "k" && p.value < 2 * p.low
+                 ? "<br><small>a damper: k at its lower bound</small>"
+                 : fmt::format("<br><small>{} at a bound</small>", p.name);
+  return "";
+}
+
 void add_identification(const StudyResults& results, Slots& slots) {
   const std::vector<Identification>& all = results.identifications;
   slots["open_sums"] = open_sums(all);

@@ -185,15 +185,6 @@ std::string variant_table(const std::vector<RunResult>& variants,
          rows + "</tbody></table></div>\n";
 }
 
-std::string bound_words(const CalibrationEntry& entry) {
-  for (const Parameter& p : entry.parameters)
-    if (p.is_at_bound())
-      return p.name == "k" && p.value < 2 * p.low
-                 ? "<br><small>a damper: k at its lower bound</small>"
-                 : fmt::format("<br><small>{} at a bound</small>", p.name);
-  return "";
-}
-
 std::string rates_rows(const StudyResults& results) {
   const std::vector<RunResult>& variants = results.variants;
   std::set<double> rates;

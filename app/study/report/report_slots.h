@@ -15,6 +15,8 @@ using Slots = std::map<std::string, std::string>;  // HTML by name
 std::string rounded(double value, int digits = 3);
 std::string degrees(double value);                     // two decimals, more below 0.1
 std::string gains_words(double first, double second);  // "12.3", or "12.3; 4.56"
+// Of gains that a search ends with at a bound; else empty.
+std::string bound_words(const CalibrationEntry& entry);
 
 void add_reproduction(const StudyResults& results, Slots& slots);  // Table 2, Figures 6 and 7
 // Update rates, variants, obstacle, recordings.
