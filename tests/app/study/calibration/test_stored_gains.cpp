@@ -69,7 +69,9 @@ TEST_CASE("the stored numbers of gains by trial are those of a run") {
 TEST_CASE("the stored numbers of a fit to E3 or E4 are those of a run, or said to be sensitive") {
   const AutomaticMotion motion{OperatorMapping{}};
   int count = 0, sensitive = 0;
-  for (const auto& [name, entry] : stored().entries) {
+  for (const auto& named : stored().entries) {
+    const std::string& name = named.first;
+    const CalibrationEntry& entry = named.second;
     if (name[0] != 'E') continue;
     CAPTURE(name);
     const double scale = entry.numbers.contains("arm2_mass_scale")

@@ -74,6 +74,8 @@ TEST_CASE("the answer counts the published numbers within the band of the operat
   CHECK(says(r, 1, "4 of the 8 published numbers"));
   r.ensembles[1] = ensemble("E2", 89);
   CHECK(says(r, 1, "8 of the 8 published numbers"));
+  r.ensembles[0] = ensemble("E1", 9);
+  CHECK(says(r, 1, "4 of the 8 published numbers"));
 }
 
 TEST_CASE("the answer prefers no coupling that has larger errors in the runs") {

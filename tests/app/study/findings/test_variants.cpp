@@ -86,6 +86,10 @@ TEST_CASE("a held force acts for several steps of the physics, and lowers the st
     unheld.spec.held_substeps = 1;
     predict(study().robot, unheld, study().robot.start_state());
     CHECK(run.step_limit < unheld.step_limit);
+    const std::vector<double>& force = run.series.coupling_force.at(0);
+    std::size_t changes = 0;
+    for (std::size_t n = 1; n < force.size(); ++n) changes += force[n] != force[n - 1];
+    CHECK(changes <= force.size() / static_cast<std::size_t>(run.spec.held_substeps) + 2);
     // The finer physics with a force computed in each of its steps is stable.
     RunResult fine;
     fine.spec = run.spec;
