@@ -113,9 +113,9 @@ double step_limit_of_motion(const StudyRobot& robot, const RunSpec& spec);
 // Peak after a reversal by linear theory, sum of both joints [deg]: the largest over those poses.
 double reversal_peak_of_motion(const StudyRobot& robot, const RunSpec& spec);
 
+inline constexpr double kUnstable = 1e6;  // objective of unstable gains
 // Objective of the searches: errors for several sweep times T, weighted by T, so that no resonance
 // with one T is exploited.
-inline constexpr double kUnstable = 1e6;
 struct ProtocolErrors {
   std::array<double, 2> max_deg{}, mean_deg{};  // max over T of T max_i, mean over T of T mean_i
   double objective = 0;                         // max over T of T (max_1 + max_2), or kUnstable

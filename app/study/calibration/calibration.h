@@ -36,7 +36,7 @@ struct CalibrationEntry {
   // Sets max1_deg, max2_deg, mean1_deg, mean2_deg of the numbers.
   void keep(const std::array<double, 2>& max_deg, const std::array<double, 2>& mean_deg);
   Gains gains() const;  // from k, b, or k1, b1, k2, b2, or k, b and ratio
-  // Of the minimum without the stability limit, where that exceeds it.
+  // Of a search without the stability limit, if they are beyond it and have smaller errors.
   std::optional<Gains> unstable_gains() const;
 };
 

@@ -81,11 +81,12 @@ std::string reason(const std::vector<CouplingOrder>& orders) {
   }
   const double share = static_cast<double>(predicted) / static_cast<double>(orders.size());
   return fmt::format(
-      "{}: the step and the fastest mode limit the gains; then the slow mode determines the peak "
-      "after a reversal. This peak by linear theory, in the worst pose of the motion, predicts "
-      "which coupling has the smaller errors in {} of {} rows.{}{}",
-      share > 0.8 ? "Reason" : "Not explained by linear theory", predicted, orders.size(), others,
-      others.empty() ? "" : " deg.");
+      "{} by linear theory, in the worst pose of the motion, predicts which coupling has the "
+      "smaller errors in {} of {} rows.{}{}",
+      share > 0.8 ? "Reason: the step and the fastest mode limit the gains; then the slow mode "
+                    "determines the peak after a reversal. This peak"
+                  : "No reason found: the peak after a reversal",
+      predicted, orders.size(), others, others.empty() ? "" : " deg.");
 }
 
 std::string damper(const RunResult& printed, const RunResult& torsional) {

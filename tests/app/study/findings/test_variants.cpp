@@ -17,7 +17,7 @@ struct Study {
                                       calibration.entry("chosen").numbers.at("arm2_mass_scale"));
   std::vector<RunResult> variants;
   Study() {
-    Progress silent(false);
+    Progress silent(true);
     variants = run_variants(inputs, robot, calibration, silent);
   }
   const RunResult& variant(const std::string& name) const {
