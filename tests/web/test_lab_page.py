@@ -4,6 +4,7 @@
 """
 import csv
 import json
+import time
 
 from lab_case import PARAMETER, STATE, Lab, LabCase, main
 from program import data, twinarm
@@ -115,6 +116,12 @@ class LabPage(LabCase):
         self.assertAlmostEqual(self.value(f"{STATE}.branch.from"), at, delta=0.1)
         self.until(f"{STATE}.time > {STATE}.branch.from + 0.5")
 
+    def until_message(self, name, words):
+        """Until the answer to a dropped file is shown, not only that it is on its way."""
+        message = "document.querySelector('.gallery .message').innerText"
+        self.until(f"{message}.includes({name!r}) && {message}.includes({words!r}) "
+                   f"&& !{message}.startsWith('Opening')")
+
     def test_dropped_robots_open_and_other_files_are_rejected(self):
         for name in ("fresh.urdf", "arm.xml"):
             scene = self.value("twinarm.page.scene.scene")
@@ -128,10 +135,20 @@ class LabPage(LabCase):
                                   ("half.xacro", ROD.replace('value="1"', 'value="${m}"'), "xacro"),
                                   ("photo.heic", "junk", ".urdf"), ("a.stl", "solid", "is stored")):
             self.page.drop(name, text)
-            self.until(f"document.querySelector('.gallery .message').innerText.includes({words!r})")
-            self.until(f"document.querySelector('.gallery .message').innerText.includes({name!r})")
+            self.until_message(name, words)
         self.picture("not_opened")
         self.assertEqual(self.value("twinarm.page.scene.file"), "arm.xml")
+        self.page.errors.clear()  # the browser's message for HTTP 422
+
+    def test_message_is_about_the_last_drop_however_late_earlier_answers_are(self):
+        self.value("(get => { let wait = 500; window.fetch = async (...request) => {"
+                   " const late = wait; wait = 0; const answer = await get(...request);"
+                   " await new Promise(done => setTimeout(done, late)); return answer; }; })(window.fetch), 0")
+        self.page.drop("first.heic", "junk")
+        self.page.drop("last.heic", "junk")
+        self.until_message("last.heic", ".urdf")
+        time.sleep(1)  # longer than the first answer waits
+        self.assertIn("last.heic", self.value("document.querySelector('.gallery .message').innerText"))
         self.page.errors.clear()  # the browser's message for HTTP 422
 
     def test_restore_resets_changes_of_all_clients_and_the_run_continues(self):

@@ -18,6 +18,7 @@ export class Gallery implements Panel {
   private readonly message = element('div.message', { role: 'status' });
   private readonly input = element('input', { type: 'file', multiple: '', accept: ROBOTS });
   private readonly isNew = changeDetector();
+  private opening = Promise.resolve();
 
   constructor(private readonly page: LabPage) {
     this.input.hidden = true;
@@ -78,8 +79,14 @@ export class Gallery implements Panel {
     });
   }
 
+  // One set of files after the other: the message is about the last.
+  open(files: File[]): Promise<void> {
+    this.opening = this.opening.then(() => this.openSet(files));
+    return this.opening;
+  }
+
   // Meshes first, one by one, then the file that refers to them.
-  async open(files: File[]): Promise<void> {
+  private async openSet(files: File[]): Promise<void> {
     if (files.length === 0) return;
     const rank = ({ name }: File) => (MESHES.test(name) ? 0 : 1);
     const sorted = [...files].sort((a, b) => rank(a) - rank(b));
