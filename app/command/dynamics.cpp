@@ -131,6 +131,8 @@ struct DynamicsOptions {
 void add_options(const OptionAdder& add, DynamicsOptions& options) {
   add.robot(options.robot, "robot (URDF)");
   add.group("Output");
+  add("--kinematics", options.robot.kinematic,
+      "positions and velocities of the links only, also of a robot without masses");
   add.json(options.json);
 }
 
@@ -179,8 +181,24 @@ void check_finite(const std::string& file, const RobotInput& input, const Dynami
                      "state.not-finite"}});
 }
 
+std::string kinematics_json(const RobotInput& input) {
+  Kinematics k(input.model);
+  forward_kinematics(input.model, input.state.x, k);
+  return json_text([&](JsonWriter& json) {
+    json.put("joints", input.coordinates.names());
+    write_links(json.key("links"), input.model, k);
+    json.put("warnings", input.warnings);
+  });
+}
+
 int run_dynamics(const DynamicsOptions& options) {
   const RobotInput input = read_robot_input(options.robot);
+  if (options.robot.kinematic) {
+    fmt::print("{}", options.json ? kinematics_json(input) + "\n" : link_table(input));
+    for (const std::string& warning : input.warnings)
+      if (!options.json) fmt::print("\nwarning: {}\n", warning);
+    return 0;
+  }
   const Dynamics dynamics = compute_dynamics(input);
   check_finite(options.robot.model.string(), input, dynamics);
   fmt::print("{}\n",

@@ -21,7 +21,8 @@ void add_options(const OptionAdder& add, SimulateOptions& options) {
       "contact model: rigid, compliant or event; default: the scene's");
   add("--tolerance", options.tolerance, "relative and absolute tolerance of dopri5; default 1e-9");
   add("--energy-bound", options.energy_bound,
-      "stop when the kinetic energy exceeds this [J]; inf: never; default 1e12 times the start's");
+      "stop when the kinetic energy exceeds this [J]; inf: never; default: 1e12 times the start's, "
+      "after an energy alarm 1e4 times");
   add.group("Output");
   add("--every", options.every, "output interval [s]; default: start and end");
   add("--at", options.at, "output times: t1,t2,.. [s]");

@@ -7,6 +7,7 @@
 #include "app/servo/servo_loop.h"
 #include "app/study/calibration/calibration.h"
 #include "app/study/findings/ensemble.h"
+#include "app/study/findings/evidence.h"
 #include "app/study/findings/findings.h"
 #include "app/study/findings/variants.h"
 #include "app/study/report/recordings.h"
@@ -139,10 +140,11 @@ StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
   results.variants = run_variants(inputs, robot, calibration, progress);
   progress.stage("findings", 0.15);
   derive_findings(inputs, results, progress);
+  progress.stage("evidence: all fits against all that the paper says", 0.1);
+  results.evidence = weigh_evidence(inputs, results, progress);
   results.answer = answer_in_words(results);
-  progress.stage("obstacle", 0.2);
-  for (const auto type : {CouplingSpec::Type::linear, CouplingSpec::Type::torsional})
-    results.obstacle.push_back(run_obstacle(inputs, robot, type));
+  progress.stage("obstacle", 0.1);
+  results.obstacle = run_obstacles(inputs, robot, calibration);
   progress.stage("recordings", 0.1);
   results.recordings =
       write_recordings(inputs, robot, scene_operator(options, inputs.settings, hand), results,

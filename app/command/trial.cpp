@@ -89,7 +89,7 @@ std::vector<TrialCondition> write_conditions(const std::vector<std::string>& nam
                                              : "torsional springs pull the robot to your hand";
     condition.scene = folder / (name + ".toml");
     write_whole_file(condition.scene,
-                     scene_text({&inputs.settings, &robot, spec, device_operator(), false}));
+                     scene_text({&inputs.settings, &robot, spec, device_operator(), nullptr}));
     conditions.push_back(std::move(condition));
   }
   return conditions;

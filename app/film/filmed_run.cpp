@@ -114,6 +114,8 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
                             const std::string& camera, Progress& progress) {
   SimulateOptions options;
   options.robot = robot;
+  // A picture of the start needs no masses.
+  options.robot.kinematic = !times.is_film && times.at.value_or(0) <= 0;
   options.duration = times.is_film ? times.to : times.at && *times.at > 0 ? *times.at : 1.0;
   FilmedRun run{{}, nullptr, nullptr, prepare_to_film(options, times), {}, {}};
   parse_camera(camera, run.model());  // reports errors before the run

@@ -18,12 +18,14 @@
 namespace twinarm::python {
 namespace {
 
-std::shared_ptr<Robot> load(const py::object& file, bool floating, bool friction, bool armature) {
+std::shared_ptr<Robot> load(const py::object& file, bool floating, bool friction, bool armature,
+                            std::optional<double> density, std::optional<double> min_mass) {
   SimulateOptions options;
   options.robot.model = path_of(file);
   options.robot.floating = floating;
   options.robot.friction = friction;
   options.robot.armature = armature;
+  options.robot.missing = {density, min_mass};
   options.duration = 1;  // not used
   return std::make_shared<Robot>(prepare_simulation(options).input.robot);
 }
@@ -159,12 +161,15 @@ void add_robots(py::module_& m) {
   add_numbers(model);
 
   m.def("load", load, py::arg("file"), py::kw_only(), py::arg("floating") = false,
-        py::arg("friction") = true, py::arg("armature") = true,
+        py::arg("friction") = true, py::arg("armature") = true, py::arg("density") = py::none(),
+        py::arg("min_mass") = py::none(),
         "Reads a robot (URDF), or the bodies of a scene (TOML) without contacts, couplings and\n"
         "constraints (see simulate()).\n\n"
         "  floating  floating base (URDF)\n"
         "  friction  False: ignore joint damping and friction\n"
-        "  armature  False: ignore rotor inertia\n\n"
+        "  armature  False: ignore rotor inertia\n"
+        "  density   of links without mass [kg/m^3]: inertia from their shapes (URDF)\n"
+        "  min_mass  of links that have none then [kg]: small balls (URDF)\n\n"
         "Raises InputError with all errors and their lines.");
 }
 

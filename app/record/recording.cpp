@@ -39,6 +39,13 @@ void for_each_option(Run& run, const F& f) {
   f("contact", run.contact);
 }
 
+// Those that are newer than version 2; missing in recordings made before.
+template <class Run, class F>
+void for_each_new_option(Run& run, const F& f) {
+  f("density", run.missing.density);
+  f("min_mass", run.missing.min_mass);
+}
+
 void visit_run(StateArchive& memory, RecordedRun& run) {
   for_each_option(run, [&]<class T>(const char*, T& option) {
     if constexpr (std::is_same_v<T, std::filesystem::path>) {
@@ -124,6 +131,9 @@ Json run_json(const RecordedRun& run) {
     else
       json[name] = text_json(option);
   });
+  for_each_new_option(run, [&](const char* name, const std::optional<double>& option) {
+    json[name] = number_json(option);
+  });
   return json;
 }
 
@@ -136,6 +146,9 @@ RecordedRun run_of(const Json& json) {
       option = number_of(json.at(name));
     else
       option = text_of(json.at(name));
+  });
+  for_each_new_option(run, [&](const char* name, std::optional<double>& option) {
+    if (json.contains(name)) option = number_of(json.at(name));
   });
   return run;
 }

@@ -162,9 +162,11 @@ bool is_recording(const std::filesystem::path& file) {
 
 void check_recorded(const RobotOptions& given, DiagnosticList& faults) {
   if (given.state.empty() && given.gravity.empty() && !given.floating && given.friction &&
-      given.armature && !given.strict)
+      given.armature && !given.strict && !given.missing.density && !given.missing.min_mass)
     return;
-  faults.add({"", 0, "--state, --gravity, --floating, --no-friction, --no-armature, --strict",
+  faults.add({"", 0,
+              "--state, --gravity, --floating, --no-friction, --no-armature, --strict, --density, "
+              "--min-mass",
               "a recording has its own state and model", "leave them out; choose by --at",
               "option.conflict"});
 }

@@ -36,10 +36,24 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options,
   if (std::filesystem::is_directory(file, ignored))
     return fault("is a folder", "name the robot's URDF in it", "file.is-folder");
   return attempt(faults, [&] {
-    return read_robot_file(file, {.geometry = RobotFileOptions::Geometry::optional,
-                                  .strict = options.strict,
-                                  .roots = options.roots});
+    RobotDescription robot =
+        read_robot_file(file, {.geometry = RobotFileOptions::Geometry::optional,
+                               .strict = options.strict,
+                               .roots = options.roots});
+    add_missing_inertia(robot, options.missing);
+    return robot;
   });
+}
+
+// With the options that give inertia to joints that move none.
+Model<double> build(const RobotDescription& robot, const ModelOptions& options) try {
+  return build_model(robot, options);
+} catch (const InputError& error) {
+  std::vector<Diagnostic> faults = error.faults();
+  for (Diagnostic& fault : faults)
+    if (fault.code == "model.no-inertia")
+      fault.fix += "; or give --density 1000 (of its shapes), or --min-mass 0.001";
+  throw InputError(std::move(faults));
 }
 
 }  // namespace
@@ -90,7 +104,8 @@ RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) 
   model_options.floating = options.floating;
   model_options.friction = options.friction;
   model_options.armature = options.armature;
-  auto model = attempt(faults, [&] { return build_model(*robot, model_options); });
+  model_options.kinematic = options.kinematic;
+  auto model = attempt(faults, [&] { return build(*robot, model_options); });
   if (!model) faults.check();
   if (gravity) model->gravity = from_eigen(*gravity);
 

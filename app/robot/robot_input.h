@@ -11,6 +11,7 @@
 #include "app/robot/coordinates.h"
 #include "app/support/text.h"
 #include "collision/import/robot/file_search.h"
+#include "collision/import/robot/missing_inertia.h"
 #include "collision/import/robot/robot_description.h"
 #include "solver/model/model.h"
 
@@ -47,8 +48,10 @@ struct RobotOptions {
   std::string gravity;                 // "x,y,z"; empty: 0,0,-9.81
   bool floating = false;
   bool friction = true, armature = true;
-  bool strict = false;  // physically inconsistent inertias are errors
-  FileRoots roots;      // folders that may contain the model's files
+  bool strict = false;     // physically inconsistent inertias are errors
+  bool kinematic = false;  // no dynamics is computed: joints that move no inertia are no error
+  MissingInertia missing;
+  FileRoots roots;  // folders that may contain the model's files
 };
 
 struct RobotInput {

@@ -149,8 +149,9 @@ double weight_of(const Model<double>& model) {
   return mass * to_eigen(model.gravity).norm();
 }
 
-double default_energy_bound(const Model<double>& model, const State<double>& x) {
-  return RunPlan::kGrowth * std::max({1.0, kinetic_energy(model, x), weight_of(model)});
+double default_energy_bound(const Model<double>& model, const State<double>& x, bool alarmed) {
+  return (alarmed ? RunPlan::kGrowthAfterAlarm : RunPlan::kGrowth) *
+         std::max({1.0, kinetic_energy(model, x), weight_of(model)});
 }
 
 PostMortem examine_end(const StepReport& report, const Simulation& simulation,

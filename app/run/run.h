@@ -122,8 +122,8 @@ std::vector<double> run_values(const RobotInput& input, const State<double>& x,
                                const Kinematics& k);
 
 double weight_of(const Model<double>& model);  // [N]
-// Default of RunPlan::energy_bound [J].
-double default_energy_bound(const Model<double>& model, const State<double>& start);
+// Default of RunPlan::energy_bound [J], after an energy alarm or without one.
+double default_energy_bound(const Model<double>& model, const State<double>& start, bool alarmed);
 
 // Post-mortem of a failed step from t; `last`: the last valid state.
 PostMortem examine_end(const StepReport& report, const Simulation& simulation,

@@ -20,6 +20,9 @@ void reject_robot_options(const RobotOptions& options, DiagnosticList& faults) {
   if (options.floating)
     faults.add("--floating", "applies to a URDF only", "write base = \"floating\" in [[robot]]",
                "option.useless");
+  if (options.missing.density || options.missing.min_mass)
+    faults.add("--density, --min-mass", "apply to a URDF only", "give mass and inertia in its file",
+               "option.useless");
   if (options.strict)
     faults.add("--strict", "applies to a URDF only", "leave it out", "option.useless");
 }

@@ -56,9 +56,10 @@ struct RunPlan {
   bool locates_events = false;
   std::vector<double> times;  // of samples, ascending
   // The run stops if its kinetic energy exceeds this. Negative: kGrowth times the maximum of 1 J,
-  // the kinetic energy at the start, and the weight times 1 m.
+  // the kinetic energy at the start, and the weight times 1 m; once an energy alarm has been
+  // raised, kGrowthAfterAlarm times this.
   double energy_bound = -1;  // [J]
-  static constexpr double kGrowth = 1e12;
+  static constexpr double kGrowth = 1e12, kGrowthAfterAlarm = 1e4;
   bool is_adaptive() const { return integrator == Integrator::dopri5; }
 };
 

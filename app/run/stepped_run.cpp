@@ -65,7 +65,7 @@ SteppedRun::SteppedRun(const SimulateInput& simulated, const RunPlan& plan, cons
                           plan.locates_events ? Integrator::dopri5 : plan.integrator,
                           momentum_->wants_inner());
   bound_ = plan.energy_bound > 0 ? plan.energy_bound
-                                 : default_energy_bound(input_.model, input_.state.x);
+                                 : default_energy_bound(input_.model, input_.state.x, false);
   alarm_.emplace(weight_of(input_.model));
   if (from) go_on_from(*from);
   earlier_ = later_ = memory();
@@ -245,6 +245,7 @@ void SteppedRun::check_energy_balance() {
   if (!found) return;
   result_.alarm_words = watch_.alarm(*found);
   result_.alarm = std::move(found);
+  if (plan_.energy_bound <= 0) bound_ = default_energy_bound(input_.model, input_.state.x, true);
 }
 
 bool SteppedRun::stays_bounded(const StepReport& report) {

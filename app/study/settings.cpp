@@ -112,7 +112,8 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   s.assets = assets;
   read_robot(all.part("robot"), file, faults, s);
   SettingsTable auxiliary = all.part("auxiliary"), protocol = all.part("protocol"),
-                person = all.part("operator"), obstacle = all.part("obstacle");
+                person = all.part("operator"), obstacle = all.part("obstacle"),
+                far = all.part("far_target");
   s.auxiliary_frequency_hz = auxiliary.number("frequency_hz");
   s.auxiliary_damping_ratio = auxiliary.number("damping_ratio");
   s.stop_stiffness = auxiliary.number("stop_stiffness");
@@ -134,15 +135,16 @@ StudySettings read_settings(const std::filesystem::path& assets) {
   s.operator_ranges.peak_speed = person.range("peak_speed");
   s.operator_ranges.tremor = person.range("tremor");
   s.operator_duration = person.number("duration");
-  s.obstacle.size = obstacle.vector("size");
-  s.obstacle.position = obstacle.vector("position");
-  s.obstacle.rate_hz = obstacle.number("rate_hz");
-  s.obstacle.contact_stiffness = obstacle.number("contact_stiffness");
-  s.obstacle.contact_dissipation = obstacle.number("contact_dissipation");
-  s.obstacle.friction = obstacle.number("friction");
-  s.obstacle.coupling_frequency_hz = obstacle.number("coupling_frequency_hz");
-  s.obstacle.coupling_damping_ratio = obstacle.number("coupling_damping_ratio");
-  for (SettingsTable* table : {&all, &auxiliary, &protocol, &person, &obstacle}) table->done();
+  s.obstacle = {obstacle.vector("size"), obstacle.vector("position")};
+  s.contact_stiffness = obstacle.number("contact_stiffness");
+  s.contact_dissipation = obstacle.number("contact_dissipation");
+  s.contact_friction = obstacle.number("friction");
+  s.far_target = {{far.vector("size"), far.vector("position")},
+                  far.number("rate_hz"),
+                  far.number("frequency_hz"),
+                  far.number("damping_ratio")};
+  for (SettingsTable* table : {&all, &auxiliary, &protocol, &person, &obstacle, &far})
+    table->done();
   faults.check();
   return s;
 }

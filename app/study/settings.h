@@ -38,9 +38,14 @@ struct StudySettings {
 
   struct Obstacle {
     Vector3 size = Vector3::Zero(), position = Vector3::Zero();
-    double rate_hz = 0, contact_stiffness = 0, contact_dissipation = 0, friction = 0;
-    double coupling_frequency_hz = 0, coupling_damping_ratio = 0;
   } obstacle;
+  double contact_stiffness = 0, contact_dissipation = 0, contact_friction = 0;
+  // An obstacle that stops the robot where the target gets far from the springs' attachments, and
+  // the implicit linear coupling of the run.
+  struct FarTarget {
+    Obstacle obstacle;
+    double rate_hz = 0, frequency_hz = 0, damping_ratio = 0;
+  } far_target;
 };
 
 // Throws InputError with all missing and invalid entries.

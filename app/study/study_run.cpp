@@ -152,6 +152,9 @@ void predict(const StudyRobot& robot, RunResult& result, const State<double>& po
   const auto [M, K, B] = Linearisation(robot, spec)(pose);
   const Eigen::VectorXd squares = squared_frequencies(M, K);
   result.frequency = {std::sqrt(std::max(0.0, squares(0))), std::sqrt(std::max(0.0, squares(1)))};
+  const SpringModes modes = spring_modes(M, K, B);
+  for (Eigen::Index i = 0; i < std::min<Eigen::Index>(2, modes.size()); ++i)
+    result.damping_ratio[static_cast<std::size_t>(i)] = modes.zeta(i);
   result.step_limit = max_stable_step(M, K, B, scheme_of(spec));
   const Eigen::VectorXd peak = peak_after_jump(M, K, B, 2 * kSweep, 1.0);
   const JumpErrors motion =

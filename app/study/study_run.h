@@ -94,7 +94,8 @@ struct RunResult {
   double largest_deg() const { return std::max(max_deg[0], max_deg[1]); }
 
   // Linear theory about a pose, by predict().
-  std::array<double, 2> frequency{};  // natural [rad/s], ascending
+  std::array<double, 2> frequency{};      // natural [rad/s], ascending
+  std::array<double, 2> damping_ratio{};  // of these modes
   double step_limit = 0;  // largest stable interval between evaluations of the coupling [s]
   std::array<double, 2> peak_deg{};  // predicted error after a reversal of the automatic motion
   // Of the whole automatic motion, with all its velocity steps.

@@ -43,9 +43,9 @@ class SceneWriter {
     line("step", real(spec.step()));
     if (const double lasts = scene_.hand.source->duration(); lasts > 0)
       line("duration", real(lasts));
-    if (scene_.with_obstacle) line("contact", "\"compliant\"");
+    if (scene_.obstacle) line("contact", "\"compliant\"");
     write_robot();
-    if (scene_.with_obstacle) write_obstacle();
+    if (scene_.obstacle) write_obstacle();
     write_coupling();
     write_auxiliary();
     write_stops();
@@ -68,7 +68,7 @@ class SceneWriter {
     line("model",
          toml_string(std::filesystem::absolute(settings_.urdf).lexically_normal().string()));
     line("limits", "false");  // the gripper has stops, below
-    if (!scene_.with_obstacle) line("collide", "false");
+    if (!scene_.obstacle) line("collide", "false");
     std::vector<std::string> scales, loads;
     for (const auto& [link, factor] : masses.mass_scale)
       scales.push_back(toml_string(link) + " = " + real(factor));
@@ -94,19 +94,17 @@ class SceneWriter {
   }
 
   void write_obstacle() {
-    const StudySettings::Obstacle& o = settings_.obstacle;
     table("body");
     line("name", "\"box\"");
     line("fixed", "true");
-    line("shape", "{ box = { size = " + list(o.size) + " } }");
-    line("position", list(o.position));
-    // The contact law of the study applies to this pair.
+    line("shape", "{ box = { size = " + list(scene_.obstacle->size) + " } }");
+    line("position", list(scene_.obstacle->position));
     table("pair");
     line("a", toml_string(robot_.name()));
     line("b", "\"box\"");
-    line("friction", real(o.friction));
-    line("stiffness", real(o.contact_stiffness));
-    line("dissipation", real(o.contact_dissipation));
+    line("friction", real(settings_.contact_friction));
+    line("stiffness", real(settings_.contact_stiffness));
+    line("dissipation", real(settings_.contact_dissipation));
     for (const std::string& b : {std::string("box"), robot_.name()}) {
       table("pair");  // no contacts of the base, none between links
       line("a", toml_string(b == "box" ? robot_.name() + "/" + link_of(1) : b));

@@ -24,7 +24,7 @@ struct StudyScene {
   const StudyRobot* robot = nullptr;
   RunSpec spec;
   StudyOperator hand;
-  bool with_obstacle = false;  // and contacts
+  const StudySettings::Obstacle* obstacle = nullptr;  // with contacts; null: none
 };
 std::string scene_text(const StudyScene& scene);
 

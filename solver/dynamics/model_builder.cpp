@@ -90,7 +90,8 @@ std::vector<double> articulated_inertia_by_dof(const Model<double>& model) {
 
 // D must be positive. A zero D makes the numbers of all ancestors invalid: errors are reported from
 // the tips, armature is added there in a copy of the model, and the check is repeated.
-void check_articulated_inertia(const Model<double>& model, DiagnosticList& faults) {
+// Returns that copy.
+Model<double> check_articulated_inertia(const Model<double>& model, DiagnosticList& faults) {
   Model<double> repaired = model;
   std::vector<bool> reported(model.parent.size());
   for (bool found = true; found && !faults.is_full();) {
@@ -112,6 +113,7 @@ void check_articulated_inertia(const Model<double>& model, DiagnosticList& fault
       if (zero || invalid[i]) invalid[static_cast<std::size_t>(model.parent[i])] = true;
     }
   }
+  return repaired;
 }
 
 }  // namespace
@@ -173,7 +175,7 @@ void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Ma
   model.coulomb_minus.resize(model.nv, body.properties.coulomb_minus);
 }
 
-Model<double> ModelBuilder::build() const {
+Model<double> ModelBuilder::build(bool kinematic) const {
   DiagnosticList faults;
   Model<double> model;
   model.gravity = to_vec3(gravity_);
@@ -198,9 +200,10 @@ Model<double> ModelBuilder::build() const {
   for (int i = 1; i < model.body_count(); ++i)
     model.last_child[static_cast<std::size_t>(model.parent[static_cast<std::size_t>(i)])] = i;
   add_mimics_to(model, faults);
-  check_articulated_inertia(model, faults);
+  DiagnosticList ignored;
+  Model<double> repaired = check_articulated_inertia(model, kinematic ? ignored : faults);
   faults.check();
-  return model;
+  return kinematic ? repaired : model;
 }
 
 void ModelBuilder::add_mimics_to(Model<double>& model, DiagnosticList& faults) const {

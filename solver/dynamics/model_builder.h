@@ -52,8 +52,9 @@ class ModelBuilder {
   }
   void set_gravity(const Vector3& g_W) { gravity_ = g_W; }
 
-  // Throws one InputError with all errors, including joints with zero articulated inertia.
-  Model<double> build() const;
+  // Throws one InputError with all errors, including joints with zero articulated inertia; in a
+  // kinematic model, of which no dynamics is computed, these get an armature of 1 instead.
+  Model<double> build(bool kinematic = false) const;
 
  private:
   struct Body {

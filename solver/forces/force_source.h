@@ -1,12 +1,9 @@
-// Interface of force sources: couplings, springs, contact laws.
+// Interface of force sources: couplings, springs, dampers.
 //
 // A step calls, in this order:
 //   begin_step   once, with the kinematics at its start: evaluate targets, detect contacts
 //   add_forces   at the start, or at every stage of a Runge-Kutta step
-//   refine       after ABA: true requests another fixed-point iteration of add_forces and ABA
-//   (force
-//                laws that are nonlinear in the velocity at the end of the step)
-// None of them may throw or allocate.
+// Neither may throw or allocate.
 #pragma once
 
 #include "solver/dynamics/kinematics.h"
@@ -23,15 +20,10 @@ enum class Discretization {
 
 class ForceSource {
  public:
-  static constexpr int kMaxIterations = 12;
-
   virtual ~ForceSource() = default;
   virtual void begin_step(const Kinematics&, double /*t*/, double /*h*/) noexcept {}
   virtual void add_forces(const State<double>&, const Kinematics&, Forces<double>&) noexcept = 0;
-  virtual bool refine(const Kinematics&, const Workspace<double>&) noexcept { return false; }
   virtual bool needs_semi_implicit() const { return false; }  // incompatible with other integrators
-  // Whether refine() may return true; incompatible with constrained steps.
-  virtual bool needs_iterations() const { return false; }
 };
 
 }  // namespace twinarm

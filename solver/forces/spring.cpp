@@ -38,22 +38,8 @@ void add_particle(const Kinematics& k, int body, const Vector3& p_W, double mass
               forces);
 }
 
-void add_particle_along(const Kinematics& k, int body, const Vector3& p_W, const Vector3& n_W,
-                        double mass, Forces<double>& forces) {
-  const Vec3<double> n = in_body_axes(k, body, n_W);
-  const Force<double> line{cross(arm(k, body, p_W), n), n};
-  add_inertia(k, body, outer(mass * line, line), forces);
-}
-
 void add_flywheel(const Kinematics& k, int body, double inertia, Forces<double>& forces) {
   add_inertia(k, body, {Sym3<double>::scaled_identity(inertia), {}, {}}, forces);
-}
-
-Vector3 point_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body,
-                                  const Vector3& p_W) {
-  const Vector3 linear = k.R_WB[at(body)] * to_eigen(w.a[at(body)].v - k.a_bias[at(body)].v);
-  const Vector3 angular = k.R_WB[at(body)] * to_eigen(w.a[at(body)].w - k.a_bias[at(body)].w);
-  return linear + angular.cross(p_W - k.X_WL[at(body)].p);
 }
 
 }  // namespace twinarm

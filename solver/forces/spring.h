@@ -35,17 +35,10 @@ void add_point_force(const Kinematics& k, int body, const Vector3& p_W, const Ve
                      Forces<double>& forces);
 void add_couple(const Kinematics& k, int body, const Vector3& n_W, Forces<double>& forces);
 
-// Added mass m* [kg] at p, in all directions or along the unit vector n_W only.
+// Added mass m* [kg] at p.
 void add_particle(const Kinematics& k, int body, const Vector3& p_W, double mass,
                   Forces<double>& forces);
-void add_particle_along(const Kinematics& k, int body, const Vector3& p_W, const Vector3& n_W,
-                        double mass, Forces<double>& forces);
 // Added isotropic rotational inertia m* [kg m^2].
 void add_flywheel(const Kinematics& k, int body, double inertia, Forces<double>& forces);
-
-// J qdd of the link's point at p_W, from w.a of aba() [m/s^2]; h J qdd is the point's change of
-// velocity in the step.
-Vector3 point_acceleration_of_qdd(const Kinematics& k, const Workspace<double>& w, int body,
-                                  const Vector3& p_W);
 
 }  // namespace twinarm

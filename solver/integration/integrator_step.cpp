@@ -8,20 +8,6 @@
 #include "solver/model/non_finite.h"
 
 namespace twinarm {
-namespace {
-
-// Forces and ABA, with fixed-point iterations on request of a source.
-void solve_sources(IntegrationState& m, double h, StepReport& report) {
-  bool again = true;
-  for (int& n = report.force_iterations = 0; again && n < ForceSource::kMaxIterations; ++n) {
-    m.accelerate_over(h);
-    again = false;
-    for (ForceSource* source : m.sources) again = source->refine(m.k, m.w) || again;
-  }
-  report.converged = !again;
-}
-
-}  // namespace
 
 IntegratorStep::IntegratorStep(const IntegrationState& m)
     : delta_(m.model.nv), rk_(m.model.nv), dopri5_(m), events_(m) {}
@@ -47,7 +33,7 @@ void IntegratorStep::step(IntegrationState& m, double h, bool one_substep, StepR
   m.begin_step(h);
   if (integrator_ == Integrator::dopri5) return dopri5_.step(m, h, one_substep, report);
   if (facts_of(integrator_).implicit_force) {
-    solve_sources(m, h, report);
+    m.accelerate_over(h);
     kick(m, h);
     m.dynamics.zero_sticking_velocities(m.x);
     apply_mimics(m.model, m.x);

@@ -5,13 +5,12 @@ namespace twinarm {
 
 struct StepReport {
   bool finite = true;
-  // Implicit integrators: equation solved to rounding. Semi-implicit: fixed-point iteration of the
-  // sources converged. If false, the state is that of the last iteration.
+  // Implicit integrators: equation solved to rounding. With constraints: impulses found. If false,
+  // the state is that of the last iteration.
   bool converged = true;
   bool reached = true;  // dopri5: false if the tolerance cannot be met; the state is at the last
                         // accepted substep, before the end of the step
-  int force_iterations = 1;        // evaluations of forces and ABA (ForceSource::refine)
-  int iterations = 0;              // implicit integrators: Newton iterations
+  int iterations = 0;   // implicit integrators: Newton iterations
   int substeps = 1, rejected = 0;  // dopri5: accepted and rejected substeps
   int events = 0;                  // stick-slip transitions of joint friction within the step
   // Event-driven steps: false if there were too many events and the remainder was one fixed step.

@@ -33,7 +33,6 @@ void ConstrainedStep::step(IntegrationState& m, double h, StepReport& report) {
   update_positions(m, h);
   correct_positions(m, h);
   report.converged = report_.step.converged && report_.impact.converged;
-  report.force_iterations = report_.step.outer_iterations;
   report.iterations = report_.step.newton;
 }
 

@@ -47,11 +47,6 @@ void check_located(const StepParts& parts) {
 void check_parts(const StepParts& parts) {
   check_integrator(parts);
   if (parts.located) check_located(parts);
-  for (const ForceSource* source : parts.forces)
-    if (!parts.constraints.empty() && source->needs_iterations())
-      throw std::invalid_argument(
-          "iterated force sources (ForceSource::refine) cannot be combined with contacts, limits "
-          "and locks; use compliant contacts (ConstraintType::compliant) instead");
 }
 
 std::vector<Checkpointable*> checkpointable_sources(const Simulation& simulation) {

@@ -40,13 +40,19 @@ class CommandLine(ProgramTest):
             for value, number in zip(measured, numbers):
                 self.assertLess(abs(value / number - 1), 0.15, name)
             self.assertEqual(set(run_["gains"]) & {"k1", "b1"}, {"k1", "b1"})
-        for obstacle in study["obstacle"]:
+        *papers, far = study["obstacle"]
+        self.assertEqual([run_["name"] for run_ in papers], ["linear", "torsional"])
+        for obstacle, experiment in zip(papers, ("E4", "E3")):
+            self.assertEqual(obstacle["gains"], study["runs"][experiment]["gains"])
             self.assertLess(obstacle["largest_penetration"], 0.5e-3)
+        for obstacle in study["obstacle"]:
             self.assertGreater(obstacle["largest_beyond"], 50e-3)
+        self.assertGreater(far["target_radius_ratio"], far["target_radius_limit"])
+        self.assertGreater(far["limit_exceeded_at"], 0)
         names = {variant["name"] for variant in study["variants"]}
         self.assertLessEqual({"trial/printed-linear/60", "held/printed-linear/60-held",
                               "implicit/linear/1000", "ablation/folded"}, names)
-        self.assertEqual(len(study["answer"]), 6)
+        self.assertEqual(len(study["answer"]), 8)
         self.assertEqual(len(study["findings"]), 73)
         refuted = [finding["measured"] for finding in study["findings"] if not finding["holds"]]
         self.assertEqual(len(refuted), 14)
@@ -65,6 +71,7 @@ class CommandLine(ProgramTest):
             for parameter in fit["parameters"]:
                 self.assertLessEqual(parameter["low"], parameter["value"] * (1 + 1e-12))
                 self.assertGreaterEqual(parameter["high"], parameter["value"] * (1 - 1e-12))
+        self.check_evidence(study)
         report = pathlib.Path(study["report"]).read_text(encoding="utf-8")
         for outside in ("src=\"http", "href=\"http", "@import", "<script src"):
             self.assertNotIn(outside, report)
@@ -86,12 +93,32 @@ class CommandLine(ProgramTest):
                 for share, quantile in ((10, p10), (50, median), (90, p90)):
                     self.assertEqual(percentile > share, published > quantile, (row, joint, share))
 
+    def check_evidence(self, study):
+        """Each fit of a row beside the statements on it; the study's own one agrees with the run of that name."""
+        fits = {(fit["row"], round(fit["misfit"], 6)) for fit in study["left_open"]}
+        for row, user in (("E3", "E1"), ("E4", "E2"), ("E4-text", "E2")):
+            readings = [e for e in study["evidence"] if e["row"] == row]
+            used = [e for e in readings if e["used"]]
+            self.assertEqual(len(used), row != "E4-text")
+            self.assertGreaterEqual(len(readings), 7)
+            for reading in readings:
+                self.assertTrue(0 <= reading["automatic"]["share"] <= 1 and 0 <= reading["user"]["share"] <= 1)
+                if row != "E4-text" and not reading["used"]:
+                    self.assertIn((row, round(max(reading["misfit"]), 6)), fits)
+            for reading in used:
+                run_ = study["runs"][row]
+                for value, number, misfit in zip((*run_["max_deg"].values(), *run_["mean_deg"].values()),
+                                                 (*run_["paper"]["max_deg"].values(),
+                                                  *run_["paper"]["mean_deg"].values()), reading["misfit"]):
+                    self.assertAlmostEqual(abs(value - number) / 0.05, misfit, delta=1e-6)
+                self.assertTrue(study["runs"][user]["ensemble"])
+
     def check_recordings(self, made):
         """Scenes that run the study's own laws, and what the other commands make of them."""
-        self.assertEqual(list(made), ["E1", "E2", "E3", "E4", "obstacle_linear", "obstacle_torsional"])
-        for name in ("E1", "E2", "E3", "E4"):  # two programs' ways to the same numbers
-            self.assertLess(made[name]["apart_deg"], 1e-9, name)
-        for run_ in made.values():
+        self.assertEqual(list(made), ["E1", "E2", "E3", "E4", "obstacle_linear", "obstacle_torsional",
+                                      "obstacle_far"])
+        for run_ in made.values():  # two programs' ways to the same numbers
+            self.assertLess(run_["apart_deg"], 1e-9, run_["name"])
             self.twinarm("replay", run_["recording"])
             if run_["page"]:
                 self.assertLess(pathlib.Path(run_["page"]).stat().st_size, 5e6)

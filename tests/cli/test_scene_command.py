@@ -77,6 +77,37 @@ class FreeFlight(Scenes):
         self.close(ball["rotation"][0], [math.cos(1), -math.sin(1), 0], 1e-12)
         self.assertEqual(answer["samples"][-1]["kinetic_energy"], 0)
 
+    def test_a_pendulum_on_a_shaken_base_follows_the_equation_of_kapitza(self):
+        """theta from the upright: theta'' = m r (g + y'') sin theta / I, y = a sin w t; integrated here by Runge-Kutta."""
+        m, r, inertia = 2, 0.3, 0.05 + 2 * 0.3 ** 2
+        a, f, start = 0.02, 40, 0.3
+        w = 2 * math.pi * f
+
+        def rate(t, x):
+            return x[1], m * r * (9.81 - a * w * w * math.sin(w * t)) * math.sin(x[0]) / inertia
+
+        x, steps, end = (start, 0.0), 20000, 0.5
+        for n in range(steps):
+            h, t = end / steps, n * end / steps
+            k1 = rate(t, x)
+            k2 = rate(t + h / 2, (x[0] + h / 2 * k1[0], x[1] + h / 2 * k1[1]))
+            k3 = rate(t + h / 2, (x[0] + h / 2 * k2[0], x[1] + h / 2 * k2[1]))
+            k4 = rate(t + h, (x[0] + h * k3[0], x[1] + h * k3[1]))
+            x = tuple(x[i] + h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]) for i in range(2))
+        urdf = robot('<link name="base"/>', link("rod", mass=m, com=(0, 0, r), inertia=(0.05, 0, 0, 0.05, 0, 0.01)),
+                     joint("hinge", "continuous", "base", "rod", axis="0 1 0"))
+        shaken = f"motion = {{ amplitude = [0, 0, {a}], frequency = {f} }}\n"
+        answer = self.run_scene(arm("arm", f"q = {{ hinge = {start} }}\n{shaken}"), "--duration", end, "--step", 1e-4,
+                                "--integrator", "rk4", urdf=urdf)
+        self.assertAlmostEqual(answer["samples"][-1]["q"]["hinge"], x[0], delta=1e-7)
+        self.assertLess(abs(x[0]), 0.4)  # it stays upright: a w > sqrt(2 g I / (m r))
+
+    def test_a_motion_that_oscillates_needs_its_frequency_and_one_kind_of_rotation(self):
+        for law, where in (("amplitude = [0, 0, 1]", "frequency"), ("frequency = 2", "frequency"),
+                           ("swing = [1, 0, 0], angular = [1, 0, 0], frequency = 2", "swing")):
+            faults = self.refusals(arm("arm", f"motion = {{ {law} }}"), "--duration", 1)
+            self.assertEqual([fault["where"] for fault in faults], [f"robot 'arm', motion, {where}"])
+
     def test_each_of_several_robots_moves_as_it_would_alone(self):
         swing = robot('<link name="base"/>', link("rod"), joint("hinge", "continuous", "base", "rod", axis="0 1 0"))
         off = "collide = false"

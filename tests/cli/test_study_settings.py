@@ -21,10 +21,10 @@ class Settings(ProgramTest):
 
     def test_settings_with_faults_are_refused_with_all_of_them(self):
         text = SHIPPED
-        for key in ("rate_hz", "contact_stiffness"):
+        for key in ("frequency_hz", "contact_stiffness"):
             self.assertIn(f"\n{key} = ", text)
             text = text.replace(f"\n{key} = ", f"\nno_{key} = ")
-        self.assertLessEqual({"obstacle, rate_hz", "obstacle, contact_stiffness"}, self.faults_of(text).keys())
+        self.assertLessEqual({"far_target, frequency_hz", "obstacle, contact_stiffness"}, self.faults_of(text).keys())
 
     def test_settings_that_nothing_reads_are_reported_with_their_lines_and_the_nearest_key(self):
         lines = []

@@ -43,6 +43,13 @@ class WrongGain(ProgramTest):
         answer = json.loads(self.run_with(9e5, duration=0.034).stdout)
         self.assertEqual(answer["alarm"]["row"], "numerical")
 
+    def test_a_run_that_has_raised_an_alarm_and_goes_on_diverging_is_stopped_by_the_default_bound(self):
+        stopped = self.run_with(9e5, duration=5)
+        self.assertEqual(stopped.returncode, 3, stopped.stderr)
+        answer = json.loads(stopped.stdout)
+        self.assertLess(answer["post_mortem"]["energy_bound"], 1e8)
+        self.assertGreater(answer["post_mortem"]["time"], answer["alarm"]["time"])
+
     def test_a_recorded_robot_with_meshes_is_opened_with_its_forces(self):
         file = self.folder / "run.twinrec"
         done = self.run_with(100, "--record", file)

@@ -157,18 +157,4 @@ Surface SceneModel::surface_of_pair(int a, int b) const {
   return pair;
 }
 
-Shape collision_shape(const ShapeDescription& shape) {
-  return std::visit(
-      [](const auto& known) -> Shape {
-        if constexpr (!std::is_same_v<decltype(known), const MeshGeometry&>) {
-          return known;
-        } else {
-          TriangleMesh mesh = load_mesh(known);
-          if (known.convex) return convex_hull(mesh.vertices);
-          return MeshShape{std::move(mesh)};
-        }
-      },
-      shape);
-}
-
 }  // namespace twinarm

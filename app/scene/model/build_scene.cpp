@@ -1,5 +1,7 @@
 // Builds one model of all robots and bodies, and the start state.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 #include "app/robot/coordinates.h"
 #include "app/scene/model/scene_builder.h"
@@ -49,16 +51,25 @@ void check_mesh(const BodyDescription& body, SceneDescription& scene) {
                        "repair the mesh, or give convex = true to use its hull", "scene.mesh"}});
 }
 
-// Constant velocity of the origin and constant angular velocity.
-MotionFunction constant_motion(const Pose& X_WB, const BodyMotion& motion) {
-  const double rate = motion.angular.norm();
-  const Vector3 axis = rate > 0 ? Vector3(motion.angular / rate) : Vector3(Vector3::UnitZ());
+MotionFunction law_of(const Pose& X_WB, const BodyMotion& motion) {
+  const bool swings = !motion.swing.isZero(0);
+  const Vector3 turn = swings ? motion.swing : motion.angular;
+  const Vector3 axis = turn.isZero(0) ? Vector3(Vector3::UnitZ()) : turn.normalized();
+  const double w = 2 * std::numbers::pi * motion.frequency;
   return [=](double t) {
+    const double s = std::sin(w * t), ds = w * std::cos(w * t), dds = -w * w * s;
     PrescribedMotion now;
     now.X_JL.p = X_WB.p + t * motion.linear;
-    now.X_JL.R = Eigen::AngleAxisd(rate * t, axis).toRotationMatrix() * X_WB.R;
+    now.X_JL.R =
+        Eigen::AngleAxisd((swings ? s : t) * turn.norm(), axis).toRotationMatrix() * X_WB.R;
     now.velocity = motion.linear;
     now.angular_velocity = motion.angular;
+    if (w == 0) return now;
+    now.X_JL.p += s * motion.amplitude;
+    now.velocity += ds * motion.amplitude;
+    now.acceleration = dds * motion.amplitude;
+    now.angular_velocity += ds * motion.swing;
+    now.angular_acceleration = dds * motion.swing;
     return now;
   };
 }
@@ -110,6 +121,7 @@ class SceneBuilder {
       const RobotInScene& robot = description().robots[r];
       ModelOptions options = options_;
       options.floating = robot.floating;
+      options.driven = robot.motion.has_value();
       options.mass_scale = robot.mass_scale;
       options.added_masses = robot.payloads;
       attempt(robot.line, "robot '" + robot.name + "'", [&] {
@@ -180,10 +192,16 @@ class SceneBuilder {
       const RobotInScene& robot = description().robots[r];
       set_coordinates(scene_, r, robot.q, scene_.start);
       set_velocities(scene_, r, robot.qd, scene_.start);
-      if (robot.floating)
-        place(scene_.model.find_body(prefix_of(description(), r) + robot.description.root),
-              robot.X_WR, robot.linear_velocity, robot.angular_velocity);
+      const int root = scene_.model.find_body(prefix_of(description(), r) + robot.description.root);
+      if (robot.floating) place(root, robot.X_WR, robot.linear_velocity, robot.angular_velocity);
+      if (robot.motion) drive(root, robot.X_WR, *robot.motion);
     }
+  }
+
+  void drive(int body, const Pose& X_WB, const BodyMotion& motion) {
+    scene_.motions.push_back({body, law_of(X_WB, motion)});
+    store_motion(scene_.model, static_cast<std::size_t>(body), scene_.motions.back().law(0),
+                 scene_.start);
   }
 
   void place_bodies() {
@@ -194,9 +212,7 @@ class SceneBuilder {
         place(index, body.X_WB, body.linear_velocity, body.angular_velocity);
         continue;
       }
-      scene_.motions.push_back({index, constant_motion(body.X_WB, *body.motion)});
-      store_motion(scene_.model, static_cast<std::size_t>(index), scene_.motions.back().law(0),
-                   scene_.start);
+      drive(index, body.X_WB, *body.motion);
     }
   }
 

@@ -109,9 +109,6 @@ struct SceneModel {
 // Joints that an operator motion moves: the robot's first three with one degree of freedom.
 std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot);
 
-// Throws InputError for a mesh that cannot be read or has no volume.
-Shape collision_shape(const ShapeDescription& shape);
-
 // Of the options `friction` and `armature` are used. Throws InputError with all diagnostics, such
 // as meshes without volume and joints without inertia.
 SceneModel build_scene(const SceneDescription& description, const ModelOptions& options = {});

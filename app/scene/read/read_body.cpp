@@ -52,16 +52,11 @@ void read_mass(TableReader& table, BodyDescription& body, SceneDescription& scen
                 "scene.missing");
 }
 
-void read_motion(SceneReader& reader, TableReader& table, BodyDescription& body) {
+void read_how_it_moves(SceneReader& reader, TableReader& table, BodyDescription& body) {
   body.fixed = table.flag("fixed").value_or(false);
-  if (const Value* motion = table.table("motion")) {
-    TableReader velocities = reader.open(*motion, table.where() + ", motion");
-    body.motion = BodyMotion{velocities.vector("linear").value_or(Vector3::Zero()),
-                             velocities.vector("angular").value_or(Vector3::Zero())};
-    velocities.done();
-    if (body.fixed)
-      table.fault("motion", "conflicts with 'fixed'", "leave one of them out", "scene.two-keys");
-  }
+  body.motion = reader.read_motion(table);
+  if (body.motion && body.fixed)
+    table.fault("motion", "conflicts with 'fixed'", "leave one of them out", "scene.two-keys");
   reader.read_velocities(
       table, body, body.is_free(),
       {"applies to a free body only", "leave it out, or give motion = { linear, angular }"});
@@ -80,12 +75,30 @@ void read_appearance(SceneReader& reader, TableReader& table, BodyDescription& b
 
 }  // namespace
 
+std::optional<BodyMotion> SceneReader::read_motion(TableReader& table) {
+  const Value* given = table.table("motion");
+  if (!given) return std::nullopt;
+  TableReader law = open(*given, table.where() + ", motion");
+  const auto vector = [&](const char* key) { return law.vector(key).value_or(Vector3::Zero()); };
+  BodyMotion motion{vector("linear"), vector("angular"), vector("amplitude"), vector("swing"),
+                    law.positive("frequency").value_or(0)};
+  const bool oscillates = law.has("amplitude") || law.has("swing");
+  if (oscillates != law.has("frequency"))
+    law.fault("frequency", oscillates ? "is missing" : "there is nothing that it applies to",
+              oscillates ? "give it in Hz" : "give amplitude [m] or swing [rad]",
+              "scene.key-alone");
+  if (law.has("angular") && law.has("swing"))
+    law.fault("swing", "conflicts with 'angular'", "leave one of them out", "scene.two-keys");
+  law.done();
+  return motion;
+}
+
 void SceneReader::read_body(const Value& value) {
   TableReader table = open(value, "body");
   BodyDescription body;
   body.line = table.line();
   body.name = read_name(table, "body");
-  read_motion(*this, table, body);
+  read_how_it_moves(*this, table, body);
   if (const auto shape = read_shape(table)) {
     body.shape = *shape;
     if (const char* why = why_not_free(*shape); why && body.is_free())

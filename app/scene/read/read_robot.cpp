@@ -62,6 +62,10 @@ void SceneReader::read_robot(const Value& value) {
   robot.surface = read_surface(table);
   robot.X_WR = read_pose(table);
   if (const auto base = table.choice("base", {"fixed", "floating"})) robot.floating = *base == 1;
+  robot.motion = read_motion(table);
+  if (robot.motion && robot.floating)
+    table.fault("motion", "conflicts with base = \"floating\"", "leave one of them out",
+                "scene.two-keys");
   read_velocities(table, robot, robot.floating, {"the base is fixed", "give base = \"floating\""});
 
   table.missing("model", "give model = \"robots/.../robot.urdf\"");

@@ -34,9 +34,13 @@ struct Surface {
   double dissipation = 1;  // Hunt-Crossley c [s/m]
 };
 
-struct BodyMotion {                   // constant
-  Vector3 linear = Vector3::Zero();   // of the body's origin [m/s]
-  Vector3 angular = Vector3::Zero();  // [rad/s]
+// Prescribed motion, world axes, from the pose X at the start; w = 2 pi frequency:
+//   origin       X.p + linear t + amplitude sin(w t)
+//   orientation  exp(angular t + swing sin(w t)) X.R, where angular or swing is zero
+struct BodyMotion {
+  Vector3 linear = Vector3::Zero(), angular = Vector3::Zero();   // [m/s], [rad/s]
+  Vector3 amplitude = Vector3::Zero(), swing = Vector3::Zero();  // [m], [rad]
+  double frequency = 0;                                          // [Hz]
 };
 
 struct BodyDescription {
@@ -64,7 +68,8 @@ struct RobotInScene {
   int line = 0;
   RobotDescription description;
   bool floating = false;
-  Pose X_WR;  // of the root link, at the start
+  std::optional<BodyMotion> motion;  // prescribed, of the root link
+  Pose X_WR;                         // of the root link, at the start
   Vector3 linear_velocity = Vector3::Zero(), angular_velocity = Vector3::Zero();  // floating only
   JointValueMap q, qd;
   Surface surface;

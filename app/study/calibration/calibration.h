@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/study/paper.h"
 #include "app/study/study_run.h"
 #include "app/support/progress.h"
 
@@ -66,15 +67,6 @@ enum class Method {
 void minimise(CalibrationEntry& entry, Method method, unsigned seed, int evaluations,
               const std::function<double(const CalibrationEntry&)>& objective);
 std::string optimiser_name();
-
-// The paper's Table 2 [deg]: maxima of joints 1 and 2, then means.
-struct PaperRow {
-  std::array<double, 2> max_deg, mean_deg;
-};
-inline const std::map<std::string, PaperRow> kPaperTable{{"E1", {{10.2, 26.3}, {1.6, 4.1}}},
-                                                         {"E2", {{1.7, 4.0}, {0.5, 0.5}}},
-                                                         {"E3", {{16.6, 23.5}, {8.6, 5.2}}},
-                                                         {"E4", {{3.4, 6.0}, {0.3, 0.6}}}};
 
 // Largest relative error of the four numbers against the paper's row of the same name.
 double worst_relative_error(const RunResult& result);

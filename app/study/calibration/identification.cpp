@@ -94,14 +94,16 @@ const FamilyLaw& family_law(const std::string& name) {
   throw std::out_of_range("unknown law " + name);
 }
 
-double table_misfit(const RunResult& result) {
-  if (!result.stable) return 1e5;
-  const PaperRow& row = kPaperTable.at(result.spec.name);
-  double worst = 0;
-  for (std::size_t j = 0; j < 2; ++j)
-    worst = std::max({worst, std::abs(result.max_deg[j] - row.max_deg[j]) / kHalfDigit,
-                      std::abs(result.mean_deg[j] - row.mean_deg[j]) / kHalfDigit});
-  return worst;
+std::array<double, 4> table_misfits(const RunResult& result, const std::string& row) {
+  std::array<double, 4> misfits;
+  misfits.fill(1e5);
+  if (!result.stable) return misfits;
+  const PaperRow& paper = kPaperTable.at(row);
+  for (std::size_t j = 0; j < 2; ++j) {
+    misfits[j] = std::abs(result.max_deg[j] - paper.max_deg[j]) / paper.max_half_digit[j];
+    misfits[2 + j] = std::abs(result.mean_deg[j] - paper.mean_deg[j]) / paper.mean_half_digit[j];
+  }
+  return misfits;
 }
 
 double Identification::threshold() const {

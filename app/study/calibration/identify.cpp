@@ -93,30 +93,22 @@ class IdentificationProblem {
   }
 
   RunResult run_with(const CalibrationEntry& entry, double sweep) const {
-    const StudyRobot robot =
-        StudyRobot::s103(inputs_.settings, inputs_.s103, entry.value("arm2_mass_scale"));
-    RunSpec spec;
-    spec.name = row_;
-    spec.coupling = law_.coupling;
-    spec.rate = rate_;
-    if (!law_.coupling.printed) spec.kvr_rates = TargetRates::backward_difference;
-    if (law_.coupling.type == CouplingSpec::Type::weld) {
-      spec.coupling.reference.time_constant = entry.value("time_constant");
-      spec.coupling.reference.damping_ratio = entry.value("damping_ratio");
-      spec.gains = weld_gains(robot, spec.coupling);
-    } else {
-      spec.gains = entry.gains();
-    }
-    return run(robot, AutomaticMotion(OperatorMapping{}, sweep), spec);
+    const FittedRun fitted = fitted_run(inputs_, row_, law_, entry);
+    return run(fitted.robot, AutomaticMotion(OperatorMapping{}, sweep), fitted.spec);
   }
 
-  double misfit(const CalibrationEntry& entry) const { return table_misfit(run_with(entry, 1)); }
+  double misfit(const CalibrationEntry& entry) const {
+    return std::ranges::max(table_misfits(run_with(entry, 1), row_));
+  }
 
   // d x_i / d log theta_j by central differences, in half digits; also beyond the bounds of the
   // search.
   Eigen::MatrixXd sensitivity(const CalibrationEntry& entry) const {
     constexpr double step = 1e-3;
     Eigen::MatrixXd S(4, static_cast<Eigen::Index>(entry.parameters.size()));
+    const PaperRow& paper = kPaperTable.at(row_);
+    const Eigen::Vector4d half_digits(paper.max_half_digit[0], paper.max_half_digit[1],
+                                      paper.mean_half_digit[0], paper.mean_half_digit[1]);
     const auto numbers = [&](std::size_t j, double factor) {
       CalibrationEntry moved = entry;
       moved.parameters[j].value *= factor;
@@ -125,7 +117,8 @@ class IdentificationProblem {
     };
     for (std::size_t j = 0; j < entry.parameters.size(); ++j)
       S.col(static_cast<Eigen::Index>(j)) =
-          (numbers(j, std::exp(step)) - numbers(j, std::exp(-step))) / (2 * step * kHalfDigit);
+          (numbers(j, std::exp(step)) - numbers(j, std::exp(-step)))
+              .cwiseQuotient(2 * step * half_digits);
     return S;
   }
 
@@ -177,6 +170,25 @@ class IdentificationProblem {
 
 }  // namespace
 
+FittedRun fitted_run(const StudyInputs& inputs, const std::string& row, const FamilyLaw& law,
+                     const CalibrationEntry& fit) {
+  FittedRun fitted{StudyRobot::s103(inputs.settings, inputs.s103, fit.value("arm2_mass_scale")),
+                   {}};
+  RunSpec& spec = fitted.spec;
+  spec.name = row;
+  spec.coupling = law.coupling;
+  spec.rate = fit.rate;
+  if (!law.coupling.printed) spec.kvr_rates = TargetRates::backward_difference;
+  if (law.coupling.type == CouplingSpec::Type::weld) {
+    spec.coupling.reference.time_constant = fit.value("time_constant");
+    spec.coupling.reference.damping_ratio = fit.value("damping_ratio");
+    spec.gains = weld_gains(fitted.robot, spec.coupling);
+  } else {
+    spec.gains = fit.gains();
+  }
+  return fitted;
+}
+
 Identification ask(const StudyInputs& inputs, const std::string& problem) {
   DiagnosticList faults;
   const auto fault = [&](std::string what, std::string fix) {
@@ -191,7 +203,8 @@ Identification ask(const StudyInputs& inputs, const std::string& problem) {
   char* end = nullptr;
   const double rate = std::strtod(number.c_str(), &end);
   const std::vector<std::string> laws = names_of(family_laws());
-  if (row != "E3" && row != "E4") fault("unknown row '" + row + "'", "E3 or E4");
+  if (row != "E3" && row != "E4" && row != "E4-text")
+    fault("unknown row '" + row + "'", "E3, E4 or E4-text");
   if (std::ranges::find(laws, law) == laws.end())
     fault("unknown law '" + law + "'", name_remedy(law, laws, "laws"));
   if (!(rate >= 10 && rate <= 1e5) || *end != 0)
@@ -206,8 +219,9 @@ std::vector<Identification> identify(const StudyInputs& inputs, Progress& progre
   std::vector<double> rates = inputs.settings.identification_rates_hz;
   std::sort(rates.rbegin(), rates.rend());
   for (const double rate : rates)
-    for (const char* row : {"E3", "E4"})
+    for (const char* row : {"E3", "E4", "E4-text"})
       for (const FamilyLaw& law : family_laws()) {
+        if (row == std::string("E4-text") && !law.fits_row(row)) continue;
         problems.emplace_back(inputs, law, row, rate);
         steps.push_back(steps.back() + rate);
       }

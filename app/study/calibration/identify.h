@@ -3,7 +3,7 @@
 // A row has four numbers p_i, printed to 0.1 degree; parameters theta agree with it if their
 // numbers x_i round to them:
 //
-//   misfit(theta) = max_i |x_i - p_i| / 0.05 deg      agrees iff <= 1
+//   misfit(theta) = max_i |x_i - p_i| / (half of the last printed digit)      agrees iff <= 1
 //
 // For each law, row and rate: the best fit (several starts within bounds); its sensitivity
 // d x_i / d log theta_j, whose singular values show by how much a combination of parameters can
@@ -23,6 +23,11 @@ namespace twinarm {
 struct FamilyLaw {
   std::string name, words;
   CouplingSpec coupling;
+  // Whether it is of the kind of the row's experiment: torsional for E3, springs between points for
+  // E4.
+  bool fits_row(const std::string& row) const {
+    return facts_of(coupling.type, coupling.printed).at_point != (row == "E3");
+  }
 };
 const std::vector<FamilyLaw>& family_laws();
 const FamilyLaw& family_law(const std::string& name);
@@ -33,8 +38,7 @@ struct ProfilePoint {
   // Result of these parameters for another motion: sweeps of kOtherSweep.
   std::array<double, 2> other_max_deg{};
 };
-constexpr double kHalfDigit = 0.05;  // half of the last printed digit [deg]
-constexpr double kOtherSweep = 2;    // [s], half the speed of the paper's
+constexpr double kOtherSweep = 2;  // [s], half the speed of the paper's
 
 struct Profile {
   std::string parameter;
@@ -42,7 +46,7 @@ struct Profile {
 };
 
 struct Identification {
-  std::string row, law;                         // "E3", "linear"
+  std::string row, law;                         // of kPaperTable; "linear"
   CalibrationEntry fit;                         // the objective is the misfit
   std::vector<double> singular_values;          // [0.05 deg per factor e], descending
   std::vector<std::vector<double>> directions;  // of log theta, one for each of them
@@ -60,7 +64,16 @@ struct Identification {
   Interval interval(const Profile& profile) const;
 };
 
-double table_misfit(const RunResult& result);  // from the row of the same name
+// Maxima, then means of joints 1 and 2, from a row of kPaperTable; 1e5 if unstable.
+std::array<double, 4> table_misfits(const RunResult& result, const std::string& row);
+
+// The run of a fit, named as its row.
+struct FittedRun {
+  StudyRobot robot;
+  RunSpec spec;
+};
+FittedRun fitted_run(const StudyInputs& inputs, const std::string& row, const FamilyLaw& law,
+                     const CalibrationEntry& fit);
 
 // All rows, laws and rates; takes minutes. Deterministic.
 std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress);

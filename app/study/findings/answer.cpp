@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/study/findings/evidence.h"
 #include "app/study/findings/findings.h"
 #include "app/study/findings/variants.h"
 
@@ -32,7 +33,7 @@ std::string operators(const std::vector<Ensemble>& ensembles) {
   for (const Ensemble& all : ensembles)
     for (const auto* row : {&all.max_deg, &all.mean_deg})
       for (const Distribution& number : *row) {
-        inside += number.percentile >= 10 && number.percentile <= 90;
+        inside += number.is_inside();
         ++numbers;
       }
   const Ensemble &e1 = ensembles.at(0), &e2 = ensembles.at(1);
@@ -127,7 +128,9 @@ std::vector<std::string> answer_in_words(const StudyResults& results) {
           reason(results.orders),
           damper(variant("trial/printed-torsional/60"), torsional),
           matched(variant("matched/torsional/60"), variant("matched/linear/60"),
-                  variant("implicit/torsional-world/1000"), variant("implicit/linear/1000"))};
+                  variant("implicit/torsional-world/1000"), variant("implicit/linear/1000")),
+          evidence_in_words(results.evidence, "E3"),
+          evidence_in_words(results.evidence, "E4")};
 }
 
 }  // namespace twinarm

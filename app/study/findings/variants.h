@@ -21,10 +21,10 @@ std::vector<RunResult> run_variants(const StudyInputs& inputs, const StudyRobot&
 Gains gains_from_frequency(const StudyRobot& robot, const CouplingSpec& coupling,
                            double frequency_hz, double damping_ratio);
 
-// obstacle.cpp: automatic motion into a box that stops the DVR, while the KVR passes through it.
-// One coupling, linear or torsional (world), implicit at the obstacle's rate.
-ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
-                         CouplingSpec::Type type);
+// obstacle.cpp: automatic motion into a box that stops the DVR, while the KVR passes through it:
+// with the couplings of E4 and E3, and with an implicit linear one beyond the limit of R_K / r.
+std::vector<ObstacleRun> run_obstacles(const StudyInputs& inputs, const StudyRobot& robot,
+                                       const Calibration& calibration);
 
 // Intervals with a contact force; gaps shorter than this [s] are bridged.
 std::vector<std::pair<double, double>> contact_intervals(const ObstacleRun& run, double gap);

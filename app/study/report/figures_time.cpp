@@ -107,12 +107,15 @@ std::string obstacle_column(Gnuplot& gnuplot, const ObstacleRun& run, double lef
   for (std::size_t p = 0; p < panels.size(); ++p) {
     const double top = 0.925 - 0.181 * static_cast<double>(p), bottom = top - 0.138;
     script += fmt::format("set tmargin at screen {}\nset bmargin at screen {}\n", top, bottom);
-    script += p == 0 ? fmt::format(
-                           "set label 9 {} at graph 0,1.0 offset 0,2.4 font ',15' "
-                           "textcolor '#111111'\n"
-                           "set key at graph 1,1.01 right bottom horizontal\n",
-                           in_quotes(run.spec.coupling.name + " coupling"))
-                     : "unset label 9\nunset key\n";
+    script +=
+        p == 0
+            ? fmt::format(
+                  "set label 9 {} at graph 0,1.0 offset 0,2.4 font ',15' "
+                  "textcolor '#111111'\n"
+                  "set key at graph 1,1.01 right bottom horizontal\n",
+                  in_quotes(run.spec.coupling.name == "far" ? "linear coupling, far target"
+                                                            : run.spec.coupling.name + " coupling"))
+            : "unset label 9\nunset key\n";
     script += p + 1 == panels.size()
                   ? "set format x '%g'\nset xlabel 'time [s]' offset 0,0.3 textcolor '#333333'\n"
                   : "set format x ''\nunset xlabel\n";
@@ -217,8 +220,7 @@ void draw_obstacle(Gnuplot& gnuplot, const std::vector<ObstacleRun>& runs) {
     script +=
         obstacle_column(gnuplot, runs[c], index / columns + 0.065, (index + 1) / columns - 0.015);
   }
-  gnuplot.draw("obstacle", "The run into the box, both couplings", 960, 980,
-               script + "unset multiplot\n");
+  gnuplot.draw("obstacle", "The runs into a box", 1200, 980, script + "unset multiplot\n");
 }
 
 }  // namespace twinarm

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/study/findings/evidence.h"
 #include "app/study/report/report.h"
 #include "solver/support/atomic_file.h"
 
@@ -150,6 +151,8 @@ ordered_json obstacle_json(const ObstacleRun& run) {
           {"largest_contact_force", run.max_force},
           {"target_radius_ratio", run.target_radius_ratio},
           {"target_radius_limit", run.target_radius_limit},
+          {"limit_exceeded_at", run.exceeded_at},
+          {"finite", run.finite},
           {"contact_begin", run.contact_begin},
           {"contact_end", run.contact_end}};
 }
@@ -167,6 +170,27 @@ ordered_json finding_json(const Finding& finding) {
           {"claim", finding.claim},
           {"measured", finding.measured},
           {"holds", finding.holds}};
+}
+
+ordered_json evidence_json(const Evidence& e) {
+  const auto figure = [](const std::string& run, double share) -> ordered_json {
+    const PaperStatement& statement = statement_on(run);
+    return {{"figure", statement.figure},
+            {"share", share},
+            {"verdict", verdict_words(verdict_of(statement, share))}};
+  };
+  return {{"row", e.row},
+          {"law", e.law},
+          {"rate", e.rate},
+          {"gains", gains_json(e.gains)},
+          {"arm2_mass_scale", e.arm2_mass_scale},
+          {"fitted_parameters", e.parameters},
+          {"used", e.is_used},
+          {"damping_ratio", e.damping_ratio},
+          {"misfit", e.misfit},
+          {"automatic", figure(e.row, e.figure)},
+          {"user", figure(e.user_row(), e.user_figure)},
+          {"user_numbers_inside", e.user_numbers}};
 }
 
 ordered_json recording_json(const StudyRecording& run) {
@@ -220,7 +244,10 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
   root["recordings"] = list_of(results.recordings, recording_json);
   root["search"] = list_of(results.search_rates,
                            [&](double rate) { return search_json(results.calibration, rate); });
-  root["left_open"] = list_of(results.identifications, identification_json);
+  root["left_open"] = ordered_json::array();
+  for (const Identification& found : results.identifications)
+    if (found.row != "E4-text") root["left_open"].push_back(identification_json(found));
+  root["evidence"] = list_of(results.evidence, evidence_json);
   root["answer"] = results.answer;
   root["optimiser"] = results.calibration.optimiser;
   root["calibration_seed"] = results.calibration.seed;

@@ -11,28 +11,23 @@
 #include "app/support/progress.h"
 #include "app/web/web_bundle.h"
 #include "solver/support/atomic_file.h"
-#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
 
-constexpr double kObstacleEvery = 0.004;  // recording interval [s]: four steps
-
 // Records the scene; returns the largest difference of an angle from the study's [deg], which are
 // given by joint and step.
-double record(const std::filesystem::path& scene, const std::filesystem::path& file, double every,
+double record(const std::filesystem::path& scene, const std::filesystem::path& file,
               const std::vector<std::string>& joints,
               const std::vector<std::vector<double>>& angles) {
   SimulateOptions options;
   options.robot.model = scene;
   options.record = file;
-  if (every > 0) options.record_every = every;
   SimulatePlan prepared = prepare_simulation(options);
   prepared.run.times.clear();
-  std::vector<std::string> command{"twinarm", "simulate", scene.string(), "--record",
-                                   file.string()};
-  if (every > 0) command.insert(command.end(), {"--record-every", number_text(every)});
-  RunRecorder recorder(file, header_of(options, prepared, command), prepared, every);
+  const std::vector<std::string> command{"twinarm", "simulate", scene.string(), "--record",
+                                         file.string()};
+  RunRecorder recorder(file, header_of(options, prepared, command), prepared, 0);
   const Model<double>& model = prepared.input.robot.model;
   double largest = 0;
   RunWatch watch;
@@ -78,20 +73,19 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
                                              const std::filesystem::path& folder,
                                              Progress& progress) {
   std::vector<StudyRecording> all;
-  const auto add = [&](const StudyScene& scene, const std::vector<std::vector<double>>& angles,
-                       double every) {
+  const auto add = [&](const StudyScene& scene, const std::vector<std::vector<double>>& angles) {
     StudyRecording& made = all.emplace_back();
     made.name = scene.spec.name;
     made.title = scene.spec.title;
     made.scene = folder / (made.name + ".toml");
     made.recording = folder / (made.name + ".twinrec");
     write_whole_file(made.scene, scene_text(scene));
-    made.apart_deg = record(made.scene, made.recording, every, robot.joints().turned, angles);
+    made.apart_deg = record(made.scene, made.recording, robot.joints().turned, angles);
     if (web_bundle().replay.empty()) return;
     made.page = folder / (made.name + ".html");
     write_whole_file(made.page, replay_page(made.recording).html);
   };
-  StudyScene scene{&inputs.settings, &robot, {}, {}, false};
+  StudyScene scene{&inputs.settings, &robot, {}, {}};
   const double count = static_cast<double>(results.reproduction.size() + results.obstacle.size());
   double done = 0;
   for (const RunResult& run : results.reproduction) {
@@ -99,14 +93,14 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
     scene.hand = run.spec.name < "E3" ? hand : automatic_operator();
     std::vector<std::vector<double>> angles;
     for (const auto& q : run.series.q_D) angles.push_back(in_degrees(q));
-    add(scene, angles, 0);
+    add(scene, angles);
     progress.advance(++done / count);
   }
-  scene.with_obstacle = true;
   scene.hand = automatic_operator();
   for (const ObstacleRun& run : results.obstacle) {
     scene.spec = run.spec;
-    add(scene, {run.q_D_deg.begin(), run.q_D_deg.end()}, kObstacleEvery);
+    scene.obstacle = run.obstacle;
+    add(scene, {run.q_D_deg.begin(), run.q_D_deg.end()});
     progress.advance(++done / count);
   }
   return all;

@@ -100,6 +100,7 @@ void write_report(const StudyResults& results, const std::filesystem::path& asse
   add_other_runs(results, slots);
   add_search(results, slots);
   add_identification(results, slots);
+  add_evidence(results, slots);
   add_images(folder, slots);
   const std::string text = filled(assets / "study" / "report.html", slots);
   const std::size_t main = text.find("<!-- main -->");
@@ -108,10 +109,11 @@ void write_report(const StudyResults& results, const std::filesystem::path& asse
   page.header = text.substr(0, main);
   page.main = main == std::string::npos ? "" : text.substr(main);
   page.contents = {
-      {"answer", "Answer"},     {"table2", "Table 2"},       {"angles", "Figures 6 and 7"},
-      {"scene", "Pictures"},    {"why", "Explanation"},      {"rates", "Update rates"},
-      {"variants", "Variants"}, {"obstacle", "Obstacle"},    {"recordings", "Recordings"},
-      {"search", "Search"},     {"open", "Identifiability"}, {"parameters", "Parameters"}};
+      {"answer", "Answer"},        {"table2", "Table 2"},       {"angles", "Figures 6 and 7"},
+      {"scene", "Pictures"},       {"why", "Explanation"},      {"rates", "Update rates"},
+      {"variants", "Variants"},    {"obstacle", "Obstacle"},    {"recordings", "Recordings"},
+      {"search", "Search"},        {"open", "Identifiability"}, {"evidence", "Evidence"},
+      {"parameters", "Parameters"}};
   page.footer = made_by(results.command, results.seconds) +
                 " Every number on this page was computed in that run, except where it says "
                 "published or calibrated.";

@@ -233,10 +233,14 @@ std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
       {"largest coupling force or torque",
        [](R r) { return fmt::format("{:.0f} {}", r.max_coupling, r.spec.coupling_force_unit()); }},
       {"largest contact force", [](R r) { return fmt::format("{:.0f} N", r.max_force); }},
-      {"largest R<sub>K</sub>/r that occurred", [&](R r) { return ratio(r.target_radius_ratio); }},
-      {"largest stable R<sub>K</sub>/r", [&](R r) { return ratio(r.target_radius_limit); }}};
+      {"R<sub>K</sub>/r where it came nearest to its limit; the limit",
+       [&](R r) { return ratio(r.target_radius_ratio) + "; " + ratio(r.target_radius_limit); }},
+      {"limit first exceeded", [](R r) {
+         return r.exceeded_at < 0 ? std::string("–")
+                                  : fmt::format("<span class=no>{:.3f} s</span>", r.exceeded_at);
+       }}};
   std::string html = "<tr><th></th>";
-  for (R run : runs) html += "<th>" + escaped(run.spec.coupling.name) + "</th>";
+  for (R run : runs) html += "<th>" + escaped(run.spec.title) + "</th>";
   html += "</tr></thead><tbody>\n";
   for (const auto& [name, value] : rows) {
     html += fmt::format("<tr><td>{}</td>", name);

@@ -23,5 +23,6 @@ void add_reproduction(const StudyResults& results, Slots& slots);  // Table 2, F
 void add_other_runs(const StudyResults& results, Slots& slots);
 void add_search(const StudyResults& results, Slots& slots);  // and all parameters
 void add_identification(const StudyResults& results, Slots& slots);
+void add_evidence(const StudyResults& results, Slots& slots);
 
 }  // namespace twinarm

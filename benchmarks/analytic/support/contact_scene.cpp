@@ -43,7 +43,7 @@ void ContactScene::add_rotating(const Shape& shape, const ContactSurface& surfac
 void ContactScene::start() {
   model_ = builder_.build();
   State<double> x(model_);
-  contacts_ = std::make_unique<ContactConstraints>(model_, ContactResponse::rigid);
+  contacts_ = std::make_unique<ContactConstraints>(model_, response);
   for (const ContactGeometry& geometry : fixed_) contacts_->bodies().add(geometry);
   for (const auto& [number, body] : bodies_) {
     double* q = x.q.data() + model_.iq[index(number)];

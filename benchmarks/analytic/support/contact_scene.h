@@ -1,4 +1,5 @@
-// Scene of the contact cases: free, fixed and rotating bodies under rigid contact.
+// Scene of the contact cases: free, fixed and rotating bodies under rigid contact, or
+// compliant.
 //
 // Steps are 1 ms unless stated otherwise. Tolerances: one step for event times, 1e-3 relative for
 // velocities; an error of position is divided by the speed there and so becomes a time.
@@ -115,7 +116,8 @@ class ContactScene {
   int start(const Body& body);  // add() of the last body, and start()
   // After start(): a further force. energy() does not include its work.
   void apply(ForceLaw::Law law);
-  void apply_force(int body, const Vector3& force);  // at a free body's centre of mass, world axes
+  void apply_force(int body, const Vector3& force);   // at a free body's centre of mass, world axes
+  ContactResponse response = ContactResponse::rigid;  // to be set before start()
   void locate_events() { simulation_->locate_events(); }
 
   bool step(double h);  // false: not finite or not solved

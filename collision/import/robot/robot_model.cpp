@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "collision/geometry/convex_hull.h"
 #include "collision/import/robot/robot_check.h"
 #include "collision/mesh_files/mesh_file.h"
 
@@ -80,9 +81,9 @@ class ConfiguredRobot {
 };
 
 // Adds file and line to the builder's errors, which have names only.
-Model<double> build(const ModelBuilder& builder, const RobotDescription& robot) {
+Model<double> build(const ModelBuilder& builder, const RobotDescription& robot, bool kinematic) {
   try {
-    return builder.build();
+    return builder.build(kinematic);
   } catch (const InputError& error) {
     std::vector<Diagnostic> faults = error.faults();
     for (Diagnostic& fault : faults) {
@@ -112,10 +113,12 @@ void add_robot(ModelBuilder& builder, const RobotDescription& description,
   const ConfiguredRobot configured(description, options);
   const RobotDescription& robot = configured.robot();
   std::map<std::string, int> body;  // of the links added so far
+  const JointType base = options.floating ? JointType::free
+                         : options.driven ? JointType::prescribed
+                                          : JointType::fixed;
   body[robot.root] = builder.add_body(
-      prefix + robot.root, 0, prefix + root_joint_name(robot, options.floating),
-      options.floating ? JointType::free : JointType::fixed, options.floating ? Pose{} : X_WR,
-      Vector3::UnitZ(), configured.inertia(robot.root));
+      prefix + robot.root, 0, prefix + root_joint_name(robot, options.floating), base,
+      base == JointType::fixed ? X_WR : Pose{}, Vector3::UnitZ(), configured.inertia(robot.root));
   for (const std::size_t j : joints_from_root(robot)) {
     const JointDescription& joint = robot.joints[j];
     body[joint.child] = builder.add_body(
@@ -123,7 +126,7 @@ void add_robot(ModelBuilder& builder, const RobotDescription& description,
         joint.X_PJ(), joint.axis, configured.inertia(joint.child), properties_of(joint));
   }
   for (const JointDescription& joint : robot.joints)
-    if (joint.mimic)
+    if (joint.mimic && joint.dofs() > 0)  // a fixed joint follows nothing
       builder.add_mimic(prefix + joint.name, prefix + joint.mimic->joint, joint.mimic->multiplier,
                         joint.mimic->offset);
 }
@@ -131,7 +134,7 @@ void add_robot(ModelBuilder& builder, const RobotDescription& description,
 Model<double> build_model(const RobotDescription& robot, const ModelOptions& options) {
   ModelBuilder builder;
   add_robot(builder, robot, options, "", {});
-  return build(builder, robot);
+  return build(builder, robot, options.kinematic);
 }
 
 const std::filesystem::path& file_of(const MeshGeometry& geometry) {
@@ -147,6 +150,20 @@ TriangleMesh load_mesh(const MeshGeometry& geometry) {
   if (geometry.scale.prod() < 0)
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh;
+}
+
+Shape collision_shape(const ShapeDescription& shape) {
+  return std::visit(
+      [](const auto& known) -> Shape {
+        if constexpr (!std::is_same_v<decltype(known), const MeshGeometry&>) {
+          return known;
+        } else {
+          TriangleMesh mesh = load_mesh(known);
+          if (known.convex) return convex_hull(mesh.vertices);
+          return MeshShape{std::move(mesh)};
+        }
+      },
+      shape);
 }
 
 }  // namespace twinarm

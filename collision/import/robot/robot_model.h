@@ -21,9 +21,11 @@ struct PointMass {
 struct ModelOptions {
   std::map<std::string, double> mass_scale;  // by link; scales mass and inertia
   std::vector<PointMass> added_masses;
-  bool floating = false;  // floating base: free joint at the root link, instead of a fixed one
-  bool armature = true;   // false: ignore armatures
-  bool friction = true;   // false: ignore damping and Coulomb friction
+  bool floating = false;   // floating base: free joint at the root link, instead of a fixed one
+  bool driven = false;     // prescribed joint there
+  bool armature = true;    // false: ignore armatures
+  bool friction = true;    // false: ignore damping and Coulomb friction
+  bool kinematic = false;  // true: joints that move no inertia are no error; no dynamics
 };
 
 // Body index of the root link in a model with one robot.
@@ -34,7 +36,7 @@ inline constexpr int kRootBody = 1;
 std::string root_joint_name(const RobotDescription& robot, bool floating);
 
 // The robot must have passed check_robot. Throws InputError, with lines, for a joint that moves no
-// mass or inertia.
+// mass or inertia, unless the model is kinematic.
 Model<double> build_model(const RobotDescription& robot, const ModelOptions& options = {});
 
 // Adds a robot to a model: `prefix` precedes the names of its links and joints; its root link is
@@ -47,5 +49,7 @@ const std::filesystem::path& file_of(const MeshGeometry& geometry);
 // In metres. The triangles of a mirrored mesh are flipped to keep the outward orientation. Throws
 // InputError if the file is missing or not a mesh.
 TriangleMesh load_mesh(const MeshGeometry& geometry);
+// Of a convex mesh its hull. Throws InputError for a mesh that cannot be read or has no volume.
+Shape collision_shape(const ShapeDescription& shape);
 
 }  // namespace twinarm

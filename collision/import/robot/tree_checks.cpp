@@ -191,6 +191,10 @@ class MimicCheck {
     if (mimicked == mimicking)
       return fault(mimicking, "the joint mimics itself", "use the name of another joint",
                    "robot.mimic-itself");
+    if (joint.dofs() == 0)
+      return context_.warn(line_of(joint.lines.mimic, joint.line), of(joint),
+                           "it is fixed: its <mimic> has no effect", "remove the <mimic>",
+                           "robot.mimic-still");
     const JointDescription& other = context_.robot.joints[mimicked];
     for (const JointDescription* j : {&joint, &other})
       if (j->dofs() != 1)

@@ -26,6 +26,19 @@ Ensemble ensemble(const std::string& name, double percentile) {
   return all;
 }
 
+// A fit that agrees with its row, the words on its user motion, and some numbers of that.
+Evidence reading(const std::string& row, const std::string& law, double figure, int user_numbers) {
+  Evidence e;
+  e.row = row;
+  e.law = law;
+  e.rate = 60;
+  e.figure = figure;
+  e.user_figure = 0.9;
+  e.user_numbers = user_numbers;
+  e.damping_ratio = law == "soft" ? std::array{2.0, 1.0} : std::array{0.1, 0.2};
+  return e;
+}
+
 // Like the shipped study's: every "if" of the sentences is answered as there.
 StudyResults results() {
   StudyResults r;
@@ -43,6 +56,9 @@ StudyResults results() {
   r.rows["row/findings_10_14/linear/60"].max_deg = {5, 3};
   r.rows["row/findings_10_14/world/60"].max_deg = {9, 5};
   r.orders = {{"S-103", 60, {9, 14}, {9, 8}, 30, 15}, {"arms", 60, {5, 3}, {9, 5}, 11, 13}};
+  r.evidence = {reading("E3", "ringing", 0.1, 4), reading("E3", "soft", 0.9, 1),
+                reading("E4", "stiff", 0.9, 2)};
+  r.evidence[0].is_used = r.evidence[2].is_used = true;
   return r;
 }
 
@@ -113,4 +129,25 @@ TEST_CASE("the answer acquits the law only if errors at equal stiffness are equa
   CHECK(says(r, 5, "The law is not the reason"));
   variant(r, "matched/torsional/60").max_deg = {9, 18};
   CHECK(says(r, 5, "The law is a reason of its own"));
+}
+
+TEST_CASE("the answer weighs a fit against the paper's words on its figure, and names the best") {
+  StudyResults r = results();
+  CHECK(says(r, 6,
+             "Of 2 readings of E3 (law, rate, gains, mass), 2 agree with its four numbers, and 1 "
+             "of these is not contradicted by what the paper says of Figure 7c: all overdamped"));
+  CHECK(says(r, 6, "nearest to E1 is soft at 60 Hz, with 1 of its 4 numbers"));
+  CHECK(says(r, 6, "Figure 7c contradicts it (share 0.10)"));
+  r.evidence[0].figure = 0.8;  // then the one with more numbers of E1
+  CHECK(says(r, 6, "some oscillating, some overdamped"));
+  CHECK(says(r, 6, "nearest to E1 is ringing at 60 Hz, with 4 of its 4 numbers"));
+  CHECK(says(r, 6, "Figure 7c agrees (share 0.80)"));
+  r.evidence[1].damping_ratio = {0.1, 0.2};
+  CHECK(says(r, 6, "all oscillating"));
+  r.evidence[0].misfit = r.evidence[1].misfit = {0, 2, 0, 0};
+  CHECK(says(r, 6, "0 agree with its four numbers, and 0 of these"));
+  CHECK(says(r, 6, "Figure 7c. The reading used here"));
+  CHECK(says(r, 7, "1 agree with its four numbers, and 1 of these is"));
+  r.evidence[2].figure = 0.4;
+  CHECK(says(r, 7, "1 agree with its four numbers, and 0 of these"));
 }
