@@ -168,8 +168,8 @@ void add_robots(py::module_& m) {
         "  floating  floating base (URDF)\n"
         "  friction  False: ignore joint damping and friction\n"
         "  armature  False: ignore rotor inertia\n"
-        "  density   of links without mass [kg/m^3]: inertia from their shapes (URDF)\n"
-        "  min_mass  of links that have none then [kg]: small balls (URDF)\n\n"
+        "  density   of links without inertia [kg/m^3]: it is taken from their shapes (URDF)\n"
+        "  min_mass  of links that then have none [kg]: small balls (URDF)\n\n"
         "Raises InputError with all errors and their lines.");
 }
 

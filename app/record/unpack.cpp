@@ -162,7 +162,7 @@ bool is_recording(const std::filesystem::path& file) {
 
 void check_recorded(const RobotOptions& given, DiagnosticList& faults) {
   if (given.state.empty() && given.gravity.empty() && !given.floating && given.friction &&
-      given.armature && !given.strict && !given.missing.density && !given.missing.min_mass)
+      given.armature && !given.strict && !given.missing.any())
     return;
   faults.add({"", 0,
               "--state, --gravity, --floating, --no-friction, --no-armature, --strict, --density, "

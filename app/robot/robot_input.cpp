@@ -18,6 +18,19 @@
 namespace twinarm {
 namespace {
 
+// Names the options that give inertia where it is missing.
+template <class F>
+auto with_remedy(F f) try {
+  return f();
+} catch (const InputError& error) {
+  std::vector<Diagnostic> faults = error.faults();
+  for (Diagnostic& fault : faults)
+    for (const char* code : {"model.no-inertia", "urdf.inertia-missing", "urdf.mass-missing"})
+      if (fault.code == code)
+        fault.fix += "; or give --density 1000 (of its shapes), or --min-mass 0.001";
+  throw InputError(std::move(faults));
+}
+
 std::optional<RobotDescription> read_model_file(const RobotOptions& options,
                                                 DiagnosticList& faults) {
   const std::filesystem::path& file = options.model;
@@ -36,24 +49,16 @@ std::optional<RobotDescription> read_model_file(const RobotOptions& options,
   if (std::filesystem::is_directory(file, ignored))
     return fault("is a folder", "name the robot's URDF in it", "file.is-folder");
   return attempt(faults, [&] {
-    RobotDescription robot =
-        read_robot_file(file, {.geometry = RobotFileOptions::Geometry::optional,
-                               .strict = options.strict,
-                               .roots = options.roots});
+    RobotDescription robot = with_remedy([&] {
+      return read_robot_file(file,
+                             {.geometry = RobotFileOptions::Geometry::optional,
+                              .strict = options.strict,
+                              .incomplete_inertia = options.kinematic || options.missing.any(),
+                              .roots = options.roots});
+    });
     add_missing_inertia(robot, options.missing);
     return robot;
   });
-}
-
-// With the options that give inertia to joints that move none.
-Model<double> build(const RobotDescription& robot, const ModelOptions& options) try {
-  return build_model(robot, options);
-} catch (const InputError& error) {
-  std::vector<Diagnostic> faults = error.faults();
-  for (Diagnostic& fault : faults)
-    if (fault.code == "model.no-inertia")
-      fault.fix += "; or give --density 1000 (of its shapes), or --min-mass 0.001";
-  throw InputError(std::move(faults));
 }
 
 }  // namespace
@@ -105,7 +110,8 @@ RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) 
   model_options.friction = options.friction;
   model_options.armature = options.armature;
   model_options.kinematic = options.kinematic;
-  auto model = attempt(faults, [&] { return build(*robot, model_options); });
+  auto model = attempt(
+      faults, [&] { return with_remedy([&] { return build_model(*robot, model_options); }); });
   if (!model) faults.check();
   if (gravity) model->gravity = from_eigen(*gravity);
 

@@ -20,7 +20,7 @@ void reject_robot_options(const RobotOptions& options, DiagnosticList& faults) {
   if (options.floating)
     faults.add("--floating", "applies to a URDF only", "write base = \"floating\" in [[robot]]",
                "option.useless");
-  if (options.missing.density || options.missing.min_mass)
+  if (options.missing.any())
     faults.add("--density, --min-mass", "apply to a URDF only", "give mass and inertia in its file",
                "option.useless");
   if (options.strict)

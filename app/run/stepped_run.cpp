@@ -221,8 +221,9 @@ bool SteppedRun::one_step(double t, double h_max) {
     earlier_ = std::move(later_);
     later_ = memory();
   }
+  const double bound = bound_;  // an alarm lowers it for the steps after it
   if (watch_.alarm && result_.steps % EnergyAlarm::kWindow == 0) check_energy_balance();
-  return result_.steps % kEnergyEvery != 0 || stays_bounded(report);
+  return result_.steps % kEnergyEvery != 0 || stays_bounded(report, bound);
 }
 
 // Accounts for the step from t in the energy and momentum balances.
@@ -248,15 +249,15 @@ void SteppedRun::check_energy_balance() {
   if (plan_.energy_bound <= 0) bound_ = default_energy_bound(input_.model, input_.state.x, true);
 }
 
-bool SteppedRun::stays_bounded(const StepReport& report) {
+bool SteppedRun::stays_bounded(const StepReport& report, double bound) {
   const double energy = kinetic_energy(input_.model, sim_.state());
-  if (energy <= bound_) return true;
+  if (energy <= bound) return true;
   PostMortem found = examine_end(report, sim_, sim_.state(), result_.end, result_.steps);
   found.by_energy = true;
-  found.energy_bound = bound_;
+  found.energy_bound = bound;
   found.field = "qd";
   found.reason = fmt::format("the kinetic energy of {} J exceeds its bound of {} J",
-                             short_number_text(energy), short_number_text(bound_));
+                             short_number_text(energy), short_number_text(bound));
   result_.post_mortem = std::move(found);
   return false;
 }

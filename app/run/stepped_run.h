@@ -56,7 +56,7 @@ class SteppedRun final : public RunView {
   bool one_step(double t, double h_max);
   void book(const StepReport& report, double t, bool by_limits);
   void check_energy_balance();
-  bool stays_bounded(const StepReport& report);
+  bool stays_bounded(const StepReport& report, double bound);
   // Samples before t_end, by side steps from `from`, which is at t.
   void sample_up_to(double t_end, double t, const Simulation& from);
   State<double> step_aside(const Simulation& from, double h, double t);

@@ -1,6 +1,6 @@
 // What the paper says of its four experiments, as data: Table 2, and its words on Figures 6 and 7.
-// Of the figures only the words are known, so each is read as a share of a run between 0 and 1, with
-// an interval in which the words leave it open.
+// Of the figures only the words are known, so each is read as a share of a run between 0 and 1,
+// with an interval in which the words leave it open.
 #pragma once
 
 #include <array>
@@ -36,7 +36,7 @@ struct PaperStatement {
 };
 enum class Verdict { contradicts, open, agrees };
 inline Verdict verdict_of(const PaperStatement& s, double share) {
-  return share >= s.agrees       ? Verdict::agrees
+  return share >= s.agrees        ? Verdict::agrees
          : share <= s.contradicts ? Verdict::contradicts
                                   : Verdict::open;
 }
@@ -49,11 +49,12 @@ inline const std::vector<PaperStatement> kPaperStatements{
      0.7},
     {"E4", "7d", "almost overlapping, small errors at changes of direction only",
      PaperStatement::Share::near_reversals,
-     "mean error within 0.25 s after a change of direction, over the sum of this and the other mean",
+     "mean error within 0.25 s after a change of direction, over the sum of this and the other "
+     "mean",
      0.5, 0.67},
     {"E1", "6a", "differences mainly where the direction changes",
      PaperStatement::Share::near_reversals, "as 7d", 0.5, 0.67},
-    {"E2", "6b", "small errors at changes of direction only",
-     PaperStatement::Share::near_reversals, "as 7d", 0.5, 0.67}};
+    {"E2", "6b", "small errors at changes of direction only", PaperStatement::Share::near_reversals,
+     "as 7d", 0.5, 0.67}};
 
 }  // namespace twinarm

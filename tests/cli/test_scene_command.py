@@ -78,7 +78,7 @@ class FreeFlight(Scenes):
         self.assertEqual(answer["samples"][-1]["kinetic_energy"], 0)
 
     def test_a_pendulum_on_a_shaken_base_follows_the_equation_of_kapitza(self):
-        """theta from the upright: theta'' = m r (g + y'') sin theta / I, y = a sin w t; integrated here by Runge-Kutta."""
+        """theta'' = m r (g + y'') sin theta / I from the upright, y = a sin w t; integrated here by Runge-Kutta."""
         m, r, inertia = 2, 0.3, 0.05 + 2 * 0.3 ** 2
         a, f, start = 0.02, 40, 0.3
         w = 2 * math.pi * f

@@ -56,9 +56,9 @@ void OptionAdder::robot(RobotOptions& options, const char* model) const {
       "--no-armature", [&] { options.armature = false; }, "ignore rotor inertia (armature)");
   (*this)("--strict", options.strict, "reject physically inconsistent inertias (URDF)");
   (*this)("--density", options.missing.density,
-          "of links without mass [kg/m^3]: inertia from their shapes (URDF)");
+          "of links without inertia [kg/m^3]: it is taken from their shapes (URDF)");
   (*this)("--min-mass", options.missing.min_mass,
-          "of links that have none then [kg]: small balls (URDF)");
+          "of links that then have none [kg]: small balls (URDF)");
 }
 
 CLI::Validator above_zero() {

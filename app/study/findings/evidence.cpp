@@ -20,7 +20,8 @@ struct Fit {
   RunSpec spec;
 };
 
-// Times at which the angle has an extreme from which it returns by more than `least`, and the start.
+// Times at which the angle has an extreme from which it returns by more than `least`, and the
+// start.
 std::vector<double> reversals(const std::vector<double>& t, const std::vector<double>& q,
                               double least) {
   std::vector<double> times{t.front()};
@@ -217,8 +218,8 @@ std::string evidence_in_words(const std::vector<Evidence>& all, const std::strin
       readings, row, agree, left.size(), left.size() == 1 ? "is" : "are", figure.figure);
   if (!left.empty())
     words += fmt::format(": {}; nearest to {} is {} at {:g} Hz, with {} of its 4 numbers",
-                         kind_words(left), used->user_row(), left.front()->law,
-                         left.front()->rate, left.front()->user_numbers);
+                         kind_words(left), used->user_row(), left.front()->law, left.front()->rate,
+                         left.front()->user_numbers);
   words += fmt::format(
       ". The reading used here, as published, has {} of 4 numbers of {}; Figure {} {} (share "
       "{:.2f}).",

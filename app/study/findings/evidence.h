@@ -1,6 +1,6 @@
-// Fits of Table 2 weighed against everything that the paper says of their coupling: four numbers, two
-// figures, and the numbers of the user motion with the same gains. Table 2 alone does not tell a
-// stiff, ringing coupling from a soft, overdamped one.
+// Fits of Table 2 weighed against everything that the paper says of their coupling: four numbers,
+// two figures, and the numbers of the user motion with the same gains. Table 2 alone does not tell
+// a stiff, ringing coupling from a soft, overdamped one.
 #pragma once
 
 #include <string>
@@ -23,8 +23,9 @@ double share_of(PaperStatement::Share share, const TrackingSeries& series);
 const PaperStatement& statement_on(const std::string& run);
 
 // Fits of the row that agree with its numbers and that the statement on its figure does not
-// contradict (that on the user motion is shown only: the operators move otherwise than the paper's);
-// the best first: most numbers of the user motion, then fewest parameters, then smallest misfit.
+// contradict (that on the user motion is shown only: the operators move otherwise than the
+// paper's); the best first: most numbers of the user motion, then fewest parameters, then smallest
+// misfit.
 std::vector<const Evidence*> remaining(const std::vector<Evidence>& all, const std::string& row);
 // Sentence of the answer on a row.
 std::string evidence_in_words(const std::vector<Evidence>& all, const std::string& row);

@@ -82,7 +82,7 @@ std::vector<ObstaclePanel> obstacle_panels(Gnuplot& gnuplot, const ObstacleRun& 
       run.coupling, 1.8);
   add_size("contact force [N]", run.contact_force, 1.4);
   panels.push_back(
-      {"depth behind the touched face [mm]; the line is 0.5 mm",
+      {"depth behind the face [mm]; line: 0.5 mm",
        fmt::format("0.5 with lines dt (4,4) lw 1.2 lc '{}' notitle, {} with lines lw 4 lc '{}' "
                    "notitle, {} with lines lw 1.8 lc '{}' notitle",
                    palette::faint, gnuplot.data({run.t, positive_mm(run.beyond)}), palette::kvr,

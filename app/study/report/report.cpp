@@ -98,6 +98,7 @@ void write_report(const StudyResults& results, const std::filesystem::path& asse
   add_findings(results, slots);
   add_reproduction(results, slots);
   add_other_runs(results, slots);
+  add_obstacle(results, slots);
   add_search(results, slots);
   add_identification(results, slots);
   add_evidence(results, slots);

@@ -21,19 +21,18 @@ std::string statement_rows() {
 
 std::string share_cell(const std::string& run, double share) {
   const Verdict verdict = verdict_of(statement_on(run), share);
-  const char* colour = verdict == Verdict::agrees ? "yes"
-                       : verdict == Verdict::open ? "small"
-                                                  : "no";
-  return fmt::format("<td>{:.2f} <span class={}>{}</span></td>", share, colour,
-                     verdict_words(verdict));
+  const char* words = verdict == Verdict::agrees ? "<span class=yes>agrees</span>"
+                      : verdict == Verdict::open ? "<span class=small>open</span>"
+                                                 : "<span class=no>contradicts</span>";
+  return fmt::format("<td>{:.2f}<br>{}</td>", share, words);
 }
 
 std::string evidence_row(const Evidence& e, bool remains) {
   std::string html = fmt::format(
-      "<tr{}><td class=text>{}{}</td><td>{:g}</td><td>{}</td><td>{}</td><td>{}</td>"
-      "<td>{} / {}</td><td>{}</td>",
-      e.is_used ? " class=chosen" : "", escaped(e.law), e.is_used ? " <b>(used here)</b>" : "",
-      e.rate, gains_words(e.gains.k1, e.gains.k2), gains_words(e.gains.b1, e.gains.b2),
+      "<tr{}><td class=text>{}, {:g} Hz{}<br><span class=small>k {}, b {}, mass of arm 2 {}</span>"
+      "</td><td>{}<br>{}</td><td>{}</td>",
+      e.is_used ? " class=chosen" : "", escaped(e.law), e.rate, e.is_used ? " (used here)" : "",
+      gains_words(e.gains.k1, e.gains.k2), gains_words(e.gains.b1, e.gains.b2),
       rounded(e.arm2_mass_scale), rounded(e.damping_ratio[0]), rounded(e.damping_ratio[1]),
       e.parameters);
   for (const double misfit : e.misfit)
@@ -42,7 +41,7 @@ std::string evidence_row(const Evidence& e, bool remains) {
                         misfit <= 1 ? "yes" : "no", misfit < 1000 ? rounded(misfit) : "–");
   html += share_cell(e.row, e.figure) + fmt::format("<td>{} of 4</td>", e.user_numbers) +
           share_cell(e.user_row(), e.user_figure);
-  return html + fmt::format("<td>{}</td></tr>\n", yes_no(remains, "remains", "–"));
+  return html + "<td>" + (remains ? "<span class=yes>remains</span>" : "–") + "</td></tr>\n";
 }
 
 std::string evidence_table(const std::vector<Evidence>& all, const std::string& row) {
@@ -55,12 +54,11 @@ std::string evidence_table(const std::vector<Evidence>& all, const std::string& 
   }
   return fmt::format(
       "<h3>{}</h3>\n<div class=scroll><table class=dense><thead><tr><th rowspan=2 "
-      "class=text>law</th><th rowspan=2>rate<br>Hz</th><th rowspan=2>k</th><th rowspan=2>b</th>"
-      "<th rowspan=2>mass of<br>arm 2</th><th rowspan=2>damping ratio,<br>slow / fast mode</th>"
-      "<th rowspan=2>fitted<br>parameters</th><th colspan=4 class=first>misfit, half digits</th>"
-      "<th rowspan=2>Figure {}</th><th rowspan=2>{}: numbers<br>inside</th>"
-      "<th rowspan=2>Figure {}</th><th rowspan=2></th></tr>\n<tr><th class=first>max 1</th>"
-      "<th>max 2</th><th>mean 1</th><th>mean 2</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      "class=text>law, rate, gains</th><th rowspan=2>damping<br>ratio</th><th rowspan=2>fitted</th>"
+      "<th colspan=4 class=first>misfit, half digits</th><th rowspan=2>Figure<br>{}</th>"
+      "<th rowspan=2>{}<br>inside</th><th rowspan=2>Figure<br>{}</th><th rowspan=2></th></tr>\n"
+      "<tr><th class=first>max 1</th><th>max 2</th><th>mean 1</th><th>mean 2</th></tr></thead>"
+      "<tbody>\n{}</tbody></table></div>\n",
       row == "E4-text" ? "E4 with the numbers of the text: 4.0 instead of 6.0, 0.34 instead of 0.3"
                        : row,
       statement_on(row).figure, user, statement_on(user).figure, rows);
@@ -77,15 +75,15 @@ void add_evidence(const StudyResults& results, Slots& slots) {
     slots[name] = evidence_table(results.evidence, row);
   }
   for (const char* row : {"E3", "E4"})
-    slots[std::string("evidence_words_") + row] =
-        escaped(evidence_in_words(results.evidence, row));
+    slots[std::string("evidence_words_") + row] = escaped(evidence_in_words(results.evidence, row));
   std::size_t readings = 0, agree = 0;
   for (const Evidence& e : results.evidence) {
     readings += e.row == "E4-text";
     agree += e.row == "E4-text" && e.has_numbers();
   }
   slots["evidence_words_text"] = fmt::format(
-      "The text's 4.0 for joint 2 of E4 can be met as well: refitted to it, {} of {} readings agree "
+      "The text's 4.0 for joint 2 of E4 can be met as well: refitted to it, {} of {} readings "
+      "agree "
       "with all four numbers. The numbers alone do not tell which of the two is the slip.",
       agree, readings);
 }

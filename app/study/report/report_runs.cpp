@@ -1,8 +1,7 @@
-// Slots of the report on the runs: Table 2, Figures 6 and 7, variants, obstacle, recordings.
+// Slots of the report on the runs: Table 2, Figures 6 and 7, variants, recordings.
 #include <fmt/format.h>
 
 #include <cmath>
-#include <functional>
 #include <set>
 
 #include "app/study/findings/variants.h"
@@ -14,12 +13,11 @@ namespace {
 
 constexpr double kNear = 0.15;  // of a published number
 
-// Linear theory predicts the errors of the automatic motion only.
-bool has_theory(const RunResult& run) {
+bool has_theory(const RunResult& run) {  // of the automatic motion only
   return run.spec.name >= std::string("E3");
 }
 
-// Two runs of Table 2: measured, by theory, published, deviation.
+// Two runs of Table 2.
 std::string comparison_table(const std::vector<const RunResult*>& runs) {
   std::string top = "<tr><th rowspan=2>degrees</th>", second = "<tr>", body;
   for (const RunResult* run : runs) {
@@ -54,7 +52,6 @@ std::string comparison_table(const std::vector<const RunResult*>& runs) {
          "</tr></thead>\n<tbody>" + body + "</tbody></table></div>\n";
 }
 
-// E1 and E2 with many operators: the one that is shown, quantiles, published.
 std::string ensemble_table(const StudyResults& results) {
   std::string top = "<tr><th rowspan=2>degrees</th>", second = "<tr>", body;
   for (const Ensemble& all : results.ensembles) {
@@ -140,7 +137,7 @@ std::string angle_caption(const RunResult& run) {
              two.at_end, one.lag, two.lag);
 }
 
-// "semi-implicit/linear/60" as words: the law, and the group if it is the discretization.
+// Of "semi-implicit/linear/60": the law, and the group if it is the discretization.
 std::string run_words(const std::string& name, bool with_group) {
   const std::vector<std::string> parts = split(name, '/');
   return with_group ? parts[0] + ", " + parts[1] : parts[1];
@@ -206,50 +203,6 @@ std::string rates_rows(const StudyResults& results) {
   return html;
 }
 
-// One column for each run.
-std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
-  using R = const ObstacleRun&;
-  const auto ratio = [](double value) { return value > 0 ? rounded(value) : std::string("–"); };
-  const auto unit = [](R r, const char* time) {
-    const bool linear = r.spec.coupling.type == CouplingSpec::Type::linear;
-    return fmt::format(" {}{}/{}", r.spec.coupling_force_unit(), time, linear ? "m" : "rad");
-  };
-  const std::pair<const char*, std::function<std::string(R)>> rows[] = {
-      {"discretization", [](R r) { return escaped(discretization_name(r.spec.coupling)); }},
-      {"stiffness on link 1; link 2",
-       [&](R r) { return gains_words(r.spec.gains.k1, r.spec.gains.k2) + unit(r, ""); }},
-      {"damping on link 1; link 2",
-       [&](R r) { return gains_words(r.spec.gains.b1, r.spec.gains.b2) + unit(r, " s"); }},
-      {"longest contact",
-       [](R r) {
-         return r.contact_begin < 0
-                    ? "none"
-                    : fmt::format("{:.3f} to {:.3f} s", r.contact_begin, r.contact_end);
-       }},
-      {"largest penetration of the DVR",
-       [](R r) { return fmt::format("{:.3f} mm", 1e3 * r.max_penetration); }},
-      {"largest depth of the KVR behind the touched face",
-       [](R r) { return fmt::format("{:.0f} mm", 1e3 * r.max_beyond); }},
-      {"largest coupling force or torque",
-       [](R r) { return fmt::format("{:.0f} {}", r.max_coupling, r.spec.coupling_force_unit()); }},
-      {"largest contact force", [](R r) { return fmt::format("{:.0f} N", r.max_force); }},
-      {"R<sub>K</sub>/r where it came nearest to its limit; the limit",
-       [&](R r) { return ratio(r.target_radius_ratio) + "; " + ratio(r.target_radius_limit); }},
-      {"limit first exceeded", [](R r) {
-         return r.exceeded_at < 0 ? std::string("–")
-                                  : fmt::format("<span class=no>{:.3f} s</span>", r.exceeded_at);
-       }}};
-  std::string html = "<tr><th></th>";
-  for (R run : runs) html += "<th>" + escaped(run.spec.title) + "</th>";
-  html += "</tr></thead><tbody>\n";
-  for (const auto& [name, value] : rows) {
-    html += fmt::format("<tr><td>{}</td>", name);
-    for (R run : runs) html += "<td>" + value(run) + "</td>";
-    html += "</tr>\n";
-  }
-  return html;
-}
-
 std::string recordings_rows(const std::vector<StudyRecording>& recordings) {
   const auto link = [](const std::filesystem::path& file, const char* words) {
     const std::string name = escaped("recordings/" + file.filename().string());
@@ -295,7 +248,6 @@ void add_other_runs(const StudyResults& results, Slots& slots) {
         variant_table(results.variants, {std::string(group) + "/"});
   slots["variants_discretizations"] =
       variant_table(results.variants, {"explicit/", "semi-implicit/", "implicit/"});
-  slots["obstacle_rows"] = obstacle_rows(results.obstacle);
   slots["recordings_rows"] = recordings_rows(results.recordings);
 }
 

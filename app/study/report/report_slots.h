@@ -19,8 +19,9 @@ std::string gains_words(double first, double second);  // "12.3", or "12.3; 4.56
 std::string bound_words(const CalibrationEntry& entry);
 
 void add_reproduction(const StudyResults& results, Slots& slots);  // Table 2, Figures 6 and 7
-// Update rates, variants, obstacle, recordings.
+// Update rates, variants, recordings.
 void add_other_runs(const StudyResults& results, Slots& slots);
+void add_obstacle(const StudyResults& results, Slots& slots);
 void add_search(const StudyResults& results, Slots& slots);  // and all parameters
 void add_identification(const StudyResults& results, Slots& slots);
 void add_evidence(const StudyResults& results, Slots& slots);

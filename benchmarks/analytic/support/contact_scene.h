@@ -1,5 +1,4 @@
-// Scene of the contact cases: free, fixed and rotating bodies under rigid contact, or
-// compliant.
+// Scene of the contact cases: free, fixed and rotating bodies under rigid or compliant contact.
 //
 // Steps are 1 ms unless stated otherwise. Tolerances: one step for event times, 1e-3 relative for
 // velocities; an error of position is divided by the speed there and so becomes a time.

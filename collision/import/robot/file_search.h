@@ -21,6 +21,9 @@ struct RobotFileOptions {
   Geometry geometry = Geometry::required;
   // A physically impossible inertia is an error instead of a warning.
   bool strict = false;
+  // An <inertial> without mass or inertia is a warning instead of an error; what is missing is
+  // zero.
+  bool incomplete_inertia = false;
   FileRoots roots = {};  // of meshes and textures
 };
 

@@ -1,5 +1,6 @@
 #include "collision/import/robot/missing_inertia.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -17,27 +18,29 @@ void add_solids(const std::vector<Part>& parts, double density, std::vector<Mass
   }
 }
 
-void set(LinkDescription& link, const MassProperties& solid) {
-  link.has_inertia = true;
-  link.mass = solid.mass;
-  link.com = solid.com;
-  link.inertia = 0.5 * (solid.inertia + solid.inertia.transpose());
-}
-
 void add_from_shapes(LinkDescription& link, double density) {
   std::vector<MassProperties> solids;
   if (link.collisions.empty())
     add_solids(link.visuals, density, solids);
   else
     add_solids(link.collisions, density, solids);
-  if (!solids.empty()) set(link, combine(solids));
+  if (solids.empty()) return;
+  MassProperties all = combine(solids);
+  if (link.mass > 0)
+    all = with_mass(all, link.mass);
+  else
+    link.com = all.com;
+  link.has_inertia = true;
+  link.mass = all.mass;
+  link.inertia = 0.5 * (all.inertia + all.inertia.transpose());
 }
 
-MassProperties ball(double mass) {
+void make_ball(LinkDescription& link, double min_mass) {
   constexpr double kWater = 1000;  // [kg/m^3]
-  const double r = std::cbrt(3 * mass / (4 * std::numbers::pi * kWater));
-  const double I = 0.4 * mass * r * r;
-  return centred_solid(mass, I, I, I);
+  link.has_inertia = true;
+  link.mass = std::max(link.mass, min_mass);
+  const double r = std::cbrt(3 * link.mass / (4 * std::numbers::pi * kWater));
+  link.inertia = 0.4 * link.mass * r * r * Matrix3::Identity();
 }
 
 }  // namespace
@@ -52,7 +55,7 @@ void add_missing_inertia(RobotDescription& robot, const MissingInertia& missing)
   check("--min-mass", missing.min_mass);
   faults.check();
   for (LinkDescription& link : robot.links) {
-    if (link.mass != 0 || !link.inertia.isZero(0)) continue;
+    if (!link.inertia.isZero(0)) continue;
     if (missing.density) try {
         add_from_shapes(link, *missing.density);
       } catch (const InputError& error) {
@@ -60,11 +63,11 @@ void add_missing_inertia(RobotDescription& robot, const MissingInertia& missing)
         faults.add({robot.file.string(), link.line, "link '" + link.name + "', --density",
                     fault.problem, fault.fix, fault.code});
       }
-    if (missing.min_mass && link.mass == 0) set(link, ball(*missing.min_mass));
+    if (missing.min_mass && link.inertia.isZero(0)) make_ball(link, *missing.min_mass);
   }
   faults.check();
   // Of joints that still move no inertia the model's builder reports an error.
-  if (missing.density || missing.min_mass)
+  if (missing.any())
     std::erase_if(robot.warnings, [](const Diagnostic& d) { return d.code == "robot.no-mass"; });
 }
 

@@ -32,8 +32,9 @@ std::string xml_error_text(const tinyxml2::XMLDocument& document) {
 void read_inertial(const XMLElement& element, const std::string& where, LinkDescription& link,
                    UrdfSource& source) {
   link.has_inertia = true;
-  link.mass = 1;  // defaults for missing or invalid values
-  link.inertia = Matrix3::Identity();
+  const bool incomplete = source.options().incomplete_inertia;
+  link.mass = incomplete ? 0 : 1;  // defaults for missing or invalid values
+  if (!incomplete) link.inertia = Matrix3::Identity();
   for (const char* name : {"mass", "inertia"}) source.at_most_one(element, name, where);
   const Origin origin = source.origin(element, where);
   link.com = origin.xyz;
@@ -41,12 +42,14 @@ void read_inertial(const XMLElement& element, const std::string& where, LinkDesc
     link.mass_line = mass->GetLineNum();
     link.mass = source.number(*mass, "value", where).value_or(1.0);
   } else {
+    const UrdfSource::ErrorsAsWarnings warns(source, incomplete);
     source.fault(element.GetLineNum(), where, "<inertial> has no <mass>",
                  "give <mass value=\"...\"/> in kg", "urdf.mass-missing");
   }
 
   const XMLElement* inertia = element.FirstChildElement("inertia");
   if (!inertia) {
+    const UrdfSource::ErrorsAsWarnings warns(source, incomplete);
     source.fault(element.GetLineNum(), where, "<inertial> has no <inertia>",
                  "give <inertia ixx ixy ixz iyy iyz izz/> about the centre of mass",
                  "urdf.inertia-missing");

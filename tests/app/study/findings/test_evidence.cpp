@@ -36,21 +36,18 @@ TEST_CASE("a lag that keeps its sign within each sweep is an offset, ringing abo
   const auto sign = [](double t) { return std::fmod(std::floor(t), 2) == 0 ? 1.0 : -1.0; };
   CHECK(share_of(kOffset, series([&](double t) { return 0.1 * sign(t); })) ==
         doctest::Approx(1).epsilon(1e-3));
-  CHECK(share_of(kOffset, series([](double t) {
-          return std::sin(2 * std::numbers::pi * 5 * t);
-        })) < 0.01);
+  CHECK(share_of(kOffset, series([](double t) { return std::sin(2 * std::numbers::pi * 5 * t); })) <
+        0.01);
   // c + sin: the mean is c, that of its size (2/pi) (c asin c + sqrt(1 - c^2)).
   const double c = 0.5;
-  CHECK(share_of(kOffset, series([&](double t) {
-          return c + std::sin(2 * std::numbers::pi * 5 * t);
-        })) ==
+  CHECK(share_of(kOffset,
+                 series([&](double t) { return c + std::sin(2 * std::numbers::pi * 5 * t); })) ==
         doctest::Approx(c / (2 / std::numbers::pi * (c * std::asin(c) + std::sqrt(1 - c * c))))
             .epsilon(1e-3));
 }
 
 TEST_CASE("an error after changes of direction only has the share 1, a constant one one half") {
-  CHECK(share_of(kNear, series([](double t) { return t - std::floor(t) < 0.2 ? 0.1 : 0.0; })) ==
-        1);
+  CHECK(share_of(kNear, series([](double t) { return t - std::floor(t) < 0.2 ? 0.1 : 0.0; })) == 1);
   CHECK(share_of(kNear, series([](double) { return 0.1; })) == doctest::Approx(0.5));
   // e^(-t/T) within a sweep of 1 s: mean of the first quarter over the sum of both means.
   const double T = 0.25, first = (1 - std::exp(-1)) / 0.25,
