@@ -96,12 +96,13 @@ class TraceReader {
   void read_sample(int line, const Cells& cells) {
     RecordedTrace::Sample sample{};
     double button = 0;
-    bool good = true;
+    bool good = true, has_time = false;
     for (std::size_t c = 0; c < (have_button_ ? 8u : 7u); ++c) {
       double& value = c == 0 ? sample.t : c == 7 ? button : sample.theta[c - 1];
       const std::string_view cell = column_[c] < cells.size() ? cells[column_[c]] : "";
       if (const auto number = parse_number(cell)) {
         value = c > 0 && c < 7 && in_degrees_[c - 1] ? *number * kDegree : *number;
+        has_time = has_time || c == 0;
         continue;
       }
       good = false;
@@ -111,15 +112,17 @@ class TraceReader {
                    : column_name(c - 1),
           fmt::format("'{}' is not a finite number", cell), "correct or remove the line");
     }
+    if (has_time && !(sample.t > last_time_)) {
+      add(line, "t[s]",
+          fmt::format("time does not increase: {} s after {} s", sample.t, last_time_),
+          "sort the lines by time, one line per instant");
+      good = false;
+    } else if (has_time) {
+      last_time_ = sample.t;
+    }
     if (!good) return;
     sample.button = button != 0;
     auto& samples = trace_.samples_;
-    if (!samples.empty() && !(sample.t > samples.back().t)) {
-      add(line, "t[s]",
-          fmt::format("time does not increase: {} s after {} s", sample.t, samples.back().t),
-          "sort the lines by time, one line per instant");
-      return;
-    }
     if (samples.size() == kMaxSamples)
       throw InputError({{trace_.file_, line, "", "the trace has more than 8 million samples",
                          "shorten it, or use a lower sampling rate", "trace.too-long"}});
@@ -214,6 +217,7 @@ class TraceReader {
   std::array<std::size_t, 8> column_{};  // of t, theta1..theta6, button
   std::array<bool, 6> in_degrees_{};
   bool have_button_ = false;
+  double last_time_ = -HUGE_VAL;  // of the lines so far, also of those with other errors
 };
 
 RecordedTrace::RecordedTrace(const std::filesystem::path& file) : file_(file.string()) {

@@ -28,7 +28,7 @@ from waiting import TIMEOUT
 SCRIPT = ROOT / "scripts/generate/pictures"
 PICTURES = ROOT / "docs/pictures"
 LARGE = {"arm_and_twin", "side_by_side", "e3_e4", "map_stable"}  # studio quality; recordings; the study; 4096 runs
-BY_HAND = {"lab", "map_throughput", "layers"}
+BY_HAND = {"lab", "map_throughput", "layers", "work_precision"}
 MAX_VISIBLE = 0.002  # of the squares, as in test_pictures.py
 MAX_BYTES = 3.5e6    # of all pictures and films of docs/
 

@@ -153,6 +153,21 @@ std::string code_of(const std::vector<CompareRow>& rows) {
   return html;
 }
 
+// The figure that scripts/measure/peers --picture made; empty without it.
+std::string other_engines() {
+  const std::filesystem::path file = find_assets() / "compare" / "work_precision.svg";
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(file, ignored)) return "";
+  return "<h2 id=engines>Other engines</h2>\n<figure class=wide>" +
+         inline_svg(read_whole_file(file)) +
+         "<figcaption><b>Error against computing time</b> of three smooth motions, for every "
+         "scheme "
+         "of twinarm, MuJoCo, Bullet, DART, Simbody and ODE, with steps or tolerances from coarse "
+         "to fine: further left and lower is better. Measured on the machine and the day named in "
+         "the figure, not in this run, by scripts/measure/peers; settings, contacts and what each "
+         "engine cannot do: docs/understand/accuracy_vs_other_engines.md.</figcaption></figure>\n";
+}
+
 }  // namespace
 
 // A name may be composed from a prefix that ends with a hyphen. The last occurrence is the
@@ -210,9 +225,14 @@ std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std
     }
     page.main += sections[i];
   }
+  if (const std::string engines = other_engines(); !engines.empty()) {
+    page.contents.emplace_back("engines", "Other engines");
+    page.main += engines;
+  }
   page.contents.emplace_back("code", "Code");
   page.main += "<h2 id=code>Code</h2>\n" + code_of(rows);
-  page.footer = made_by(command, seconds) + " Every number on this page was computed in that run.";
+  page.footer = made_by(command, seconds) +
+                " Every number on this page was computed in that run, but for the other engines.";
   return page.html();
 }
 

@@ -130,6 +130,20 @@ TEST_CASE(
   for (const int good : {1, 2, 5}) CHECK_FALSE(names(faults, good, ""));
 }
 
+TEST_CASE("an invalid number of a trace does not hide that time runs back") {
+  const TemporaryFolder folder;
+  const auto faults = faults_of(folder.write("trace.csv", kHeader + "0,0,0,0,0,0,0,0\n"
+                                                                    "0.2,nan,0,0,0,0,0,0\n"   // 3
+                                                                    "0.1,0,0,0,0,0,0,0\n"     // 4
+                                                                    "0.2,0,0,0,oops,0,0,0\n"  // 5
+                                                                    "0.3,0,0,0,0,0,0,0\n"));
+  CHECK(names(faults, 3, "theta1[rad]"));
+  CHECK(names(faults, 4, "t[s]"));
+  CHECK(names(faults, 5, "t[s]"));
+  CHECK(names(faults, 5, "theta4[rad]"));
+  CHECK(faults.size() == 4);
+}
+
 TEST_CASE("a trace with fewer than two samples is rejected") {
   const TemporaryFolder folder;
   for (const std::string& body :
