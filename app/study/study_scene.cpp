@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "app/support/files.h"
 #include "coupling/device/device_motion.h"
 #include "coupling/target/target_robot.h"
 
@@ -65,8 +66,7 @@ class SceneWriter {
     const ModelOptions& masses = robot_.masses(scene_.spec.coupling.type);
     table("robot");
     line("name", toml_string(robot_.name()));
-    line("model",
-         toml_string(std::filesystem::absolute(settings_.urdf).lexically_normal().string()));
+    line("model", toml_string(model_file()));
     line("limits", "false");  // the gripper has stops, below
     if (!scene_.obstacle) line("collide", "false");
     std::vector<std::string> scales, loads;
@@ -78,6 +78,15 @@ class SceneWriter {
     if (!scales.empty()) line("mass_scale", fmt::format("{{ {} }}", fmt::join(scales, ", ")));
     if (!loads.empty()) line("payload", fmt::format("[{}]", fmt::join(loads, ", ")));
     line("q", start());
+  }
+
+  // Of shipped assets their name, so that the scene works on another machine too.
+  std::string model_file() const {
+    const std::filesystem::path urdf = std::filesystem::absolute(settings_.urdf).lexically_normal(),
+                                shipped =
+                                    std::filesystem::absolute(find_assets()).lexically_normal();
+    const std::string name = urdf.lexically_relative(shipped).string();
+    return name.empty() || name.starts_with("..") ? urdf.string() : name;
   }
 
   // The DVR starts in the pose of the KVR.

@@ -102,6 +102,23 @@ class FreeFlight(Scenes):
         self.assertAlmostEqual(answer["samples"][-1]["q"]["hinge"], x[0], delta=1e-7)
         self.assertLess(abs(x[0]), 0.4)  # it stays upright: a w > sqrt(2 g I / (m r))
 
+    def test_an_oscillating_motion_is_a_sine_with_its_velocity(self):
+        f, angle = 1.5, 0.4
+        answer = self.run_scene(
+            BALL.replace("mass = 2", f"motion = {{ linear = [1, 0, 0], amplitude = [0, 0.1, 0], "
+                                     f"swing = [0, 0, {angle}], frequency = {f} }}").replace("linear_velocity = [1, 2, 3]", "")
+            .replace("angular_velocity = [0, 0, 4]", ""),
+            "--duration", 0.3, "--at", "0,0.1,0.25")
+        w = 2 * math.pi * f
+        start = answer["samples"][0]["links"]["ball"]["position"]
+        for sample in answer["samples"]:
+            t, ball = sample["t"], sample["links"]["ball"]
+            self.close(ball["position"], add(start, [t, 0.1 * math.sin(w * t), 0]))
+            self.close(ball["linear_velocity"], [1, 0.1 * w * math.cos(w * t), 0])
+            turned = angle * math.sin(w * t)
+            self.close(ball["rotation"][0], [math.cos(turned), -math.sin(turned), 0])
+            self.close(ball["angular_velocity"], [0, 0, angle * w * math.cos(w * t)])
+
     def test_a_motion_that_oscillates_needs_its_frequency_and_one_kind_of_rotation(self):
         for law, where in (("amplitude = [0, 0, 1]", "frequency"), ("frequency = 2", "frequency"),
                            ("swing = [1, 0, 0], angular = [1, 0, 0], frequency = 2", "swing")):

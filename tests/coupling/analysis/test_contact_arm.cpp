@@ -1,9 +1,11 @@
-// The S-103 arm against a fixed box: the target robot is driven into it and stops inside; the robot
-// stays outside with each coupling, at the speed of the paper's experiments.
+// Two rods of the S-103's lengths against a fixed box: the target robot is driven into it at joint
+// 1's speed in the paper's automatic motion, and stops inside; the robot stays outside with each
+// coupling.
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <array>
+#include <numbers>
 
 #include "collision/contact/contact_constraints.h"
 #include "tests/coupling/analysis/one_joint.h"
@@ -14,7 +16,8 @@ using namespace twinarm::testing;
 
 namespace {
 
-constexpr double kArm = 0.25, kFore = 0.35, kSpeed = 2.0, kTime = 0.45;  // m, m, rad/s, s
+constexpr double kArm = 0.25, kFore = 0.35, kSpeed = std::numbers::pi,
+                 kTime = 0.9 / kSpeed;  // [m, rad/s, s]
 
 // Rotates joint 1 at kSpeed for kTime, then stops.
 class StoppingHand final : public OperatorMotion {
