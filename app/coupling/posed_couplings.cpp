@@ -119,7 +119,7 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
   found.B = (is_printed ? 0 : spec.spring.b) * square;
   found.added_inertia = added_inertia(spec);
   found.M_added = found.added_inertia * square;
-  if (spec.law == CouplingSpec::Type::god_object && spec.leads())
+  if (spec.law == CouplingSpec::Type::god_object && spec.is_first_component())
     found.landing = robot_inertia(spec);
   return found;
 }

@@ -166,16 +166,17 @@ void add_couplings(const SimulatePlan& prepared, std::vector<StabilityViolation>
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     const SceneCoupling& spec = couplings.spec(c);
     const bool is_god = spec.law == CouplingSpec::Type::god_object;
-    if (spec.leader != c || spec.soft_limits || is_god) continue;  // soft limits are inactive there
+    if (spec.first_component != c || spec.soft_limits || is_god)
+      continue;  // soft limits are inactive there
     PredictedCoupling all = posed.about_zero(c);
     SteppedCoupling stepped;
     for (std::size_t other = 0; other < couplings.size(); ++other) {
       const SceneCoupling& its = couplings.spec(other);
-      if (other != c && its.leader == c) {
+      if (other != c && its.first_component == c) {
         const PredictedCoupling more = posed.about_zero(other);
         all.K += more.K, all.K_zero += more.K_zero, all.B += more.B, all.M_added += more.M_added;
       }
-      if (its.law != CouplingSpec::Type::god_object || its.leader != other ||
+      if (its.law != CouplingSpec::Type::god_object || its.first_component != other ||
           its.robot != spec.robot)
         continue;
       stepped.beside.push_back(step_part(posed.about_zero(other), prepared.run.step));

@@ -59,7 +59,7 @@ FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& tim
     try {
       return prepare_simulation(files->options());
     } catch (const InputError& error) {
-      throw files->as_typed(error);
+      throw files->with_original_paths(error);
     }
   };
   FilmedRun run{{}, nullptr, nullptr, prepared(), {}, {}};

@@ -34,7 +34,7 @@ bool is_stable_at(const SimulatePlan& plan, const State<double>& x) {
   forward_kinematics(model, x, k);
   std::vector<CoupledTerm> parts;
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    if (!couplings.spec(c).leads()) continue;
+    if (!couplings.spec(c).is_first_component()) continue;
     const Coupling::JointSpace space = couplings.coupling(c).joint_space(k);
     parts.push_back({space.K, space.K, space.B, couplings.spec(c).discretization, 0});
   }

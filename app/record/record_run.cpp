@@ -278,7 +278,7 @@ Replay replay(const Recording& recording, std::size_t first, const std::vector<C
     prepared.run.times.clear();
     return run_on(recording, first, prepared);
   } catch (const InputError& error) {
-    throw files.as_typed(error, changes);
+    throw files.with_original_paths(error, changes);
   }
 }
 

@@ -128,8 +128,8 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
   return options;
 }
 
-InputError UnpackedRun::as_typed(const InputError& error,
-                                 const std::vector<Change>& changes) const {
+InputError UnpackedRun::with_original_paths(const InputError& error,
+                                            const std::vector<Change>& changes) const {
   const std::string folder = folder_.path.string();
   const auto remove_folder = [&](std::string& text) {
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;)
@@ -185,7 +185,7 @@ RecordedInstant open_instant(const std::filesystem::path& file, std::optional<do
     try {
       return prepare_simulation(options);
     } catch (const InputError& error) {
-      throw files->as_typed(error);
+      throw files->with_original_paths(error);
     }
   }();
   prepared.run.integrator =

@@ -31,7 +31,8 @@ class UnpackedRun {
   // outlive what is read with these options.
   SimulateOptions options(const std::vector<Change>& changes = {}) const;
   // Diagnostics of such a run with the original paths; those caused by a change name that change.
-  InputError as_typed(const InputError& error, const std::vector<Change>& changes = {}) const;
+  InputError with_original_paths(const InputError& error,
+                                 const std::vector<Change>& changes = {}) const;
 
  private:
   void write_missing() const;

@@ -29,7 +29,7 @@ void reject_robot_options(const RobotOptions& options, DiagnosticList& faults) {
 
 void check_discretizations(const SceneModel& scene, const RunPlan& plan, DiagnosticList& faults) {
   for (const SceneCoupling& coupling : scene.couplings) {
-    if (!coupling.leads()) continue;
+    if (!coupling.is_first_component()) continue;
     const auto fault = [&](std::string problem, std::string fix) {
       faults.add({scene.description.file.string(), coupling.line,
                   "coupling '" + coupling.coupling + "'", std::move(problem), std::move(fix),

@@ -54,7 +54,7 @@ HapticLoop::HapticLoop(const SceneModel& scene, const SceneCouplings& couplings,
   mapping_ = make_mapping(options.mapping, device.parameters(), robot);
   force_ = std::make_unique<ForceFeedback>(options.force, device.parameters(), *mapping_);
   for (const std::size_t c : driven)
-    if (scene.couplings[c].leads() && !scene.couplings[c].soft_limits)
+    if (scene.couplings[c].is_first_component() && !scene.couplings[c].soft_limits)
       reaction_.add(couplings.law(c), couplings.coupling(c));
   for (const int joint : driven_) {
     target_.q.push_back(rest.q[scene.model.iq[static_cast<std::size_t>(joint)]]);

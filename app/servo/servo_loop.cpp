@@ -140,7 +140,7 @@ std::vector<std::size_t> device_couplings(const SceneModel& scene, double h) {
     const SceneCoupling& coupling = scene.couplings[c];
     if (coupling.target != CouplingTarget::Kind::device) continue;
     driven.push_back(c);
-    if (!coupling.leads()) continue;
+    if (!coupling.is_first_component()) continue;
     const std::string where = "coupling '" + coupling.coupling + "'";
     if (coupling.driven.turned != scene.couplings[driven.front()].driven.turned)
       faults.add({file, coupling.line, where, "the device drives other joints of another coupling",

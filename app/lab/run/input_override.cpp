@@ -29,7 +29,7 @@ void InputOverride::select_couplings() {
   std::vector<SceneCoupling>& all = scene_->couplings;
   const SceneCoupling* best = nullptr;
   for (const SceneCoupling& c : all)
-    if (c.leads() && !c.soft_limits && c.speed == 1 &&
+    if (c.is_first_component() && !c.soft_limits && c.speed == 1 &&
         (!best || rank_of_target(c) > rank_of_target(*best)))
       best = &c;
   if (!best) return;
@@ -211,7 +211,8 @@ std::vector<std::size_t> InputOverride::couplings() const {
   const std::vector<CouplingDescription>& all = scene_->description.couplings;
   for (std::size_t index = 0; index < all.size(); ++index)
     for (const std::size_t c : coupled_)
-      if (scene_->couplings[c].coupling == all[index].name && scene_->couplings[c].leads())
+      if (scene_->couplings[c].coupling == all[index].name &&
+          scene_->couplings[c].is_first_component())
         indices.push_back(index);
   return indices;
 }

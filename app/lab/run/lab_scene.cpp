@@ -105,7 +105,7 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
     prepared.run.times.clear();
     return std::make_unique<Plan>(Plan{std::move(prepared), files_});
   } catch (const InputError& error) {
-    throw name_changes(files_->as_typed(error, others), changes);
+    throw name_changes(files_->with_original_paths(error, others), changes);
   }
 }
 

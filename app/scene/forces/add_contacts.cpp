@@ -37,7 +37,7 @@ void check_contacts(const SceneModel& scene, Integrator integrator, DiagnosticLi
   const std::string file = scene.description.file.string();
   if (locates_events(scene))
     for (const SceneCoupling& coupling : scene.couplings)
-      if (coupling.leads() && coupling.needs_semi_implicit())
+      if (coupling.is_first_component() && coupling.needs_semi_implicit())
         faults.add({file, coupling.line, "coupling '" + coupling.coupling + "'",
                     "an implicit coupling cannot be combined with contact = \"event\"",
                     "give discretization = \"explicit\", or contact = \"rigid\"",

@@ -116,7 +116,7 @@ SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const Operator
   };
   for (std::size_t c = 0; c < scene.couplings.size(); ++c)
     couplings_.push_back(
-        scene.couplings[c].leader != c
+        scene.couplings[c].first_component != c
             ? couplings_.back()
             : std::make_shared<Active>(scene, scene.couplings[c], h, target_of(c), faults));
   faults.check();
@@ -125,7 +125,7 @@ SceneCouplings::SceneCouplings(const SceneModel& scene, double h, const Operator
 SceneCouplings::~SceneCouplings() = default;
 
 ForceSource* SceneCouplings::source(std::size_t c) {
-  return spec(c).leader == c ? couplings_[c]->source.get() : nullptr;
+  return spec(c).first_component == c ? couplings_[c]->source.get() : nullptr;
 }
 
 void SceneCouplings::forget_operator_motions() {

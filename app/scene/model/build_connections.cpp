@@ -125,7 +125,7 @@ SceneCoupling without_components(const SceneModel& scene, std::size_t index) {
   static_cast<CouplingTraits&>(made) = given;
   made.description = index;
   made.coupling = given.name;
-  made.leader = scene.couplings.size();
+  made.first_component = scene.couplings.size();
   made.robot = robot_named(scene.description, given.robot);
   made.target = given.target.kind;
   made.rest = scene.start;
@@ -145,7 +145,7 @@ SceneCoupling without_components(const SceneModel& scene, std::size_t index) {
 
 void add_component(SceneModel& scene, SceneCoupling made, const std::string& part, Component type,
                    const Spring& spring) {
-  if (scene.couplings.size() != made.leader) made.springs.clear();
+  if (scene.couplings.size() != made.first_component) made.springs.clear();
   if (!part.empty()) made.name += "/" + part;
   made.type = type;
   made.spring = spring;

@@ -43,11 +43,11 @@ struct SceneMotion {
 // NAME/force and NAME/couple; a god object has one per joint, NAME/JOINT. `name` and `type` are
 // those of the component, with its own row in output and energy balance.
 struct SceneCoupling : CouplingTraits {
-  std::string coupling;         // name of the coupling
-  std::size_t description = 0;  // index in SceneDescription::couplings
-  std::size_t leader = 0;       // index of the first component of the coupling
-  Spring spring;                // with the gains of this component
-  std::vector<Spring> springs;  // of the whole coupling; only in the first component
+  std::string coupling;             // name of the coupling
+  std::size_t description = 0;      // index in SceneDescription::couplings
+  std::size_t first_component = 0;  // index of the first component of the coupling
+  Spring spring;                    // with the gains of this component
+  std::vector<Spring> springs;      // of the whole coupling; only in the first component
   // The target: a copy of the whole model in which the operator motion moves joints of this robot;
   // the others are as in `rest`.
   CouplingTarget::Kind target = CouplingTarget::Kind::start;
@@ -59,9 +59,9 @@ struct SceneCoupling : CouplingTraits {
   double duration = 20;  // of a synthetic operator [s]
   SyntheticRanges ranges;
 
-  bool leads() const { return !springs.empty(); }  // is the first component
+  bool is_first_component() const { return !springs.empty(); }
   // Index of this component, number `index`, in Coupling::readings().
-  std::size_t reading(std::size_t index) const { return index - leader; }
+  std::size_t reading(std::size_t index) const { return index - first_component; }
   // Acts on the link from outside, not as a joint force.
   bool is_external() const {
     return law != CouplingSpec::Type::equivalent_torsional && !at_joint();
