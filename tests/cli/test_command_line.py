@@ -111,6 +111,11 @@ class CommandLine(ProgramTest):
             misfits = [[abs(x - p) / half for x, p, half in zip(numbers, paper, half_digits)] for numbers in found]
             for reading in readings:
                 self.assertTrue(0 <= reading["automatic"]["share"] <= 1 and 0 <= reading["user"]["share"] <= 1)
+                self.assertIn(reading["user_numbers_inside"], range(5))
+                if reading["used"]:  # some of the operators of the ensemble
+                    ensemble = study["runs"]["E1" if row == "E3" else "E2"]["ensemble"]["percentile_of_published"]
+                    inside = sum(10 <= p <= 90 for kind in ("max_deg", "mean_deg") for p in ensemble[kind].values())
+                    self.assertLessEqual(abs(reading["user_numbers_inside"] - inside), 1)
                 nearest = min(misfits, key=lambda m: sum(abs(a - b) for a, b in zip(m, reading["misfit"])))
                 for misfit, expected in zip(reading["misfit"], nearest):
                     self.assertAlmostEqual(misfit, expected, delta=1e-6 * max(1, expected), msg=reading)

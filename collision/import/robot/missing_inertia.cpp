@@ -39,6 +39,7 @@ void make_ball(LinkDescription& link, double min_mass) {
   constexpr double kWater = 1000;  // [kg/m^3]
   link.has_inertia = true;
   link.mass = std::max(link.mass, min_mass);
+  if (!link.inertia.isZero(0)) return;
   const double r = std::cbrt(3 * link.mass / (4 * std::numbers::pi * kWater));
   link.inertia = 0.4 * link.mass * r * r * Matrix3::Identity();
 }
@@ -55,7 +56,8 @@ void add_missing_inertia(RobotDescription& robot, const MissingInertia& missing)
   check("--min-mass", missing.min_mass);
   faults.check();
   for (LinkDescription& link : robot.links) {
-    if (!link.inertia.isZero(0)) continue;
+    const auto is_complete = [&] { return link.mass > 0 && !link.inertia.isZero(0); };
+    if (is_complete()) continue;
     if (missing.density) try {
         add_from_shapes(link, *missing.density);
       } catch (const InputError& error) {
@@ -63,7 +65,7 @@ void add_missing_inertia(RobotDescription& robot, const MissingInertia& missing)
         faults.add({robot.file.string(), link.line, "link '" + link.name + "', --density",
                     fault.problem, fault.fix, fault.code});
       }
-    if (missing.min_mass && link.inertia.isZero(0)) make_ball(link, *missing.min_mass);
+    if (missing.min_mass && !is_complete()) make_ball(link, *missing.min_mass);
   }
   faults.check();
   // Of joints that still move no inertia the model's builder reports an error.

@@ -9,11 +9,11 @@
 namespace twinarm {
 
 struct MissingInertia {
-  // [kg/m^3]: a link without inertia gets that of its collision shapes, or else of its visual ones,
-  // each a solid; a mesh counts as its convex hull. If it has a mass, scaled to that.
+  // [kg/m^3]: a link without mass or inertia gets that of its collision shapes, or else of its
+  // visual ones, each a solid; a mesh counts as its convex hull. If it has a mass, scaled to that.
   std::optional<double> density;
-  // [kg]: a link that still has no inertia gets that of a ball of the density of water, of this
-  // mass or of its own if that is larger.
+  // [kg]: a link that still has no mass or inertia gets that of a ball of the density of water, of
+  // this mass or of its own if that is larger.
   std::optional<double> min_mass;
   bool any() const { return density || min_mass; }
 };
