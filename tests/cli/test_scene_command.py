@@ -106,8 +106,8 @@ class FreeFlight(Scenes):
         f, angle = 1.5, 0.4
         answer = self.run_scene(
             BALL.replace("mass = 2", f"motion = {{ linear = [1, 0, 0], amplitude = [0, 0.1, 0], "
-                                     f"swing = [0, 0, {angle}], frequency = {f} }}").replace("linear_velocity = [1, 2, 3]", "")
-            .replace("angular_velocity = [0, 0, 4]", ""),
+                                     f"swing = [0, 0, {angle}], frequency = {f} }}")
+            .replace("linear_velocity = [1, 2, 3]", "").replace("angular_velocity = [0, 0, 4]", ""),
             "--duration", 0.3, "--at", "0,0.1,0.25")
         w = 2 * math.pi * f
         start = answer["samples"][0]["links"]["ball"]["position"]
