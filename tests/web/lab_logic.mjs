@@ -8,7 +8,7 @@ const page = await import(pathToFileURL(process.env.MODULES).href);
 const { placeOf, valueAt, stepped, niceStep, numberText, parseNumber } = page;
 const { Store, bucketsOf, outline, samples, timesOf, csvText, fileName } = page;
 const { RunRecord, decodeHistory, PlotSpecs } = page;
-const { chosen, post } = page;
+const { chosen, post, short, tickText } = page;
 
 // Reproducible random numbers.
 function random(seed) {
@@ -284,6 +284,14 @@ test('record: a new branch keeps the previous one, in either order of messages',
   }
 });
 
+test('record: after a restart the largest values are those of the new run', () => {
+  const record = new RunRecord(scene());
+  for (let i = 0; i <= 10; ++i) record.addFrame(frame(i, i < 10 ? i : 1e12, 0));
+  assert.equal(record.high[0], 1e12);
+  record.addFrame(frame(4.5, 7, 0));
+  assert.deepEqual([record.low[0], record.high[0]], [0, 7]);
+});
+
 test('record: earlier instants and other scenes are ignored', () => {
   const record = new RunRecord(scene());
   for (let i = 0; i <= 10; ++i) record.addFrame(frame(i, i, 0));
@@ -399,4 +407,28 @@ test('upload: the HTTP status determines the result, not the text', async () => 
   assert.equal(await answered(200), 'opened');
   assert.equal(await answered(202), 'kept');
   assert.equal(await answered(422), 'failed');
+});
+
+test('numbers have four digits, all before the point, and no noise', () => {
+  const shown = [[12345, '12345'], [-999999, '−999999'], [1234567, '1.23e+6'], [1234.5678, '1235'], [9.80665, '9.807'],
+    [4.2e-4, '4.20e−4'], [0, '0'], [NaN, '–'], [null, '–']];
+  for (const [value, text] of shown) assert.equal(short(value), text);
+  assert.equal(short(-2.19e-39, 1), '0');
+  assert.equal(short(2e-9, 1), '2.00e−9');
+  assert.equal(short(4e-9, 10), '0');
+});
+
+test('ticks of an axis differ from each other', () => {
+  const axis = (from, interval, count) => Array.from({ length: count }, (_, i) => tickText(from + i * interval, interval));
+  assert.deepEqual(axis(0.9995, 0.0005, 3), ['0.9995', '1.0000', '1.0005']);
+  assert.deepEqual(axis(-90, 45, 5), ['−90', '−45', '0', '45', '90']);
+  assert.deepEqual(axis(0, 2.5, 3), ['0', '2.5', '5.0']);
+  assert.deepEqual(axis(0, 0.25, 3), ['0', '0.25', '0.50']);
+  assert.deepEqual(axis(-2e-14, 1e-14, 3), ['−2e−14', '−1e−14', '0']);
+  assert.deepEqual(axis(150000, 50000, 3), ['1.5e+5', '2.0e+5', '2.5e+5']);
+  for (const interval of [1e-9, 2e-4, 0.1, 0.2, 0.5, 1, 2.5, 20, 250, 1e6, 5e7])
+    for (const from of [-3 * interval, 1000 * interval, 0.7]) {
+      const first = Math.ceil(from / interval) * interval;
+      assert.equal(new Set(axis(first, interval, 6)).size, 6, `${first} ${interval} ${axis(first, interval, 6)}`);
+    }
 });

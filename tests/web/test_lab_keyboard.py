@@ -108,6 +108,39 @@ class Keyboard(LabCase):
         self.keys("Enter")
         self.until(f"{STATE}.name === 'E3'")
 
+    def test_space_plays_and_pauses_after_a_click_on_a_preset(self):
+        button = "[...document.querySelectorAll('.presets button')].find(b => b.textContent.includes('E3'))"
+        self.value(f"{button}.scrollIntoView()")
+        at = self.value(f"(r => [r.x + r.width / 2, r.y + r.height / 2])({button}.getBoundingClientRect())")
+        self.mouse("mousePressed", at)
+        self.mouse("mouseReleased", at)
+        self.until(f"{STATE}.name === 'E3' && {STATE}.playing && {STATE}.time > 0.3")
+        before = self.value(f"{STATE}.time")
+        self.keys(" ")
+        self.until(f"!{STATE}.playing")
+        self.page.frames(20)
+        self.assertGreaterEqual(self.value(f"{STATE}.time"), before)  # not from the start again
+
+    def test_tooltips_of_parameters_are_sentences(self):
+        titles = self.value("[...document.querySelectorAll('.parameter [title]')].map(at => at.title)")
+        self.assertGreater(len(titles), 10)
+        self.assertEqual([title for title in titles if ".." in title], [])
+
+    def test_the_theme_follows_the_system_until_one_is_chosen(self):
+        theme = "document.documentElement.dataset.theme"
+        try:
+            for dark in (True, False, True):
+                self.page.prefer(dark)
+                self.until(f"{theme} === '{'dark' if dark else 'light'}'")
+            self.keys("t")
+            self.until(f"{theme} === 'light'")
+            self.page.prefer(False)
+            self.page.prefer(True)
+            self.page.frames(5)
+            self.assertEqual(self.value(theme), "light")
+        finally:
+            self.page.prefer(False)
+
     def test_overlays_files_and_scenes_open_and_restore_the_focus(self):
         self.keys("o")
         self.tab_to(".overlays [data-layer=frames]")

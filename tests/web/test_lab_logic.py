@@ -19,7 +19,7 @@ NODE = shutil.which("node") or shutil.which("nodejs")
 # Test files and the modules that they test.
 PARTS = {
     "lab_logic": ("ui/scale", "source/store", "source/run_record", "plot/export", "plot/specs",
-                  "panels/input_bar", "panels/gallery"),
+                  "panels/input_bar", "panels/gallery", "ui/dom", "plot/chart_parts"),
     "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal", "view/pace"),
 }
 BUNDLE = """

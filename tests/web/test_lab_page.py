@@ -48,6 +48,14 @@ FAINT = """(() => {
 
 
 class LabPage(LabCase):
+    def test_a_connection_that_has_gone_silent_is_opened_anew(self):
+        link = "twinarm.page.link"
+        self.until(f"{link}.open && {STATE}.playing")
+        self.value(f"window.silent = {link}.socket; silent.onmessage = null")
+        self.until(f"{link}.open && {link}.socket !== silent")
+        before = self.value("twinarm.page.frame.time")
+        self.until(f"twinarm.page.frame.time > {before} + 0.2 || twinarm.page.frame.time < {before}")
+
     def test_robot_follows_a_dragged_end_effector(self):
         self.until("document.querySelector('h1').textContent.includes('ten obstacles')")
         self.picture("start")

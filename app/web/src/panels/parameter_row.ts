@@ -111,7 +111,7 @@ class NumberRow extends ParameterRow {
       spellcheck: 'false',
       placeholder: '–',
       'aria-label': `${this.fullName}${unit && unit !== '1' ? ` in ${unit}` : ''}`,
-      title: `${parameter.meaning}. Enter: set, Escape: cancel, arrow keys: change`,
+      title: `${parameter.meaning.replace(/\.$/, '')}. Enter: set, Escape: cancel, arrow keys: change`,
       focus: () => this.select(),
       input: () => this.field.setCustomValidity(''),
       blur: () => this.show(this.parameter.value),

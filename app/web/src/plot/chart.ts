@@ -35,6 +35,7 @@ export class Chart {
   private extras: ChartExtras | null = null;
   private window: Window = { from: 0, to: 1 };
   private factor = 1;
+  private size = 0; // of the largest value of the run, SI
   private unit = '';
   private at: number | null = null; // instant shown; null: the newest
   private readonly marker = element('div.marker');
@@ -117,7 +118,7 @@ export class Chart {
     const time = left >= 0 ? this.chart!.posToVal(left, 'x') : this.at;
     const row = time === null ? store.length - 1 : store.after(time) - 1;
     for (const { curve, value } of this.chips)
-      value.textContent = row < 0 ? '–' : short(this.factor * this.value(curve, row));
+      value.textContent = row < 0 ? '–' : short(this.factor * this.value(curve, row), this.factor * this.size);
   }
 
   // null: of the sum.
@@ -144,8 +145,8 @@ export class Chart {
 
   private scaleUnits(): void {
     const { low, high } = this.record;
-    const size = this.spec.curves.reduce((max, { column }) => Math.max(max, high[column], -low[column]), 0);
-    const { unit, factor } = screenUnit(this.spec.unit, this.plots.degrees, size);
+    this.size = this.spec.curves.reduce((max, { column }) => Math.max(max, high[column], -low[column]), 0);
+    const { unit, factor } = screenUnit(this.spec.unit, this.plots.degrees, this.size);
     this.factor = factor;
     if (unit === this.unit) return;
     this.unit = unit;
@@ -187,7 +188,7 @@ export class Chart {
           },
         },
       },
-      axes: axesOfTime(),
+      axes: axesOfTime(this.unit),
       series: [{}, ...series],
       bands,
       hooks: {

@@ -4,13 +4,24 @@ import { token } from '../ui/preferences';
 import type { ChartExtras, BranchCurve } from './chart_data';
 import type { PlotSpec } from './specs';
 
-export function axesOfTime(): uPlot.Axis[] {
+const SPACE = 24; // between ticks of the y axis [pixels]
+const DEGREES = [0.1, 0.5, 1, 2, 5, 10, 15, 30, 45, 90, 180, 360, 720, 1800, 3600, 36000];
+
+// `unit`: of the y axis.
+export function axesOfTime(unit: string): uPlot.Axis[] {
   const grid = { stroke: token('--grid'), width: 1 };
   const font = '11px system-ui, sans-serif';
   const axis = { stroke: token('--muted'), grid, ticks: { show: false }, font };
   return [
     { ...axis, size: 24, gap: 2, values: (_, ticks) => ticks.map(timeText) },
-    { ...axis, size: 52, gap: 4, values: (_, ticks) => ticks.map(tickText) },
+    {
+      ...axis,
+      size: 52,
+      gap: 4,
+      space: SPACE,
+      ...(unit === '°' ? { incrs: DEGREES } : {}),
+      values: (_, ticks, __, ___, interval) => ticks.map((tick) => tickText(tick, interval)),
+    },
   ];
 }
 
@@ -18,12 +29,16 @@ function timeText(time: number): string {
   return `${+time.toPrecision(6)} s`;
 }
 
-function tickText(value: number): string {
-  if (value === 0) return '0';
+// With as many digits as tell the value from its neighbours, one `interval` away.
+export function tickText(value: number, interval: number): string {
   const size = Math.abs(value);
-  const isFar = size >= 1e5 || size < 1e-3;
-  const far = value.toExponential(1).replace('.0e', 'e');
-  const text = isFar ? far : String(+value.toPrecision(4));
+  if (size < interval / 2) return '0';
+  const digit = Math.floor(Math.log10(interval) + 1e-9); // of the last one that differs
+  const lead = interval / 10 ** digit;
+  const decimals = Math.abs(lead - Math.round(lead)) > 1e-6 ? 1 - digit : -digit; // 2.5 has one more
+  const isFar = size >= 1e5 || interval < 1e-4;
+  const significant = Math.max(0, Math.floor(Math.log10(size) + 1e-9) + decimals);
+  const text = isFar ? value.toExponential(Math.min(significant, 20)) : value.toFixed(Math.max(0, decimals));
   return text.replaceAll('-', '−');
 }
 

@@ -10,6 +10,7 @@ export type News = ReturnType<Link['take']>;
 
 const FIRST_PAUSE = 250; // [ms]
 const LONGEST_PAUSE = 2000;
+const SILENCE = 5000; // of a run that plays: the connection is lost, though nobody closed it [ms]
 const KIND = /"kind":\s*"(\w+)"/; // precedes all names of the scene
 
 export class Link {
@@ -20,12 +21,15 @@ export class Link {
   private readonly texts = new Map<string, string>(); // by kind
   private pause = FIRST_PAUSE;
   private timer = 0;
+  private heard = 0; // time of the last message [ms]
+  private isPlaying = false;
 
   constructor(private readonly url: string, private readonly changed: (open: boolean) => void) {
     addEventListener('online', () => this.connect());
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden) this.connect();
     });
+    setInterval(() => this.listen(), SILENCE / 5);
     this.connect();
   }
 
@@ -43,7 +47,10 @@ export class Link {
       return found === undefined ? null : (JSON.parse(found) as T);
     };
     const state = text<StateMessage>('state');
-    if (state) state.controller ||= null; // 0: no client
+    if (state) {
+      state.controller ||= null; // 0: no client
+      this.isPlaying = state.playing;
+    }
     const news = {
       scene: text<SceneMessage>('scene'),
       state,
@@ -63,6 +70,7 @@ export class Link {
     socket.binaryType = 'arraybuffer';
     socket.onopen = () => {
       this.open = true;
+      this.heard = performance.now();
       this.pause = FIRST_PAUSE;
       this.changed(true);
     };
@@ -70,7 +78,16 @@ export class Link {
     socket.onclose = () => this.lose();
   }
 
+  // A computer that slept, or another network: the socket stays open for minutes and says nothing.
+  private listen(): void {
+    if (!this.open || !this.isPlaying || performance.now() - this.heard < SILENCE) return;
+    this.socket!.onclose = this.socket!.onmessage = null;
+    this.socket!.close();
+    this.lose();
+  }
+
   private receive(data: string | ArrayBuffer): void {
+    this.heard = performance.now();
     if (typeof data !== 'string') {
       this.waiting = data;
       this.received += 1;

@@ -47,7 +47,7 @@ export class RunRecord {
   version = 0; // changes with the data
   epoch = 0; // changes when time goes back
   lost: number | null = null; // frames after this time were missed
-  // Of each column, over all time, dropped rows included.
+  // Of each column, over all time since it last went back, dropped rows included.
   readonly low: Float64Array;
   readonly high: Float64Array;
   private left: { store: Store; at: number } | null = null;
@@ -140,6 +140,11 @@ export class RunRecord {
     this.epoch += 1;
     this.lost = null;
     if (this.store.length === 0) this.began = NaN;
+    this.low.forEach((_, column) => {
+      const known = this.store.column(column).filter((value) => !Number.isNaN(value));
+      this.low[column] = known.reduce((min, value) => Math.min(min, value), Infinity);
+      this.high[column] = known.reduce((max, value) => Math.max(max, value), -Infinity);
+    });
   }
 
   addRow(time: number, channels: ArrayLike<number>, works: ArrayLike<number>): void {

@@ -77,13 +77,15 @@ export function svg<K extends keyof SVGElementTagNameMap>(
   return made;
 }
 
-// Four significant digits; below 1e-13 of `scale`: 0.
+export const NOISE = 1e-9; // of the largest value beside it: shown as 0
+
+// Four significant digits, or all digits before the point; below NOISE of `scale`: 0.
 export function short(value: number | null | undefined, scale = 0): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   const size = Math.abs(value);
-  if (size <= 1e-13 * scale) return '0';
+  if (size <= NOISE * scale) return '0';
   if (size < 1e-3 || size >= 1e6) return value.toExponential(2).replaceAll('-', '−');
-  return value.toPrecision(4).replaceAll('-', '−');
+  return (size >= 1e4 ? value.toFixed(0) : value.toPrecision(4)).replaceAll('-', '−');
 }
 
 // "kg m^2" as "kg m²".

@@ -25,6 +25,7 @@ interface ViewTargets {
   toggleTheme(): void;
 }
 
+const PRESSED = 'button, input[type=checkbox]'; // by the space bar
 const VIEWS: ViewName[] = ['front', 'side', 'top', 'iso'];
 
 // Keys of the 3-D view, on every page.
@@ -57,6 +58,14 @@ export function clockKeys(clock: Clock): Key[] {
   ];
 }
 
+// The button that has the focus because it was clicked: the space bar then plays and pauses as before, and does not
+// press it again.
+let clicked: Element | null = null;
+document.addEventListener('click', ({ target, detail }) => {
+  if (detail > 0 && target instanceof Element) clicked = target.closest(PRESSED);
+});
+document.addEventListener('focusout', () => (clicked = null));
+
 // Whether a field or button handles the key itself.
 function isTaken(event: KeyboardEvent): boolean {
   if (event.ctrlKey || event.metaKey || event.altKey) return true;
@@ -64,7 +73,7 @@ function isTaken(event: KeyboardEvent): boolean {
   if (!(at instanceof Element)) return false;
   if (at.matches('select, textarea, input:is([type=text], [type=number], [type=search])')) return true;
   if (at.matches('input[type=radio]') && /^(Arrow| )/.test(event.key)) return true;
-  return at.matches('button, input[type=checkbox]') && (event.key === ' ' || event.key === 'Enter');
+  return at !== clicked && at.matches(PRESSED) && (event.key === ' ' || event.key === 'Enter');
 }
 
 // `isKept`: further keys to leave to the focused element.

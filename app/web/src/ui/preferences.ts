@@ -1,10 +1,13 @@
 // Theme (the system's until the user chooses), and choices stored by the browser.
 
 export class Theme {
-  dark = matchMedia('(prefers-color-scheme: dark)').matches;
+  private readonly system = matchMedia('(prefers-color-scheme: dark)');
+  private isChosen = false; // by the user
+  dark = this.system.matches;
 
   constructor(private readonly changed: () => void) {
     document.documentElement.dataset.theme = this.dark ? 'dark' : 'light';
+    this.system.addEventListener('change', ({ matches }) => this.isChosen || this.set(matches));
     // Print in the light theme.
     let chosen = this.dark;
     addEventListener('beforeprint', () => {
@@ -17,6 +20,7 @@ export class Theme {
   }
 
   toggle(): void {
+    this.isChosen = true;
     this.set(!this.dark);
   }
 
