@@ -6,7 +6,7 @@ import { pathToFileURL } from 'node:url';
 
 const page = await import(pathToFileURL(process.env.MODULES).href);
 const { decodeFrame, labelText, placeOf, decodeMesh, inWorld, inLink, THREE } = page;
-const { PointDrag, JointDrag, Pace } = page;
+const { PointDrag, JointDrag, planeOfMotion, Pace } = page;
 
 // Independent copy of the protocol's table.
 const ORDER = [
@@ -124,6 +124,31 @@ test('point drag: constant offset from the pointer, in the plane of the view', (
     const sight = stage.camera.getWorldDirection(new THREE.Vector3());
     near(drag.goal.clone().sub(goal).dot(sight), 0, 1e-9);
   }
+});
+
+test('point drag: a point of a planar robot moves in its plane in every direction, from every camera', () => {
+  const up = new THREE.Vector3(0, 0, 1);
+  for (const eye of [...EYES, [2, -1, 0.2]])
+    for (let i = 0; i < 8; ++i) {
+      const stage = stageAt(eye);
+      const begin = stage.project(...START);
+      const [dx, dy] = [60 * Math.cos((i * Math.PI) / 4), 60 * Math.sin((i * Math.PI) / 4)];
+      const drag = new PointDrag(stage, new THREE.Vector3(...START), begin, up);
+      for (let k = 1; k <= 4; ++k) drag.move({ x: begin.x + (k * dx) / 4, y: begin.y + (k * dy) / 4 }, false);
+      near(drag.goal.z, START[2], 1e-9);
+      const moved = drag.goal.distanceTo(new THREE.Vector3(...START));
+      assert.ok(moved > 0.05 && moved < 1, `${eye}, direction ${i}: ${moved} m`);
+      const end = stage.project(...drag.goal.toArray());
+      if (Math.abs(dx) > 1) assert.ok((end.x - begin.x) * dx > 0, `${eye}, direction ${i}: sideways`);
+    }
+});
+
+test('plane of motion: perpendicular to parallel rotations; none with other rotations or slides', () => {
+  const axis = (direction, slides = false) => ({ origin: new THREE.Vector3(), direction: new THREE.Vector3(...direction), slides });
+  const turn = axis([0, 0, 1]);
+  assert.deepEqual(planeOfMotion([turn, axis([0, 0, -1]), axis([1, 0, 0], true)]).toArray(), [0, 0, 1]);
+  for (const other of [axis([0, 1, 0]), axis([0, 0, 1], true)]) assert.equal(planeOfMotion([turn, other]), null);
+  assert.equal(planeOfMotion([axis([1, 0, 0], true)]), null);
 });
 
 test('point drag: shift changes the height only, without a jump after it', () => {

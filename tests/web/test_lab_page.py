@@ -67,6 +67,56 @@ class LabPage(LabCase):
         self.assertAlmostEqual(self.channel("q/joint1"), self.channel("target/joint1"), delta=0.5)
         self.mouse("mouseReleased", end)
 
+    def restart(self):
+        self.value("twinarm.page.send({do: 'reset'})")
+        self.until(f"{STATE}.time < 0.5 && {STATE}.playing && twinarm.page.frame.time < 0.5")
+
+    def target(self):
+        return [self.channel(f"target/joint{n}") for n in (1, 2)]
+
+    def drag(self, right, down):
+        """How far the driven joints of the target move within half a second [rad]."""
+        before = self.target()
+        end = self.drag_tip(right, down)
+        time = self.value(f"{STATE}.time")
+        self.until(f"{STATE}.time > {time} + 0.5")
+        self.mouse("mouseReleased", end)
+        return [now - then for now, then in zip(self.target(), before)]
+
+    def test_the_end_effector_follows_the_pointer_in_every_direction_from_every_camera(self):
+        for view in ("fit", "front", "top"):
+            self.click(view)
+            for right, down in ((70, 0), (0, 70), (-70, 0), (0, -70)):
+                self.restart()
+                with self.subTest(view=view, right=right, down=down):
+                    self.assertGreater(max(map(abs, self.drag(right, down))), 0.1)
+
+    def test_a_restart_also_restarts_the_hand(self):
+        start = self.target()
+        first = self.drag(-90, 0)
+        self.restart()
+        self.assertEqual(self.target(), start)
+        for now, then in zip(self.drag(-90, 0), first):
+            self.assertAlmostEqual(now, then, delta=0.15 * max(map(abs, first)))
+
+    def test_every_remedy_is_stable_after_the_end_effector_was_dragged(self):
+        self.drag(-90, 20)
+        explicit = "'coupling[0].discretization=explicit'"
+        self.value(f"twinarm.page.send({{do: 'set', changes: [{explicit}]}})")
+        self.until(f"{STATE}.changes.length === 1")
+        for index in range(3):
+            self.value(f"twinarm.page.send({{do: 'set', changes: ['step=0.001', {explicit}, "
+                       "'coupling[0].stiffness=3e7']})")
+            self.until(f"{STATE}.failure")
+            stopped = self.value(f"{STATE}.failure.time")
+            remedies = self.value(f"{STATE}.failure.remedies.map(r => r.words)")
+            self.assertEqual(len(remedies), 3)
+            with self.subTest(remedies[index]):
+                self.click(remedies[index])
+                self.until(f"{STATE}.branch && ({STATE}.time > {stopped} + 1 || {STATE}.failure && "
+                           f"{STATE}.branch.number > {index})")
+                self.assertIsNone(self.value(f"{STATE}.failure"))
+
     def test_inspector_follows_the_selection_and_overlays_toggle(self):
         self.value("twinarm.page.select(2)")
         self.click("Inspector")

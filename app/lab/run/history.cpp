@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "app/record/recording_writer.h"
@@ -19,7 +20,22 @@ bool is_earlier_step(const LabInput& input, long step) {
   return input.step < step;
 }
 
+// Rounding of summed steps.
+double tolerance_at(double t) {
+  return 1e-9 * std::max(1.0, std::abs(t));
+}
+
 }  // namespace
+
+DeviceStep shifted_to(double t, double h, DeviceStep step) {
+  const double later = t - step.t;
+  if (later != 0)
+    for (std::size_t j = 0; j < step.sample.theta.size(); ++j)
+      step.sample.theta[j] += later * step.sample.theta_dot[j];
+  step.t = t;
+  step.h = h;
+  return step;
+}
 
 std::size_t bytes_of(const LabFrame& frame) {
   const RecordedFrame& r = frame.recorded;
@@ -75,9 +91,8 @@ void LabHistory::trim() {
 }
 
 std::size_t LabHistory::at(double t) const {
-  const double slack = 1e-9 * std::max(1.0, std::abs(t));  // rounding of summed steps
   const auto later =
-      std::upper_bound(frames_.begin(), frames_.end(), t + slack,
+      std::upper_bound(frames_.begin(), frames_.end(), t + tolerance_at(t),
                        [](double time, const Frame& frame) { return time < frame->recorded.t; });
   return later == frames_.begin() ? 0 : static_cast<std::size_t>(later - frames_.begin()) - 1;
 }
@@ -85,6 +100,13 @@ std::size_t LabHistory::at(double t) const {
 const LabInput* LabHistory::input(long step) const {
   const auto place = std::lower_bound(inputs_.begin(), inputs_.end(), step, is_earlier_step);
   return place != inputs_.end() && place->step == step ? &*place : nullptr;
+}
+
+const LabInput* LabHistory::input_at(double t) const {
+  const double after = t + tolerance_at(t);
+  const auto place = std::ranges::upper_bound(inputs_, after, std::less<>(),
+                                              [](const LabInput& its) { return its.t + its.h; });
+  return place != inputs_.end() && place->t <= after ? &*place : nullptr;
 }
 
 LabHistory LabHistory::cut(std::size_t n) {

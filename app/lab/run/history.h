@@ -70,13 +70,17 @@ struct MouseSpringInput {
   double max_force = 0;              // of the spring [N]
 };
 
-// External inputs of one step. Repeating the step with them reproduces it bit for bit.
+// External inputs of the step [t, t + h]. Repeating the step with them reproduces it bit for bit.
 struct LabInput {
   long step = 0;                   // the first of a run is 1
+  double t = 0, h = 0;             // [s]
   std::optional<DeviceStep> hand;  // absent: the scene's own motion
   std::optional<MouseSpringInput> mouse;
   double stamp = 0;  // of the newest command in it, as sent by the client
 };
+
+// The operator motion of a step, extrapolated to the step [t, t + h].
+DeviceStep shifted_to(double t, double h, DeviceStep step);
 
 // Names of the rows of energy and momentum balance, by the numbers in frames.
 struct LabNames {
@@ -109,6 +113,7 @@ class LabHistory {
   std::size_t max_bytes() const { return max_; }
   // Null: no input in that step, or already removed.
   const LabInput* input(long step) const;
+  const LabInput* input_at(double t) const;  // of the step that contains [t, t + epsilon)
   // Starts a branch at frame n: moves everything after it, and a copy of frame n, to the result.
   LabHistory cut(std::size_t n);
 

@@ -41,6 +41,11 @@ void OperatorInput::choose(Source source, const std::string& spec) {
   ++revision_;
 }
 
+void OperatorInput::restart() {
+  gripper_ = false;
+  if (source_ != Source::device) choose(source_);
+}
+
 std::string OperatorInput::description() const {
   if (device_) return device_->description();
   return source_ == Source::joints ? "joint sliders" : "scene motion";

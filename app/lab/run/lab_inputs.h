@@ -36,6 +36,9 @@ class OperatorInput {
   // `spec`: of Source::device. Throws InputError: unknown device, or no answer.
   void choose(Source source, const std::string& spec = "");
 
+  // As after choose() with the same source, gripper open; a physical device stays as it is.
+  void restart();
+
   Source source() const { return source_; }
   const MappingSpec& mapping() const { return mapping_; }
   const ForceFeedbackSpec& force() const { return force_; }

@@ -101,15 +101,20 @@ void LabRun::carry_over_energy(const LabFrame& from, const LabNames& names) {
 bool LabRun::step(const LabInput* replayed) {
   if (stopped_) return false;
   const Simulation& simulation = run_->simulation();
+  const State<double>& x = simulation.state();
   const double h = plan_->prepared.run.step;
   if (replayed) {
     input_ = *replayed;
+    if (input_.hand) input_.hand = shifted_to(x.t, h, *input_.hand);
     override_->replay_step(input_.hand);
   } else {
-    const State<double>& x = simulation.state();
-    input_ = {0, override_->before_step(x, x.t, h), mouse_, operator_.stamp()};
+    input_.hand = override_->before_step(x, x.t, h);
+    input_.mouse = mouse_;
+    input_.stamp = operator_.stamp();
   }
   input_.step = run_->step() + 1;
+  input_.t = x.t;
+  input_.h = h;
   spring_->set(input_.mouse);
   const bool goes_on = run_->advance();
   override_->after_step(simulation, h, goes_on);

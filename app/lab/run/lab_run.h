@@ -23,8 +23,9 @@ class LabRun {
   LabRun(std::unique_ptr<LabScene::Plan> plan, OperatorInput& input,
          const LabFrame* from = nullptr);
 
-  // One step with the present input, or with earlier input, bit for bit; live input continues after
-  // it without a jump. False: the run has stopped, see post_mortem().
+  // One step with the present input, or with that of a step of this or another run, bit for bit if
+  // that was the same step; live input continues after it without a jump. False: the run has
+  // stopped, see post_mortem().
   bool step(const LabInput* replayed = nullptr);
   const LabInput& input() const { return input_; }  // of the last step
 

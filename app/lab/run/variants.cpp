@@ -10,17 +10,6 @@
 namespace twinarm {
 namespace {
 
-// Operator motion of a step of the run, extrapolated to the step [t, t + h] of a variant.
-DeviceStep shifted_to(double t, double h, DeviceStep step) {
-  const double later = t - step.t;
-  if (later != 0)
-    for (std::size_t j = 0; j < step.sample.theta.size(); ++j)
-      step.sample.theta[j] += later * step.sample.theta_dot[j];
-  step.t = t;
-  step.h = h;
-  return step;
-}
-
 std::vector<std::string> split_values(const std::string& text) {
   std::vector<std::string> values(1);
   int depth = 0;
@@ -61,10 +50,7 @@ void LabVariants::follow(const LabRun& run) {
     if (variant.stopped) continue;
     const double h = variant.run->prepared().run.step;
     while (variant.run->view().time() + 0.5 * h < run.view().time()) {
-      LabInput input = run.input();
-      const double t = variant.run->view().simulation().state().t;
-      if (input.hand) input.hand = shifted_to(t, h, *input.hand);
-      if (variant.run->step(&input)) continue;
+      if (variant.run->step(&run.input())) continue;
       stop(variant);
       break;
     }

@@ -120,7 +120,7 @@ const std::vector<Form>& forms() {
        Verb::grant_control,
        false,
        {whole_number("to", "a client's number", kMaxIndex)}},
-      {"seek", Verb::seek, false, {at}},
+      {"seek", Verb::seek, true, {at}},
       {"play", Verb::play, true, {on}},
       {"step", Verb::step, true, {whole_number("steps", "1 to 100000", 100'000)}},
       {"speed", Verb::speed, true, {factor}},

@@ -23,8 +23,8 @@ struct LabCommand {
     inspect,
     request_control,
     grant_control,
-    seek,
     // permitted to the client in control
+    seek,
     play,
     step,
     speed,

@@ -46,19 +46,13 @@ bool RunLoop::take_steps(const std::function<void()>& after) {
 }
 
 bool RunLoop::take_step() {
-  bool goes_on = false;
-  if (repeats_) {
-    const Timeline::Known known = timeline_.known_input(run_->view().step() + 1);
-    repeats_ = known.goes_on;
-    goes_on = run_->step(&known.input);
-  } else {
-    goes_on = run_->step();
-  }
-  if (!goes_on) return false;
-  variants_.follow(*run_);
-  const LabInput& input = run_->input();
-  if (input.hand || input.mouse) timeline_.add(input);
-  return true;
+  std::optional<LabInput> known;
+  if (repeats_) known = timeline_.known_input(run_->view().time());
+  repeats_ = known.has_value();
+  const bool goes_on = run_->step(known ? &*known : nullptr);
+  timeline_.add(run_->input());  // also of the step at which the run stops: a branch repeats it
+  if (goes_on) variants_.follow(*run_);
+  return goes_on;
 }
 
 RunLoop::Cost RunLoop::take_cost() {
@@ -103,13 +97,11 @@ Timeline::Frame Timeline::branch(double t) {
   return from;
 }
 
-Timeline::Known Timeline::known_input(long step) const {
+std::optional<LabInput> Timeline::known_input(double t) const {
   const std::lock_guard lock(mutex_);
-  Known known;
-  known.input.step = step;
-  if (const LabInput* input = before_.input(step)) known.input = *input;
-  known.goes_on = !before_.empty() && step < before_.newest()->recorded.step;
-  return known;
+  if (before_.empty() || before_.at(t) + 1 == before_.size()) return std::nullopt;
+  const LabInput* input = before_.input_at(t);
+  return input ? *input : LabInput{};
 }
 
 Timeline::View Timeline::view(std::optional<double> t) const {

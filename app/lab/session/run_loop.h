@@ -33,12 +33,8 @@ class Timeline {
   // Begins a branch at t; returns its first frame, null if t is no longer in the history.
   Frame branch(double t);
 
-  // Input of a step of the run that was left, and whether later ones are known.
-  struct Known {
-    LabInput input;
-    bool goes_on = false;
-  };
-  Known known_input(long step) const;
+  // Input at t of the run that was left; nothing: that run did not reach t.
+  std::optional<LabInput> known_input(double t) const;
 
   // The newest frame, or that at t; `before`: at the same time in the run that was left.
   struct View {

@@ -164,7 +164,7 @@ Timeline::Frame SessionCommands::start_of(const BuildRequest& request) {
     return std::make_shared<const LabFrame>(s_.loop.frame());
   Timeline::Frame from = s_.timeline.branch(request.at);
   if (!from) return nullptr;
-  s_.loop.repeat_inputs(s_.timeline.known_input(from->recorded.step).goes_on);
+  s_.loop.repeat_inputs(true);
   const int number = s_.status.branch ? s_.status.branch->number + 1 : 1;
   s_.status.branch = LabBranch{from->recorded.t, request.changes, number};
   s_.status.at.reset();
@@ -179,6 +179,7 @@ void SessionCommands::adopt(BuildResult built) {
       request.what == BuildRequest::What::change || request.what == BuildRequest::What::branch;
   if (goes_on && built.scene != s_.timeline.scene()->scene) return;  // another scene was opened
   Timeline::Frame from;
+  if (!goes_on) s_.hand.restart();
   if (goes_on && !(from = start_of(request)))
     return s_.inbox.note("error", "that time is no longer in the history");
   auto run = std::make_unique<LabRun>(std::move(built.run), s_.hand, from.get());

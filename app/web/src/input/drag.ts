@@ -2,7 +2,7 @@
 // the robot: applies a spring force. Elsewhere: rotates the view.
 import type { Pixel, Stage } from '../view/stage';
 import type { Operator } from './operator';
-import { type AppliedSpring, axisOf, type Handles, inLink, inWorld, type LabView } from './handles';
+import { type AppliedSpring, axisOf, type Handles, inLink, inWorld, type LabView, tipPlane } from './handles';
 import { JointDrag, PointDrag } from './drag_goal';
 import type { Frame, SceneJoint, SceneMessage, Vector } from '../source/link';
 import { type Hit, pick } from '../view/pick';
@@ -95,7 +95,7 @@ export class Drag {
     if (event.target === this.handles.tip) {
       const tip = this.handles.tipPosition(view);
       if (!tip || !this.operator.useSource('drag')) return;
-      this.take(event, { kind: 'tip', drag: new PointDrag(view.stage, tip, at) });
+      this.take(event, { kind: 'tip', drag: new PointDrag(view.stage, tip, at, tipPlane(view)) });
       return;
     }
     const found = this.find(view, at);

@@ -6,13 +6,22 @@ import { rayAt } from '../view/pick';
 
 const UP = new THREE.Vector3(0, 0, 1);
 
-// A point moved in the plane through it that faces the camera; with shift vertically only; the wheel moves
-// the plane along the line of sight. The offset between point and pointer is kept.
+const MIN_SINE = 0.25; // of a view's angle to a plane in which the pointer is met
+
+// A point moved in a plane through it: the one in which its joints can move it, else the one that faces the
+// camera; with shift vertically only; the wheel moves it along the line of sight. The offset between point and
+// pointer is kept. In a plane seen nearly edge-on, pointer up is away from the eye.
 export class PointDrag {
   private readonly offset = new THREE.Vector3(); // from the ray's intersection with the plane to the point
   private vertical = false;
 
-  constructor(private readonly stage: Stage, readonly goal: THREE.Vector3, private at: Pixel) {
+  // `normal`: of the plane of motion, of unit length; null: the point can move in all directions.
+  constructor(
+    private readonly stage: Stage,
+    readonly goal: THREE.Vector3,
+    private at: Pixel,
+    private readonly normal: THREE.Vector3 | null = null,
+  ) {
     this.hold();
   }
 
@@ -21,7 +30,12 @@ export class PointDrag {
       this.vertical = vertical;
       this.hold();
     }
+    const before = this.at;
     this.at = at;
+    if (!vertical && this.isEdgeOn()) {
+      this.goal.add(this.alongEdge(at.x - before.x, before.y - at.y));
+      return this.hold();
+    }
     const met = this.meet();
     if (!met) return;
     met.add(this.offset);
@@ -42,13 +56,41 @@ export class PointDrag {
     if (met) this.offset.copy(this.goal).sub(met);
   }
 
+  private get sight(): THREE.Vector3 {
+    return this.stage.camera.getWorldDirection(new THREE.Vector3());
+  }
+
+  private isEdgeOn(): boolean {
+    return this.normal !== null && Math.abs(this.sight.dot(this.normal)) < MIN_SINE;
+  }
+
+  // Pixels to the right and away from the eye, in the plane of motion.
+  private alongEdge(right: number, away: number): THREE.Vector3 {
+    const { camera, host } = this.stage;
+    const x = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion).projectOnPlane(this.normal!).normalize();
+    const y = this.sight.projectOnPlane(this.normal!).normalize();
+    const height = 2 * Math.tan((camera.fov * Math.PI) / 360) * this.goal.distanceTo(camera.position);
+    return x.multiplyScalar(right).addScaledVector(y, away).multiplyScalar(height / host.clientHeight);
+  }
+
   private meet(): THREE.Vector3 | null {
-    const facing = this.stage.camera.getWorldDirection(new THREE.Vector3());
+    const facing = this.vertical || !this.normal ? this.sight : this.normal.clone();
     if (this.vertical) facing.addScaledVector(UP, -facing.dot(UP));
     if (facing.lengthSq() < 1e-3) return null; // seen from above: no vertical direction in the view
     const plane = new THREE.Plane().setFromNormalAndCoplanarPoint(facing.normalize(), this.goal);
     return rayAt(this.stage, this.at).intersectPlane(plane, new THREE.Vector3());
   }
+}
+
+// Normal of the plane in which joints with these axes can move a point: the direction to which all rotations
+// are parallel. Null: there is none, or a joint slides along it.
+export function planeOfMotion(axes: Axis[]): THREE.Vector3 | null {
+  const normal = axes.find(({ slides }) => !slides)?.direction;
+  const isPlanar = ({ direction, slides }: Axis) => {
+    const cosine = Math.abs(direction.dot(normal!));
+    return slides ? cosine < 0.01 : cosine > 0.9999;
+  };
+  return normal && axes.every(isPlanar) ? normal.clone() : null;
 }
 
 export interface Axis {

@@ -4,7 +4,7 @@ import './handles.css';
 import * as THREE from 'three';
 import { element, svg } from '../ui/dom';
 import type { Pixel, Stage } from '../view/stage';
-import type { Axis } from './drag_goal';
+import { type Axis, planeOfMotion } from './drag_goal';
 import { type Frame, placeOf, type SceneJoint, type SceneMessage, type Vector } from '../source/link';
 
 const POINTS = 48; // of an arc
@@ -43,6 +43,12 @@ export function axisOf(frame: Frame, { body, axis, slides }: SceneJoint): Axis |
   if (!axis || !origin) return null;
   const direction = inWorld(frame.target, body, axis)!.sub(origin).normalize();
   return { origin, direction, slides: slides ?? false };
+}
+
+// Normal of the plane in which the driven joints move the tip; null: it can leave any plane.
+export function tipPlane({ frame, scene }: LabView) {
+  const inner = scene.joints.filter((joint) => joint.driven !== undefined && joint.body <= (scene.tip?.body ?? -1));
+  return planeOfMotion(inner.map((joint) => axisOf(frame, joint)).filter((axis) => axis !== null));
 }
 
 export class Handles {

@@ -2,7 +2,7 @@
 // selected body, in directions of the view.
 import * as THREE from 'three';
 import type { Operator } from './operator';
-import { type AppliedSpring, type Handles, inWorld, type LabView } from './handles';
+import { type AppliedSpring, type Handles, inWorld, type LabView, tipPlane } from './handles';
 import { within } from '../ui/scale';
 import type { SceneJoint } from '../source/link';
 
@@ -97,6 +97,7 @@ export class KeyInput {
       const { body, point, goal } = mode;
       this.operator.move({ do: 'drag_body', body, point, goal: goal.toArray() });
     } else if (rotates) this.rotateStylus(right, up, away);
+    else if (tipPlane(view)) this.moveTip(view, this.along(view, right, 0, up + away));
     else this.moveTip(view, this.along(view, right, up, away));
     this.changed();
   }

@@ -27,7 +27,7 @@ import './lab.css'; // last: overrides for touch screens
 
 const TABS = ['Parameters', 'Plots', 'Inspector', 'Energy'];
 const DEFAULT_LAYERS = ['targets', 'device', 'couplings', 'contacts', 'device-force', 'earlier-run'];
-const NO_CONTROL = new Set(['layers', 'inspect', 'seek', 'request_control']); // commands that need no control
+const NO_CONTROL = new Set(['layers', 'inspect', 'request_control']); // commands that need no control
 
 class Page implements LabKeys {
   scene: wire.SceneMessage | null = null;

@@ -127,10 +127,11 @@ export class LabTimeBar implements Panel, Clock {
     putMark(this.branchMark, branch && (branch.from - first) / span);
     if (branch) this.branchMark.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
     putMark(this.end, failure && (failure.time - first) / span);
-    this.present.disabled = at === null;
-    this.bar.play.disabled = at === null && (isDisabled || failure !== null);
+    this.present.disabled = isDisabled || at === null;
+    this.bar.play.disabled = isDisabled || (at === null && failure !== null);
     this.step.disabled = isDisabled || (at === null && failure !== null);
     this.again.disabled = this.bar.speed.disabled = this.branch.disabled = isDisabled;
+    this.bar.slider.input.disabled = isDisabled;
     this.bar.where.replaceChildren(...this.status(state, at, pace));
   }
 

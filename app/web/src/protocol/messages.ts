@@ -169,7 +169,7 @@ export interface BodyInspection extends Partial<Inspection> {
 export type Command =
   | { do: 'layers'; names: string[] } // * layers in this client's frames
   | { do: 'inspect'; on: boolean; body?: number } // * start or stop the inspection of a body
-  | { do: 'seek'; at: number | null } // * show this instant (to all clients); null: the newest
+  | { do: 'seek'; at: number | null } // show this instant (to all clients); null: the newest
   | { do: 'request_control' } // * request control; granted at once if no client has it
   | { do: 'grant_control'; to: number } // * pass control to a client
   | { do: 'play'; on: boolean } // play or pause

@@ -154,6 +154,8 @@ export class Rewind extends Playhead {
     if (now - this.sentAt < PAUSE && at !== null) return; // sent by a later tick
     this.sent = at;
     this.sentAt = now;
-    this.page.send({ do: 'seek', at });
+    if (this.page.send({ do: 'seek', at })) return;
+    this.playing = false; // another client has control
+    this.at = this.sent = this.page.state?.at ?? null;
   }
 }

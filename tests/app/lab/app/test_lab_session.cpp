@@ -183,9 +183,10 @@ TEST_CASE("lab command: an invalid command is refused with all its faults") {
   CHECK(faults_in(std::string(100'000, '[')) >= 1);
 }
 
-TEST_CASE("lab command: looking requires no control, moving the robot does") {
+TEST_CASE("lab command: inspecting requires no control, seeking and moving the robot do") {
   CHECK_FALSE(needs_control(LabCommand::Do::layers));
   CHECK_FALSE(needs_control(LabCommand::Do::request_control));
+  CHECK(needs_control(LabCommand::Do::seek));  // it pauses the run, for everybody
   CHECK(needs_control(LabCommand::Do::drag_stylus));
   CHECK(needs_control(LabCommand::Do::set));
 }

@@ -127,6 +127,35 @@ TEST_CASE("lab run: the target robot never jumps and reaches its goal, for every
   CHECK(farthest > 1e-4);
 }
 
+TEST_CASE("lab run: a branch with another step repeats the operator's motion, and goes on live") {
+  Session s(arm_with("paper"));
+  s.hand.choose(OperatorInput::Source::drag);
+  s.step(16);
+  for (long n = 0; n < 800; ++n) {
+    s.hand.tip({0.35, 0.4, 0.4}, 0);
+    s.step(1);
+  }
+  s.hand.release();
+  const std::vector<double> last = kvr_of(*s.run);
+  const LabFrame start = *s.history.frame(1);
+  LabRun branch(s.scene.plan({{"step", "2e-4"}}), s.hand, &start);
+  std::vector<double> before = kvr_of(branch);
+  double farthest = 0;
+  while (branch.view().time() < s.run->view().time() + 0.1) {
+    const double t = branch.view().time();
+    const LabInput* known = s.history.input_at(t);
+    REQUIRE((known != nullptr) == (t < s.run->view().time() - 1e-9));
+    REQUIRE(branch.step(known));
+    const std::vector<double> now = kvr_of(branch);
+    for (std::size_t j = 0; j < now.size(); ++j)
+      farthest = std::max(farthest, std::abs(now[j] - before[j]));
+    before = now;
+    if (std::abs(t - (s.run->view().time() - 0.001)) > 1e-9) continue;
+    for (std::size_t j = 0; j < last.size(); ++j) CHECK(now[j] == doctest::Approx(last[j]));
+  }
+  CHECK(farthest <= 20 * 2e-4 * (1 + 1e-6));  // limit of the mapping
+}
+
 TEST_CASE("lab run: a frame between the choice of a source and the next step is valid") {
   Session s(arm_with("device"));
   s.hand.choose(OperatorInput::Source::drag);
