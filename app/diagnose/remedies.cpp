@@ -114,7 +114,8 @@ class RemedyFinder {
     const double factor = kHalf * kHalf * max_stable_power_of_two([&](double f) {
                             return step_.is_stable_with_softer(unstable_, f);
                           });
-    if (!(factor > 0)) return;
+    constexpr double kMinFactor = 1e-3;  // softer springs no longer couple
+    if (factor < kMinFactor) return;
     std::vector<std::string> changes;
     std::string words;
     for (const int i : unstable_) {

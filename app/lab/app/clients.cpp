@@ -166,6 +166,7 @@ void write_end(JsonWriter& json, const LabStatus& status) {
                  {"quantity", failure.quantity},
                  {"body", failure.body},
                  {"cause", failure.spring},
+                 {"trying", failure.trying},
                  {"remedies", [&] { write_remedies(failure.remedies, json); }}});
   });
 }

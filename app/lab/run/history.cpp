@@ -102,6 +102,11 @@ const LabInput* LabHistory::input(long step) const {
   return place != inputs_.end() && place->step == step ? &*place : nullptr;
 }
 
+std::vector<LabInput> LabHistory::inputs_after(long step) const {
+  return {std::lower_bound(inputs_.begin(), inputs_.end(), step + 1, is_earlier_step),
+          inputs_.end()};
+}
+
 const LabInput* LabHistory::input_at(double t) const {
   const double after = t + tolerance_at(t);
   const auto place = std::ranges::upper_bound(inputs_, after, std::less<>(),

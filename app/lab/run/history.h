@@ -111,6 +111,7 @@ class LabHistory {
   std::size_t at(double t) const;
   std::size_t bytes() const { return bytes_; }
   std::size_t max_bytes() const { return max_; }
+  std::vector<LabInput> inputs_after(long step) const;
   // Null: no input in that step, or already removed.
   const LabInput* input(long step) const;
   const LabInput* input_at(double t) const;  // of the step that contains [t, t + epsilon)

@@ -203,6 +203,10 @@ void Inbox::push_refused(long number) {
   locked([&] { contents_.refused = number; });
 }
 
+void Inbox::push(TriedFixes tried) {
+  locked([&] { contents_.tried = std::move(tried); });
+}
+
 void Inbox::note(const std::string& level, const std::string& text) {
   locked([&] {
     if (notes_.size() == kMaxNotes) notes_.pop_front();
@@ -234,8 +238,8 @@ bool Inbox::is_stopped() const {
 void Inbox::sleep_until(std::chrono::steady_clock::time_point time) {
   std::unique_lock lock(mutex_);
   came_.wait_until(lock, time, [this] {
-    return stop_ || contents_.refused || !contents_.commands.empty() || !contents_.built.empty() ||
-           !notes_.empty();
+    return stop_ || contents_.refused || contents_.tried || !contents_.commands.empty() ||
+           !contents_.built.empty() || !notes_.empty();
   });
 }
 

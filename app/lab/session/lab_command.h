@@ -65,6 +65,12 @@ LabCommand parse_command(const std::string& text);
 // Whether only the client in control may send it.
 bool needs_control(LabCommand::Do what);
 
+// Fixes that hold, for the run with this number.
+struct TriedFixes {
+  long run = 0;
+  std::vector<SuggestedFix> fixes;
+};
+
 // Queue to the run's thread, which empties it between two steps and sleeps in it.
 class Inbox {
  public:
@@ -74,6 +80,7 @@ class Inbox {
   void push(LabCommand command);
   void push(BuildResult built);
   void push_refused(long number);  // pending changes up to this number are refused
+  void push(TriedFixes tried);
   void note(const std::string& level, const std::string& text);
   bool stop();  // false: already stopped
 
@@ -82,6 +89,7 @@ class Inbox {
     std::deque<LabCommand> commands;
     std::deque<BuildResult> built;
     std::optional<long> refused;
+    std::optional<TriedFixes> tried;
   };
   Contents take();
   std::deque<LabNote> take_notes();

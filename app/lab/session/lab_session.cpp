@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <optional>
+#include <stop_token>
+#include <tuple>
 #include <utility>
 
 #include "app/diagnose/post_mortem.h"
+#include "app/lab/run/remedy_trial.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -86,11 +89,13 @@ void LabSession::take_inbox() {
     } catch (const std::exception& error) {
       note("error", error.what());
     }
+  if (contents.tried) offer(std::move(*contents.tried));
   if (contents.refused) state_.pending.finish(*contents.refused);
   for (BuildResult& one : contents.built) {
     const auto done = one.request.done;
     try {
       commands_.adopt(std::move(one));
+      trial_.request_stop();
       reporter_.publish();  // so that the history begins at the start, not after some steps
       if (done) done("");
     } catch (const std::exception& error) {
@@ -136,18 +141,51 @@ void LabSession::show_end() {
   if (!found) return note("note", "the run has ended");
   RunFailure end;
   end.time = found->time;
-  end.from = state_.changed_at;
   end.words = found->words;
   end.quantity = found->field;
   end.body = found->body;
   if (!found->violations.empty()) end.spring = found->violations.front().name;
-  end.remedies = fixes_of(state_.loop.run().prepared(), *found);
-  std::erase_if(end.remedies, [this](const SuggestedFix& fix) {
+  std::vector<SuggestedFix> fixes = fixes_of(state_.loop.run().prepared(), *found);
+  std::erase_if(fixes, [this](const SuggestedFix& fix) {
     return std::ranges::any_of(fix.changes, [this](const std::string& text) {
       return is_varied(state_.status, parse_change(text));
     });
   });
+  end.from = try_fixes(std::move(fixes), end.time);
   state_.status.failure = std::move(end);
+}
+
+// From the last change or the start, at least a second and at most kMaxRewind before the stop.
+// Returns that instant.
+double LabSession::try_fixes(std::vector<SuggestedFix> fixes, double stopped_at) {
+  constexpr double kMinRewind = 1, kMaxRewind = 5;  // [s]
+  RemedyTrial trial;
+  trial.scene = state_.timeline.scene()->scene;
+  trial.changes = state_.status.changes;
+  trial.stopped_at = stopped_at;
+  trial.names = state_.loop.names();
+  std::tie(trial.from, trial.inputs) = state_.timeline.since(
+      std::clamp(state_.changed_at, stopped_at - kMaxRewind, stopped_at - kMinRewind));
+  const double from = trial.from->recorded.t;
+  const auto work = [this, trial = std::move(trial), fixes = std::move(fixes),
+                     run = state_.change_number](const std::stop_token& stop) {
+    TriedFixes tried{run, {}};
+    try {
+      tried.fixes = fixes_that_hold(trial, fixes, [&] { return stop.stop_requested(); });
+    } catch (const std::exception& error) {
+      note("error", error.what());
+    }
+    if (!stop.stop_requested()) state_.inbox.push(std::move(tried));
+  };
+  trial_ = std::jthread(work);
+  return from;
+}
+
+void LabSession::offer(TriedFixes tried) {
+  if (tried.run != state_.change_number || !state_.status.failure) return;
+  state_.status.failure->remedies = std::move(tried.fixes);
+  state_.status.failure->trying = false;
+  state_.has_news = true;
 }
 
 }  // namespace twinarm

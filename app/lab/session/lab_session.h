@@ -43,6 +43,8 @@ class LabSession {
   void pause();
   void show_failure(const std::string& why);
   void show_end();
+  double try_fixes(std::vector<SuggestedFix> fixes, double stopped_at);
+  void offer(TriedFixes tried);
 
   SessionState state_;
   SessionCommands commands_;
@@ -52,6 +54,7 @@ class LabSession {
   std::unique_ptr<SceneBuilderThread> builder_;  // null: the session has ended
   Clock::time_point next_tick_{};                // used by the run's thread only
   std::thread thread_;
+  std::jthread trial_;  // of fixes for the run that stopped
 };
 
 }  // namespace twinarm

@@ -19,10 +19,11 @@ struct LabNote {
 // A run that diverged or was stopped by its energy, with suggested fixes.
 struct RunFailure {
   double time = 0;  // of the last good state [s]
-  double from = 0;  // the last change or the start, from which to branch with a fix [s]
+  double from = 0;  // instant from which to branch with a fix [s]
   std::vector<std::string> words;
   std::string quantity, body, spring;
-  std::vector<SuggestedFix> remedies;
+  bool trying = true;                  // fixes are being tried (app/lab/run/remedy_trial.h)
+  std::vector<SuggestedFix> remedies;  // those that hold
 };
 
 struct LabBranch {

@@ -97,6 +97,13 @@ Timeline::Frame Timeline::branch(double t) {
   return from;
 }
 
+std::pair<Timeline::Frame, std::vector<LabInput>> Timeline::since(double t) const {
+  const std::lock_guard lock(mutex_);
+  Frame from = history_.frame(history_.at(t));
+  std::vector<LabInput> inputs = history_.inputs_after(from->recorded.step);
+  return {std::move(from), std::move(inputs)};
+}
+
 std::optional<LabInput> Timeline::known_input(double t) const {
   const std::lock_guard lock(mutex_);
   if (before_.empty() || before_.at(t) + 1 == before_.size()) return std::nullopt;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "app/lab/run/history.h"
@@ -32,6 +33,9 @@ class Timeline {
   void clear();
   // Begins a branch at t; returns its first frame, null if t is no longer in the history.
   Frame branch(double t);
+
+  // The frame at t, or the oldest, and the inputs of the steps after it.
+  std::pair<Frame, std::vector<LabInput>> since(double t) const;
 
   // Input at t of the run that was left; nothing: that run did not reach t.
   std::optional<LabInput> known_input(double t) const;

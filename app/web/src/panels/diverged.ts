@@ -5,7 +5,6 @@ import { type Divergence, isViewOnly, type StateMessage } from '../source/link';
 import type { LabPage, Panel } from './panel';
 import type { Rewind } from '../source/playhead';
 
-const REWIND = 1; // a change is applied at least this long before the divergence [s]
 const SLOW = 0.1; // playback speed of the last second
 
 export class Diverged implements Panel {
@@ -61,7 +60,7 @@ export class Diverged implements Panel {
     const facts = Object.entries({ time: `${failure.time.toFixed(3)} s`, quantity, body, cause })
       .filter(([, value]) => value)
       .map(([name, value]) => element('div', element('dt', name), element('dd', value)));
-    const from = Math.max(first, Math.min(failure.from, failure.time - REWIND));
+    const from = Math.max(first, failure.from);
     const back = `${(failure.time - from).toFixed(1)} s`;
     const changing = (label: string, title: string, act: () => void, className = '') => {
       const made = button(label, title, act, className);
@@ -72,7 +71,9 @@ export class Diverged implements Panel {
       const title = `rewinds ${back} and sets ${changes.join(', ')}`;
       return changing(words, title, () => this.rewind.branch(from, changes), i === 0 ? 'main' : '');
     });
-    const heading = element('h3', `Stable settings (rewinds ${back})`);
+    const none = 'No change that was tried keeps this run stable.';
+    const found = remedies.length > 0 ? `Stable settings (rewinds ${back})` : none;
+    const heading = element('h3', failure.trying ? 'Trying changes for a stable run …' : found);
     const replay = () => this.rewind.play(from, SLOW, failure.time);
     return [
       element(
@@ -83,7 +84,8 @@ export class Diverged implements Panel {
       ),
       ...rest.map((line) => element('p', line)),
       element('dl', ...facts),
-      ...(remedies.length > 0 ? [heading, element('div.remedies', ...remedies)] : []),
+      heading,
+      element('div.remedies', ...remedies),
       element(
         'div.ends',
         button(`Replay the last second at ${SLOW}×`, 'slow motion up to the divergence', replay),

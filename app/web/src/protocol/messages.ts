@@ -83,11 +83,12 @@ export interface Remedy {
 export interface Divergence {
   words: string[];
   time: number;
-  from: number; // time of the last change: a remedy continues from there
+  from: number; // a remedy continues from there
   quantity: string; // '': none; so for body and cause
   body: string;
   cause: string;
-  remedies: Remedy[];
+  trying: boolean; // remedies are still being tried
+  remedies: Remedy[]; // with these the run stays stable for 5 s beyond the stop
 }
 
 export interface Note {

@@ -1,0 +1,116 @@
+#include "app/lab/run/remedy_trial.h"
+
+#include <algorithm>
+#include <deque>
+#include <utility>
+
+#include "app/lab/run/lab_run.h"
+#include "app/lab/run/variants.h"
+#include "app/servo/haptic_loop.h"
+#include "solver/support/diagnostics.h"
+
+namespace twinarm {
+namespace {
+
+constexpr std::size_t kMaxFixes = 3;
+
+struct Candidate {
+  SuggestedFix fix;
+  bool is_suggested = true;  // else made from one that did not hold
+};
+
+// Inputs of the stopped run by time; after its end the target rests where they left it.
+class RepeatedInputs {
+ public:
+  explicit RepeatedInputs(const RemedyTrial& trial) : inputs_(trial.inputs) {
+    if (inputs_.empty() || !inputs_.back().hand) return;
+    rest_.hand = inputs_.back().hand;
+    for (std::size_t j = 0; j < rest_.hand->sample.theta.size(); ++j) {
+      double& rate = rest_.hand->sample.theta_dot[j];
+      rest_.hand->sample.theta[j] += rest_.hand->h * std::exchange(rate, 0);
+    }
+  }
+  // Times ascend from call to call.
+  const LabInput& at(double t) {
+    const double after = t + 1e-9 * std::max(1.0, t);
+    while (next_ < inputs_.size() && inputs_[next_].t + inputs_[next_].h <= after) ++next_;
+    if (next_ == inputs_.size()) return rest_;
+    return inputs_[next_].t <= after ? inputs_[next_] : none_;
+  }
+
+ private:
+  const std::vector<LabInput>& inputs_;
+  std::size_t next_ = 0;
+  LabInput none_, rest_;
+};
+
+class Trials {
+ public:
+  Trials(const RemedyTrial& trial, const std::function<bool()>& is_cancelled)
+      : trial_(trial), is_cancelled_(is_cancelled) {}
+
+  std::vector<SuggestedFix> run(const std::vector<SuggestedFix>& suggested) {
+    for (const SuggestedFix& fix : suggested) waiting_.push_back({fix, true});
+    std::vector<SuggestedFix> found;
+    for (std::size_t n = 0; n < RemedyTrial::kMaxTried && !waiting_.empty(); ++n) {
+      const Candidate candidate = std::move(waiting_.front());
+      waiting_.pop_front();
+      try {
+        if (holds(candidate)) found.push_back(candidate.fix);
+      } catch (const InputError&) {  // this change is not possible in this scene
+      }
+      if (is_cancelled_() || found.size() == kMaxFixes ||
+          thread_cpu_time() - start_ > RemedyTrial::kMaxCpuOfAll)
+        break;
+    }
+    return found;
+  }
+
+ private:
+  bool holds(const Candidate& candidate) {
+    std::vector<Change> changes = trial_.changes;
+    for (const std::string& text : candidate.fix.changes) put(changes, parse_change(text));
+    OperatorInput unused;
+    LabRun run(trial_.scene->plan(changes), unused, trial_.from.get());
+    run.carry_over_energy(*trial_.from, trial_.names);
+    RepeatedInputs inputs(trial_);
+    const double end = trial_.stopped_at + RemedyTrial::kHold;
+    const double start = thread_cpu_time();
+    while (run.view().time() < end) {
+      if (is_cancelled_() || thread_cpu_time() - start > RemedyTrial::kMaxCpu) return false;
+      if (run.step(&inputs.at(run.view().time()))) continue;
+      const PostMortem* found = run.post_mortem();
+      if (found && candidate.is_suggested)
+        for (const SuggestedFix& next : fixes_of(run.prepared(), *found))
+          waiting_.push_back({combined(candidate.fix, next), false});
+      return false;
+    }
+    return true;
+  }
+
+  // Later changes of the same path replace earlier ones.
+  static SuggestedFix combined(const SuggestedFix& first, const SuggestedFix& second) {
+    std::vector<Change> changes;
+    for (const SuggestedFix* fix : {&first, &second})
+      for (const std::string& text : fix->changes) put(changes, parse_change(text));
+    SuggestedFix both{second.words, {}};
+    if (changes.size() > second.changes.size()) both.words = first.words + "; " + second.words;
+    for (const Change& change : changes) both.changes.push_back(change.path + "=" + change.value);
+    return both;
+  }
+
+  const RemedyTrial& trial_;
+  const std::function<bool()>& is_cancelled_;
+  const double start_ = thread_cpu_time();
+  std::deque<Candidate> waiting_;
+};
+
+}  // namespace
+
+std::vector<SuggestedFix> fixes_that_hold(const RemedyTrial& trial,
+                                          const std::vector<SuggestedFix>& suggested,
+                                          const std::function<bool()>& is_cancelled) {
+  return Trials(trial, is_cancelled).run(suggested);
+}
+
+}  // namespace twinarm
