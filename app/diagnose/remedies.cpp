@@ -48,10 +48,16 @@ class RemedyFinder {
   }
 
   std::vector<SuggestedFix> find() {
-    if (!unstable_.empty()) {
+    constexpr double kMinFactor = 1e-3;  // softer springs hardly couple
+    const auto take_violations = [this](double min_factor) {
       shorter_step();
-      softer();
+      softer(min_factor);
       implicit();
+    };
+    if (!unstable_.empty()) take_violations(kMinFactor);
+    if (found_.empty() && !unstable_.empty()) {  // others are unstable with them
+      take_all_couplings();
+      take_violations(0);
     }
     if (damper_)
       add("integrator semi-implicit: takes joint dampers implicitly", {"integrator=semi-implicit"});
@@ -66,6 +72,7 @@ class RemedyFinder {
 
   // Each coupling alone is stable, all together are not.
   void take_all_couplings() {
+    unstable_.clear();
     for (std::size_t i = 0; i < scene_.couplings.size(); ++i) {
       const CouplingDescription& c = scene_.couplings[i];
       const bool is_stepped = c.law != CouplingSpec::Type::god_object && !c.soft_limits &&
@@ -110,12 +117,11 @@ class RemedyFinder {
     if (!changes.empty()) add("higher rate of the coupling force", std::move(changes));
   }
 
-  void softer() {
+  void softer(double min_factor) {
     const double factor = kHalf * kHalf * max_stable_power_of_two([&](double f) {
                             return step_.is_stable_with_softer(unstable_, f);
                           });
-    constexpr double kMinFactor = 1e-3;  // softer springs no longer couple
-    if (factor < kMinFactor) return;
+    if (!(factor > min_factor)) return;
     std::vector<std::string> changes;
     std::string words;
     for (const int i : unstable_) {

@@ -6,7 +6,7 @@ import { pathToFileURL } from 'node:url';
 
 const page = await import(pathToFileURL(process.env.MODULES).href);
 const { decodeFrame, labelText, placeOf, decodeMesh, inWorld, inLink, THREE } = page;
-const { PointDrag, JointDrag, planeOfMotion, Pace } = page;
+const { PointDrag, JointDrag, planeOfMotion, Pace, Controller } = page;
 
 // Independent copy of the protocol's table.
 const ORDER = [
@@ -220,4 +220,25 @@ test('frame rate: slow drawing is detected, a pause is not', () => {
   assert.equal(asked(every(16, 600)), 0);
   assert.equal(asked(every(100, 62)), 1);
   assert.equal(asked([...every(16, 40), ...every(16, 40, 60_000)]), 0);
+});
+
+test('game controller: axes in the order of the device files, right, up, toward, yaw, pitch, roll', () => {
+  const pad = { connected: true, axes: [0, 0, 0, 0], buttons: Array.from({ length: 16 }, () => ({ value: 0 })) };
+  Object.defineProperty(globalThis, 'navigator', { value: { getGamepads: () => [pad] }, configurable: true });
+  globalThis.addEventListener = () => {};
+  let rates = null;
+  const operator = { useSource: () => true, move: (command) => (rates = command.rates), button: () => {} };
+  const controller = new Controller(operator, () => {});
+  const at = (axes, pressed = []) => {
+    pad.axes = axes;
+    pad.buttons.forEach((button, i) => (button.value = pressed.includes(i) ? 1 : 0));
+    controller.poll();
+    return rates.map((rate) => Math.round(10 * rate) / 10 + 0);
+  };
+  assert.deepEqual(at([1, 0, 0, 0]), [1, 0, 0, 0, 0, 0]);
+  assert.deepEqual(at([0, -1, 0, 0]), [0, 1, 0, 0, 0, 0]); // stick up
+  assert.deepEqual(at([0, 0, 0, 1]), [0, 0, 1, 0, 0, 0]); // stick towards the user
+  assert.deepEqual(at([0, 0, 1, 0]), [0, 0, 0, 1, 0, 0]);
+  assert.deepEqual(at([0, 0, 0, 0], [12, 15]), [0, 0, 0, 0, 1, -1]);
+  assert.deepEqual(at([0, 0, 0, 0], [7, 15]), [0, 0, 0, 0, 0, -1]);
 });

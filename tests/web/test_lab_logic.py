@@ -20,7 +20,8 @@ NODE = shutil.which("node") or shutil.which("nodejs")
 PARTS = {
     "lab_logic": ("ui/scale", "source/store", "source/run_record", "plot/export", "plot/specs",
                   "panels/input_bar", "panels/gallery", "ui/dom", "plot/chart_parts"),
-    "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal", "view/pace"),
+    "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal", "view/pace",
+                 "input/gamepad"),
 }
 BUNDLE = """
 import { createRequire } from 'node:module';

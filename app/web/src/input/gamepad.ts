@@ -1,5 +1,5 @@
-// Game controller. Left stick: right and toward; right stick: yaw and up; directional pad: roll and pitch;
-// first button: gripper, second: clutch.
+// Game controller, mapped as by JoystickDecoder (app/device/gesture_decoder.h). Left stick: right and up; right
+// stick: yaw and toward; triggers or directional pad: roll; pad: pitch; first button: gripper, second: clutch.
 import type { Operator } from './operator';
 
 const DEAD_ZONE = 0.12;
@@ -25,9 +25,10 @@ export class Controller {
   poll(): void {
     const pad = navigator.getGamepads?.().find((each) => each?.connected);
     if (!pad) return;
-    const [x, y, yaw, up] = [0, 1, 2, 3].map((i) => stick(pad.axes[i] ?? 0));
+    const [x, down, yaw, toward] = [0, 1, 2, 3].map((i) => stick(pad.axes[i] ?? 0));
     const held = (i: number) => pad.buttons[i]?.value ?? 0;
-    const rates = [x, -up, y, -yaw, held(12) - held(13), held(15) - held(14)];
+    const clockwise = Math.max(-1, Math.min(1, held(7) - held(6) + held(15) - held(14)));
+    const rates = [x, -down, toward, yaw, held(12) - held(13), -clockwise];
     const isIdle = rates.every((rate) => rate === 0);
     if (!this.isIdle || (!isIdle && this.operator.useSource('drag'))) this.operator.move({ do: 'axes', rates });
     this.isIdle = isIdle;

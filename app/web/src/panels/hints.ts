@@ -16,7 +16,7 @@ export class Hints {
   private message = '';
   private until = 0;
   private shown = '';
-  private file = '';
+  private lookedFor = '';
   private lostAt: number | null = 0;
 
   constructor() {
@@ -24,8 +24,9 @@ export class Hints {
   }
 
   show({ file, look }: SceneMessage): void {
-    if (file === this.file) return;
-    this.file = file;
+    const lookedFor = JSON.stringify([file, look]);
+    if (lookedFor === this.lookedFor) return;
+    this.lookedFor = lookedFor;
     this.look.hidden = look.length === 0;
     this.again.hidden = true;
     this.look.replaceChildren(

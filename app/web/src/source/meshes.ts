@@ -42,6 +42,13 @@ export class MeshStore {
     return Promise.all(hashes.map((hash) => this.one(`/texture/${hash}`, read).catch(nothing)));
   }
 
+  // Forgets those of earlier scenes.
+  keepOnly(hashes: string[]): void {
+    const needed = new Set(hashes);
+    for (const address of this.kept.keys())
+      if (!needed.has(address.slice(address.lastIndexOf('/') + 1))) this.kept.delete(address);
+  }
+
   private one<T>(address: string, read: (answer: Response) => Promise<T>): Promise<T> {
     const known = this.kept.get(address);
     if (known) return known as Promise<T>;

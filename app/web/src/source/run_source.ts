@@ -19,6 +19,7 @@ export class LiveRun implements RunSource, Listener {
   readonly isLive = true;
   record: RunRecord | null = null;
   private requestedAt = -Infinity;
+  private retry = 0; // timer
   private isRequesting = false;
 
   constructor(private readonly page: LabPage) {
@@ -64,7 +65,13 @@ export class LiveRun implements RunSource, Listener {
   private fill(): void {
     const { record } = this;
     const now = performance.now();
-    if (!record || record.lost === null || this.isRequesting || now - this.requestedAt < REFILL) return;
+    if (!record || record.lost === null || this.isRequesting) return;
+    const early = REFILL - (now - this.requestedAt);
+    if (early > 0) { // no frame may follow that asks again
+      clearTimeout(this.retry);
+      this.retry = window.setTimeout(() => this.fill(), early);
+      return;
+    }
     this.isRequesting = true;
     this.requestedAt = now;
     void this.request(record, record.lost).finally(() => (this.isRequesting = false));

@@ -8,6 +8,7 @@ export type Pixel = { x: number; y: number };
 export type Project = (x: number, y: number, z: number) => Pixel | null;
 
 const CONTROLS = ':scope > :not(canvas, .labels, .handles, .corner), .corner > *';
+const MAX_WIDTHS = 2000; // remembered
 const LINE = 17; // line height in pixels
 const LAYOUT_INTERVAL = 300; // [ms]: reading positions makes the browser lay out the page
 
@@ -18,6 +19,8 @@ export class Labels {
   private readonly leaders = svg('svg');
   readonly root = element('div.labels', { 'aria-hidden': 'true' }, this.leaders);
   private readonly items: Item[] = [];
+  private readonly pen = document.createElement('canvas').getContext('2d')!;
+  private readonly widths = new Map<string, number>(); // of texts, in pixels
   private controls: Box[] = [];
   private measuredAt = -Infinity;
 
@@ -35,7 +38,7 @@ export class Labels {
         if (!point) continue;
         const [right, down] = columns.offset.subarray(2 * i, 2 * i + 2);
         const text = texts[columns.text[i]];
-        const box = place(point, right, down, 7 * text.length + 6, taken);
+        const box = place(point, right, down, this.width(text) + 6, taken);
         if (!box || box.right > this.root.clientWidth || box.left < 0) continue;
         taken.push(box);
         this.put(this.item(used++), text, box, point);
@@ -44,6 +47,16 @@ export class Labels {
       this.items[i].text.hidden = true;
       this.items[i].leader.style.display = 'none';
     }
+  }
+
+  private width(text: string): number {
+    if (this.widths.size > MAX_WIDTHS) this.widths.clear();
+    let width = this.widths.get(text);
+    if (width === undefined) {
+      this.pen.font = getComputedStyle(this.root).font;
+      this.widths.set(text, width = this.pen.measureText(text).width);
+    }
+    return width;
   }
 
   // Boxes of the controls in the view.
