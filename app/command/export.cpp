@@ -199,7 +199,7 @@ int run_export(const ExportOptions& options) {
     throw InputError({{"", 0, "--csv, --json", options.json ? "both are given" : "neither is given",
                        "give one of them, or the name of a page", "option.conflict"}});
   const Recording recording(options.recording);
-  for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
+  for (const std::string& note : recording.notes()) print_error("twinarm: {}\n", note);
   options.json ? print_recording_json(recording) : print_recording_csv(recording);
   return 0;
 }

@@ -216,8 +216,8 @@ int compute(const MapOptions& options, const MapJob& job) {
   try {
     compute_blocks(job, wanted, work, options.threads, file);
   } catch (const Interrupted&) {
-    say("twinarm: {} of {} blocks of cells are finished, in {}; the same command resumes\n",
-        std::ranges::count_if(wanted, is_finished), wanted.size(), work.string());
+    print_error("twinarm: {} of {} blocks of cells are finished, in {}; the same command resumes\n",
+                std::ranges::count_if(wanted, is_finished), wanted.size(), work.string());
     throw;
   }
   if (!is_part(options)) {

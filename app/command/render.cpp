@@ -213,7 +213,7 @@ int run_render(const RenderOptions& options) {
     film->finish();
   }
   progress.finish();
-  for (const std::string& note : rendering.notes()) say("twinarm: {}\n", note);
+  for (const std::string& note : rendering.notes()) print_error("twinarm: {}\n", note);
   if (options.json)
     print_render_json(file, plan, runs.front(), rendering.notes());
   else

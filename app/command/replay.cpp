@@ -93,7 +93,7 @@ int run_replay(const ReplayOptions& options) {
         {{"", 0, "--plot", "there is no branch to draw", "give --set too", "option.conflict"}});
   if (!options.plot.empty()) check_plot(options.plot);
   const Recording recording(options.recording);
-  for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
+  for (const std::string& note : recording.notes()) print_error("twinarm: {}\n", note);
   const std::size_t first = options.from ? recording.at(*options.from, "--from") : 0;
   const Replay exact = replay(recording, first, {});
   std::optional<Replay> branch;

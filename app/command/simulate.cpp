@@ -64,10 +64,10 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
     Progress progress(false, Progress::kPatience);
     progress.stage("simulate", 1);
     RunWatch watch;
-    watch.warn = [](const std::string& text) { say("twinarm: warning: {}\n", text); };
+    watch.warn = [](const std::string& text) { print_error("twinarm: warning: {}\n", text); };
     watch.alarm = [&](const Alarm& alarm) {
       const std::string words = alarm_words(alarm, prepared);
-      say("twinarm: alarm: {}\n", words);
+      print_error("twinarm: alarm: {}\n", words);
       if (recorder) recorder->alarm(words);
       return words;
     };
@@ -90,12 +90,13 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
   output->end(result);
   if (!result.post_mortem) return 0;
   const PostMortem& found = *result.post_mortem;
-  say("twinarm: stopped after t = {} s, in step {}: {}", found.time, found.step, found.reason);
+  print_error("twinarm: stopped after t = {} s, in step {}: {}", found.time, found.step,
+              found.reason);
   if (!found.field.empty())
-    say("; first in '{}' of link '{}' (joint '{}')", found.field, found.body, found.joint);
-  if (!found.fastest_joint.empty()) say("; fastest joint '{}'", found.fastest_joint);
-  say("\n");
-  for (const std::string& words : found.words) say("twinarm:   {}\n", words);
+    print_error("; first in '{}' of link '{}' (joint '{}')", found.field, found.body, found.joint);
+  if (!found.fastest_joint.empty()) print_error("; fastest joint '{}'", found.fastest_joint);
+  print_error("\n");
+  for (const std::string& words : found.words) print_error("twinarm:   {}\n", words);
   return kStopped;
 }
 

@@ -91,7 +91,7 @@ std::unique_ptr<OperatorMotion> operator_motion(const StudyOptions& options,
   if (!options.trace.empty()) {
     auto trace = std::make_unique<RecordedTrace>(options.trace);
     for (const std::string& warning : trace->quality().warnings)
-      say("twinarm: warning: {}: {}\n", options.trace.string(), warning);
+      print_error("twinarm: warning: {}: {}\n", options.trace.string(), warning);
     return trace;
   }
   return std::make_unique<SyntheticOperator>(options.seed.value_or(settings.seed),
@@ -195,7 +195,7 @@ int run_study(const StudyOptions& options) {
   const double start = steady_seconds();
   const std::filesystem::path assets = find_assets(options.assets);
   if (!options.identify_one.empty()) {
-    fmt::print("{}\n", answer_json(ask(load_inputs(assets), options.identify_one)));
+    fmt::print("{}\n", answer_json(identify_one(load_inputs(assets), options.identify_one)));
     return 0;
   }
   const std::filesystem::path calibration_file = assets / "study" / "calibration.json";

@@ -120,13 +120,13 @@ bool wait_for_enter() {
 
 void count_down() {
   for (int n = 3; n > 0; --n) {
-    say("{} ", n);
+    print_error("{} ", n);
     for (int i = 0; i < 10; ++i) {
       check_interrupt();
       std::this_thread::sleep_for(std::chrono::milliseconds(100));
     }
   }
-  say("go!\n");
+  print_error("go!\n");
 }
 
 // Draws each picture over the last one.
@@ -134,8 +134,9 @@ class TerminalShow {
  public:
   explicit TerminalShow(double seconds) : seconds_(seconds) {}
   void operator()(const std::string& picture, double t) {
-    if (lines_ > 0) say("\x1b[{}A", lines_);
-    say("{}{:5.1f} s of {:.0f}   # robot  . your hand  o object  [ ] goal\n", picture, t, seconds_);
+    if (lines_ > 0) print_error("\x1b[{}A", lines_);
+    print_error("{}{:5.1f} s of {:.0f}   # robot  . your hand  o object  [ ] goal\n", picture, t,
+                seconds_);
     lines_ = static_cast<int>(std::ranges::count(picture, '\n')) + 1;
   }
 
@@ -157,9 +158,10 @@ TrialResult run_step(const TrialOptions& options, const MappingSpec& mapping, co
   task.real_time = !options.simulated;
   const bool is_shown = !options.simulated && isatty(STDERR_FILENO) != 0;
   if (!options.simulated) {
-    say("\n{}: {}.\n{}\n", step.condition->name, step.condition->title, instructions(step.pick));
+    print_error("\n{}: {}.\n{}\n", step.condition->name, step.condition->title,
+                instructions(step.pick));
     if (!options.yes) {
-      say("Press Enter when you are ready. ");
+      print_error("Press Enter when you are ready. ");
       if (!wait_for_enter())
         throw InputError({{"", 0, "trial", "cannot wait for Enter: there is no terminal",
                            "run it in a terminal, or give --yes", "trial.no-terminal"}});

@@ -75,7 +75,7 @@ const std::vector<ScriptedMotion>& scripted_motions() {
          if (is_device_log(file)) return read_device_log(file);
          auto trace = std::make_shared<RecordedTrace>(file);
          for (const std::string& warning : trace->quality().warnings)
-           say("twinarm: warning: {}: {}\n", file, warning);
+           print_error("twinarm: warning: {}: {}\n", file, warning);
          return trace;
        }}};
   return motions;

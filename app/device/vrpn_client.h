@@ -31,12 +31,12 @@ struct VrpnAddress {
 };
 
 struct VrpnSettings {
-  double silence = 0.1;                         // [s]
-  double timeout = 3;                           // [s]
-  double first_retry = 0.1, longest_retry = 2;  // [s]
-  double force_timeout = 0.1;                   // [s]
-  double rate = 1000;                           // requested from the server [Hz]
-  std::function<void(const std::string&)> say;  // gets one line; empty: stderr
+  double silence = 0.1;                          // [s]
+  double timeout = 3;                            // [s]
+  double first_retry = 0.1, longest_retry = 2;   // [s]
+  double force_timeout = 0.1;                    // [s]
+  double rate = 1000;                            // requested from the server [Hz]
+  std::function<void(const std::string&)> warn;  // gets one line; empty: stderr
 };
 
 struct VrpnCounts {

@@ -37,7 +37,8 @@ VrpnDevice::Link::Link(VrpnAddress address, const OmniParameters& parameters, Vr
       settings_(std::move(settings)),
       name_(fmt::format("{}@{}:{}", address_.device, address_.host, address_.port)),
       stop_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
-  if (!settings_.say) settings_.say = [](const std::string& line) { say("twinarm: {}\n", line); };
+  if (!settings_.warn)
+    settings_.warn = [](const std::string& line) { print_error("twinarm: {}\n", line); };
   try {
     peer_.emplace(address_.host, address_.port);
   } catch (const std::runtime_error& error) {
@@ -101,7 +102,7 @@ void VrpnDevice::Link::report_start(std::optional<Trouble> trouble) {
 void VrpnDevice::Link::warn_once(unsigned kind, const std::string& text) {
   if ((warned_ >> kind & 1u) != 0) return;
   warned_ |= 1u << kind;
-  settings_.say(name_ + ": " + text);
+  settings_.warn(name_ + ": " + text);
 }
 
 VrpnDevice::Link::Trouble VrpnDevice::Link::connect_and_run() {

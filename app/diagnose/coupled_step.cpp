@@ -115,13 +115,14 @@ bool CoupledStep::is_stable_with_hold(int coupling, int steps) const {
   return is_stable(changed, step_);
 }
 
-bool CoupledStep::is_stable_with_softer(const std::vector<int>& couplings, double factor) const {
+bool CoupledStep::is_stable_with_softer(const std::vector<int>& couplings, double stiffness,
+                                        double damping) const {
   Components changed = components_;
   for (Component& c : changed) {
     if (!contains(couplings, c.coupling)) continue;
-    c.part.K *= factor;
-    c.part.K_zero *= factor;
-    c.part.B *= std::sqrt(factor);
+    c.part.K *= stiffness;
+    c.part.K_zero *= stiffness;
+    c.part.B *= damping;
   }
   return is_stable(changed, step_);
 }

@@ -29,8 +29,9 @@ class CoupledStep {
   bool is_stable_with_gain(int coupling, Gain gain, double value) const;
   // With its force held for that number of steps.
   bool is_stable_with_hold(int coupling, int steps) const;
-  // With the stiffnesses of `couplings` times `factor` and their dampings times its square root.
-  bool is_stable_with_softer(const std::vector<int>& couplings, double factor) const;
+  // With the stiffnesses and dampings of `couplings` times these factors.
+  bool is_stable_with_softer(const std::vector<int>& couplings, double stiffness,
+                             double damping) const;
   // With `couplings` as implicit springs and the semi-implicit integrator.
   bool is_stable_with_implicit(const std::vector<int>& couplings) const;
 

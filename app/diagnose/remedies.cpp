@@ -49,15 +49,15 @@ class RemedyFinder {
 
   std::vector<SuggestedFix> find() {
     constexpr double kMinFactor = 1e-3;  // softer springs hardly couple
-    const auto take_violations = [this](double min_factor) {
+    const auto take_violations = [this] {
       shorter_step();
-      softer(min_factor);
+      softer(kMinFactor);
       implicit();
     };
-    if (!unstable_.empty()) take_violations(kMinFactor);
+    if (!unstable_.empty()) take_violations();
     if (found_.empty() && !unstable_.empty()) {  // others are unstable with them
       take_all_couplings();
-      take_violations(0);
+      take_violations();
     }
     if (damper_)
       add("integrator semi-implicit: takes joint dampers implicitly", {"integrator=semi-implicit"});
@@ -118,28 +118,38 @@ class RemedyFinder {
   }
 
   void softer(double min_factor) {
+    const auto is_stable = [&](double stiffness, double damping) {
+      return step_.is_stable_with_softer(unstable_, stiffness, damping);
+    };
     const double factor = kHalf * kHalf * max_stable_power_of_two([&](double f) {
-                            return step_.is_stable_with_softer(unstable_, f);
+                            return is_stable(f, std::sqrt(f));
                           });
-    if (!(factor > min_factor)) return;
+    if (factor > min_factor) return scale_gains("lower stiffness: ", factor, std::sqrt(factor));
+    const double damping =
+        kHalf * max_stable_power_of_two([&](double f) { return is_stable(1, f); });
+    if (damping > 0) scale_gains("lower damping: ", 1, damping);
+  }
+
+  void scale_gains(std::string words, double stiffness, double damping) {
     std::vector<std::string> changes;
-    std::string words;
+    const char* separator = "";
     for (const int i : unstable_) {
       const CouplingDescription& c = coupling(i);
-      if (!(c.stiffness > 0)) return;
-      const auto put = [&](const char* key, double value) {
-        if (value > 0)
+      const auto put = [&](const char* key, double value, double factor) {
+        if (value > 0 && factor < 1)
           changes.push_back("coupling[" + std::to_string(i) + "]." + key + "=" +
-                            number_text(rounded_down(value)));
+                            number_text(rounded_down(factor * value)));
       };
-      put("stiffness", factor * c.stiffness);
-      put("damping", std::sqrt(factor) * c.damping);
-      put("rotational_stiffness", factor * c.rotational_stiffness);
-      put("rotational_damping", std::sqrt(factor) * c.rotational_damping);
-      words += fmt::format("{}{} {:g}", words.empty() ? "" : ", ", c.name,
-                           rounded_down(factor * c.stiffness));
+      put("stiffness", c.stiffness, stiffness);
+      put("damping", c.damping, damping);
+      put("rotational_stiffness", c.rotational_stiffness, stiffness);
+      put("rotational_damping", c.rotational_damping, damping);
+      const double shown = stiffness < 1 ? stiffness * c.stiffness : damping * c.damping;
+      if (!(shown > 0)) return;
+      words += fmt::format("{}{} {:g}", separator, c.name, rounded_down(shown));
+      separator = ", ";
     }
-    add("lower stiffness: " + words, std::move(changes));
+    add(std::move(words), std::move(changes));
   }
 
   void implicit() {

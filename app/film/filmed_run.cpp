@@ -53,7 +53,7 @@ void check_within(const Recording& recording, double from, double to) {
 
 FilmedRun film_recording(const std::filesystem::path& file, const FilmTimes& times) {
   auto recording = std::make_unique<const Recording>(file);
-  for (const std::string& note : recording->notes()) say("twinarm: {}\n", note);
+  for (const std::string& note : recording->notes()) print_error("twinarm: {}\n", note);
   auto files = std::make_unique<const UnpackedRun>(recording->header());
   const auto prepared = [&] {
     try {
@@ -154,7 +154,8 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
   };
   const SimulateResult result = run_plan(run.plan.input, plan, watch);
   if (result.post_mortem)
-    say("twinarm: the run diverged after t = {:g} s: {}\n", result.end, result.post_mortem->reason);
+    print_error("twinarm: the run diverged after t = {:g} s: {}\n", result.end,
+                result.post_mortem->reason);
   if (run.shown.empty())
     throw InputError({{"", 0, "--at", "the run stopped before that time",
                        fmt::format("give one up to {:g} s", result.end), "film.time"}});

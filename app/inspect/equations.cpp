@@ -85,9 +85,9 @@ class BodyEquations {
     std::vector<Equation> all;
     std::vector<EquationTerm> inertias{{"I", "spatial inertia of the body", i_,
                                         axes_.show(ArticulatedInertia<double>(in_.model.I[i_]))}};
-    if (in_.forces.has_impedance && !axes_.show(in_.forces.impedance[i_]).isZero(0))
-      inertias.push_back({"impedance", "added inertia of implicit spring-dampers", i_,
-                          axes_.show(in_.forces.impedance[i_])});
+    if (in_.forces.has_added_inertia && !axes_.show(in_.forces.added_inertia[i_]).isZero(0))
+      inertias.push_back({"added_inertia", "added inertia of implicit spring-dampers", i_,
+                          axes_.show(in_.forces.added_inertia[i_])});
     std::vector<EquationTerm> forces{
         {"p", "bias force of the body", i_, axes_.show(bias_force(in_, i_))}};
     for (const std::size_t child : in_.children(i_)) {

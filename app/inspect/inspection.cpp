@@ -50,7 +50,7 @@ Forces<double> sum_of(const Model<double>& model, const std::vector<AppliedForce
   for (const AppliedForce& actor : actors) {
     for (const AppliedForce::OnBody& on : actor.bodies) {
       sum.f_ext[on.body] += on.f;
-      if (!is_zero(on.impedance)) sum.add_impedance(on.body, on.impedance);
+      if (!is_zero(on.added_inertia)) sum.add_inertia(on.body, on.added_inertia);
     }
     for (const AppliedForce::OnJoint& on : actor.joints) {
       sum.tau[on.dof] += on.tau;
@@ -63,8 +63,8 @@ Forces<double> sum_of(const Model<double>& model, const std::vector<AppliedForce
 AppliedForce actor_of(std::string source, const Forces<double>& added) {
   AppliedForce actor{std::move(source), {}, {}};
   for (std::size_t i = 0; i < added.f_ext.size(); ++i)
-    if (!is_zero(added.f_ext[i]) || !is_zero(added.impedance[i]))
-      actor.bodies.push_back({i, added.f_ext[i], added.impedance[i]});
+    if (!is_zero(added.f_ext[i]) || !is_zero(added.added_inertia[i]))
+      actor.bodies.push_back({i, added.f_ext[i], added.added_inertia[i]});
   for (std::size_t dof = 0; dof < added.tau.size(); ++dof)
     if (added.tau[dof] != 0 || added.armature[dof] != 0)
       actor.joints.push_back({dof, added.tau[dof], added.armature[dof]});

@@ -18,12 +18,12 @@
 namespace twinarm {
 
 // A named force: wrench, actuator, coupling, contact point or constraint. Its implicit parts depend
-// on the acceleration: f - impedance a, tau - armature qdd.
+// on the acceleration: f - added_inertia a, tau - armature qdd.
 struct AppliedForce {
   struct OnBody {
     std::size_t body;
     Force<double> f;  // body axes, about the body's origin
-    ArticulatedInertia<double> impedance;
+    ArticulatedInertia<double> added_inertia;
   };
   struct OnJoint {
     std::size_t dof;  // velocity index
@@ -60,7 +60,7 @@ struct Inspection {
   std::vector<std::size_t> children(std::size_t i) const;
   // At the acceleration of this state.
   Force<double> force_of(const AppliedForce::OnBody& on) const {
-    return on.f - on.impedance * w.a[on.body];
+    return on.f - on.added_inertia * w.a[on.body];
   }
   double torque_of(const AppliedForce::OnJoint& on) const {
     return on.tau - on.armature * w.qdd[on.dof];

@@ -25,7 +25,8 @@ State<double> at_rest(State<double> x) {
 }
 
 // Equations of motion by CRBA and RNEA, implicit terms included:
-//   M = M_crba + sum J^T impedance J + armature,   h = RNEA at qdd = 0 with f - impedance a_0.
+//   M = M_crba + sum J^T added_inertia J + armature,   h = RNEA at qdd = 0 with f - added_inertia
+//   a_0.
 class CrbaRneaReference {
  public:
   explicit CrbaRneaReference(const Inspection& in)
@@ -48,7 +49,7 @@ class CrbaRneaReference {
   // motion such that a_i = S qdd_i: its rigid acceleration is subtracted.
   Result inverse(const Eigen::VectorXd& qdd, std::size_t subtree = 0) {
     Result first = run(in_.model, in_.x, qdd, in_.forces.f_ext);
-    if (subtree == 0 && !in_.forces.has_impedance) return first;
+    if (subtree == 0 && !in_.forces.has_added_inertia) return first;
     std::vector<Force<double>> f_ext = in_.forces.f_ext;
     std::vector<Motion<double>> rigid(in_.body_count());  // of the subtree, with body i
     if (subtree > 0) {
@@ -61,8 +62,8 @@ class CrbaRneaReference {
       if (subtree > 0 && b > subtree && is_below(b, subtree))
         rigid[b] = w_.Xup[b] * rigid[in_.parent(b)];
       f_ext[b] += in_.model.I[b] * rigid[b];
-      if (in_.forces.has_impedance)
-        f_ext[b] += -(in_.forces.impedance[b] * (first.a[b] - rigid[b]));
+      if (in_.forces.has_added_inertia)
+        f_ext[b] += -(in_.forces.added_inertia[b] * (first.a[b] - rigid[b]));
     }
     return run(in_.model, in_.x, qdd, f_ext);
   }
@@ -70,10 +71,10 @@ class CrbaRneaReference {
   Result inertial(const Eigen::VectorXd& qdd) {
     const std::vector<Force<double>> none(in_.body_count());
     Result result = run(weightless_, rest_, qdd, none);
-    if (!in_.forces.has_impedance) return result;
+    if (!in_.forces.has_added_inertia) return result;
     std::vector<Force<double>> implicit(in_.body_count());
     for (std::size_t b = 1; b < in_.body_count(); ++b)
-      implicit[b] = -(in_.forces.impedance[b] * result.a[b]);
+      implicit[b] = -(in_.forces.added_inertia[b] * result.a[b]);
     return run(weightless_, rest_, qdd, implicit);
   }
 
@@ -103,7 +104,7 @@ class CrbaRneaReference {
     for (std::size_t dof = 0; dof < in_.model.nv; ++dof)
       M_(static_cast<Eigen::Index>(dof), static_cast<Eigen::Index>(dof)) +=
           in_.forces.armature[dof];
-    if (!in_.forces.has_impedance) return;
+    if (!in_.forces.has_added_inertia) return;
     std::vector<std::pair<std::size_t, Motion<double>>> columns;
     for (std::size_t b = 1; b < in_.body_count(); ++b) {
       columns.clear();
@@ -116,7 +117,7 @@ class CrbaRneaReference {
       for (const auto& [row, J_row] : columns)
         for (const auto& [col, J_col] : columns)
           M_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(col)) +=
-              dot(J_row, in_.forces.impedance[b] * J_col);
+              dot(J_row, in_.forces.added_inertia[b] * J_col);
     }
   }
 

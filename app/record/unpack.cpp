@@ -173,7 +173,7 @@ void check_recorded(const RobotOptions& given, DiagnosticList& faults) {
 
 RecordedInstant open_instant(const std::filesystem::path& file, std::optional<double> at) {
   const Recording recording(file);
-  for (const std::string& note : recording.notes()) say("twinarm: {}\n", note);
+  for (const std::string& note : recording.notes()) print_error("twinarm: {}\n", note);
   const RecordedFrame frame =
       recording.frame(at ? recording.at(*at, "--at") : recording.size() - 1);
   const auto files = std::make_shared<const UnpackedRun>(recording.header());

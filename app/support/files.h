@@ -45,7 +45,7 @@ void check_stdout();
 
 // Prints a message on stderr; unlike fmt::print it does not throw if that fails.
 template <class... Values>
-void say(fmt::format_string<Values...> words, Values&&... values) {
+void print_error(fmt::format_string<Values...> words, Values&&... values) {
   std::fputs(fmt::format(words, std::forward<Values>(values)...).c_str(), stderr);
 }
 

@@ -31,7 +31,7 @@ void Progress::stage(const std::string& name, double weight) {
   if (terminal_)
     draw();
   else
-    say("{}\n", name_);
+    print_error("{}\n", name_);
 }
 
 void Progress::advance(double fraction_of_stage) {
@@ -52,7 +52,7 @@ double Progress::seconds() const {
 }
 
 void Progress::finish() {
-  if (!quiet_ && terminal_ && !name_.empty() && seconds() >= after_) say("\r\033[K");
+  if (!quiet_ && terminal_ && !name_.empty() && seconds() >= after_) print_error("\r\033[K");
   std::fflush(stderr);
   name_.clear();
 }
@@ -66,8 +66,8 @@ void Progress::draw() {
   const int full = static_cast<int>(done * width);
   std::string left;
   if (done > 0.03) left = fmt::format("  {:.0f} s left", elapsed * (1 - done) / done);
-  say("\r\033[K[{}{}] {:3.0f} %  {}{}", std::string(full, '#'), std::string(width - full, '.'),
-      100 * done, name_, left);
+  print_error("\r\033[K[{}{}] {:3.0f} %  {}{}", std::string(full, '#'),
+              std::string(width - full, '.'), 100 * done, name_, left);
   std::fflush(stderr);
 }
 

@@ -16,9 +16,10 @@ Forces<D> convert_forces(const Model<D>& model, const Forces<double>& forces) {
   }
   for (std::size_t i = 0; i < model.parent.size(); ++i) {
     out.f_ext[i] = {convert<D>(forces.f_ext[i].n), convert<D>(forces.f_ext[i].f)};
-    if (forces.has_impedance)
-      out.add_impedance(i, {convert<D>(forces.impedance[i].I), convert<D>(forces.impedance[i].H),
-                            convert<D>(forces.impedance[i].M)});
+    if (forces.has_added_inertia)
+      out.add_inertia(i,
+                      {convert<D>(forces.added_inertia[i].I), convert<D>(forces.added_inertia[i].H),
+                       convert<D>(forces.added_inertia[i].M)});
   }
   return out;
 }

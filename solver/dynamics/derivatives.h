@@ -12,7 +12,7 @@ namespace twinarm {
 struct ForwardDynamicsDerivatives {
   Eigen::MatrixXd dq, dqd, dtau;
 };
-// Allocates. forces.armature and forces.impedance are constants.
+// Allocates. forces.armature and forces.added_inertia are constants.
 ForwardDynamicsDerivatives forward_dynamics_derivatives(const Model<double>& model,
                                                         const State<double>& x,
                                                         const Forces<double>& forces);

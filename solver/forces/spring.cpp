@@ -16,7 +16,7 @@ Vec3<double> arm(const Kinematics& k, int body, const Vector3& p_W) {
 }
 void add_inertia(const Kinematics& k, int body, const ArticulatedInertia<double>& inertia,
                  Forces<double>& forces) {
-  forces.add_impedance(at(body), inertia);
+  forces.add_inertia(at(body), inertia);
   forces.f_ext[at(body)] += inertia * k.a_bias[at(body)];  // cancels inertia * a_bias
 }
 

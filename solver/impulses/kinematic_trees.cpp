@@ -31,7 +31,7 @@ void KinematicTrees::add_to(ImpulseProblem& problem, const Forces<double>* force
   const std::size_t n = model.parent.size();
   for (std::size_t i = 1; i < n; ++i) {
     Ic_[i] = model.I[i];
-    if (forces && forces->has_impedance) Ic_[i] += forces->impedance[i];
+    if (forces && forces->has_added_inertia) Ic_[i] += forces->added_inertia[i];
   }
   for (std::size_t i = n; i-- > 1;) {
     if (tree_[i] == ImpulseConstraint::no_tree) continue;

@@ -17,27 +17,27 @@ namespace twinarm {
 // Forces besides gravity: input of the algorithms, filled by the ForceSources.
 template <class S>
 struct Forces {
-  std::vector<S> tau;                            // by velocity [N m, N]
-  std::vector<Force<S>> f_ext;                   // by body [N m, N]
-  std::vector<S> armature;                       // by velocity, added to D [kg m^2, kg]
-  std::vector<ArticulatedInertia<S>> impedance;  // by body, added to IA only
-  bool has_impedance = false;                    // false: impedance is zero for all bodies
+  std::vector<S> tau;                                // by velocity [N m, N]
+  std::vector<Force<S>> f_ext;                       // by body [N m, N]
+  std::vector<S> armature;                           // by velocity, added to D [kg m^2, kg]
+  std::vector<ArticulatedInertia<S>> added_inertia;  // by body, added to IA only
+  bool has_added_inertia = false;                    // false: added_inertia is zero for all bodies
 
   explicit Forces(const Model<S>& model)
       : tau(model.nv),
         f_ext(model.parent.size()),
         armature(model.nv),
-        impedance(model.parent.size()) {}
+        added_inertia(model.parent.size()) {}
   void clear() {
     tau.assign(tau.size(), S(0));
     f_ext.assign(f_ext.size(), Force<S>{});
     armature.assign(armature.size(), S(0));
-    if (has_impedance) impedance.assign(impedance.size(), ArticulatedInertia<S>{});
-    has_impedance = false;
+    if (has_added_inertia) added_inertia.assign(added_inertia.size(), ArticulatedInertia<S>{});
+    has_added_inertia = false;
   }
-  void add_impedance(std::size_t body, const ArticulatedInertia<S>& inertia) {
-    impedance[body] += inertia;
-    has_impedance = true;
+  void add_inertia(std::size_t body, const ArticulatedInertia<S>& inertia) {
+    added_inertia[body] += inertia;
+    has_added_inertia = true;
   }
 
   // Calls visit(Quantity, field) for each field.
@@ -51,9 +51,9 @@ struct Forces {
     visit({"armature", 0, By::velocity, "added inertia of implicit spring-dampers at the joint",
            "kg m^2; kg", "input, added to D"},
           armature);
-    visit({"impedance", 0, By::body, "added inertia of implicit spring-dampers on the body",
+    visit({"added_inertia", 0, By::body, "added inertia of implicit spring-dampers on the body",
            "kg m^2, kg m, kg", "input, added to IA"},
-          impedance);
+          added_inertia);
   }
 };
 

@@ -12,7 +12,7 @@
 // X_i (Xup) transforms motion vectors from parent p to body i. All quantities are in body axes,
 // about the body's origin. Added to the book's algorithm: rotor inertia (model.armature) on the
 // diagonal of D; for implicit spring-dampers (docs/understand/coupling_laws.md) forces.armature on
-// the diagonal of D and forces.impedance in IA. Interface: solver/dynamics/dynamics.h.
+// the diagonal of D and forces.added_inertia in IA. Interface: solver/dynamics/dynamics.h.
 #pragma once
 
 #include "solver/model/joint_slice.h"
@@ -54,7 +54,7 @@ template <class S, class M, class Trace = NoTrace>
   // pass 2, tips to base: articulated-body inertia and articulated-body bias force
   for (std::size_t i = n_bodies; i-- > 1;) {
     if (model.last_child[i] == 0) w.IA[i] = model.I[i];  // leaf; others are set by their last child
-    if (forces.has_impedance) w.IA[i] += forces.impedance[i];
+    if (forces.has_added_inertia) w.IA[i] += forces.added_inertia[i];
     visit_joint(model, forces.armature, i, [&](auto joint, auto sparsity) TWINARM_KERNEL {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];

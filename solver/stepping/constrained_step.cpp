@@ -122,7 +122,7 @@ void ConstrainedStep::update_positions(IntegrationState& m, double h) {
         system_.problem.size(tree) != 6 || !is_free_[static_cast<std::size_t>(tree)])
       continue;
     const Vec3<double> couple = m.forces.f_ext[i].n - couples_.of(i), force = m.forces.f_ext[i].f;
-    bool forced = dot(couple, couple) + dot(force, force) > 0 || m.forces.has_impedance;
+    bool forced = dot(couple, couple) + dot(force, force) > 0 || m.forces.has_added_inertia;
     for (std::size_t dof = model_->iv[i]; dof < model_->iv[i] + 6; ++dof)
       forced = forced || m.forces.tau[dof] != 0 || m.forces.armature[dof] != 0;
     for (std::size_t dof = model_->iv[i]; !forced && dof < model_->iv[i] + 6; ++dof)

@@ -40,8 +40,8 @@ Vector3 velocity_change(const Matrix3& I, const Vector3& w, const Vector3& n, do
 bool is_free_rigid_body(const Model<double>& model, const Forces<double>& forces, std::size_t i) {
   if (model.joint[i] != JointType::free || model.parent[i] != 0 || model.last_child[i] != 0)
     return false;
-  if (!forces.has_impedance) return true;
-  const ArticulatedInertia<double>& implicit = forces.impedance[i];
+  if (!forces.has_added_inertia) return true;
+  const ArticulatedInertia<double>& implicit = forces.added_inertia[i];
   return !(implicit.I.xx + implicit.I.yy + implicit.I.zz + implicit.M.xx > 0);
 }
 

@@ -62,7 +62,7 @@ class Identify(ProgramTest):
         misfit = max(abs(x - p) for x, p in zip(reported, PAPER[row])) / 0.05
         self.assertAlmostEqual(found["misfit"], misfit, delta=1e-9 * misfit)
         self.assertEqual(misfit <= 1, agrees)
-        self.assertEqual(found["allowance"], max(1, 2 * found["misfit"]))
+        self.assertEqual(found["threshold"], max(1, 2 * found["misfit"]))
         for p in found["parameters"]:
             self.check_profile(p, found)
         return found, best, reported
@@ -105,14 +105,14 @@ class Identify(ProgramTest):
         best = min(range(len(points)), key=lambda i: points[i]["misfit"])
         for side, step, key in ((0, -1, "low"), (1, 1, "high")):
             i = best
-            while 0 <= i + step < len(points) and points[i + step]["misfit"] <= found["allowance"]:
+            while 0 <= i + step < len(points) and points[i + step]["misfit"] <= found["threshold"]:
                 i += step
             is_open = not 0 <= i + step < len(points)
             self.assertEqual(p["open"][side], is_open)
             end = values[i]
             if not is_open:  # a line in the logarithms
                 a, b = (math.log(max(points[n]["misfit"], 1e-12)) for n in (i, i + step))
-                share = (math.log(found["allowance"]) - a) / (b - a)
+                share = (math.log(found["threshold"]) - a) / (b - a)
                 end *= (values[i + step] / end) ** min(max(share, 0), 1)
             self.assertAlmostEqual(p[key] / end, 1, delta=1e-9)
 

@@ -57,7 +57,7 @@ class Workspace(ProgramTest):
                 np.testing.assert_allclose(found, wanted, atol=1e-10 * max(1, np.abs(wanted).max()),
                                            err_msg=f'{name} of {entry["body"]}')
                 self.assertEqual(frames[name], quantity["frame"])
-        self.assertEqual(seen, set(ws) - {"f_ext", "armature", "impedance"})  # zero here
+        self.assertEqual(seen, set(ws) - {"f_ext", "armature", "added_inertia"})  # zero here
 
     def test_it_is_what_aba_left_last_and_a_copy(self):
         model = twinarm.load(DOUBLE_PENDULUM)

@@ -26,7 +26,7 @@ int report(const InputError& error, bool as_json) {
   using Json = nlohmann::ordered_json;  // the one variant that the program instantiates
   Json errors = Json::array();
   for (const Diagnostic& fault : error.faults()) {
-    say("twinarm: {}\n", to_string(fault));
+    print_error("twinarm: {}\n", to_string(fault));
     errors.push_back({{"code", fault.code},
                       {"file", fault.file},
                       {"line", fault.line},
@@ -53,7 +53,7 @@ int check_output(int code, bool as_json) {
 // An error of printing may be the cause: then it is reported instead.
 int report_internal(const std::exception& error, bool as_json) {
   const int code = check_output(kInternal, as_json);
-  if (code == kInternal) say("twinarm: internal error: {}\n", error.what());
+  if (code == kInternal) print_error("twinarm: internal error: {}\n", error.what());
   return code;
 }
 
@@ -143,7 +143,7 @@ int run_program(int argc, char** argv) {
     const int code = report(error, as_json);
     return is_interrupted() ? kInterrupted : code;  // Ctrl-C also ends reading a mesh
   } catch (const Interrupted&) {
-    say("twinarm: interrupted; no partial files were left\n");
+    print_error("twinarm: interrupted; no partial files were left\n");
     return kInterrupted;
   } catch (const std::exception& error) {
     return report_internal(error, as_json);

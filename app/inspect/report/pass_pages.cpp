@@ -156,8 +156,8 @@ class PassPage {
     for (const EquationTerm& term : equation.terms) size = size.cwiseMax(term.size);
     write_value(equation.name, equation.value, by_columns, size);
     for (const EquationTerm& term : equation.terms)
-      if (term.symbol == "impedance") {
-        sheet_.heading("impedance, included", term.words, "");
+      if (term.symbol == "added_inertia") {
+        sheet_.heading("added inertia, included", term.words, "");
         sheet_.matrix(term.value);
       }
   }

@@ -110,7 +110,7 @@ void LabRoutes::answer(const HttpRequest& request, const Answer& answer) {
       return add_task(answer, [this, request, answer] { answer(task_reply(request)); });
   for (const char* start : {"/mesh/", "/texture/", "/history"})
     if (request.path.starts_with(start))
-      return streamer_.ask([request, answer](MessageStreamer& streamer) {
+      return streamer_.post([request, answer](MessageStreamer& streamer) {
         answer_faults(answer, [&] { answer(streamer_reply(streamer, request)); });
       });
   answer(not_found());

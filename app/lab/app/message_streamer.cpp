@@ -46,7 +46,7 @@ void MessageStreamer::end() {
   thread_.join();
 }
 
-void MessageStreamer::ask(std::function<void(MessageStreamer&)> job) {
+void MessageStreamer::post(std::function<void(MessageStreamer&)> job) {
   {
     const std::lock_guard lock(mutex_);
     jobs_.push_back(std::move(job));

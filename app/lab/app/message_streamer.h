@@ -58,7 +58,7 @@ class MessageStreamer {
   void end();
 
   // From any thread: to be executed by the streamer's thread.
-  void ask(std::function<void(MessageStreamer&)> job);
+  void post(std::function<void(MessageStreamer&)> job);
   void look_again() { session_.shown().wake(); }  // after a change of the clients
   DrawList drawn();                               // a copy of what was drawn last
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/diagnose/post_mortem.h"
+#include "app/lab/parameters/parameters.h"
 #include "app/lab/run/remedy_trial.h"
 #include "solver/support/diagnostics.h"
 
@@ -17,6 +18,16 @@ namespace {
 
 constexpr auto kTick = std::chrono::milliseconds(1);
 constexpr auto kIdle = std::chrono::milliseconds(200);
+
+// The values that the scene's file gives to the parameters that were changed.
+SuggestedFix values_of_file(const LabScene& scene, const std::vector<Change>& changes) {
+  SuggestedFix fix{"values of the scene's file", {}};
+  for (const LabParameter& parameter : parameters_of(scene.plan()->prepared))
+    if (std::ranges::find(changes, parameter.path, &Change::path) != changes.end() &&
+        !parameter.value().empty())
+      fix.changes.push_back(parameter.change());
+  return fix;
+}
 
 }  // namespace
 
@@ -146,6 +157,8 @@ void LabSession::show_end() {
   end.body = found->body;
   if (!found->violations.empty()) end.spring = found->violations.front().name;
   std::vector<SuggestedFix> fixes = fixes_of(state_.loop.run().prepared(), *found);
+  SuggestedFix before = values_of_file(*state_.timeline.scene()->scene, state_.status.changes);
+  if (!before.changes.empty()) fixes.push_back(std::move(before));
   std::erase_if(fixes, [this](const SuggestedFix& fix) {
     return std::ranges::any_of(fix.changes, [this](const std::string& text) {
       return is_varied(state_.status, parse_change(text));

@@ -183,7 +183,7 @@ class CsvOutput : public RunOutput {
   void end(const SimulateResult& result) override {
     std::fflush(stdout);
     for (const auto* warnings : {&input_.warnings, &result.warnings})
-      for (const std::string& warning : *warnings) say("warning: {}\n", warning);
+      for (const std::string& warning : *warnings) print_error("warning: {}\n", warning);
   }
 
  private:

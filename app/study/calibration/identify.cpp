@@ -189,7 +189,7 @@ FittedRun fitted_run(const StudyInputs& inputs, const std::string& row, const Fa
   return fitted;
 }
 
-Identification ask(const StudyInputs& inputs, const std::string& problem) {
+Identification identify_one(const StudyInputs& inputs, const std::string& problem) {
   DiagnosticList faults;
   const auto fault = [&](std::string what, std::string fix) {
     faults.add({"", 0, "--identify-one", std::move(what), std::move(fix), "study.question"});

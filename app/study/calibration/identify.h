@@ -79,7 +79,7 @@ FittedRun fitted_run(const StudyInputs& inputs, const std::string& row, const Fa
 std::vector<Identification> identify(const StudyInputs& inputs, Progress& progress);
 
 // One of them, "ROW/LAW/RATE", at any rate [Hz]. Throws InputError.
-Identification ask(const StudyInputs& inputs, const std::string& problem);
+Identification identify_one(const StudyInputs& inputs, const std::string& problem);
 
 // assets/study/identification.json. Throws InputError.
 std::vector<Identification> read_identifications(const std::filesystem::path& file);

@@ -262,7 +262,7 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
 std::string answer_json(const Identification& found) {
   ordered_json json = identification_json(found);
   json["evaluations"] = found.fit.evaluations;
-  json["allowance"] = found.threshold();
+  json["threshold"] = found.threshold();
   json["directions"] = found.directions;
   for (std::size_t j = 0; j < found.profiles.size(); ++j) {
     ordered_json& points = json["parameters"][j]["profile"];

@@ -42,7 +42,7 @@ VrpnSettings quick(Said& said) {
   settings.timeout = 1.5;
   settings.first_retry = 0.02;
   settings.longest_retry = 0.1;
-  settings.say = [&said](const std::string& line) {
+  settings.warn = [&said](const std::string& line) {
     const std::lock_guard lock(said.mutex);
     said.lines.push_back(line);
   };

@@ -38,8 +38,8 @@ std::vector<AppliedForce> random_actors(Random& random, const Model<double>& mod
     forces.f_ext[i] = {vec(5), vec(5)};
     if (implicit) {
       const double m = random.uniform(0, 1);
-      forces.impedance[i].M = Sym3<double>::scaled_identity(m);
-      forces.impedance[i].I = Sym3<double>::scaled_identity(random.uniform(0, 0.3));
+      forces.added_inertia[i].M = Sym3<double>::scaled_identity(m);
+      forces.added_inertia[i].I = Sym3<double>::scaled_identity(random.uniform(0, 0.3));
     }
   }
   return {actor_of("all", forces)};

@@ -155,21 +155,23 @@ TEST_CASE("live run: a diverged robot is not stepped any more, and renders no fo
 }
 
 TEST_CASE("live run: a tick among obstacles allocates nothing once warm") {
+  constexpr double kPeriod = 2 * M_PI;  // of the device's motion [s]
+  constexpr int kTicks = 6283;          // of a period
   const SceneModel scene = build_scene(read_scene(std::filesystem::path(TWINARM_SOURCE_DIR) /
                                                   "assets/scenes/hand_and_obstacles.toml"));
   TestDevice device;
   device.state = [](double t) {
-    DeviceState state = turned(0.9 * std::sin(2 * t));
-    state.theta[3] = 1.5 * std::sin(3.1 * t);
+    DeviceState state = turned(1.4 * std::sin(2 * t));
+    state.theta[3] = 1.5 * std::sin(3 * t);
     state.buttons[0] = std::sin(5 * t) > 0;
-    state.alive = std::fmod(t, 3) < 2.7;
+    state.alive = std::fmod(t, kPeriod) < kPeriod - 0.3;
     return state;
   };
   LiveRun run(scene, device, {});
-  for (int n = 0; n < 4000; ++n) run.tick();
+  for (int n = 0; n < 2 * kTicks; ++n) run.tick();
   const long before = testing::allocations;
   int touching = 0;
-  for (int n = 0; n < 4000; ++n) {
+  for (int n = 0; n < kTicks; ++n) {
     run.tick();
     touching += run.contacts().contact_count() > 0 ? 1 : 0;
   }

@@ -75,15 +75,15 @@ template <class S>
 void set(Forces<S>& to, int lane, const Forces<double>& from) {
   set(to.tau, lane, from.tau);
   set(to.armature, lane, from.armature);
-  to.has_impedance = from.has_impedance;
+  to.has_added_inertia = from.has_added_inertia;
   for (std::size_t i = 0; i < to.f_ext.size(); ++i) {
     set(to.f_ext[i].n, lane, from.f_ext[i].n);
     set(to.f_ext[i].f, lane, from.f_ext[i].f);
-    set(to.impedance[i].I, lane, from.impedance[i].I);
-    set(to.impedance[i].M, lane, from.impedance[i].M);
-    set(to.impedance[i].H.r0, lane, from.impedance[i].H.r0);
-    set(to.impedance[i].H.r1, lane, from.impedance[i].H.r1);
-    set(to.impedance[i].H.r2, lane, from.impedance[i].H.r2);
+    set(to.added_inertia[i].I, lane, from.added_inertia[i].I);
+    set(to.added_inertia[i].M, lane, from.added_inertia[i].M);
+    set(to.added_inertia[i].H.r0, lane, from.added_inertia[i].H.r0);
+    set(to.added_inertia[i].H.r1, lane, from.added_inertia[i].H.r1);
+    set(to.added_inertia[i].H.r2, lane, from.added_inertia[i].H.r2);
   }
 }
 template <class S>

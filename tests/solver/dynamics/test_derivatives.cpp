@@ -43,7 +43,7 @@ TEST_CASE("derivatives of qdd by q, qd and tau agree with finite differences, fo
       for (double& armature : forces.armature) armature = random.uniform(0, 1);
       if (n % 2)
         for (std::size_t i = 1; i < model.parent.size(); ++i)
-          forces.add_impedance(i, ArticulatedInertia<double>(model.I[i]));
+          forces.add_inertia(i, ArticulatedInertia<double>(model.I[i]));
       const ForwardDynamicsDerivatives d = forward_dynamics_derivatives(model, x, forces);
       REQUIRE(d.dq.rows() == static_cast<Eigen::Index>(model.nv));
       for (std::size_t k = 0; k < model.nv; ++k) {

@@ -13,7 +13,7 @@ TEST_CASE_TEMPLATE("the algorithms allocate nothing, for every joint", S, TWINAR
   for (const auto& types : lists_of_types()) {
     Packed<S> p(random, random_tree(random, 8, types));
     for (std::size_t i = 1; i < p.model.parent.size(); ++i)
-      p.forces[0].add_impedance(i, ArticulatedInertia<double>(p.model.I[i]));
+      p.forces[0].add_inertia(i, ArticulatedInertia<double>(p.model.I[i]));
     p.pack();
     Workspace<S> w(p.model_S);
     const std::vector<S> zero(p.model.nv);

@@ -69,8 +69,8 @@ TEST_CASE("every variable of the algorithms is described once, with unit and equ
   forces.describe(check);
   w.describe(check);
   trace.describe(check);
-  const std::vector<std::string> wanted{"tau", "f_ext", "armature", "impedance", "S", "Xup",
-                                        "v",   "c",     "IA",       "pA",        "U", "D",
-                                        "u",   "qdd",   "a",        "Ia",        "pa"};
+  const std::vector<std::string> wanted{
+      "tau", "f_ext", "armature", "added_inertia", "S", "Xup", "v", "c", "IA", "pA",
+      "U",   "D",     "u",        "qdd",           "a", "Ia",  "pa"};
   CHECK(names == wanted);
 }

@@ -210,7 +210,7 @@ TEST_CASE("implicit terms: aba solves (M + armature + J^T m* J) qdd = tau - h - 
         const Vec3<double> r = from_eigen(random.vector(0.5)), h = m * r;
         const ArticulatedInertia<double> particle(Inertia<double>{
             m, h, Sym3<double>::scaled_identity(m * dot(r, r)) - symmetric_part_of(outer(h, r))});
-        forces.add_impedance(i, particle);
+        forces.add_inertia(i, particle);
         // The particle's 3-D equation of motion in body axes: J its velocity by qd, a its
         // spatial-linear acceleration at qdd = 0 with gravity; wM.a is what rnea left.
         MatrixXd J = MatrixXd::Zero(3, nv);

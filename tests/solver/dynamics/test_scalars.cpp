@@ -142,7 +142,7 @@ TEST_CASE_TEMPLATE("every scalar and level agrees with double at the generic lev
         for (std::size_t i = 1; i < p.model.parent.size(); ++i) {
           for (std::size_t k = p.model.iv[i]; k < p.model.iv[i] + p.model.dofs(i) && geared; ++k)
             f.armature[k] = random.uniform(0.1, 1);
-          f.add_impedance(i, ArticulatedInertia<double>(p.model.I[i]));
+          f.add_inertia(i, ArticulatedInertia<double>(p.model.I[i]));
         }
       p.pack();
       for (const Isa isa : levels_of<S>()) {

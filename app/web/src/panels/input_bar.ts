@@ -18,7 +18,6 @@ const MODES: Record<string, string> = {
   held: 'no data from the device: the target robot is held',
   released: 'device lost: the target follows the robot, coupling forces go to 0',
 };
-const NO_TARGET = 'No input device in this scene. Drag a body to apply a force.';
 const NEAR = 0.8; // of the limit
 
 export class InputBar implements Panel {
@@ -38,6 +37,7 @@ export class InputBar implements Panel {
   private readonly gripper = button('', 'gripper (g)', () => {
     this.page.operator.button(0, !this.page.operator.isGripperClosed);
   });
+  private readonly input = element('div.line', element('b', 'Input'), this.source, this.gripper);
   private column = -1;
   private newest: Frame | null = null;
   private drawn = '';
@@ -57,9 +57,9 @@ export class InputBar implements Panel {
       event.stopPropagation();
     });
     this.root.append(
-      element('div.line', element('b', 'Input'), this.source, this.gripper),
+      this.input,
       this.spec,
-      element('div.line', this.force, this.number),
+      element('div.line', { hidden: '' }, this.force, this.number),
       this.warning,
       this.facts,
       this.control,
@@ -76,16 +76,16 @@ export class InputBar implements Panel {
     const hasTarget = input.source !== '';
     const isDisabled = isViewOnly(state);
     if (!this.isEditing) this.source.value = hasTarget ? chosen(input) : 'scene';
-    this.source.disabled = isDisabled || !hasTarget;
-    this.gripper.disabled = isDisabled;
-    this.gripper.hidden = !hasTarget;
+    this.source.disabled = this.gripper.disabled = isDisabled;
+    this.input.hidden = this.facts.hidden = !hasTarget;
     this.gripper.setAttribute('aria-pressed', String(input.gripper));
     this.gripper.textContent = input.gripper ? 'closed' : 'grip';
     const device = input.source === 'device' && input.device_name;
     const facts = [`${input.mapping} mapping`, device, MODES[input.mode] ?? input.mode].filter((fact) => fact);
-    const text = hasTarget ? facts.join(' · ') : NO_TARGET;
+    const text = facts.join(' · ');
     if (this.facts.textContent !== text) this.facts.textContent = text;
     this.showControl(state);
+    this.root.hidden = !hasTarget && !this.control.hasChildNodes();
   }
 
   onFrame(frame: Frame): void {

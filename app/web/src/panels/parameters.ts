@@ -42,6 +42,7 @@ export class Parameters implements Panel {
     if (this.areParametersNew(parameters.map(shapeOf))) this.build(parameters);
     else for (const parameter of parameters) this.rows.get(parameter.path)!.update(parameter);
     this.showPresets(presets);
+    this.presets.hidden = presets.length === 0 || state.input.source === ''; // for scenes with a target robot
     const isDisabled = isViewOnly(state);
     this.viewOnly.hidden = !isDisabled;
     for (const row of this.rows.values()) row.enable(!isDisabled);
@@ -83,7 +84,6 @@ export class Parameters implements Panel {
       return button(label, what, () => this.page.send({ do: 'preset', name }));
     });
     this.presets.replaceChildren(...buttons);
-    this.presets.hidden = presets.length === 0;
   }
 
   private set(path: string, value: string): void {

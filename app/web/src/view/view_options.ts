@@ -2,12 +2,14 @@
 import type { Layer } from '../protocol/run';
 import { button, changeDetector, element, icon, option } from '../ui/dom';
 import type { SceneBody } from '../source/link';
+import { remember, remembered } from '../ui/preferences';
 import type { ViewName } from './stage';
 
 type LayerHead = Pick<Layer, 'name' | 'what' | 'legend'>;
 
 export class Overlays {
-  readonly legend = element('ul.legend', { 'aria-label': 'legend' });
+  private readonly lines = element('ul', { 'aria-label': 'legend' });
+  readonly legend = element('details.legend', element('summary', 'Legend'), this.lines);
   private readonly list = element('div.switches', { role: 'group', 'aria-label': 'overlays', hidden: '' });
   private readonly toggle: HTMLButtonElement;
   readonly root: HTMLElement;
@@ -24,6 +26,8 @@ export class Overlays {
     this.toggle.append(' Show');
     this.root = element('div.corner', element('div.overlays', this.toggle, this.list), this.legend);
     this.fold(true);
+    this.legend.open = remembered('legend', true);
+    this.legend.addEventListener('toggle', () => remember('legend', this.legend.open));
   }
 
   get names(): string[] {
@@ -79,7 +83,7 @@ export class Overlays {
       swatch.style.background = `rgb(${color.join(' ')})`;
       return element('li', swatch, text);
     });
-    this.legend.replaceChildren(...items);
+    this.lines.replaceChildren(...items);
     this.legend.hidden = lines.length === 0;
   }
 }

@@ -89,7 +89,7 @@ struct Streamed {
     bool is_done = false;
     for (int n = 0; n < 2; ++n) {  // the first one may overtake the state
       is_done = false;
-      streamer.ask([&](MessageStreamer&) {
+      streamer.post([&](MessageStreamer&) {
         const std::lock_guard lock(mutex);
         is_done = true;
       });
@@ -220,7 +220,7 @@ TEST_CASE("message streamer: a new client gets the scene first, and each frame o
 TEST_CASE("message streamer: an exception while drawing is shown as an error, and frames go on") {
   Streamed lab(kSlowlyDriven);
   for (int n = 0; n < 2; ++n)
-    lab.streamer.ask([](MessageStreamer&) { throw std::runtime_error("no such mesh"); });
+    lab.streamer.post([](MessageStreamer&) { throw std::runtime_error("no such mesh"); });
   REQUIRE(comes_true([&] { return !lab.status().notes.empty(); }));
   lab.settle();
   const std::vector<LabNote> notes = lab.status().notes;

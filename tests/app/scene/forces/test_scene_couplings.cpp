@@ -115,9 +115,9 @@ TEST_CASE("scene: force times velocity of any coupling is its power at the joint
     double sum = 0;
     for (std::size_t c = 0; c < couplings.size(); ++c)
       sum += couplings.force(c).dot(couplings.ends(c, x, k).velocity);
-    if (forces.has_impedance) {  // m* a_bias is added to the coupling force
+    if (forces.has_added_inertia) {  // m* a_bias is added to the coupling force
       for (std::size_t i = 1; i < scene.model.parent.size(); ++i) {
-        const Force<double> back = forces.impedance[i] * k.a_bias[i];
+        const Force<double> back = forces.added_inertia[i] * k.a_bias[i];
         power -= (k.R_WB[i] * to_eigen(back.n)).dot(k.w_WL[i]) +
                  (k.R_WB[i] * to_eigen(back.f)).dot(k.v_WLo[i]);
       }
