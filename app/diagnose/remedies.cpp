@@ -12,7 +12,8 @@
 namespace twinarm {
 namespace {
 
-constexpr double kHalf = 0.5;  // margin in omega h: the limit varies with the pose
+constexpr double kMinFactor = 1e-3;  // softer springs hardly couple, shorter steps are too slow
+constexpr double kHalf = 0.5;        // margin in omega h: the limit varies with the pose
 
 // Down to 1, 2 or 5 times a power of ten.
 double rounded_down(double value) {
@@ -48,10 +49,9 @@ class RemedyFinder {
   }
 
   std::vector<SuggestedFix> find() {
-    constexpr double kMinFactor = 1e-3;  // softer springs hardly couple
     const auto take_violations = [this] {
       shorter_step();
-      softer(kMinFactor);
+      softer();
       implicit();
     };
     if (!unstable_.empty()) take_violations();
@@ -96,7 +96,7 @@ class RemedyFinder {
     if (any_rate()) return higher_rate();
     const double factor =
         max_stable_power_of_two([&](double f) { return step_.is_stable_at_step(f * h); });
-    if (!(factor > 0)) return;
+    if (factor < kMinFactor) return;
     const double step = rounded_down(kHalf * factor * h);
     add(fmt::format("step {:g} ms", 1000 * step), {"step=" + number_text(step)});
   }
@@ -117,14 +117,14 @@ class RemedyFinder {
     if (!changes.empty()) add("higher rate of the coupling force", std::move(changes));
   }
 
-  void softer(double min_factor) {
+  void softer() {
     const auto is_stable = [&](double stiffness, double damping) {
       return step_.is_stable_with_softer(unstable_, stiffness, damping);
     };
     const double factor = kHalf * kHalf * max_stable_power_of_two([&](double f) {
                             return is_stable(f, std::sqrt(f));
                           });
-    if (factor > min_factor) return scale_gains("lower stiffness: ", factor, std::sqrt(factor));
+    if (factor > kMinFactor) return scale_gains("lower stiffness: ", factor, std::sqrt(factor));
     const double damping =
         kHalf * max_stable_power_of_two([&](double f) { return is_stable(1, f); });
     if (damping > 0) scale_gains("lower damping: ", 1, damping);

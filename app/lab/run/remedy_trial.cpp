@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <deque>
+#include <exception>
 #include <utility>
 
 #include "app/lab/run/lab_run.h"
 #include "app/lab/run/variants.h"
 #include "app/servo/haptic_loop.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {
@@ -57,7 +57,7 @@ class Trials {
       waiting_.pop_front();
       try {
         if (holds(candidate)) found.push_back(candidate.fix);
-      } catch (const InputError&) {  // this change is not possible in this scene
+      } catch (const std::exception&) {  // this change is not possible in this scene
       }
       if (is_cancelled_() || found.size() == kMaxFixes ||
           thread_cpu_time() - start_ > RemedyTrial::kMaxCpuOfAll)
