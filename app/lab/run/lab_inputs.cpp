@@ -41,9 +41,13 @@ void OperatorInput::choose(Source source, const std::string& spec) {
   ++revision_;
 }
 
+void OperatorInput::renew() {
+  if (source_ != Source::device) choose(source_);
+}
+
 void OperatorInput::restart() {
   gripper_ = false;
-  if (source_ != Source::device) choose(source_);
+  renew();
 }
 
 std::string OperatorInput::description() const {

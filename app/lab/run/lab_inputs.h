@@ -36,7 +36,9 @@ class OperatorInput {
   // `spec`: of Source::device. Throws InputError: unknown device, or no answer.
   void choose(Source source, const std::string& spec = "");
 
-  // As after choose() with the same source, gripper open; a physical device stays as it is.
+  // As after choose() with the same source: a virtual device at rest and without force. A physical
+  // one stays as it is. restart() also opens the gripper.
+  void renew();
   void restart();
 
   Source source() const { return source_; }

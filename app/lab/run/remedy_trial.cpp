@@ -19,10 +19,12 @@ struct Candidate {
   bool is_suggested = true;  // else made from one that did not hold
 };
 
-// Inputs of the stopped run by time; after its end the target rests where they left it.
+// Inputs of the stopped run by time; null after its end, but for a physical device, whose target
+// then rests where they left it.
 class RepeatedInputs {
  public:
-  explicit RepeatedInputs(const RemedyTrial& trial) : inputs_(trial.inputs) {
+  explicit RepeatedInputs(const RemedyTrial& trial)
+      : inputs_(trial.inputs), is_physical_(trial.source == OperatorInput::Source::device) {
     if (inputs_.empty() || !inputs_.back().hand) return;
     rest_.hand = inputs_.back().hand;
     for (std::size_t j = 0; j < rest_.hand->sample.theta.size(); ++j) {
@@ -31,15 +33,16 @@ class RepeatedInputs {
     }
   }
   // Times ascend from call to call.
-  const LabInput& at(double t) {
+  const LabInput* at(double t) {
     const double after = t + 1e-9 * std::max(1.0, t);
     while (next_ < inputs_.size() && inputs_[next_].t + inputs_[next_].h <= after) ++next_;
-    if (next_ == inputs_.size()) return rest_;
-    return inputs_[next_].t <= after ? inputs_[next_] : none_;
+    if (next_ == inputs_.size()) return is_physical_ ? &rest_ : nullptr;
+    return inputs_[next_].t <= after ? &inputs_[next_] : &none_;
   }
 
  private:
   const std::vector<LabInput>& inputs_;
+  bool is_physical_;
   std::size_t next_ = 0;
   LabInput none_, rest_;
 };
@@ -70,15 +73,16 @@ class Trials {
   bool holds(const Candidate& candidate) {
     std::vector<Change> changes = trial_.changes;
     for (const std::string& text : candidate.fix.changes) put(changes, parse_change(text));
-    OperatorInput unused;
-    LabRun run(trial_.scene->plan(changes), unused, trial_.from.get());
+    OperatorInput hand;
+    if (trial_.source != OperatorInput::Source::device) hand.choose(trial_.source);
+    LabRun run(trial_.scene->plan(changes), hand, trial_.from.get());
     run.carry_over_energy(*trial_.from, trial_.names);
     RepeatedInputs inputs(trial_);
     const double end = trial_.stopped_at + RemedyTrial::kHold;
     const double start = thread_cpu_time();
     while (run.view().time() < end) {
       if (is_cancelled_() || thread_cpu_time() - start > RemedyTrial::kMaxCpu) return false;
-      if (run.step(&inputs.at(run.view().time()))) continue;
+      if (run.step(inputs.at(run.view().time()))) continue;
       const PostMortem* found = run.post_mortem();
       if (found && candidate.is_suggested)
         for (const SuggestedFix& next : fixes_of(run.prepared(), *found))

@@ -7,6 +7,7 @@
 
 #include "app/diagnose/post_mortem.h"
 #include "app/lab/run/history.h"
+#include "app/lab/run/lab_inputs.h"
 
 namespace twinarm {
 
@@ -20,14 +21,16 @@ struct RemedyTrial {
   std::shared_ptr<const LabScene> scene;
   std::vector<Change> changes;  // in effect when it stopped
   LabHistory::Frame from;
-  std::vector<LabInput> inputs;  // since then, ascending
-  double stopped_at = 0;         // [s]
+  std::vector<LabInput> inputs;                                 // since then, ascending
+  double stopped_at = 0;                                        // [s]
+  OperatorInput::Source source = OperatorInput::Source::scene;  // takes over after the inputs
   LabNames names;
 };
 
 // The fixes with which the run from that frame holds: with the same inputs until it stopped, then
-// with the target robot at rest where the last input left it. In place of a fix that does not hold,
-// the further changes are tried that its own run suggests. At most three; best first.
+// with the source of input, which is not moved (a virtual device is held as by a hand; in place of
+// a physical one the target robot rests where the last input left it). In place of a fix that does
+// not hold, the further changes are tried that its own run suggests. At most three; best first.
 std::vector<SuggestedFix> fixes_that_hold(const RemedyTrial& trial,
                                           const std::vector<SuggestedFix>& suggested,
                                           const std::function<bool()>& is_cancelled);

@@ -177,6 +177,7 @@ double LabSession::try_fixes(std::vector<SuggestedFix> fixes, double stopped_at)
   trial.changes = state_.status.changes;
   trial.stopped_at = stopped_at;
   trial.names = state_.loop.names();
+  trial.source = state_.hand.source();
   std::tie(trial.from, trial.inputs) = state_.timeline.since(
       std::clamp(state_.changed_at, stopped_at - kMaxRewind, stopped_at - kMinRewind));
   const double from = trial.from->recorded.t;

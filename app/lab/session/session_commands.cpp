@@ -164,6 +164,7 @@ Timeline::Frame SessionCommands::start_of(const BuildRequest& request) {
     return std::make_shared<const LabFrame>(s_.loop.frame());
   Timeline::Frame from = s_.timeline.branch(request.at);
   if (!from) return nullptr;
+  s_.hand.renew();  // without the velocity and the force that the run left has given it
   s_.loop.repeat_inputs(true);
   const int number = s_.status.branch ? s_.status.branch->number + 1 : 1;
   s_.status.branch = LabBranch{from->recorded.t, request.changes, number};

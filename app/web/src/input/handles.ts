@@ -45,7 +45,8 @@ export function axisOf(frame: Frame, { body, axis, slides }: SceneJoint): Axis |
   return { origin, direction, slides: slides ?? false };
 }
 
-// Normal of the plane in which the driven joints move the tip; null: it can leave any plane.
+// Normal of the plane in which the driven joints move the tip; null: it can leave any plane. Bodies are numbered
+// outward: joints of later bodies do not move it.
 export function tipPlane({ frame, scene }: LabView) {
   const inner = scene.joints.filter((joint) => joint.driven !== undefined && joint.body <= (scene.tip?.body ?? -1));
   return planeOfMotion(inner.map((joint) => axisOf(frame, joint)).filter((axis) => axis !== null));

@@ -74,7 +74,7 @@ export class Diverged implements Panel {
     const none = 'No change that was tried keeps this run stable.';
     const found = remedies.length > 0 ? `Stable settings (rewinds ${back})` : none;
     const heading = element('h3', failure.trying ? 'Trying changes for a stable run …' : found);
-    const replay = () => this.rewind.play(from, SLOW, failure.time);
+    const replay = () => this.rewind.play(Math.max(first, failure.time - 1), SLOW, failure.time);
     return [
       element(
         'header',

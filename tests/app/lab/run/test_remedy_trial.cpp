@@ -26,6 +26,7 @@ RemedyTrial stopped_run() {
   }
   trial.inputs = s.history.inputs_after(trial.from->recorded.step);
   trial.stopped_at = s.run->view().time();
+  trial.source = s.hand.source();
   trial.scene = std::make_shared<const LabScene>(std::move(s.scene));
   return trial;
 }
