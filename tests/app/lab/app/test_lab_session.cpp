@@ -64,6 +64,9 @@ TEST_CASE("lab session: a refused change affects neither the waiting ones nor th
   lab.set("coupling.one.damping=3");
   CHECK(lab.comes_to("coupling.one.stiffness=30 gravity[2]=-1.62 coupling.one.damping=3 "));
   const auto status = lab.session.shown().now().status;
+  std::string texts;
+  for (const LabNote& note : status->notes) texts += note.level + ": " + note.text + "\n";
+  CAPTURE(texts);
   CHECK(std::count_if(status->notes.begin(), status->notes.end(),
                       [](const LabNote& note) { return note.level == "error"; }) == 1);
 }
