@@ -29,8 +29,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return before[b.size()];
 }
 
-// The name with the smallest edit distance (insert, delete, change, swap), ignoring case; empty if
-// all distances exceed half of the letters.
+}  // namespace
+
 std::string nearest_name(std::string_view misspelt, const std::vector<std::string>& names) {
   constexpr std::size_t kMaxLength = 200;  // longer words are not misspellings
   if (misspelt.size() > kMaxLength) return "";
@@ -45,8 +45,6 @@ std::string nearest_name(std::string_view misspelt, const std::vector<std::strin
   }
   return nearest;
 }
-
-}  // namespace
 
 std::string name_remedy(std::string_view misspelt, const std::vector<std::string>& names,
                         std::string_view kind) {

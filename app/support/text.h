@@ -13,6 +13,10 @@
 
 namespace twinarm {
 
+// The name with the smallest edit distance (insert, delete, change, swap), ignoring case; empty if
+// all distances exceed half of the letters.
+std::string nearest_name(std::string_view misspelt, const std::vector<std::string>& names);
+
 // "did you mean 'elbow'?" and up to 12 of the names; `kind`: "joints". Of a renamed one (renames.h)
 // its new name.
 std::string name_remedy(std::string_view misspelt, const std::vector<std::string>& names,

@@ -1,5 +1,6 @@
 """The command line as people and programs meet it: help, exit codes, all faults at once, Ctrl-C."""
 import json
+import os
 import pathlib
 import re
 import shutil
@@ -137,6 +138,16 @@ class CommandLine(ProgramTest):
         self.twinarm("render", made["E3"]["recording"], "--side-by-side", made["E4"]["recording"], "--png", picture,
                      "--plot", "tracking-error", "--size", "320x200")
         self.assertTrue(picture.exists())
+
+    # Help
+
+    def test_options_are_described_within_the_columns_of_the_terminal(self):
+        for command in self.commands():
+            for width in (60, 80):
+                text = run(command, "--help", env=dict(os.environ, COLUMNS=str(width))).stdout
+                options = text[text.index("Options:"):].splitlines()
+                self.assertLessEqual(max(map(len, options)), width, command)
+                self.assertEqual(text.split(), run(command, "--help").stdout.split())
 
     # Bad names
 

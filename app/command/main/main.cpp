@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string_view>
@@ -21,11 +22,27 @@ namespace {
 
 enum ExitCode { kDone = 0, kBadInput = 2, kInternal = 4, kInterrupted = 130 };
 
+// Of a missing file: the file of its folder with the most similar name.
+std::string remedy(const Diagnostic& fault) {
+  constexpr std::size_t kMaxFiles = 1000;  // of which names are compared
+  if (fault.code != "file.missing") return fault.fix;
+  const std::filesystem::path file(fault.file);
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator at(folder_of(file), ignored), end;
+       at != end && names.size() < kMaxFiles; at.increment(ignored))
+    names.push_back(at->path().filename().string());
+  const std::string nearest = nearest_name(file.filename().string(), names);
+  return nearest.empty() ? fault.fix
+                         : fmt::format("did you mean '{}'?", (file.parent_path() / nearest).string());
+}
+
 // Prints all diagnostics on stderr and, if as_json, on stdout as JSON.
 int report(const InputError& error, bool as_json) {
   using Json = nlohmann::ordered_json;  // the one variant that the program instantiates
   Json errors = Json::array();
-  for (const Diagnostic& fault : error.faults()) {
+  for (Diagnostic fault : error.faults()) {
+    fault.fix = remedy(fault);
     print_error("twinarm: {}\n", to_string(fault));
     errors.push_back({{"code", fault.code},
                       {"file", fault.file},
@@ -85,14 +102,32 @@ void check_values(int argc, char** argv) {
   faults.check();
 }
 
-// For a command line that cannot be parsed.
-std::string parse_remedy(int argc, char** argv) {
-  for (const std::string& word : std::vector<std::string>(argv, argv + argc)) {
+// For a command line that cannot be parsed: an unknown option, else what CLI11 says.
+InputError parse_fault(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const CLI::App* command = &app;
+  std::string path = "twinarm";
+  for (int i = 1; i < argc; ++i)
+    for (const CLI::App* below : command->get_subcommands({}))
+      if (below->get_name() == argv[i]) {
+        command = below;
+        path += " " + below->get_name();
+        break;
+      }
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  for (const std::string& word : std::vector<std::string>(argv + 1, argv + argc)) {
     const std::string option = word.substr(0, word.find('='));
-    if (const std::string now = renamed("options", option); !now.empty())
-      return fmt::format("'{}' is now '{}'", option, now);
+    if (!option.starts_with("--") || std::ranges::find(names, option) != names.end()) continue;
+    const std::string now = renamed("options", option), nearest = nearest_name(option, names);
+    const std::string fix = !now.empty()       ? fmt::format("'{}' is now '{}'", option, now)
+                            : !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
+                                               : fmt::format("see {} --help", path);
+    return InputError({{"", 0, "command line",
+                        fmt::format("{} has no option '{}'", path, option), fix, "command.line"}});
   }
-  return "see twinarm --help";
+  return InputError({{"", 0, "command line", error.what(), fmt::format("see {} --help", path),
+                      "command.line"}});
 }
 
 // Adds a subcommand whose callback stores the function to run in `chosen`.
@@ -129,9 +164,7 @@ int run_program(int argc, char** argv) {
     return report(error, as_json);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return print_help(app, error, as_json);
-    return report(InputError({{"", 0, "command line", error.what(), parse_remedy(argc, argv),
-                               "command.line"}}),
-                  as_json);
+    return report(parse_fault(app, error, argc, argv), as_json);
   }
 
   catch_interrupts();

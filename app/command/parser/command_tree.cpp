@@ -1,6 +1,12 @@
 #include "app/command/parser/command_tree.h"
 
+#include <sys/ioctl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <charconv>
+#include <cstdlib>
+#include <string_view>
 
 #include "app/command/parser/shared_options.h"
 
@@ -81,6 +87,30 @@ void add_to_tree(CLI::App& command, const std::string& name, std::vector<Command
     add_to_tree(*below, (name.empty() ? "" : name + " ") + below->get_name(), tree);
 }
 
+// Columns of the terminal, else the variable COLUMNS, else no bound.
+std::size_t page_width() {
+  constexpr std::size_t kUnbounded = 100'000;
+  winsize size{};
+  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  const char* variable = std::getenv("COLUMNS");
+  const std::string_view text = variable ? variable : "";
+  std::size_t columns = kUnbounded;
+  std::from_chars(text.data(), text.data() + text.size(), columns);
+  return columns;
+}
+
+// Breaks lines at spaces where they would be longer than `width`; a longer word stays whole.
+std::string wrapped(std::string text, std::size_t width) {
+  for (std::size_t start = 0; text.size() - start > width;) {
+    std::size_t at = text.rfind(' ', start + width);
+    if (at == std::string::npos || at <= start) at = text.find(' ', start + width);
+    if (at == std::string::npos) break;
+    text[at] = '\n';
+    start = at + 1;
+  }
+  return text;
+}
+
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -100,8 +130,13 @@ class HelpFormatter : public CLI::Formatter {
     if (option->get_items_expected_max() > 0 && !preset.empty()) note("default " + preset);
     for (const CLI::Option* other : option->get_needs()) note("with " + other->get_name());
     for (const CLI::Option* other : option->get_excludes()) note("not with " + other->get_name());
-    return option->get_description() + (notes.empty() ? "" : " (" + notes + ")");
+    const std::string text = option->get_description() + (notes.empty() ? "" : " (" + notes + ")");
+    const std::size_t used = get_column_width(), columns = page_width();
+    return wrapped(text, columns > used + kMinColumn ? columns - used : kMinColumn);
   }
+
+ private:
+  static constexpr std::size_t kMinColumn = 30;  // of descriptions
 };
 
 }  // namespace
