@@ -25,8 +25,8 @@ struct CompareOptions {
 void add_options(const OptionAdder& add, CompareOptions& options) {
   add.group("Cases");
   add("case", options.cases,
-      "case names, or prefixes (E1 for E1-.., E for all of E), or a group name; default: all "
-      "cases");
+      "cases by name or prefix (E1 runs E1 and all E1-.., E all of E), or by group; default: all, "
+      "about 30 s");
   add("--group", options.group, "run all cases of this group");
   add.group("Run");
   add("--integrator", options.integrators,

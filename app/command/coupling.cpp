@@ -63,7 +63,7 @@ void add_options(const OptionAdder& add, CouplingGainsOptions& options) {
   add.group("Scene");
   add.input("model", options.robot.model,
             "scene (TOML) with couplings; default: gains from the options below");
-  add.input("--state", options.robot.state, "state file (JSON): q");
+  add.input("--state", options.robot.state, "state file (JSON): q [rad, m]");
   add.group("Gains");
   add("--frequency", options.frequency, "natural frequency [Hz]");
   add("--damping-ratio", options.damping_ratio, "damping ratio");
@@ -268,7 +268,7 @@ Command coupling_command() {
             "error and static deflection of couplings\n\n"
             "Examples:\n"
             "  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml --step 0.004\n"
-            "  twinarm coupling predict assets/robots/s103/s103.urdf --link arm1 --stiffness 500",
+            "  twinarm coupling predict assets/robots/s103/s103.urdf --link gripper --stiffness 500",
             add_options, run_coupling_predict},
            {20, "gains",
             "Convert gains between stiffness and damping, frequency and damping ratio, MuJoCo "

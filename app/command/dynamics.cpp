@@ -132,7 +132,7 @@ void add_options(const OptionAdder& add, DynamicsOptions& options) {
   add.robot(options.robot, "robot (URDF)");
   add.group("Output");
   add("--kinematics", options.robot.kinematic,
-      "positions and velocities of the links only, also of a robot without masses");
+      "print only positions and velocities of the links; the robot needs no masses");
   add.json(options.json);
 }
 

@@ -162,7 +162,7 @@ struct ExportOptions {
 };
 
 void add_options(const OptionAdder& add, ExportOptions& options) {
-  add("recording", options.recording, "recording of `twinarm simulate --record`")->required();
+  add("recording", options.recording, "recording (.twinrec), as `twinarm simulate --record` writes it")->required();
   add("page", options.page, "write one HTML file: animation, plots, energy balance, settings");
   add.group("Output on stdout");
   add.json(options.json);

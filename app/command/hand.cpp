@@ -42,8 +42,9 @@ void add_options(const OptionAdder& add, HandOptions& options) {
   add("--force-scale", options.force_scale, "scaling of the force feedback; default 1")
       ->check(zero_or_more());
   add.group("Run");
-  add("--duration", options.duration, "[s]; default: until Ctrl-C");
-  add("--step", options.step, "step [s], 1e-6 to 0.1; default: the scene's")->check(above_zero());
+  add("--duration", options.duration, "[s] of the run; default: until Ctrl-C");
+  add("--step", options.step, "time step [s], 1e-6 to 0.1; default: the scene's")
+      ->check(above_zero());
   add("--simulated", options.simulated,
       "run without real-time pacing: reproducible, for simulated devices");
   add("--fifo", options.fifo, "request SCHED_FIFO and locked memory; continue if they are refused");
@@ -171,7 +172,7 @@ int run_hand(const HandOptions& options) {
 
 Command hand_command() {
   return {70, "hand",
-          "Run a scene with a haptic device at 1 kHz: the haptic rendering loop\n\n"
+          "Run a scene in real time with a haptic device, at 1 kHz by default\n\n"
           "Examples:\n"
           "  twinarm hand assets/scenes/hand_and_obstacles.toml --duration 10 --timing\n"
           "  twinarm hand --device list",

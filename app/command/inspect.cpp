@@ -129,8 +129,8 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
 
 Command inspect_command() {
   return {30, "inspect",
-          "Show the ABA passes with numbers, free-body diagrams, and cross-checks by CRBA and "
-          "RNEA\n\n"
+          "Show each pass of the articulated-body algorithm (ABA) with its numbers and free-body "
+          "diagrams, and check it by CRBA and RNEA\n\n"
           "Examples:\n"
           "  twinarm inspect assets/robots/s103/s103.urdf --body arm2\n"
           "  twinarm inspect out/run.twinrec --at 0.5 --html out/inspect.html",

@@ -35,15 +35,15 @@ void add_options(const OptionAdder& add, LabOptions& options) {
       "run variants side by side, one per value: PATH=VALUE,VALUE.., such as "
       "integrator=semi-implicit,rk4 or coupling.stiffness=500,2000")
       ->type_name("PATH=VALUES");
-  add("--history", options.history, "memory for the timeline [MB]; 256 MB hold some minutes")
+  add("--history", options.history, "memory for the timeline [MB]; 256 MB hold a few minutes")
       ->check(between(1, 65536));
   add.group("Server");
   add("--port", options.port, "port of the server; default: any free port")
       ->check(between(0, 65535))
       ->default_str("");
   add("--listen", options.listen,
-      "address to bind; anything but loopback can be reached by others who have the page's address "
-      "with its token");
+      "address to bind; one that is not loopback lets others in who have the page's address with "
+      "its token");
   add("--no-browser", options.no_browser, "only print the address");
   add("--json", options.json, "print {\"url\": \"..\"} as the first line");
 }
@@ -218,8 +218,8 @@ Command lab_command() {
           "Examples:\n"
           "  twinarm lab\n"
           "  twinarm lab assets/scenes/hand_and_obstacles.toml\n\n"
-          "Prints the address of the page and opens it in a browser; Ctrl-C ends it. On another "
-          "machine: ssh -L 8080:127.0.0.1:8080 HOST, and there: twinarm lab --port 8080 "
+          "Prints the address of the page and opens it in a browser; Ctrl-C ends it. To run it "
+          "on HOST: ssh -L 8080:127.0.0.1:8080 HOST, then on HOST: twinarm lab --port 8080 "
           "--no-browser",
           add_options, run_lab};
 }

@@ -20,13 +20,14 @@ void add_options(const OptionAdder& add, MapOptions& options) {
   add.input("scene", options.scene, "scene (TOML); default with --merge: its scene");
   add.group("Parameters");
   add("--x", options.x,
-      "PATH:MIN:MAX:N[:log]: parameter of the scene along x, range, number of cells");
-  add("--y", options.y, "PATH:MIN:MAX:N[:log]: parameter along y, upward");
+      "PATH:MIN:MAX:N[:log]: parameter of the scene along x, its range, number of cells (2 to "
+      "4096)");
+  add("--y", options.y, "PATH:MIN:MAX:N[:log]: the same for the vertical axis");
   add("--measure", options.measure,
       "result to print and draw: stable, max_error, mean_error, energy or passivity");
   add("--of", options.of, "coupling whose tracking error is measured; default: the first");
   add.group("Run");
-  add("--duration", options.duration, "[s]; default: the scene's");
+  add("--duration", options.duration, "simulated time of each cell [s]; default: the scene's");
   add.scene_step(options.step, options.integrator);
   add("--no-simd", options.no_simd, "run cells one at a time, not in SIMD batches");
   add("--threads", options.threads, "number of threads; default: all processors")->default_str("");
@@ -42,9 +43,9 @@ void add_options(const OptionAdder& add, MapOptions& options) {
   add.group("Resume and share");
   add("--checkpoint", options.checkpoint,
       "checkpoint file, from which an interrupted map resumes; default: in out/map");
-  add("--jobs", options.jobs, "number of jobs that share the map")->default_str("");
-  add("--job", options.job, "index of this job, from 0")->default_str("");
-  add("--merge", options.merge, "merge these files of --job");
+  add("--jobs", options.jobs, "split the map into so many parts")->default_str("");
+  add("--job", options.job, "compute only this part, from 0")->default_str("");
+  add("--merge", options.merge, "combine these checkpoint files of the parts");
 }
 
 bool file_exists(const std::filesystem::path& file) {

@@ -55,7 +55,7 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
   add("--side-by-side", options.side_by_side,
       "second recording, shown to the right of the first in sync");
   add.group("Picture");
-  add("--size", options.size, "size [pixels]");
+  add("--size", options.size, "WIDTHxHEIGHT [pixels], each 16 to 8192");
   add("--quality", options.quality, "draft, normal or studio");
   add("--background", options.background, "studio, sky or white");
   add("--gl", options.gl, "OpenGL back end: osmesa or egl");

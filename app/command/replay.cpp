@@ -20,13 +20,13 @@ struct ReplayOptions {
 };
 
 void add_options(const OptionAdder& add, ReplayOptions& options) {
-  add("recording", options.recording, "recording of `twinarm simulate --record`")->required();
+  add("recording", options.recording, "recording (.twinrec), as `twinarm simulate --record` writes it")->required();
   add.group("Branch");
   add("--from", options.from, "time of the first step [s]; default: the start");
   add("--set", options.changes, "PATH=VALUE: change this parameter of the scene; may be repeated")
       ->allow_extra_args(false);
   add.group("Output");
-  add("--plot", options.plot, "write an SVG of recording and branch");
+  add("--plot", options.plot, "write an SVG of recording and branch (with --set)");
   add.json(options.json);
 }
 

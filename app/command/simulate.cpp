@@ -12,11 +12,11 @@ namespace {
 void add_options(const OptionAdder& add, SimulateOptions& options) {
   add.robot(options.robot, "robot (URDF) or scene (TOML)");
   add.group("Run");
-  add("--duration", options.duration, "[s]; default: the scene's");
+  add("--duration", options.duration, "simulated time [s]; default: the scene's; required for a URDF");
   add("--step", options.step,
-      "step [s]; default: the scene's, or 0.001; of dopri5 the longest step");
+      "time step [s], of dopri5 the largest; default: the scene's, or 0.001");
   add("--integrator", options.integrator,
-      "default: the scene's, or semi-implicit; one of: " + integrator_names());
+      "integration method; default: the scene's, or semi-implicit; one of: " + integrator_names());
   add("--contact", options.contact,
       "contact model: rigid, compliant or event; default: the scene's");
   add("--tolerance", options.tolerance, "relative and absolute tolerance of dopri5; default 1e-9");

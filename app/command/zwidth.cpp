@@ -30,8 +30,8 @@ void add_options(const OptionAdder& add, ZwidthOptions& options) {
   add("--delay", options.device.delay, "delay from sensor to motor [ticks]");
   add.group("Measurement");
   add("--wall-damping", options.wall_damping,
-      "wall damping B for which the maximum stiffness is measured [N s/m]");
-  add("--seed", options.seed, "random seed of network and operator motion");
+      "damping B of the virtual wall at which the maximum stiffness is found [N s/m]");
+  add("--seed", options.seed, "random seed of network delays and operator motion");
   add.group("Output");
   add("--svg", options.svg, "write the K-B plane and the energies as SVG");
   add("--png", options.png, "write the K-B plane and the energies as PNG");
@@ -104,8 +104,8 @@ int run_zwidth(const ZwidthOptions& options) {
 
 Command zwidth_command() {
   return {170, "zwidth",
-          "Measure the Z-width of a haptic device: passive virtual-wall stiffness, also with "
-          "coupling and delay\n\n"
+          "Simulate a haptic device at virtual walls and find its Z-width: the stiffness and damping "
+          "that it renders passively, also with coupling and delay\n\n"
           "Examples:\n"
           "  twinarm zwidth --rate 1000 --damping 0.1 --svg zwidth.svg\n"
           "  twinarm zwidth --mass 0.1 --delay 2 --json",

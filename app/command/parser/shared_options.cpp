@@ -36,16 +36,16 @@ void OptionAdder::assets(std::filesystem::path& folder) const {
   (*this)("--assets", folder, "folder with robots and settings; default: beside the program");
 }
 void OptionAdder::scene_step(std::optional<double>& step, std::string& integrator) const {
-  (*this)("--step", step, "step [s]; default: the scene's");
-  (*this)("--integrator", integrator, "default: the scene's; one of: " + integrator_names());
+  (*this)("--step", step, "time step [s]; default: the scene's");
+  (*this)("--integrator", integrator, "integration method; default: the scene's; one of: " + integrator_names());
 }
 
 void OptionAdder::robot(RobotOptions& options, const char* model) const {
   group("Model");
   input("model", options.model, model)->required();
   input("--state", options.state,
-        "state file (JSON): q, qd, tau, qdd, base, wrenches; default: at rest, or the scene's "
-        "start");
+        "state file (JSON): q, qd, tau, qdd, base, wrenches [rad, m, s, N]; default: at rest, or "
+        "the scene's start");
   (*this)("--gravity", options.gravity,
           "x,y,z in world axes [m/s^2]; default: the scene's, or 0,0,-9.81");
   (*this)("--floating", options.floating,
@@ -56,9 +56,10 @@ void OptionAdder::robot(RobotOptions& options, const char* model) const {
       "--no-armature", [&] { options.armature = false; }, "ignore rotor inertia (armature)");
   (*this)("--strict", options.strict, "reject physically inconsistent inertias (URDF)");
   (*this)("--density", options.missing.density,
-          "of links without inertia [kg/m^3]: it is taken from their shapes (URDF)");
+          "density [kg/m^3] that gives links without inertia one from their shapes (URDF); default: "
+          "none");
   (*this)("--min-mass", options.missing.min_mass,
-          "of links that then have none [kg]: small balls (URDF)");
+          "mass [kg] of links that still have none, as a small sphere (URDF); default: none");
 }
 
 CLI::Validator above_zero() {
