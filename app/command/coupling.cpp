@@ -257,26 +257,27 @@ int run_coupling_gains(const CouplingGainsOptions& options) {
 }  // namespace
 
 Command coupling_command() {
-  return {50,
-          "coupling",
-          "Predict stability limits, modes and tracking error of couplings; convert gains\n\n"
-          "Examples:\n"
-          "  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml\n"
-          "  twinarm coupling gains --inertia 0.5 --frequency 8 --damping-ratio 1",
-          {{10, "predict",
-            "Predict joint-space stiffness, modes, the largest stable step and stiffness, tracking "
-            "error and static deflection of couplings\n\n"
-            "Examples:\n"
-            "  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml --step 0.004\n"
-            "  twinarm coupling predict assets/robots/s103/s103.urdf --link gripper --stiffness 500",
-            add_options, run_coupling_predict},
-           {20, "gains",
-            "Convert gains between stiffness and damping, frequency and damping ratio, MuJoCo "
-            "solref and PhysX drive\n\n"
-            "Examples:\n"
-            "  twinarm coupling gains --inertia 0.5 --frequency 8 --damping-ratio 1\n"
-            "  twinarm coupling gains assets/scenes/robot_beside_obstacles.toml",
-            add_options, run_coupling_gains}}};
+  return {
+      50,
+      "coupling",
+      "Predict stability limits, modes and tracking error of couplings; convert gains\n\n"
+      "Examples:\n"
+      "  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml\n"
+      "  twinarm coupling gains --inertia 0.5 --frequency 8 --damping-ratio 1",
+      {{10, "predict",
+        "Predict joint-space stiffness, modes, the largest stable step and stiffness, tracking "
+        "error and static deflection of couplings\n\n"
+        "Examples:\n"
+        "  twinarm coupling predict assets/scenes/robot_beside_obstacles.toml --step 0.004\n"
+        "  twinarm coupling predict assets/robots/s103/s103.urdf --link gripper --stiffness 500",
+        add_options, run_coupling_predict},
+       {20, "gains",
+        "Convert gains between stiffness and damping, frequency and damping ratio, MuJoCo "
+        "solref and PhysX drive\n\n"
+        "Examples:\n"
+        "  twinarm coupling gains --inertia 0.5 --frequency 8 --damping-ratio 1\n"
+        "  twinarm coupling gains assets/scenes/robot_beside_obstacles.toml",
+        add_options, run_coupling_gains}}};
 }
 
 }  // namespace twinarm

@@ -162,7 +162,9 @@ struct ExportOptions {
 };
 
 void add_options(const OptionAdder& add, ExportOptions& options) {
-  add("recording", options.recording, "recording (.twinrec), as `twinarm simulate --record` writes it")->required();
+  add("recording", options.recording,
+      "recording (.twinrec), as `twinarm simulate --record` writes it")
+      ->required();
   add("page", options.page, "write one HTML file: animation, plots, energy balance, settings");
   add.group("Output on stdout");
   add.json(options.json);

@@ -120,6 +120,7 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
   }
   fmt::print("{}\n",
              options.json ? inspect_json(in, view, checks) : inspect_text(in, view, checks));
+  print_wrote({options.html}, options.json);
   const bool all_pass =
       std::ranges::all_of(checks, [](const Check& check) { return check.pass(); });
   return all_pass ? 0 : kFailed;

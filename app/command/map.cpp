@@ -151,6 +151,7 @@ void write_results(const MapOptions& options, const MapJob& job, const TileFile&
     fmt::print("{}\n", map_json(job, file, curves));
   else
     fmt::print("{}", map_words(job, file));
+  print_wrote({options.csv, options.svg, options.png}, options.json);
 }
 
 int record_one_cell(const MapOptions& options, const MapJob& job) {

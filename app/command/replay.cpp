@@ -20,7 +20,9 @@ struct ReplayOptions {
 };
 
 void add_options(const OptionAdder& add, ReplayOptions& options) {
-  add("recording", options.recording, "recording (.twinrec), as `twinarm simulate --record` writes it")->required();
+  add("recording", options.recording,
+      "recording (.twinrec), as `twinarm simulate --record` writes it")
+      ->required();
   add.group("Branch");
   add("--from", options.from, "time of the first step [s]; default: the start");
   add("--set", options.changes, "PATH=VALUE: change this parameter of the scene; may be repeated")
@@ -110,8 +112,10 @@ int run_replay(const ReplayOptions& options) {
         same ? "" : fmt::format("; first difference at t = {:.9g} s", exact.first_different));
     if (branch) print_branch(recording, exact, *branch);
   }
-  if (branch && !options.plot.empty())
+  if (branch && !options.plot.empty()) {
     draw_branch(recording, exact, *branch, options.changes, options.plot);
+    print_wrote({options.plot}, options.json);
+  }
   return same ? 0 : kDiffers;
 }
 

@@ -12,7 +12,8 @@ namespace {
 void add_options(const OptionAdder& add, SimulateOptions& options) {
   add.robot(options.robot, "robot (URDF) or scene (TOML)");
   add.group("Run");
-  add("--duration", options.duration, "simulated time [s]; default: the scene's; required for a URDF");
+  add("--duration", options.duration,
+      "simulated time [s]; default: the scene's; required for a URDF");
   add("--step", options.step,
       "time step [s], of dopri5 the largest; default: the scene's, or 0.001");
   add("--integrator", options.integrator,
@@ -88,6 +89,7 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
   if (result.post_mortem)
     explain(prepared, header_of(options, prepared, typed), post_mortem_file(options), result);
   output->end(result);
+  print_wrote({options.record}, options.json || options.csv);
   if (!result.post_mortem) return 0;
   const PostMortem& found = *result.post_mortem;
   print_error("twinarm: stopped after t = {} s, in step {}: {}", found.time, found.step,

@@ -97,19 +97,21 @@ int run_zwidth(const ZwidthOptions& options) {
   fmt::print("{}", options.json  ? zwidth_json(result) + "\n"
                    : options.csv ? zwidth_csv(result)
                                  : zwidth_table(result));
+  print_wrote({options.svg, options.png}, options.json || options.csv);
   return 0;
 }
 
 }  // namespace
 
 Command zwidth_command() {
-  return {170, "zwidth",
-          "Simulate a haptic device at virtual walls and find its Z-width: the stiffness and damping "
-          "that it renders passively, also with coupling and delay\n\n"
-          "Examples:\n"
-          "  twinarm zwidth --rate 1000 --damping 0.1 --svg zwidth.svg\n"
-          "  twinarm zwidth --mass 0.1 --delay 2 --json",
-          add_options, run_zwidth};
+  return {
+      170, "zwidth",
+      "Simulate a haptic device at virtual walls and find its Z-width: the stiffness and damping "
+      "that it renders passively, also with coupling and delay\n\n"
+      "Examples:\n"
+      "  twinarm zwidth --rate 1000 --damping 0.1 --svg zwidth.svg\n"
+      "  twinarm zwidth --mass 0.1 --delay 2 --json",
+      add_options, run_zwidth};
 }
 
 }  // namespace twinarm

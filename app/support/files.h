@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <string>
 #include <utility>
 
@@ -42,6 +43,12 @@ void fill_closed_streams();
 
 // Throws InputError if stdout could not be written completely.
 void check_stdout();
+
+// "wrote PATH" for each file that was asked for; nothing if stdout is for programs.
+inline void print_wrote(std::initializer_list<std::filesystem::path> files, bool for_programs) {
+  for (const std::filesystem::path& file : files)
+    if (!file.empty() && !for_programs) fmt::print("wrote {}\n", file.string());
+}
 
 // Prints a message on stderr; unlike fmt::print it does not throw if that fails.
 template <class... Values>

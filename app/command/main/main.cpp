@@ -33,8 +33,9 @@ std::string remedy(const Diagnostic& fault) {
        at != end && names.size() < kMaxFiles; at.increment(ignored))
     names.push_back(at->path().filename().string());
   const std::string nearest = nearest_name(file.filename().string(), names);
-  return nearest.empty() ? fault.fix
-                         : fmt::format("did you mean '{}'?", (file.parent_path() / nearest).string());
+  return nearest.empty()
+             ? fault.fix
+             : fmt::format("did you mean '{}'?", (file.parent_path() / nearest).string());
 }
 
 // Prints all diagnostics on stderr and, if as_json, on stdout as JSON.
@@ -123,11 +124,11 @@ InputError parse_fault(const CLI::App& app, const CLI::ParseError& error, int ar
     const std::string fix = !now.empty()       ? fmt::format("'{}' is now '{}'", option, now)
                             : !nearest.empty() ? fmt::format("did you mean '{}'?", nearest)
                                                : fmt::format("see {} --help", path);
-    return InputError({{"", 0, "command line",
-                        fmt::format("{} has no option '{}'", path, option), fix, "command.line"}});
+    return InputError({{"", 0, "command line", fmt::format("{} has no option '{}'", path, option),
+                        fix, "command.line"}});
   }
-  return InputError({{"", 0, "command line", error.what(), fmt::format("see {} --help", path),
-                      "command.line"}});
+  return InputError(
+      {{"", 0, "command line", error.what(), fmt::format("see {} --help", path), "command.line"}});
 }
 
 // Adds a subcommand whose callback stores the function to run in `chosen`.

@@ -37,7 +37,8 @@ void OptionAdder::assets(std::filesystem::path& folder) const {
 }
 void OptionAdder::scene_step(std::optional<double>& step, std::string& integrator) const {
   (*this)("--step", step, "time step [s]; default: the scene's");
-  (*this)("--integrator", integrator, "integration method; default: the scene's; one of: " + integrator_names());
+  (*this)("--integrator", integrator,
+          "integration method; default: the scene's; one of: " + integrator_names());
 }
 
 void OptionAdder::robot(RobotOptions& options, const char* model) const {
@@ -55,9 +56,10 @@ void OptionAdder::robot(RobotOptions& options, const char* model) const {
   command.add_flag_callback(
       "--no-armature", [&] { options.armature = false; }, "ignore rotor inertia (armature)");
   (*this)("--strict", options.strict, "reject physically inconsistent inertias (URDF)");
-  (*this)("--density", options.missing.density,
-          "density [kg/m^3] that gives links without inertia one from their shapes (URDF); default: "
-          "none");
+  (*this)(
+      "--density", options.missing.density,
+      "density [kg/m^3] that gives links without inertia one from their shapes (URDF); default: "
+      "none");
   (*this)("--min-mass", options.missing.min_mass,
           "mass [kg] of links that still have none, as a small sphere (URDF); default: none");
 }
