@@ -103,6 +103,11 @@ void check_values(int argc, char** argv) {
   faults.check();
 }
 
+bool is_number(const CLI::App& command, const std::string& name) {
+  const CLI::Option* option = command.get_option_no_throw(name);
+  return option && option->get_type_name().starts_with("FLOAT");
+}
+
 // For a command line that cannot be parsed: an unknown option, else what CLI11 says.
 InputError parse_fault(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   const CLI::App* command = &app;
@@ -127,8 +132,21 @@ InputError parse_fault(const CLI::App& app, const CLI::ParseError& error, int ar
     return InputError({{"", 0, "command line", fmt::format("{} has no option '{}'", path, option),
                         fix, "command.line"}});
   }
-  return InputError(
-      {{"", 0, "command line", error.what(), fmt::format("see {} --help", path), "command.line"}});
+  std::string problem = error.what(), fix = fmt::format("see {} --help", path);
+  // "Could not convert: --step = abc", "--step: 1 required FLOAT missing"
+  const std::string_view refused = "Could not convert: ";
+  const bool is_refused = problem.starts_with(refused);
+  if (is_refused) problem.erase(0, refused.size());
+  const std::string option = problem.substr(0, problem.find_first_of(" :"));
+  if (is_refused || problem.ends_with(" missing")) {
+    const std::size_t value = problem.find(" = ");
+    const char* kind = is_number(*command, option) ? "number" : "whole number";
+    problem = is_refused
+                  ? fmt::format("{}: '{}' is not a {}", option, problem.substr(value + 3), kind)
+                  : fmt::format("{} has no value", option);
+    fix = fmt::format("give {} VALUE, as {} --help describes it", option, path);
+  }
+  return InputError({{"", 0, "command line", problem, fix, "command.line"}});
 }
 
 // Adds a subcommand whose callback stores the function to run in `chosen`.

@@ -6,6 +6,7 @@
 #include "app/support/files.h"
 #include "app/support/text.h"
 #include "solver/integration/integrator.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 
@@ -64,14 +65,29 @@ void OptionAdder::robot(RobotOptions& options, const char* model) const {
           "mass [kg] of links that still have none, as a small sphere (URDF); default: none");
 }
 
+namespace {
+
+// `words`: the range, for help and errors.
+template <class IsValid>
+CLI::Validator number_that(const std::string& words, IsValid is_valid) {
+  const auto fault = [=](const std::string& text) {
+    const std::optional<double> value = parse_number(text);
+    return value && is_valid(*value) ? "" : fmt::format("must be {}, is {}", words, text);
+  };
+  return CLI::Validator(fault, words);
+}
+
+}  // namespace
+
 CLI::Validator above_zero() {
-  return CLI::PositiveNumber.description("above 0");
+  return number_that("above 0", [](double value) { return value > 0; });
 }
 CLI::Validator zero_or_more() {
-  return CLI::NonNegativeNumber.description("0 or more");
+  return number_that("0 or more", [](double value) { return value >= 0; });
 }
 CLI::Validator between(int min, int max) {
-  return CLI::Range(min, max).description(fmt::format("{} to {}", min, max));
+  return number_that(fmt::format("{} to {}", min, max),
+                     [=](double value) { return value >= min && value <= max; });
 }
 
 std::string integrator_names() {
