@@ -128,4 +128,4 @@ export const MOUSE =
   'of the robot to apply a spring force; click to select. Elsewhere, or with Alt: drag to rotate the ' +
   'view, right button to pan, wheel to zoom. While dragging: shift for vertical motion, wheel for depth. ' +
   'Touch: one finger acts as the mouse, two fingers pan and zoom. Game controller: left stick right and ' +
-  'toward, right stick up and yaw, first button gripper.';
+  'up, right stick yaw and toward, first button gripper, second clutch.';
