@@ -4,9 +4,42 @@ import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 
+// As much of a document as the modules need; letters are 4 pixels wide, capitals 12.
+class FakeNode {
+  children = [];
+  style = {};
+  clientWidth = 900;
+  append(...nodes) {
+    this.children.push(...nodes);
+  }
+  getBoundingClientRect() {
+    return { left: 0, top: 0 };
+  }
+  getContext() {
+    const measureText = (text) => {
+      measured.push(text);
+      return { width: widthOf(text) };
+    };
+    return { getExtension: () => null, measureText };
+  }
+  addEventListener() {}
+  setAttribute() {}
+  replaceChildren() {}
+  contains() {}
+}
+const measured = [];
+const widthOf = (text) => [...text].reduce((sum, letter) => sum + (letter < 'a' ? 12 : 4), 0);
+Object.assign(globalThis, {
+  Node: FakeNode,
+  location: { search: '' },
+  document: { createElement: () => new FakeNode(), createElementNS: () => new FakeNode() },
+  getComputedStyle: () => ({ font: '13px sans-serif' }),
+});
+
 const page = await import(pathToFileURL(process.env.MODULES).href);
 const { decodeFrame, labelText, placeOf, decodeMesh, inWorld, inLink, THREE } = page;
 const { PointDrag, JointDrag, planeOfMotion, Pace, Controller } = page;
+const { Labels, LiveStage, Painter, Hints } = page;
 
 // Independent copy of the protocol's table.
 const ORDER = [
@@ -241,4 +274,61 @@ test('game controller: axes in the order of the device files, right, up, toward,
   assert.deepEqual(at([0, 0, 1, 0]), [0, 0, 0, 1, 0, 0]);
   assert.deepEqual(at([0, 0, 0, 0], [12, 15]), [0, 0, 0, 0, 1, -1]);
   assert.deepEqual(at([0, 0, 0, 0], [7, 15]), [0, 0, 0, 0, 0, -1]);
+});
+
+test('labels: the free place follows from the measured width, measured once per text', () => {
+  const labels = new Labels();
+  const columns = { first: [0, 2], text: [0, 1], position: new Float32Array(6), offset: Int16Array.of(10, 0, 10, 0) };
+  measured.length = 0;
+  for (const texts of [['a', 'iiii'], ['a', 'WWWW'], ['a', 'iiii']]) {
+    labels.paint(() => ({ x: 400, y: 300 }), texts, [{ columns, frame: 0 }]);
+    const [, first, second] = labels.root.children.map(({ style }) => style.transform);
+    assert.equal(first, 'translate(410px, 291.5px)');
+    assert.equal(second, `translate(${400 - 10 - widthOf(texts[1]) - 6}px, 291.5px)`); // left of the point
+  }
+  assert.deepEqual(measured, ['a', 'iiii', 'WWWW']);
+});
+
+test('another scene from a file of the same name: camera at its start, earlier meshes freed', async () => {
+  const fetched = [];
+  globalThis.fetch = async (address) => {
+    fetched.push(address.at(-1));
+    return new Response(new ArrayBuffer(16));
+  };
+  let looks = 0;
+  const freed = new Set();
+  const made = () => new Painter(new THREE.Scene(), 0.1, () => ({}));
+  const stage = {
+    painter: made(),
+    refurnish: () => {
+      stage.painter.remove();
+      stage.painter = made();
+    },
+    setTheme: () => {},
+    look: () => (looks += 1),
+  };
+  const live = new LiveStage(new FakeNode(), new FakeNode(), () => {});
+  live.stage = stage;
+  const show = async (scene, ...meshes) => {
+    await live.show({ scene, file: 'robot.urdf', bodies: [{ name: 'arm' }], meshes, textures: [] });
+    for (const geometry of stage.painter.geometries) geometry.addEventListener('dispose', () => freed.add(geometry));
+    return [looks, freed.size, fetched.join('')];
+  };
+  assert.deepEqual(await show(1, 'a'), [1, 0, 'a']);
+  assert.deepEqual(await show(2, 'b'), [2, 1, 'ab']);
+  assert.deepEqual(await show(2, 'b', 'c'), [2, 1, 'abc']); // grown
+  assert.deepEqual((await show(3, 'c', 'a'))[2], 'abca');
+  assert.equal(looks, 3);
+});
+
+test('hints: closed ones stay closed while a scene grows, and come back with another scene of the same file', () => {
+  const hints = new Hints();
+  const show = (scene) => {
+    hints.show({ scene, file: 'robot.urdf', look: ['the elbow'] });
+    return hints.look.hidden;
+  };
+  assert.equal(show(1), false);
+  hints.fold(true);
+  assert.equal(show(1), true);
+  assert.equal(show(2), false);
 });

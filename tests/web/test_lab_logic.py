@@ -19,9 +19,10 @@ NODE = shutil.which("node") or shutil.which("nodejs")
 # Test files and the modules that they test.
 PARTS = {
     "lab_logic": ("ui/scale", "source/store", "source/run_record", "plot/export", "plot/specs",
-                  "panels/input_bar", "panels/gallery", "ui/dom", "plot/chart_parts"),
+                  "panels/input_bar", "panels/gallery", "ui/dom", "plot/chart_parts",
+                  "plot/chart_data", "source/run_source"),
     "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal", "view/pace",
-                 "input/gamepad"),
+                 "input/gamepad", "view/labels", "view/live_stage", "view/painter", "panels/hints"),
 }
 BUNDLE = """
 import { createRequire } from 'node:module';

@@ -16,17 +16,16 @@ export class Hints {
   private message = '';
   private until = 0;
   private shown = '';
-  private lookedFor = '';
+  private scene = NaN; // its number
   private lostAt: number | null = 0;
 
   constructor() {
     this.again.hidden = true;
   }
 
-  show({ file, look }: SceneMessage): void {
-    const lookedFor = JSON.stringify([file, look]);
-    if (lookedFor === this.lookedFor) return;
-    this.lookedFor = lookedFor;
+  show({ scene, look }: SceneMessage): void {
+    if (scene === this.scene) return;
+    this.scene = scene;
     this.look.hidden = look.length === 0;
     this.again.hidden = true;
     this.look.replaceChildren(

@@ -53,7 +53,7 @@ export class Labels {
     if (this.widths.size > MAX_WIDTHS) this.widths.clear();
     let width = this.widths.get(text);
     if (width === undefined) {
-      this.pen.font = getComputedStyle(this.root).font;
+      if (this.widths.size === 0) this.pen.font = getComputedStyle(this.root).font;
       this.widths.set(text, width = this.pen.measureText(text).width);
     }
     return width;

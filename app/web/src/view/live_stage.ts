@@ -9,7 +9,6 @@ import { MeshStore } from '../source/meshes';
 const [RIM, DARK_RIM] = ['#0067a5', '#6cb8ee']; // outline of the selected body: the accent colour
 const FINE = new URLSearchParams(location.search).has('fine'); // full detail, for screenshots
 const SHADOWS_AFTER = 300; // [ms]
-const names = ({ bodies }: SceneMessage) => bodies.map(({ name }) => name).join();
 const NO_DATA = { meshes: [], textures: [] };
 
 export class LiveStage {
@@ -44,7 +43,7 @@ export class LiveStage {
     } else if (before?.scene !== scene.scene) {
       this.stage.refurnish(scene.view);
       this.stage.setTheme(this.dark);
-      if (!before || before.file !== scene.file || names(before) !== names(scene)) this.stage.look('start');
+      this.stage.look('start');
       this.meshes = this.textures = 0;
     }
     const [meshes, textures] = await Promise.all([
