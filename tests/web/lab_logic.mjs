@@ -8,7 +8,7 @@ const page = await import(pathToFileURL(process.env.MODULES).href);
 const { placeOf, valueAt, stepped, niceStep, numberText, parseNumber } = page;
 const { Store, bucketsOf, outline, samples, timesOf, csvText, fileName } = page;
 const { RunRecord, decodeHistory, PlotSpecs } = page;
-const { chosen, post, short, tickText } = page;
+const { chosen, post, short, tickText, gapsOf, LiveRun } = page;
 
 // Reproducible random numbers.
 function random(seed) {
@@ -330,6 +330,50 @@ test('record: missed frames are filled in, later ones stay', () => {
   const cut = history(all, 4);
   assert.equal(decodeHistory(cut.slice(0, cut.byteLength - 8)), null);
   assert.equal(decodeHistory(new ArrayBuffer(8)), null);
+});
+
+test('record: many missed frames in a row are a gap until they are filled in', () => {
+  const all = Array.from({ length: 200 }, (_, i) => frame(i, i, 0, i));
+  const record = new RunRecord(scene());
+  for (const i of [0, 1, 10, 20]) record.addFrame(all[i]); // a slow browser
+  assert.deepEqual(record.gaps, []);
+  for (const i of [100, 101, 180]) record.addFrame(all[i]);
+  assert.deepEqual(record.gaps, [[20, 100], [101, 180]]);
+  const chart = { valToPos: (time) => 10 * time };
+  const drawn = gapsOf(record)(chart, 1, 0, 6, [[900, 1100], [1900, 1950]]);
+  assert.deepEqual(drawn, [[200, 1000], [900, 1100], [1010, 1800], [1900, 1950]]);
+  record.addHistory(decodeHistory(history(all.slice(50, 120), 4))); // the buffer begins at 50 s
+  assert.deepEqual(record.gaps, [[20, 50], [119, 180]]);
+  assert.deepEqual(record.grownTo(scene()).gaps, record.gaps);
+  record.addFrame(frame(30, 0, 0, 201)); // a branch
+  assert.deepEqual(record.gaps, [[20, 30]]);
+  assert.equal(record.lost, 1); // not filled in yet
+});
+
+test('record: missed frames are requested again while no frame arrives', async ({ mock }) => {
+  let now = 0;
+  mock.method(performance, 'now', () => now);
+  mock.timers.enable({ apis: ['setTimeout'] });
+  globalThis.window = globalThis;
+  globalThis.document = { addEventListener: () => {} };
+  const all = Array.from({ length: 200 }, (_, i) => frame(i, i, 0, i));
+  const answers = [() => new Response(history(all.slice(0, 2), 4)), () => new Response('', { status: 503 }),
+    () => Promise.reject(new Error('not connected')), () => new Response(history(all, 4))];
+  globalThis.fetch = async () => answers.shift()();
+  const passed = async (time) => {
+    now += time;
+    mock.timers.tick(time);
+    for (let i = 0; i < 20; ++i) await new Promise(setImmediate);
+  };
+  const run = new LiveRun({ state: null });
+  run.onScene(scene());
+  for (const i of [0, 1]) run.onFrame(all[i]);
+  await passed(10);
+  for (const i of [100, 199]) run.onFrame(all[i]); // then the run is paused
+  for (let i = 0; i < 3; ++i) await passed(3000);
+  assert.equal(answers.length, 0);
+  assert.equal(run.record.store.length, 200);
+  assert.deepEqual(run.record.gaps, []);
 });
 
 test('record: a new contact pair adds a column', () => {

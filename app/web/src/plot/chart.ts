@@ -5,7 +5,7 @@ import { axesOfTime, drawOver, Gestures } from './chart_parts';
 import { button, element, short } from '../ui/dom';
 import { definition } from '../ui/glossary';
 import { token } from '../ui/preferences';
-import { branchCurves, type ChartExtras, colorOf, DASH, lines, lineSeries, rangeOf, stack, stackSeries, usualSize, type Window } from './chart_data';
+import { branchCurves, type ChartExtras, colorOf, DASH, gapsOf, lines, lineSeries, rangeOf, stack, stackSeries, usualSize, type Window } from './chart_data';
 import { type CsvColumn, savePicture } from './export';
 import { type Curve, type PlotSpec, screenUnit } from './specs';
 import type { RunRecord } from '../source/run_record';
@@ -189,7 +189,7 @@ export class Chart {
         },
       },
       axes: axesOfTime(this.unit),
-      series: [{}, ...series],
+      series: [{}, ...series.map((curve) => ({ ...curve, gaps: gapsOf(this.record) }))],
       bands,
       hooks: {
         setCursor: [() => this.showValues()],

@@ -80,6 +80,17 @@ export function stackSeries(curves: Curve[]): Series {
   return { series, bands };
 }
 
+// Gaps of a curve in canvas pixels: missing values, and missed frames.
+export function gapsOf(record: RunRecord): uPlot.Series.GapsRefiner {
+  return (chart, _series, _begin, _end, missing) => {
+    const pixel = (time: number) => chart.valToPos(time, 'x', true);
+    const missed = record.gaps.map(([from, to]): uPlot.Series.Gap => [pixel(from), pixel(to)]);
+    let last = -Infinity;
+    const ordered = [...missing, ...missed].sort(([one], [other]) => one - other);
+    return ordered.map(([from, to]) => [from, last = Math.max(last, to)]);
+  };
+}
+
 export function branchCurves(record: RunRecord, window: Window, spec: PlotSpec, curves: Curve[], factor: number) {
   const { before } = record;
   if (!before || before.length === 0) return [];

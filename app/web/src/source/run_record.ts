@@ -8,6 +8,7 @@ import { Store } from './store';
 
 const CAPACITY = 36_000; // frames: ten minutes at 60 Hz
 const FRESH = 1000; // [ms]
+const BRIDGED = 30; // curves are continuous over fewer missed frames: half a second
 const HISTORY_MAGIC = 0x31485754; // "TWH1"
 const HISTORY_HEADER = 24;
 
@@ -19,6 +20,8 @@ export interface ErrorGroup {
   max: number; // columns
   mean: number;
 }
+
+export type Gap = [from: number, to: number]; // [s]
 
 type History = NonNullable<ReturnType<typeof decodeHistory>>;
 
@@ -47,6 +50,7 @@ export class RunRecord {
   version = 0; // changes with the data
   epoch = 0; // changes when time goes back
   lost: number | null = null; // frames after this time were missed
+  gaps: Gap[] = []; // where BRIDGED or more frames in a row were missed, ascending
   // Of each column, over all time since it last went back, dropped rows included.
   readonly low: Float64Array;
   readonly high: Float64Array;
@@ -74,7 +78,10 @@ export class RunRecord {
   addFrame(frame: Frame): void {
     if (frame.scene !== this.scene.scene || frame.lookedBack) return;
     if (frame.time < this.store.last) this.goBack(frame.time);
-    else if (frame.number > this.number + 1 && this.lost === null) this.lost = this.store.last;
+    else if (frame.number > this.number + 1) {
+      this.lost ??= this.store.last;
+      if (frame.number > this.number + BRIDGED) this.gaps.push([this.store.last, frame.time]);
+    }
     this.number = frame.number;
     this.addRow(frame.time, frame.channels, frame.works);
   }
@@ -91,6 +98,8 @@ export class RunRecord {
       this.addRow(time, channels.subarray(f * C, (f + 1) * C), works.subarray(f * R, (f + 1) * R))
     );
     if (later) this.replay(later, this, end);
+    const outside = ([from, to]: Gap): Gap[] => [[from, Math.min(to, times[0])], [Math.max(from, end), to]];
+    this.gaps = this.gaps.flatMap(outside).filter(([from, to]) => from < to);
   }
 
   // The same run with more channels: a contact pair gets its channel at its first contact.
@@ -102,7 +111,8 @@ export class RunRecord {
       left.replay(this.before, this);
       made.before = left.store;
     }
-    Object.assign(made, { branch: this.branch, number: this.number, began: this.began });
+    const { branch, number, began, epoch, gaps } = this;
+    Object.assign(made, { branch, number, began, epoch, gaps });
     return made;
   }
 
@@ -138,7 +148,8 @@ export class RunRecord {
     this.left = { store: this.store.copy(time), at: performance.now() };
     this.store.cut(time);
     this.epoch += 1;
-    this.lost = null;
+    if (this.lost !== null && this.lost >= time) this.lost = null;
+    this.gaps = this.gaps.filter(([from]) => from < time).map(([from, to]) => [from, Math.min(to, time)]);
     if (this.store.length === 0) this.began = NaN;
     this.low.forEach((_, column) => {
       const known = this.store.column(column).filter((value) => !Number.isNaN(value));

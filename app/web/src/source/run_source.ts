@@ -67,14 +67,17 @@ export class LiveRun implements RunSource, Listener {
     const now = performance.now();
     if (!record || record.lost === null || this.isRequesting) return;
     const early = REFILL - (now - this.requestedAt);
-    if (early > 0) { // no frame may follow that asks again
+    if (early > 0) {
       clearTimeout(this.retry);
       this.retry = window.setTimeout(() => this.fill(), early);
       return;
     }
     this.isRequesting = true;
     this.requestedAt = now;
-    void this.request(record, record.lost).finally(() => (this.isRequesting = false));
+    void this.request(record, record.lost).finally(() => {
+      this.isRequesting = false;
+      this.fill(); // no frame may follow that asks again
+    });
   }
 
   private async request(record: RunRecord, lost: number): Promise<void> {
@@ -84,9 +87,11 @@ export class LiveRun implements RunSource, Listener {
     try {
       const answer = await fetch(`/history?from=${from}`);
       const history = answer.ok ? decodeHistory(await answer.arrayBuffer()) : null;
-      if (history && epoch === record.epoch) record.addHistory(history);
+      // Meanwhile a scene that grew may have replaced the record.
+      if (history && epoch === this.record!.epoch) return this.record!.addHistory(history);
     } catch {
-      record.lost = Math.min(lost, record.lost ?? Infinity); // not connected: retried later
+      // Not connected.
     }
+    this.record!.lost = Math.min(lost, this.record!.lost ?? Infinity); // retried later
   }
 }
