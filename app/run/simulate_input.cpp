@@ -82,6 +82,12 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
   const RobotDescription robots = all_robots(description);
   GivenState state = default_state(made.model, coordinates);
   state.x = made.start;
+  for (std::size_t r = 0; r < description.robots.size(); ++r)
+    for (const auto& [name, given_torque] : description.robots[r].torque) {
+      const NamedJoint& joint = *coordinates.find(name_in_scene(description, r, name));
+      for (std::size_t k = 0; k < joint.nv; ++k)
+        state.tau[static_cast<Eigen::Index>(joint.row + k)] = given_torque.values[k];
+    }
   if (!given.state.empty())
     if (const auto json = attempt(faults, [&] { return read_json(given.state); }))
       state = read_state(*json, given.state, robots, made.model, coordinates, state, faults);

@@ -32,7 +32,10 @@ std::vector<int> driven_bodies(const SceneModel& scene, const DrivenJoints& join
 std::pair<int, Vector3> controlled_point(const SceneModel& scene,
                                          const std::vector<std::size_t>& driven) {
   const std::vector<int> bodies = driven_bodies(scene, scene.couplings[driven.front()].driven);
-  std::pair<int, Vector3> point{bodies.back(), Vector3::Zero()};
+  const auto last = static_cast<std::size_t>(bodies.back());
+  const bool is_end = scene.model.last_child[last] == 0;  // its origin is on its own axis
+  std::pair<int, Vector3> point{bodies.back(),
+                                is_end ? com_of_link(scene.model, last) : Vector3::Zero()};
   for (const std::size_t c : driven)
     if (scene.couplings[c].is_linear())
       point = {scene.couplings[c].spring.body, scene.couplings[c].spring.p_L};

@@ -15,6 +15,10 @@ LabParameter choice(std::string path, std::string label, std::string value,
 inline std::string item(const char* list, std::size_t index, const char* key) {
   return std::string(list) + "[" + std::to_string(index) + "]." + key;
 }
+// Whether the name can be a part of a path.
+inline bool is_path_part(const std::string& name) {
+  return name.find_first_of(".[") == std::string::npos;
+}
 
 // Choices of the parameters `step` and `rate` in a scene with held forces: the time between two
 // evaluations is a multiple of the step. Each text reads back as the same double.
@@ -24,6 +28,7 @@ std::vector<std::string> rates_for_step(double rate, double step);
 void add_couplings(const SceneDescription& scene, const RunPlan& run,
                    std::vector<LabParameter>& parameters);
 void add_surfaces(const SceneModel& model, std::vector<LabParameter>& parameters);
+void add_joints(const SceneModel& model, std::vector<LabParameter>& parameters);
 void add_masses(const SceneDescription& scene, std::vector<LabParameter>& parameters);
 
 }  // namespace twinarm::parameter_makers

@@ -129,6 +129,7 @@ std::vector<LabParameter> parameters_of(const SimulatePlan& plan) {
     parameters[i].group = i < 2 ? "time" : "world";
   if (!scene) return parameters;
   add_couplings(scene->description, plan.run, parameters);
+  add_joints(*scene, parameters);
   add_masses(scene->description, parameters);
   if (scene->may_touch()) add_surfaces(*scene, parameters);
   return parameters;
@@ -154,7 +155,7 @@ void write_parameters(const std::vector<LabParameter>& parameters, JsonWriter& j
            {"words", parameter.limit->words},
            {"state", kStateNames[static_cast<std::size_t>(parameter.limit->state)]}});
     if (!parameter.tracking_error.empty()) json.put("tracking_error", parameter.tracking_error);
-    json.put("restarts", parameter.resets_state);
+    json.members({{"restarts", parameter.resets_state}, {"folded", parameter.is_folded}});
     json.end_object();
   });
 }

@@ -46,6 +46,7 @@ struct LabParameter {
   // A change keeps only positions and velocities: internal states of couplings and contacts (held
   // forces, differences) are reset.
   bool resets_state = false;
+  bool is_folded = false;  // its group is closed until it is asked for
 
   std::string value() const;   // VALUE of PATH=VALUE; empty if it has none
   std::string change() const;  // "PATH=VALUE"; empty likewise

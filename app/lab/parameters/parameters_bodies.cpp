@@ -2,6 +2,9 @@
 #include <algorithm>
 
 #include "app/lab/parameters/parameter_makers.h"
+#include "solver/dynamics/model_builder.h"
+#include "solver/linear_algebra/dense_algebra.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm::parameter_makers {
 namespace {
@@ -34,6 +37,28 @@ void add_surface(const SceneDescription& scene, const SurfaceKey& key,
       add(item("body", i, key.key), bodies[i], bodies[i].name);
 }
 
+// A factor for each link that has mass, with mass and moments of inertia of the robot's file and
+// the warnings about them.
+void add_link_masses(const RobotInScene& robot, const std::string& own,
+                     std::vector<LabParameter>& parameters) {
+  for (const LinkDescription& link : robot.description.links) {
+    if (!is_path_part(link.name) || !(link.mass > 0)) continue;
+    const auto scale = robot.mass_scale.find(link.name);
+    const Eigen::VectorXd moments = symmetric_eigenvalues(link.inertia);
+    std::string meaning =
+        "Factor of the link's mass and inertia; 1: " + short_number_text(link.mass) +
+        " kg, principal moments of inertia " + short_number_text(moments[0]) + ", " +
+        short_number_text(moments[1]) + ", " + short_number_text(moments[2]) + " kg m².";
+    for (const Diagnostic& warning : robot.description.warnings)
+      if (warning.where == link_called(link.name)) meaning += " Warning: " + warning.problem + ".";
+    const SliderRow row{link.name.c_str(), 0.05, 20, meaning.c_str()};
+    parameters.push_back(slider(own + "mass_scale." + link.name, row,
+                                scale == robot.mass_scale.end() ? 1 : scale->second, "times"));
+    parameters.back().group = robot.name + ": masses";
+    parameters.back().is_folded = scale == robot.mass_scale.end();
+  }
+}
+
 }  // namespace
 
 void add_surfaces(const SceneModel& model, std::vector<LabParameter>& parameters) {
@@ -64,10 +89,7 @@ void add_masses(const SceneDescription& scene, std::vector<LabParameter>& parame
       put(own + item("payload", p, "mass"), "added mass on " + robot.payloads[p].link,
           robot.payloads[p].mass, "kg", 1e-3, 10, robot.name,
           "Particle fixed to the link: increases the inertia at the coupling.");
-    for (const auto& [link, factor] : robot.mass_scale)
-      if (link.find_first_of(".[") == std::string::npos)
-        put(own + "mass_scale." + link, "mass of " + link, factor, "times", 0.05, 20, robot.name,
-            "Factor of the link's mass and inertia.");
+    add_link_masses(robot, own, parameters);
   }
   std::size_t free = 0;
   for (const BodyDescription& body : scene.bodies) free += body.is_free() && body.mass;

@@ -5,6 +5,7 @@
 
 #include "app/data/value.h"
 #include "app/record/record_run.h"
+#include "app/support/text.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -62,6 +63,11 @@ InputError name_changes(const InputError& error, const std::vector<Change>& chan
   return InputError(std::move(faults));
 }
 
+void put_file(RecordingHeader& header, const std::filesystem::path& path, std::string bytes) {
+  std::erase_if(header.files, [&](const RecordedFile& file) { return file.path == path; });
+  header.files.push_back({path.string(), std::move(bytes)});
+}
+
 void put_last(Value& scene, const std::string& key, Value value) {
   std::erase_if(scene.members, [&](const Value& member) { return member.key == key; });
   scene.put(key, std::move(value));
@@ -71,7 +77,9 @@ void put_last(Value& scene, const std::string& key, Value value) {
 
 LabScene::LabScene(const SimulateOptions& given, FileRoots roots) : roots_(std::move(roots)) {
   const SimulateOptions options = without_outputs(given);
-  files_ = std::make_shared<const UnpackedRun>(header_of(options, prepare_simulation(options), {}));
+  RecordingHeader header = header_of(options, prepare_simulation(options), {});
+  if (options.scene) put_file(header, header.run.model, to_toml(*options.scene));
+  files_ = std::make_shared<const UnpackedRun>(std::move(header));
   if (!roots_) return;
   roots_->push_back(files_->folder());
   for (const RecordedFile& file : files_->header().files) roots_->push_back(file.path);
@@ -101,6 +109,9 @@ std::unique_ptr<LabScene::Plan> LabScene::plan(const std::vector<Change>& change
     SimulatePlan prepared = prepare_simulation(options);
     if (prepared.run.is_adaptive() && !options.step)  // the tolerance alone sets none
       prepared.run.step = prepared.input.scene ? prepared.input.scene->description.step : 0.001;
+    const std::filesystem::path own = options.robot.model.parent_path();
+    for (std::string& warning : prepared.input.robot.warnings)
+      warning = replace_all(std::move(warning), own.string() + "/", "");
     prepared.run.duration = HUGE_VAL;
     prepared.run.times.clear();
     return std::make_unique<Plan>(Plan{std::move(prepared), files_});
@@ -128,6 +139,18 @@ Value LabScene::tree(const std::vector<Change>& changes) const {
   return scene;
 }
 
+std::shared_ptr<const LabScene> LabScene::edited(const std::vector<Change>& changes,
+                                                 const SceneEdit& edit) const {
+  if (!is_scene())
+    throw InputError({{"command", 0, "edit", "a recording of a robot alone cannot be edited",
+                       "open the robot's file", "lab.edit"}});
+  Value scene = tree(changes);
+  apply(edit, *plan(changes)->prepared.input.scene, scene);
+  RecordingHeader changed = header(changes, {});
+  put_file(changed, changed.run.model, to_toml(scene));
+  return std::make_shared<const LabScene>(std::move(changed), roots_);
+}
+
 std::string LabScene::text(const std::vector<Change>& changes) const {
   return is_scene() ? to_toml(tree(changes)) : "";
 }
@@ -148,9 +171,8 @@ RecordingHeader LabScene::header(const std::vector<Change>& changes, const Hand&
     for (const std::size_t index : hand.couplings)
       if (list.key == "coupling" && index < list.items.size() && !hand.log.empty())
         put_last(list.items[index], "target", Value::of(log.string()));
-  for (RecordedFile& file : header.files)
-    if (file.path == header.run.model) file.bytes = to_toml(scene);
-  if (!hand.log.empty()) header.files.push_back({log.string(), hand.log});
+  put_file(header, header.run.model, to_toml(scene));
+  if (!hand.log.empty()) put_file(header, log, hand.log);
   return header;
 }
 

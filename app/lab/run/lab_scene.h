@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "app/lab/run/scene_edit.h"
 #include "app/record/unpack.h"
 #include "app/run/simulate_input.h"
 
@@ -12,8 +13,8 @@ namespace twinarm {
 
 class LabScene {
  public:
-  // As `twinarm simulate` would run it, without end. `roots`: folders of files that changes may
-  // name, beside its own. Throws InputError with all faults.
+  // As `twinarm simulate` would run it, without end; options.scene becomes its file. `roots`:
+  // folders of files that changes may name, beside its own. Throws InputError with all faults.
   explicit LabScene(const SimulateOptions& options, FileRoots roots = {});
   // The scene of a recording.
   explicit LabScene(RecordingHeader header, FileRoots roots = {});
@@ -26,6 +27,10 @@ class LabScene {
     std::shared_ptr<const void> files;
   };
   std::unique_ptr<Plan> plan(const std::vector<Change>& changes = {}) const;
+
+  // The changed and edited scene. Throws InputError; also for a robot alone.
+  std::shared_ptr<const LabScene> edited(const std::vector<Change>& changes,
+                                         const SceneEdit& edit) const;
 
   // The changed scene as TOML; empty for a robot alone. Throws InputError.
   std::string text(const std::vector<Change>& changes = {}) const;

@@ -32,6 +32,7 @@ struct LabCommand {
     branch,
     preset,
     scene,
+    edit,
     reset,
     reset_parameters,
     input,
@@ -49,8 +50,8 @@ struct LabCommand {
   double value = 1;                // speed: factor; joint: value [rad, m]
   std::optional<double> at;        // seek, branch [s]; seek: none is the newest
   std::vector<std::string> names;  // layers; set, branch: changes
-  std::string name;                // preset, scene; input: source
-  std::string spec;                // input: as of --device
+  std::string name;                // preset, scene; edit: what; input: source
+  std::string spec;                // edit: link or body; input: as of --device
   Vector3 point =
       Vector3::Zero();  // drag_body: on the body, link axes [m]; rotate_stylus: yaw, pitch, roll
   Vector3 goal = Vector3::Zero();  // drag_stylus, drag_body: world [m]

@@ -21,7 +21,15 @@ std::shared_ptr<const LabScene> open_scene(const BuildRequest& request) {
   SimulateOptions options;
   options.robot.model = request.file;
   options.robot.roots = request.roots;
-  return std::make_shared<const LabScene>(options, roots);
+  if (request.file.extension() == ".toml") return std::make_shared<const LabScene>(options, roots);
+  options.robot.model.replace_filename(request.file.stem().string() + "_lab.toml");
+  options.scene = scene_of_robot(request.file, true);
+  try {
+    return std::make_shared<const LabScene>(options, roots);
+  } catch (const InputError&) {  // perhaps of its meshes
+    options.scene = scene_of_robot(request.file, false);
+    return std::make_shared<const LabScene>(options, roots);
+  }
 }
 
 }  // namespace
@@ -43,7 +51,11 @@ BuildResult build(BuildRequest request) {
     for (const Change& change : pending.changes) put(request.changes, change);
   }
   if (!request.variants.empty()) put(request.changes, request.variants.change(0));
-  built.scene = request.what == BuildRequest::What::open ? open_scene(request) : request.scene;
+  built.scene = request.scene ? request.scene : open_scene(request);
+  if (request.edit) {
+    built.scene = built.scene->edited(request.changes, *request.edit);
+    request.changes.clear();
+  }
   built.header = built.scene->header(request.changes, {});
   built.run = built.scene->plan(request.changes);
   built.view = built.scene->plan(request.changes);

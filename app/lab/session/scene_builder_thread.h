@@ -38,7 +38,8 @@ struct BuildRequest {
   bool is_shared = false;
   std::string name;                       // open: as in the gallery
   SceneWords words;                       // open
-  std::shared_ptr<const LabScene> scene;  // of all others
+  std::shared_ptr<const LabScene> scene;  // of all others, and of an edit
+  std::optional<SceneEdit> edit;          // open: of the scene with its changes
   std::vector<Change> changes;            // in effect, accepted before
   std::vector<PendingChange> pending;     // not tried yet, oldest first
   VariantSet variants;                    // empty: the run alone

@@ -1,6 +1,9 @@
 #include "app/lab/session/session_commands.h"
 
+#include <algorithm>
+
 #include "app/support/files.h"
+#include "app/support/text.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -11,6 +14,11 @@ bool is_movement(LabCommand::Do what) {
   using Do = LabCommand::Do;
   return what == Do::drag_stylus || what == Do::joint || what == Do::rotate_stylus ||
          what == Do::axes || what == Do::drag_body;
+}
+
+// Values at the start: with another one the run begins anew.
+bool is_of_start(const Change& change) {
+  return change.path.starts_with("robot[") && change.path.find("].q.") != std::string::npos;
 }
 
 }  // namespace
@@ -46,6 +54,8 @@ void SessionCommands::act(const LabCommand& command) {
       return open_preset(command.name);
     case Do::scene:
       return open_from_gallery(command.name);
+    case Do::edit:
+      return edit({command.name, command.spec});
     case Do::reset:
       return request(BuildRequest::What::reset);
     case Do::reset_parameters:
@@ -116,7 +126,9 @@ void SessionCommands::change(const std::vector<std::string>& texts, std::optiona
                          "lab.variants-differ"}});
     pending.changes.push_back(change);
   }
+  const bool is_restart = std::ranges::any_of(pending.changes, is_of_start);
   s_.pending.add(std::move(pending));
+  if (is_restart) return request(BuildRequest::What::reset);
   if (!at) return request(BuildRequest::What::change);
   s_.status.playing = false;
   request(BuildRequest::What::branch, *at);
@@ -144,7 +156,25 @@ void SessionCommands::open_from_gallery(const std::string& name) {
   open_(order_to_open(*scene));
 }
 
+void SessionCommands::edit(const SceneEdit& edit) {
+  if (std::ranges::find(SceneEdit::kNames, edit.what) == SceneEdit::kNames.end())
+    throw InputError(
+        {{"command", 0, "edit, what", "there is no '" + edit.what + "'",
+          name_remedy(edit.what, {SceneEdit::kNames.begin(), SceneEdit::kNames.end()}, "edits"),
+          "lab.unknown-name"}});
+  BuildRequest request = request_of(BuildRequest::What::open);
+  request.edit = edit;
+  if (edit.what == "link-spring" || edit.what == "joint-springs") request.hand = "drag";
+  open_(std::move(request));
+}
+
 void SessionCommands::request(BuildRequest::What what, double at) {
+  BuildRequest request = request_of(what);
+  request.at = at;
+  open_(std::move(request));
+}
+
+BuildRequest SessionCommands::request_of(BuildRequest::What what) const {
   const std::shared_ptr<const BuildResult> now = s_.timeline.scene();
   BuildRequest request;
   request.what = what;
@@ -154,8 +184,7 @@ void SessionCommands::request(BuildRequest::What what, double at) {
   request.changes = s_.status.changes;
   request.pending = s_.pending.all();
   request.variants = now->request.variants;
-  request.at = at;
-  open_(std::move(request));
+  return request;
 }
 
 // First frame of a continued run; null: no longer in the history.
@@ -187,7 +216,8 @@ void SessionCommands::adopt(BuildResult built) {
   LabVariants variants(request.variants, std::move(built.variants), from.get(), s_.loop.names());
   if (from) run->carry_over_energy(*from, s_.loop.names());
   for (const std::string& warning : run->warnings())
-    if (!goes_on) s_.inbox.note("warning", warning);
+    if (request.what == BuildRequest::What::open && !request.edit)
+      s_.inbox.note("warning", warning);
   if (!run->restart_reason().empty()) s_.inbox.note("note", run->restart_reason());
   if (!goes_on) {
     s_.timeline.clear();
@@ -195,7 +225,7 @@ void SessionCommands::adopt(BuildResult built) {
     s_.loop.repeat_inputs(false);
     s_.status.branch.reset();
     s_.status.at.reset();
-    s_.status.playing = true;
+    s_.status.playing = request.pending.empty() || s_.status.playing;  // a start pose, in pause
   }
   if (request.what == BuildRequest::What::open) {
     s_.pending.clear();

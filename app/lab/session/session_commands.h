@@ -29,7 +29,9 @@ class SessionCommands {
   void change(const std::vector<std::string>& texts, std::optional<double> at);
   void open_preset(const std::string& name);
   void open_from_gallery(const std::string& name);
+  void edit(const SceneEdit& edit);
   void request(BuildRequest::What what, double at = 0);
+  BuildRequest request_of(BuildRequest::What what) const;
   Timeline::Frame start_of(const BuildRequest& request);
 
   SessionState& s_;

@@ -7,6 +7,7 @@
 #include "app/scene/model/scene_builder.h"
 #include "collision/import/robot/robot_model.h"
 #include "collision/shapes/mesh_shape.h"
+#include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/model_builder.h"
 #include "solver/model/mimic.h"
 #include "solver/support/number_text.h"
@@ -279,6 +280,12 @@ std::pair<int, int> SceneModel::bodies_of_robot(std::size_t robot) const {
   int first = 1;
   for (std::size_t r = 0; r < robot; ++r) first += links(r);
   return {first, first + links(robot) - 1};
+}
+
+Vector3 com_of_link(const Model<double>& model, std::size_t body) {
+  const Inertia<double> I = model.I[body];
+  if (!(I.m > 0)) return Vector3::Zero();
+  return to_eigen(model.R_BL[body]).transpose() * to_eigen(I.h) / I.m;
 }
 
 SceneModel build_scene(const SceneDescription& description, const ModelOptions& options) {

@@ -109,6 +109,9 @@ struct SceneModel {
 // Joints that an operator motion moves: the robot's first three with one degree of freedom.
 std::vector<std::string> turned_joints(const SceneModel& scene, std::size_t robot);
 
+// Centre of mass, link axes; zero without mass.
+Vector3 com_of_link(const Model<double>& model, std::size_t body);
+
 // Of the options `friction` and `armature` are used. Throws InputError with all diagnostics, such
 // as meshes without volume and joints without inertia.
 SceneModel build_scene(const SceneDescription& description, const ModelOptions& options = {});

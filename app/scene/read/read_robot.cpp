@@ -38,6 +38,19 @@ void read_masses(SceneReader& reader, TableReader& table, RobotInScene& robot) {
   }
 }
 
+// Replaces the viscous damping of the URDF.
+void set_damping(TableReader& table, SceneReader& reader, RobotDescription& robot) {
+  JointValueMap given = reader.read_joints(table, "damping", robot, JointRows::velocities);
+  for (JointDescription& joint : robot.joints) {
+    const auto found = given.find(joint.name);
+    if (found == given.end()) continue;
+    joint.damping = found->second.values[0];
+    if (joint.damping < 0 || joint.dofs() != 1)
+      table.fault("damping", "joint '" + joint.name + "' has " + number_text(joint.damping),
+                  "give a number >= 0 for a joint of one degree of freedom", "scene.range");
+  }
+}
+
 void drop_limits(RobotDescription& robot) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (JointDescription& joint : robot.joints) joint.lower = -kInfinity, joint.upper = kInfinity;
@@ -90,9 +103,12 @@ void SceneReader::read_robot(const Value& value) {
     read_masses(*this, table, robot);
     robot.q = read_joints(table, "q", robot.description, JointRows::coordinates);
     robot.qd = read_joints(table, "qd", robot.description, JointRows::velocities);
+    robot.torque = read_joints(table, "torque", robot.description, JointRows::velocities);
+    set_damping(table, *this, robot.description);
     lock_joints(table, robot);
   } else {
-    for (const char* key : {"q", "qd", "lock", "mass_scale", "payload"}) table.find(key);
+    for (const char* key : {"q", "qd", "torque", "damping", "lock", "mass_scale", "payload"})
+      table.find(key);
   }
   table.done();
   scene.robots.push_back(std::move(robot));
@@ -148,9 +164,9 @@ void SceneReader::lock_joints(TableReader& table, RobotInScene& robot) {
              joint->type != JointDescription::Type::continuous &&
              joint->type != JointDescription::Type::prismatic)
       fault(quoted + " is neither revolute nor prismatic", "leave it out", "scene.lock");
-    else if (robot.qd.contains(item.text))
-      fault(quoted + " has a velocity at the start", "leave it out of qd, or of lock",
-            "scene.lock");
+    else if (robot.qd.contains(item.text) || robot.torque.contains(item.text))
+      fault(quoted + " has a velocity at the start, or a torque",
+            "leave it out of qd and torque, or of lock", "scene.lock");
     else {
       const auto q = robot.q.find(item.text);
       fix_at(*joint, q == robot.q.end() ? 0 : q->second.values[0]);

@@ -72,6 +72,7 @@ struct RobotInScene {
   Pose X_WR;                         // of the root link, at the start
   Vector3 linear_velocity = Vector3::Zero(), angular_velocity = Vector3::Zero();  // floating only
   JointValueMap q, qd;
+  JointValueMap torque;  // constant joint forces [N m, N]
   Surface surface;
   bool collide = true;                       // false: no contacts
   std::map<std::string, double> mass_scale;  // by link; factor on mass and inertia

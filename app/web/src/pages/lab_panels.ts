@@ -1,6 +1,7 @@
 // The lab's panels except the inspector: `time` is the bar below the view, `input` in a corner of the view,
 // `gallery` a dialog, `diverged` over the view while the run has diverged.
 import { EnergyPanel } from '../panels/balances';
+import { BuildMenu } from '../panels/build_menu';
 import { Diverged } from '../panels/diverged';
 import { Gallery } from '../panels/gallery';
 import { InputBar } from '../panels/input_bar';
@@ -14,6 +15,7 @@ import type { RunSource } from '../source/run_source';
 export function panelsOf(page: LabPage, run: RunSource) {
   const parameters = new Parameters(page);
   const time = new LabTimeBar(page, () => parameters.changes);
+  time.add(new BuildMenu(page));
   time.add(new Notes());
   return {
     parameters,

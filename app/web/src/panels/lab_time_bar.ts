@@ -60,6 +60,10 @@ export class LabTimeBar implements Panel, Clock {
     this.rewind.follow(state.at);
   }
 
+  onSelect(body: number | null): void {
+    for (const panel of this.added) panel.onSelect?.(body);
+  }
+
   onFrame(frame: Frame): void {
     this.time = frame.time;
   }

@@ -23,7 +23,7 @@ export function saveMenu(): HTMLElement {
 }
 
 // Closed by Escape and by a press elsewhere.
-function closeOutside(menu: HTMLDetailsElement): void {
+export function closeOutside(menu: HTMLDetailsElement): void {
   document.addEventListener('pointerdown', (event) => {
     if (menu.open && !menu.contains(event.target as Node)) menu.open = false;
   });
@@ -60,7 +60,9 @@ export class Notes implements Panel {
     // No toasts for messages before the page was opened; a restarted lab counts from 1 again.
     const fresh = this.seen < 0 || newest < this.seen ? [] : notes.filter(({ n }) => n > this.seen);
     this.seen = newest;
-    for (const note of fresh) this.toast(note);
+    const warnings = fresh.filter(({ level }) => level === 'warning');
+    if (warnings.length > 1) this.toast({ ...warnings[0], text: `${warnings.length} warnings: see Messages` });
+    for (const note of fresh) if (warnings.length < 2 || note.level !== 'warning') this.toast(note);
     if (!this.isNew(newest, notes.length)) return;
     const lines = [...notes].reverse().map((note) => line('li', note));
     this.list.replaceChildren(...(lines.length > 0 ? lines : [element('li', 'No messages.')]));

@@ -21,7 +21,7 @@ export class Parameters implements Panel {
   });
   private readonly rows = new Map<string, ParameterRow>();
   private readonly waiting = new Map<string, string>(); // changes not sent yet
-  private readonly folded = new Set<string>(); // groups
+  private readonly folded = new Map<string, boolean>(); // groups that were opened or closed here
   private timer = 0;
   private sentAt = -Infinity;
   private readonly areParametersNew = changeDetector();
@@ -38,11 +38,12 @@ export class Parameters implements Panel {
   }
 
   onState(state: StateMessage): void {
-    const { parameters, presets } = state;
+    const { parameters, presets, gallery, name } = state;
     if (this.areParametersNew(parameters.map(shapeOf))) this.build(parameters);
     else for (const parameter of parameters) this.rows.get(parameter.path)!.update(parameter);
     this.showPresets(presets);
-    this.presets.hidden = presets.length === 0 || state.input.source === ''; // for scenes with a target robot
+    const isOurs = [...gallery, ...presets].some((scene) => scene.name === name);
+    this.presets.hidden = !isOurs || state.input.source === ''; // for scenes with a target robot
     const isDisabled = isViewOnly(state);
     this.viewOnly.hidden = !isDisabled;
     for (const row of this.rows.values()) row.enable(!isDisabled);
@@ -59,7 +60,7 @@ export class Parameters implements Panel {
       const { path, group } = parameter;
       const row = parameterRow(parameter, (path, value) => this.set(path, value));
       this.rows.set(path, row);
-      if (!groups.has(group)) groups.set(group, this.group(group));
+      if (!groups.has(group)) groups.set(group, this.group(group, parameter.folded));
       groups.get(group)!.append(row.root);
     }
     this.groups.replaceChildren(...groups.values());
@@ -67,12 +68,11 @@ export class Parameters implements Panel {
   }
 
   // Stays folded when the rows are replaced.
-  private group(name: string): HTMLElement {
+  private group(name: string, isFolded: boolean): HTMLElement {
     const made = element('details.group', element('summary', name));
-    made.open = !this.folded.has(name);
+    made.open = !(this.folded.get(name) ?? isFolded);
     made.addEventListener('toggle', () => {
-      if (made.open) this.folded.delete(name);
-      else this.folded.add(name);
+      if (made.open === (this.folded.get(name) ?? isFolded)) this.folded.set(name, !made.open);
     });
     return made;
   }

@@ -73,6 +73,7 @@ export interface LabParameter {
   limit?: Limit;
   tracking_error?: string; // "0.9 degrees at 1 rad/s"
   restarts: boolean;
+  folded: boolean; // its group is closed until it is asked for
 }
 
 export interface Remedy {
@@ -180,6 +181,8 @@ export type Command =
   | { do: 'branch'; at: number | null; changes: string[] } // return to that instant and continue with changes
   | { do: 'preset'; name: string } // load its scene and values
   | { do: 'scene'; name: string } // open a scene of the gallery
+  | { do: 'edit'; what: string; name?: string } // add "floor", "box", "sphere", "link-spring" (at link `name`),
+  // "joint-springs"; "remove" body `name`; the run restarts
   | { do: 'reset' } // restart
   | { do: 'reset_parameters' } // all parameters as the scene was opened, at this instant
   | { do: 'input'; source: 'scene' | 'drag' | 'joints' | 'device'; spec?: string } // choose the input source
