@@ -57,7 +57,7 @@ struct NamedForce {
     double normal, friction;
   };
   std::optional<Parts> parts;
-  bool is_interaction = false;  // as in AppliedForce
+  bool is_interaction = false, is_unique = true;  // as in AppliedForce
 };
 // In the order of Inspection::actors.
 std::vector<NamedForce> named_forces(const Inspection& in, const Viewpoint& from);

@@ -162,7 +162,9 @@ Force<double> bias_force(const Inspection& in, std::size_t body) {
   return crf(in.w.v[body], in.model.I[body] * in.w.v[body]) - in.forces.f_ext[body];
 }
 
-std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, std::size_t body) {
+namespace {
+
+std::vector<DisplayedQuantity> quantities_of(const Inspection& in, int pass, std::size_t body) {
   const QuantityConverter converter{in, body, LinkAxes(in, body)};
   std::vector<DisplayedQuantity> all;
   const auto take = [&](const Quantity& quantity, const auto& field) {
@@ -190,6 +192,23 @@ std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, 
   in.w.describe(take);
   // Children of the base pass no inertia on.
   if (in.parent(body) > 0) in.trace.describe(take);
+  return all;
+}
+
+}  // namespace
+
+std::string unit_at_joint(const Model<double>& model, std::size_t body, const std::string& unit) {
+  const std::size_t end = unit.find("; ");
+  if (model.dofs(body) != 1 || end == std::string::npos) return unit;
+  return is_translational(model.joint[body]) ? unit.substr(end + 2) : unit.substr(0, end);
+}
+
+std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, std::size_t body) {
+  std::vector<DisplayedQuantity> all = quantities_of(in, pass, body);
+  for (DisplayedQuantity& shown : all)
+    shown.unit = shown.quantity.by == Quantity::By::body
+                     ? shown.quantity.unit
+                     : unit_at_joint(in.model, body, shown.quantity.unit);
   return all;
 }
 

@@ -34,6 +34,7 @@ struct AppliedForce {
   std::vector<OnJoint> joints;
   std::optional<Vector3> point_W{}, normal_W{};  // point of application; normal of a contact
   bool is_interaction = false;  // coupling, contact, constraint or wrench; not within a joint
+  bool is_unique = true;        // false: other constraint forces give the same accelerations
 };
 
 // From what a force source has added to zero forces.
@@ -127,10 +128,14 @@ struct DisplayedQuantity {
   Quantity quantity;
   const char* frame;
   Eigen::MatrixXd value;
+  std::string unit{};  // of a joint with one degree of freedom: its own of "angular; linear"
 };
 // Results of a pass (1 to 3) at a body, in the order of computation; pass 1 begins with the
 // nonzero inputs.
 std::vector<DisplayedQuantity> shown_quantities(const Inspection& in, int pass, std::size_t body);
+
+// Of a unit "angular; linear" that of the body's joint, if it has one degree of freedom.
+std::string unit_at_joint(const Model<double>& model, std::size_t body, const std::string& unit);
 
 // Bias force p = v x* I v - f_ext.
 Force<double> bias_force(const Inspection& in, std::size_t body);

@@ -23,6 +23,14 @@ std::string name_of_part(const SimulateInput& input, const NamedJoint& joint) {
   return is_base ? "base" : joint.name;
 }
 
+// Of the joint's velocities times s.
+const char* unit_of(const NamedJoint& joint) {
+  const std::vector<JointComponent> all = joint.components();
+  const auto angles = std::ranges::count_if(all, &JointComponent::is_angle);
+  if (angles == 0) return "m";
+  return angles == std::ssize(all) ? "rad" : "(rad, m)";
+}
+
 // The mode's components of a joint's velocities, in the coordinates of the command line.
 std::vector<double> shape_part(const SimulateInput& input, const NamedJoint& joint,
                                const Eigen::VectorXd& by_velocity) {
@@ -81,15 +89,16 @@ std::vector<std::string> warnings_of(const SimulateInput& input,
   constexpr double kEquilibrium = 1e-6;  // [rad/s^2, m/s^2]
   double largest = 0;
   std::string where;
+  std::string unit;
   for (const NamedJoint& joint : joints)
     for (std::size_t v = joint.iv; v < joint.iv + joint.nv; ++v)
       if (std::abs(qdd[v]) > largest)
-        largest = std::abs(qdd[v]), where = name_of_part(input, joint);
+        largest = std::abs(qdd[v]), where = name_of_part(input, joint), unit = unit_of(joint);
   if (largest > kEquilibrium)
-    warnings.push_back(fmt::format(
-        "not an equilibrium: '{}' accelerates by {} (rad, m)/s^2; the modes describe small "
-        "deviations from the motion for a short time only",
-        where, cell(largest)));
+    warnings.push_back(
+        fmt::format("not an equilibrium: '{}' accelerates by {} {}/s^2; the modes describe small "
+                    "deviations from the motion for a short time only",
+                    where, cell(largest), unit));
   return warnings;
 }
 

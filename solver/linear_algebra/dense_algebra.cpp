@@ -40,6 +40,13 @@ PivotedColumns pivoted_columns(const MatrixXd& A, double threshold) {
   return {qr.rank(), {order.begin(), order.end()}};
 }
 
+VectorXd undetermined_part(const MatrixXd& A, double threshold) {
+  Eigen::ColPivHouseholderQR<MatrixXd> qr(A.rows() > 0 ? A.transpose() : MatrixXd(A.cols(), 1));
+  qr.setThreshold(threshold);
+  const MatrixXd Q = qr.householderQ() * MatrixXd::Identity(A.cols(), qr.rank());
+  return VectorXd::Ones(A.cols()) - Q.rowwise().squaredNorm();
+}
+
 SingularValues singular_values(const MatrixXd& A) {
   assert(A.rows() == A.cols());  // NoQRPreconditioner requires a square matrix
   const Eigen::JacobiSVD<MatrixXd, Eigen::NoQRPreconditioner> svd(A, Eigen::ComputeFullV);

@@ -28,6 +28,10 @@ struct PivotedColumns {
 };
 PivotedColumns pivoted_columns(const Eigen::MatrixXd& A, double threshold);
 
+// Of each unknown of A x = b: what part of a change of it can be balanced by the others, the
+// squared length of its unit vector's projection on the null space of A; 0: determined, 1: free.
+Eigen::VectorXd undetermined_part(const Eigen::MatrixXd& A, double threshold);
+
 // A = U diag(values) V^T, A square; descending.
 struct SingularValues {
   Eigen::VectorXd values;

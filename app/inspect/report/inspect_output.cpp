@@ -81,6 +81,7 @@ void write_forces(JsonWriter& json, const Inspection& in, const InspectView& vie
     if (named.normal) json.key("axis").vector(*named.normal);
     if (named.parts)
       json.members({{"normal", named.parts->normal}, {"friction", named.parts->friction}});
+    if (named.is_interaction) json.put("unique", named.is_unique);
     json.key("on").list(named.ends, [&](const NamedForce::End& end) {
       json.object({{"body", in.model.body_name[end.body]},
                    {"force", end.wrench.force},
@@ -102,7 +103,8 @@ void write_joints(JsonWriter& json, const Inspection& in, const InspectView& vie
     if (std::ranges::find(view.bodies, joint.body) == view.bodies.end()) continue;
     json.begin_object();
     json.members({{"joint", in.model.joint_name[joint.body]},
-                  {"component", joint.dof - in.model.iv[joint.body]}});
+                  {"component", joint.dof - in.model.iv[joint.body]},
+                  {"unit", unit_at_joint(in.model, joint.body, "N m; N")}});
     json.key("torques").list(joint.torques, [&](const JointBalance::Torque& torque) {
       json.object({{"source", torque.source}, {"value", torque.value}});
     });
@@ -154,7 +156,7 @@ void write_quantities(JsonWriter& json, const std::vector<DisplayedQuantity>& qu
     const bool by_columns = shown.quantity.by == Quantity::By::velocity;
     json.object({{"name", shown.quantity.name},
                  {"meaning", shown.quantity.meaning},
-                 {"unit", shown.quantity.unit},
+                 {"unit", shown.unit},
                  {"frame", shown.frame},
                  {"equation", shown.quantity.equation},
                  {"value", [&] { write_value(json, shown.value, by_columns); }}});

@@ -32,15 +32,6 @@ std::string text_of(const Eigen::VectorXd& v) {
   return text + ")";
 }
 
-// Of a unit "angular; linear" that of the body's joint; empty for several degrees of freedom.
-std::string unit_at_joint(const Inspection& in, std::size_t body, std::string_view unit) {
-  if (in.model.dofs(body) > 1) return "";
-  const std::size_t end = unit.find("; ");
-  if (end == std::string_view::npos) return std::string(unit);
-  return std::string(in.model.joint[body] == JointType::prismatic ? unit.substr(end + 2)
-                                                                  : unit.substr(0, end));
-}
-
 std::string three(const Vector3& v) {
   return fmt::format("({}, {}, {})", short_number(v.x()), short_number(v.y()), short_number(v.z()));
 }
@@ -63,28 +54,23 @@ class PassPage {
         for (; next != made; ++next) write(*next);
         ++next;
       }
-      write(equation, made == all.end() ? nullptr : &made->quantity);
+      write(equation, made == all.end() ? nullptr : &*made);
     }
     for (; next != all.end(); ++next) write(*next);
   }
 
  private:
-  std::string unit_of(const Quantity& quantity) const {
-    return quantity.by == Quantity::By::body ? quantity.unit
-                                             : unit_at_joint(in_, i_, quantity.unit);
-  }
-  void heading(const std::string& text, const Quantity* quantity) {
-    if (quantity)
-      sheet_.heading(text, quantity->meaning, unit_of(*quantity));
+  void heading(const std::string& text, const DisplayedQuantity* shown) {
+    if (shown)
+      sheet_.heading(text, shown->quantity.meaning, shown->unit);
     else
       sheet_.line("  " + text);
   }
 
   void write(const DisplayedQuantity& shown) {
     const std::string name = shown.quantity.name;
-    if (shown.value.size() == 1)
-      return heading(name + " = " + text_of(shown.value), &shown.quantity);
-    heading(name, &shown.quantity);
+    if (shown.value.size() == 1) return heading(name + " = " + text_of(shown.value), &shown);
+    heading(name, &shown);
     if (name == "Xup") {
       sheet_.line("      r = " + three(axes_.translation_from_parent(in_.w.Xup[i_])) + ",  E =");
       return sheet_.matrix(axes_.rotation_from_parent(in_.w.Xup[i_]));
@@ -113,12 +99,12 @@ class PassPage {
     sheet_.line(fmt::format("      {:<22}{}", name, text_of(values)));
   }
 
-  void write(const Equation& equation, const Quantity* quantity) {
+  void write(const Equation& equation, const DisplayedQuantity* shown) {
     if (equation.value.size() == 1) {
-      heading(equation.text + " = " + sum_of_numbers(equation), quantity);
+      heading(equation.text + " = " + sum_of_numbers(equation), shown);
     } else {
-      heading(equation_text(equation), quantity);
-      write_terms(equation, quantity && quantity->by == Quantity::By::velocity);
+      heading(equation_text(equation), shown);
+      write_terms(equation, shown && shown->quantity.by == Quantity::By::velocity);
     }
     if (equation.name == "D")
       sheet_.line(fmt::format("      cross-check with CRBA: relative difference {:.1e}", D_error_));
@@ -186,7 +172,7 @@ void write_body_head(const Inspection& in, std::size_t i, Sheet& sheet) {
       fmt::format("\n{}: child of joint {} ({}), parent {}", in.model.body_name[i],
                   joint_label(in, i), name_of(in.model.joint[i]), in.model.body_name[in.parent(i)]);
   if (in.model.dofs(i) == 1) {
-    const std::string unit = unit_at_joint(in, i, "rad; m");
+    const std::string unit = unit_at_joint(in.model, i, "rad; m");
     text += fmt::format("    q = {} {}, qd = {} {}/s", short_number(in.x.q[in.model.iq[i]]), unit,
                         short_number(in.x.qd[in.model.iv[i]]), unit);
   }

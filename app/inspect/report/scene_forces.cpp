@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/inspect/constraint_unknowns.h"
 #include "app/inspect/report/inspect_input.h"
 #include "app/robot/dynamics.h"
 #include "app/scene/forces/add_contacts.h"
@@ -79,6 +80,7 @@ class SceneInspector::FirstStep {
     add_contacts();
     add_limits();
     add_bilateral();
+    unknowns_.mark(actors_);
     inspected.actors = std::move(actors_);
     inspected.loops = sim_.mechanism().dynamics.bilateral().loops().loops();
     return inspected;
@@ -118,6 +120,22 @@ class SceneInspector::FirstStep {
       if (!actor.joints.empty()) actors_.push_back(std::move(actor));
     }
   }
+  // Friction of a sliding contact and compliant contacts are functions of the state; sticking joint
+  // friction and rolling moments are left out.
+  // Of a contact between bodies a and b: three components, or one along the force if it slides.
+  void add_unknowns(const ContactPoint& p, int a, int b) {
+    constexpr double kSliding = 1e-4;  // [m/s]
+    if (input_.scene->description.contact == ContactMode::compliant) return;
+    const Vector3 p_W = p.contact.p_WC;
+    const Eigen::Matrix3Xd J =
+        point_jacobian(model_, k_, b, p_W) - point_jacobian(model_, k_, a, p_W);
+    const Vector3 v = k_.velocity(b, p_W) - k_.velocity(a, p_W), n = p.contact.n_W;
+    if ((v - n.dot(v) * n).norm() > kSliding)
+      unknowns_.add(actors_.size(), J.transpose() * p.force_W.normalized());
+    else
+      unknowns_.add(actors_.size(), J.transpose());
+  }
+
   // Generalised force of all constraints; contacts and limits are subtracted as they are added.
   void find_constraint_force(bool constrained) {
     rest_ = Eigen::VectorXd::Zero(index(model_.nv));
@@ -173,6 +191,7 @@ class SceneInspector::FirstStep {
       actor.normal_W = p.contact.n_W;
       add_wrench(actor, b.body, on_b, p.force_W, p.couple_W);
       add_wrench(actor, a.body, on_a, -p.force_W, -p.couple_W);
+      add_unknowns(p, a.body, b.body);
       actors_.push_back(std::move(actor));
     }
   }
@@ -181,6 +200,8 @@ class SceneInspector::FirstStep {
     for (const JointLimits::Limit& limit : contacts_->limits()->limits()) {
       if (limit.force == 0) continue;
       const auto body = static_cast<std::size_t>(limit.body);
+      unknowns_.add(actors_.size(), Eigen::MatrixXd::Identity(index(model_.nv), index(model_.nv))
+                                        .col(index(model_.iv[body])));
       actors_.push_back(
           {"joint/" + model_.joint_name[body] + "/limit", {}, {{model_.iv[body], limit.force, 0}}});
       rest_[index(model_.iv[body])] -= limit.force;
@@ -202,7 +223,12 @@ class SceneInspector::FirstStep {
     }
     const Eigen::VectorXd lambda = min_solution(A.transpose(), rest_, 1e-9);
     const Eigen::VectorXd of_loops = lambda.head(index(loops.rows()));
-    for (std::size_t l = 0; l < loops.loops().size(); ++l) add_loop(loops, l, of_loops);
+    for (std::size_t l = 0; l < loops.loops().size(); ++l) {
+      const Index rows = index(facts_of(loops.loops()[l].type).rows);
+      unknowns_.add(actors_.size(), A.middleRows(index(loops.first_row(l)), rows).transpose());
+      add_loop(loops, l, of_loops);
+    }
+    unknowns_.add(std::nullopt, A.bottomRows(index(mimics)).transpose());
     std::vector<double> tau(model_.nv);
     for (std::size_t m = 0; m < mimics; ++m) {
       tau[model_.mimics[m].follower] += lambda[index(loops.rows() + m)];
@@ -244,6 +270,7 @@ class SceneInspector::FirstStep {
   Kinematics k_;
   std::vector<AppliedForce> actors_;
   Eigen::VectorXd rest_;  // constraint force not yet assigned, by velocity
+  ConstraintUnknowns unknowns_;
 };
 
 SceneInspector::SceneInspector(SimulateInput& input, double h,

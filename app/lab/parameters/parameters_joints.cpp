@@ -28,7 +28,8 @@ class JointParameters {
            const char* turning_unit, Row row_of) {
     const RobotInScene& robot = model_.description.robots[robot_];
     for (const JointDescription& joint : robot.description.joints) {
-      const int body = model_.model.find_joint(name_in_scene(model_.description, robot_, joint.name));
+      const int body =
+          model_.model.find_joint(name_in_scene(model_.description, robot_, joint.name));
       if (body < 0 || joint.dofs() != 1 || joint.mimic || !is_path_part(joint.name)) continue;
       const bool slides = joint.type == JointDescription::Type::prismatic;
       const auto [row, value] = row_of(joint, static_cast<std::size_t>(body));
@@ -66,11 +67,12 @@ void add_joints(const SceneModel& model, std::vector<LabParameter>& parameters) 
       return Row{{joint.name.c_str(), -most, most, "Constant joint force.", SliderRow::linear},
                  given == torques.end() ? 0 : given->second.values[0]};
     });
-    joints.add("damping", "damping", true, "N s/m", "N m s/rad", [](const auto& joint, std::size_t) {
-      return Row{{joint.name.c_str(), 0, std::max(10.0, 2 * joint.damping),
-                  "Viscous damping of the joint.", SliderRow::linear},
-                 joint.damping};
-    });
+    joints.add("damping", "damping", true, "N s/m", "N m s/rad",
+               [](const auto& joint, std::size_t) {
+                 return Row{{joint.name.c_str(), 0, std::max(10.0, 2 * joint.damping),
+                             "Viscous damping of the joint.", SliderRow::linear},
+                            joint.damping};
+               });
   }
 }
 

@@ -188,7 +188,8 @@ void remove_body(const SceneEdit& edit, const SceneModel& built, Value& scene) {
           return (member.key == "a" || member.key == "b") && member.text == edit.name;
         });
       });
-  std::erase_if(scene.members, [](const Value& list) { return list.is_list() && list.items.empty(); });
+  std::erase_if(scene.members,
+                [](const Value& list) { return list.is_list() && list.items.empty(); });
 }
 
 }  // namespace
@@ -201,9 +202,9 @@ Value scene_of_robot(const std::filesystem::path& robot, bool collide) {
                           {"collide", flag(collide)}});
   Value scene = table_of({{"robot", Value::list({std::move(table)})}});
   if (collide)
-    scene.put("pair", Value::list({table_of({{"a", Value::of(name)},
-                                             {"b", Value::of(name)},
-                                             {"collide", flag(false)}})}));
+    scene.put("pair",
+              Value::list({table_of(
+                  {{"a", Value::of(name)}, {"b", Value::of(name)}, {"collide", flag(false)}})}));
   return scene;
 }
 

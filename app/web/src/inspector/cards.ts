@@ -6,14 +6,6 @@ import { quantityCard, shownValue, unitOfSix } from './quantity';
 import { element, largestOf, short, unitText } from '../ui/dom';
 import { numberCell, row, table } from '../ui/table';
 
-// Of "revolute; prismatic", the unit of the body's joint.
-export function unitOf({ passes }: BodyInspection, unit: string): string {
-  const S = passes?.[0].quantities.find(({ name }) => name === 'S')?.value;
-  const [angular, linear] = unit.split(';').map((text) => text.trim());
-  if (!S || !linear || typeof (S as number[])[0] !== 'number') return unit;
-  return (S as number[]).slice(0, 3).every((part) => part === 0) ? linear : angular;
-}
-
 export function passCards(numbers: BodyInspection, which: number): HTMLElement[] {
   const step = numbers.passes!.find(({ pass }) => pass === which)!;
   const equations = (numbers.equations ?? []).filter(({ pass }) => pass === which);
@@ -21,7 +13,7 @@ export function passCards(numbers: BodyInspection, which: number): HTMLElement[]
   const card = (quantity: Quantity) => {
     const found = find(quantity.name);
     const isOne = typeof quantity.value === 'number';
-    const unit = isOne ? unitOf(numbers, quantity.unit) : unitOfSix(quantity);
+    const unit = isOne ? quantity.unit : unitOfSix(quantity);
     return quantityCard(quantity, found && block(found, quantity, numbers, unit));
   };
   const before = find("a'");

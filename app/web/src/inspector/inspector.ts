@@ -7,7 +7,7 @@ import { button, element, icon, morph, short } from '../ui/dom';
 import { definition } from '../ui/glossary';
 import { key, listen } from '../ui/keys';
 import type { SceneMessage } from '../source/link';
-import { passCards, unitOf } from './cards';
+import { passCards } from './cards';
 import { closing, diagram, type Plane } from './diagram';
 import type { LabPage, Panel } from '../panels/panel';
 
@@ -185,7 +185,7 @@ export class Inspector implements Panel {
           element('p.hint', closing(forces)),
           element('div.wide.wrenches', balanceTable(forces, axes, about)),
         ]),
-        ...jointTables(joint_balance, unitOf(numbers, 'N m; N')),
+        ...jointTables(joint_balance),
       ),
       fold(`Contacts: ${contacts.length || 'none'}`, true, ...orHint(contacts, 'no contact')),
       ...(energy_balance ? [fold('Energy balance of all bodies', false, energyTable(energy_balance))] : []),

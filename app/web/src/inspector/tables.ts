@@ -7,12 +7,14 @@ import { numberCell, row, table } from '../ui/table';
 import { quantityCard } from './quantity';
 import { token } from '../ui/preferences';
 
+const NOT_UNIQUE = 'Not unique: other contact forces give the same accelerations; only their sum is determined.';
+
 function numbers(values: number[], scale = 0): HTMLElement[] {
   return values.map((value) => numberCell(value, scale));
 }
 
-export function jointTables(balances: JointBalance[], unit: string): HTMLElement[] {
-  return balances.map(({ joint, component, torques, residual }) => {
+export function jointTables(balances: JointBalance[]): HTMLElement[] {
+  return balances.map(({ joint, component, unit, torques, residual }) => {
     const name = balances.length > 1 ? `${joint}, ${component + 1}` : joint;
     const max = largestOf(torques.map(({ value }) => value));
     const rows = torques.map(({ source, value }) => row(source, numberCell(value, max)));
@@ -28,7 +30,7 @@ export function jointTables(balances: JointBalance[], unit: string): HTMLElement
 export function contactTables(forces: NamedForce[], body: string): HTMLElement[] {
   return forces
     .filter((force) => force.axis && force.on.some((on) => on.body === body))
-    .map(({ source: name, point, axis, normal, friction, on }) => {
+    .map(({ source: name, point, axis, normal, friction, unique, on }) => {
       const { force } = on.find((end) => end.body === body)!;
       const along = force.reduce((sum, part, k) => sum + part * axis![k], 0);
       const outward = axis!.map((part) => (along < 0 ? -part : part) + 0);
@@ -39,6 +41,7 @@ export function contactTables(forces: NamedForce[], body: string): HTMLElement[]
         { 'data-contact': name },
         element('h4', name.replace('contact/', '')),
         element('p', `normal force N ${short(normal)} N, friction |Ft| ${short(friction)} N${ratio}`),
+        unique === false ? element('p.hint', NOT_UNIQUE) : '',
         table(
           ['world axes', 'x', 'y', 'z'],
           [line('point [m]', point ?? []), line('normal', outward), line('force [N]', force)],

@@ -29,7 +29,8 @@ export class BuildMenu implements Panel {
     if (!this.isNew(scene?.scene, chosen?.name, isDisabled)) return;
     const rows = OBJECTS.map(([what, name, words]) => this.offer(name, words, what));
     rows.push(...this.springs(bodies, chosen));
-    if (chosen && !chosen.robot) rows.push(this.offer(`Remove ${chosen.name}`, 'the selected body', 'remove', chosen.name));
+    if (chosen && !chosen.robot)
+      rows.push(this.offer(`Remove ${chosen.name}`, 'the selected body', 'remove', chosen.name));
     this.sheet.replaceChildren(...rows);
     for (const control of this.sheet.querySelectorAll('button')) control.disabled = isDisabled;
   }

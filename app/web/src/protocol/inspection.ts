@@ -49,6 +49,7 @@ export interface NamedForce {
   axis?: number[]; // of a contact: normal, towards the second body, world
   normal?: number; // normal force N [N]
   friction?: number; // friction force |Ft| [N]
+  unique?: boolean; // false: other constraint forces give the same accelerations
   on: { body: string; force: number[]; torque: number[]; about: number[] }[];
   joints: { joint: string; component: number; value: number }[];
 }
@@ -57,6 +58,7 @@ export interface NamedForce {
 export interface JointBalance {
   joint: string;
   component: number;
+  unit: string; // "N m", "N"; "N m; N" of several degrees of freedom
   torques: { source: string; value: number }[];
   residual: number;
 }
