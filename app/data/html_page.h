@@ -11,9 +11,10 @@ std::string escaped(const std::string& text);
 std::string yes_no(bool yes, const char* yes_word, const char* no_word);  // green or red
 
 struct HtmlPage {
-  std::string title, style;                                   // style: added to the style sheet
-  std::string header;                                         // HTML, as the members below
-  std::vector<std::pair<std::string, std::string>> contents;  // ids and names
+  std::string title, style;  // style: added to the style sheet
+  std::string header;        // HTML, as the members below
+  std::vector<std::pair<std::string, std::string>>
+      contents;  // ids and names; empty: no bar of links
   std::string main, footer;
 
   std::string html() const;

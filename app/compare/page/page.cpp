@@ -25,7 +25,6 @@ table.index { font-size: .82rem; line-height: 1.35; }
 table.index th, table.index td { padding: .2rem .45rem; }
 table.index tr.group th { text-align: left; padding-top: .9rem; font-size: .92rem; }
 .skipped { color: var(--soft); font-weight: 600; }
-a { color: var(--kvr); }
 section.case { margin: 0 0 2.6rem; border-top: 1px solid var(--line); padding-top: .9rem; }
 section.case h3 { margin: 0 0 .3rem; font-size: 1.16rem; }
 section.case h3 .yes, section.case h3 .no { font-size: .85rem; margin-left: .6rem; }

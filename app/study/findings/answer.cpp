@@ -21,9 +21,9 @@ double worst(const Pair& p) {
 std::string reproduction(const RunResult& e3, const RunResult& e4) {
   const double error = std::max(worst_relative_error(e3), worst_relative_error(e4));
   return fmt::format(
-      "At one rate of {:g} Hz the published laws {} the eight published numbers of E3 and E4 "
-      "within 15 % (largest deviation {:.0f} %): E3 {} deg (published {}), E4 {} deg ({}).",
-      e3.spec.rate, error <= 0.15 ? "reproduce" : "do not reproduce", std::ceil(100 * error),
+      "The published laws {} the eight published numbers of E3 and E4 within 15 % (largest "
+      "deviation {:.0f} %). At {:g} Hz for both: E3 {} deg (published {}), E4 {} deg ({}).",
+      error <= 0.15 ? "reproduce" : "do not reproduce", std::ceil(100 * error), e3.spec.rate,
       words(e3.max_deg), words(kPaperTable.at("E3").max_deg), words(e4.max_deg),
       words(kPaperTable.at("E4").max_deg));
 }
@@ -41,10 +41,10 @@ std::string operators(const std::vector<Ensemble>& ensembles) {
     return words({d[0].median, d[1].median});
   };
   return fmt::format(
-      "E1 and E2, with the same gains and {} synthetic operators: {} of the {} published numbers "
-      "lie between the 10 % and the 90 % quantile; the medians of the maxima are {} and {} deg "
-      "(published {} and {}).",
-      e1.seeds, inside, numbers, medians(e1.max_deg), medians(e2.max_deg),
+      "Of E1 and E2, {} of the {} published numbers lie between the 10 % and the 90 % quantile of "
+      "synthetic operators. With the same gains and {} operators the medians of the maxima are {} "
+      "and {} deg (published {} and {}).",
+      inside, numbers, e1.seeds, medians(e1.max_deg), medians(e2.max_deg),
       words(kPaperTable.at(e1.name).max_deg), words(kPaperTable.at(e2.name).max_deg));
 }
 
@@ -54,19 +54,38 @@ const char* verdict(const Pair& linear, const Pair& torsional) {
   return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
 }
 
-std::string comparison(const Pair& uniform_linear, const Pair& uniform_torsional,
-                       const Pair& linear, const Pair& torsional) {
-  const std::string uniform = verdict(uniform_linear, uniform_torsional);
-  const std::string s103 = verdict(linear, torsional);
-  const std::string answer = uniform != s103     ? "it depends on the position of the springs"
-                             : s103 == "smaller" ? "yes, with both positions of the springs"
-                                                 : "no, with neither position of the springs";
+// Maxima of uniform arms with springs at the centres of mass, and of the S-103 with springs at the
+// ends of the arms.
+struct Positions {
+  Pair uniform_linear, uniform_torsional, linear, torsional;
+  std::string uniform() const { return verdict(uniform_linear, uniform_torsional); }
+  std::string s103() const { return verdict(linear, torsional); }
+};
+
+std::string headline(const Positions& p, bool equal_errors) {
+  return fmt::format("{}; with the same joint stiffness their errors {}.",
+                     p.uniform() != p.s103()
+                         ? "Whether linear or torsional springs have the smaller tracking error "
+                           "depends on where they act"
+                     : p.s103() == "smaller"
+                         ? "Linear springs have a smaller tracking error than torsional ones"
+                         : "Linear springs have no smaller tracking error than torsional ones",
+                     equal_errors ? "agree within 10 %" : "differ");
+}
+
+std::string comparison(const Positions& p) {
+  const std::string answer =
+      p.uniform() != p.s103()
+          ? "Which coupling has the smaller errors depends on the position of the springs"
+      : p.s103() == "smaller"
+          ? "The linear coupling has the smaller errors with both positions of the springs"
+          : "The linear coupling has the smaller errors with neither position of the springs";
   return fmt::format(
-      "Are the errors of a linear coupling smaller? With one k and b for both links at 60 Hz {}: "
-      "uniform arms, springs at the centres of mass: linear {} against torsional {} deg, {}; "
+      "{}. With one k and b for both links at 60 Hz, uniform arms, springs at the centres of mass: "
+      "linear {} against torsional {} deg, {}; "
       "S-103, springs at the ends of the arms: {} against {} deg, {}.",
-      answer, words(uniform_linear), words(uniform_torsional), uniform, words(linear),
-      words(torsional), s103);
+      answer, words(p.uniform_linear), words(p.uniform_torsional), p.uniform(), words(p.linear),
+      words(p.torsional), p.s103());
 }
 
 std::string reason(const std::vector<CouplingOrder>& orders) {
@@ -105,10 +124,12 @@ std::string damper(const RunResult& printed, const RunResult& torsional) {
 std::string matched(const RunResult& torsional, const RunResult& linear,
                     const RunResult& torsional_1000, const RunResult& linear_1000) {
   return fmt::format(
-      "{}: with the full stiffness of the linear coupling the errors of a torsional one are {} "
-      "deg, of the linear one {}; implicit at 1 kHz torsional {} deg, linear {} deg.",
-      have_equal_errors(linear, torsional) ? "The law is not the reason"
-                                           : "The law is a reason of its own",
+      "{}. With the full stiffness of the linear coupling the errors of a torsional one are {} "
+      "deg, "
+      "of the linear one {}; implicit at 1 kHz torsional {} deg, linear {} deg.",
+      have_equal_errors(linear, torsional)
+          ? "The law is not the reason: with the same joint stiffness the errors agree within 10 %"
+          : "The law is a reason of its own: with the same joint stiffness the errors differ",
       words(torsional.max_deg), words(linear.max_deg), words(torsional_1000.max_deg),
       words(linear_1000.max_deg));
 }
@@ -120,15 +141,19 @@ std::vector<std::string> answer_in_words(const StudyResults& results) {
     return *find_run(results.variants, name);
   };
   const RunResult& torsional = variant("trial/signed-torsional/60");
-  return {reproduction(results.reproduction[2], results.reproduction[3]),
+  const RunResult &equal_torsional = variant("matched/torsional/60"),
+                  &equal_linear = variant("matched/linear/60");
+  const Positions positions{results.rows.at("row/findings_10_14/linear/60").max_deg,
+                            results.rows.at("row/findings_10_14/world/60").max_deg,
+                            variant("trial/printed-linear/60").max_deg, torsional.max_deg};
+  return {headline(positions, have_equal_errors(equal_linear, equal_torsional)),
+          reproduction(results.reproduction[2], results.reproduction[3]),
           operators(results.ensembles),
-          comparison(results.rows.at("row/findings_10_14/linear/60").max_deg,
-                     results.rows.at("row/findings_10_14/world/60").max_deg,
-                     variant("trial/printed-linear/60").max_deg, torsional.max_deg),
+          comparison(positions),
           reason(results.orders),
           damper(variant("trial/printed-torsional/60"), torsional),
-          matched(variant("matched/torsional/60"), variant("matched/linear/60"),
-                  variant("implicit/torsional-world/1000"), variant("implicit/linear/1000")),
+          matched(equal_torsional, equal_linear, variant("implicit/torsional-world/1000"),
+                  variant("implicit/linear/1000")),
           evidence_in_words(results.evidence, "E3"),
           evidence_in_words(results.evidence, "E4")};
 }

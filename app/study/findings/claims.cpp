@@ -43,7 +43,7 @@ void add_modes(const StudyInputs& inputs, const Value& predictions,
           {"equal gains",
            fmt::format("{}, {}: with equal gains on both links the ratio of the squared natural "
                        "frequencies is {:g} (predicted)",
-                       robot, law, ratio->number),
+                       run_words(robot), run_words(law), ratio->number),
            fmt::format("{:.2f}", measured), is_near(measured, ratio->number, 0.02)});
     }
 }
@@ -86,11 +86,12 @@ void add_exchanged_gains(const StudyInputs& inputs, std::vector<Finding>& findin
     const RunResult linear = run_automatic(robot, row_spec("linear", 1000), 1200, 40, 1000);
     findings.push_back(
         {"equal gains",
-         fmt::format(
-             "{}: the gains of a good linear coupling (22000, 400), used as torsional gains, "
-             "diverge at 1 kHz; those of a good torsional coupling (1200, 40), used as linear "
-             "gains, are far too soft",
-             robot_words(name)),
+         fmt::format("{}: the gains of a good linear coupling (22 kN/m, 400 N s/m), used as "
+                     "torsional gains, "
+                     "diverge at 1 kHz; those of a good torsional coupling (1.2 kN m/rad, 40 N m "
+                     "s/rad), used as linear "
+                     "gains, are far too soft",
+                     run_words(name)),
          fmt::format("torsional {}; linear {} deg", torsional.stable ? "stable" : "diverges",
                      words(linear.max_deg)),
          !torsional.stable && linear.max_deg[1] > 10});
@@ -145,7 +146,7 @@ void add_matched_gains(const StudyResults& results, std::vector<Finding>& findin
         {"implicit",
          fmt::format("S-103, {}, implicit at 1 kHz: errors of both joints below 1.5 deg; at 60 Hz "
                      "the same gains are stable implicitly and diverge explicitly",
-                     law),
+                     run_words(law)),
          fmt::format("1 kHz {} deg; 60 Hz implicit {} deg, explicit {}", words(implicit->max_deg),
                      words(slow->max_deg), explicit_60->stable ? "stable" : "diverges"),
          implicit->largest_deg() < 1.5 && slow->stable && !explicit_60->stable});
@@ -169,10 +170,11 @@ void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
     findings.push_back(
         {"damping term",
          fmt::format(
-             "{}, k = 1200, b = 40, 1 kHz: an unsigned damper adds energy at the reversals and "
+             "{}, k = 1200 N m/rad, b = 40 N m s/rad, 1 kHz: an unsigned damper adds energy at the "
+             "reversals and "
              "diverges with either sign; folded it is bounded, with errors several times those of "
              "the signed damper",
-             robot_words(name)),
+             run_words(name)),
          fmt::format("signed {}, folded {}, unfolded {} and {}", words(signed_run.max_deg),
                      words(folded.max_deg), along.stable ? "stable" : "diverges",
                      against.stable ? "stable" : "diverges"),
@@ -183,7 +185,7 @@ void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
          fmt::format(
              "{}: an angle per frame, not divided by h, reduces the damping to b h; the mean error "
              "approaches half the maximum, which indicates undamped oscillation",
-             robot_words(name)),
+             run_words(name)),
          fmt::format("{} deg, mean {}; mean/max {:.2f} instead of {:.2f}", words(per_frame.max_deg),
                      words(per_frame.mean_deg), per_frame.mean_deg[0] / per_frame.max_deg[0],
                      signed_run.mean_deg[0] / signed_run.max_deg[0]),
@@ -205,7 +207,7 @@ void add_differences(const StudyInputs& inputs, const StudyResults& results,
          fmt::format(
              "{}: with semi-implicit steps backward differences change the largest error of "
              "joint 1 by at most 10 %, because the DVR's difference is its velocity",
-             robot_words(name)),
+             run_words(name)),
          fmt::format("60 Hz: {} with differences, {} with current velocities",
                      words(difference.max_deg), words(current.max_deg)),
          is_near(difference.max_deg[0], current.max_deg[0], 0.1)});
@@ -234,9 +236,10 @@ void add_stability(const StudyInputs& inputs, std::vector<Finding>& findings) {
     const RunResult below = run_at(0.97 * min_limit), above = run_at(1.03 * max_limit);
     findings.push_back(
         {"stability",
-         fmt::format("{}, world orientation, k = 1200, b = 40: by theory steps up to {:.2f} ms are "
+         fmt::format("{}, world orientation, k = 1200 N m/rad, b = 40 N m s/rad: by theory steps "
+                     "up to {:.2f} ms are "
                      "stable in every pose of the motion, and above {:.2f} ms in none",
-                     robot_words(name), 1e3 * min_limit, 1e3 * max_limit),
+                     run_words(name), 1e3 * min_limit, 1e3 * max_limit),
          fmt::format("3 % below the first: {} deg; 3 % above the second: {}", words(below.max_deg),
                      above.stable ? words(above.max_deg) + " deg" : "diverges"),
          below.stable && (!above.stable || above.max_deg[0] > 5 * below.max_deg[0])});

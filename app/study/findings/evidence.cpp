@@ -151,9 +151,9 @@ std::string kind_words(const std::vector<const Evidence*>& left) {
     high = std::max(high, e->damping_ratio[0]);
   }
   return fmt::format("{} (damping ratio of the slow mode {:.2g} to {:.2g})",
-                     low > 1    ? "all overdamped"
-                     : high < 1 ? "all oscillating"
-                                : "some oscillating, some overdamped",
+                     low > 1    ? "All overdamped"
+                     : high < 1 ? "All oscillating"
+                                : "Some oscillating, some overdamped",
                      low, high);
 }
 
@@ -217,7 +217,7 @@ std::string evidence_in_words(const std::vector<Evidence>& all, const std::strin
       "these {} not contradicted by what the paper says of Figure {}",
       readings, row, agree, left.size(), left.size() == 1 ? "is" : "are", figure.figure);
   if (!left.empty())
-    words += fmt::format(": {}; nearest to {} is {} at {:g} Hz, with {} of its 4 numbers",
+    words += fmt::format(". {}; nearest to {} is {} at {:g} Hz, with {} of its 4 numbers",
                          kind_words(left), used->user_row(), left.front()->law, left.front()->rate,
                          left.front()->user_numbers);
   words += fmt::format(

@@ -26,8 +26,38 @@ RunResult run_automatic(const StudyRobot& robot, RunSpec spec, double k, double 
   return run(robot, AutomaticMotion(OperatorMapping{}), spec);
 }
 
-const char* robot_words(const std::string& name) {
-  return name == "findings_set0" ? "5/3 kg, 0.40/0.30 m" : "5/3 kg, arms 10 : 14";
+std::string run_words(const std::string& name) {
+  static const std::map<std::string, const char*> words{
+      {"findings_set0", "5/3 kg, 0.40/0.30 m"},
+      {"findings_set1", "1/1 kg, 0.50/0.50 m"},
+      {"findings_set2", "10/6 kg, 0.35/0.25 m"},
+      {"findings_10_14", "5/3 kg, arms 10 : 14"},
+      {"printed-torsional", "torsional, as published"},
+      {"printed-linear", "linear, as published"},
+      {"signed-torsional", "torsional, signed damper"},
+      {"signed-torsional-ratio", "torsional, signed damper, k2 = 0.2 k1"},
+      {"linear", "linear"},
+      {"torsional", "torsional"},
+      {"world", "torsional, world orientation"},
+      {"torsional-world", "torsional, world orientation"},
+      {"joint", "torsional, joint angle"},
+      {"torsional-joint", "torsional, joint angle"},
+      {"world-ratio", "torsional, world orientation, k2 = 0.2 k1"},
+      {"unsigned", "torsional, unsigned damper"},
+      {"older", "torsional, difference one frame older"},
+      {"euler", "torsional, explicit Euler"},
+      {"world-", "world orientation (−)"},
+      {"world+", "world orientation (+)"},
+      {"joint-", "joint angle (−)"},
+      {"joint+", "joint angle (+)"},
+      {"explicit", "explicit"},
+      {"semi-implicit", "semi-implicit"},
+      {"implicit", "implicit"}};
+  std::string found;
+  for (const std::string& part : split(name, '/'))
+    if (const auto entry = words.find(part); entry != words.end())
+      found += (found.empty() ? "" : ", ") + std::string(entry->second);
+  return found;
 }
 
 const Value& entry_of(const Value& predictions, const char* key) {
@@ -79,10 +109,10 @@ void add_rows(const StudyInputs& inputs, const Value& predictions, StudyResults&
     const ProtocolErrors errors =
         run_protocol(inputs.findings.at(robot), spec, inputs.settings.sweep_times);
     results.rows[name] = errors;
-    Finding finding{"update rate",
-                    fmt::format("{}, {}, {:g} Hz, best gains", robot_words(robot), law, entry.rate),
-                    fmt::format("{} deg, mean {}", words(errors.max_deg), words(errors.mean_deg)),
-                    true};
+    Finding finding{
+        "update rate",
+        fmt::format("{}, {}, {:g} Hz, best gains", run_words(robot), run_words(law), entry.rate),
+        fmt::format("{} deg, mean {}", words(errors.max_deg), words(errors.mean_deg)), true};
     const Value* row = predicted_row(predictions, robot, law, entry.rate);
     if (!row) continue;  // no claim
     const std::array<double, 2> max_deg = pair_of(entry_of(*row, "max"));
@@ -119,7 +149,7 @@ void add_ratios(const StudyInputs& inputs, const StudyResults& results,
            fmt::format(
                "{}, {:g} Hz: with equal gains the best linear coupling at the centres of mass has "
                "smaller errors than the best torsional one in both joints",
-               robot_words(robot), rate),
+               run_words(robot), rate),
            fmt::format("linear {}, torsional {} deg: factors {:.1f} and {:.1f}", words(linear),
                        words(torsional), torsional[0] / linear[0], torsional[1] / linear[1]),
            torsional[0] > linear[0] && torsional[1] > linear[1]});
@@ -160,7 +190,7 @@ void add_orders(const StudyInputs& inputs, StudyResults& results) {
         [&](const CalibrationEntry& e) { return find_run(results.variants, e.name)->max_deg; });
     for (const std::string robot : kTwoLinkRobots)
       add(
-          inputs.findings.at(robot), robot_words(robot), rate, entry("row/" + robot + "/linear"),
+          inputs.findings.at(robot), run_words(robot), rate, entry("row/" + robot + "/linear"),
           entry("row/" + robot + "/world"),
           [](const CalibrationEntry& e) { return row_spec(split(e.name, '/')[2], e.rate); },
           [&](const CalibrationEntry& e) { return results.rows.at(e.name).max_deg; });

@@ -15,6 +15,7 @@ namespace twinarm {
 void derive_findings(const StudyInputs& inputs, StudyResults& results, Progress& progress);
 // Numbers of both joints, three digits: "1.23/4.56".
 std::string words(const std::array<double, 2>& p);
+// The answer in one sentence, then the others, each with its conclusion in its first sentence.
 // Requires the runs and the findings.
 std::vector<std::string> answer_in_words(const StudyResults& results);
 
@@ -42,6 +43,7 @@ bool is_near(double measured, double predicted, double relative);
 // Automatic motion of a two-link robot with one k and b.
 RunResult run_automatic(const StudyRobot& robot, RunSpec spec, double k, double b, double rate);
 inline constexpr const char* kTwoLinkRobots[] = {"findings_set0", "findings_10_14"};
-const char* robot_words(const std::string& name);
+// Of "ROBOT/LAW/RATE" and the like: what its parts mean, "linear, as published".
+std::string run_words(const std::string& name);
 
 }  // namespace twinarm

@@ -146,7 +146,7 @@ void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run
             : fmt::format("; by linear theory {:.1f}°", run.motion_max_deg[j]);
     script += fmt::format(
         "set arrow 1 from {0},{1} to {0},{2} nohead lw 3 lc '#111111' front\n"
-        "set label 1 'largest error {3:.1f}° at {0:.2f} s (black bar){4}' at graph 0,1 left offset "
+        "set label 1 'largest error {3:.1f}° at {0:.2f} s (bar){4}' at graph 0,1 left offset "
         "0,0.6 font ',11.5' textcolor '#111111'\n",
         series.t[at], q_K[at], q_D[at], error[at], theory);
     script += fmt::format(
@@ -193,6 +193,7 @@ void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& 
     shown[0].push_back(std::abs(torsional.peak_deg[j]));
     shown[1].push_back(std::abs(linear.peak_deg[j]));
     script += "unset arrow\n" + value_axis(shown[0], shown[1]);
+    if (j == 0) script += "set key at screen 0.085,0.99 left top horizontal Left reverse\n";
     for (const auto& [run, colour] :
          {std::pair{&torsional, palette::torsional}, std::pair{&linear, palette::linear}})
       script += fmt::format(
@@ -208,7 +209,7 @@ void draw_errors(Gnuplot& gnuplot, const RunResult& torsional, const RunResult& 
         gnuplot.curve(torsional.series.t, error_deg(torsional.series, j)), palette::torsional,
         gnuplot.curve(linear.series.t, error_deg(linear.series, j)), palette::linear);
   }
-  gnuplot.draw("errors", "Absolute error of E3 and E4 over time", 900, 470,
+  gnuplot.draw("errors", "Absolute error of E3 and E4 over time", 900, 400,
                script + "unset multiplot\n");
 }
 

@@ -133,8 +133,9 @@ void paint_pictures(const StudyResults& results, const std::filesystem::path& fo
     Progress quiet(true);
     const FilmedRun shown = film_run(options, times, camera, quiet);
     PictureWish wish;
-    wish.width = 1280;
-    wish.height = 720;
+    wish.width =
+        portrait ? 1280 : 960;  // 960: the width of the page, so that texts keep their size
+    wish.height = wish.width * 9 / 16;
     if (portrait) wish.quality = Quality::studio;
     wish.camera = camera;
     if (!portrait && !paper_view) wish.overlays = {"targets", "couplings"};

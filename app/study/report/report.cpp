@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
 #include "app/data/html_page.h"
 #include "app/study/findings/findings.h"
@@ -17,30 +17,36 @@
 namespace twinarm {
 namespace {
 
+// Claims that hold, or those that do not, with a row above each section.
+std::string claims_table(const std::vector<Finding>& all, bool holds) {
+  std::string rows, last;
+  for (const Finding& finding : all) {
+    if (finding.holds != holds) continue;
+    std::string section = finding.section;
+    section[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(section[0])));
+    if (section != last) rows += "<tr><th colspan=2>" + escaped(section) + "</th></tr>\n";
+    last = section;
+    rows += fmt::format("<tr><td>{}</td><td class=text>{}</td></tr>\n", typeset(finding.claim),
+                        typeset(finding.measured));
+  }
+  return "<table class=claims><thead><tr><th>claim</th><th class=text>measured</th></tr></thead>"
+         "<tbody>\n" +
+         rows + "</tbody></table>\n";
+}
+
 void add_findings(const StudyResults& results, Slots& slots) {
-  for (const std::string& sentence : results.answer)
-    slots["answer"] += "<li>" + escaped(sentence) + "</li>\n";
+  slots["headline"] = typeset(results.answer.at(0));
+  for (std::size_t i = 1; i < results.answer.size(); ++i) {
+    const std::string& text = results.answer[i];
+    const std::size_t end = std::min(text.find(". "), text.size() - 1);  // of the conclusion
+    slots["answer"] += fmt::format("<details><summary>{}</summary><p>{}</p></details>\n",
+                                   typeset(text.substr(0, end + 1)), typeset(text.substr(end + 1)));
+  }
   const std::vector<Finding>& all = results.findings;
   slots["claims"] = fmt::format("{}", all.size());
-  slots["holding"] = fmt::format(
-      "{}", std::count_if(all.begin(), all.end(), [](const Finding& f) { return f.holds; }));
-  std::vector<std::pair<std::string, std::string>> rows;  // by section, in order of appearance
-  for (const Finding& finding : all) {
-    auto section = std::find_if(rows.begin(), rows.end(),
-                                [&](const auto& some) { return some.first == finding.section; });
-    if (section == rows.end()) section = rows.insert(rows.end(), {finding.section, ""});
-    section->second +=
-        fmt::format("<tr><td style=\"width:58%\">{}</td><td class=text>{}</td><td>{}</td></tr>\n",
-                    escaped(finding.claim), escaped(finding.measured),
-                    yes_no(finding.holds, "holds", "does not hold"));
-  }
-  for (auto& [section, claims] : rows) {
-    section[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(section[0])));
-    slots["findings"] += "<h3>" + escaped(section) +
-                         "</h3>\n<table class=claims><thead><tr><th>claim</th><th class=text>"
-                         "measured</th><th>holds</th></tr></thead><tbody>\n" +
-                         claims + "</tbody></table>\n";
-  }
+  slots["holding"] = fmt::format("{}", std::ranges::count(all, true, &Finding::holds));
+  slots["refuted"] = claims_table(all, false);
+  slots["confirmed"] = claims_table(all, true);
 }
 
 // By file name, with underscores instead of hyphens.
@@ -51,9 +57,11 @@ void add_images(const std::filesystem::path& folder, Slots& slots) {
       std::replace(name.begin(), name.end(), '-', '_');
       const std::string content = read_whole_file(entry.path());
       slots[name] = entry.path().extension() == ".svg"
-                        ? inline_svg(content)
-                        : fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">",
-                                      escaped(name), base64_of(content));
+                        ? "<div class=scroll>" + inline_svg(content) + "</div>"
+                        : fmt::format(
+                              "<img alt=\"Picture: see below\" "
+                              "src=\"data:image/png;base64,{}\">",
+                              base64_of(content));
     }
 }
 
@@ -69,29 +77,6 @@ std::string filled(const std::filesystem::path& file, const Slots& slots) {
 
 }  // namespace
 
-std::string rounded(double value, int digits) {
-  if (std::isnan(value)) return "–";
-  if (std::isinf(value)) return "none";
-  if (value == 0) return "0";
-  const double size = std::abs(value);
-  if (size >= 1e7 || size < 1e-3) return fmt::format("{:.{}g}", value, digits);
-  const int whole = static_cast<int>(std::floor(std::log10(size))) + 1;  // digits before the point
-  return fmt::format("{:.{}f}", value, std::max(0, digits - whole));
-}
-
-std::string degrees(double value) {
-  if (!std::isfinite(value)) return "–";
-  if (value == 0) return "0";
-  return fmt::format("{:.{}f}", value,
-                     std::abs(value) >= 0.1    ? 2
-                     : std::abs(value) >= 0.01 ? 3
-                                               : 4);
-}
-
-std::string gains_words(double first, double second) {
-  return first == second ? rounded(first) : rounded(first) + "; " + rounded(second);
-}
-
 void write_report(const StudyResults& results, const std::filesystem::path& assets,
                   const std::filesystem::path& folder) {
   Slots slots;
@@ -106,15 +91,9 @@ void write_report(const StudyResults& results, const std::filesystem::path& asse
   const std::string text = filled(assets / "study" / "report.html", slots);
   const std::size_t main = text.find("<!-- main -->");
   HtmlPage page;
-  page.title = "Linear or torsional? Study of the coupled S-103";
+  page.title = "Linear or torsional springs? A study repeated";
   page.header = text.substr(0, main);
   page.main = main == std::string::npos ? "" : text.substr(main);
-  page.contents = {
-      {"answer", "Answer"},        {"table2", "Table 2"},       {"angles", "Figures 6 and 7"},
-      {"scene", "Pictures"},       {"why", "Explanation"},      {"rates", "Update rates"},
-      {"variants", "Variants"},    {"obstacle", "Obstacle"},    {"recordings", "Recordings"},
-      {"search", "Search"},        {"open", "Identifiability"}, {"evidence", "Evidence"},
-      {"parameters", "Parameters"}};
   page.footer = made_by(results.command, results.seconds) +
                 " Every number on this page was computed in that run, except where it says "
                 "published or calibrated.";

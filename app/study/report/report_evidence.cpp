@@ -29,12 +29,13 @@ std::string share_cell(const std::string& run, double share) {
 
 std::string evidence_row(const Evidence& e, bool remains) {
   std::string html = fmt::format(
-      "<tr{}><td class=text>{}, {:g} Hz{}<br><span class=small>k {}, b {}, mass of arm 2 {}</span>"
-      "</td><td>{}<br>{}</td><td>{}</td>",
-      e.is_used ? " class=chosen" : "", escaped(e.law), e.rate, e.is_used ? " (used here)" : "",
-      gains_words(e.gains.k1, e.gains.k2), gains_words(e.gains.b1, e.gains.b2),
-      rounded(e.arm2_mass_scale), rounded(e.damping_ratio[0]), rounded(e.damping_ratio[1]),
-      e.parameters);
+      "<tr{}><td class=text>{}, {:g} Hz{}<br><span class=small>k&nbsp;= {}, b&nbsp;= {}, m&nbsp;= "
+      "{}"
+      "</span></td><td>{}<br>{}</td><td>{}</td>",
+      e.is_used ? " class=chosen" : "", typeset(e.law), e.rate, e.is_used ? " (used here)" : "",
+      gains_words(e.gains.k1, e.gains.k2, unit_of("k", e.row != "E3")),
+      gains_words(e.gains.b1, e.gains.b2, unit_of("b", e.row != "E3")), rounded(e.arm2_mass_scale),
+      rounded(e.damping_ratio[0]), rounded(e.damping_ratio[1]), e.parameters);
   for (const double misfit : e.misfit)
     html += fmt::format("<td{}><span class={}>{}</span></td>",
                         &misfit == e.misfit.data() ? " class=first" : "",
@@ -75,7 +76,7 @@ void add_evidence(const StudyResults& results, Slots& slots) {
     slots[name] = evidence_table(results.evidence, row);
   }
   for (const char* row : {"E3", "E4"})
-    slots[std::string("evidence_words_") + row] = escaped(evidence_in_words(results.evidence, row));
+    slots[std::string("evidence_words_") + row] = typeset(evidence_in_words(results.evidence, row));
   std::size_t readings = 0, agree = 0;
   for (const Evidence& e : results.evidence) {
     readings += e.row == "E4-text";

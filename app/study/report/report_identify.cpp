@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/study/findings/findings.h"
 #include "app/study/report/report_slots.h"
 #include "app/support/version.h"
 
@@ -15,24 +16,24 @@ namespace {
 // one of the four numbers by half of its last digit.
 constexpr double kOpenFactor = 1.25;
 
-std::string short_name(const std::string& parameter) {
-  if (parameter == "arm2_mass_scale") return "m";
-  if (parameter == "time_constant") return "T";
-  if (parameter == "damping_ratio") return "ζ";
-  return escaped(parameter);
+// "k = 61.4 kN/m [58.1 kN/m, 70.2 kN/m]".
+std::string value_words(const Parameter& p, bool linear, int digits, const std::string& range) {
+  return fmt::format("<span class=value>{} = {} <span class=small>{}</span></span> ",
+                     symbol_of(p.name), quantity(p.value, unit_of(p.name, linear), digits), range);
 }
 
 std::string parameter_words(const Identification& found, std::size_t j) {
   const Identification::Interval in = found.interval(found.profiles[j]);
-  std::string words =
-      fmt::format("<span class=value>{} = {} <span class=small>",
-                  short_name(found.fit.parameters[j].name), rounded(found.fit.parameters[j].value));
-  if (in.open_low && in.open_high)
-    words += "<span class=no>open</span>";
-  else
-    words += fmt::format("[{}{}, {}{}]", in.open_low ? "&lt; " : "", rounded(in.low),
-                         in.open_high ? "&gt; " : "", rounded(in.high));
-  return words + "</span></span> ";
+  const Parameter& p = found.fit.parameters[j];
+  const CouplingSpec& law = family_law(found.law).coupling;
+  const bool linear = facts_of(law.type, law.printed).at_point;
+  const std::string unit = unit_of(p.name, linear);
+  return value_words(
+      p, linear, 3,
+      in.open_low && in.open_high
+          ? "<span class=no>open</span>"
+          : fmt::format("[{}{}, {}{}]", in.open_low ? "&lt; " : "", quantity(in.low, unit),
+                        in.open_high ? "&gt; " : "", quantity(in.high, unit)));
 }
 
 bool is_open(double singular_value) {
@@ -43,7 +44,7 @@ bool leaves_open(const Identification& found) {
   return std::any_of(found.singular_values.begin(), found.singular_values.end(), is_open);
 }
 
-// Combinations that are not identifiable: "k1 b1^-0.9", without small exponents.
+// Products of powers that are not identifiable, without small exponents.
 std::string open_combinations(const Identification& found) {
   if (!leaves_open(found)) return "none";
   std::string words;
@@ -57,12 +58,13 @@ std::string open_combinations(const Identification& found) {
       const double power = v[j] / *largest;
       if (std::abs(power) < 0.15) continue;
       const std::string exponent =
-          std::abs(power - 1) < 0.05 ? "" : fmt::format("<sup>{:.1f}</sup>", power);
-      const std::string& name = found.fit.parameters[j].name;
-      product += (product.empty() ? "" : " ") + (name == "arm2_mass_scale" ? "m" : escaped(name)) +
-                 exponent;
+          std::abs(power - 1) < 0.05
+              ? ""
+              : fmt::format("<sup>{}{:.1f}</sup>", power < 0 ? "−" : "", std::abs(power));
+      product += fmt::format("{}<span class=factor>{}{}</span>", product.empty() ? "" : " ",
+                             symbol_of(found.fit.parameters[j].name), exponent);
     }
-    words += (words.empty() ? "" : ", ") + product;
+    words += (words.empty() ? "" : "<br>") + product;
   }
   return words;
 }
@@ -76,7 +78,7 @@ std::string other_motion(const Identification& found) {
         low[j] = std::min(low[j], point.other_max_deg[j]);
         high[j] = std::max(high[j], point.other_max_deg[j]);
       }
-  return fmt::format("{} .. {} / {} .. {}", degrees(low[0]), degrees(high[0]), degrees(low[1]),
+  return fmt::format("{} to {} / {} to {}", degrees(low[0]), degrees(high[0]), degrees(low[1]),
                      degrees(high[1]));
 }
 
@@ -91,7 +93,7 @@ std::string law_row(const Identification& found) {
   const bool agrees = found.fit.objective <= 1;
   std::string html =
       fmt::format("<tr><td class=text>{}</td><td>{:g}</td><td><span class={}>{}</span></td>",
-                  escaped(family_law(found.law).words), found.fit.rate, agrees ? "yes" : "no",
+                  typeset(family_law(found.law).words), found.fit.rate, agrees ? "yes" : "no",
                   rounded(found.fit.objective));
   const auto number = [&](const char* name) { return found.fit.numbers.at(name); };
   html += number_cells({number("max1_deg"), number("max2_deg")},
@@ -151,14 +153,17 @@ std::string error_cell(const CalibrationEntry& entry) {
 }
 
 std::string parameter_row(const CalibrationEntry& entry, double scale) {
-  std::string html =
-      fmt::format("<tr><td>{}</td><td>{:g}</td><td>{}</td><td>{}</td>", escaped(entry.name),
-                  entry.rate, rounded(scale * entry.objective), entry.evaluations);
+  std::string html = fmt::format("<tr><td>{}</td><td>{:g}</td><td>{}</td><td>{}</td>",
+                                 typeset(run_words(entry.name)), entry.rate,
+                                 rounded(scale * entry.objective), entry.evaluations);
   html += "<td class=text>";
+  const bool linear =
+      entry.name.starts_with("E4") || entry.name.find("linear") != std::string::npos;
   for (const Parameter& p : entry.parameters) {
-    html += fmt::format("<span class=value>{} = {}{} <span class=small>[{:g}, {:g}]</span></span> ",
-                        escaped(p.name), rounded(p.value, 5),
-                        p.is_at_bound() ? " <span class=no>at bound</span>" : "", p.low, p.high);
+    const std::string unit = unit_of(p.name, linear);
+    html += value_words(p, linear, 5,
+                        fmt::format("[{}, {}]{}", quantity(p.low, unit), quantity(p.high, unit),
+                                    p.is_at_bound() ? " <span class=no>at bound</span>" : ""));
   }
   return html + "</td></tr>\n";
 }
@@ -169,7 +174,7 @@ std::string parameter_table(const std::vector<const CalibrationEntry*>& entries,
   std::string rows;
   for (const CalibrationEntry* entry : entries) rows += parameter_row(*entry, fit ? 100 : 1);
   return fmt::format(
-             "<div class=scroll><table class=dense><thead><tr><th>entry</th><th>rate<br>Hz</th>"
+             "<div class=scroll><table class=dense><thead><tr><th>law</th><th>rate<br>Hz</th>"
              "<th>objective<br>{}</th><th>evaluations</th><th class=text>parameters "
              "[bounds]</th></tr></thead><tbody>\n",
              fit ? "%" : "degrees") +
@@ -205,7 +210,7 @@ std::string bound_words(const CalibrationEntry& entry) {
     if (p.is_at_bound())
       return p.name == "k" && p.value < 2 * p.low
                  ? "<br><small>a damper: k at its lower bound</small>"
-                 : fmt::format("<br><small>{} at a bound</small>", p.name);
+                 : fmt::format("<br><small>{} at a bound</small>", symbol_of(p.name));
   return "";
 }
 

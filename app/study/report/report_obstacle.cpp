@@ -11,16 +11,15 @@ namespace {
 // One column for each run.
 std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
   using R = const ObstacleRun&;
-  const auto unit = [](R r, const char* time) {
-    const bool linear = r.spec.coupling.type == CouplingSpec::Type::linear;
-    return fmt::format(" {}{}/{}", r.spec.coupling_force_unit(), time, linear ? "m" : "rad");
+  const auto unit = [](R r, const char* gain) {
+    return unit_of(gain, r.spec.coupling.type == CouplingSpec::Type::linear);
   };
   const std::pair<const char*, std::function<std::string(R)>> rows[] = {
       {"discretization", [](R r) { return escaped(discretization_name(r.spec.coupling)); }},
       {"stiffness on link 1; link 2",
-       [&](R r) { return gains_words(r.spec.gains.k1, r.spec.gains.k2) + unit(r, ""); }},
+       [&](R r) { return gains_words(r.spec.gains.k1, r.spec.gains.k2, unit(r, "k")); }},
       {"damping on link 1; link 2",
-       [&](R r) { return gains_words(r.spec.gains.b1, r.spec.gains.b2) + unit(r, " s"); }},
+       [&](R r) { return gains_words(r.spec.gains.b1, r.spec.gains.b2, unit(r, "b")); }},
       {"longest contact",
        [](R r) {
          return r.contact_begin < 0
@@ -32,8 +31,8 @@ std::string obstacle_rows(const std::vector<ObstacleRun>& runs) {
       {"largest depth of the KVR behind the touched face",
        [](R r) { return fmt::format("{:.0f} mm", 1e3 * r.max_beyond); }},
       {"largest coupling force or torque",
-       [](R r) { return fmt::format("{:.0f} {}", r.max_coupling, r.spec.coupling_force_unit()); }},
-      {"largest contact force", [](R r) { return fmt::format("{:.0f} N", r.max_force); }},
+       [](R r) { return quantity(r.max_coupling, r.spec.coupling_force_unit()); }},
+      {"largest contact force", [](R r) { return quantity(r.max_force, "N"); }},
       {"R<sub>K</sub>/r where it came nearest to its limit; the limit",
        [](R r) {
          const double limit = r.target_radius_limit;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "app/study/findings/findings.h"
 #include "app/study/findings/variants.h"
 #include "app/study/report/report_slots.h"
 #include "app/support/text.h"
@@ -137,21 +138,18 @@ std::string angle_caption(const RunResult& run) {
              two.at_end, one.lag, two.lag);
 }
 
-// Of "semi-implicit/linear/60": the law, and the group if it is the discretization.
-std::string run_words(const std::string& name, bool with_group) {
-  const std::vector<std::string> parts = split(name, '/');
-  return with_group ? parts[0] + ", " + parts[1] : parts[1];
-}
-
 std::string pair_of(const std::array<double, 2>& values) {
   return degrees(values[0]) + " / " + degrees(values[1]);
 }
 
-std::string variant_row(const RunResult& run, bool with_group) {
+std::string variant_row(const RunResult& run) {
   const Gains& g = run.spec.gains;
-  std::string row = fmt::format("<tr><td>{}</td><td>{:g}</td><td>{}</td><td>{}</td>",
-                                escaped(run_words(run.spec.name, with_group)), run.spec.rate,
-                                gains_words(g.k1, g.k2), gains_words(g.b1, g.b2));
+  const bool linear = run.spec.coupling.type != CouplingSpec::Type::torsional;
+  const bool ablation = run.spec.name.starts_with("ablation/");
+  std::string row = fmt::format(
+      "<tr><td>{}</td><td>{:g}</td><td class=wrap>{}</td><td class=wrap>{}</td>",
+      typeset(ablation ? run.spec.title : run_words(run.spec.name)), run.spec.rate,
+      gains_words(g.k1, g.k2, unit_of("k", linear)), gains_words(g.b1, g.b2, unit_of("b", linear)));
   for (std::size_t j = 0; j < 2; ++j)
     row += fmt::format(
         "<td class=\"big{}\">{}</td><td>{}</td><td>{}</td><td>{}</td>", j == 0 ? " first" : "",
@@ -171,7 +169,7 @@ std::string variant_table(const std::vector<RunResult>& variants,
   std::string rows;
   for (const RunResult& run : variants)
     for (const std::string& prefix : prefixes)
-      if (run.spec.name.starts_with(prefix)) rows += variant_row(run, prefixes.size() > 1);
+      if (run.spec.name.starts_with(prefix)) rows += variant_row(run);
   return "<div class=scroll><table class=dense><thead>\n"
          "<tr><th rowspan=2>run</th><th rowspan=2>rate<br>Hz</th><th rowspan=2>k"
          "</th><th rowspan=2>b</th><th colspan=4 class=first>joint 1, degrees</th>"
@@ -213,8 +211,9 @@ std::string recordings_rows(const std::vector<StudyRecording>& recordings) {
     html += fmt::format(
         "<tr><td>{}</td><td class=text>{}</td><td class=text>{}</td><td class=text>{}</td>"
         "<td class=text>{}</td><td>{}</td></tr>\n",
-        escaped(run.name), escaped(run.title), link(run.page, "page"),
-        link(run.recording, "recording"), link(run.scene, "scene"), degrees(run.apart_deg));
+        run.name.starts_with("obstacle") ? "obstacle" : escaped(run.name), escaped(run.title),
+        link(run.page, "page"), link(run.recording, "recording"), link(run.scene, "scene"),
+        degrees(run.apart_deg));
   return html;
 }
 
@@ -237,7 +236,6 @@ void add_reproduction(const StudyResults& results, Slots& slots) {
     put("paper_E4_max", "{:.1f}", paper_e4.max_deg[j]);
     put("E3_mean", "{:.1f}", e3.mean_deg[j]);
     put("E4_mean", "{:.2f}", e4.mean_deg[j]);
-    put("mean_ratio", "{:.0f}", e3.mean_deg[j] / e4.mean_deg[j]);
   }
 }
 

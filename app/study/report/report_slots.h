@@ -11,10 +11,20 @@ namespace twinarm {
 
 using Slots = std::map<std::string, std::string>;  // HTML by name
 
+// ---- report_words.cpp, all HTML ----
+
+// A sentence: k1, K_q, 1e-4 and "deg" as k with an index, a power of ten, a degree sign.
+std::string typeset(const std::string& text);
 // Significant digits; "none" if infinite, a dash if not a number.
 std::string rounded(double value, int digits = 3);
-std::string degrees(double value);                     // two decimals, more below 0.1
-std::string gains_words(double first, double second);  // "12.3", or "12.3; 4.56"
+std::string degrees(double value);  // two decimals, more below 0.1
+// With an SI prefix, "61.4 kN/m"; of no unit: rounded().
+std::string quantity(double value, const std::string& unit, int digits = 3);
+// One value, or "12.3 N/m; 4.56 kN/m".
+std::string gains_words(double first, double second, const std::string& unit = "");
+// Of a parameter of a fit, "k1"; linear: of springs between points.
+std::string unit_of(const std::string& parameter, bool linear);
+std::string symbol_of(const std::string& parameter);
 // Of gains that a search ends with at a bound; else empty.
 std::string bound_words(const CalibrationEntry& entry);
 
