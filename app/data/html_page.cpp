@@ -4,8 +4,6 @@
 
 #include <cstdint>
 
-#include "app/support/text.h"
-
 namespace twinarm {
 namespace {
 
@@ -21,25 +19,26 @@ constexpr const char* kReportStyle = R"css(
   figure svg { filter: invert(.9) hue-rotate(180deg) brightness(1.2); }
 }
 * { box-sizing: border-box; }
-html { scroll-padding-top: 3.2rem; }
+html { scroll-padding-top: 3.2rem; background: var(--ground); }
 a { color: var(--kvr); }
-body { margin: 0; color: var(--ink); background: var(--ground); font: 16px/1.55 system-ui, -apple-system,
-  "Segoe UI", Roboto, "Helvetica Neue", "DejaVu Sans", Arial, sans-serif; }
+body { margin: 0; color: var(--ink); font: 16px/1.55 system-ui, -apple-system, "Segoe UI",
+  Roboto, "Helvetica Neue", "DejaVu Sans", Arial, sans-serif; }
 main, header { max-width: 960px; margin: 0 auto; padding: 0 20px; }
 header { padding-top: 1.4rem; }
-h1 { font-size: 2.05rem; line-height: 1.2; margin: 0 0 .5rem; letter-spacing: -.015em; }
+h1 { font-size: clamp(1.5rem, 4.5vw, 2.05rem); line-height: 1.2; margin: 0 0 .5rem; letter-spacing: -.015em; }
 h2 { font-size: 1.4rem; margin: 3.2rem 0 .8rem; padding-top: .7rem;
   border-top: 2px solid var(--ink); letter-spacing: -.01em; }
 h3 { font-size: 1.04rem; margin: 1.9rem 0 .5rem; }
 p { margin: .55rem 0; max-width: 74ch; }
 .lead { font-size: 1.1rem; color: var(--soft); }
-.headline { font-size: 1.25rem; line-height: 1.4; font-weight: 600; }
+.headline { font-size: clamp(1.1rem, 3vw, 1.25rem); line-height: 1.4; font-weight: 600; }
 .note, figcaption, .small { font-size: .875rem; color: var(--soft); }
 nav { position: sticky; top: 0; z-index: 2; margin-top: 1.2rem; background: var(--ground);
   border-bottom: 1px solid var(--line); font-size: .85rem; }
 nav div { max-width: 960px; margin: 0 auto; padding: .5rem 20px; display: flex; flex-wrap: wrap;
   gap: 0 1.05rem; }
 nav a { color: var(--soft); text-decoration: none; white-space: nowrap; line-height: 24px; }
+nav:has(div:empty) { display: none; }
 nav a:hover { color: var(--dvr); text-decoration: underline; }
 figure { margin: 1.5rem 0 2rem; break-inside: avoid; }
 figure svg > g > rect:first-child { fill: none; }  /* the page shows through */
@@ -73,8 +72,7 @@ td { white-space: nowrap; }
 td.text, td.wrap, table.claims td, table.dense td:first-child { white-space: normal; }
 sub, sup { line-height: 0; }
 .factor { display: inline-block; line-height: 1.7; }
-td:has(.factor) { min-width: 10.5rem; }
-table.dense td:first-child { min-width: 8rem; }
+td:has(.factor) { min-width: 10.5rem; } table.dense td:first-child { min-width: 8rem; }
 .value { white-space: nowrap; display: inline-block; margin-right: .9rem; }
 table.dense .small { font-size: inherit; }
 .yes { color: var(--good); font-weight: 600; white-space: nowrap; }
@@ -96,12 +94,7 @@ details details summary { color: var(--soft); font-size: .9rem; }
 details[open] > summary:has(h2) { margin-bottom: .6rem; }
 footer { max-width: 960px; margin: 3rem auto 2rem; padding: 1rem 20px 0; color: var(--soft);
   font-size: .85rem; border-top: 1px solid var(--line); }
-@media (max-width: 640px) {
-  .pair { grid-template-columns: 1fr; }
-  h1 { font-size: 1.5rem; }
-  .headline { font-size: 1.1rem; }
-  figure svg { min-width: 620px; }
-}
+@media (max-width: 640px) { .pair { grid-template-columns: 1fr; } figure svg { min-width: 620px; } }
 @page { size: A4; margin: 16mm 15mm; }
 @media print {
   body { font-size: 9.6pt; }
@@ -144,13 +137,12 @@ std::string HtmlPage::html() const {
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
       "<meta name=viewport content=\"width=device-width, initial-scale=1\">\n"
-      "<title>{}</title>\n<style>{}{}</style></head><body>\n<header>{}</header>\n",
+      "<title>{}</title>\n<style>{}{}</style></head><body>\n<header>{}</header>\n"
+      "<nav aria-label=Contents><div>",
       title, kReportStyle, style, header);
-  if (!contents.empty()) html += "<nav aria-label=Contents><div>";
   for (const auto& [id, name] : contents) html += fmt::format("<a href=\"#{}\">{}</a>", id, name);
-  if (!contents.empty()) html += "</div></nav>\n";
-  html += "<main>\n" + main + "</main>\n<footer>" + footer + "</footer>\n</body></html>\n";
-  return replace_all(html, "<div class=scroll>", "<div class=scroll tabindex=0>");  // for keys
+  return html + "</div></nav>\n<main>\n" + main + "</main>\n<footer>" + footer +
+         "</footer>\n</body></html>\n";
 }
 
 std::string inline_svg(const std::string& file) {

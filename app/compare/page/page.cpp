@@ -213,8 +213,8 @@ std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std
       "states with a known result, from a closed form or an independent computation: " +
       totals(rows, skipped.size()) + ".</p>\n";
   page.contents = {{"index", "Index"}, {"reading", "How to read this page"}};
-  page.main = "<h2 id=index>Index</h2>\n<div class=scroll>" + index_table(rows, skipped) +
-              "</div>\n" + kHowToRead;
+  page.main = "<h2 id=index>Index</h2>\n<div class=scroll tabindex=0>" +
+              index_table(rows, skipped) + "</div>\n" + kHowToRead;
   std::string group;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (group != rows[i].test->group) {

@@ -54,38 +54,26 @@ const char* verdict(const Pair& linear, const Pair& torsional) {
   return ratio > 1.1 ? "smaller" : ratio < 0.9 ? "larger" : "about equal";
 }
 
-// Maxima of uniform arms with springs at the centres of mass, and of the S-103 with springs at the
-// ends of the arms.
-struct Positions {
-  Pair uniform_linear, uniform_torsional, linear, torsional;
-  std::string uniform() const { return verdict(uniform_linear, uniform_torsional); }
-  std::string s103() const { return verdict(linear, torsional); }
-};
-
-std::string headline(const Positions& p, bool equal_errors) {
-  return fmt::format("{}; with the same joint stiffness their errors {}.",
-                     p.uniform() != p.s103()
-                         ? "Whether linear or torsional springs have the smaller tracking error "
-                           "depends on where they act"
-                     : p.s103() == "smaller"
-                         ? "Linear springs have a smaller tracking error than torsional ones"
-                         : "Linear springs have no smaller tracking error than torsional ones",
-                     equal_errors ? "agree within 10 %" : "differ");
+// Of uniform arms with springs at the centres of mass, and the S-103 with springs at the ends of
+// the arms.
+std::string effect_of_position(const std::string& uniform, const std::string& s103) {
+  if (uniform != s103)
+    return "Whether linear or torsional springs have the smaller tracking error depends on where "
+           "they act";
+  return s103 == "smaller" ? "Linear springs have the smaller tracking error, wherever they act"
+                           : "Linear springs do not have the smaller tracking error";
 }
 
-std::string comparison(const Positions& p) {
-  const std::string answer =
-      p.uniform() != p.s103()
-          ? "Which coupling has the smaller errors depends on the position of the springs"
-      : p.s103() == "smaller"
-          ? "The linear coupling has the smaller errors with both positions of the springs"
-          : "The linear coupling has the smaller errors with neither position of the springs";
+std::string comparison(const Pair& uniform_linear, const Pair& uniform_torsional,
+                       const Pair& linear, const Pair& torsional) {
+  const std::string uniform = verdict(uniform_linear, uniform_torsional);
+  const std::string s103 = verdict(linear, torsional);
   return fmt::format(
-      "{}. With one k and b for both links at 60 Hz, uniform arms, springs at the centres of mass: "
-      "linear {} against torsional {} deg, {}; "
-      "S-103, springs at the ends of the arms: {} against {} deg, {}.",
-      answer, words(p.uniform_linear), words(p.uniform_torsional), p.uniform(), words(p.linear),
-      words(p.torsional), p.s103());
+      "{}. One k and b for both links, 60 Hz, linear against torsional: uniform arms, springs at "
+      "the centres of mass: {} against {} deg, {}; S-103, springs at the ends of the arms: {} "
+      "against {} deg, {}.",
+      effect_of_position(uniform, s103), words(uniform_linear), words(uniform_torsional), uniform,
+      words(linear), words(torsional), s103);
 }
 
 std::string reason(const std::vector<CouplingOrder>& orders) {
@@ -143,13 +131,17 @@ std::vector<std::string> answer_in_words(const StudyResults& results) {
   const RunResult& torsional = variant("trial/signed-torsional/60");
   const RunResult &equal_torsional = variant("matched/torsional/60"),
                   &equal_linear = variant("matched/linear/60");
-  const Positions positions{results.rows.at("row/findings_10_14/linear/60").max_deg,
-                            results.rows.at("row/findings_10_14/world/60").max_deg,
-                            variant("trial/printed-linear/60").max_deg, torsional.max_deg};
-  return {headline(positions, have_equal_errors(equal_linear, equal_torsional)),
+  const std::string position =
+      comparison(results.rows.at("row/findings_10_14/linear/60").max_deg,
+                 results.rows.at("row/findings_10_14/world/60").max_deg,
+                 variant("trial/printed-linear/60").max_deg, torsional.max_deg);
+  return {fmt::format(
+              "{}; with the same joint stiffness their errors {}.",
+              position.substr(0, position.find(". ")),
+              have_equal_errors(equal_linear, equal_torsional) ? "agree within 10 %" : "differ"),
           reproduction(results.reproduction[2], results.reproduction[3]),
           operators(results.ensembles),
-          comparison(positions),
+          position,
           reason(results.orders),
           damper(variant("trial/printed-torsional/60"), torsional),
           matched(equal_torsional, equal_linear, variant("implicit/torsional-world/1000"),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "app/data/value.h"
@@ -28,20 +29,17 @@ RunResult run_automatic(const StudyRobot& robot, RunSpec spec, double k, double 
 
 std::string run_words(const std::string& name) {
   static const std::map<std::string, const char*> words{
+      {"E3", "torsional, as published"},
+      {"E4", "linear, as published"},
       {"findings_set0", "5/3 kg, 0.40/0.30 m"},
       {"findings_set1", "1/1 kg, 0.50/0.50 m"},
       {"findings_set2", "10/6 kg, 0.35/0.25 m"},
       {"findings_10_14", "5/3 kg, arms 10 : 14"},
-      {"printed-torsional", "torsional, as published"},
-      {"printed-linear", "linear, as published"},
       {"signed-torsional", "torsional, signed damper"},
       {"signed-torsional-ratio", "torsional, signed damper, k2 = 0.2 k1"},
-      {"linear", "linear"},
       {"torsional", "torsional"},
       {"world", "torsional, world orientation"},
-      {"torsional-world", "torsional, world orientation"},
       {"joint", "torsional, joint angle"},
-      {"torsional-joint", "torsional, joint angle"},
       {"world-ratio", "torsional, world orientation, k2 = 0.2 k1"},
       {"unsigned", "torsional, unsigned damper"},
       {"older", "torsional, difference one frame older"},
@@ -54,9 +52,13 @@ std::string run_words(const std::string& name) {
       {"semi-implicit", "semi-implicit"},
       {"implicit", "implicit"}};
   std::string found;
-  for (const std::string& part : split(name, '/'))
-    if (const auto entry = words.find(part); entry != words.end())
-      found += (found.empty() ? "" : ", ") + std::string(entry->second);
+  for (const std::string& part : split(name, '/')) {
+    const auto law = std::ranges::find(family_laws(), part, &FamilyLaw::name);
+    const auto entry = words.find(part);
+    if (law == family_laws().end() && entry == words.end()) continue;
+    found += (found.empty() ? "" : ", ") +
+             (entry == words.end() ? law->words : std::string(entry->second));
+  }
   return found;
 }
 

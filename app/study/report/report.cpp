@@ -57,7 +57,7 @@ void add_images(const std::filesystem::path& folder, Slots& slots) {
       std::replace(name.begin(), name.end(), '-', '_');
       const std::string content = read_whole_file(entry.path());
       slots[name] = entry.path().extension() == ".svg"
-                        ? "<div class=scroll>" + inline_svg(content) + "</div>"
+                        ? "<div class=scroll tabindex=0>" + inline_svg(content) + "</div>"
                         : fmt::format(
                               "<img alt=\"Picture: see below\" "
                               "src=\"data:image/png;base64,{}\">",

@@ -54,7 +54,7 @@ std::string evidence_table(const std::vector<Evidence>& all, const std::string& 
     rows += evidence_row(e, std::ranges::find(left, &e) != left.end());
   }
   return fmt::format(
-      "<h3>{}</h3>\n<div class=scroll><table class=dense><thead><tr><th rowspan=2 "
+      "<h3>{}</h3>\n<div class=scroll tabindex=0><table class=dense><thead><tr><th rowspan=2 "
       "class=text>law, rate, gains</th><th rowspan=2>damping<br>ratio</th><th rowspan=2>fitted</th>"
       "<th colspan=4 class=first>misfit, half digits</th><th rowspan=2>Figure<br>{}</th>"
       "<th rowspan=2>{}<br>inside</th><th rowspan=2>Figure<br>{}</th><th rowspan=2></th></tr>\n"

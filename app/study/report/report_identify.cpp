@@ -115,7 +115,7 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
                                 number_cells(paper.max_deg, paper.mean_deg) +
                                 "<td></td><td></td><td></td></tr>\n";
   return "<h3>" + row +
-         "</h3>\n<div class=scroll><table class=dense><thead><tr><th class=text>law</th>"
+         "</h3>\n<div class=scroll tabindex=0><table class=dense><thead><tr><th class=text>law</th>"
          "<th>rate<br>Hz</th><th>misfit</th><th>max, degrees,<br>joints 1 / 2</th>"
          "<th>mean, degrees,<br>joints 1 / 2</th><th class=text>parameters and their "
          "intervals</th><th class=text>not identifiable</th>"
@@ -174,7 +174,8 @@ std::string parameter_table(const std::vector<const CalibrationEntry*>& entries,
   std::string rows;
   for (const CalibrationEntry* entry : entries) rows += parameter_row(*entry, fit ? 100 : 1);
   return fmt::format(
-             "<div class=scroll><table class=dense><thead><tr><th>law</th><th>rate<br>Hz</th>"
+             "<div class=scroll tabindex=0><table "
+             "class=dense><thead><tr><th>law</th><th>rate<br>Hz</th>"
              "<th>objective<br>{}</th><th>evaluations</th><th class=text>parameters "
              "[bounds]</th></tr></thead><tbody>\n",
              fit ? "%" : "degrees") +
@@ -205,15 +206,6 @@ std::string versions() {
 
 }  // namespace
 
-std::string bound_words(const CalibrationEntry& entry) {
-  for (const Parameter& p : entry.parameters)
-    if (p.is_at_bound())
-      return p.name == "k" && p.value < 2 * p.low
-                 ? "<br><small>a damper: k at its lower bound</small>"
-                 : fmt::format("<br><small>{} at a bound</small>", symbol_of(p.name));
-  return "";
-}
-
 void add_identification(const StudyResults& results, Slots& slots) {
   const std::vector<Identification>& all = results.identifications;
   slots["open_sums"] = open_sums(all);
@@ -231,10 +223,7 @@ void add_search(const StudyResults& results, Slots& slots) {
     for (const std::string& law : kE3Laws) html += error_cell(c.e3(law, searched));
     html += error_cell(c.e4(searched)) + "</tr>\n";
   }
-  std::vector<const CalibrationEntry*> used = entries_of(c, fmt::format("E3/{:g}/", rate));
-  used.push_back(&c.e4(rate));
   slots["chosen_rate"] = fmt::format("{:g}", rate);
-  slots["chosen_parameters"] = parameter_table(used, true);
   for (const std::string group : {"trial", "E3", "E4", "row"})
     slots["parameters_" + group] = parameter_table(entries_of(c, group + "/"), group[0] == 'E');
   long evaluations = 0;
@@ -250,8 +239,8 @@ void add_search(const StudyResults& results, Slots& slots) {
   slots["settings"] = escaped(results.settings_text);
   slots["arm2_mass_scale"] = rounded(results.arm2_mass_scale);
   for (const auto& [link, mass] : results.link_masses)
-    slots["masses_rows"] += fmt::format(
-        "<tr><td>{}</td><td>{:.4f}</td><td class=small>assumed</td></tr>\n", escaped(link), mass);
+    slots["masses_rows"] +=
+        fmt::format("<tr><td>{}</td><td>{:.4f}</td></tr>\n", escaped(link), mass);
 }
 
 }  // namespace twinarm

@@ -25,8 +25,6 @@ std::string gains_words(double first, double second, const std::string& unit = "
 // Of a parameter of a fit, "k1"; linear: of springs between points.
 std::string unit_of(const std::string& parameter, bool linear);
 std::string symbol_of(const std::string& parameter);
-// Of gains that a search ends with at a bound; else empty.
-std::string bound_words(const CalibrationEntry& entry);
 
 void add_reproduction(const StudyResults& results, Slots& slots);  // Table 2, Figures 6 and 7
 // Update rates, variants, recordings.
