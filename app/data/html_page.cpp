@@ -87,9 +87,9 @@ pre { background: var(--pale); padding: .9rem 1.1rem; overflow-x: auto; white-sp
 dl { display: grid; grid-template-columns: max-content 1fr; gap: .25rem 1.2rem; font-size: .92rem; }
 dt { color: var(--soft); }
 dd { margin: 0; overflow-wrap: anywhere; }
-summary { cursor: pointer; padding: .35rem 0; max-width: 84ch; }
+summary { cursor: pointer; padding: .35rem 0; }
 summary h2 { display: inline; margin: 0; padding: 0; border: 0; font-size: 1.15rem; }
-summary:has(h2) { padding: .55rem 0; border-top: 1px solid var(--line); max-width: none; }
+summary:has(h2) { padding: .55rem 0; border-top: 1px solid var(--line); }
 details details summary { color: var(--soft); font-size: .9rem; }
 details[open] > summary:has(h2) { margin-bottom: .6rem; }
 footer { max-width: 960px; margin: 3rem auto 2rem; padding: 1rem 20px 0; color: var(--soft);
@@ -109,8 +109,10 @@ footer { max-width: 960px; margin: 3rem auto 2rem; padding: 1rem 20px 0; color: 
   thead { display: table-header-group; }
   .scroll { overflow: visible; background: none; }
   main .scroll:has(> table) { margin-left: 0; transform: none; max-width: none; width: auto; }
-  table.dense { font-size: 6.9pt; }
+  table.dense { font-size: 6pt; }
   table.dense th, table.dense td { padding: .12rem .22rem; }
+  table.dense td, table.dense td:first-child { min-width: 0; }
+  td, .value { white-space: normal; }
   pre { font-size: 7.6pt; }
   tr.chosen td { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
 }
