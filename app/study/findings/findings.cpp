@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "app/data/value.h"
 #include "app/study/findings/variants.h"
