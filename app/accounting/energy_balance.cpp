@@ -43,7 +43,8 @@ void EnergyBalance::find_rows(Integrator integrator, bool others_want_inner) {
   const auto& joints = input_.coordinates.all();
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (!input_.state.has_tau[j]) continue;
-    actuators_.push_back({&joints[j], facts_of(joints[j].type).quaternion < 0});
+    actuators_.push_back(
+        {&joints[j], facts_of(joints[j].type).quaternion < 0 && !input_.state.tau_varies});
     if (!actuators_.back().is_exact)
       integrals_.push_back({EnergyRowKind::actuator, "actuator/" + joints[j].name});
   }
@@ -116,8 +117,8 @@ void EnergyBalance::add_step(double h, const std::vector<State<double>>& inner,
   const auto add = [&](const std::vector<double>& power, double weight) {
     for (std::size_t i = 0; i < integrals_.size(); ++i) integrals_[i].work += weight * h * power[i];
   };
-  // Recomputed: the target velocity of a live device may have arrived since the last step.
-  if (couplings_) power_now_ = powers(now_, Side::after);
+  // Recomputed: target velocity or torques may have been set since the last step.
+  if (couplings_ || input_.state.tau_varies) power_now_ = powers(now_, Side::after);
   add(power_now_, weights_.front());
   for (std::size_t s = 0; s < inner.size(); ++s)
     add(powers(inner[s], Side::after), weights_[s + 1]);

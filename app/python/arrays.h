@@ -34,6 +34,14 @@ Array array_of(const std::vector<double>& values);
 Array frozen(const std::vector<double>& values);
 Array zeros(const std::vector<py::ssize_t>& shape);
 
+// {name: unit}, in the order of the columns.
+template <class Columns>
+py::dict units_of(const Columns& columns) {
+  py::dict all;
+  for (const auto& column : columns) all[py::str(column.name)] = column.unit;
+  return all;
+}
+
 inline void store(const Vec3<double>& v, double* to) {
   to[0] = v.x, to[1] = v.y, to[2] = v.z;
 }
@@ -48,6 +56,7 @@ void add_motion(pybind11::module_& m);
 void add_workspace(pybind11::module_& m);
 void add_simulation(pybind11::module_& m);
 void add_scenes(pybind11::module_& m);
+void add_scene_stepper(pybind11::module_& m);
 void add_couplings(pybind11::module_& m);
 void add_recordings(pybind11::module_& m);
 

@@ -1,4 +1,5 @@
-// The Python module `twinarm` (docs/use/python.md); interface: twinarm.pyi.
+// The compiled part of the Python package `twinarm` (docs/use/python.md); interface:
+// twinarm/__init__.pyi.
 #include "app/python/arrays.h"
 #include "app/support/version.h"
 #include "solver/dynamics/dynamics.h"
@@ -6,8 +7,9 @@
 
 namespace py = pybind11;
 
-PYBIND11_MODULE(twinarm, m) {
+PYBIND11_MODULE(_core, m) {
   using namespace twinarm;
+  m.attr("__name__") = "twinarm";  // module of the classes
   m.doc() =
       "twinarm: rigid-body dynamics solver with inspectable algorithms.\n\n"
       "SI units and radians; axes right-handed, z up. Arrays are numpy's, float64. Spatial "
@@ -28,6 +30,7 @@ PYBIND11_MODULE(twinarm, m) {
   python::add_motion(m);
   python::add_simulation(m);
   python::add_scenes(m);
+  python::add_scene_stepper(m);
   python::add_couplings(m);
   python::add_recordings(m);
 }

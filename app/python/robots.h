@@ -4,11 +4,12 @@
 #include <pybind11/pybind11.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "app/robot/robot_input.h"
-#include "app/run/simulate_input.h"
+#include "app/run/run.h"
 #include "solver/model/configuration.h"
 #include "solver/model/workspace.h"
 
@@ -47,5 +48,18 @@ class Robot {
 // a model. `set`: None, or a dict by path of numbers, texts, booleans or lists of numbers.
 // TypeError for other values, ValueError if the model is not a scene.
 void change_scene(const pybind11::object& set, SimulateOptions& options);
+// Options of simulate() and SceneSimulation.
+SimulateOptions run_options(const pybind11::object& file, const std::optional<double>& step,
+                            const std::string& integrator, const pybind11::object& state,
+                            const std::string& contact, bool friction, bool armature,
+                            const pybind11::object& set);
+pybind11::dict work_by_row(const std::vector<EnergyRow>& rows);
+pybind11::dict momentum_by_row(const std::vector<MomentumRow>& rows);
+void check_signals(double);  // RunWatch::tick; throws Python's exception
+bool is_signalled();         // RunWatch::interrupted
+
+// `before` with other coordinates and velocities (None: the same) at the time t.
+State<double> state_of(const Robot& robot, const pybind11::object& q, const pybind11::object& qd,
+                       double t, const State<double>& before);
 
 }  // namespace twinarm::python

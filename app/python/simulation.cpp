@@ -40,18 +40,6 @@ struct RobotInMotion {
   }
 };
 
-State<double> state_of(const Robot& robot, const py::object& q, const py::object& qd, double t,
-                       const State<double>& where_left_out) {
-  State<double> x = where_left_out;
-  if (!q.is_none())
-    set_q_with_prescribed(robot.model, vector_of(q, robot.nq(), "q", robot.size_of_q()), x);
-  if (!qd.is_none()) x.qd = vector_of(qd, robot.model.nv, "qd", robot.size_of_qd());
-  if (!std::isfinite(t)) throw py::value_error("t must be a finite number of seconds");
-  x.t = t;
-  robot.check_quaternions(q_with_prescribed(robot.model, x), "Simulation");
-  return x;
-}
-
 Integrator integrator_of(const std::string& name) {
   if (const auto found = find_integrator(name)) return *found;
   throw py::value_error("there is no integrator '" + name + "'; " +
@@ -200,6 +188,18 @@ void add_readings(py::class_<RobotInMotion>& simulation) {
 }
 
 }  // namespace
+
+State<double> state_of(const Robot& robot, const py::object& q, const py::object& qd, double t,
+                       const State<double>& where_left_out) {
+  State<double> x = where_left_out;
+  if (!q.is_none())
+    set_q_with_prescribed(robot.model, vector_of(q, robot.nq(), "q", robot.size_of_q()), x);
+  if (!qd.is_none()) x.qd = vector_of(qd, robot.model.nv, "qd", robot.size_of_qd());
+  if (!std::isfinite(t)) throw py::value_error("t must be a finite number of seconds");
+  x.t = t;
+  robot.check_quaternions(q_with_prescribed(robot.model, x), "Simulation");
+  return x;
+}
 
 void add_simulation(py::module_& m) {
   py::class_<RobotInMotion> simulation(m, "Simulation",

@@ -29,6 +29,7 @@ struct GivenState {
   State<double> x;            // mimic joints included
   Eigen::VectorXd tau, qdd;   // by rows of the mass matrix; in qdd the base first
   std::vector<bool> has_tau;  // by Coordinates::all(): given in the file
+  bool tau_varies = false;    // set between steps, by a controller
   std::vector<Wrench> wrenches;
   std::vector<std::string> warnings;
 };

@@ -41,9 +41,10 @@ std::filesystem::path find_assets(const std::filesystem::path& given) {
     places.push_back(program.parent_path() / "../../assets");      // build/PRESET/twinarm
     places.push_back(program.parent_path() / "../share/twinarm");  // bin/twinarm, installed
     if (const fs::path library = library_of_this_code(); library.extension() == ".so") {
-      places.push_back(library.parent_path() / "../../../assets");  // build/PRESET/python
       places.push_back(library.parent_path() /
-                       "../../../share/twinarm");  // lib/python3.11/dist-packages
+                       "../../../../assets");  // build/PRESET/python/twinarm
+      places.push_back(library.parent_path() /
+                       "../../../../share/twinarm");  // lib/python3.11/dist-packages/twinarm
     }
     places.push_back(fs::current_path(error) / "assets");
   }

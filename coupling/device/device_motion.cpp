@@ -23,6 +23,7 @@ void DeviceMotion::set(const MappedTarget& target, double t, double h) noexcept 
 }
 
 void DeviceMotion::set(const DeviceStep& step) noexcept {
+  if (count_ > 0 && newest().t == step.t) --count_;
   steps_[count_++ % steps_.size()] = step;
 }
 

@@ -28,7 +28,7 @@ class DeviceMotion final : public OperatorMotion {
   // Ring buffer of `capacity` steps, at least one; no allocation afterwards.
   explicit DeviceMotion(std::size_t capacity, const OperatorMapping& mapping = {})
       : mapping_(mapping), steps_(std::max<std::size_t>(1, capacity)) {}
-  // The target of a step that begins at t, in ascending order.
+  // The target of a step that begins at t, in ascending order; replaces one at the same t.
   void set(const MappedTarget& target, double t, double h) noexcept;
   void set(const DeviceStep& step) noexcept;
   const DeviceStep& newest() const { return at(count_ - 1); }

@@ -10,7 +10,7 @@ import unittest
 import numpy as np
 
 import program as command
-from program import ROOT, ProgramTest  # noqa: F401: for the tests
+from program import ROOT, SCENES, ProgramTest  # noqa: F401: for the tests
 
 PUMA = "assets/robots/puma560/puma560.urdf"
 DOUBLE_PENDULUM = "assets/robots/teaching/double_pendulum.urdf"

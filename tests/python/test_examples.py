@@ -11,7 +11,7 @@ import unittest
 from notebook import PRELOADED, ROOT, main, twinarm
 from waiting import TIMEOUT
 
-ENVIRONMENT = {**os.environ, **PRELOADED, "PYTHONPATH": os.path.dirname(twinarm.__file__)}
+ENVIRONMENT = {**os.environ, **PRELOADED, "PYTHONPATH": os.path.dirname(os.path.dirname(twinarm.__file__))}
 EXAMPLES = ROOT / "app" / "python" / "examples"
 
 

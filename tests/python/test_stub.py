@@ -1,4 +1,4 @@
-"""twinarm.pyi says what the module has: the same names, the same arguments, the same defaults."""
+"""The stub says what the module has: the same names, the same arguments, the same defaults."""
 import ast
 import inspect
 
@@ -8,7 +8,7 @@ from notebook import ROOT, main, twinarm
 
 import unittest
 
-STUB = ast.parse((ROOT / "app" / "python" / "twinarm.pyi").read_text(encoding="utf-8"))
+STUB = ast.parse((ROOT / "app" / "python" / "twinarm" / "__init__.pyi").read_text(encoding="utf-8"))
 
 
 def arguments(function):
@@ -24,7 +24,7 @@ def arguments(function):
 
 def reported(function):
     """The same of the module, from the first line of its documentation."""
-    if inspect.isbuiltin(function) and function.__text_signature__:
+    if inspect.isfunction(function) or inspect.isbuiltin(function) and function.__text_signature__:
         kinds = {inspect.Parameter.POSITIONAL_OR_KEYWORD: "either", inspect.Parameter.KEYWORD_ONLY: "by name"}
         return [(p.name, kinds[p.kind], "none" if p.default is p.empty else p.default)
                 for p in inspect.signature(function).parameters.values()]
@@ -63,7 +63,8 @@ class Stub(unittest.TestCase):
                 continue
             there = getattr(twinarm, name)
             own = {n for n in vars(there) if not n.startswith("_")}
-            own |= {n for n in ("__getitem__", "__contains__", "__len__", "__iter__") if n in vars(there)}
+            own |= {n for n in ("__getitem__", "__contains__", "__len__", "__iter__",
+                                "__enter__", "__exit__") if n in vars(there)}
             stated = set(defined(node.body)) - {"__init__"}
             self.assertEqual(stated, own, name)
             for member, inner in defined(node.body).items():
@@ -81,7 +82,7 @@ class Stub(unittest.TestCase):
             for inner in node.body if isinstance(node, ast.ClassDef) else []:
                 if not isinstance(inner, ast.FunctionDef) or inner.decorator_list:
                     continue
-                if name == "Simulation" or inner.name != "__init__":
+                if name.endswith("Simulation") or inner.name != "__init__":
                     there = getattr(getattr(twinarm, name), inner.name)
                     found = reported(there)
                     self.assertEqual(arguments(inner), found, f"{name}.{inner.name}")
