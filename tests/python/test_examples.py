@@ -38,7 +38,7 @@ class Examples(unittest.TestCase):
     def test_each_lesson_has_a_script_that_it_links_to(self):
         lessons = sorted(file.parent for file in (ROOT / "docs" / "learn" / "lessons").glob("*/lesson.md"))
         self.assertGreater(len(lessons), 9)
-        scripts = {file.stem for file in EXAMPLES.glob("*.py")} - {"lesson"}
+        scripts = {file.stem for file in EXAMPLES.glob("*.py")} - {"lesson", "control_loop"}
         self.assertEqual(scripts, {lesson.name for lesson in lessons})
         for lesson in lessons:
             link = f"(../../../../app/python/examples/{lesson.name}.py)"
@@ -49,6 +49,24 @@ class Examples(unittest.TestCase):
             for script in sorted(EXAMPLES.glob("[0-9]*.py")):
                 with self.subTest(script=script.name):
                     self.compare(script, printed(script, cwd=elsewhere))
+
+    def test_the_control_loops_obey_the_laws_that_they_print(self):
+        with tempfile.TemporaryDirectory() as elsewhere:
+            output = printed(EXAMPLES / "control_loop.py", cwd=elsewhere)
+        found = {what.strip(): float(value)
+                 for what, value in re.findall(r"^(\S.{40,}) = (\S+)$", output, re.MULTILINE)}
+        of = {key: [value for what, value in found.items() if what.startswith(key)] for key in
+              ("couplings", "computed torque", "impedance")}
+        error, predicted, push, unbalanced = of["computed torque"]
+        self.assertAlmostEqual(error / predicted, 1, delta=0.1)  # first order in w h
+        self.assertLess(unbalanced, 1e-5)
+        soft_error, soft_push, unbalanced, by_stiffness, repeated = of["impedance"]
+        self.assertLess(unbalanced, 1e-5)
+        self.assertAlmostEqual(soft_push / by_stiffness, 1, delta=0.2)  # the box is not touched at the tip
+        self.assertEqual(repeated, 0)
+        self.assertLess(error, soft_error)
+        self.assertLess(soft_push, of["couplings"][1])
+        self.assertLess(of["couplings"][1], push)
 
     def compare(self, script, output):
         """The lesson's checks, one by one, with the numbers that say() printed."""

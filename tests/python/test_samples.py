@@ -61,7 +61,8 @@ class Tables(ProgramTest):
         self.assertRegex(repr(self.run_), r"<twinarm.Run 'peg_in_hole': 51 samples, t = 0 .. 0.05 s, 50 steps, nq = 5>")
         self.assertRegex(repr(self.recording), r"<twinarm.Recording 'peg.twinrec': 51 samples, t = 0 .. 0.05 s, "
                                                r"semi-implicit, h = 0.001 s, done>")
-        self.assertRegex(repr(twinarm.SceneSimulation(PEG)), r"<twinarm.SceneSimulation 'peg_in_hole': t = 0 s, 0 steps")
+        self.assertRegex(repr(twinarm.SceneSimulation(PEG)),
+                         r"<twinarm.SceneSimulation 'peg_in_hole': t = 0 s, 0 steps")
 
     def test_a_data_frame_has_time_as_index_and_units(self):
         made = {}
@@ -93,7 +94,8 @@ class Viewer(ProgramTest):
         self.assertEqual(len(twinarm.open_recording(self.folder / "run.twinrec")), 21)
         command.twinarm("export", self.folder / "run.twinrec", self.folder / "other.html")
         with unittest.mock.patch("webbrowser.open") as browser:
-            again = twinarm.view(twinarm.open_recording(self.folder / "run.twinrec"), self.folder / "a.html", open=False)
+            again = twinarm.view(twinarm.open_recording(self.folder / "run.twinrec"),
+                                 self.folder / "a.html", open=False)
         browser.assert_not_called()
         self.assertEqual(again.read_bytes(), (self.folder / "run.html").read_bytes())
         self.assertEqual(len(again.read_bytes()), len((self.folder / "other.html").read_bytes()))

@@ -11,8 +11,9 @@ Example:
 """
 from twinarm._core import *  # noqa: F401, F403: Model, aba, rnea, crba, ...
 from twinarm._core import __version__  # noqa: F401
+from twinarm._inspection import Inspection  # noqa: F401
 from twinarm._recording import Recording, open_recording  # noqa: F401
 from twinarm._run import Run, simulate  # noqa: F401
 from twinarm._samples import Samples  # noqa: F401
-from twinarm._scene_simulation import Inspection, SceneSimulation  # noqa: F401
+from twinarm._scene_simulation import SceneSimulation  # noqa: F401
 from twinarm._viewer import view  # noqa: F401
