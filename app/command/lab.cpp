@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
+#include <cctype>
 #include <cstdlib>
 #include <thread>
 
@@ -19,8 +20,10 @@ namespace twinarm {
 namespace {
 
 struct LabOptions {
-  std::filesystem::path scene;  // empty: the first of the gallery
-  std::string variants;         // "integrator=semi-implicit,rk4"; empty: the gallery's
+  std::filesystem::path scene;       // empty: the first of the gallery
+  std::string variants;              // "integrator=semi-implicit,rk4"; empty: the gallery's
+  std::vector<std::string> changes;  // "integrator=rk4"
+  std::string overlays;              // "energy,couplings"; empty: the page's own
   std::string listen = "127.0.0.1";
   int port = 0;       // 0: any free port
   int history = 256;  // memory for the timeline [MB]
@@ -35,6 +38,9 @@ void add_options(const OptionAdder& add, LabOptions& options) {
       "run variants side by side, one per value: PATH=VALUE,VALUE.., such as "
       "integrator=semi-implicit,rk4 or coupling.stiffness=500,2000")
       ->type_name("PATH=VALUES");
+  add("--set", options.changes, "PATH=VALUE: start with this parameter; may be repeated");
+  add("--show", options.overlays, "overlays to show: couplings,contacts .., as the page names them")
+      ->type_name("NAME,..");
   add("--history", options.history, "memory for the timeline [MB]; 256 MB hold a few minutes")
       ->check(between(1, 65536));
   add.group("Server");
@@ -73,6 +79,19 @@ BuildRequest first_request(const LabOptions& options, const std::vector<GalleryS
   if (!options.variants.empty()) request.variants = parse_variants(options.variants);
   request.is_shared = !is_loopback(options.listen);
   return request;
+}
+
+// What the page does when it is opened (app/web/src/pages/address.ts).
+std::string query_of(const LabOptions& options) {
+  std::string query;
+  const auto add = [&](const char* key, const std::string& value) {
+    query += fmt::format("&{}=", key);
+    for (const unsigned char c : value)
+      query += std::isalnum(c) ? std::string(1, static_cast<char>(c)) : fmt::format("%{:02X}", c);
+  };
+  for (const std::string& change : options.changes) add("set", change);
+  if (!options.overlays.empty()) add("show", options.overlays);
+  return query;
 }
 
 // If there is a display. Does not wait for the browser.
@@ -200,12 +219,13 @@ class Lab {
 
 int run_lab(const LabOptions& options) {
   Lab lab(options, read_gallery());
+  const std::string url = lab.url() + query_of(options);
   if (options.json)
-    fmt::print("{{\"url\": \"{}\"}}\n", lab.url());
+    fmt::print("{{\"url\": \"{}\"}}\n", url);
   else
-    fmt::print("The lab is at {}\nCtrl-C ends it.\n", lab.url());
+    fmt::print("The lab is at {}\nCtrl-C ends it.\n", url);
   std::fflush(stdout);
-  if (!options.no_browser) open_browser(lab.url());
+  if (!options.no_browser) open_browser(url);
   while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
   return 0;
 }
@@ -217,7 +237,8 @@ Command lab_command() {
           "Run an interactive simulation in the browser\n\n"
           "Examples:\n"
           "  twinarm lab\n"
-          "  twinarm lab assets/scenes/hand_and_obstacles.toml\n\n"
+          "  twinarm lab assets/scenes/hand_and_obstacles.toml\n"
+          "  twinarm lab assets/scenes/pendulum.toml --set integrator=rk4 --set step=0.2\n\n"
           "Prints the address of the page and opens it in a browser; Ctrl-C ends it. To run it "
           "on HOST: ssh -L 8080:127.0.0.1:8080 HOST, then on HOST: twinarm lab --port 8080 "
           "--no-browser",

@@ -23,8 +23,8 @@ PARAMETER = "document.getElementById('parameter-coupling-0--%s')"
 class Program:
     """`twinarm lab`, at .url; ends with the block."""
 
-    def __init__(self, program, scene=SCENE):
-        self.process = subprocess.Popen([program, "lab", str(scene), "--json", "--no-browser"],
+    def __init__(self, program, scene=SCENE, *options):
+        self.process = subprocess.Popen([program, "lab", str(scene), "--json", "--no-browser", *options],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.url = json.loads(self.process.stdout.readline())["url"]
 

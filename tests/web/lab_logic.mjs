@@ -476,3 +476,48 @@ test('ticks of an axis differ from each other', () => {
       assert.equal(new Set(axis(first, interval, 6)).size, 6, `${first} ${interval} ${axis(first, interval, 6)}`);
     }
 });
+
+// The page of an address; `tell` shows it a state in the scene of this number.
+function opened(query, accepts = () => true) {
+  const sent = [];
+  globalThis.location = { search: query, pathname: '/' };
+  globalThis.history = { replaceState: (_state, _title, to) => (globalThis.location.left = to) };
+  const address = new page.Address();
+  const tell = (scene) =>
+    address.onState({ scene: { scene }, send: (command) => accepts(command) && sent.push(command) > 0 });
+  return { address, sent, tell, left: globalThis.location.left };
+}
+
+test('address: parameters and overlays are sent once, and removed from the address', () => {
+  const { address, sent, tell, left } = opened('?token=ab&set=integrator%3Drk4&set=step%3D0.2&show=couplings%2Ccontacts');
+  assert.deepEqual(address.layers, ['couplings', 'contacts']);
+  assert.equal(left, '?token=ab');
+  tell(3);
+  tell(3);
+  assert.deepEqual(sent, [{ do: 'set', changes: ['integrator=rk4', 'step=0.2'] }, { do: 'reset' }]);
+});
+
+test('address: parameters wait for the scene that it opens', () => {
+  const { address, sent, tell, left } = opened('?scene=cradle&set=contact=compliant');
+  assert.equal(address.layers, null);
+  assert.equal(left, '/');
+  tell(1);
+  tell(1);
+  assert.deepEqual(sent, [{ do: 'scene', name: 'cradle' }]);
+  tell(2);
+  tell(2);
+  assert.deepEqual(sent.slice(1), [{ do: 'set', changes: ['contact=compliant'] }, { do: 'reset' }]);
+});
+
+test('address: nothing is sent without a query, or later when another client has control', () => {
+  const plain = opened('?token=ab');
+  plain.tell(1);
+  assert.deepEqual([plain.sent, plain.left], [[], undefined]);
+  let hasControl = false;
+  const other = opened('?scene=cradle&set=a=1', () => hasControl);
+  other.tell(1);
+  hasControl = true;
+  other.tell(1);
+  other.tell(2);
+  assert.deepEqual(other.sent, []);
+});

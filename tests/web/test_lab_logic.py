@@ -20,7 +20,7 @@ NODE = shutil.which("node") or shutil.which("nodejs")
 PARTS = {
     "lab_logic": ("ui/scale", "source/store", "source/run_record", "plot/export", "plot/specs",
                   "panels/input_bar", "panels/gallery", "ui/dom", "plot/chart_parts",
-                  "plot/chart_data", "source/run_source"),
+                  "plot/chart_data", "source/run_source", "pages/address"),
     "lab_view": ("protocol/frame", "source/meshes", "input/handles", "input/drag_goal", "view/pace",
                  "input/gamepad", "view/labels", "view/live_stage", "view/painter", "panels/hints"),
 }

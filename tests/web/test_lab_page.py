@@ -6,7 +6,7 @@ import csv
 import json
 import time
 
-from lab_case import PARAMETER, STATE, Lab, LabCase, main
+from lab_case import PARAMETER, STATE, Lab, LabCase, Program, main
 from program import data, twinarm
 from waiting import wait_for
 
@@ -55,6 +55,21 @@ class LabPage(LabCase):
         self.until(f"{link}.open && {link}.socket !== silent")
         before = self.value("twinarm.page.frame.time")
         self.until(f"twinarm.page.frame.time > {before} + 0.2 || twinarm.page.frame.time < {before}")
+
+    def test_options_set_parameters_and_overlays_from_the_start(self):
+        def shows(path):
+            return self.value(f"{STATE}.parameters.find(p => p.path === '{path}').value")
+
+        lab = Program(self.program, "six_integrators", "--set", "step=0.05", "--show", "energy,trails")
+        self.addCleanup(lab.end)
+        self.page.open(lab.url)
+        self.until(f"{STATE}?.parameters.some(p => p.path === 'step' && Number(p.value) === 0.05)")
+        self.assertEqual(self.value("[...twinarm.page.layers].join()"), "energy,trails")
+        self.assertNotIn("set=", self.value("location.search"))
+        self.page.open(f"{lab.url.split('&')[0]}&scene=pendulum&set=step=0.04")
+        self.until(f"{STATE}?.parameters.some(p => p.path === 'step' && Number(p.value) === 0.04)")
+        self.until("twinarm.page.scene.file === 'pendulum.toml' && twinarm.page.frame?.time < 1000")
+        self.assertEqual(float(shows("step")), 0.04)
 
     def test_robot_follows_a_dragged_end_effector(self):
         self.until("document.querySelector('h1').textContent.includes('ten obstacles')")

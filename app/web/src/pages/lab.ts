@@ -1,6 +1,7 @@
 // The lab's page: connects socket, 3-D view, input and panels. Once per picture it takes the newest message
 // of each kind.
 import '../ui/style.css';
+import { Address } from './address';
 import { Inspector } from '../inspector/inspector';
 import { Controller } from '../input/gamepad';
 import { Drag } from '../input/drag';
@@ -42,7 +43,8 @@ class Page implements LabKeys {
   private readonly host = element('div.stage', this.over);
   private readonly tabs = new Tabs();
   private readonly theme = new Theme(() => this.recolor());
-  private readonly layers = new Set(remembered('layers', DEFAULT_LAYERS));
+  private readonly address = new Address();
+  private readonly layers = new Set(this.address.layers ?? remembered('layers', DEFAULT_LAYERS));
   readonly overlays = new Overlays(this.layers, () => this.sendLayers());
   readonly views = new Views((name) => this.look(name), () => this.touch());
   readonly live = new LiveStage(this.host, this.over, () => this.touch());
@@ -214,6 +216,7 @@ class Page implements LabKeys {
       this.state = state;
       if (wasRequested && this.hasControl) this.showMessage('You have control now.');
       for (const listener of this.listeners) listener.onState?.(state);
+      this.address.onState(this);
     }
     if (inspection) { for (const panel of this.panels) panel.onInspection?.(inspection); }
     if (frame && frame.scene === this.scene?.scene) this.takeFrame(frame);
