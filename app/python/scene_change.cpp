@@ -36,21 +36,20 @@ void change_scene(const py::object& set, SimulateOptions& options) {
   if (options.robot.model.extension() != ".toml")
     throw py::value_error("set= changes a scene; '" + options.robot.model.string() +
                           "' is not a scene: write one that contains the robot");
-  std::vector<Change> changes;
+  DiagnosticList faults;
+  Value scene = read_toml(options.robot.model);
   for (const auto& [path, value] : py::cast<py::dict>(set)) {
-    const std::string name = py::cast<std::string>(path);
-    changes.push_back({name, setting_text(name, value)});
-  }
-  options.change_scene = [changes](Value& scene, DiagnosticList& faults) {
-    for (const Change& change : changes) {
-      DiagnosticList of_change;  // names the command line option
-      apply(change, 0, scene, of_change);
-      for (Diagnostic fault : of_change.faults()) {
-        fault.where = name_of(change.path);
-        faults.add(std::move(fault));
-      }
+    const Change change{py::cast<std::string>(path),
+                        setting_text(py::cast<std::string>(path), value)};
+    DiagnosticList of_change;  // names the command line option
+    apply(change, 0, scene, of_change);
+    for (Diagnostic fault : of_change.faults()) {
+      fault.where = name_of(change.path);
+      faults.add(std::move(fault));
     }
-  };
+  }
+  faults.check();
+  options.scene = std::move(scene);
 }
 
 }  // namespace twinarm::python

@@ -253,7 +253,7 @@ void add_scene_stepper(py::module_& m) {
                        const py::object& set, const py::object& record) {
         SimulateOptions options =
             run_options(file, step, integrator, state, contact, friction, armature, set);
-        options.scene = read_toml(options.robot.model);
+        if (!options.scene) options.scene = read_toml(options.robot.model);
         options.duration = 1;  // not used
         return std::make_unique<SceneStepper>(options, record);
       }))

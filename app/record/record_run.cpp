@@ -201,6 +201,10 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
   header.command = std::move(command);
   header.run = recorded_run(options);
   add_file(header.files, options.robot.model);
+  if (!header.files.empty() && (options.scene || !options.robot.changes.empty())) {
+    DiagnosticList faults;  // the plan has reported them
+    header.files.front().bytes = to_toml(scene_tree(options, faults));
+  }
   add_file(header.files, options.robot.state);
   header.duration = prepared.run.duration;
   describe_frames(prepared, header);

@@ -47,6 +47,7 @@ RecordedRun recorded_run(const SimulateOptions& options) {
   static_cast<RobotOptions&>(run) = options.robot;
   static_cast<RunSettings&>(run) = options;
   run.roots = {};
+  run.changes = {};  // the recorded scene contains them
   for (std::filesystem::path* path : {&run.model, &run.state})
     if (!path->empty()) *path = std::filesystem::absolute(*path).lexically_normal();
   return run;
@@ -161,12 +162,12 @@ bool is_recording(const std::filesystem::path& file) {
 }
 
 void check_recorded(const RobotOptions& given, DiagnosticList& faults) {
-  if (given.state.empty() && given.gravity.empty() && !given.floating && given.friction &&
-      given.armature && !given.strict && !given.missing.any())
+  if (given.state.empty() && given.gravity.empty() && given.changes.empty() && !given.floating &&
+      given.friction && given.armature && !given.strict && !given.missing.any())
     return;
   faults.add({"", 0,
               "--state, --gravity, --floating, --no-friction, --no-armature, --strict, --density, "
-              "--min-mass",
+              "--min-mass, --set",
               "a recording has its own state and model", "leave them out; choose by --at",
               "option.conflict"});
 }

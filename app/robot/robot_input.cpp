@@ -98,6 +98,9 @@ std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& fa
 }
 
 RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) {
+  if (!options.changes.empty())
+    faults.add("--set", "applies to a scene only", "leave it out, or give a scene",
+               "option.useless");
   std::optional<Vector3> gravity;
   if (!options.gravity.empty()) gravity = parse_gravity(options.gravity, faults);
   std::optional<Value> json;

@@ -47,6 +47,7 @@ GivenState read_state(const Value& json, const std::filesystem::path& file,
 struct RobotOptions {
   std::filesystem::path model, state;  // state may be empty
   std::string gravity;                 // "x,y,z"; empty: 0,0,-9.81
+  std::vector<std::string> changes;    // of a scene: "coupling.stiffness=800"
   bool floating = false;
   bool friction = true, armature = true;
   bool strict = false;     // physically inconsistent inertias are errors

@@ -5,6 +5,7 @@
 
 #include "app/data/value.h"
 #include "app/scene/forces/add_contacts.h"
+#include "app/scene/read/change_scene.h"
 #include "app/scene/read/read_scene.h"
 #include "app/support/text.h"
 
@@ -109,6 +110,12 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
 
 }  // namespace
 
+Value scene_tree(const SimulateOptions& options, DiagnosticList& faults) {
+  Value tree = options.scene ? *options.scene : read_toml(options.robot.model);
+  for (const std::string& text : options.robot.changes) apply(parse_change(text), 0, tree, faults);
+  return tree;
+}
+
 SimulatePlan prepare_simulation(const SimulateOptions& options) {
   DiagnosticList faults;
   if (options.robot.model.extension() != ".toml" && !options.scene) {
@@ -119,7 +126,7 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
   }
   reject_robot_options(options.robot, faults);
   auto description = attempt(faults, [&] {
-    Value tree = options.scene ? *options.scene : read_toml(options.robot.model);
+    Value tree = scene_tree(options, faults);
     if (options.change_scene) options.change_scene(tree, faults);
     return read_scene(tree, options.robot.model, options.robot.roots);
   });

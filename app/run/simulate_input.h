@@ -77,6 +77,9 @@ struct SimulatePlan {
   RunPlan run;
 };
 
+// The scene's file, or `scene`, with the changes of `robot`. Throws InputError.
+Value scene_tree(const SimulateOptions& options, DiagnosticList& faults);
+
 // Reads the robot or the scene and plans the run. Throws InputError with all diagnostics.
 SimulatePlan prepare_simulation(const SimulateOptions& options);
 

@@ -119,6 +119,13 @@ class Recordings(RecordingCommand):
         table = self.twinarm("replay", file, "--set", "gravity=0,0,-9.81").stdout
         self.assertIn("no value of the branch differs", table)
 
+    def test_a_run_with_set_is_that_of_the_edited_scene_and_its_recording_contains_the_change(self):
+        scene, file = SCENES / "pendulum.toml", self.folder / "set.twinrec"
+        options = ["--duration", 2, "--every", 0.5, "--csv"]
+        changed = self.twinarm("simulate", scene, *options, "--set", "gravity=0,0,-3", "--record", file).stdout
+        self.assertEqual(changed, self.twinarm("simulate", scene, *options, "--gravity", "0,0,-3").stdout)
+        self.assertIn("same bits", self.twinarm("replay", file).stdout)
+
     def test_a_branch_counts_no_work_that_the_old_spring_would_have_done(self):
         """Forked where the arm is held by a box and its target moves on: nothing else moves."""
         scene, file = SCENES / "robot_beside_obstacles.toml", "arm.twinrec"

@@ -67,8 +67,8 @@ class LikeSimulate(ProgramTest):
 
     def test_it_inspects_what_the_program_inspects_in_its_recording(self):
         for name in ("study", "peg_in_hole", "box_stack"):
-            file = self.folder / f"{name}.twinrec"
-            with twinarm.SceneSimulation(f"{SCENES}/{name}.toml", record=file) as sim:
+            file, changes = self.folder / f"{name}.twinrec", {"gravity": [0.5, 0, -5]}
+            with twinarm.SceneSimulation(f"{SCENES}/{name}.toml", record=file, set=changes) as sim:
                 sim.step(30)
                 found = sim.inspect(check=True)
             wanted = program("inspect", str(file), "--at", str(sim.t))

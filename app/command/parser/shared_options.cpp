@@ -50,6 +50,8 @@ void OptionAdder::robot(RobotOptions& options, const char* model) const {
         "the scene's start");
   (*this)("--gravity", options.gravity,
           "x,y,z in world axes [m/s^2]; default: the scene's, or 0,0,-9.81");
+  (*this)("--set", options.changes,
+          "PATH=VALUE: change this parameter of the scene; may be repeated");
   (*this)("--floating", options.floating,
           "floating base: the root link is not fixed to the world (URDF)");
   command.add_flag_callback(
