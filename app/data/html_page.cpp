@@ -147,9 +147,10 @@ std::string HtmlPage::html() const {
          "</footer>\n</body></html>\n";
 }
 
-std::string inline_svg(const std::string& file) {
+std::string inline_svg(const std::string& file, const std::string& label) {
   const std::size_t begin = file.find("<svg");  // without the XML declaration
-  return begin == std::string::npos ? "" : "<svg role=img" + file.substr(begin + 4);
+  if (begin == std::string::npos) return "";
+  return "<svg role=img aria-label=\"" + escaped(label) + "\"" + file.substr(begin + 4);
 }
 
 std::string made_by(const std::string& command, double seconds) {

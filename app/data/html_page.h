@@ -20,8 +20,8 @@ struct HtmlPage {
   std::string html() const;
 };
 
-// An SVG file for inclusion in a page.
-std::string inline_svg(const std::string& file);
+// An SVG file for inclusion in a page. `label`: what screen readers say, as plain text.
+std::string inline_svg(const std::string& file, const std::string& label = "Figure");
 // Start of a footer: the command and its duration.
 std::string made_by(const std::string& command, double seconds);
 

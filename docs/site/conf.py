@@ -141,6 +141,13 @@ def show_videos(app, pagename, templatename, context, doctree):
         r'<video controls preload="none" src="\1" poster="\3" aria-label="\2"></video>', context.get("body", ""))
 
 
+def complete_roles(app, pagename, templatename, context, doctree):
+    """Captions of the tables of contents are headings, which need a level; the keyboard scrolls wide program text."""
+    context["body"] = context.get("body", "").replace("<pre>", '<pre tabindex="0">')
+    for part in ("body", "toc", "furo_navigation_tree"):
+        context[part] = context.get(part, "").replace('role="heading"', 'role="heading" aria-level="2"')
+
+
 def bring_styles(app, error):
     """Adds KaTeX's styles, and what Debian's Furo lacks: its base style, the module that its script imports (a page
     opened from disk cannot import modules), and dark colours."""
@@ -162,6 +169,7 @@ def bring_styles(app, error):
 
 def setup(app):
     app.connect("html-page-context", show_videos)
+    app.connect("html-page-context", complete_roles, priority=900)  # after Furo's
     app.connect("build-finished", bring_styles)
     app.connect("source-read", name_what_is_outside)
     app.connect("source-read", set_the_commands)

@@ -23,8 +23,11 @@ std::string figure(const std::string& drawn, const std::string& caption, const c
       R"re(| color="black" stroke="currentColor"| stroke-line(?:cap|join)="round")re"
       R"re(| font-family="[^"]*"| stroke-width="1.00"|(\.\d)\d(?=,|\)| [LM ]))re");
   if (drawn.empty()) return "";
+  static const std::regex kTag(
+      "<[^>]*>.*|&[a-z]*;");  // the caption's first words, in bold, are its title
+  const std::string label = std::regex_replace(caption.substr(caption.find('>') + 1), kTag, "");
   return fmt::format("<figure{}>{}<figcaption>{}</figcaption></figure>\n", kind,
-                     inline_svg(std::regex_replace(drawn, kIdle, "$1")), caption);
+                     inline_svg(std::regex_replace(drawn, kIdle, "$1"), label), caption);
 }
 
 // HTML with formulas in paragraphs.

@@ -122,8 +122,7 @@ class Page implements LabKeys {
     const { hints } = this;
     const keys = labKeys(this);
     const dialog = help(keys, `${MOUSE} ${PLOTS}`);
-    const scenes = button(icon('gallery'), 'scenes (e)', () => gallery.root.showModal(), 'labelled');
-    scenes.append('Scenes');
+    const scenes = button([icon('gallery'), 'Scenes'], 'scenes (e)', () => gallery.root.showModal(), 'labelled');
     const header = pageHeader([this.title, this.file, scenes], dialog, () => this.toggleTheme());
     header.append(button(icon('panel'), 'hide or show the panel (\\)', () => this.togglePanel()));
     this.host.append(

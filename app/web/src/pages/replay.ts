@@ -9,7 +9,7 @@ import { button, element, icon } from '../ui/dom';
 import { clockKeys, key, type Key, MOUSE, PLOTS } from '../ui/keys';
 import { type Instant, PAPER, RecordedPage } from './recorded_page';
 import { start } from '../source/embedded';
-import { row, table } from '../ui/table';
+import { row, table, wide } from '../ui/table';
 
 const TABS = ['plots', 'energy', 'setup'];
 
@@ -136,11 +136,11 @@ function headline(run: Run): string {
 
 function section(title: string, head: string[], rows: string[][]): HTMLElement {
   const lines = rows.map(([first, ...rest]) => row(first, ...rest.map((text) => element('td', text))));
-  return element('section', element('h3', title), element('div.wide', table(head, lines)));
+  return element('section', element('h3', title), wide(title, table(head, lines)));
 }
 
 function fold(title: string, text: string): HTMLElement {
-  return element('details', element('summary', title), element('pre', text));
+  return element('details', element('summary', title), element('pre', { tabindex: '0' }, text));
 }
 
 // Settings and input files of the run.

@@ -4,7 +4,7 @@ import type { RunRecord } from '../source/run_record';
 import type { RunSource } from '../source/run_source';
 import { element } from '../ui/dom';
 import { definition, heading } from '../ui/glossary';
-import { numberCell, putNumber, row, table } from '../ui/table';
+import { numberCell, putNumber, row, table, wide } from '../ui/table';
 import type { Panel } from './panel';
 import type { Player } from '../source/playhead';
 
@@ -116,7 +116,7 @@ export class MomentumPanel implements Panel {
     this.root.append(
       heading('Momentum balance'),
       element('p.hint', hint),
-      element('div.wide', table(heads, lines, {}, foot)),
+      wide('momentum balance', table(heads, lines, {}, foot)),
     );
   }
 

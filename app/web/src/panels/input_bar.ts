@@ -80,6 +80,7 @@ export class InputBar implements Panel {
     this.input.hidden = this.facts.hidden = !hasTarget;
     this.gripper.setAttribute('aria-pressed', String(input.gripper));
     this.gripper.textContent = input.gripper ? 'closed' : 'grip';
+    this.gripper.setAttribute('aria-label', input.gripper ? 'gripper closed (g)' : 'grip (g)');
     const device = input.source === 'device' && input.device_name;
     const facts = [`${input.mapping} mapping`, device, MODES[input.mode] ?? input.mode].filter((fact) => fact);
     const text = facts.join(' · ');

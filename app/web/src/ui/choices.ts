@@ -30,7 +30,7 @@ export class Tabs {
     const tab = element('button', { type: 'button', role: 'tab', title: definition(title), ...ids, click }, title);
     const panel = element(
       'div',
-      { role: 'tabpanel', id: `panel-${at}`, 'aria-labelledby': tab.id },
+      { role: 'tabpanel', id: `panel-${at}`, tabindex: '0', 'aria-labelledby': tab.id },
       ...content,
     );
     this.tabs.push(tab);

@@ -21,7 +21,7 @@ export function element<T extends string>(tag: T, ...parts: (Attributes | Node |
 }
 
 export function button(
-  label: string | SVGSVGElement | (string | HTMLElement)[],
+  label: string | SVGSVGElement | (string | Element)[],
   title: string,
   act: () => void,
   className = '',

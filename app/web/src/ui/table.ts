@@ -13,6 +13,11 @@ export function putNumber(cell: HTMLElement, value: number | null, scale = 0): v
   cell.title = String(value);
 }
 
+// Scrolls sideways, also by keyboard.
+export function wide(name: string, content: Node): HTMLElement {
+  return element('div.wide', { tabindex: '0', role: 'group', 'aria-label': name }, content);
+}
+
 export function row(head: string | (Node | string)[], ...cells: Node[]): HTMLTableRowElement {
   return element('tr', element('th', { scope: 'row' }, ...[head].flat()), ...cells);
 }

@@ -22,8 +22,7 @@ export class Overlays {
     private readonly changed: () => void,
     readonly hasNumbers = true,
   ) {
-    this.toggle = button(icon('layers'), 'overlays (o)', () => this.fold(!this.list.hidden));
-    this.toggle.append(' Show');
+    this.toggle = button([icon('layers'), ' Show'], 'overlays (o)', () => this.fold(!this.list.hidden));
     this.root = element('div.corner', element('div.overlays', this.toggle, this.list), this.legend);
     this.fold(true);
     this.legend.open = remembered('legend', true);
