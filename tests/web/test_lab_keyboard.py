@@ -121,6 +121,16 @@ class Keyboard(LabCase):
         self.page.frames(20)
         self.assertGreaterEqual(self.value(f"{STATE}.time"), before)  # not from the start again
 
+    def test_typing_continues_when_the_rows_of_parameters_are_replaced(self):
+        self.tab_to("#parameter-coupling-0--stiffness")
+        self.type("3e")
+        self.value("window.before = document.activeElement; twinarm.page.set.parameters.build("
+                   f"{STATE}.parameters)")
+        self.assertFalse(self.value(f"before === {AT}"))
+        self.type("3")
+        self.keys("Enter")
+        self.until(f"{STATE}.parameters.find(k => k.path === 'coupling[0].stiffness').value === 3000")
+
     def test_tooltips_of_parameters_are_sentences(self):
         titles = self.value("[...document.querySelectorAll('.parameter [title]')].map(at => at.title)")
         self.assertGreater(len(titles), 10)

@@ -37,8 +37,12 @@ export abstract class ParameterRow {
     this.update(this.parameter);
   }
 
-  focus(): void {
-    this.root.querySelector<HTMLElement>('input, select, [tabindex="0"]')?.focus();
+  // The control that has replaced `before`, whose text was `typed`.
+  focus(before: Element, typed: string | null): void {
+    const controls = [...this.root.querySelectorAll<HTMLElement>('input, select, [tabindex="0"]')];
+    const now = controls.find(({ ariaLabel }) => ariaLabel === before.ariaLabel) ?? controls[0];
+    now?.focus();
+    if (typed !== null && now instanceof HTMLInputElement) now.value = typed;
   }
 
   enable(on: boolean): void {

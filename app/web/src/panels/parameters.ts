@@ -51,9 +51,13 @@ export class Parameters implements Panel {
     this.restore.disabled = isDisabled || !state.changes?.length;
   }
 
-  // Keeps the focus.
+  // Keeps the focus, and the text that is being typed.
   private build(parameters: LabParameter[]): void {
-    const at = document.activeElement?.closest<HTMLElement>('.parameter')?.dataset.path;
+    const before = document.activeElement;
+    const at = before?.closest<HTMLElement>('.parameter')?.dataset.path;
+    const isTyped = before instanceof HTMLInputElement && before.type === 'text' &&
+      before.selectionEnd === before.selectionStart;
+    const typed = isTyped ? before.value : null; // else all is selected
     this.rows.clear();
     const groups = new Map<string, HTMLElement>();
     for (const parameter of parameters) {
@@ -64,7 +68,7 @@ export class Parameters implements Panel {
       groups.get(group)!.append(row.root);
     }
     this.groups.replaceChildren(...groups.values());
-    if (at !== undefined) this.rows.get(at)?.focus();
+    if (at !== undefined) this.rows.get(at)?.focus(before!, typed);
   }
 
   // Stays folded when the rows are replaced.
