@@ -44,7 +44,8 @@ PIXEL = """(wanted => { const canvas = document.querySelector('.stage canvas'), 
     const at = {x: u * width, y: v * height};
     if (document.elementFromPoint(x + at.x, y + at.y) !== canvas) continue;
     const {kind, hit} = drag.find(drag.view(), at), body = kind === 'body' && hit && scene.bodies[hit.body];
-    const is = wanted === '' ? kind === 'body' && !body : body?.moves && (wanted === '*' || body.name.startsWith(wanted));
+    const is = wanted === '' ? kind === 'body' && !body :
+      body?.moves && (wanted === '*' || body.name.startsWith(wanted));
     if (is) return [x + at.x, y + at.y];
   }
   return null; })"""

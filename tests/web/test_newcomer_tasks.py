@@ -10,6 +10,7 @@ MAX_ACTIONS = 12
 CLOCK = "parseFloat(document.querySelector('.clock').textContent)"
 WHERE = "document.querySelector('.where').textContent"
 TITLE = "document.querySelector('h1').textContent"
+SCENES = "document.querySelector('header .labelled')"
 TIME = ".transport input[type=range]"
 CARD = "document.querySelector('.post-mortem')"
 STIFFNESS = "document.getElementById('parameter-coupling-0--stiffness')"
@@ -56,7 +57,8 @@ TASKS = {
         Click("Scenes"), Click("Stack of ten boxes"), See(f"{TITLE}.includes('Stack')"), Remember("crate", body()),
         Drag(body(), 60, -30, hold="document.querySelector('.spring-force').textContent.includes('N')")],
     "read a force": [
-        Click("Scenes"), Click("Stack of ten boxes"), See(f"{TITLE}.includes('Stack')"), Click("Show"), Click("contacts"),
+        Click("Scenes"), Click("Stack of ten boxes"), See(
+            f"{TITLE}.includes('Stack')"), Click("Show"), Click("contacts"),
         See("[...document.querySelectorAll('.labels span')].some(at => at.textContent.includes(' N'))")],
     "export a curve": [Click("Plots"), Click("CSV"), ".csv"],
     "open another scene": [
@@ -90,6 +92,9 @@ TASKS = {
         Click("hide or show the panel"), See(f"!{shown('aside')}"), Click("hide or show the panel"),
         See(shown("aside"))],
     "dark": [Click("light or dark"), See("document.documentElement.dataset.theme === 'dark'")],
+    "large type": [
+        Remember("width", f"{SCENES}.getBoundingClientRect().width"), Click("A+"),
+        See(f"{SCENES}.getBoundingClientRect().width > 1.3 * seen.width"), Click("Plots"), Click("A+")],
     # Here: one's own robot, moved by the sliders of its joints.
 }
 BY_KEYBOARD = {
@@ -98,7 +103,7 @@ BY_KEYBOARD = {
         See(f"{CLOCK} > 2"), Key(" "), See(f"{WHERE} === 'paused'"), Key("ArrowLeft"), See(f"{WHERE}.includes('ago')"),
         Key("b"), See(shown("dialog.branch")), Key("Tab"), Key("Tab"), Key("Enter"), See(shown(".branch-mark"))],
     "open another scene": [Key("e"), Key("Tab"), Key("ArrowRight"), Key("Enter"), See("!document.querySelector"
-                                                                                    "('dialog[open]')"), *RUNS],
+                                                                                      "('dialog[open]')"), *RUNS],
 }
 WINDOWS = {"mouse": (1280, 720), "touch": (820, 1180)}
 

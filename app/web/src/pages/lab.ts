@@ -16,6 +16,7 @@ import { remember, remembered, Theme } from '../ui/preferences';
 import { Overlays, Views } from '../view/view_options';
 import type { Listener, Panel } from '../panels/panel';
 import { Pace } from '../view/pace';
+import { presenterButtons } from '../ui/presenter';
 import { Hints } from '../panels/hints';
 import { button, element, icon } from '../ui/dom';
 import { LiveRun } from '../source/run_source';
@@ -124,6 +125,7 @@ class Page implements LabKeys {
     const dialog = help(keys, `${MOUSE} ${PLOTS}`);
     const scenes = button([icon('gallery'), 'Scenes'], 'scenes (e)', () => gallery.root.showModal(), 'labelled');
     const header = pageHeader([this.title, this.file, scenes], dialog, () => this.toggleTheme());
+    header.append(...presenterButtons());
     header.append(button(icon('panel'), 'hide or show the panel (\\)', () => this.togglePanel()));
     this.host.append(
       ...(this.picture ? [this.picture.root] : []),

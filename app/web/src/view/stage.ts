@@ -34,6 +34,8 @@ function backdrop(view: View, dark: boolean): string {
   return `linear-gradient(to top, ${stops.join(', ')})`;
 }
 
+const FITTED = 1.35; // width over height of the view for which the eye is given
+
 // Levels of detail: device pixel ratio, size of the shadow map.
 const DETAILS = [{ pixels: 2, shadow: 2048 }, { pixels: 1, shadow: 1024 }, { pixels: 0.75, shadow: 512 }];
 
@@ -83,9 +85,9 @@ export class Stage {
     this.scene.add(this.sky, this.sun, this.sun.target);
     this.furnish(view);
     this.painter.add(data.meshes, data.textures);
+    this.resize();
     this.look('start');
     new ResizeObserver(() => this.resize()).observe(host);
-    this.resize();
   }
 
   // Another run, without its meshes; keeps the camera.
@@ -137,13 +139,11 @@ export class Stage {
 
   look(name: ViewName): void {
     const { eye, target } = this.view;
-    const distance = new THREE.Vector3(...eye).distanceTo(new THREE.Vector3(...target));
     this.controls.target.set(...target);
-    if (name === 'start') this.camera.position.set(...eye);
-    else {
-      const direction = new THREE.Vector3(...DIRECTIONS[name]).normalize();
-      this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
-    }
+    const offset = new THREE.Vector3(...eye).sub(this.controls.target);
+    if (name !== 'start') offset.copy(new THREE.Vector3(...DIRECTIONS[name]).setLength(offset.length()));
+    const farther = Math.max(1, FITTED / this.camera.aspect); // in a narrow view
+    this.camera.position.copy(this.controls.target).addScaledVector(offset, farther);
     this.followed = null;
     this.controls.update();
     this.changed();
