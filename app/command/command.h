@@ -23,8 +23,10 @@ struct Command {
       : place(at), name(std::move(called)), help(std::move(text)) {
     prepare = [add, run](CLI::App& command) {
       const auto options = std::make_shared<Options>();
-      add(OptionAdder{command}, *options);
-      return [options, run]([[maybe_unused]] const Words& words) {
+      const OptionAdder adder{command};
+      add(adder, *options);
+      return [options, run, files = adder.files]([[maybe_unused]] const Words& words) {
+        check_files(*files);
         if constexpr (sizeof...(Typed) == 0)
           return run(*options);
         else

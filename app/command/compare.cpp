@@ -5,9 +5,11 @@
 #include "app/command/command.h"
 #include "app/compare/compare.h"
 #include "app/compare/page/page.h"
+#include "app/plot/gnuplot.h"
 #include "app/support/files.h"
 #include "app/support/parallel_for.h"
 #include "app/support/progress.h"
+#include "app/support/text.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {
@@ -38,8 +40,8 @@ void add_options(const OptionAdder& add, CompareOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false);
   add.group("Output");
-  add("--html", options.html,
-      "write the page compare.html into this folder: statements, figures, code");
+  add.output("--html", options.html, "",
+             "write the page compare.html into this folder: statements, figures, code");
   add.json(options.json);
 }
 
@@ -106,7 +108,8 @@ int run_compare(const CompareOptions& options) {
   std::filesystem::path page;
   if (!options.html.empty()) {
     page = compare_page::page_file(options.html);
-    compare_page::check_page(page, faults);
+    check_place(page, "--html", faults);
+    attempt(faults, require_gnuplot);
   }
   faults.check();
 
@@ -117,7 +120,6 @@ int run_compare(const CompareOptions& options) {
     rows = run_all(selection, integrations, progress, page.empty() ? 1 : 1 - kPageShare);
     if (!page.empty()) {
       const auto sections = make_sections(rows, integrations, progress, kPageShare);
-      make_folder(std::filesystem::absolute(page).parent_path(), "--html");
       write_whole_file(page, compare_page::page_html(rows, sections, selection.skipped,
                                                      command_line(options), progress.seconds()));
     }

@@ -162,25 +162,21 @@ struct ExportOptions {
 };
 
 void add_options(const OptionAdder& add, ExportOptions& options) {
-  add("recording", options.recording,
-      "recording (.twinrec), as `twinarm simulate --record` writes it")
+  add.input("recording", options.recording,
+            "recording (.twinrec), as `twinarm simulate --record` writes it")
       ->required();
-  add("page", options.page, "write one HTML file: animation, plots, energy balance, settings");
+  add.output("page", options.page, ".html",
+             "write one HTML file: animation, plots, energy balance, settings");
   add.group("Output on stdout");
   add.json(options.json);
   add("--csv", options.csv, "print one CSV row per frame");
 }
 
 int export_page(const ExportOptions& options) {
-  DiagnosticList faults;
+  const std::string file = options.page.string();
   if (options.csv)
-    faults.add("--csv", "cannot be combined with a page", "give one of them", "option.conflict");
-  const std::string file = options.page.string(), end = options.page.extension().string();
-  if (end != ".html" && end != ".htm")
-    faults.add({file, 0, "", "is not the name of a page", "end it in .html", "file.ending"});
-  check_place(options.page, faults);
-  faults.check();
-
+    throw InputError({{"", 0, "--csv", "cannot be combined with a page", "give one of them",
+                       "option.conflict"}});
   const ReplayPage page = replay_page(options.recording);
   write_whole_file(options.page, page.html);
   if (!options.json) {

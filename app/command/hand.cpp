@@ -54,7 +54,7 @@ void add_options(const OptionAdder& add, HandOptions& options) {
   add("--timing", options.picture, "write OUT/timing.svg: histograms of the ticks");
   add("--record", options.record,
       "simulate again from the log and write the recording OUT/run.twinrec");
-  add("--out", options.out, "folder of the log hand.csv and of other output");
+  add.output("--out", options.out, "", "folder of the log hand.csv and of other output");
   add.json(options.json);
 }
 
@@ -129,6 +129,10 @@ int run_hand(const HandOptions& options) {
   LiveOptions live;
   live.mapping = mapping_of(options, faults);
   live.step = options.step.value_or(0);
+  const std::filesystem::path logged = options.out / "scene.toml";
+  if (options.record && is_same_file(logged, options.scene))
+    faults.add({logged.string(), 0, "--record", "the scene of the log would replace the scene",
+                "give another folder with --out", "file.same"});
   const SceneModel scene = scene_of(options, faults);
   const std::unique_ptr<InputDevice> device = open_device(options.device);
   LiveRun run(scene, *device, live);
@@ -157,7 +161,6 @@ int run_hand(const HandOptions& options) {
     draw_timing(summary, summary.picture);
   }
   if (options.record && summary.ticks > 0) {
-    const std::filesystem::path logged = options.out / "scene.toml";
     write_scene_of_log(options.scene, summary.log, run.step(), summary.duration, logged);
     summary.recording = (options.out / "run.twinrec").string();
     const State<double> end = record_again(logged, summary.recording);

@@ -27,7 +27,7 @@ void add_options(const OptionAdder& add, InspectOptions& options) {
   add("--force", options.forces,
       "show only these forces: coupling/NAME, contact/A-B, constraint/NAME ..");
   add.group("Output");
-  add("--html", options.html, "write a page that steps through the passes");
+  add.output("--html", options.html, ".html", "write a page that steps through the passes");
   add.json(options.json);
 }
 
@@ -64,7 +64,6 @@ Reading read_all(const InspectOptions& options, bool is_recorded) {
   DiagnosticList faults;
   InspectView view;
   read_passes(options, view, faults);
-  if (!options.html.empty()) check_place(options.html, faults);
   check_useless(options, is_recorded, faults);
   SimulateOptions simulate;
   simulate.robot = options.robot;

@@ -11,7 +11,7 @@ struct MakeRobotOptions {
 };
 
 void add_options(const OptionAdder& add, MakeRobotOptions& options) {
-  add("recipe", options.recipe, "recipe of the robot (TOML)")->required();
+  add.input("recipe", options.recipe, "recipe of the robot (TOML)")->required();
 }
 
 int run_make_robot(const MakeRobotOptions& options) {

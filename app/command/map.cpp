@@ -32,20 +32,21 @@ void add_options(const OptionAdder& add, MapOptions& options) {
   add("--no-simd", options.no_simd, "run cells one at a time, not in SIMD batches");
   add("--threads", options.threads, "number of threads; default: all processors")->default_str("");
   add.group("Output");
-  add("--svg", options.svg, "write the map as SVG, with predicted limits");
-  add("--png", options.png, "write the map as PNG, with predicted limits");
-  add("--csv", options.csv, "write one row per cell with all measures");
+  add.output("--svg", options.svg, ".svg", "write the map as SVG, with predicted limits");
+  add.output("--png", options.png, ".png", "write the map as PNG, with predicted limits");
+  add.output("--csv", options.csv, ".csv", "write one row per cell with all measures");
   add("--force", options.force, "overwrite existing files");
   add.json(options.json);
   add.group("One cell");
   add("--cell", options.cell, "IX,IY: index of a cell, from 0");
-  add("--record", options.record, "write the recording of that cell, and its scene beside it");
+  add.output("--record", options.record, ".twinrec",
+             "write the recording of that cell, and its scene beside it");
   add.group("Resume and share");
-  add("--checkpoint", options.checkpoint,
-      "checkpoint file, from which an interrupted map resumes; default: in out/map");
+  add.output("--checkpoint", options.checkpoint, ".twinmap",
+             "checkpoint file, from which an interrupted map resumes; default: in out/map");
   add("--jobs", options.jobs, "split the map into so many parts")->default_str("");
   add("--job", options.job, "compute only this part, from 0")->default_str("");
-  add("--merge", options.merge, "combine these checkpoint files of the parts");
+  add.input("--merge", options.merge, "combine these checkpoint files of the parts");
 }
 
 bool file_exists(const std::filesystem::path& file) {
@@ -53,19 +54,12 @@ bool file_exists(const std::filesystem::path& file) {
   return !file.empty() && std::filesystem::exists(file, ignored);
 }
 
-// Checks before the computation that the file can be written and overwrites nothing.
-void check_output(const char* option, const std::filesystem::path& file, const char* extension,
-                  bool force, DiagnosticList& faults) {
-  if (file.empty()) return;
-  if (*extension && file.extension() != extension)
-    faults.add({file.string(), 0, option, std::string("writes a ") + extension + " file",
-                std::string("end the name in ") + extension, "file.ending"});
+// Checks before the computation that the file overwrites nothing.
+void check_new(const char* option, const std::filesystem::path& file, bool force,
+               DiagnosticList& faults) {
   if (file_exists(file) && !force)
     faults.add({file.string(), 0, option, "the file exists", "choose another name, or give --force",
                 "file.exists"});
-  else if (std::error_code ignored; std::filesystem::is_directory(file, ignored))
-    faults.add({file.string(), 0, option, "is a folder", "name a file in it", "file.is-folder"});
-  attempt(faults, [&] { require_writable_folder(folder_of(file), option); });
 }
 
 bool is_part(const MapOptions& options) {
@@ -92,20 +86,16 @@ void check_modes(const MapOptions& options, DiagnosticList& faults) {
 }
 
 void check_outputs(const MapOptions& options, DiagnosticList& faults) {
-  check_output("--svg", options.svg, ".svg", options.force, faults);
-  check_output("--png", options.png, ".png", options.force, faults);
-  check_output("--csv", options.csv, ".csv", options.force, faults);
+  check_new("--svg", options.svg, options.force, faults);
+  check_new("--png", options.png, options.force, faults);
+  check_new("--csv", options.csv, options.force, faults);
   if (!options.svg.empty() || !options.png.empty()) attempt(faults, require_gnuplot);
-  if (!options.merge.empty())
-    check_output("--checkpoint", options.checkpoint, "", options.force, faults);
+  if (!options.merge.empty()) check_new("--checkpoint", options.checkpoint, options.force, faults);
   if (!options.record.empty()) {
     std::filesystem::path scene = options.record;
     scene.replace_extension(".toml");
-    if (scene == options.record)
-      return faults.add({options.record.string(), 0, "--record", "is the name of a scene file",
-                         "end it in .twinrec", "file.ending"});
-    check_output("--record", options.record, "", options.force, faults);
-    check_output("--record", scene, "", options.force, faults);
+    check_new("--record", options.record, options.force, faults);
+    check_new("--record", scene, options.force && !is_same_file(scene, options.scene), faults);
   }
 }
 
@@ -136,17 +126,12 @@ std::vector<int> wanted_blocks(const MapOptions& options, const MapBlocks& block
   return wanted;
 }
 
-void write_result(const char* option, const std::filesystem::path& file, const std::string& bytes) {
-  make_folder(folder_of(file), option);
-  write_whole_file(file, bytes);
-}
-
 void write_results(const MapOptions& options, const MapJob& job, const TileFile& file) {
   const bool wants_curves = options.json || !options.svg.empty() || !options.png.empty();
   const std::vector<MapCurve> curves = wants_curves ? theory_curves(job) : std::vector<MapCurve>{};
-  if (!options.csv.empty()) write_result("--csv", options.csv, map_csv(job, file));
-  if (!options.svg.empty()) write_result("--svg", options.svg, map_svg(job, file, curves));
-  if (!options.png.empty()) write_result("--png", options.png, map_png(job, file, curves));
+  if (!options.csv.empty()) write_whole_file(options.csv, map_csv(job, file));
+  if (!options.svg.empty()) write_whole_file(options.svg, map_svg(job, file, curves));
+  if (!options.png.empty()) write_whole_file(options.png, map_png(job, file, curves));
   if (options.json)
     fmt::print("{}\n", map_json(job, file, curves));
   else
@@ -156,7 +141,6 @@ void write_results(const MapOptions& options, const MapJob& job, const TileFile&
 
 int record_one_cell(const MapOptions& options, const MapJob& job) {
   const auto at = parse_cell(options.cell, job);
-  make_folder(folder_of(options.record), "--record");
   const OpenedCell cell = open_cell(job, at.first, at.second, options.record);
   if (!options.json) {
     fmt::print("{} = {} {}, {} = {} {}\n", job.x.path, number_text(cell.x), job.x_unit, job.y.path,
@@ -205,7 +189,7 @@ int compute(const MapOptions& options, const MapJob& job) {
   const std::filesystem::path work = work_file(options, empty);
   if (!options.merge.empty()) {
     const TileFile file = merge_tile_files(options.merge, empty, blocks);
-    if (!options.checkpoint.empty()) write_result("--checkpoint", work, to_text(file));
+    if (!options.checkpoint.empty()) write_whole_file(work, to_text(file));
     write_results(options, job, file);
     return 0;
   }

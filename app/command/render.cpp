@@ -34,10 +34,11 @@ struct RenderOptions {
 void add_options(const OptionAdder& add, RenderOptions& options) {
   add.robot(options.robot, "recording, scene (TOML) or robot (URDF)");
   add.group("Output (one of)");
-  add("--png", options.png, "write one picture to this file");
-  add("--frames", options.frames, "write a video as numbered PNG files into this folder");
-  add("--mp4", options.mp4, "write an MP4 video (needs ffmpeg)");
-  add("--gif", options.gif, "write an animated GIF (needs ffmpeg)");
+  add.output("--png", options.png, ".png", "write one picture to this file");
+  add.output("--frames", options.frames, "",
+             "write a video as numbered PNG files into this folder");
+  add.output("--mp4", options.mp4, ".mp4", "write an MP4 video (needs ffmpeg)");
+  add.output("--gif", options.gif, ".gif", "write an animated GIF (needs ffmpeg)");
   add.group("Time");
   add("--at", options.at, "time of the picture [s]; default: end of a recording, else the start");
   add("--from", options.from, "start of the video [s]; default: the start");
@@ -52,8 +53,8 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
   add("--plot", options.plot,
       "curves below the picture: none, or some of: energy, forces, torques, contacts, "
       "tracking-error");
-  add("--side-by-side", options.side_by_side,
-      "second recording, shown to the right of the first in sync");
+  add.input("--side-by-side", options.side_by_side,
+            "second recording, shown to the right of the first in sync");
   add.group("Picture");
   add("--size", options.size, "WIDTHxHEIGHT [pixels], each 16 to 8192");
   add("--quality", options.quality, "draft, normal or studio");
@@ -90,17 +91,6 @@ void choose_word(const char* option, const std::string& word, const std::vector<
   if (const auto found = choose(option, word, names, "possible", faults)) chosen = values[*found];
 }
 
-// Rejects the name of a file of another kind.
-void check_kind(const char* option, const std::filesystem::path& file, const std::string& own,
-                DiagnosticList& faults) {
-  static const std::vector<std::string> others{".png", ".jpg", ".jpeg", ".svg", ".pdf",
-                                               ".gif", ".mp4", ".webm", ".avi", ".html"};
-  const std::string kind = file.extension().string();
-  if (kind != own && std::ranges::find(others, kind) != others.end())
-    faults.add({file.string(), 0, option, "is the name of a file of another kind",
-                "end it in " + own, "file.ending"});
-}
-
 void check_outputs(const RenderOptions& options, RenderPlan& plan, DiagnosticList& faults) {
   int outputs = 0;
   for (const auto* file : {&options.png, &options.frames, &options.mp4, &options.gif})
@@ -108,13 +98,6 @@ void check_outputs(const RenderOptions& options, RenderPlan& plan, DiagnosticLis
   if (outputs != 1)
     faults.add("output", outputs == 0 ? "is missing" : "more than one is given",
                "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE", "option.outputs");
-  for (const auto* file : {&options.png, &options.mp4, &options.gif})
-    if (!file->empty()) check_place(*file, faults);
-  check_kind("--png", options.png, ".png", faults);
-  check_kind("--mp4", options.mp4, ".mp4", faults);
-  check_kind("--gif", options.gif, ".gif", faults);
-  if (!options.frames.empty())
-    attempt(faults, [&] { require_writable_folder(options.frames, "--frames"); });
   plan.times.is_film = outputs == 1 && options.png.empty();
   if (plan.times.is_film && options.at)
     faults.add("--at", "applies to a picture only", "give --from and --to, or --png FILE",
@@ -167,6 +150,7 @@ RenderPlan read_render_options(const RenderOptions& options) {
 std::unique_ptr<Film> make_film(const RenderOptions& options, const RenderPlan& plan) {
   if (!options.frames.empty()) return png_film(options.frames);
   const FilmKind kind = options.mp4.empty() ? FilmKind::gif : FilmKind::mp4;
+  make_folder(folder_of(options.mp4.empty() ? options.gif : options.mp4), "--mp4");
   return ffmpeg_film(options.mp4.empty() ? options.gif : options.mp4,
                      {kind, plan.picture.width, plan.picture.height, plan.rate});
 }

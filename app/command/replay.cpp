@@ -5,6 +5,7 @@
 
 #include "app/command/command.h"
 #include "app/data/json_writer.h"
+#include "app/plot/gnuplot.h"
 #include "app/record/branch_view.h"
 #include "app/support/files.h"
 
@@ -20,15 +21,15 @@ struct ReplayOptions {
 };
 
 void add_options(const OptionAdder& add, ReplayOptions& options) {
-  add("recording", options.recording,
-      "recording (.twinrec), as `twinarm simulate --record` writes it")
+  add.input("recording", options.recording,
+            "recording (.twinrec), as `twinarm simulate --record` writes it")
       ->required();
   add.group("Branch");
   add("--from", options.from, "time of the first step [s]; default: the start");
   add("--set", options.changes, "PATH=VALUE: change this parameter of the scene; may be repeated")
       ->allow_extra_args(false);
   add.group("Output");
-  add("--plot", options.plot, "write an SVG of recording and branch (with --set)");
+  add.output("--plot", options.plot, ".svg", "write an SVG of recording and branch (with --set)");
   add.json(options.json);
 }
 
@@ -93,7 +94,7 @@ int run_replay(const ReplayOptions& options) {
   if (!options.plot.empty() && changes.empty())
     throw InputError(
         {{"", 0, "--plot", "there is no branch to draw", "give --set too", "option.conflict"}});
-  if (!options.plot.empty()) check_plot(options.plot);
+  if (!options.plot.empty()) require_gnuplot();
   const Recording recording(options.recording);
   for (const std::string& note : recording.notes()) print_error("twinarm: {}\n", note);
   const std::size_t first = options.from ? recording.at(*options.from, "--from") : 0;

@@ -29,11 +29,11 @@ void add_options(const OptionAdder& add, SimulateOptions& options) {
   add("--at", options.at, "output times: t1,t2,.. [s]");
   add.json(options.json);
   add("--csv", options.csv, "print one CSV row per output time");
-  add("--record", options.record, "write a recording of the run");
+  add.output("--record", options.record, ".twinrec", "write a recording of the run");
   add("--record-every", options.record_every,
       "interval between recorded frames [s]; default: each step");
-  add("--post-mortem", options.post_mortem,
-      "file for the last 1,000 steps of a diverged run; default: in out/post_mortem");
+  add.output("--post-mortem", options.post_mortem, ".twinrec",
+             "file for the last 1,000 steps of a diverged run; default: in out/post_mortem");
 }
 
 std::unique_ptr<RunOutput> output_of(const SimulateOptions& options, const SimulateInput& input,
@@ -105,13 +105,13 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
 }  // namespace
 
 Command simulate_command() {
-  return {
-      60, "simulate",
-      "Simulate a robot or a scene\n\n"
-      "Examples:\n"
-      "  twinarm simulate assets/robots/puma560/puma560.urdf --duration 1 --every 0.1\n"
-      "  twinarm simulate assets/scenes/double_pendulum.toml --duration 10 --record run.twinrec",
-      add_options, run_simulate};
+  return {60, "simulate",
+          "Simulate a robot or a scene\n\n"
+          "Examples:\n"
+          "  twinarm simulate assets/robots/puma560/puma560.urdf --duration 1 --every 0.1\n"
+          "  twinarm simulate assets/scenes/double_pendulum.toml --duration 10 --record "
+          "out/run.twinrec",
+          add_options, run_simulate};
 }
 
 }  // namespace twinarm

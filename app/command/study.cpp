@@ -44,15 +44,16 @@ void add_options(const OptionAdder& add, StudyOptions& options) {
   add.input("--trace", options.trace, "recorded operator motion (CSV)");
   add.group("Calibration");
   add("--recalibrate", options.recalibrate,
-      "re-run the gain calibration and overwrite assets/study/calibration.json (5 min)");
+      "re-run the gain calibration and overwrite study/calibration.json of the assets (5 min)");
   add("--identify", options.identify,
-      "re-run the parameter identification of Table 2 and overwrite "
-      "assets/study/identification.json (10 min)");
+      "re-run the parameter identification of Table 2 and overwrite study/identification.json of "
+      "the "
+      "assets (10 min)");
   add("--identify-one", options.identify_one,
       "ROW/LAW/RATE: print one identification as JSON and stop; ROW is E3, E4 or E4-text, RATE in "
       "Hz: E4/linear/60");
   add.group("Output");
-  add("--out", options.out, "folder for report, figures, CSV");
+  add.output("--out", options.out, "", "folder for report, figures, CSV");
   add("--paper-view", options.paper_view, "hide the target robot in pictures, as the paper does");
   add.json(options.json);
   add.assets(options.assets);

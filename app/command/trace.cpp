@@ -18,7 +18,7 @@ void add_options(const OptionAdder& add, TraceOptions& options) {
   add("--seed", options.seed, "random seed of the motion");
   add("--duration", options.duration, "[s]")->check(above_zero());
   add("--rate", options.rate, "sampling rate [Hz]")->check(above_zero());
-  add("--out", options.out, "CSV file to write")->required();
+  add.output("--out", options.out, ".csv", "CSV file to write")->required();
 }
 
 int run_trace(const TraceOptions& options) {

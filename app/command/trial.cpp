@@ -49,7 +49,7 @@ void add_options(const OptionAdder& add, TrialOptions& options) {
   add("--time-limit", options.time_limit, "time limit of pick-and-place [s]")->check(above_zero());
   add("--yes", options.yes, "start without waiting for Enter");
   add.group("Output");
-  add("--out", options.out, "folder of results.csv and of the logs");
+  add.output("--out", options.out, "", "folder of results.csv and of the logs");
   add.json(options.json);
   add.assets(options.assets);
 }

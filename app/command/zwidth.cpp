@@ -33,8 +33,8 @@ void add_options(const OptionAdder& add, ZwidthOptions& options) {
       "damping B of the virtual wall at which the maximum stiffness is found [N s/m]");
   add("--seed", options.seed, "random seed of network delays and operator motion");
   add.group("Output");
-  add("--svg", options.svg, "write the K-B plane and the energies as SVG");
-  add("--png", options.png, "write the K-B plane and the energies as PNG");
+  add.output("--svg", options.svg, ".svg", "write the K-B plane and the energies as SVG");
+  add.output("--png", options.png, ".png", "write the K-B plane and the energies as PNG");
   add("--csv", options.csv, "print the walls as CSV on stdout");
   add.json(options.json);
 }
@@ -55,15 +55,6 @@ void check(const ZwidthOptions& options, DiagnosticList& faults) {
   if (device.delay < 0 || device.delay > 1000)
     faults.add("--delay", fmt::format("is {} ticks", device.delay), "give a number from 0 to 1000",
                "option.range");
-  for (const auto* file : {&options.svg, &options.png})
-    if (!file->empty()) check_place(*file, faults);
-  const auto ends = [&](const char* option, const std::filesystem::path& file, const char* with) {
-    if (!file.empty() && file.extension() != with)
-      faults.add({file.string(), 0, option, std::string("writes a ") + with + " file",
-                  std::string("end the name in ") + with, "file.ending"});
-  };
-  ends("--svg", options.svg, ".svg");
-  ends("--png", options.png, ".png");
   if (options.json && options.csv)
     faults.add("--csv", "cannot be combined with --json", "leave one of them out",
                "option.conflict");

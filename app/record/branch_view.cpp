@@ -10,7 +10,6 @@
 #include "app/accounting/energy_balance.h"
 #include "app/data/tables.h"
 #include "app/plot/gnuplot.h"
-#include "app/support/files.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
@@ -173,15 +172,6 @@ std::string panel_at(double bottom, double top, const std::string& label) {
 }
 
 }  // namespace
-
-void check_plot(const std::filesystem::path& file) {
-  std::error_code ignored;
-  if (file.extension() != ".svg" || std::filesystem::is_directory(file, ignored))
-    throw InputError({{file.string(), 0, "--plot", "must be an SVG file", "end its name in .svg",
-                       "file.ending"}});
-  require_gnuplot();
-  make_folder(folder_of(file), "--plot");
-}
 
 ComparedBalances compared_balances(const Replay& recorded, const Replay& branch) {
   ComparedBalances found;

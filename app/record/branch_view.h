@@ -27,8 +27,6 @@ ComparedBalances compared_balances(const Replay& recorded, const Replay& branch)
 
 // The values that differ most, then both balances with their differences.
 void print_branch(const Recording& recording, const Replay& recorded, const Replay& branch);
-// Before a long run: makes the folder. Throws InputError if the figure cannot be drawn.
-void check_plot(const std::filesystem::path& file);
 // The value that differs most, and the rows of the energy balance that do. Throws InputError.
 void draw_branch(const Recording& recording, const Replay& recorded, const Replay& branch,
                  const std::vector<std::string>& changes, const std::filesystem::path& file);

@@ -19,8 +19,9 @@ std::string bytes_of(std::uint32_t number) {
 
 std::filesystem::path checked_place(std::filesystem::path file) {
   DiagnosticList faults;
-  check_place(file, faults);
+  check_place(file, "--record", faults);
   faults.check();
+  make_folder(folder_of(file), "--record");
   return file;
 }
 

@@ -28,6 +28,18 @@ InputError cannot_write(const std::filesystem::path& path, const std::string& wh
                       std::string("choose a writable folder with ") + option, "file.unwritable"}});
 }
 
+// ": why" the folder cannot be written or made; empty if it can.
+std::string folder_fault(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::path there = std::filesystem::absolute(folder, error);
+  while (!std::filesystem::exists(there, error) && there.has_relative_path())
+    there = there.parent_path();
+  if (!std::filesystem::is_directory(there, error))
+    return ": " + there.string() + " is not a folder";
+  if (access(there.c_str(), W_OK | X_OK) == 0) return "";
+  return ": no permission in " + there.lexically_normal().string();
+}
+
 }  // namespace
 
 std::filesystem::path find_assets(const std::filesystem::path& given) {
@@ -68,14 +80,8 @@ std::filesystem::path find_input(const std::filesystem::path& name) {
 }
 
 void require_writable_folder(const std::filesystem::path& folder, const char* option) {
-  std::error_code error;
-  std::filesystem::path there = std::filesystem::absolute(folder, error);
-  while (!std::filesystem::exists(there, error) && there.has_relative_path())
-    there = there.parent_path();
-  if (!std::filesystem::is_directory(there, error))
-    throw cannot_write(folder, ": " + there.string() + " is not a folder", option);
-  if (access(there.c_str(), W_OK | X_OK) != 0)
-    throw cannot_write(folder, ": no permission in " + there.string(), option);
+  if (const std::string why = folder_fault(folder); !why.empty())
+    throw cannot_write(folder, why, option);
 }
 
 void make_folder(const std::filesystem::path& folder, const char* option) {
@@ -101,17 +107,25 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-void check_place(const std::filesystem::path& file, DiagnosticList& faults) {
+void check_place(const std::filesystem::path& file, const char* option, DiagnosticList& faults) {
   std::error_code error;
-  const std::filesystem::path folder = folder_of(file);
-  if (std::filesystem::is_directory(file, error))
-    faults.add({file.string(), 0, "", "is a folder", "name a file in it", "file.is-folder"});
-  else if (!std::filesystem::is_directory(folder, error))
-    faults.add({file.string(), 0, "", "there is no folder '" + folder.string() + "'",
-                "make it: mkdir -p " + folder.string(), "file.no-folder"});
-  else if (access(folder.c_str(), W_OK | X_OK) != 0)
-    faults.add({file.string(), 0, "", "the file cannot be written: no permission in its folder",
-                "choose a writable folder", "file.unwritable"});
+  const auto status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status))
+    faults.add({file.string(), 0, option, "is a folder", "name a file in it", "file.is-folder"});
+  else if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    faults.add({file.string(), 0, option, "is a device or a pipe, which a file would replace",
+                "name a file", "file.no-file"});
+  else if (const std::string why = folder_fault(folder_of(file)); !why.empty())
+    faults.add(cannot_write(file, why, option).faults());
+}
+
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto whole = [&](const std::filesystem::path& file) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+  };
+  return !whole(a).empty() && whole(a) == whole(b);
 }
 
 std::ifstream open_file(const std::filesystem::path& file) {

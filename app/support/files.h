@@ -32,8 +32,11 @@ void make_folder(const std::filesystem::path& folder, const char* option = "--ou
 // A new folder NAME-XXXXXX for temporary files; the caller removes it. Throws InputError.
 std::filesystem::path make_temporary_folder(const std::string& name);
 std::filesystem::path folder_of(const std::filesystem::path& file);  // "." if it names none
-// Adds a diagnostic if the file cannot be written; called before a long computation.
-void check_place(const std::filesystem::path& file, DiagnosticList& faults);
+// Adds a diagnostic if the file cannot be written, or its folder cannot be made; called before a
+// long computation.
+void check_place(const std::filesystem::path& file, const char* option, DiagnosticList& faults);
+// Whether two names are those of one file, which need not exist.
+bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 // Both throw InputError if the file does not exist or cannot be read.
 std::ifstream open_file(const std::filesystem::path& file);
 std::string read_whole_file(const std::filesystem::path& file);

@@ -7,7 +7,8 @@
 
 namespace twinarm {
 
-// Throws InputError if the folder does not exist or is not writable.
+// Makes the folder if it is missing. Throws InputError if the file cannot be written, or is a
+// device.
 void write_whole_file(const std::filesystem::path& file, const std::string& bytes);
 
 }  // namespace twinarm

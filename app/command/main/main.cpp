@@ -33,9 +33,11 @@ std::string remedy(const Diagnostic& fault) {
        at != end && names.size() < kMaxFiles; at.increment(ignored))
     names.push_back(at->path().filename().string());
   const std::string nearest = nearest_name(file.filename().string(), names);
-  return nearest.empty()
-             ? fault.fix
-             : fmt::format("did you mean '{}'?", (file.parent_path() / nearest).string());
+  if (nearest.empty()) return fault.fix;
+  const std::filesystem::path found = file.parent_path() / nearest;
+  const std::string here =
+      found.lexically_proximate(std::filesystem::current_path(ignored)).string();
+  return fmt::format("did you mean '{}'?", here.starts_with("..") ? found.string() : here);
 }
 
 // Prints all diagnostics on stderr and, if as_json, on stdout as JSON.
@@ -141,7 +143,8 @@ InputError parse_fault(const CLI::App& app, const CLI::ParseError& error, int ar
   if (is_refused || problem.ends_with(" missing")) {
     const std::size_t value = problem.find(" = ");
     const char* kind = is_number(*command, option) ? "number" : "whole number";
-    problem = is_refused
+    const bool has_value = is_refused && problem.compare(value + 3, 2, "--") != 0;
+    problem = has_value
                   ? fmt::format("{}: '{}' is not a {}", option, problem.substr(value + 3), kind)
                   : fmt::format("{} has no value", option);
     fix = fmt::format("give {} VALUE, as {} --help describes it", option, path);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdlib>
+#include <sstream>
 #include <string_view>
 
 #include "app/command/parser/shared_options.h"
@@ -130,12 +131,22 @@ class HelpFormatter : public CLI::Formatter {
     if (option->get_items_expected_max() > 0 && !preset.empty()) note("default " + preset);
     for (const CLI::Option* other : option->get_needs()) note("with " + other->get_name());
     for (const CLI::Option* other : option->get_excludes()) note("not with " + other->get_name());
-    const std::string text = option->get_description() + (notes.empty() ? "" : " (" + notes + ")");
-    const std::size_t used = get_column_width(), columns = page_width();
-    return wrapped(text, columns > used + kMinColumn ? columns - used : kMinColumn);
+    return in_column(option->get_description() + (notes.empty() ? "" : " (" + notes + ")"));
+  }
+  // Its first paragraph.
+  std::string make_subcommand(const CLI::App* command) const override {
+    std::ostringstream out;
+    CLI::detail::format_help(out, command->get_name(),
+                             in_column(paragraphs(command->get_description()).front()),
+                             get_column_width());
+    return out.str();
   }
 
  private:
+  std::string in_column(const std::string& text) const {
+    const std::size_t used = get_column_width(), columns = page_width();
+    return wrapped(text, columns > used + kMinColumn ? columns - used : kMinColumn);
+  }
   static constexpr std::size_t kMinColumn = 30;  // of descriptions
 };
 

@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "app/robot/robot_input.h"
 #include "app/support/files.h"
 #include "app/support/text.h"
@@ -21,13 +25,59 @@ CLI::Option* OptionAdder::as_file(CLI::Option* option) {
   return option->type_name(kFileWord)->check(CLI::Validator(fault, ""));
 }
 
-CLI::Option* OptionAdder::input(const char* name, std::filesystem::path& file,
-                                const char* help) const {
+CLI::Option* OptionAdder::as_input(CLI::Option* option) const {
   const auto look_up = [](std::string& typed) {
     typed = find_input(typed).string();
     return std::string();
   };
-  return (*this)(name, file, help)->transform(CLI::Validator(look_up, ""));
+  files->push_back({option, false, ""});
+  return option->transform(CLI::Validator(look_up, ""));
+}
+
+CLI::Option* OptionAdder::output(const char* name, std::filesystem::path& file, const char* ending,
+                                 const std::string& help) const {
+  CLI::Option* option = (*this)(name, file, help);
+  files->push_back({option, true, ending});
+  return option;
+}
+
+namespace {
+// Of files that the program reads or writes, and of other pictures, videos and documents.
+constexpr std::array<std::string_view, 23> kEndings{
+    ".toml", ".urdf", ".xacro", ".json", ".csv", ".twinrec", ".twinmap", ".html",
+    ".svg",  ".png",  ".jpg",   ".jpeg", ".gif", ".mp4",     ".webm",    ".avi",
+    ".pdf",  ".stl",  ".obj",   ".ply",  ".dae", ".gltf",    ".glb"};
+}  // namespace
+
+void check_files(const FileOptions& files) {
+  DiagnosticList faults;
+  std::vector<std::pair<std::string, std::filesystem::path>> taken;
+  for (const FileOption& input : files)
+    if (!input.is_output)
+      for (const std::string& name : input.option->results())
+        taken.emplace_back(input.option->get_name(), name);
+  for (const FileOption& output : files) {
+    if (!output.is_output || output.option->empty()) continue;
+    const std::string option = output.option->get_name();
+    const std::filesystem::path file = output.option->results().front();
+    const auto fault = [&](const std::string& problem, const std::string& fix, const char* code) {
+      faults.add({file.string(), 0, option, problem, fix, code});
+    };
+    const auto same = std::ranges::find_if(
+        taken, [&](const auto& other) { return is_same_file(other.second, file); });
+    if (same != taken.end())
+      fault("is also the file of " + same->first, "give another name", "file.same");
+    else if (output.ending.empty())
+      attempt(faults, [&] { require_writable_folder(file, option.c_str()); });
+    else if (const std::string kind = file.extension().string();
+             kind != output.ending && std::ranges::find(kEndings, kind) != kEndings.end())
+      fault("writes a " + output.ending + " file", "end the name in " + output.ending,
+            "file.ending");
+    else
+      check_place(file, option.c_str(), faults);
+    taken.emplace_back(option, file);
+  }
+  faults.check();
 }
 
 void OptionAdder::json(bool& value) const {

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -14,8 +15,17 @@ struct RobotOptions;
 
 inline constexpr const char* kFileWord = "PATH";  // value of a file option in help texts
 
+// A file or folder on the command line.
+struct FileOption {
+  const CLI::Option* option;
+  bool is_output;
+  std::string ending;  // of an output; empty: a folder
+};
+using FileOptions = std::vector<FileOption>;
+
 struct OptionAdder {
   CLI::App& command;
+  std::shared_ptr<FileOptions> files = std::make_shared<FileOptions>();
 
   // The options added after this call appear under this heading in the help, with their defaults.
   void group(const char* heading) const;
@@ -31,8 +41,14 @@ struct OptionAdder {
     else
       return command.add_option(name, value, help);
   }
-  // An input file; names that begin with assets/ are looked up by find_input().
-  CLI::Option* input(const char* name, std::filesystem::path& file, const char* help) const;
+  // An input file, or several; names that begin with assets/ are looked up by find_input().
+  template <class Paths>
+  CLI::Option* input(const char* name, Paths& file, const char* help) const {
+    return as_input((*this)(name, file, help));
+  }
+  // An output file with names in `ending` (".svg"), or an output folder ("").
+  CLI::Option* output(const char* name, std::filesystem::path& file, const char* ending,
+                      const std::string& help) const;
 
   // Options that several commands share.
   void json(bool& value) const;
@@ -44,7 +60,12 @@ struct OptionAdder {
  private:
   // An empty name is an error: an unset shell variable.
   static CLI::Option* as_file(CLI::Option* option);
+  CLI::Option* as_input(CLI::Option* option) const;
 };
+
+// Throws InputError, before anything is read or written, if an output is also an input or another
+// output, has the ending of another kind of file, or cannot be written.
+void check_files(const FileOptions& files);
 
 // Ranges of numbers, described as in help texts (command_tree.h).
 CLI::Validator above_zero();

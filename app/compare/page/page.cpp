@@ -195,13 +195,6 @@ std::filesystem::path page_file(const std::filesystem::path& asked) {
   return asked.extension() == ".html" ? asked : asked / "compare.html";
 }
 
-void check_page(const std::filesystem::path& file, DiagnosticList& faults) {
-  attempt(faults, [&] {
-    require_writable_folder(std::filesystem::absolute(file).parent_path(), "--html");
-  });
-  attempt(faults, [] { Gnuplot{}; });
-}
-
 std::string page_html(const std::vector<CompareRow>& rows, const std::vector<std::string>& sections,
                       const std::vector<const SkippedCase*>& skipped, const std::string& command,
                       double seconds) {

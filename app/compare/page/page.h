@@ -12,9 +12,6 @@ namespace twinarm::compare_page {
 // File of --html FOLDER or --html FILE.html.
 std::filesystem::path page_file(const std::filesystem::path& asked);
 
-// Adds diagnostics if the file cannot be written or gnuplot is missing; called before any run.
-void check_page(const std::filesystem::path& file, DiagnosticList& faults);
-
 // Replaces "mu", "rad/s^2" .. by Unicode characters, and escapes the text for HTML.
 std::string in_unicode(std::string words);
 
