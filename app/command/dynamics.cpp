@@ -79,7 +79,7 @@ std::string dynamics_json(const RobotInput& input, const Dynamics& d) {
   const bool floats = coordinates.floating();
   const Vector3 still = Vector3::Zero();
 
-  return json_text([&](JsonWriter& json) {
+  return answer_text([&](JsonWriter& json) {
     json.put("joints", coordinates.names());
     write_by_joint(json.key("qdd"), coordinates, d.qdd);
     json.key("base_acceleration")
@@ -184,7 +184,7 @@ void check_finite(const std::string& file, const RobotInput& input, const Dynami
 std::string kinematics_json(const RobotInput& input) {
   Kinematics k(input.model);
   forward_kinematics(input.model, input.state.x, k);
-  return json_text([&](JsonWriter& json) {
+  return answer_text([&](JsonWriter& json) {
     json.put("joints", input.coordinates.names());
     write_links(json.key("links"), input.model, k);
     json.put("warnings", input.warnings);

@@ -152,7 +152,7 @@ void print_recording_json(const Recording& recording) {
     }
     json.end_array();
   };
-  fmt::print("{}\n", json_text(write));
+  fmt::print("{}\n", answer_text(write));
 }
 
 struct ExportOptions {
@@ -184,10 +184,10 @@ int export_page(const ExportOptions& options) {
                1e-6 * static_cast<double>(page.html.size()));
     return 0;
   }
-  fmt::print("{}\n", json_text({{"file", file},
-                                {"frames", page.frames},
-                                {"rate", page.rate},
-                                {"bytes", page.html.size()}}));
+  fmt::print("{}\n", answer_text({{"file", file},
+                                  {"frames", page.frames},
+                                  {"rate", page.rate},
+                                  {"bytes", page.html.size()}}));
   return 0;
 }
 

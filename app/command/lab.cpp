@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "app/command/command.h"
+#include "app/data/json_writer.h"
 #include "app/device/devices.h"
 #include "app/lab/app/lab_routes.h"
 #include "app/lab/app/message_streamer.h"
@@ -51,7 +52,7 @@ void add_options(const OptionAdder& add, LabOptions& options) {
       "address to bind; one that is not loopback lets others in who have the page's address with "
       "its token");
   add("--no-browser", options.no_browser, "only print the address");
-  add("--json", options.json, "print {\"url\": \"..\"} as the first line");
+  add("--json", options.json, "print {\"schema\": 1, \"url\": \"..\"} as the first line");
 }
 
 // A scene of the gallery by name or file, or any other file; default: the first of the gallery.
@@ -221,7 +222,7 @@ int run_lab(const LabOptions& options) {
   Lab lab(options, read_gallery());
   const std::string url = lab.url() + query_of(options);
   if (options.json)
-    fmt::print("{{\"url\": \"{}\"}}\n", url);
+    fmt::print("{{\"schema\": {}, \"url\": \"{}\"}}\n", kJsonSchema, url);
   else
     fmt::print("The lab is at {}\nCtrl-C ends it.\n", url);
   std::fflush(stdout);

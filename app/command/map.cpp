@@ -157,7 +157,7 @@ int record_one_cell(const MapOptions& options, const MapJob& job) {
                   {"scene", cell.scene.string()},
                   {"command", cell.command}});
   };
-  fmt::print("{}\n", json_text(write));
+  fmt::print("{}\n", answer_text(write));
   return 0;
 }
 
@@ -209,10 +209,10 @@ int compute(const MapOptions& options, const MapJob& job) {
   if (!is_part(options)) {
     write_results(options, job, file);
   } else if (options.json) {
-    fmt::print("{}\n", json_text({{"job", options.job},
-                                  {"jobs", options.jobs},
-                                  {"blocks", wanted.size()},
-                                  {"file", work.string()}}));
+    fmt::print("{}\n", answer_text({{"job", options.job},
+                                    {"jobs", options.jobs},
+                                    {"blocks", wanted.size()},
+                                    {"file", work.string()}}));
   } else {
     fmt::print("{}\n", work.string());
   }

@@ -157,13 +157,13 @@ std::unique_ptr<Film> make_film(const RenderOptions& options, const RenderPlan& 
 
 void print_render_json(const std::string& file, const RenderPlan& plan, const FilmedRun& run,
                        const std::vector<std::string>& notes) {
-  fmt::print("{}\n", json_text({{"file", file},
-                                {"width", plan.picture.width},
-                                {"height", plan.picture.height},
-                                {"pictures", run.shown.size()},
-                                {"from", run.shown.front().x.t},
-                                {"to", run.shown.back().x.t},
-                                {"warnings", notes}}));
+  fmt::print("{}\n", answer_text({{"file", file},
+                                  {"width", plan.picture.width},
+                                  {"height", plan.picture.height},
+                                  {"pictures", run.shown.size()},
+                                  {"from", run.shown.front().x.t},
+                                  {"to", run.shown.back().x.t},
+                                  {"warnings", notes}}));
 }
 
 int run_render(const RenderOptions& options) {

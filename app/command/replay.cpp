@@ -85,7 +85,7 @@ void print_replay_json(const Recording& recording, const Replay& exact, const Re
     });
     write_balances(json, compared_balances(exact, *branch));
   };
-  fmt::print("{}\n", json_text(write));
+  fmt::print("{}\n", answer_text(write));
 }
 
 int run_replay(const ReplayOptions& options) {

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "app/compare/compare.h"
+#include "app/data/json_writer.h"
 #include "app/data/tables.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
@@ -197,7 +198,8 @@ std::string compare_json(const std::vector<CompareRow>& rows,
   Json left_out = Json::array();
   for (const SkippedCase* c : skipped) left_out.push_back({{"name", c->name}, {"why", c->why}});
   const std::size_t failed = failures(rows);
-  Json answer = {{"cases", cases},
+  Json answer = {{"schema", kJsonSchema},
+                 {"cases", cases},
                  {"passed", rows.size() - failed},
                  {"failed", failed},
                  {"skipped", left_out}};

@@ -152,7 +152,7 @@ std::string equivalents_table(const std::vector<Equivalents>& all, double step) 
 }
 
 std::string equivalents_json(const std::vector<Equivalents>& all) {
-  return json_text([&](JsonWriter& json) {
+  return answer_text([&](JsonWriter& json) {
     json.key("couplings").list(all, [&](const Equivalents& e) { write_one(json, e); });
   });
 }

@@ -68,7 +68,7 @@ void write_mode(JsonWriter& json, const Predicted& found, const PredictedMode& m
 }  // namespace
 
 std::string predicted_json(const Predicted& found, const PredictTask& task) {
-  return json_text([&](JsonWriter& json) {
+  return answer_text([&](JsonWriter& json) {
     json.put("rows", found.rows);
     json.key("couplings").list(found.couplings, [&](const PredictedCoupling& c) {
       write_coupling(json, c);

@@ -134,17 +134,28 @@ class JsonWriter {
   bool keyed_ = false;
 };
 
-// One object as text, from its members or from a function that writes them.
-inline std::string json_text(JsonWriter::Members members) {
-  JsonWriter json;
-  json.object(members);
-  return json.str();
-}
+// One object as text, from a function that writes its members.
 template <class Write>
 std::string json_text(const Write& write) {
   JsonWriter json;
   json.object([&] { write(json); });
   return json.str();
+}
+
+// Version of what --json prints (docs/reference/json_output.schema.json). A key that is removed,
+// renamed or changes its meaning raises it; a new one does not.
+inline constexpr int kJsonSchema = 1;
+
+// What --json prints: the version, and the members or what a function writes.
+template <class Write>
+std::string answer_text(const Write& write) {
+  return json_text([&](JsonWriter& json) {
+    json.put("schema", kJsonSchema);
+    write(json);
+  });
+}
+inline std::string answer_text(JsonWriter::Members members) {
+  return answer_text([&](JsonWriter& json) { json.members(members); });
 }
 
 }  // namespace twinarm

@@ -34,7 +34,7 @@ std::vector<double> values_of(const MapJob& job, const TileFile& file, MapMeasur
 }  // namespace
 
 std::string map_json(const MapJob& job, const TileFile& file, const std::vector<MapCurve>& curves) {
-  return json_text([&](JsonWriter& json) {
+  return answer_text([&](JsonWriter& json) {
     write_axis(json, "x", job.x, job.x_unit);
     write_axis(json, "y", job.y, job.y_unit);
     json.members({{"measure", name_of(job.measure)}, {"unit", job.unit}});

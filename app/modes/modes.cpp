@@ -215,20 +215,21 @@ std::string shape_table(const SimulateInput& input, const ModesOf& found, std::s
 }  // namespace
 
 std::string modes_json(const SimulateInput& input, const ModesOf& found) {
-  JsonWriter json;
-  const auto write_mode = [&](const Mode& mode) {
-    json.object({{"frequency", mode.frequency()},
-                 {"damping_ratio", mode.damping_ratio()},
-                 {"eigenvalue", std::array{mode.eigenvalue.real(), mode.eigenvalue.imag()}},
-                 {"shape", [&] { write_shape(json, input, found, mode.shape.real()); }},
-                 {"shape_imaginary", [&] { write_shape(json, input, found, mode.shape.imag()); }}});
-  };
-  json.object({{"modes", [&] { json.list(found.modes, write_mode); }},
-               {"rows", found.rows},
-               {"A", found.looped.system.A},
-               {"B", found.looped.system.B},
-               {"warnings", found.warnings}});
-  return json.str();
+  return answer_text([&](JsonWriter& json) {
+    const auto write_mode = [&](const Mode& mode) {
+      json.object(
+          {{"frequency", mode.frequency()},
+           {"damping_ratio", mode.damping_ratio()},
+           {"eigenvalue", std::array{mode.eigenvalue.real(), mode.eigenvalue.imag()}},
+           {"shape", [&] { write_shape(json, input, found, mode.shape.real()); }},
+           {"shape_imaginary", [&] { write_shape(json, input, found, mode.shape.imag()); }}});
+    };
+    json.members({{"modes", [&] { json.list(found.modes, write_mode); }},
+                  {"rows", found.rows},
+                  {"A", found.looped.system.A},
+                  {"B", found.looped.system.B},
+                  {"warnings", found.warnings}});
+  });
 }
 
 std::string modes_table(const SimulateInput& input, const ModesOf& found) {

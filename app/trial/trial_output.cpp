@@ -62,26 +62,26 @@ std::string trial_table(const TrialReport& report) {
 }
 
 std::string trial_json(const TrialReport& report) {
-  JsonWriter json;
-  const auto write_result = [&](const TrialResult& r) {
-    json.object({{"condition", r.condition},
-                 {"task", r.task},
-                 {"done", r.is_done},
-                 {"seconds", r.seconds},
-                 {"picks", r.picks},
-                 {"drops", r.drops},
-                 {"picked_at", r.picked_at < 0 ? std::nullopt : std::optional(r.picked_at)},
-                 {"placement_error_mm", r.placement_error_mm},
-                 {"max_deg", r.max_deg},
-                 {"mean_deg", r.mean_deg},
-                 {"log", r.log}});
-  };
-  json.object({{"participant", report.participant},
-               {"device", report.device},
-               {"mapping", report.mapping},
-               {"results", [&] { json.list(report.results, write_result); }},
-               {"csv", report.csv}});
-  return json.str();
+  return answer_text([&](JsonWriter& json) {
+    const auto write_result = [&](const TrialResult& r) {
+      json.object({{"condition", r.condition},
+                   {"task", r.task},
+                   {"done", r.is_done},
+                   {"seconds", r.seconds},
+                   {"picks", r.picks},
+                   {"drops", r.drops},
+                   {"picked_at", r.picked_at < 0 ? std::nullopt : std::optional(r.picked_at)},
+                   {"placement_error_mm", r.placement_error_mm},
+                   {"max_deg", r.max_deg},
+                   {"mean_deg", r.mean_deg},
+                   {"log", r.log}});
+    };
+    json.members({{"participant", report.participant},
+                  {"device", report.device},
+                  {"mapping", report.mapping},
+                  {"results", [&] { json.list(report.results, write_result); }},
+                  {"csv", report.csv}});
+  });
 }
 
 void add_last_to_csv(const TrialReport& report, const std::filesystem::path& file) {

@@ -133,7 +133,7 @@ std::string zwidth_table(const ZwidthResult& result) {
 }
 
 std::string zwidth_json(const ZwidthResult& result) {
-  return json_text([&](JsonWriter& json) {
+  return answer_text([&](JsonWriter& json) {
     write_all(json, "walls", result.walls);
     json.key("plane").object({{"stable_B", result.plane.stable_B},
                               {"stable_K", result.plane.stable_K},

@@ -5,6 +5,7 @@ import pathlib
 import re
 import shutil
 
+from json_schema import check_json
 from program import ROOT, ProgramTest, main, run
 from robot_command import HAND_COLUMNS
 from waiting import TIMEOUT, processor_time, processor_time_of_ended
@@ -34,6 +35,7 @@ class CommandLine(ProgramTest):
         out = self.folder / "new" / "study"
         trace = ASSETS / "traces" / "synthetic_seed1.csv"
         study = self.json_of("study", "--out", out, "--trace", trace, timeout=4 * TIMEOUT)
+        check_json("study", study)
         published = {"E3": (16.6, 23.5, 8.6, 5.2), "E4": (3.4, 6.0, 0.3, 0.6)}
         for name, numbers in published.items():
             run_ = study["runs"][name]

@@ -29,7 +29,7 @@ class Compare(ProgramTest):
     def test_a_case_has_all_its_keys_and_passes_where_its_error_is_within_the_tolerance(self):
         answer = self.answer("D7", "E6-momentum", "E2-creep")
         self.assertEqual([c["name"] for c in answer["cases"]], ["D7", "E6-momentum", "E2-creep"])
-        self.assertEqual(list(answer), ["cases", "passed", "failed", "skipped"])
+        self.assertEqual(list(answer), ["schema", "cases", "passed", "failed", "skipped"])
         for case in answer["cases"]:
             self.assertEqual(list(case), ["name", "group", "error", "tolerance", "pass", "order",
                                           "energy_drift", "reference", "seconds"])

@@ -4,6 +4,7 @@ misfit and intervals are computed a second time."""
 import json
 import math
 
+from json_schema import check_json
 from program import ProgramTest, main
 from robot_command import dot
 
@@ -32,7 +33,9 @@ def coupling(name, kind, link, more, speed):
 
 class Identify(ProgramTest):
     def answer_of(self, question):
-        return json.loads(self.twinarm("study", "--identify-one", question).stdout)
+        found = json.loads(self.twinarm("study", "--identify-one", question).stdout)
+        check_json("study --identify-one", found)
+        return found
 
     def numbers(self, law, values, speed=1.0):
         """Largest and mean errors of joints 1 and 2 [deg], by a scene."""

@@ -10,6 +10,7 @@
 
 #include "app/command/command.h"
 #include "app/command/parser/command_tree.h"
+#include "app/data/json_writer.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
 #include "app/support/renames.h"
@@ -56,7 +57,9 @@ int report(const InputError& error, bool as_json) {
   }
   if (as_json)
     std::puts(  // does not throw if stdout is full
-        Json{{"errors", errors}}.dump(1, ' ', false, Json::error_handler_t::replace).c_str());
+        Json{{"schema", kJsonSchema}, {"errors", errors}}
+            .dump(1, ' ', false, Json::error_handler_t::replace)
+            .c_str());
   return kBadInput;
 }
 

@@ -194,7 +194,7 @@ void write_inspection(JsonWriter& json, const Inspection& in, const InspectView&
 
 std::string inspect_json(const Inspection& in, const InspectView& view,
                          const std::vector<Check>& checks) {
-  return json_text([&](JsonWriter& json) { write_inspection(json, in, view, checks); });
+  return answer_text([&](JsonWriter& json) { write_inspection(json, in, view, checks); });
 }
 
 }  // namespace twinarm

@@ -12,8 +12,9 @@ class JsonOutput : public RunOutput {
   JsonOutput(const SimulateInput& simulated, const RunPlan& plan)
       : input_(simulated.robot), simulated_(simulated), k_(input_.model) {
     json_.begin_object();
-    json_.members(
-        {{"joints", input_.coordinates.names()}, {"integrator", integrator_name(plan.integrator)}});
+    json_.members({{"schema", kJsonSchema},
+                   {"joints", input_.coordinates.names()},
+                   {"integrator", integrator_name(plan.integrator)}});
     const bool has_step = !plan.is_adaptive() || plan.step_is_given;
     json_.put("step", has_step ? std::optional(plan.step) : std::nullopt);
     if (plan.is_adaptive()) json_.put("tolerance", plan.tolerance);

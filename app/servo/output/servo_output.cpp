@@ -96,7 +96,7 @@ std::string live_table(const LiveSummary& summary) {
 }
 
 std::string live_json(const LiveSummary& summary) {
-  return json_text([&](JsonWriter& json) {
+  return answer_text([&](JsonWriter& json) {
     json.members({{"scene", summary.scene},
                   {"device", summary.device},
                   {"mapping", summary.mapping},

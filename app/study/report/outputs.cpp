@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "app/data/json_writer.h"
 #include "app/study/findings/evidence.h"
 #include "app/study/report/report.h"
 #include "solver/support/atomic_file.h"
@@ -232,7 +233,7 @@ void write_csv(const StudyResults& results, const std::filesystem::path& folder)
 }
 
 std::string study_json(const StudyResults& results, const std::string& report_path) {
-  ordered_json root;
+  ordered_json root = {{"schema", kJsonSchema}};
   root["runs"] = ordered_json::object();
   for (const RunResult& run : results.reproduction)
     root["runs"][run.spec.name] = reproduction_json(run);
@@ -260,7 +261,8 @@ std::string study_json(const StudyResults& results, const std::string& report_pa
 }
 
 std::string answer_json(const Identification& found) {
-  ordered_json json = identification_json(found);
+  ordered_json json = {{"schema", kJsonSchema}};
+  json.update(identification_json(found));
   json["evaluations"] = found.fit.evaluations;
   json["threshold"] = found.threshold();
   json["directions"] = found.directions;
