@@ -20,7 +20,8 @@ namespace {
 struct HelpOptions {
   CLI::App* program = nullptr;
   std::vector<std::string> words;
-  bool man = false, completion = false, scene_keys = false;
+  std::string completion;
+  bool man = false, scene_keys = false;
 };
 
 void add_options(const OptionAdder& add, HelpOptions& options) {
@@ -28,9 +29,14 @@ void add_options(const OptionAdder& add, HelpOptions& options) {
   add("word", options.words, "a command, or a term of the glossary; default: the list of commands");
   add.group("Instead");
   CLI::Option* man = add("--man", options.man, "print the man page, for man -l -");
-  CLI::Option* completion = add("--completion", options.completion,
-                                "print the completion script for bash: commands, options, files")
-                                ->excludes(man);
+  CLI::Option* completion =
+      add("--completion", options.completion,
+          "print the completion script for this shell: commands, options, files")
+          ->check(CLI::IsMember({"bash", "zsh", "fish"}))
+          ->type_name("bash|zsh|fish")
+          ->expected(0, 1)
+          ->default_str("bash")
+          ->excludes(man);
   add("--scene-keys", options.scene_keys,
       "print tables of the numbers in a scene file: units, defaults, ranges, meanings")
       ->excludes(man)
@@ -108,10 +114,10 @@ std::string help_of(const CLI::App& program, const std::vector<std::string>& wor
 
 int run_help(const HelpOptions& options) {
   CLI::App& program = *options.program;
-  fmt::print("{}", options.man          ? man_page(program, kProgramVersion)
-                   : options.completion ? shell_completion(program)
-                   : options.scene_keys ? scene_numbers()
-                                        : help_of(program, options.words));
+  fmt::print("{}", options.man                   ? man_page(program, kProgramVersion)
+                   : !options.completion.empty() ? shell_completion(program, options.completion)
+                   : options.scene_keys          ? scene_numbers()
+                                                 : help_of(program, options.words));
   return 0;
 }
 

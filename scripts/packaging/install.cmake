@@ -43,10 +43,12 @@ install(FILES ${MADE}/twinarm-config.cmake ${MADE}/twinarm-config-version.cmake
 # The program, and what it writes about itself.
 find_program(GZIP gzip REQUIRED)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
-add_custom_command(OUTPUT ${MADE}/twinarm.1.gz ${MADE}/twinarm
+add_custom_command(OUTPUT ${MADE}/twinarm.1.gz ${MADE}/twinarm ${MADE}/_twinarm ${MADE}/twinarm.fish
   COMMAND twinarm help --man > ${MADE}/twinarm.1
   COMMAND ${GZIP} -9nf ${MADE}/twinarm.1
-  COMMAND twinarm help --completion > ${MADE}/twinarm
+  COMMAND twinarm help --completion bash > ${MADE}/twinarm
+  COMMAND twinarm help --completion zsh > ${MADE}/_twinarm
+  COMMAND twinarm help --completion fish > ${MADE}/twinarm.fish
   DEPENDS twinarm)
 set(changelog ${CMAKE_SOURCE_DIR}/docs/develop/changelog.md)
 add_custom_command(OUTPUT ${MADE}/changelog.gz
@@ -62,6 +64,10 @@ install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES ${MADE}/twinarm.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${MADE}/twinarm
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+install(FILES ${MADE}/_twinarm
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+install(FILES ${MADE}/twinarm.fish
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 
 # Both packages say whose they are, and what has changed.
 foreach(pair program:twinarm development:libtwinarm-dev)

@@ -1,6 +1,7 @@
 """Help, glossary, manual, completion and version of the program, and its assets in any folder."""
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -100,6 +101,40 @@ class HelpCommand(unittest.TestCase):
         for path in self.commands():
             options = options_of(run(*path, "--help").stdout)
             self.assertEqual(set(self.completed("twinarm", *path, "--")), options, path)
+
+    CANDIDATES = (("twinarm stu", "study"), ("twinarm coupling p", "predict"), ("twinarm study --pa", "--paper-view"),
+                  ("twinarm simulate my", "my runs/"), ("twinarm study --seed my", ""))
+    # What zsh's completion calls, replaced by functions that print.
+    ZSH = """compadd() { shift; print -l -- ${(M)@:#$words[CURRENT]*} }
+    _files() { print -l -- $words[CURRENT]*(/N:s/%/\\//) }
+    words=("${@:2}"); CURRENT=$#words; source $1"""
+
+    def printed_by(self, shell, *words):
+        """What the shell prints with the completion script as its first argument; skips without the shell."""
+        if not shutil.which(shell):
+            self.skipTest(f"{shell} is not installed")
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkdir(os.path.join(folder, "my runs"))
+            file = os.path.join(folder, "completion")
+            with open(file, "w", encoding="utf-8") as out:
+                out.write(run("help", "--completion", shell).stdout)
+            done = subprocess.run([shell, *(file if word == "{file}" else word for word in words)], cwd=folder,
+                                  capture_output=True, text=True, timeout=TIMEOUT, env=dict(os.environ, HOME=folder))
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def test_zsh_completes_the_same(self):
+        for line, expected in self.CANDIDATES:
+            printed = self.printed_by("zsh", "-f", "-c", self.ZSH, "zsh", "{file}", *line.split())
+            self.assertEqual(printed.strip().split("\n")[0].strip("/"), expected.strip("/"), line)
+
+    def test_fish_completes_the_same(self):
+        for line, expected in self.CANDIDATES:
+            printed = self.printed_by("fish", "--no-config", "-c", f"source $argv[1]; complete -C '{line}'", "{file}")
+            self.assertEqual(printed.split("\t")[0].strip(), expected, line)
+
+    def test_a_shell_without_completion_is_refused(self):
+        self.assertIn("not in {bash,zsh,fish}", run("help", "--completion", "tcsh").stderr)
 
     def test_version_is_that_of_the_manual(self):
         result = run("--version")

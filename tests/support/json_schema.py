@@ -22,5 +22,6 @@ DEFINITIONS = closed(SCHEMA["$defs"])
 
 def check_json(name, found):
     """Raises where it is not what the definition says."""
-    jsonschema.Draft202012Validator({"$defs": DEFINITIONS, "$ref": f"#/$defs/{name.replace(' ', '%20')}"}).validate(found)
+    jsonschema.Draft202012Validator(
+        {"$defs": DEFINITIONS, "$ref": f"#/$defs/{name.replace(' ', '%20')}"}).validate(found)
     jsonschema.Draft202012Validator(SCHEMA).validate(found)

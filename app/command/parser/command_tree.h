@@ -31,10 +31,9 @@ struct CommandInfo {
 // The program first; each command before its subcommands.
 std::vector<CommandInfo> command_tree(CLI::App& program);
 
-// The tree as man page (man(7), section 1) and as completion script for bash, or for zsh after
-// bashcompinit.
+// The tree as man page (man(7), section 1) and as completion script for bash, zsh or fish.
 std::string man_page(CLI::App& program, const std::string& version);
-std::string shell_completion(CLI::App& program);
+std::string shell_completion(CLI::App& program, const std::string& shell);
 
 // Prints value and range of an option: "--port N", "(0 to 65535)".
 std::shared_ptr<CLI::FormatterBase> help_formatter();

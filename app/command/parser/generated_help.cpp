@@ -2,8 +2,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "app/command/parser/command_tree.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 namespace {
@@ -120,8 +122,8 @@ std::string man_page(CLI::App& program, const std::string& version) {
   return out + kEnd;
 }
 
-// Completion as one bash function. Options with a file as value complete files; those with another
-// value complete nothing.
+// Completion as one function of bash or zsh, and as lines of fish. Options with a file as value
+// complete files; those with another value complete nothing.
 namespace {
 
 struct CompletedWords {
@@ -182,9 +184,71 @@ _twinarm() {{
 complete -F _twinarm twinarm
 )";
 
+constexpr const char* kZshFunction = R"(#compdef twinarm
+# Made by `twinarm help --completion zsh`.
+local place="" next="" files="" values="" word_is_file="" word
+for word in ${{words[2,CURRENT-1]}}; do
+  case "$place $word" in
+    {0}) place="$place $word" ;;
+  esac
+done
+case "$place" in
+{1}esac
+local before=" ${{words[CURRENT-1]}} "
+if [[ " $values " == *$before* ]]; then
+  return 1
+elif [[ " $files " == *$before* || ( -n $word_is_file && ${{words[CURRENT]}} != -* ) ]]; then
+  _files
+else
+  compadd -- ${{=next}}
+fi
+)";
+
+constexpr const char* kFishFunction = R"(# Made by `twinarm help --completion fish`.
+function __twinarm_at --description 'whether the words typed name this command'
+    set -l path
+    for word in (commandline -opc)[2..-1]
+        contains -- "$path $word"{0}; and set path "$path $word"
+    end
+    test "$path" = "$argv"
+end
+complete -c twinarm -f
+)";
+
+std::string in_fish_quotes(const std::string& text) {
+  return "'" + replace_all(replace_all(text, "\\", "\\\\"), "'", "\\'") + "'";
+}
+
+std::string fish_completion(const std::vector<CommandInfo>& tree) {
+  std::string paths, lines;
+  for (const CommandInfo& command : tree) {
+    const std::string path = command.name.empty() ? "" : " " + command.name;
+    if (!path.empty()) paths += " \"" + path + "\"";
+    const std::string start = fmt::format("complete -c twinarm -n '__twinarm_at \"{}\"'", path);
+    for (const CommandInfo& below : tree)
+      if (std::ranges::any_of(command.subcommands, [&](const std::string& name) {
+            return below.name == (path.empty() ? name : command.name + " " + name);
+          }))
+        lines += fmt::format("{} -a {} -d {}\n", start, below.name.substr(path.size()),
+                             in_fish_quotes(below.summary));
+    for (const OptionInfo& option : command.options) {
+      if (option.is_positional)
+        lines += option.is_file ? start + " -F\n" : "";
+      else
+        lines += fmt::format("{} -l {}{} -d {}\n", start, option.names.back().substr(2),
+                             option.is_file         ? " -r -F"
+                             : option.value.empty() ? ""
+                                                    : " -x",
+                             in_fish_quotes(option.help));
+    }
+  }
+  return fmt::format(kFishFunction, paths) + lines;
+}
+
 }  // namespace
 
-std::string shell_completion(CLI::App& program) {
+std::string shell_completion(CLI::App& program, const std::string& shell) {
+  if (shell == "fish") return fish_completion(command_tree(program));
   std::string paths, cases;
   for (const CommandInfo& command : command_tree(program)) {
     const CompletedWords words = completed_words(command);
@@ -193,7 +257,7 @@ std::string shell_completion(CLI::App& program) {
     cases += fmt::format("    \"{}\") next=\"{}\" files=\"{}\" values=\"{}\" word_is_file={} ;;\n",
                          path, words.next, words.files, words.values, words.is_file ? "yes" : "");
   }
-  return fmt::format(kFunction, paths, cases);
+  return fmt::format(fmt::runtime(shell == "zsh" ? kZshFunction : kFunction), paths, cases);
 }
 
 }  // namespace twinarm
