@@ -9,6 +9,7 @@
 #include "app/coupling/gain_equivalents.h"
 #include "app/coupling/prediction.h"
 #include "app/data/value.h"
+#include "app/support/files.h"
 #include "app/support/text.h"
 #include "solver/support/number_text.h"
 
@@ -167,6 +168,7 @@ int run_coupling_predict(const CouplingPredictOptions& options) {
       prepare_couplings(options.robot, options.step, options.integrator, faults, std::move(scene));
   const PredictTask task{options.move * std::numbers::pi / 180, options.time, options.wall, along};
   const Predicted found = predict_couplings(prepared, task);
+  print_warnings(found.warnings, options.json);
   fmt::print("{}\n", options.json ? predicted_json(found, task) : predicted_table(found, task));
   return 0;
 }
@@ -218,7 +220,7 @@ Equivalents bare_equivalents(const CouplingGainsOptions& options, const GivenGai
   else
     check_positive("--inertia", *options.inertia, faults);
   if (ways != 1)
-    faults.add("gains", fmt::format("are given in {} forms", ways),
+    faults.add("gains", ways == 0 ? "are missing" : "are given in more than one form",
                "give one of --stiffness and --damping, --frequency and --damping-ratio, --solref",
                "option.conflict");
   if (options.stiffness) check_positive("--stiffness", *options.stiffness, faults);

@@ -8,6 +8,7 @@
 #include "app/robot/dynamics.h"
 #include "app/robot/robot_input.h"
 #include "app/robot/robot_output.h"
+#include "app/support/files.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -119,7 +120,6 @@ std::string dynamics_table(const RobotInput& input, const Dynamics& d) {
       "wrench on the root link (inverse dynamics): force {} N, torque {} N m about its origin\n",
       cell(d.mass), xyz(d.com), cell(d.kinetic_energy), cell(d.potential_energy),
       xyz(d.linear_momentum), xyz(d.angular_momentum), xyz(d.base_force), xyz(d.base_torque));
-  for (const std::string& warning : input.warnings) text += "\nwarning: " + warning;
   return text;
 }
 
@@ -193,10 +193,9 @@ std::string kinematics_json(const RobotInput& input) {
 
 int run_dynamics(const DynamicsOptions& options) {
   const RobotInput input = read_robot_input(options.robot);
+  print_warnings(input.warnings, options.json);
   if (options.robot.kinematic) {
     fmt::print("{}", options.json ? kinematics_json(input) + "\n" : link_table(input));
-    for (const std::string& warning : input.warnings)
-      if (!options.json) fmt::print("\nwarning: {}\n", warning);
     return 0;
   }
   const Dynamics dynamics = compute_dynamics(input);

@@ -117,6 +117,7 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
     write_whole_file(options.html,
                      inspect_page(input, inspected.x, inspect_json(in, view, checks), words));
   }
+  print_warnings(view.warnings, options.json);
   fmt::print("{}\n",
              options.json ? inspect_json(in, view, checks) : inspect_text(in, view, checks));
   print_wrote({options.html}, options.json);

@@ -4,6 +4,7 @@
 #include "app/command/command.h"
 #include "app/modes/modes.h"
 #include "app/robot/robot_input.h"
+#include "app/support/files.h"
 
 namespace twinarm {
 namespace {
@@ -34,6 +35,7 @@ int run_modes(const ModesOptions& options) {
                        "it has neither a robot with a joint nor a constraint, and so no modes", "",
                        "scene.nothing-held"}});
   const ModesOf found = find_modes(input);
+  print_warnings(found.warnings, options.json);
   fmt::print("{}\n", options.json ? modes_json(input, found) : modes_table(input, found));
   return 0;
 }

@@ -54,6 +54,7 @@ int run_simulate(const SimulateOptions& options, const Words& typed) {
   const SimulatePlan prepared = prepare_simulation(options);
   const SimulateInput& input = prepared.input;
   const RunPlan& plan = prepared.run;
+  print_warnings(input.robot.warnings, options.json);
   const std::unique_ptr<RunOutput> output = output_of(options, input, plan);
 
   std::optional<RunRecorder> recorder;

@@ -201,12 +201,9 @@ std::string loads_part(const Predicted& found) {
 }  // namespace
 
 std::string predicted_table(const Predicted& found, const PredictTask& task) {
-  std::string text = couplings_part(found) + "\n" + matrices_part(found) + "\n" +
-                     modes_part(found) + "\n" + errors_part(found, task) + "\n" +
-                     joint_errors_part(found, task) + "\n" + limits_part(found) + "\n" +
-                     loads_part(found);
-  for (const std::string& warning : found.warnings) text += "\n" + wrapped("warning: " + warning);
-  return text;
+  return couplings_part(found) + "\n" + matrices_part(found) + "\n" + modes_part(found) + "\n" +
+         errors_part(found, task) + "\n" + joint_errors_part(found, task) + "\n" +
+         limits_part(found) + "\n" + loads_part(found);
 }
 
 }  // namespace twinarm

@@ -125,6 +125,12 @@ FilmedRun simulate_for_film(const RobotOptions& robot, const FilmTimes& times,
   const double end =
       times.is_film ? times.to.value_or(plan.duration) : std::max(times.at.value_or(0), 0.0);
   if (times.is_film) check_piece(start, end);
+  print_warnings(run.plan.input.robot.warnings, false);
+  const SceneModel* scene = run.plan.input.scene.get();
+  if (const auto last = scene ? scene->description.duration : std::nullopt; last && times.at > last)
+    throw InputError({{"", 0, "--at",
+                       fmt::format("{:g} s is beyond the scene's end at {:g} s", *times.at, *last),
+                       "give an earlier time, or a longer 'duration' in the scene", "film.time"}});
   if (plan.is_adaptive() && times.is_film) plan.step = std::min(plan.step, times.interval);
   plan.duration = end > 0 ? end : plan.step;  // one step for the forces at the start
   const double around = std::max(end / kAround, 0.0), slack = 1e-6 * plan.step;

@@ -257,7 +257,6 @@ std::string modes_table(const SimulateInput& input, const ModesOf& found) {
           "\nmode shapes, largest component 1 (out of phase: amplitude/phase [degrees]):\n";
   for (std::size_t first = 0; first < found.modes.size(); first += kModesInTable)
     text += shape_table(input, found, first) + "\n";
-  for (const std::string& warning : found.warnings) text += wrapped("warning: " + warning) + "\n";
   return text;
 }
 

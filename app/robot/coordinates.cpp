@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/support/text.h"
 #include "solver/model/mimic.h"
@@ -124,6 +125,22 @@ void normalise(TableReader& table, const std::string& key, std::span<double, 4> 
         table.file(), table.find(key)->line, table.where(key), *length - 1));
 }
 
+namespace {
+
+// Warns of an angle that is likely in degrees: beyond two turns, or far beyond the joint's limits.
+void check_angle(const std::string& place, const JointDescription& joint, double q,
+                 std::vector<std::string>& warnings) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const double max = std::max(std::abs(joint.lower), std::abs(joint.upper));
+  if (std::abs(q) <= (joint.is_limited() ? std::min(2 * max + 1, 2 * kTurn) : 2 * kTurn)) return;
+  warnings.push_back(fmt::format(
+      "{}: q of joint '{}' is {:g} rad, {:.1f} turns; angles are in radians: {:g} degrees are "
+      "{:.5g}",
+      place, joint.name, q, std::abs(q) / kTurn, q, q * kTurn / 360));
+}
+
+}  // namespace
+
 JointValueMap read_joint_values(TableReader& joints, const RobotDescription& robot, JointRows rows,
                                 std::vector<std::string>* warnings) {
   JointValueMap found;
@@ -150,6 +167,9 @@ JointValueMap read_joint_values(TableReader& joints, const RobotDescription& rob
       if (!numbers) continue;
       if (const int first = velocities ? -1 : joint->facts().quaternion; first >= 0)
         normalise(joints, name, std::span<double, 4>(numbers->data() + first, 4), warnings);
+      if (warnings && !velocities && joint->joint_type() == JointType::revolute)
+        check_angle(fmt::format("{}:{}", joints.file(), value.line), *joint, numbers->front(),
+                    *warnings);
       found[name] = {*numbers, value.line};
     }
   }

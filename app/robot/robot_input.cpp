@@ -97,6 +97,12 @@ std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& fa
   return std::nullopt;
 }
 
+void add_gravity_warning(const Model<double>& model, std::vector<std::string>& warnings) {
+  if (model.gravity.z > 0)
+    warnings.push_back(fmt::format("gravity points up: its z is {:g} m/s^2; on Earth it is -9.81",
+                                   model.gravity.z));
+}
+
 RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) {
   if (!options.changes.empty())
     faults.add("--set", "applies to a scene only", "leave it out, or give a scene",
@@ -125,6 +131,7 @@ RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults) 
   std::vector<std::string> warnings;
   for (const Diagnostic& warning : robot->warnings) warnings.push_back(to_string(warning));
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
+  add_gravity_warning(*model, warnings);
   return {*robot, std::move(*model), coordinates, std::move(state), std::move(warnings)};
 }
 

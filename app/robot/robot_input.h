@@ -67,6 +67,9 @@ struct RobotInput {
 // Throws InputError with all diagnostics: given ones, and those of options, URDF and state.
 RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults = {});
 
+// Adds a warning if gravity points up.
+void add_gravity_warning(const Model<double>& model, std::vector<std::string>& warnings);
+
 // --gravity: three numbers, or a diagnostic.
 std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& faults);
 

@@ -1,5 +1,7 @@
 #include "app/run/simulate_input.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -103,9 +105,22 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
         "couplings with target = \"device\" stay at rest in this command; `twinarm hand` runs the "
         "scene with a device");
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
+  add_gravity_warning(made.model, warnings);
   return {{robots, made.model, coordinates, std::move(state), std::move(warnings)},
           std::move(*scene),
           std::move(*couplings)};
+}
+
+void add_step_warnings(const RunPlan& plan, std::vector<std::string>& warnings) {
+  constexpr double kLongStep = 1;  // [s]
+  if (plan.is_adaptive()) return;
+  if (plan.step > kLongStep)
+    warnings.push_back(
+        fmt::format("the step is {:g} s; robots need steps of 0.0001 to 0.01 s", plan.step));
+  if (plan.step > plan.duration * (1 + 1e-9))
+    warnings.push_back(
+        fmt::format("the run of {:g} s is shorter than the step of {:g} s: it is one step",
+                    plan.duration, plan.step));
 }
 
 }  // namespace
@@ -122,7 +137,9 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
     const RunPlan plan = plan_run(options, {}, faults);
     if (!options.contact.empty())
       faults.add("--contact", "applies to a scene only", "give a scene", "option.useless");
-    return {{read_robot_input(options.robot, faults), nullptr, nullptr}, plan};
+    SimulatePlan prepared{{read_robot_input(options.robot, faults), nullptr, nullptr}, plan};
+    add_step_warnings(plan, prepared.input.robot.warnings);
+    return prepared;
   }
   reject_robot_options(options.robot, faults);
   auto description = attempt(faults, [&] {
@@ -140,7 +157,9 @@ SimulatePlan prepare_simulation(const SimulateOptions& options) {
     if (const auto gravity = parse_gravity(options.robot.gravity, faults); gravity && description)
       description->gravity = *gravity;
   if (!description) faults.check();
-  return {scene_input(*description, options, plan, faults), plan};
+  SimulatePlan prepared{scene_input(*description, options, plan, faults), plan};
+  add_step_warnings(plan, prepared.input.robot.warnings);
+  return prepared;
 }
 
 }  // namespace twinarm

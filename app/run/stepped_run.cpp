@@ -123,11 +123,10 @@ SimulateResult SteppedRun::finish() {
   if (!result_.post_mortem && result_.steps < last_step_)  // samples at the end
     for (; next_ < plan_.times.size(); ++next_) watch_.sample(plan_.times[next_], sim_.state());
   if (unsolved_ > 0)
-    result_.warnings.push_back(
-        fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
-                    unsolved_, result_.steps));
+    warn(fmt::format("in {} of {} steps the implicit equation did not converge to rounding",
+                     unsolved_, result_.steps));
   if (unlocated_ > 0)
-    result_.warnings.push_back(fmt::format(
+    warn(fmt::format(
         "in {} of {} steps the event limit was reached ({} contact problems); the remainder of the "
         "step is first-order accurate; give --contact rigid, or a shorter --step",
         unlocated_, result_.steps, EventStep::kMaxLaws));

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "solver/support/diagnostics.h"
 
@@ -57,6 +58,11 @@ inline void print_wrote(std::initializer_list<std::filesystem::path> files, bool
 template <class... Values>
 void print_error(fmt::format_string<Values...> words, Values&&... values) {
   std::fputs(fmt::format(words, std::forward<Values>(values)...).c_str(), stderr);
+}
+// On stderr; not with --json, whose key `warnings` has them.
+inline void print_warnings(const std::vector<std::string>& warnings, bool as_json) {
+  if (as_json) return;
+  for (const std::string& warning : warnings) print_error("twinarm: warning: {}\n", warning);
 }
 
 }  // namespace twinarm

@@ -140,7 +140,6 @@ std::string inspect_text(const Inspection& in, const InspectView& view,
   write_named_forces(in, view, sheet);
   if (!view.forces_alone) write_energy_balance(view.energy_balance, sheet);
   write_checks(checks, sheet);
-  for (const std::string& warning : view.warnings) sheet.line(wrapped("warning: " + warning));
   return sheet.str();
 }
 

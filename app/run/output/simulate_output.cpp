@@ -110,12 +110,6 @@ class TableOutput : public RunOutput {
       fmt::print("\n{} at the end\n",
                  result.contacts == 1 ? "1 active contact point"
                                       : fmt::format("{} active contact points", result.contacts));
-    const char* space = "\n";
-    for (const auto* warnings : {&input_.warnings, &result.warnings})
-      for (const std::string& warning : *warnings) {
-        fmt::print("{}warning: {}\n", space, warning);
-        space = "";
-      }
   }
 
  private:
@@ -180,11 +174,7 @@ class CsvOutput : public RunOutput {
     fmt::print("{}\n", csv_line(row));
   }
 
-  void end(const SimulateResult& result) override {
-    std::fflush(stdout);
-    for (const auto* warnings : {&input_.warnings, &result.warnings})
-      for (const std::string& warning : *warnings) print_error("warning: {}\n", warning);
-  }
+  void end(const SimulateResult&) override {}
 
  private:
   const RobotInput& input_;

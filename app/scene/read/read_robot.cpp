@@ -63,7 +63,7 @@ JointValueMap SceneReader::read_joints(TableReader& table, const char* key,
   const Value* list = table.table(key);
   if (!list) return {};
   TableReader joints = open(*list, table.where() + ", " + key);
-  return read_joint_values(joints, robot, rows);
+  return read_joint_values(joints, robot, rows, &scene.warnings);
 }
 
 void SceneReader::read_robot(const Value& value) {
