@@ -32,8 +32,8 @@ shape = { halfspace = { normal = [0, 0, 1], offset = 0 } }
 )";
 
 std::string body(const std::string& shape, double z, const std::string& more = "") {
-  return kFloor + "[[body]]\nname = \"b\"\nmass = 1\nshape = { " + shape + " }\nposition = [0, 0, " +
-         std::to_string(z) + "]\n" + more;
+  return kFloor + "[[body]]\nname = \"b\"\nmass = 1\nshape = { " + shape +
+         " }\nposition = [0, 0, " + std::to_string(z) + "]\n" + more;
 }
 
 std::string link(const std::string& name, double x, double y) {
@@ -42,7 +42,8 @@ std::string link(const std::string& name, double x, double y) {
 }
 
 std::string constraint(const std::string& type, const std::string& a, const std::string& more) {
-  return "[[constraint]]\ntype = \"" + type + "\"\na = \"" + a + "\"\nb = \"world\"\n" + more + "\n";
+  return "[[constraint]]\ntype = \"" + type + "\"\na = \"" + a + "\"\nb = \"world\"\n" + more +
+         "\n";
 }
 
 }  // namespace
@@ -65,8 +66,8 @@ TEST_CASE("at the two ends of a rod friction along it is not unique, unless it s
 }
 
 TEST_CASE("springs in contact determine their forces") {
-  const auto corners = uniqueness("contact = \"compliant\"\n" +
-                                  body("box = { size = [0.2, 0.2, 0.2] }", 0.09999));
+  const auto corners =
+      uniqueness("contact = \"compliant\"\n" + body("box = { size = [0.2, 0.2, 0.2] }", 0.09999));
   CHECK(corners.size() == 4);
   for (const auto& [name, is_unique] : corners) CHECK(is_unique);
 }
