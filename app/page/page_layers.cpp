@@ -222,8 +222,8 @@ std::string texture_file(const Image& image) {
   return encode_png(small);
 }
 
-void write_color(JsonWriter& json, const char* key, const Color& color) {
-  json.key(key).begin_array();
+void write_color(JsonWriter& json, const Color& color) {
+  json.begin_array();
   for (const float part : {color.r, color.g, color.b}) json.count(byte_of(part));
   json.end_array();
 }
@@ -231,7 +231,9 @@ void write_color(JsonWriter& json, const char* key, const Color& color) {
 void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend) {
   json.list(legend, [&](const LegendLine& line) {
     json.begin_object();
-    write_color(json, "color", line.color);
+    write_color(json.key("color"), line.color);
+    if (!line.bar.empty())
+      json.key("bar").list(line.bar, [&](const Color& color) { write_color(json, color); });
     json.key("text").text(line.words());
     json.end_object();
   });
@@ -247,8 +249,8 @@ void write_view(JsonWriter& json, const SceneView& view) {
                 {"fieldOfView", camera.field_of_view},
                 {"light", view.list.light_W},
                 {"radius", view.extent.radius()}});
-  write_color(json, "bottom", view.list.background.bottom);
-  write_color(json, "top", view.list.background.top);
+  write_color(json.key("bottom"), view.list.background.bottom);
+  write_color(json.key("top"), view.list.background.top);
   json.key("ground").object({{"visible", ground.visible},
                              {"height", ground.height},
                              {"cell", ground.cell},

@@ -63,7 +63,7 @@ inline constexpr std::size_t kMaxTextures = 255;
 std::string texture_file(const Image& image);
 
 void write_legend(JsonWriter& json, const std::vector<LegendLine>& legend);
-void write_color(JsonWriter& json, const char* key, const Color& color);
+void write_color(JsonWriter& json, const Color& color);
 // Key view: camera, light, floor.
 void write_view(JsonWriter& json, const SceneView& view);
 

@@ -57,13 +57,14 @@ void show_couplings(SceneView& view, const Snapshot& snapshot) {
       draw_coupling_force(view, coupling, color);
   }
   std::vector<LegendLine>& legend = view.list.legend;
-  if (any_force) legend.push_back({palette::ramp(0), "small coupling force"});
+  std::vector<Color> bar;
+  for (int k = 0; k <= 4; ++k) bar.push_back(palette::ramp(0.25 * k));
   if (any_force)
-    legend.push_back(
-        {palette::ramp(1), "largest of this run", ": " + with_unit(view.scales.force, "N")});
+    legend.push_back({palette::ramp(1), "coupling force: 0 to",
+                      " " + with_unit(view.scales.force, "N"), bar});
   if (any_torque)
-    legend.push_back(
-        {palette::ramp(1), "largest coupling torque", ": " + with_unit(view.scales.couple, "N m")});
+    legend.push_back({palette::ramp(1), "coupling torque: 0 to",
+                      " " + with_unit(view.scales.couple, "N m"), bar});
 }
 
 void show_mouse_spring(SceneView& view, const Snapshot& snapshot) {

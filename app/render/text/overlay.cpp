@@ -168,6 +168,11 @@ void draw_legend(Image& image, const DrawList& list, Lettering& lettering, doubl
   for (const LegendLine& line : list.legend) {
     const Vector2d top = at - Vector2d(0, 0.5 * swatch);
     draw_box(image, top, top + Vector2d(swatch, swatch), 0.22 * swatch, line.color);
+    const double part = swatch / static_cast<double>(std::max<std::size_t>(1, line.bar.size()));
+    for (std::size_t k = 0; k < line.bar.size(); ++k) {
+      const Vector2d corner = top + Vector2d(part * static_cast<double>(k), 0);
+      draw_box(image, corner, corner + Vector2d(part, swatch), 0, line.bar[k]);
+    }
     lettering.draw(image, line.words(), at + Vector2d(text_x, 0.36 * size_px), size_px, kInk);
     at.y() += row;
   }

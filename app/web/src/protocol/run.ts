@@ -34,6 +34,7 @@ export const NUMERICAL = 'numerical';
 
 export interface LegendLine {
   color: [number, number, number];
+  bar?: [number, number, number][]; // a colour bar from 0 to the value of the text
   text: string;
 }
 

@@ -77,9 +77,10 @@ export class Overlays {
   // Legends change during a run: scales of arrows grow.
   private showLegend(): void {
     const lines = this.layers.filter(({ name }) => this.isShown(name)).flatMap(({ legend }) => legend);
-    const items = lines.map(({ color, text }) => {
+    const items = lines.map(({ color, bar, text }) => {
       const swatch = element('i');
-      swatch.style.background = `rgb(${color.join(' ')})`;
+      const colors = (bar ?? [color, color]).map((one) => `rgb(${one.join(' ')})`);
+      swatch.style.background = `linear-gradient(to right, ${colors.join(', ')})`;
       return element('li', swatch, text);
     });
     this.lines.replaceChildren(...items);
