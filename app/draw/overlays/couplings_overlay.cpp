@@ -60,8 +60,8 @@ void show_couplings(SceneView& view, const Snapshot& snapshot) {
   std::vector<Color> bar;
   for (int k = 0; k <= 4; ++k) bar.push_back(palette::ramp(0.25 * k));
   if (any_force)
-    legend.push_back({palette::ramp(1), "coupling force: 0 to",
-                      " " + with_unit(view.scales.force, "N"), bar});
+    legend.push_back(
+        {palette::ramp(1), "coupling force: 0 to", " " + with_unit(view.scales.force, "N"), bar});
   if (any_torque)
     legend.push_back({palette::ramp(1), "coupling torque: 0 to",
                       " " + with_unit(view.scales.couple, "N m"), bar});

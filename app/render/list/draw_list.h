@@ -58,7 +58,7 @@ struct Label {
 struct LegendLine {
   Color color;  // of the swatch
   std::string text;
-  std::string value = {};        // appended; may change between frames
+  std::string value = {};       // appended; may change between frames
   std::vector<Color> bar = {};  // from 0 to the value: a colour bar instead of the swatch
   std::string words() const { return text + value; }
 };
