@@ -108,8 +108,8 @@ void add_growth(PostMortem& found, const std::string& period) {
 }
 
 std::string limit_text(const StabilityViolation& s, const char* relation) {
-  return fmt::format("{}: omega h = {:.4g} {} the stability limit {:.4g} ({})", s.name, s.product,
-                     relation, s.limit, s.scheme);
+  return fmt::format("{}: omega h = {:.4g} {} the stability limit {:.4g} ({}, at the start pose)",
+                     s.name, s.product, relation, s.limit, s.scheme);
 }
 
 // The likely cause and its fix, or a limit that is near: the limits are those of the initial state.

@@ -155,7 +155,10 @@ StabilityViolation violation_of(const SteppedCoupling& c) {
                                  : part * spec.spring.b;
   std::string step_or_rate;
   if (s.max_step > 0) step_or_rate = spec.rate > 0 ? rate_fix(c, s.max_step) : step_fix(s.max_step);
-  s.fix = fix_text({step_or_rate, gain_fix(c, s), law_fix(spec)});
+  const std::string gain = gain_fix(c, s);
+  s.fix = fix_text({step_or_rate, gain, law_fix(spec)});
+  if (!step_or_rate.empty() || !gain.empty())
+    s.fix += "; step or gain at half the limit of omega h";
   return s;
 }
 

@@ -113,7 +113,7 @@ void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sh
     if (named.parts)
       head += fmt::format(": normal {} N, friction {} N", short_number(named.parts->normal),
                           short_number(named.parts->friction, named.parts->normal));
-    if (!named.is_unique) head += " (not unique)";
+    if (!named.is_unique) head += " *";
     sheet.line(head);
     for (const NamedForce::End& end : named.ends)
       sheet.row("on " + in.model.body_name[end.body], six_of(end.wrench),
@@ -124,7 +124,7 @@ void write_named_forces(const Inspection& in, const InspectView& view, Sheet& sh
   }
   if (!std::ranges::all_of(all, &NamedForce::is_unique))
     sheet.line(wrapped(
-        "\nnot unique: other values of these constraint forces give the same accelerations; "
+        "\n* not unique: other values of these constraint forces give the same accelerations; "
         "their sum on each body is determined"));
 }
 

@@ -150,10 +150,13 @@ void MessageStreamer::send_scene() {
 void MessageStreamer::update_limits(const LabNow& now) {
   if (!now.frame || !is_due(last_limits_, kLimitsEvery)) return;
   SimulatePlan& plan = now.scene->parameters->prepared;
-  const State<double> x = instant_of(now.frame->recorded, plan.input.robot.model).x;
+  // The pose of a run that has diverged is meaningless: then as its post-mortem, at the start pose.
+  const bool is_start = now.status->failure && plan.input.scene;
+  const State<double> x = is_start ? plan.input.scene->start
+                                   : instant_of(now.frame->recorded, plan.input.robot.model).x;
   const auto is_number = [](double value) { return std::isfinite(value); };
   if (std::ranges::all_of(x.q, is_number) && std::ranges::all_of(x.qd, is_number))
-    predict_limits(plan, x, parameters_);
+    predict_limits(plan, x, parameters_, is_start ? ", at the start pose" : "");
 }
 
 void MessageStreamer::send_state(const LabNow& now) {

@@ -235,14 +235,16 @@ class TrackingErrors {
 }  // namespace
 
 void predict_limits(SimulatePlan& plan, const State<double>& now,
-                    std::vector<LabParameter>& parameters) {
+                    std::vector<LabParameter>& parameters, const char* pose) {
   if (!plan.input.scene || !plan.input.couplings || plan.input.couplings->size() == 0) return;
   plan.input.robot.state.x = now;
   Limits(plan, parameters).add();
   const TrackingErrors errors(plan);
-  for (LabParameter& parameter : parameters)
+  for (LabParameter& parameter : parameters) {
+    if (parameter.limit && !parameter.limit->words.empty()) parameter.limit->words += pose;
     if (parameter.coupling && parameter.key == "stiffness")
       parameter.tracking_error = errors.of(*parameter.coupling);
+  }
 }
 
 }  // namespace twinarm

@@ -60,9 +60,10 @@ std::vector<LabParameter> parameters_of(const SimulatePlan& plan);
 void set_initial_values(const std::vector<LabParameter>& unchanged,
                         std::vector<LabParameter>& parameters);
 
-// Adds limits and tracking errors at the state `now`, which is written to the plan.
+// Adds limits and tracking errors at the state `now`, which is written to the plan; `pose` is
+// appended to the limits' words.
 void predict_limits(SimulatePlan& plan, const State<double>& now,
-                    std::vector<LabParameter>& parameters);
+                    std::vector<LabParameter>& parameters, const char* pose = "");
 
 // The list `knobs` of docs/reference/lab_protocol.md.
 void write_parameters(const std::vector<LabParameter>& parameters, JsonWriter& json);
