@@ -55,7 +55,7 @@ class CommandLine(ProgramTest):
         names = {variant["name"] for variant in study["variants"]}
         self.assertLessEqual({"trial/printed-linear/60", "held/printed-linear/60-held",
                               "implicit/linear/1000", "ablation/folded"}, names)
-        self.assertEqual(len(study["answer"]), 8)
+        self.assertEqual(len(study["answer"]), 9)
         self.assertEqual(len(study["findings"]), 73)
         refuted = [finding["measured"] for finding in study["findings"] if not finding["holds"]]
         self.assertEqual(len(refuted), 14)

@@ -36,6 +36,7 @@ ALLOWED = {
     "solver/support/diagnostics.cpp": "options as they are typed",
     # Symbols of equations, whose sign stands in front.
     "app/inspect/equations.cpp": "the sign of a term",
+    "app/inspect/inspection.cpp": "the two halves of a unit in the table of quantities",
     "app/web/src/inspector/": "the sign of a term, and which equation it is",
     "app/web/src/inspector/math.ts": "the sign of equality",
     "app/inspect/report/pass_pages.cpp": "symbols of quantities, and the sign of a term",

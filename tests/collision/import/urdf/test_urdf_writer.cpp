@@ -136,7 +136,7 @@ TEST_CASE("writing leaves no temporary file, and reports where it cannot write")
   const RobotDescription robot = read_urdf(folder.write("arm.urdf", kGoodArm));
   write_urdf(robot, folder.path() / "out.urdf");
   CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 2);
-  const fs::path nowhere = folder.path() / "no such folder" / "out.urdf";
+  const fs::path nowhere = folder.path() / "arm.urdf" / "out.urdf";  // below a file
   const auto faults = faults_of([&] { write_urdf(robot, nowhere); });
   REQUIRE(faults.size() == 1);
   CHECK(faults[0].file == nowhere.string());
