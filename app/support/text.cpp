@@ -34,11 +34,14 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::string nearest_name(std::string_view misspelt, const std::vector<std::string>& names) {
   constexpr std::size_t kMaxLength = 200;  // longer words are not misspellings
   if (misspelt.size() > kMaxLength) return "";
+  const std::size_t n = misspelt.size();
   std::string nearest;
-  std::size_t min = std::max<std::size_t>(2, (misspelt.size() + 1) / 2);
+  std::size_t min = 2 * std::max<std::size_t>(2, (n + 1) / 2);
   for (const std::string& name : names) {
     if (name.size() > kMaxLength) continue;
-    const std::size_t d = distance(misspelt, name);
+    std::size_t d = 2 * distance(misspelt, name);
+    const std::size_t of_start = distance(misspelt, std::string_view(name).substr(0, n));
+    if (3 * of_start <= n) d = std::min(d, 2 * of_start + 1);
     if (d > min || (d == min && !nearest.empty())) continue;
     min = d;
     nearest = name;

@@ -13,8 +13,9 @@
 
 namespace twinarm {
 
-// The name with the smallest edit distance (insert, delete, change, swap), ignoring case; empty if
-// all distances exceed half of the letters.
+// The name with the smallest edit distance (insert, delete, change, swap) of it or of its
+// beginning, ignoring case; empty if all distances exceed half of the letters, a third for a
+// beginning.
 std::string nearest_name(std::string_view misspelt, const std::vector<std::string>& names);
 
 // "did you mean 'elbow'?" and up to 12 of the names; `kind`: "joints". Of a renamed one (renames.h)

@@ -194,7 +194,7 @@ class Recordings(RecordingCommand):
                                     ("step=0.1", "change.method", "--set step"),
                                     ("couplin.stiffness=1", "change.unknown-key", "'coupling'"),
                                     ("nonsense", "change.form", "PATH=VALUE"),
-                                    ("coupling[7].stiffness=1", "change.unknown-key", "coupling[0]"),
+                                    ("coupling[7].stiffness=1", "path.no-item", "from 0, below"),
                                     ("coupling.stiffness=-1", "scene.negative", "-1")):
             self.assertIn(value, self.refused_as(code, "replay", file, "--set", change))
         self.assertIn("--from", self.refused_as("recording.time", "replay", file, "--from", 5))

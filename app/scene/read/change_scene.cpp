@@ -88,19 +88,28 @@ class PathWalk {
       go(list.items[i], p + 1);
   }
 
-  // The item whose name is the next part, else all items.
+  // The item whose name is the next part, else all items, if the next part can be a key.
   void go_to_items(Value& list, std::size_t p) {
     const ValuePath::Part& next = path_.parts[p + 1];
+    static const std::array kTables{"q",     "qd",      "damping", "motion",
+                                    "shape", "gripper", "target",  "mass_scale"};
+    bool is_key = is_last(p + 1) || next.index != -1 || next.name.empty() ||
+                  std::ranges::find(kTables, next.name) != kTables.end();
+    std::vector<std::string> names;
     for (Value& item : list.items) {
       const Value* name = item.find("name");
+      is_key = is_key || item.find(next.name);
+      if (name) names.push_back(name->text);
       if (!name || name->text != next.name || next.index != -1) continue;
       if (!is_last(p + 1)) return go(item, p + 2);
       if (made_ == MadeKeys::last)
         fault("'" + path_.text + "' is a table", "name one of its numbers", "path.no-number");
     }
+    if (!is_key)
+      fault("there is no " + path_.parts[p].name + " '" + next.name + "'",
+            name_remedy(next.name, names, "names"), "path.unknown-name");
     for (Value& item : list.items) go(item, p + 1);
   }
-
   const ValuePath& path_;
   const MadeKeys made_;
   const int line_;
@@ -171,9 +180,10 @@ Value value_of_text(const std::string& text) {
   return value;
 }
 
+constexpr std::array kOptional{"gravity", "step", "integrator", "contact", "duration"};
+
 // Adds an optional top-level key, so that a path can denote it.
 void add_optional_key(const std::string& name, int line, Value& scene) {
-  static const std::array kOptional{"gravity", "step", "integrator", "contact", "duration"};
   if (scene.find(name) || std::ranges::find(kOptional, name) == kOptional.end()) return;
   Value made = Value::of(0.0);  // to be replaced by the new value
   if (name == "gravity") {
@@ -209,16 +219,14 @@ void apply(const Change& change, int line, Value& scene, DiagnosticList& faults)
   add_optional_key(name, line, scene);
   std::vector<std::string> names;
   for (const Value& member : scene.members) names.push_back(member.key);
+  for (const char* key : kOptional)
+    if (!scene.find(key)) names.emplace_back(key);
   if (!scene.find(name))
     return fault("the scene has no '" + name + "'", name_remedy(name, names, "keys"),
                  "change.unknown-key");
-  DiagnosticList of_path;
   const auto found = attempt(
-      of_path, [&] { return find_targets(scene, path, MadeKeys::all_below_top, line, where); });
-  if (!found)
-    return fault("the scene has no such " + name,
-                 "write " + name + "[0].KEY, " + name + ".KEY for all, or " + name + ".NAME.KEY",
-                 "change.unknown-key");
+      faults, [&] { return find_targets(scene, path, MadeKeys::all_below_top, line, where); });
+  if (!found) return;
   for (const auto& [value, table] : *found) {
     const std::string key = value->key;
     *value = value_of_text(change.value);

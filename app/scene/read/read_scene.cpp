@@ -61,6 +61,9 @@ void SceneReader::read(const Value& root) {
   for (const Value* joint : table.tables("constraint")) read_constraint(*joint, index++);
   table.text("note");
   table.done();
+  if (!root.find("robot") && !root.find("body"))
+    table.fault("", "has no robots and no bodies",
+                "add a [[robot]] or a [[body]] (docs/reference/scene_file.md)", "scene.empty");
 }
 
 std::string SceneReader::read_name(TableReader& table, const char* kind) {
