@@ -1,10 +1,14 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numeric>
+#include <thread>
 
 #include "app/command/command.h"
 #include "app/compare/compare.h"
 #include "app/compare/page/page.h"
+#include "app/page/page_facts.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/files.h"
 #include "app/support/parallel_for.h"
@@ -43,6 +47,15 @@ void add_options(const OptionAdder& add, CompareOptions& options) {
   add.output("--html", options.html, "",
              "write the page compare.html into this folder: statements, figures, code");
   add.json(options.json);
+}
+
+// From measured means of the groups on one processor [s].
+double expected_seconds(const CaseSelection& selection) {
+  std::map<std::string, double> more{
+      {"loops", 1.2}, {"engines", 1.2}, {"contact", 0.2}, {"couplings", 0.2}};
+  double sum = 0;
+  for (const AnalyticCase* test : selection.cases) sum += 0.04 + more[test->group];
+  return sum / std::max(1U, std::thread::hardware_concurrency());
 }
 
 // Runs all cases. Their durations are not known before: each counts equally in the progress bar.
@@ -89,17 +102,7 @@ std::vector<std::string> make_sections(const std::vector<CompareRow>& rows,
   return sections;
 }
 
-std::string command_line(const CompareOptions& options) {
-  std::string line = "twinarm compare";
-  for (const std::string& name : options.cases) line += " " + name;
-  if (!options.group.empty()) line += " --group " + options.group;
-  if (!options.integrators.empty())
-    line += fmt::format(" --integrator {}", fmt::join(options.integrators, ","));
-  if (!options.steps.empty()) line += fmt::format(" --step {:g}", fmt::join(options.steps, ","));
-  return line + " --html " + options.html.string();
-}
-
-int run_compare(const CompareOptions& options) {
+int run_compare(const CompareOptions& options, const Words& typed) {
   constexpr int kFailed = 1;
   DiagnosticList faults;
   const CaseSelection selection = select_cases(options.cases, options.group, faults);
@@ -115,20 +118,23 @@ int run_compare(const CompareOptions& options) {
 
   constexpr double kPageShare = 0.75;  // of the duration, measured
   std::vector<CompareRow> rows;
+  if (!options.json)
+    print_error("twinarm: cases: {}, about {:.0f} s\n", selection.cases.size(),
+                std::ceil(expected_seconds(selection) / (page.empty() ? 1 : 1 - kPageShare)));
   {
     Progress progress(false, Progress::kPatience);
     rows = run_all(selection, integrations, progress, page.empty() ? 1 : 1 - kPageShare);
     if (!page.empty()) {
       const auto sections = make_sections(rows, integrations, progress, kPageShare);
       write_whole_file(page, compare_page::page_html(rows, sections, selection.skipped,
-                                                     command_line(options), progress.seconds()));
+                                                     command_line(typed), progress.seconds()));
     }
   }
   if (options.json) {
     fmt::print("{}", compare_json(rows, integrations, selection.skipped, page.string()));
   } else {
     fmt::print("{}", compare_table(rows, integrations, selection.skipped));
-    if (!page.empty()) fmt::print("page: {}\n", page.string());
+    print_wrote({page}, false);
   }
   return failures(rows) == 0 ? 0 : kFailed;
 }

@@ -42,11 +42,12 @@ void add_options(const OptionAdder& add, CouplingPredictOptions& options) {
   add("--damping", options.damping, "damping [N s/m or N m s/rad]");
   add.group("Prediction");
   add.scene_step(options.step, options.integrator);
-  add("--move", options.move, "move of the target [deg, or mm]");
-  add("--time", options.time, "duration of the move [s]");
+  add("--move", options.move, "move of the target [deg, or mm]")->check(above_zero());
+  add("--time", options.time, "duration of the move [s]")->check(above_zero());
   add("--along", options.along,
       "joint=factor,..: factor of the move for each joint; default: 1 for all");
-  add("--wall", options.wall, "stiffness of a wall that the robot touches [N/m]");
+  add("--wall", options.wall, "stiffness of a wall that the robot touches [N/m]")
+      ->check(above_zero());
   add.group("Output");
   add.json(options.json);
 }
@@ -62,26 +63,23 @@ struct CouplingGainsOptions {
 
 void add_options(const OptionAdder& add, CouplingGainsOptions& options) {
   add.group("Scene");
-  add.input("model", options.robot.model,
+  add.input("model", options.robot.model, ".toml",
             "scene (TOML) with couplings; default: gains from the options below");
-  add.input("--state", options.robot.state, "state file (JSON): q [rad, m]");
+  add.input("--state", options.robot.state, "", "state file (JSON): q [rad, m]");
   add.group("Gains");
-  add("--frequency", options.frequency, "natural frequency [Hz]");
-  add("--damping-ratio", options.damping_ratio, "damping ratio");
-  add("--inertia", options.inertia,
-      "inertia that the spring moves, without a scene [kg or kg m^2]");
-  add("--stiffness", options.stiffness, "stiffness, without a scene [N/m or N m/rad]");
-  add("--damping", options.damping, "damping, without a scene [N s/m or N m s/rad]");
+  add("--frequency", options.frequency, "natural frequency [Hz]")->check(above_zero());
+  add("--damping-ratio", options.damping_ratio, "damping ratio")->check(zero_or_more());
+  add("--inertia", options.inertia, "inertia that the spring moves, without a scene [kg or kg m^2]")
+      ->check(above_zero());
+  add("--stiffness", options.stiffness, "stiffness, without a scene [N/m or N m/rad]")
+      ->check(above_zero());
+  add("--damping", options.damping, "damping, without a scene [N s/m or N m s/rad]")
+      ->check(zero_or_more());
   add("--solref", options.solref,
       "MuJoCo solref, without a scene: timeconst,dampratio or -stiffness,-damping");
   add("--impedance", options.impedance, "MuJoCo impedance d, or d,dmax; default 0.95");
   add.group("Output");
   add.json(options.json);
-}
-
-void check_not_negative(const std::string& option, double value, DiagnosticList& faults) {
-  if (value >= 0 && std::isfinite(value)) return;
-  faults.add(option, "must not be negative, is " + number_text(value), "", "option.negative");
 }
 
 // "joint1=1,joint2=-0.5"
@@ -116,12 +114,11 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
   simulate.duration = 1;
   simulate.step = step;
   simulate.integrator = integrator;
-  auto prepared = attempt(faults, [&] { return prepare_simulation(simulate); });
-  faults.check();
-  if (prepared->input.couplings->size() == 0)
+  SimulatePlan prepared = prepare_simulation(simulate);
+  if (prepared.input.couplings->size() == 0)
     throw InputError({{robot.model.string(), 0, "scene", "it has no coupling",
                        "add a [[coupling]] (docs/reference/scene_file.md)", "scene.no-coupling"}});
-  return std::move(*prepared);
+  return prepared;
 }
 
 // The scene of one robot and one coupling that the options describe; its values are checked by the
@@ -151,9 +148,6 @@ Value scene_of_options(const CouplingPredictOptions& options, DiagnosticList& fa
 
 int run_coupling_predict(const CouplingPredictOptions& options) {
   DiagnosticList faults;
-  check_positive("--move", options.move, faults);
-  check_positive("--time", options.time, faults);
-  if (options.wall) check_positive("--wall", *options.wall, faults);
   const auto along = read_along(options.along, faults);
   const bool is_scene = options.robot.model.extension() == ".toml";
   const bool has_coupling = options.stiffness || options.damping || !options.link.empty() ||
@@ -185,8 +179,6 @@ GivenGains read_given_gains(const CouplingGainsOptions& options, DiagnosticList&
     faults.add("--frequency, --damping-ratio", "one is given without the other",
                "give both, or neither", "option.together");
   } else if (options.frequency) {
-    check_positive("--frequency", *options.frequency, faults);
-    check_not_negative("--damping-ratio", *options.damping_ratio, faults);
     given.response = {2 * std::numbers::pi * *options.frequency, *options.damping_ratio};
   }
   if (!options.solref.empty()) {
@@ -213,18 +205,19 @@ GivenGains read_given_gains(const CouplingGainsOptions& options, DiagnosticList&
 Equivalents bare_equivalents(const CouplingGainsOptions& options, const GivenGains& given,
                              DiagnosticList& faults) {
   const int ways = (options.stiffness ? 1 : 0) + (given.response ? 1 : 0) + (given.solref ? 1 : 0);
-  if (!options.inertia)
+  const bool is_bare = !options.inertia && ways == 0 && faults.empty();
+  if (is_bare)
+    faults.add("command line", "no scene and no gains are given",
+               "give SCENE.toml, or --inertia with --stiffness, --frequency or --solref",
+               "option.missing");
+  else if (!options.inertia)
     faults.add("--inertia", "is needed without a scene",
                "give the inertia that the spring moves [kg or kg m^2], or a scene",
                "option.missing");
-  else
-    check_positive("--inertia", *options.inertia, faults);
-  if (ways != 1)
+  if (ways != 1 && !is_bare)
     faults.add("gains", ways == 0 ? "are missing" : "are given in more than one form",
                "give one of --stiffness and --damping, --frequency and --damping-ratio, --solref",
                "option.conflict");
-  if (options.stiffness) check_positive("--stiffness", *options.stiffness, faults);
-  check_not_negative("--damping", options.damping, faults);
   faults.check();
   const SpringGains gains = given.response ? gains_of(*given.response, *options.inertia)
                             : given.solref

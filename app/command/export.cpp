@@ -162,7 +162,7 @@ struct ExportOptions {
 };
 
 void add_options(const OptionAdder& add, ExportOptions& options) {
-  add.input("recording", options.recording,
+  add.input("recording", options.recording, ".twinrec",
             "recording (.twinrec), as `twinarm simulate --record` writes it")
       ->required();
   add.output("page", options.page, ".html",

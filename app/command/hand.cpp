@@ -31,7 +31,8 @@ struct HandOptions {
 };
 
 void add_options(const OptionAdder& add, HandOptions& options) {
-  add.input("scene", options.scene, "scene (TOML) with couplings whose target is \"device\"");
+  add.input("scene", options.scene, ".toml",
+            "scene (TOML) with couplings whose target is \"device\"");
   add.group("Device");
   add("--device", options.device, "input device; `--device list` lists them");
   add("--mapping", options.mapping,
@@ -83,9 +84,6 @@ void add_tick(const TickResult& view, double step, LiveSummary& summary) {
 }
 
 SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
-  if (options.scene.extension() != ".toml")
-    faults.add({options.scene.string(), 0, "scene", "is not a scene",
-                "give a TOML file with couplings whose target is \"device\"", "file.no-scene"});
   if (options.duration) check_positive("--duration", *options.duration, faults, " [s]");
   if (options.empty_loop && options.simulated)
     faults.add("--empty-loop", "measures real time, which --simulated does not keep",
@@ -168,6 +166,9 @@ int run_hand(const HandOptions& options) {
     summary.same_bits = end.q == live_end.q && end.qd == live_end.qd;
   }
   fmt::print("{}", options.json ? live_json(summary) + "\n" : live_table(summary));
+  print_wrote(
+      {summary.log, summary.recording.empty() ? "" : logged, summary.recording, summary.picture},
+      options.json);
   return summary.servo.finite ? 0 : kStopped;
 }
 

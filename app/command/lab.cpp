@@ -32,7 +32,7 @@ struct LabOptions {
 };
 
 void add_options(const OptionAdder& add, LabOptions& options) {
-  add.input("scene", options.scene,
+  add.input("scene", options.scene, "",
             "scene, URDF or recording; default: the first scene of the gallery");
   add.group("Run");
   add("--variants", options.variants,
@@ -63,6 +63,7 @@ BuildRequest requested_scene(const LabOptions& options, const std::vector<Galler
     if (scene.name == options.scene.string() ||
         std::filesystem::equivalent(scene.file, options.scene, ignored))
       return order_to_open(scene);
+  check_input(options.scene, "scene", kModelEndings, "scene, URDF or recording");
   BuildRequest request;
   request.file = options.scene;
   request.name = options.scene.stem().string();
@@ -80,6 +81,16 @@ BuildRequest first_request(const LabOptions& options, const std::vector<GalleryS
   if (!options.variants.empty()) request.variants = parse_variants(options.variants);
   request.is_shared = !is_loopback(options.listen);
   return request;
+}
+
+// Faults of the variants' changes name --variants.
+BuildResult first_scene(const LabOptions& options, const std::vector<GalleryScene>& gallery) try {
+  return build(first_request(options, gallery));
+} catch (const InputError& error) {
+  std::vector<Diagnostic> faults = error.faults();
+  for (Diagnostic& fault : faults)
+    if (fault.where.starts_with("--set ")) fault.where.replace(0, 5, "--variants");
+  throw InputError(std::move(faults));
 }
 
 // What the page does when it is opened (app/web/src/pages/address.ts).
@@ -130,7 +141,7 @@ class Lab {
   Lab(const LabOptions& options, std::vector<GalleryScene> gallery)
       : gallery_(std::move(gallery)),
         is_private_(is_loopback(options.listen)),
-        session_(build(first_request(options, gallery_)), gallery_,
+        session_(first_scene(options, gallery_), gallery_,
                  static_cast<std::size_t>(options.history) << 20),
         streamer_(
             session_, clients_, gallery_,

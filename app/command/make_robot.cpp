@@ -1,6 +1,5 @@
-#include <fmt/format.h>
-
 #include "app/command/command.h"
+#include "app/support/files.h"
 #include "collision/import/recipe/robot_recipe.h"
 
 namespace twinarm {
@@ -11,12 +10,16 @@ struct MakeRobotOptions {
 };
 
 void add_options(const OptionAdder& add, MakeRobotOptions& options) {
-  add.input("recipe", options.recipe, "recipe of the robot (TOML)")->required();
+  add.input("recipe", options.recipe, ".toml", "recipe of the robot (TOML)")->required();
 }
 
 int run_make_robot(const MakeRobotOptions& options) {
   make_robot(options.recipe);
-  fmt::print("made {} from {}\n", read_recipe(options.recipe).robot.name, options.recipe.string());
+  const RecipeResult made = read_recipe(options.recipe);
+  std::vector<std::filesystem::path> files{options.recipe};
+  files.front().replace_filename(made.robot.name + ".urdf");
+  for (const HullFile& hull : made.hulls) files.push_back(hull.file);
+  print_wrote(files, false);
   return 0;
 }
 

@@ -17,7 +17,7 @@ namespace twinarm {
 namespace {
 
 void add_options(const OptionAdder& add, MapOptions& options) {
-  add.input("scene", options.scene, "scene (TOML); default with --merge: its scene");
+  add.input("scene", options.scene, ".toml", "scene (TOML); default with --merge: its scene");
   add.group("Parameters");
   add("--x", options.x,
       "PATH:MIN:MAX:N[:log]: parameter of the scene along x, its range, number of cells (2 to "
@@ -30,7 +30,9 @@ void add_options(const OptionAdder& add, MapOptions& options) {
   add("--duration", options.duration, "simulated time of each cell [s]; default: the scene's");
   add.scene_step(options.step, options.integrator);
   add("--no-simd", options.no_simd, "run cells one at a time, not in SIMD batches");
-  add("--threads", options.threads, "number of threads; default: all processors")->default_str("");
+  add("--threads", options.threads, "number of threads; default: all processors")
+      ->check(between(1, 1024))
+      ->default_str("");
   add.group("Output");
   add.output("--svg", options.svg, ".svg", "write the map as SVG, with predicted limits");
   add.output("--png", options.png, ".png", "write the map as PNG, with predicted limits");
@@ -46,7 +48,7 @@ void add_options(const OptionAdder& add, MapOptions& options) {
              "checkpoint file, from which an interrupted map resumes; default: in out/map");
   add("--jobs", options.jobs, "split the map into so many parts")->default_str("");
   add("--job", options.job, "compute only this part, from 0")->default_str("");
-  add.input("--merge", options.merge, "combine these checkpoint files of the parts");
+  add.input("--merge", options.merge, ".twinmap", "combine these checkpoint files of the parts");
 }
 
 bool file_exists(const std::filesystem::path& file) {
@@ -195,7 +197,6 @@ int compute(const MapOptions& options, const MapJob& job) {
   }
   const std::vector<int> wanted = wanted_blocks(options, blocks);
   TileFile file = file_exists(work) ? resume_tile_file(work, empty, blocks, options.force) : empty;
-  make_folder(folder_of(work), "--checkpoint");
   const auto is_finished = [&](int block) { return file.has_all_of(blocks[block]); };
   if (!std::ranges::all_of(wanted, is_finished))
     require_writable_folder(folder_of(work), "--checkpoint");

@@ -21,15 +21,12 @@ void add_options(const OptionAdder& add, ModesOptions& options) {
 }
 
 int run_modes(const ModesOptions& options) {
-  DiagnosticList faults;
   SimulateOptions simulate;
   simulate.robot = options.robot;
   simulate.duration = 1;
   simulate.integrator = "semi-implicit";
-  auto prepared = attempt(faults, [&] { return prepare_simulation(simulate); });
-  faults.check();
-
-  SimulateInput& input = prepared->input;
+  SimulatePlan prepared = prepare_simulation(simulate);
+  SimulateInput& input = prepared.input;
   if (input.scene && input.robot.coordinates.all().empty() && input.scene->constraints.empty())
     throw InputError({{input.scene->description.file.string(), 0, "scene",
                        "it has neither a robot with a joint nor a constraint, and so no modes", "",

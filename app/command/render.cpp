@@ -53,7 +53,7 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
   add("--plot", options.plot,
       "curves below the picture: none, or some of: energy, forces, torques, contacts, "
       "tracking-error");
-  add.input("--side-by-side", options.side_by_side,
+  add.input("--side-by-side", options.side_by_side, ".twinrec",
             "second recording, shown to the right of the first in sync");
   add.group("Picture");
   add("--size", options.size, "WIDTHxHEIGHT [pixels], each 16 to 8192");

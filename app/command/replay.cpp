@@ -21,7 +21,7 @@ struct ReplayOptions {
 };
 
 void add_options(const OptionAdder& add, ReplayOptions& options) {
-  add.input("recording", options.recording,
+  add.input("recording", options.recording, ".twinrec",
             "recording (.twinrec), as `twinarm simulate --record` writes it")
       ->required();
   add.group("Branch");

@@ -3,6 +3,7 @@
 
 #include "app/command/command.h"
 #include "app/device/devices.h"
+#include "app/page/page_facts.h"
 #include "app/plot/gnuplot.h"
 #include "app/servo/servo_loop.h"
 #include "app/study/calibration/calibration.h"
@@ -41,7 +42,7 @@ void add_options(const OptionAdder& add, StudyOptions& options) {
       "synthetic, trace, or a device of `twinarm hand --device list`; default: the trace if one is "
       "given, else synthetic");
   add("--seed", options.seed, "random seed of the synthetic motion; default: the settings'");
-  add.input("--trace", options.trace, "recorded operator motion (CSV)");
+  add.input("--trace", options.trace, "", "recorded operator motion (CSV)");
   add.group("Calibration");
   add("--recalibrate", options.recalibrate,
       "re-run the gain calibration and overwrite study/calibration.json of the assets (5 min)");
@@ -108,22 +109,13 @@ StudyOperator scene_operator(const StudyOptions& options, const StudySettings& s
                                   settings.operator_ranges);
 }
 
-std::string command_of(const StudyOptions& options) {
-  std::string command = "twinarm study --out " + options.out.string();
-  if (!options.trace.empty()) command += " --trace " + options.trace.string();
-  if (is_device(options)) command += " --device " + options.device;
-  if (options.seed) command += fmt::format(" --seed {}", *options.seed);
-  if (options.paper_view) command += " --paper-view";
-  return command;
-}
-
-StudyResults compute(const StudyOptions& options, const StudyInputs& inputs,
+StudyResults compute(const StudyOptions& options, const Words& typed, const StudyInputs& inputs,
                      const OperatorMotion& hand, const Calibration& calibration,
                      Progress& progress) {
   StudyResults results;
   results.calibration = calibration;
   results.operator_description = hand.description();
-  results.command = command_of(options);
+  results.command = command_line(typed);
   results.settings_text = read_whole_file(inputs.settings.assets / "study" / "settings.toml");
   results.arm2_mass_scale = calibration.entry("chosen").numbers.at("arm2_mass_scale");
   for (const LinkDescription& link : inputs.s103.links)
@@ -193,7 +185,7 @@ void print_summary(const StudyResults& results, const std::filesystem::path& rep
   fmt::print("\nReport: {}  ({:.0f} s)\n", report.string(), results.seconds);
 }
 
-int run_study(const StudyOptions& options) {
+int run_study(const StudyOptions& options, const Words& typed) {
   const double start = steady_seconds();
   const std::filesystem::path assets = find_assets(options.assets);
   if (!options.identify_one.empty()) {
@@ -227,7 +219,7 @@ int run_study(const StudyOptions& options) {
     make_folder(options.out / part);
 
   Progress progress(false);
-  StudyResults results = compute(options, inputs, *hand, calibration, progress);
+  StudyResults results = compute(options, typed, inputs, *hand, calibration, progress);
   progress.stage("figures and report", 0.15);
   write_figures(results, options.out / "figures");
   progress.advance(0.6);

@@ -16,8 +16,8 @@ struct TraceOptions {
 void add_options(const OptionAdder& add, TraceOptions& options) {
   add.group("Motion");
   add("--seed", options.seed, "random seed of the motion");
-  add("--duration", options.duration, "[s]")->check(above_zero());
-  add("--rate", options.rate, "sampling rate [Hz]")->check(above_zero());
+  add("--duration", options.duration, "[s]")->check(above_zero(1000));
+  add("--rate", options.rate, "sampling rate [Hz]")->check(above_zero(1000));
   add.output("--out", options.out, ".csv", "CSV file to write")->required();
 }
 

@@ -61,10 +61,7 @@ const std::vector<std::string> kTasks{"free", "pick-and-place"};
 std::vector<std::string> read_words(const std::string& text, const std::vector<std::string>& known,
                                     const char* option, DiagnosticList& faults) {
   std::vector<std::string> words = split(text);
-  for (const std::string& word : words)
-    if (std::ranges::find(known, word) == known.end())
-      faults.add(option, "'" + word + "' is not known",
-                 fmt::format("give some of {}", fmt::join(known, ",")), "option.choice");
+  for (const std::string& word : words) choose(option, word, known, "possible", faults);
   return words;
 }
 
@@ -201,7 +198,6 @@ int run_trial(const TrialOptions& options) {
   report.mapping = options.mapping;
   report.device = options.device;
   const std::filesystem::path folder = options.out / report.participant;
-  make_folder(folder);
   const std::vector<TrialCondition> conditions =
       write_conditions(names, find_assets(options.assets), folder);
   std::vector<Step> steps;
@@ -217,9 +213,11 @@ int run_trial(const TrialOptions& options) {
     add_last_to_csv(report, report.csv);  // kept if a later task fails
     if (is_interrupted()) break;
   }
-  fmt::print("{}", options.json
-                       ? trial_json(report) + "\n"
-                       : "\n" + trial_table(report) + "\nall participants: " + report.csv + "\n");
+  fmt::print("{}", options.json ? trial_json(report) + "\n" : "\n" + trial_table(report) + "\n");
+  std::vector<std::filesystem::path> files{report.csv};
+  for (const TrialCondition& condition : conditions) files.push_back(condition.scene);
+  for (const TrialResult& result : report.results) files.emplace_back(result.log);
+  print_wrote(files, options.json);
   check_interrupt();
   return 0;
 }

@@ -1,6 +1,5 @@
 // `twinarm zwidth`: measures the Z-width of a device (docs/understand/haptic_rendering.md).
 #include <fmt/format.h>
-#include <cmath>
 
 #include "app/command/command.h"
 #include "app/plot/gnuplot.h"
@@ -22,15 +21,18 @@ struct ZwidthOptions {
 
 void add_options(const OptionAdder& add, ZwidthOptions& options) {
   add.group("Device");
-  add("--mass", options.device.mass, "effective mass at the handle [kg]");
-  add("--damping", options.device.damping, "viscous friction [N s/m]");
-  add("--friction", options.device.friction, "Coulomb friction [N]");
-  add("--resolution", options.device.resolution, "resolution of the encoder [m]");
-  add("--rate", options.device.rate, "rate of the haptic loop [Hz]");
-  add("--delay", options.device.delay, "delay from sensor to motor [ticks]");
+  add("--mass", options.device.mass, "effective mass at the handle [kg]")->check(above_zero());
+  add("--damping", options.device.damping, "viscous friction [N s/m]")->check(zero_or_more());
+  add("--friction", options.device.friction, "Coulomb friction [N]")->check(zero_or_more());
+  add("--resolution", options.device.resolution, "resolution of the encoder [m]")
+      ->check(zero_or_more());
+  add("--rate", options.device.rate, "rate of the haptic loop [Hz]")->check(above_zero(20'000));
+  add("--delay", options.device.delay, "delay from sensor to motor [ticks]")
+      ->check(between(0, 1000));
   add.group("Measurement");
   add("--wall-damping", options.wall_damping,
-      "damping B of the virtual wall at which the maximum stiffness is found [N s/m]");
+      "damping B of the virtual wall at which the maximum stiffness is found [N s/m]")
+      ->check(zero_or_more());
   add("--seed", options.seed, "random seed of network delays and operator motion");
   add.group("Output");
   add.output("--svg", options.svg, ".svg", "write the K-B plane and the energies as SVG");
@@ -39,31 +41,10 @@ void add_options(const OptionAdder& add, ZwidthOptions& options) {
   add.json(options.json);
 }
 
-void check(const ZwidthOptions& options, DiagnosticList& faults) {
-  const SampledDevice& device = options.device;
-  const auto number = [&](const char* name, double value, bool positive) {
-    if (std::isfinite(value) && (positive ? value > 0 : value >= 0)) return;
-    faults.add(name, fmt::format("is {}, must be {}", value, positive ? "positive" : "0 or more"),
-               "", "option.range");
-  };
-  number("--mass", device.mass, true);
-  number("--damping", device.damping, false);
-  number("--friction", device.friction, false);
-  number("--resolution", device.resolution, false);
-  number("--rate", device.rate, true);
-  number("--wall-damping", options.wall_damping, false);
-  if (device.delay < 0 || device.delay > 1000)
-    faults.add("--delay", fmt::format("is {} ticks", device.delay), "give a number from 0 to 1000",
-               "option.range");
-  if (options.json && options.csv)
-    faults.add("--csv", "cannot be combined with --json", "leave one of them out",
-               "option.conflict");
-}
-
 int run_zwidth(const ZwidthOptions& options) {
-  DiagnosticList faults;
-  check(options, faults);
-  faults.check();
+  if (options.json && options.csv)
+    throw InputError({{"", 0, "--csv", "cannot be combined with --json", "leave one of them out",
+                       "option.conflict"}});
   if (!options.svg.empty() || !options.png.empty()) require_gnuplot();
   const SampledDevice& device = options.device;
   const std::filesystem::path assets = find_assets();

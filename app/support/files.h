@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -49,7 +48,7 @@ void fill_closed_streams();
 void check_stdout();
 
 // "wrote PATH" for each file that was asked for; nothing if stdout is for programs.
-inline void print_wrote(std::initializer_list<std::filesystem::path> files, bool for_programs) {
+inline void print_wrote(const std::vector<std::filesystem::path>& files, bool for_programs) {
   for (const std::filesystem::path& file : files)
     if (!file.empty() && !for_programs) fmt::print("wrote {}\n", file.string());
 }

@@ -61,7 +61,7 @@ class Compare(ProgramTest):
         self.assertEqual([row.split()[0] for row in rows[1:3]], ["D7", "E6-two"])
         self.assertEqual([row.split()[3] for row in rows[1:3]], ["pass", "pass"])
         self.assertEqual(rows[-1], "2 passed, 0 failed")
-        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        self.assertEqual((result.returncode, result.stderr), (0, "twinarm: cases: 2, about 1 s\n"))
 
     def test_a_letter_and_the_name_of_a_group_stand_for_all_of_it(self):
         by_letter = self.answer("A")
@@ -317,7 +317,7 @@ class PageFaults(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             result = run("D7", "--html", folder + "/mine.html")
             self.assertEqual(os.listdir(folder), ["mine.html"])
-        self.assertEqual(result.stdout.splitlines()[-1], f"page: {folder}/mine.html")
+        self.assertEqual(result.stdout.splitlines()[-1], f"wrote {folder}/mine.html")
 
 
 if __name__ == "__main__":

@@ -1,36 +1,46 @@
-"""What is allowed but likely a mistake: a warning on stderr, in JSON under `warnings`, that names value and remedy."""
+"""Mistakes of newcomers, tests/data/likely_mistakes.toml: each is refused, or warned of, with its value and remedy.
+
+A warning is on stderr; in JSON it is under `warnings`.
+"""
 import json
+import pathlib
+import shlex
+import tempfile
+import tomllib
 
-from program import ProgramTest, main
+from program import DATA, ProgramTest, data, main
 
-HINGE = "tests/data/hinge.urdf"
+ROWS = tomllib.loads(data("likely_mistakes.toml"))["mistake"]
 
 
 class LikelyMistakes(ProgramTest):
-    def check(self, words, *parts):
-        done = self.twinarm(*words)
-        for part in parts:
-            self.assertIn(part, done.stderr)
+    cwd = DATA
+
+    def test_there_are_46_different_ones(self):
+        self.assertGreaterEqual(len({(row["words"], row.get("scene"), row.get("state")) for row in ROWS}), 46)
+
+    def test_each_message_has_the_value_and_the_remedy(self):
+        for row in ROWS:
+            with self.subTest(row["words"]), tempfile.TemporaryDirectory() as folder:
+                self.folder = pathlib.Path(folder)
+                for key, name in (("scene", "scene.toml"), ("state", "state.json")):
+                    if key in row:
+                        self.write(name, row[key])
+                self.check(row, shlex.split(row["words"].replace("{out}", folder)))
+
+    def check(self, row, words):
+        warns = row.get("warns", False)
+        done = self.twinarm(*words, code=0 if warns else 2)
+        line = next((line for line in done.stderr.splitlines() if all(part in line for part in row["says"])), None)
+        self.assertIsNotNone(line, done.stderr)
+        self.assertEqual(done.stderr.count(line), 1)
+        self.assertEqual(warns, "warning: " in line)
+        if not warns:
+            return
         self.assertNotIn("warning", done.stdout)
         found = self.twinarm(*words, "--json")
         self.assertEqual(found.stderr, "")
-        self.assertTrue(any(parts[0] in warning for warning in json.loads(found.stdout)["warnings"]))
-
-    def test_degrees_in_a_state_file(self):
-        for degrees, turns, radians in ((90, "14.3", "1.5708"), (-45, "7.2", "-0.7854")):
-            state = self.write("state.json", f'{{"q": {{"hinge": {degrees}}}}}')
-            for command in ("dynamics", "modes", "inspect"):
-                self.check([command, HINGE, "--state", state],
-                           f"q of joint 'hinge' is {degrees} rad, {turns} turns; angles are in radians: "
-                           f"{degrees} degrees are {radians}")
-
-    def test_gravity_upwards(self):
-        for command in ("dynamics", "modes"):
-            self.check([command, HINGE, "--gravity", "0,0,9.81"], "gravity points up", "-9.81")
-
-    def test_a_step_longer_than_a_second_or_than_the_run(self):
-        self.check(["simulate", HINGE, "--duration", 40, "--step", 20], "the step is 20 s", "0.0001 to 0.01 s")
-        self.check(["simulate", HINGE, "--duration", 1e-4], "the run of 0.0001 s is shorter than the step of 0.001 s")
+        self.assertTrue(any(row["says"][0] in warning for warning in json.loads(found.stdout)["warnings"]))
 
 
 if __name__ == "__main__":

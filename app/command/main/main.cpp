@@ -88,14 +88,26 @@ int print_help(const CLI::App& app, const CLI::ParseError& parsed, bool as_json)
   return check_output(kDone, as_json);
 }
 
-// Throws if the first word is neither an option nor a command.
-void check_command(const CLI::App& app, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  if (std::ranges::find(names, argv[1]) != names.end()) return;
-  throw InputError({{"", 0, "command line", fmt::format("there is no command '{}'", argv[1]),
-                     name_remedy(argv[1], names, "commands"), "command.unknown"}});
+// The command or subcommand that the first words name, and its path, "twinarm coupling predict".
+// Throws if a word that must be one is neither that nor an option.
+std::pair<const CLI::App*, std::string> find_command(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* command = &app;
+  std::string path = "twinarm";
+  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
+    const std::string word = argv[i];
+    std::vector<std::string> names;
+    for (const CLI::App* below : command->get_subcommands({})) names.push_back(below->get_name());
+    if (names.empty()) break;
+    if (std::ranges::find(names, word) == names.end())
+      throw InputError({{"", 0, "command line", fmt::format("there is no command '{}'", word),
+                         word.ends_with(".toml") || word.ends_with(".urdf")
+                             ? fmt::format("give `twinarm simulate {0}` or `twinarm lab {0}`", word)
+                             : name_remedy(word, names, "commands"),
+                         "command.unknown"}});
+    command = command->get_subcommand(word);
+    path += " " + word;
+  }
+  return {command, path};
 }
 
 // `--png=` without a value (an unset shell variable): CLI11 would use the next word as its value.
@@ -115,15 +127,7 @@ bool is_number(const CLI::App& command, const std::string& name) {
 
 // For a command line that cannot be parsed: an unknown option, else what CLI11 says.
 InputError parse_fault(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
-  const CLI::App* command = &app;
-  std::string path = "twinarm";
-  for (int i = 1; i < argc; ++i)
-    for (const CLI::App* below : command->get_subcommands({}))
-      if (below->get_name() == argv[i]) {
-        command = below;
-        path += " " + below->get_name();
-        break;
-      }
+  const auto [command, path] = find_command(app, argc, argv);
   std::vector<std::string> names;
   for (const CLI::Option* option : command->get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
@@ -182,7 +186,7 @@ int run_program(int argc, char** argv) {
   const bool as_json =
       std::any_of(argv, argv + argc, [](std::string_view word) { return word == "--json"; });
   try {
-    check_command(app, argc, argv);
+    find_command(app, argc, argv);
     check_values(argc, argv);
     app.parse(argc, argv);
   } catch (const InputError& error) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <string_view>
 
 #include "app/robot/robot_input.h"
@@ -25,12 +25,12 @@ CLI::Option* OptionAdder::as_file(CLI::Option* option) {
   return option->type_name(kFileWord)->check(CLI::Validator(fault, ""));
 }
 
-CLI::Option* OptionAdder::as_input(CLI::Option* option) const {
+CLI::Option* OptionAdder::as_input(CLI::Option* option, const char* endings) const {
   const auto look_up = [](std::string& typed) {
     typed = find_input(typed).string();
     return std::string();
   };
-  files->push_back({option, false, ""});
+  files->push_back({option, false, endings});
   return option->transform(CLI::Validator(look_up, ""));
 }
 
@@ -42,20 +42,46 @@ CLI::Option* OptionAdder::output(const char* name, std::filesystem::path& file, 
 }
 
 namespace {
-// Of files that the program reads or writes, and of other pictures, videos and documents.
-constexpr std::array<std::string_view, 23> kEndings{
-    ".toml", ".urdf", ".xacro", ".json", ".csv", ".twinrec", ".twinmap", ".html",
-    ".svg",  ".png",  ".jpg",   ".jpeg", ".gif", ".mp4",     ".webm",    ".avi",
-    ".pdf",  ".stl",  ".obj",   ".ply",  ".dae", ".gltf",    ".glb"};
+// Endings of files that the program reads or writes, and of other texts, pictures and videos.
+constexpr std::string_view kEndings =
+    ".toml .urdf .xacro .json .csv .twinrec .twinmap .html .svg .png .jpg .jpeg .gif .mp4 .webm "
+    ".avi .pdf .stl .obj .ply .dae .gltf .glb .md .txt .py ";
+
+// Whether it ends as another kind of file does.
+bool is_other_kind(const std::filesystem::path& file, const std::string& endings) {
+  const std::string kind = file.extension().string() + " ";
+  return (endings + " ").find(kind) == std::string::npos && kEndings.find(kind) != kEndings.npos;
+}
 }  // namespace
+
+void check_input(const std::filesystem::path& file, const std::string& option,
+                 const std::string& endings, const std::string& wanted) {
+  std::error_code error;
+  const bool is_empty = std::filesystem::file_size(file, error) == 0 && !error &&
+                        file.extension() != ".twinrec";  // the reader of recordings reports it
+  const std::string what = std::filesystem::is_directory(file, error) ? "a folder"
+                           : is_empty                                 ? "an empty file"
+                           : is_other_kind(file, endings)
+                               ? "a " + file.extension().string() + " file"
+                               : "";
+  if (!what.empty() && !endings.empty())
+    throw InputError(
+        {{file.string(), 0, option, "is " + what, "give a " + wanted.substr(0, wanted.find(';')),
+          what == "a folder" ? "file.is-folder" : "file.kind"}});
+}
 
 void check_files(const FileOptions& files) {
   DiagnosticList faults;
   std::vector<std::pair<std::string, std::filesystem::path>> taken;
   for (const FileOption& input : files)
     if (!input.is_output)
-      for (const std::string& name : input.option->results())
+      for (const std::string& name : input.option->results()) {
+        attempt(faults, [&] {
+          check_input(name, input.option->get_name(), input.ending,
+                      input.option->get_description());
+        });
         taken.emplace_back(input.option->get_name(), name);
+      }
   for (const FileOption& output : files) {
     if (!output.is_output || output.option->empty()) continue;
     const std::string option = output.option->get_name();
@@ -69,8 +95,7 @@ void check_files(const FileOptions& files) {
       fault("is also the file of " + same->first, "give another name", "file.same");
     else if (output.ending.empty())
       attempt(faults, [&] { require_writable_folder(file, option.c_str()); });
-    else if (const std::string kind = file.extension().string();
-             kind != output.ending && std::ranges::find(kEndings, kind) != kEndings.end())
+    else if (is_other_kind(file, output.ending))
       fault("writes a " + output.ending + " file", "end the name in " + output.ending,
             "file.ending");
     else
@@ -94,8 +119,8 @@ void OptionAdder::scene_step(std::optional<double>& step, std::string& integrato
 
 void OptionAdder::robot(RobotOptions& options, const char* model) const {
   group("Model");
-  input("model", options.model, model)->required();
-  input("--state", options.state,
+  input("model", options.model, kModelEndings, model)->required();
+  input("--state", options.state, "",
         "state file (JSON): q, qd, tau, qdd, base, wrenches [rad, m, s, N]; default: at rest, or "
         "the scene's start");
   (*this)("--gravity", options.gravity,
@@ -131,8 +156,9 @@ CLI::Validator number_that(const std::string& words, IsValid is_valid) {
 
 }  // namespace
 
-CLI::Validator above_zero() {
-  return number_that("above 0", [](double value) { return value > 0; });
+CLI::Validator above_zero(double max) {
+  return number_that("above 0" + (std::isinf(max) ? "" : fmt::format(", at most {}", max)),
+                     [=](double value) { return value > 0 && value <= max; });
 }
 CLI::Validator zero_or_more() {
   return number_that("0 or more", [](double value) { return value >= 0; });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -19,7 +20,7 @@ inline constexpr const char* kFileWord = "PATH";  // value of a file option in h
 struct FileOption {
   const CLI::Option* option;
   bool is_output;
-  std::string ending;  // of an output; empty: a folder
+  std::string ending;  // of an output; empty: a folder. Of an input: ".toml .urdf"; empty: any
 };
 using FileOptions = std::vector<FileOption>;
 
@@ -43,8 +44,8 @@ struct OptionAdder {
   }
   // An input file, or several; names that begin with assets/ are looked up by find_input().
   template <class Paths>
-  CLI::Option* input(const char* name, Paths& file, const char* help) const {
-    return as_input((*this)(name, file, help));
+  CLI::Option* input(const char* name, Paths& file, const char* endings, const char* help) const {
+    return as_input((*this)(name, file, help), endings);
   }
   // An output file with names in `ending` (".svg"), or an output folder ("").
   CLI::Option* output(const char* name, std::filesystem::path& file, const char* ending,
@@ -60,15 +61,21 @@ struct OptionAdder {
  private:
   // An empty name is an error: an unset shell variable.
   static CLI::Option* as_file(CLI::Option* option);
-  CLI::Option* as_input(CLI::Option* option) const;
+  CLI::Option* as_input(CLI::Option* option, const char* endings) const;
 };
 
-// Throws InputError, before anything is read or written, if an output is also an input or another
-// output, has the ending of another kind of file, or cannot be written.
+inline constexpr const char* kModelEndings = ".toml .urdf .xacro .twinrec";
+
+// Throws InputError if the input is a folder, an empty file or of another kind. `wanted`: for the
+// remedy, up to a semicolon.
+void check_input(const std::filesystem::path& file, const std::string& option,
+                 const std::string& endings, const std::string& wanted);
+// Throws InputError, before anything is read or written, if an input is of another kind, or if an
+// output is also an input or another output, is of another kind, or cannot be written.
 void check_files(const FileOptions& files);
 
 // Ranges of numbers, described as in help texts (command_tree.h).
-CLI::Validator above_zero();
+CLI::Validator above_zero(double max = HUGE_VAL);
 CLI::Validator zero_or_more();
 CLI::Validator between(int min, int max);
 

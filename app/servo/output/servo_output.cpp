@@ -86,12 +86,10 @@ std::string live_table(const LiveSummary& summary) {
   if (summary.real_time) text += "\n" + timing_table(summary.servo);
   if (!summary.servo.refused.empty()) text += "denied: " + summary.servo.refused + "\n";
   if (!summary.servo.finite) text += "state diverged: the run ended there\n";
-  if (!summary.log.empty()) text += "log: " + summary.log + "\n";
   if (!summary.recording.empty())
-    text += fmt::format("recording: {} ({})\n", summary.recording,
-                        summary.same_bits ? "re-simulated from the log, bit-exact"
-                                          : "ends in another state than the live run");
-  if (!summary.picture.empty()) text += "picture: " + summary.picture + "\n";
+    text += fmt::format("recording: {}\n", summary.same_bits
+                                               ? "re-simulated from the log, bit-exact"
+                                               : "ends in another state than the live run");
   return text;
 }
 
