@@ -61,7 +61,7 @@ void SceneReader::read(const Value& root) {
   for (const Value* joint : table.tables("constraint")) read_constraint(*joint, index++);
   table.text("note");
   table.done();
-  if (!root.find("robot") && !root.find("body"))
+  if (faults.empty() && !root.find("robot") && !root.find("body"))
     table.fault("", "has no robots and no bodies",
                 "add a [[robot]] or a [[body]] (docs/reference/scene_file.md)", "scene.empty");
 }
