@@ -15,7 +15,7 @@
 #include "coupling/device/force_feedback.h"
 #include "coupling/device/omni.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/spring.h"
+#include "solver/forces/force_law.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {
@@ -72,14 +72,6 @@ class DelayedMotion final : public OperatorMotion {
   std::string description() const override { return "newest position received"; }
 };
 
-class RailWall final : public ForceSource {
- public:
-  void add_forces(const State<double>& x, const Kinematics&,
-                  Forces<double>& forces) noexcept override {
-    if (x.q[0] > 0) forces.tau[0] -= kWall * x.q[0] + 5 * x.qd[0];
-  }
-};
-
 Model<double> rail_robot() {
   ModelBuilder builder;
   builder.set_gravity(Vector3::Zero());
@@ -93,7 +85,9 @@ struct RemoteRobot {
   DelayedMotion hand;
   TargetRobot kvr;
   std::unique_ptr<Coupling> coupling;
-  RailWall wall;
+  ForceLaw wall{[](const State<double>& x, const Kinematics&, Forces<double>& forces) {
+    if (x.q[0] > 0) forces.tau[0] -= kWall * x.q[0] + 5 * x.qd[0];
+  }};
   Simulation simulation;
   CouplingReaction reaction{model, {1}};
 

@@ -8,6 +8,7 @@
 #include "coupling/device/device_motion.h"
 #include "coupling/device/force_feedback.h"
 #include "solver/dynamics/model_builder.h"
+#include "solver/forces/force_law.h"
 #include "solver/forces/spring.h"
 #include "solver/stepping/simulation.h"
 
@@ -43,20 +44,6 @@ Model<double> pressed_link() {
   return builder.build();
 }
 
-// Acts on the link's end for y > 0.
-class SoftWall final : public ForceSource {
- public:
-  explicit SoftWall(double stiffness) : k_(stiffness) {}
-  void add_forces(const State<double>&, const Kinematics& K,
-                  Forces<double>& forces) noexcept override {
-    const Vector3 p = K.position(1, {kLink, 0, 0});
-    if (p.y() > 0) add_point_force(K, 1, p, Vector3(0, -k_ * p.y(), 0), forces);
-  }
-
- private:
-  double k_;
-};
-
 DeviceMotion motion_at(double angle) {
   DeviceStep step{0, 1, {}};
   OperatorMapping{}.set_robot_angle(step.sample, 0, angle, 0);
@@ -75,7 +62,11 @@ double force_at_rest(double k_c, double k_e, double angle) {
   spec.discretization = Discretization::implicit;
   spec.springs = {{"end", 1, {kLink, 0, 0}, k_c, 2 * std::sqrt((k_c + k_e) * kLinkMass / 3)}};
   const auto coupling = make_coupling(spec, model, kvr);
-  SoftWall wall(k_e);
+  // The wall acts on the link's end for y > 0.
+  ForceLaw wall([k_e](const State<double>&, const Kinematics& K, Forces<double>& forces) {
+    const Vector3 p = K.position(1, {kLink, 0, 0});
+    if (p.y() > 0) add_point_force(K, 1, p, Vector3(0, -k_e * p.y(), 0), forces);
+  });
   Simulation simulation(model, State<double>(model));
   simulation.add(*coupling);
   simulation.add(wall);

@@ -120,21 +120,22 @@ InspectView view_of(const Inspection& in, const LabFrame& frame, std::size_t bod
 
 }  // namespace
 
-void BodyInspector::ConstantMouseForce::add_forces(const State<double>&, const Kinematics& k,
-                                                   Forces<double>& forces) noexcept {
-  if (!mouse_ || mouse_->body <= 0) return;
-  add_point_force(k, mouse_->body, k.position(mouse_->body, mouse_->p_L), mouse_->force_W, forces);
-}
-
 BodyInspector::BodyInspector(SimulatePlan plan)
-    : plan_(std::move(plan)), given_(plan_.input.robot.state) {
+    : plan_(std::move(plan)),
+      given_(plan_.input.robot.state),
+      mouse_force_([&mouse = mouse_](const auto&, const Kinematics& k, Forces<double>& forces) {
+        if (!mouse || mouse->body <= 0) return;
+        add_point_force(k, mouse->body, k.position(mouse->body, mouse->p_L), mouse->force_W,
+                        forces);
+      }) {
   SimulateInput& input = plan_.input;
   input.robot.warnings.clear();  // reported when the scene was opened
   if (!input.scene) return;
   const double h = plan_.run.step;
   override_.emplace(input.scene.get(), unused_, h);
   input.couplings = std::make_unique<SceneCouplings>(*input.scene, h, nullptr, in_place());
-  scene_.emplace(input, h, std::vector<NamedSource>{{"mouse", &mouse_}}, plan_.run.integrator);
+  scene_.emplace(input, h, std::vector<NamedSource>{{"mouse", &mouse_force_}},
+                 plan_.run.integrator);
 }
 
 // Replaces the motion of the couplings that the run's operator would drive.
@@ -167,7 +168,7 @@ Inspected BodyInspector::inspect(const LabFrame& frame) {
   if (scene_) {
     set_motion(frame);
     plan_.input.couplings->forget_operator_motions();
-    mouse_.set(frame.mouse);
+    mouse_ = frame.mouse;
     return scene_->look(&memory);
   }
   RobotInput& robot = plan_.input.robot;

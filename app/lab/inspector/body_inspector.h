@@ -19,7 +19,7 @@
 #include "app/lab/run/history.h"
 #include "app/lab/run/input_override.h"
 #include "app/run/simulate_input.h"
-#include "solver/support/checkpointable.h"
+#include "solver/forces/force_law.h"
 
 namespace twinarm {
 
@@ -42,17 +42,6 @@ class BodyInspector {
   std::string message(const LabFrame& frame, const InspectRequest& request);
 
  private:
-  // The mouse spring's force of the step that led to the frame.
-  class ConstantMouseForce final : public ForceSource, public Checkpointable {
-   public:
-    void set(const std::optional<MouseSpringState>& mouse) { mouse_ = mouse; }
-    void add_forces(const State<double>&, const Kinematics& k,
-                    Forces<double>& forces) noexcept override;
-
-   private:
-    std::optional<MouseSpringState> mouse_;
-  };
-
   MotionReplacement in_place();
   void set_motion(const LabFrame& frame);
   Inspected inspect(const LabFrame& frame);
@@ -62,8 +51,9 @@ class BodyInspector {
   GivenState given_;  // of the start
   OperatorInput unused_;
   std::optional<InputOverride> override_;
-  std::optional<DeviceMotion> motion_;  // none: the scene's own
-  ConstantMouseForce mouse_;
+  std::optional<DeviceMotion> motion_;     // none: the scene's own
+  std::optional<MouseSpringState> mouse_;  // of the step that led to the frame
+  ForceLaw mouse_force_;
   std::optional<SceneInspector> scene_;
 };
 

@@ -8,7 +8,7 @@
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
 #include "benchmarks/analytic/mechanisms/loop_parts.h"
-#include "benchmarks/analytic/support/force_law.h"
+#include "solver/forces/force_law.h"
 #include "solver/forces/spring.h"
 
 namespace twinarm {

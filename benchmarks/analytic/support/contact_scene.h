@@ -17,9 +17,9 @@
 #include <vector>
 
 #include "benchmarks/analytic/support/analytic_case.h"
-#include "benchmarks/analytic/support/force_law.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/dynamics/model_builder.h"
+#include "solver/forces/force_law.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {

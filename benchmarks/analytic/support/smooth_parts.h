@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "benchmarks/analytic/support/analytic_case.h"
-#include "benchmarks/analytic/support/force_law.h"
 #include "benchmarks/analytic/support/reference_math.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/model_builder.h"
+#include "solver/forces/force_law.h"
 #include "solver/model/workspace.h"
 
 namespace twinarm::smooth_parts {
