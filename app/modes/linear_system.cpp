@@ -6,7 +6,6 @@
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
-#include "solver/model/configuration.h"
 #include "solver/model/mimic.h"
 
 namespace twinarm {
@@ -18,7 +17,7 @@ using Eigen::Index;
 class ForceRates {
  public:
   ForceRates(const Model<double>& model, const State<double>& x, const AppliedForces& push)
-      : model_(model), x_(x), push_(push), k_(model) {}
+      : model_(model), push_(model, x, push) {}
 
   Forces<double> along(std::size_t dof, bool of_velocity) {
     return extrapolated_rate(
@@ -33,30 +32,14 @@ class ForceRates {
     for (std::size_t i = 0; i < a.f_ext.size(); ++i)
       b.f_ext[i] = by_a * a.f_ext[i] + by_b * b.f_ext[i];
   }
-  Forces<double> at(std::size_t dof, bool of_velocity, double s) {
-    State<double> x = x_;
-    if (of_velocity) {
-      x.qd[dof] += s;
-    } else {
-      std::vector<double> shift(model_.nv);
-      shift[dof] = s;
-      integrate_coordinates(model_, x_.q, shift, x.q);
-    }
-    forward_kinematics(model_, x, k_);
-    Forces<double> forces(model_);
-    push_(x, k_, forces);
-    return forces;
-  }
   Forces<double> difference(std::size_t dof, bool of_velocity, double s) {
-    Forces<double> after = at(dof, of_velocity, s);
-    combine(at(dof, of_velocity, -s), -0.5 / s, after, 0.5 / s);
+    Forces<double> after = push_.at(dof, of_velocity, s);
+    combine(push_.at(dof, of_velocity, -s), -0.5 / s, after, 0.5 / s);
     return after;
   }
 
   const Model<double>& model_;
-  const State<double>& x_;
-  const AppliedForces& push_;
-  Kinematics k_;
+  NearbyForces push_;
 };
 
 // dq' = dqd - w x dq of spherical and free joints.

@@ -11,17 +11,12 @@
 #include <Eigen/Core>
 #include <array>
 #include <complex>
-#include <functional>
 #include <vector>
 
-#include "solver/dynamics/kinematics.h"
+#include "coupling/analysis/joint_space_stiffness.h"
 #include "solver/loops/loop_closure.h"
-#include "solver/model/workspace.h"
 
 namespace twinarm {
-
-// Adds the applied forces at a state; differentiable there.
-using AppliedForces = std::function<void(const State<double>&, const Kinematics&, Forces<double>&)>;
 
 struct LinearSystem {
   std::vector<std::size_t> dofs;  // velocity index of each row of dq

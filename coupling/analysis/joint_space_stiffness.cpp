@@ -75,13 +75,28 @@ VectorXd generalised_force(const Model<double>& model, const State<double>& x,
   return tau + Eigen::Map<const VectorXd>(forces.tau.data(), n);
 }
 
+Forces<double> NearbyForces::at(std::size_t dof, bool of_velocity, double s) {
+  moved_ = x_;
+  if (of_velocity) {
+    moved_.qd[dof] += s;
+  } else {
+    std::vector<double> increment(model_.nv);
+    increment[dof] = s;
+    integrate_coordinates(model_, x_.q, increment, moved_.q);
+  }
+  forward_kinematics(model_, moved_, k_);
+  Forces<double> forces(model_);
+  applied_(moved_, k_, forces);
+  return forces;
+}
+
 namespace {
 
 // -d tau/dx by central differences with steps s, s/2, s/4, extrapolated to order 6.
 class TauDerivative {
  public:
   TauDerivative(const Model<double>& model, const State<double>& x, const AppliedForces& applied)
-      : model_(model), x_(x), applied_(applied), k_(model) {}
+      : model_(model), applied_(model, x, applied) {}
 
   VectorXd along(std::size_t dof, bool of_velocity) {
     std::array<VectorXd, 3> rate{difference(dof, of_velocity, 4e-2),
@@ -96,24 +111,12 @@ class TauDerivative {
     return (at(dof, of_velocity, -s) - at(dof, of_velocity, s)) / (2 * s);
   }
   VectorXd at(std::size_t dof, bool of_velocity, double s) {
-    State<double> x = x_;
-    if (of_velocity) {
-      x.qd[dof] += s;
-    } else {
-      std::vector<double> increment(model_.nv);
-      increment[dof] = s;
-      integrate_coordinates(model_, x_.q, increment, x.q);
-    }
-    forward_kinematics(model_, x, k_);
-    Forces<double> forces(model_);
-    applied_(x, k_, forces);
-    return generalised_force(model_, x, forces);
+    const Forces<double> forces = applied_.at(dof, of_velocity, s);
+    return generalised_force(model_, applied_.state(), forces);
   }
 
   const Model<double>& model_;
-  const State<double>& x_;
-  const AppliedForces& applied_;
-  Kinematics k_;
+  NearbyForces applied_;
 };
 
 }  // namespace

@@ -52,6 +52,23 @@ Eigen::VectorXd generalised_force(const Model<double>& model, const State<double
 // Adds all applied forces at a state; must be smooth there.
 using AppliedForces = std::function<void(const State<double>&, const Kinematics&, Forces<double>&)>;
 
+// Applied forces near a state, for differences. The arguments must outlive it.
+class NearbyForces {
+ public:
+  NearbyForces(const Model<double>& model, const State<double>& x, const AppliedForces& applied)
+      : model_(model), x_(x), applied_(applied), moved_(x), k_(model) {}
+  // After a move by s along a coordinate's tangent, or of the velocity itself.
+  Forces<double> at(std::size_t dof, bool of_velocity, double s);
+  const State<double>& state() const { return moved_; }  // of the last call
+
+ private:
+  const Model<double>& model_;
+  const State<double>& x_;
+  const AppliedForces& applied_;
+  State<double> moved_;
+  Kinematics k_;
+};
+
 // K = -d tau/dq and B = -d tau/dqd of applied forces, with geometric stiffness; dq are tangent
 // increments. By central differences, extrapolated twice: relative error about 1e-9. O(n) per
 // velocity.
