@@ -204,6 +204,13 @@ std::vector<double> in_degrees(std::vector<double> radians) {
   return radians;
 }
 
+std::vector<double> error_deg(const TrackingSeries& series, std::size_t joint) {
+  std::vector<double> error(series.t.size());
+  for (std::size_t n = 0; n < error.size(); ++n)
+    error[n] = std::abs(series.q_K[joint][n] - series.q_D[joint][n]) / kDegree;
+  return error;
+}
+
 const char* discretization_name(const CouplingSpec& spec) {
   return spec.printed ? "as printed" : name_of(spec.discretization);
 }

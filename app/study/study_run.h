@@ -125,6 +125,8 @@ ProtocolErrors run_protocol(const StudyRobot& robot, const RunSpec& spec,
                             const std::vector<double>& sweep_times);
 
 std::vector<double> in_degrees(std::vector<double> radians);
+// |q_K - q_D| of a joint over time.
+std::vector<double> error_deg(const TrackingSeries& series, std::size_t joint);
 std::string coupling_words(const CouplingSpec& spec);       // "torsional, world orientation"
 const char* discretization_name(const CouplingSpec& spec);  // "as printed", "explicit", ...
 

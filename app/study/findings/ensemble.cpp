@@ -18,13 +18,6 @@ double quantile(const std::vector<double>& sorted, double share) {
   return std::lerp(sorted[below], sorted[above], at - static_cast<double>(below));
 }
 
-std::vector<double> error_deg(const TrackingSeries& series, std::size_t joint) {
-  std::vector<double> error(series.t.size());
-  for (std::size_t n = 0; n < error.size(); ++n)
-    error[n] = std::abs(series.q_K[joint][n] - series.q_D[joint][n]) / kDegree;
-  return error;
-}
-
 // Quantiles of |error| over the operators, in windows of time.
 ErrorBand band_of(const std::vector<RunResult>& runs, std::size_t joint) {
   constexpr double kWindow = 0.25;  // [s]

@@ -10,13 +10,6 @@
 namespace twinarm {
 namespace {
 
-std::vector<double> error_deg(const TrackingSeries& series, std::size_t joint) {
-  std::vector<double> error(series.t.size());
-  for (std::size_t n = 0; n < error.size(); ++n)
-    error[n] = std::abs(series.q_K[joint][n] - series.q_D[joint][n]) / kDegree;
-  return error;
-}
-
 // One panel of a figure with joint 1 above joint 2 on one time axis.
 std::string panel(int index, const std::string& label, double duration) {
   const double top = index == 0 ? 0.91 : 0.48, bottom = index == 0 ? 0.575 : 0.145;

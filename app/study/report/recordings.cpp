@@ -7,7 +7,6 @@
 #include "app/film/rendering.h"
 #include "app/page/pages.h"
 #include "app/record/record_run.h"
-#include "app/run/run.h"
 #include "app/support/progress.h"
 #include "app/web/web_bundle.h"
 #include "solver/support/atomic_file.h"
@@ -25,14 +24,10 @@ double record(const std::filesystem::path& scene, const std::filesystem::path& f
   options.record = file;
   SimulatePlan prepared = prepare_simulation(options);
   prepared.run.times.clear();
-  const std::vector<std::string> command{"twinarm", "simulate", scene.string(), "--record",
-                                         file.string()};
-  RunRecorder recorder(file, header_of(options, prepared, command), prepared, 0);
   const Model<double>& model = prepared.input.robot.model;
   double largest = 0;
   RunWatch watch;
   watch.look = [&](RunView& run) {
-    recorder.look(run);
     const auto step = static_cast<std::size_t>(run.step());
     for (std::size_t j = 0; j < angles.size(); ++j) {
       if (step >= angles[j].size()) continue;
@@ -41,14 +36,12 @@ double record(const std::filesystem::path& scene, const std::filesystem::path& f
       largest = std::max(largest, std::abs(q / kDegree - angles[j][step]));
     }
   };
-  watch.interrupted = is_interrupted;
   watch.tick = [](double) { check_interrupt(); };
   try {
-    const SimulateResult result = run_plan(prepared.input, prepared.run, watch);
-    recorder.finish(result.post_mortem ? "stopped: " + result.post_mortem->reason : "done");
+    record_plan(options, prepared, watch);
   } catch (const Interrupted&) {  // removes the partial recording
     std::error_code ignored;
-    std::filesystem::remove(part_of(file), ignored);
+    std::filesystem::remove(file, ignored);
     throw;
   }
   return largest;
