@@ -16,19 +16,12 @@ namespace {
 
 // Ratio of the squared natural frequencies of equal gains at q2 = 0.
 double mode_ratio(const StudyRobot& robot, const std::string& law) {
-  const Model<double>& model = robot.kvr_model();
-  const State<double> x(model);
-  Kinematics k(model);
-  forward_kinematics(model, x, k);
-  const AutomaticMotion hand{OperatorMapping{}};
-  TargetRobot kvr(model, hand, OperatorMapping{}, robot.joints());
-  CouplingSpec spec;
-  spec.type = law == "linear" ? CouplingSpec::Type::linear : CouplingSpec::Type::torsional;
-  spec.measure = law == "joint" ? SpringSpace::joint : SpringSpace::world;
-  spec.springs = robot.springs(Gains::both(1, 1));
-  const Eigen::VectorXd squares =
-      squared_frequencies(mass_matrix(model, x), make_coupling(spec, model, kvr)->joint_space(k).K);
-  return squares(squares.size() - 1) / squares(0);
+  RunResult equal;
+  equal.spec = row_spec(law, 1000);
+  if (law == "joint") equal.spec.coupling.measure = SpringSpace::joint;
+  equal.spec.gains = Gains::both(1, 1);
+  predict(robot, equal, State<double>(robot.kvr_model()));
+  return std::pow(equal.frequency[1] / equal.frequency[0], 2);
 }
 
 void add_modes(const StudyInputs& inputs, const Value& predictions,
@@ -39,12 +32,11 @@ void add_modes(const StudyInputs& inputs, const Value& predictions,
       if (!ratio) continue;
       const std::string& robot = entry_of(modes, "robot").text;
       const double measured = mode_ratio(inputs.findings.at(robot), law);
-      findings.push_back(
-          {"equal gains",
-           fmt::format("{}, {}: with equal gains on both links the ratio of the squared natural "
-                       "frequencies is {:g} (predicted)",
-                       run_words(robot), run_words(law), ratio->number),
-           fmt::format("{:.2f}", measured), is_near(measured, ratio->number, 0.02)});
+      findings.push_back({"equal gains",
+                          fmt::format("{}, {}: with equal gains on both links the ratio of the "
+                                      "squared natural frequencies is {:g} (predicted)",
+                                      run_words(robot), run_words(law), ratio->number),
+                          fmt::format("{:.2f}", measured), is_near(measured, ratio->number, 0.02)});
     }
 }
 
@@ -72,11 +64,10 @@ void add_proportional_springs(std::vector<Finding>& findings) {
     const Eigen::MatrixXd M = mass_matrix(model, x);
     worst = std::max(worst, (K - M).norm() / M.norm());
   }
-  findings.push_back(
-      {"equal gains",
-       "linear springs at point masses, with stiffness proportional to mass, give K = (k/m) M "
-       "in every pose: one frequency for all modes",
-       fmt::format("largest deviation {:.1e}", worst), worst < 1e-12});
+  findings.push_back({"equal gains",
+                      "linear springs at point masses, with stiffness proportional to mass, give K "
+                      "= (k/m) M in every pose: one frequency for all modes",
+                      fmt::format("largest deviation {:.1e}", worst), worst < 1e-12});
 }
 
 void add_exchanged_gains(const StudyInputs& inputs, std::vector<Finding>& findings) {
@@ -87,10 +78,8 @@ void add_exchanged_gains(const StudyInputs& inputs, std::vector<Finding>& findin
     findings.push_back(
         {"equal gains",
          fmt::format("{}: the gains of a good linear coupling (22 kN/m, 400 N s/m), used as "
-                     "torsional gains, "
-                     "diverge at 1 kHz; those of a good torsional coupling (1.2 kN m/rad, 40 N m "
-                     "s/rad), used as linear "
-                     "gains, are far too soft",
+                     "torsional gains, diverge at 1 kHz; those of a good torsional coupling (1.2 "
+                     "kN m/rad, 40 N m s/rad), used as linear gains, are far too soft",
                      run_words(name)),
          fmt::format("torsional {}; linear {} deg", torsional.stable ? "stable" : "diverges",
                      words(linear.max_deg)),
@@ -121,14 +110,14 @@ void add_matched_gains(const StudyResults& results, std::vector<Finding>& findin
     const RunResult* linear = get(fmt::format("matched/linear/{:g}", rate));
     const RunResult* full = get(fmt::format("matched/torsional/{:g}", rate));
     if (!linear || !full) continue;
-    findings.push_back({"matched gains",
-                        fmt::format("S-103, {:g} Hz: a torsional coupling with the full K_q, B_q "
-                                    "of the linear one has the "
-                                    "same largest errors (within 0.1 degree or 10 %)",
-                                    rate),
-                        fmt::format("linear {} deg, torsional {} deg", words(linear->max_deg),
-                                    words(full->max_deg)),
-                        have_equal_errors(*linear, *full)});
+    findings.push_back(
+        {"matched gains",
+         fmt::format("S-103, {:g} Hz: a torsional coupling with the full K_q, B_q of the linear "
+                     "one has the same largest errors (within 0.1 degree or 10 %)",
+                     rate),
+         fmt::format("linear {} deg, torsional {} deg", words(linear->max_deg),
+                     words(full->max_deg)),
+         have_equal_errors(*linear, *full)});
   }
   const RunResult& equal = *get("trial/signed-torsional/60");
   const RunResult& ratio = *get("trial/signed-torsional-ratio/60");
@@ -169,12 +158,10 @@ void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
     const RunResult against = run_automatic(robot, spec, 1200, 40, 1000);
     findings.push_back(
         {"damping term",
-         fmt::format(
-             "{}, k = 1200 N m/rad, b = 40 N m s/rad, 1 kHz: an unsigned damper adds energy at the "
-             "reversals and "
-             "diverges with either sign; folded it is bounded, with errors several times those of "
-             "the signed damper",
-             run_words(name)),
+         fmt::format("{}, k = 1200 N m/rad, b = 40 N m s/rad, 1 kHz: an unsigned damper adds "
+                     "energy at the reversals and diverges with either sign; folded it is bounded, "
+                     "with errors several times those of the signed damper",
+                     run_words(name)),
          fmt::format("signed {}, folded {}, unfolded {} and {}", words(signed_run.max_deg),
                      words(folded.max_deg), along.stable ? "stable" : "diverges",
                      against.stable ? "stable" : "diverges"),
@@ -182,10 +169,9 @@ void add_damping(const StudyInputs& inputs, std::vector<Finding>& findings) {
              folded.max_deg[0] > 2 * signed_run.max_deg[0]});
     findings.push_back(
         {"damping term",
-         fmt::format(
-             "{}: an angle per frame, not divided by h, reduces the damping to b h; the mean error "
-             "approaches half the maximum, which indicates undamped oscillation",
-             run_words(name)),
+         fmt::format("{}: an angle per frame, not divided by h, reduces the damping to b h; the "
+                     "mean error approaches half the maximum, which indicates undamped oscillation",
+                     run_words(name)),
          fmt::format("{} deg, mean {}; mean/max {:.2f} instead of {:.2f}", words(per_frame.max_deg),
                      words(per_frame.mean_deg), per_frame.mean_deg[0] / per_frame.max_deg[0],
                      signed_run.mean_deg[0] / signed_run.max_deg[0]),
@@ -204,10 +190,9 @@ void add_differences(const StudyInputs& inputs, const StudyResults& results,
     const ProtocolErrors current = run_protocol(robot, spec, inputs.settings.sweep_times);
     findings.push_back(
         {"differences",
-         fmt::format(
-             "{}: with semi-implicit steps backward differences change the largest error of "
-             "joint 1 by at most 10 %, because the DVR's difference is its velocity",
-             run_words(name)),
+         fmt::format("{}: with semi-implicit steps backward differences change the largest error "
+                     "of joint 1 by at most 10 %, because the DVR's difference is its velocity",
+                     run_words(name)),
          fmt::format("60 Hz: {} with differences, {} with current velocities",
                      words(difference.max_deg), words(current.max_deg)),
          is_near(difference.max_deg[0], current.max_deg[0], 0.1)});
@@ -236,10 +221,10 @@ void add_stability(const StudyInputs& inputs, std::vector<Finding>& findings) {
     const RunResult below = run_at(0.97 * min_limit), above = run_at(1.03 * max_limit);
     findings.push_back(
         {"stability",
-         fmt::format("{}, world orientation, k = 1200 N m/rad, b = 40 N m s/rad: by theory steps "
-                     "up to {:.2f} ms are "
-                     "stable in every pose of the motion, and above {:.2f} ms in none",
-                     run_words(name), 1e3 * min_limit, 1e3 * max_limit),
+         fmt::format(
+             "{}, world orientation, k = 1200 N m/rad, b = 40 N m s/rad: by theory steps up to "
+             "{:.2f} ms are stable in every pose of the motion, and above {:.2f} ms in none",
+             run_words(name), 1e3 * min_limit, 1e3 * max_limit),
          fmt::format("3 % below the first: {} deg; 3 % above the second: {}", words(below.max_deg),
                      above.stable ? words(above.max_deg) + " deg" : "diverges"),
          below.stable && (!above.stable || above.max_deg[0] > 5 * below.max_deg[0])});
