@@ -1,7 +1,6 @@
 #include "app/python/robots.h"
 
 #include <utility>
-#include <vector>
 
 #include "app/python/arrays.h"
 #include "app/record/unpack.h"

@@ -5,7 +5,6 @@
 // So each ratio is printed with that of the bare code to itself, which is the resolution.
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -12,7 +12,6 @@
 #include "collision/import/robot/robot_model.h"
 #include "collision/import/urdf/urdf.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm::bench {
 namespace {

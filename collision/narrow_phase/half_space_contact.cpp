@@ -2,7 +2,6 @@
 // (each with the radius), rim points of a cylinder, lowest point of an ellipsoid; depth = offset -
 // n . p. O(vertices).
 #include "collision/narrow_phase/closed_forms.h"
-#include "collision/narrow_phase/narrow_phase.h"
 
 #include "collision/narrow_phase/manifold.h"
 

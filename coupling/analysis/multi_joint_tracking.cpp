@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "coupling/analysis/joint_space_stiffness.h"
-#include "solver/linear_algebra/dense_algebra.h"
 
 namespace twinarm {
 

@@ -15,7 +15,6 @@
 #include <limits>
 
 #include "solver/impulses/impulse_solver.h"
-#include "solver/impulses/ipm_equations.h"
 
 namespace twinarm {
 namespace {

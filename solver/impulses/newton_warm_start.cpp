@@ -9,7 +9,6 @@
 // decreases rho rises, and each step then reduces the error to 1/1000.
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "solver/impulses/impulse_solver.h"
 

@@ -1,7 +1,6 @@
 // Geometries, their surfaces, and the pairs without contacts.
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
 
 #include "app/scene/model/scene_builder.h"
 #include "collision/contact/contact_constraints.h"

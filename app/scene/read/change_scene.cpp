@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "app/robot/robot_input.h"
 #include "app/scene/read/scene_description.h"
 #include "app/scene/read/scene_keys.h"
 #include "app/support/text.h"

@@ -6,7 +6,6 @@
 #include <array>
 #include <utility>
 
-#include "app/robot/robot_input.h"
 #include "app/scene/read/change_scene.h"
 #include "solver/support/number_text.h"
 

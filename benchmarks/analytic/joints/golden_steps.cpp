@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "benchmarks/analytic/support/smooth_parts.h"
-#include "solver/dynamics/energy_momentum.h"
 
 namespace twinarm {
 

@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <set>
