@@ -106,9 +106,8 @@ std::string errors_part(const Predicted& found, const PredictTask& task) {
   return paragraph(fmt::format(
              "Peak tracking error [deg] for a target that moves {:g} deg in {:g} s along a mode "
              "(lengths: [mm] for {:g} mm): velocity step, velocity reversal, and four smooth "
-             "motion "
-             "profiles. At constant velocity v the error of a relative damper is zero, of an "
-             "absolute damper 2 zeta v/omega, of a mocap weld of this frequency 2 v timeconst, "
+             "motion profiles. At constant velocity v the error of a relative damper is zero, of "
+             "an absolute damper 2 zeta v/omega, of a mocap weld of this frequency 2 v timeconst, "
              "timeconst = 1/omega.",
              D, task.time, D)) +
          table.str();
@@ -132,8 +131,7 @@ std::string joint_errors_part(const Predicted& found, const PredictTask& task) {
   return paragraph(fmt::format(
              "Peak tracking error of each joint when all targets move at once ({:g} deg, prismatic "
              "joints {:g} mm, in {:g} s{}), with all modes and dampers; -: no coupling. Lag: "
-             "steady "
-             "error at constant velocity, from absolute dampers, joint damping and delays.",
+             "steady error at constant velocity, from absolute dampers, joint damping and delays.",
              kDegrees * task.distance, 1e3 * task.slide(), task.time,
              task.along.empty() ? "" : "; shares as given by --along")) +
          table.str();

@@ -173,10 +173,9 @@ void settle(SceneView& view) {
       view.extent.add(instant);
   }
   if (beyond > 0)
-    view.cast.notes.push_back(
-        fmt::format("bodies up to {:.3g} m away are ignored for the camera's distance; give one by "
-                    "--camera",
-                    beyond));
+    view.cast.notes.push_back(fmt::format(
+        "bodies up to {:.3g} m away are ignored for the camera's distance; give one by --camera",
+        beyond));
 }
 
 void measure(SceneView& view, const Snapshot& snapshot, Measured measured) {

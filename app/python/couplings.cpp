@@ -85,12 +85,11 @@ Eigen::MatrixXd square(const char* name, const py::object& given, Eigen::Index s
 }  // namespace
 
 void add_couplings(py::module_& m) {
-  m.def(
-      "coupling_types", coupling_types,
-      "A row for each type of [[coupling]] in a scene: name; discretizations, its discretizations "
-      "(none\n"
-      "for its own); at_point, whether it acts at a point; can_hold, whether its force can be\n"
-      "evaluated at a rate. Laws: docs/understand/coupling_laws.md.");
+  m.def("coupling_types", coupling_types,
+        "A row for each type of [[coupling]] in a scene: name; discretizations, its "
+        "discretizations (none\n"
+        "for its own); at_point, whether it acts at a point; can_hold, whether its force can be\n"
+        "evaluated at a rate. Laws: docs/understand/coupling_laws.md.");
   m.def(
       "schemes",
       [] {

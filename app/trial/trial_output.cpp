@@ -16,8 +16,7 @@ namespace {
 
 const std::string kTrialHeader =
     "participant,order,condition,task,device,mapping,done,seconds,picks,drops,off[mm],joint1_max["
-    "deg],"
-    "joint1_mean[deg],joint2_max[deg],joint2_mean[deg]\n";
+    "deg],joint1_mean[deg],joint2_max[deg],joint2_mean[deg]\n";
 
 std::string csv_row(const TrialReport& report, std::size_t order) {
   const TrialResult& r = report.results[order];

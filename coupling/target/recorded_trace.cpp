@@ -158,16 +158,15 @@ class TraceReader {
       } else if (max_angle[j] > kBeyond * kJointEnd[j]) {
         trace_.quality_.warnings.push_back(
             fmt::format("{} reaches {:.3g} rad, the joint limit of a Phantom Omni is about {:.3g}; "
-                        "if these are "
-                        "degrees, name the column {}",
+                        "if these are degrees, name the column {}",
                         name, max_angle[j], kJointEnd[j], degree_column(j)));
       }
     }
     if (max_degrees > 0 && max_degrees < kFewRadians)
-      trace_.quality_.warnings.push_back(fmt::format(
-          "the angles named [deg] stay below {:.2g} degrees; if these are radians, name "
-          "the columns theta1[rad] and so on",
-          max_degrees));
+      trace_.quality_.warnings.push_back(
+          fmt::format("the angles named [deg] stay below {:.2g} degrees; if these are radians, "
+                      "name the columns theta1[rad] and so on",
+                      max_degrees));
   }
   void measure() {
     TraceQuality& quality = trace_.quality_;
@@ -199,15 +198,14 @@ class TraceReader {
     quality.jitter = std::sqrt(sum / count);
     if (gaps > 0)
       quality.warnings.push_back(fmt::format(
-          "{} gap{} longer than {:g} sampling intervals, the longest {:.3g} s at t = "
-          "{:.6g} s; the motion "
-          "is interpolated linearly",
+          "{} gap{} longer than {:g} sampling intervals, the longest {:.3g} s at t = {:.6g} s; the "
+          "motion is interpolated linearly",
           gaps, gaps == 1 ? "" : "s", kGapIntervals, quality.max_gap, quality.gap_start));
     if (quality.jitter > kJitterShare * quality.interval)
-      quality.warnings.push_back(fmt::format(
-          "the sampling interval has a jitter of {:.2g} s about {:.3g} s, and so have the "
-          "velocities",
-          quality.jitter, quality.interval));
+      quality.warnings.push_back(
+          fmt::format("the sampling interval has a jitter of {:.2g} s about {:.3g} s, and so have "
+                      "the velocities",
+                      quality.jitter, quality.interval));
   }
 
   RecordedTrace& trace_;

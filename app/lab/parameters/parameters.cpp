@@ -71,11 +71,10 @@ std::vector<std::string> integrators_for(const SceneModel* scene, Integrator now
 }
 
 LabParameter integrator_parameter(const SimulatePlan& plan) {
-  LabParameter parameter = choice(
-      "integrator", "integrator", integrator_name(plan.run.integrator),
-      integrators_for(plan.input.scene.get(), plan.run.integrator),
-      "Rule by which a step is taken. Integrators that do not support the scene's contacts or "
-      "implicit couplings are not listed.");
+  LabParameter parameter = choice("integrator", "integrator", integrator_name(plan.run.integrator),
+                                  integrators_for(plan.input.scene.get(), plan.run.integrator),
+                                  "Rule by which a step is taken. Integrators that do not support "
+                                  "the scene's contacts or implicit couplings are not listed.");
   parameter.resets_state = true;
   return parameter;
 }
@@ -90,10 +89,10 @@ LabParameter gravity_parameter(const Vector3& gravity) {
 LabParameter contact_parameter(const SceneDescription& scene) {
   std::vector<std::string> names{"rigid", "compliant"};
   if (scene.contact == ContactMode::event) names.push_back("event");
-  LabParameter parameter = choice(
-      "contact", "contact law", kContactModes[static_cast<std::size_t>(scene.contact)], names,
-      "rigid: unilateral constraints, solved for impulses; compliant: a spring-damper "
-      "at each contact point.");
+  LabParameter parameter = choice("contact", "contact law",
+                                  kContactModes[static_cast<std::size_t>(scene.contact)], names,
+                                  "rigid: unilateral constraints, solved for impulses; compliant: "
+                                  "a spring-damper at each contact point.");
   parameter.resets_state = true;
   return parameter;
 }

@@ -103,11 +103,10 @@ class CouplingParameters {
       return;
     if (!implicit_fits_) return;
     put("discretization",
-        choice(
-            "", "discretization", name_of(c_.discretization),
-            {"explicit", "semi-implicit", "implicit"},
-            "Evaluation of the spring-damper. explicit: at the start of the step; semi-implicit: "
-            "damper at its end; implicit: spring too, stable for any stiffness."))
+        choice("", "discretization", name_of(c_.discretization),
+               {"explicit", "semi-implicit", "implicit"},
+               "Evaluation of the spring-damper. explicit: at the start of the step; "
+               "semi-implicit: damper at its end; implicit: spring too, stable for any stiffness."))
         .resets_state = true;
   }
 

@@ -186,13 +186,12 @@ std::string panel(Gnuplot& gnuplot, const std::string& label, const TickTimes& r
       "set label 1 {2} at {0},graph 0.94 center front tc rgb '{1}'\n",
       limit, palette::faint, in_quotes(limit_name));
   script += fmt::format(
-      "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title "
-      "'with the robot'",
+      "plot {} using 1:($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title 'with the robot'",
       gnuplot.data(columns_of(run)), palette::dvr);
   if (empty.count() > 0)
     script += fmt::format(
-        ", {} using ($1*1.06):($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' "
-        "title 'an empty loop'",
+        ", {} using ($1*1.06):($2 > 0 ? $2 : 1/0) with impulses lw 3 lc rgb '{}' title 'an empty "
+        "loop'",
         gnuplot.data(columns_of(empty)), palette::kvr);
   return script + "\nunset arrow 1\nunset label 1\n";
 }

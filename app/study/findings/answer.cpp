@@ -113,8 +113,7 @@ std::string matched(const RunResult& torsional, const RunResult& linear,
                     const RunResult& torsional_1000, const RunResult& linear_1000) {
   return fmt::format(
       "{}. With the full stiffness of the linear coupling the errors of a torsional one are {} "
-      "deg, "
-      "of the linear one {}; implicit at 1 kHz torsional {} deg, linear {} deg.",
+      "deg, of the linear one {}; implicit at 1 kHz torsional {} deg, linear {} deg.",
       have_equal_errors(linear, torsional)
           ? "The law is not the reason: with the same joint stiffness the errors agree within 10 %"
           : "The law is a reason of its own: with the same joint stiffness the errors differ",

@@ -149,10 +149,9 @@ void add_ratios(const StudyInputs& inputs, const StudyResults& results,
           results.rows.at(fmt::format("row/{}/linear/{:g}", robot, rate)).max_deg;
       findings.push_back(
           {"update rate",
-           fmt::format(
-               "{}, {:g} Hz: with equal gains the best linear coupling at the centres of mass has "
-               "smaller errors than the best torsional one in both joints",
-               run_words(robot), rate),
+           fmt::format("{}, {:g} Hz: with equal gains the best linear coupling at the centres of "
+                       "mass has smaller errors than the best torsional one in both joints",
+                       run_words(robot), rate),
            fmt::format("linear {}, torsional {} deg: factors {:.1f} and {:.1f}", words(linear),
                        words(torsional), torsional[0] / linear[0], torsional[1] / linear[1]),
            torsional[0] > linear[0] && torsional[1] > linear[1]});

@@ -7,8 +7,6 @@
 #include <cctype>
 
 #include "app/data/html_page.h"
-#include "app/study/findings/findings.h"
-#include "app/study/findings/variants.h"
 #include "app/study/report/report_slots.h"
 #include "app/support/files.h"
 #include "solver/support/atomic_file.h"
@@ -29,8 +27,8 @@ std::string claims_table(const std::vector<Finding>& all, bool holds) {
     rows += fmt::format("<tr><td>{}</td><td class=text>{}</td></tr>\n", typeset(finding.claim),
                         typeset(finding.measured));
   }
-  return "<table class=claims><thead><tr><th>claim</th><th class=text>measured</th></tr></thead>"
-         "<tbody>\n" +
+  return "<table class=claims><thead><tr><th>claim</th><th "
+         "class=text>measured</th></tr></thead><tbody>\n" +
          rows + "</tbody></table>\n";
 }
 
@@ -56,12 +54,11 @@ void add_images(const std::filesystem::path& folder, Slots& slots) {
       std::string name = entry.path().stem().string();
       std::replace(name.begin(), name.end(), '-', '_');
       const std::string content = read_whole_file(entry.path());
-      slots[name] = entry.path().extension() == ".svg"
-                        ? "<div class=scroll tabindex=0>" + inline_svg(content) + "</div>"
-                        : fmt::format(
-                              "<img alt=\"Picture: see below\" "
-                              "src=\"data:image/png;base64,{}\">",
-                              base64_of(content));
+      slots[name] =
+          entry.path().extension() == ".svg"
+              ? "<div class=scroll tabindex=0>" + inline_svg(content) + "</div>"
+              : fmt::format("<img alt=\"Picture: see below\" src=\"data:image/png;base64,{}\">",
+                            base64_of(content));
     }
 }
 

@@ -13,8 +13,8 @@ std::string statement_rows() {
   std::string html;
   for (const PaperStatement& s : kPaperStatements)
     html += fmt::format(
-        "<tr><td>{}</td><td>{}</td><td class=text>{}</td><td class=text>{}</td>"
-        "<td>{:g} to 1</td><td>{:g} to {:g}</td></tr>\n",
+        "<tr><td>{}</td><td>{}</td><td class=text>{}</td><td class=text>{}</td><td>{:g} to "
+        "1</td><td>{:g} to {:g}</td></tr>\n",
         s.run, s.figure, escaped(s.says), escaped(s.words), s.agrees, s.contradicts, s.agrees);
   return html;
 }
@@ -30,8 +30,7 @@ std::string share_cell(const std::string& run, double share) {
 std::string evidence_row(const Evidence& e, bool remains) {
   std::string html = fmt::format(
       "<tr{}><td class=text>{}, {:g} Hz{}<br><span class=small>k&nbsp;= {}, b&nbsp;= {}, m&nbsp;= "
-      "{}"
-      "</span></td><td>{}<br>{}</td><td>{}</td>",
+      "{}</span></td><td>{}<br>{}</td><td>{}</td>",
       e.is_used ? " class=chosen" : "", typeset(e.law), e.rate, e.is_used ? " (used here)" : "",
       gains_words(e.gains.k1, e.gains.k2, unit_of("k", e.row != "E3")),
       gains_words(e.gains.b1, e.gains.b2, unit_of("b", e.row != "E3")), rounded(e.arm2_mass_scale),
@@ -55,11 +54,12 @@ std::string evidence_table(const std::vector<Evidence>& all, const std::string& 
   }
   return fmt::format(
       "<h3>{}</h3>\n<div class=scroll tabindex=0><table class=dense><thead><tr><th rowspan=2 "
-      "class=text>law, rate, gains</th><th rowspan=2>damping<br>ratio</th><th rowspan=2>fitted</th>"
-      "<th colspan=4 class=first>misfit, half digits</th><th rowspan=2>Figure<br>{}</th>"
-      "<th rowspan=2>{}<br>inside</th><th rowspan=2>Figure<br>{}</th><th rowspan=2></th></tr>\n"
-      "<tr><th class=first>max 1</th><th>max 2</th><th>mean 1</th><th>mean 2</th></tr></thead>"
-      "<tbody>\n{}</tbody></table></div>\n",
+      "class=text>law, rate, gains</th><th rowspan=2>damping<br>ratio</th><th "
+      "rowspan=2>fitted</th><th colspan=4 class=first>misfit, half digits</th><th "
+      "rowspan=2>Figure<br>{}</th><th rowspan=2>{}<br>inside</th><th "
+      "rowspan=2>Figure<br>{}</th><th rowspan=2></th></tr>\n"
+      "<tr><th class=first>max 1</th><th>max 2</th><th>mean 1</th><th>mean "
+      "2</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
       row == "E4-text" ? "E4 with the numbers of the text: 4.0 instead of 6.0, 0.34 instead of 0.3"
                        : row,
       statement_on(row).figure, user, statement_on(user).figure, rows);
@@ -84,8 +84,7 @@ void add_evidence(const StudyResults& results, Slots& slots) {
   }
   slots["evidence_words_text"] = fmt::format(
       "The text's 4.0 for joint 2 of E4 can be met as well: refitted to it, {} of {} readings "
-      "agree "
-      "with all four numbers. The numbers alone do not tell which of the two is the slip.",
+      "agree with all four numbers. The numbers alone do not tell which of the two is the slip.",
       agree, readings);
 }
 

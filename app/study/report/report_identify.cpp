@@ -115,11 +115,11 @@ std::string row_table(const std::vector<Identification>& all, const std::string&
                                 number_cells(paper.max_deg, paper.mean_deg) +
                                 "<td></td><td></td><td></td></tr>\n";
   return "<h3>" + row +
-         "</h3>\n<div class=scroll tabindex=0><table class=dense><thead><tr><th class=text>law</th>"
-         "<th>rate<br>Hz</th><th>misfit</th><th>max, degrees,<br>joints 1 / 2</th>"
-         "<th>mean, degrees,<br>joints 1 / 2</th><th class=text>parameters and their "
-         "intervals</th><th class=text>not identifiable</th>"
-         "<th>max at half speed,<br>degrees, joints 1 / 2</th></tr></thead><tbody>\n" +
+         "</h3>\n<div class=scroll tabindex=0><table class=dense><thead><tr><th "
+         "class=text>law</th><th>rate<br>Hz</th><th>misfit</th><th>max, degrees,<br>joints 1 / "
+         "2</th><th>mean, degrees,<br>joints 1 / 2</th><th class=text>parameters and their "
+         "intervals</th><th class=text>not identifiable</th><th>max at half speed,<br>degrees, "
+         "joints 1 / 2</th></tr></thead><tbody>\n" +
          published + rows + "</tbody></table></div>\n";
 }
 
@@ -175,9 +175,8 @@ std::string parameter_table(const std::vector<const CalibrationEntry*>& entries,
   for (const CalibrationEntry* entry : entries) rows += parameter_row(*entry, fit ? 100 : 1);
   return fmt::format(
              "<div class=scroll tabindex=0><table "
-             "class=dense><thead><tr><th>law</th><th>rate<br>Hz</th>"
-             "<th>objective<br>{}</th><th>evaluations</th><th class=text>parameters "
-             "[bounds]</th></tr></thead><tbody>\n",
+             "class=dense><thead><tr><th>law</th><th>rate<br>Hz</th><th>objective<br>{}</"
+             "th><th>evaluations</th><th class=text>parameters [bounds]</th></tr></thead><tbody>\n",
              fit ? "%" : "degrees") +
          rows + "</tbody></table></div>\n";
 }

@@ -72,17 +72,15 @@ void check_moments(ValidationContext& context, const LinkDescription& link, bool
              short_number_text(moments[1]) + ", " + short_number_text(moments[2]) + " kg m^2";
   const int line = line_of(link.inertia_line, link.line);
   if (strict)
-    context.fault(
-        line, of(link), problem,
-        "no rigid body of positive density has it; check units, signs and the order ixx ixy "
-        "ixz iyy iyz izz, about the centre of mass",
-        "robot.inertia-not-physical");
+    context.fault(line, of(link), problem,
+                  "no rigid body of positive density has it; check units, signs and the order ixx "
+                  "ixy ixz iyy iyz izz, about the centre of mass",
+                  "robot.inertia-not-physical");
   else
-    context.warn(
-        line, of(link), problem,
-        "no rigid body of positive density has it; forward dynamics may still work, MuJoCo "
-        "and Drake reject it",
-        "robot.inertia");
+    context.warn(line, of(link), problem,
+                 "no rigid body of positive density has it; forward dynamics may still work, "
+                 "MuJoCo and Drake reject it",
+                 "robot.inertia");
 }
 
 void check_inertia(ValidationContext& context, const LinkDescription& link, bool strict) {

@@ -101,10 +101,9 @@ const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source
     const bool may_be_open = document.ErrorID() == tinyxml2::XML_ERROR_PARSING ||
                              document.ErrorID() == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT;
     source.fault(document.ErrorLineNum(), "", "not well-formed XML: " + xml_error_text(document),
-                 may_be_open
-                     ? "correct the XML near this line, or close the element that begins here "
-                       "(is there a </robot> at the end?)"
-                     : "correct the XML at or shortly before this line",
+                 may_be_open ? "correct the XML near this line, or close the element that begins "
+                               "here (is there a </robot> at the end?)"
+                             : "correct the XML at or shortly before this line",
                  "urdf.xml");
   } else {
     robot = document.RootElement();
