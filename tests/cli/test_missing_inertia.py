@@ -69,7 +69,7 @@ class MissingInertia(RobotCommand):
     def test_values_that_are_not_positive_are_refused_and_a_scene_has_its_own(self):
         faults = self.errors(BARE, "--density", 0, "--min-mass", -1)
         self.assertEqual(len(faults), 2)
-        scene = self.write("scene.toml", "")
+        scene = self.write("scene.toml", '[[body]]\nname = "b"\nfixed = true\nshape = {sphere = {radius = 1}}\n')
         done = run("simulate", scene, "--duration", 1, "--density", 1000)
         self.assertEqual(done.returncode, 2)
         self.assertIn("applies to a URDF only", done.stderr.replace("apply", "applies"))

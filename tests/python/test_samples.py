@@ -101,7 +101,7 @@ class Viewer(ProgramTest):
         self.assertEqual(len(again.read_bytes()), len((self.folder / "other.html").read_bytes()))
 
     def test_it_refuses_what_is_not_recorded(self):
-        with self.assertRaisesRegex(twinarm.InputError, "not a twinarm recording"):
+        with self.assertRaisesRegex(twinarm.InputError, "give a recording"):
             twinarm.view(PEG, self.folder / "a.html", open=False)
         with self.assertRaisesRegex(ValueError, "record="):
             twinarm.SceneSimulation(PEG).view()

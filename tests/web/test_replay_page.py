@@ -131,11 +131,9 @@ class Contents(Pages):
             self.assertIn(words, self.arm.html)
 
     def test_all_wrong_options_are_reported(self):
-        errors = twinarm("export", self.ball.recording, "page.txt", "--csv", code=2).stderr
-        self.assertIn("page.txt", errors)
-        self.assertIn("--csv", errors)
-        for place, word in (("/nonexistent/page.html", "mkdir"), ("/proc/page.html", "/proc")):
+        for place, word in (("page.txt", ".html"), ("/proc/page.html", "/proc")):
             self.assertIn(word, twinarm("export", self.ball.recording, place, code=2).stderr)
+        self.assertIn("--csv", twinarm("export", self.ball.recording, "page.html", "--csv", code=2).stderr)
 
 
 @unittest.skipUnless(find_browser(), NO_BROWSER)
@@ -287,7 +285,7 @@ class InTheBrowser(Pages):
     def test_drag_rotates_the_view(self):
         browser = self.open(self.ball, "#t=0.5")
         before = browser.evaluate("window.twinarm.page.state.eye")
-        browser.drag((500, 400), (600, 380))
+        browser.drag((300, 200), (400, 180))
         self.assertNotEqual(before, browser.evaluate("window.twinarm.page.state.eye"))
         browser.press("r")
         after = browser.evaluate("window.twinarm.page.state.eye")
