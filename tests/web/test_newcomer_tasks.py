@@ -95,7 +95,7 @@ TASKS = {
     "large type": [
         Remember("width", f"{SCENES}.getBoundingClientRect().width"), Click("A+"),
         See(f"{SCENES}.getBoundingClientRect().width > 1.3 * seen.width"), Click("Plots"), Click("A+")],
-    # Here: one's own robot, moved by the sliders of its joints.
+    # One's own robot: test_own_robot.py.
 }
 BY_KEYBOARD = {
     "move the tip": [Remember("ring", RING), Key("h"), *4 * [Key("ArrowLeft")], See(moved(RING, "ring", 4))],
