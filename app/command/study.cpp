@@ -48,8 +48,7 @@ void add_options(const OptionAdder& add, StudyOptions& options) {
       "re-run the gain calibration and overwrite study/calibration.json of the assets (5 min)");
   add("--identify", options.identify,
       "re-run the parameter identification of Table 2 and overwrite study/identification.json of "
-      "the "
-      "assets (10 min)");
+      "the assets (10 min)");
   add("--identify-one", options.identify_one,
       "ROW/LAW/RATE: print one identification as JSON and stop; ROW is E3, E4 or E4-text, RATE in "
       "Hz: E4/linear/60");

@@ -8,7 +8,7 @@
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kWidth = 98, kColumn = 11, kLabel = 22;
+constexpr std::size_t kWidth = kTextWidth, kColumn = 11, kLabel = 22;
 
 double scale_of(const Eigen::MatrixXd& m) {
   return m.size() == 0 ? 1 : std::max(m.lpNorm<Eigen::Infinity>(), 1e-300);
@@ -56,13 +56,13 @@ std::string short_number(double value, double scale) {
   return text;
 }
 
-std::string wrapped(std::string_view text, std::size_t indent) {
+std::string wrapped(std::string_view text, std::size_t indent, std::size_t width) {
   std::size_t begin = std::min(text.find_first_not_of(' '), text.size()), used = begin;
   std::string lines(begin, ' ');
   bool first = true;
   while (begin < text.size()) {
     const std::size_t end = std::min(text.find(' ', begin), text.size());
-    if (!first && used + 1 + end - begin > kWidth)
+    if (!first && used + 1 + end - begin > width)
       lines += "\n" + std::string(indent, ' '), used = indent;
     else if (!first)
       lines += ' ', ++used;

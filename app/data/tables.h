@@ -27,8 +27,9 @@ using Vector6 = Eigen::Matrix<double, 6, 1>;
 // Five digits, four with an exponent; "0" below 1e-13 * scale.
 std::string short_number(double value, double scale = 1);
 
-// Wrapped to the width of a terminal; lines after the first are indented.
-std::string wrapped(std::string_view text, std::size_t indent = 2);
+// Lines of at most `width` characters, broken at spaces; those after the first are indented.
+inline constexpr std::size_t kTextWidth = 98;
+std::string wrapped(std::string_view text, std::size_t indent = 2, std::size_t width = kTextWidth);
 
 // Text with equations, spatial vectors as rows, matrices, and sums term by term.
 class Sheet {

@@ -200,10 +200,11 @@ RecordingHeader header_of(const SimulateOptions& options, const SimulatePlan& pr
   header.program = kProgramVersion;
   header.command = std::move(command);
   header.run = recorded_run(options);
-  add_file(header.files, options.robot.model);
-  if (!header.files.empty() && (options.scene || !options.robot.changes.empty())) {
+  if (options.scene || !options.robot.changes.empty()) {
     DiagnosticList faults;  // the plan has reported them
-    header.files.front().bytes = to_toml(scene_tree(options, faults));
+    header.files.push_back({header.run.model.string(), to_toml(scene_tree(options, faults))});
+  } else {
+    add_file(header.files, options.robot.model);
   }
   add_file(header.files, options.robot.state);
   header.duration = prepared.run.duration;

@@ -75,7 +75,7 @@ class HapticLoop {
 // Bodies of the driven joints.
 std::vector<int> driven_bodies(const SceneModel& scene, const DrivenJoints& joints);
 // Point that follows the stylus: of the outermost linear coupling of these, else the origin of the
-// last driven link, or its centre of mass if nothing hangs on it. Link axes.
+// last driven link, or its centre of mass if it has no child. Link axes.
 std::pair<int, Vector3> controlled_point(const SceneModel& scene,
                                          const std::vector<std::size_t>& driven);
 

@@ -172,12 +172,15 @@ class User:
         found = f"{FIND}({json.dumps(name)}, false)"
         self.page.wait_for(f"!!({found})")
         found = self.value(f"{FIND}({json.dumps(name)}, true)")
-        while True:  # until it stays where it is
+        seen = []
+        while len(seen) < 2 or not seen[-1] or seen[-1] != seen[-2]:  # until it stays where it is
             self.page.frames(3)
             again = self.value(f"{FIND}({json.dumps(name)}, false)")
-            if again and again["middle"] == found["middle"]:
-                break
-            found = again | {"scrolled": found["scrolled"]} if again else found
+            seen.append(again and again["middle"])
+            if len(seen) > 200:
+                raise AssertionError(f"{name} does not stay where it is: {seen[-4:]}")
+            if again:
+                found = again | {"scrolled": found["scrolled"]}
         self.actions += found["scrolled"]
         if found["cover"]:
             raise AssertionError(f"{name} is covered by {found['cover']}")

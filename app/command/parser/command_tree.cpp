@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "app/command/parser/shared_options.h"
+#include "app/data/tables.h"
 
 namespace twinarm {
 namespace {
@@ -100,18 +101,6 @@ std::size_t page_width() {
   return columns;
 }
 
-// Breaks lines at spaces where they would be longer than `width`; a longer word stays whole.
-std::string wrapped(std::string text, std::size_t width) {
-  for (std::size_t start = 0; text.size() - start > width;) {
-    std::size_t at = text.rfind(' ', start + width);
-    if (at == std::string::npos || at <= start) at = text.find(' ', start + width);
-    if (at == std::string::npos) break;
-    text[at] = '\n';
-    start = at + 1;
-  }
-  return text;
-}
-
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option_opts(const CLI::Option* option) const override {
@@ -145,7 +134,7 @@ class HelpFormatter : public CLI::Formatter {
  private:
   std::string in_column(const std::string& text) const {
     const std::size_t used = get_column_width(), columns = page_width();
-    return wrapped(text, columns > used + kMinColumn ? columns - used : kMinColumn);
+    return wrapped(text, 0, columns > used + kMinColumn ? columns - used : kMinColumn);
   }
   static constexpr std::size_t kMinColumn = 30;  // of descriptions
 };

@@ -53,6 +53,7 @@ class SceneInspector::FirstStep {
       input_.robot.state = given_;
       set_pose(input_.robot, sim_.state());
     }
+    unknowns_ = {};
     Inspected inspected;
     inspected.warnings = input_.robot.warnings;
     x_ = sim_.state();
@@ -120,9 +121,9 @@ class SceneInspector::FirstStep {
       if (!actor.joints.empty()) actors_.push_back(std::move(actor));
     }
   }
-  // Friction of a sliding contact and compliant contacts are functions of the state; sticking joint
+  // Of a contact between bodies a and b: three components, or one along the force if it slides, as
+  // friction is then a function of the normal force; none of a compliant one. Sticking joint
   // friction and rolling moments are left out.
-  // Of a contact between bodies a and b: three components, or one along the force if it slides.
   void add_unknowns(const ContactPoint& p, int a, int b) {
     constexpr double kSliding = 1e-4;  // [m/s]
     if (input_.scene->description.contact == ContactMode::compliant) return;
@@ -200,8 +201,8 @@ class SceneInspector::FirstStep {
     for (const JointLimits::Limit& limit : contacts_->limits()->limits()) {
       if (limit.force == 0) continue;
       const auto body = static_cast<std::size_t>(limit.body);
-      unknowns_.add(actors_.size(), Eigen::MatrixXd::Identity(index(model_.nv), index(model_.nv))
-                                        .col(index(model_.iv[body])));
+      unknowns_.add(actors_.size(),
+                    Eigen::VectorXd::Unit(index(model_.nv), index(model_.iv[body])));
       actors_.push_back(
           {"joint/" + model_.joint_name[body] + "/limit", {}, {{model_.iv[body], limit.force, 0}}});
       rest_[index(model_.iv[body])] -= limit.force;

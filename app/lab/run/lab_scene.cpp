@@ -77,9 +77,7 @@ void put_last(Value& scene, const std::string& key, Value value) {
 
 LabScene::LabScene(const SimulateOptions& given, FileRoots roots) : roots_(std::move(roots)) {
   const SimulateOptions options = without_outputs(given);
-  RecordingHeader header = header_of(options, prepare_simulation(options), {});
-  if (options.scene) put_file(header, header.run.model, to_toml(*options.scene));
-  files_ = std::make_shared<const UnpackedRun>(std::move(header));
+  files_ = std::make_shared<const UnpackedRun>(header_of(options, prepare_simulation(options), {}));
   if (!roots_) return;
   roots_->push_back(files_->folder());
   for (const RecordedFile& file : files_->header().files) roots_->push_back(file.path);

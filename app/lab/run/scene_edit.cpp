@@ -195,8 +195,7 @@ void remove_body(const SceneEdit& edit, const SceneModel& built, Value& scene) {
 }  // namespace
 
 Value scene_of_robot(const std::filesystem::path& robot, bool collide) {
-  std::string name = robot.stem().string();
-  std::ranges::replace(name, '/', '_');
+  const std::string name = robot.stem().string();
   Value table = table_of({{"name", Value::of(name)},
                           {"model", Value::of(robot.filename().string())},
                           {"collide", flag(collide)}});

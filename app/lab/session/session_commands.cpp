@@ -16,7 +16,7 @@ bool is_movement(LabCommand::Do what) {
          what == Do::axes || what == Do::drag_body;
 }
 
-// Values at the start: with another one the run begins anew.
+// Values at the start: with another one the run restarts.
 bool is_of_start(const Change& change) {
   return change.path.starts_with("robot[") && change.path.find("].q.") != std::string::npos;
 }
@@ -215,9 +215,8 @@ void SessionCommands::adopt(BuildResult built) {
   auto run = std::make_unique<LabRun>(std::move(built.run), s_.hand, from.get());
   LabVariants variants(request.variants, std::move(built.variants), from.get(), s_.loop.names());
   if (from) run->carry_over_energy(*from, s_.loop.names());
-  for (const std::string& warning : run->warnings())
-    if (request.what == BuildRequest::What::open && !request.edit)
-      s_.inbox.note("warning", warning);
+  if (request.what == BuildRequest::What::open && !request.edit)
+    for (const std::string& warning : run->warnings()) s_.inbox.note("warning", warning);
   if (!run->restart_reason().empty()) s_.inbox.note("note", run->restart_reason());
   if (!goes_on) {
     s_.timeline.clear();

@@ -90,8 +90,8 @@ class PathWalk {
   // The item whose name is the next part, else all items, if the next part can be a key.
   void go_to_items(Value& list, std::size_t p) {
     const ValuePath::Part& next = path_.parts[p + 1];
-    static const std::array kTables{"q",     "qd",      "damping", "motion",
-                                    "shape", "gripper", "target",  "mass_scale"};
+    static const std::array kTables{"q",     "qd",      "torque", "damping",   "motion",
+                                    "shape", "gripper", "target", "mass_scale"};
     bool is_key = is_last(p + 1) || next.index != -1 || next.name.empty() ||
                   std::ranges::find(kTables, next.name) != kTables.end();
     std::vector<std::string> names;
@@ -109,6 +109,7 @@ class PathWalk {
             name_remedy(next.name, names, "names"), "path.unknown-name");
     for (Value& item : list.items) go(item, p + 1);
   }
+
   const ValuePath& path_;
   const MadeKeys made_;
   const int line_;

@@ -18,9 +18,15 @@ std::map<std::string, bool> uniqueness(const std::string& text) {
   options.duration = 1;
   options.robot.model = folder.write("scene.toml", text);
   SimulatePlan plan = prepare_simulation(options);
-  std::map<std::string, bool> unique;
-  for (const AppliedForce& actor : SceneInspector(plan.input, 1e-3).look().actors)
-    if (actor.is_interaction) unique[actor.source] = actor.is_unique;
+  SceneInspector inspector(plan.input, 1e-3);
+  const auto look = [&] {
+    std::map<std::string, bool> unique;
+    for (const AppliedForce& actor : inspector.look().actors)
+      if (actor.is_interaction) unique[actor.source] = actor.is_unique;
+    return unique;
+  };
+  const auto unique = look();
+  CHECK(look() == unique);  // of the next instant, without the forces of this one
   return unique;
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("scene of a robot file: moves as the robot alone, bit for bit") {
 TEST_CASE("scene keys torque and damping: constant acceleration, exponential decay") {
   const TemporaryFolder folder;
   const LabScene scene = scene_of_rod(folder);
-  const std::vector<Change> pushed{{"gravity[2]", "0"}, {"robot[0].torque.hinge", "2"}};
+  const std::vector<Change> pushed{{"gravity[2]", "0"}, {"robot.torque.hinge", "2"}};
   CHECK(value_after(scene, pushed, 1000) == doctest::Approx(0.5 * 2 / kInertia).epsilon(0.002));
   const std::vector<Change> braked{
       {"gravity[2]", "0"}, {"robot[0].qd.hinge", "1"}, {"robot[0].damping.hinge", "0.7"}};
