@@ -61,7 +61,7 @@ std::vector<double> csv_values(const Recording& recording, const RecordedFrame& 
   const auto add = [&](const auto& several) {
     values.insert(values.end(), several.begin(), several.end());
   };
-  for (const Vector3& force : frame.pulls) add(force);
+  for (const Vector3& force : frame.coupling_forces) add(force);
   for (const GeometryPair& pair : pairs) {
     Vector3 force = Vector3::Zero();
     for (const RecordedContact& c : frame.contacts)
@@ -95,8 +95,8 @@ void write_frame(JsonWriter& json, const Recording& recording, const RecordedFra
                   {"hash", fmt::format("{:016x}", frame.hash)},
                   {"values", frame.values}});
     json.key("couplings").object([&] {
-      for (std::size_t c = 0; c < frame.pulls.size(); ++c)
-        json.put(header.couplings.at(c), frame.pulls[c]);
+      for (std::size_t c = 0; c < frame.coupling_forces.size(); ++c)
+        json.put(header.couplings.at(c), frame.coupling_forces[c]);
     });
     json.key("contacts").list(frame.contacts, write_contact);
     json.key("energy_balance").object([&] {

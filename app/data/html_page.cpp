@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <regex>
 
 namespace twinarm {
 namespace {
@@ -129,6 +130,13 @@ std::string escaped(const std::string& text) {
             : c == '"' ? "&quot;"
                        : std::string(1, c);
   return html;
+}
+
+std::string with_powers(const std::string& text) {
+  static const std::regex minus("\\b([0-9.]+)e-0*([0-9]+)\\b"),
+      plus("\\b([0-9.]+)e\\+?0*([0-9]+)\\b");
+  return std::regex_replace(std::regex_replace(text, minus, "$1 × 10<sup>−$2</sup>"), plus,
+                            "$1 × 10<sup>$2</sup>");
 }
 
 std::string yes_no(bool yes, const char* yes_word, const char* no_word) {

@@ -99,20 +99,24 @@ std::string rate_fix(const SteppedCoupling& c, double max_step) {
   return c.is_stable(its) ? "no rate (a force at each step)" : "";
 }
 
+const char* gain_unit(const SteppedCoupling& c) {
+  if (c.is_weld()) return "s";
+  if (c.is_spring()) return c.spec->is_linear() ? "N/m" : "N m/rad";
+  return c.spec->is_linear() ? "N s/m" : "N m s/rad";
+}
+
 std::string gain_fix(const SteppedCoupling& c, const StabilityViolation& s) {
   if (!(s.max_gain > 0)) return "";
-  const char *force = c.spec->is_linear() ? "N" : "N m", *per = c.spec->is_linear() ? "m" : "rad";
   if (c.is_weld())
     return fmt::format("time_constant >= {} s", short_number_text(s.max_gain / kMargin));
   if (!c.is_spring())
-    return fmt::format("damping <= {} {} s/{}", short_number_text(kMargin * s.max_gain), force,
-                       per);
+    return fmt::format("damping <= {} {}", short_number_text(kMargin * s.max_gain), gain_unit(c));
   const double k = kMargin * kMargin * s.max_gain;
   std::string torsional;
   if (c.spec->law == CouplingSpec::Type::bushing)
     torsional = fmt::format(" and rotational_stiffness <= {} N m/rad",
                             short_number_text(k / c.spec->spring.k * c.spec->spring.k_rotational));
-  return fmt::format("stiffness <= {} {}/{}{}", short_number_text(k), force, per, torsional);
+  return fmt::format("stiffness <= {} {}{}", short_number_text(k), gain_unit(c), torsional);
 }
 
 std::string law_fix(const SceneCoupling& spec) {
@@ -127,12 +131,17 @@ std::string law_fix(const SceneCoupling& spec) {
   return type + "discretization = \"implicit\", integrator semi-implicit";
 }
 
-// "Stable with A, or with B".
-std::string fix_text(const std::vector<std::string>& fixes) {
-  std::string text;
+// "Limits: step 0.632 ms, stiffness 1000 N/m; stable with a margin: A, or B".
+std::string fix_text(const StabilityViolation& s, const char* unit,
+                     const std::vector<std::string>& fixes) {
+  std::string limits, text;
+  if (s.max_step > 0) limits = fmt::format("step {:.3g} ms", 1e3 * s.max_step);
+  if (s.max_gain > 0)
+    limits += fmt::format("{}{} {:.3g} {}", limits.empty() ? "" : ", ", s.gain, s.max_gain, unit);
   for (const std::string& fix : fixes)
-    if (!fix.empty()) text += (text.empty() ? "Stable with " : ", or with ") + fix;
-  return text;
+    if (!fix.empty()) text += (text.empty() ? "" : ", or ") + fix;
+  return limits.empty() ? "Stable with " + text
+                        : fmt::format("Limits: {}; stable with a margin: {}", limits, text);
 }
 
 StabilityViolation violation_of(const SteppedCoupling& c) {
@@ -155,10 +164,7 @@ StabilityViolation violation_of(const SteppedCoupling& c) {
                                  : part * spec.spring.b;
   std::string step_or_rate;
   if (s.max_step > 0) step_or_rate = spec.rate > 0 ? rate_fix(c, s.max_step) : step_fix(s.max_step);
-  const std::string gain = gain_fix(c, s);
-  s.fix = fix_text({step_or_rate, gain, law_fix(spec)});
-  if (!step_or_rate.empty() || !gain.empty())
-    s.fix += "; step or gain at half the limit of omega h";
+  s.fix = fix_text(s, gain_unit(c), {step_or_rate, gain_fix(c, s), law_fix(spec)});
   return s;
 }
 
@@ -236,10 +242,12 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
     s.gain = "damping";
     if (h > s.max_step) {
       s.max_gain = model.damping[iv] * s.max_step / h;
-      s.fix = fix_text({step_fix(s.max_step),
-                        fmt::format("damping <= {} {}", short_number_text(kMargin * s.max_gain),
-                                    is_translational(model.joint[i]) ? "N s/m" : "N m s/rad"),
-                        "integrator semi-implicit (joint dampers are implicit)"});
+      const char* unit = is_translational(model.joint[i]) ? "N s/m" : "N m s/rad";
+      s.fix =
+          fix_text(s, unit,
+                   {step_fix(s.max_step),
+                    fmt::format("damping <= {} {}", short_number_text(kMargin * s.max_gain), unit),
+                    "integrator semi-implicit (joint dampers are implicit)"});
     }
     violations.push_back(std::move(s));
   }

@@ -21,7 +21,7 @@ constexpr double kMaxPictures = 1e5;  // of a film
 void take_forces_of_first_step(std::vector<RunInstant>& instants, const RunInstant& first) {
   for (RunInstant& instant : instants)
     if (instant.x.t < first.x.t) {
-      instant.pulls = first.pulls;
+      instant.coupling_forces = first.coupling_forces;
       instant.contacts = first.contacts;
     }
 }
@@ -257,7 +257,7 @@ RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   instant.x = State<double>(model);
   StateArchive memory = simulation_memory(frame.memory);
   visit_state(memory, model, instant.x);
-  instant.pulls = frame.pulls;
+  instant.coupling_forces = frame.coupling_forces;
   instant.contacts = frame.contacts;
   return instant;
 }
@@ -266,7 +266,7 @@ Snapshot snapshot_of(const SimulateInput& input, SceneCouplings* couplings,
                      const RunInstant& instant) {
   const SceneModel* scene = input.scene.get();
   if (!scene || !couplings) return snapshot_of(input.robot.model, instant.x);
-  Snapshot snapshot = snapshot_of(*scene, *couplings, instant.x, instant.pulls);
+  Snapshot snapshot = snapshot_of(*scene, *couplings, instant.x, instant.coupling_forces);
   const auto count = static_cast<int>(scene->geometries.size());
   for (const RecordedContact& c : instant.contacts)
     if (c.a >= 0 && c.b >= 0 && c.a < count && c.b < count)

@@ -19,7 +19,7 @@ namespace twinarm {
 // Coupling forces and contacts are those of the step that ended here; at the start of the first.
 struct RunInstant {
   State<double> x;
-  std::vector<Vector3> pulls;
+  std::vector<Vector3> coupling_forces;
   std::vector<RecordedContact> contacts;
 };
 

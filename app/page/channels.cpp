@@ -133,7 +133,8 @@ void RunChannels::values(const RecordedFrame& frame, const Snapshot& snapshot,
     values[i] = frame.values[i];
   if (pulls_ > 0) values[elastic_] = snapshot.elastic;
   for (std::size_t c = 0; c < pulls_; ++c)
-    values[first_pull_ + c] = c < frame.pulls.size() ? frame.pulls[c].norm() : 0;
+    values[first_pull_ + c] =
+        c < frame.coupling_forces.size() ? frame.coupling_forces[c].norm() : 0;
   std::map<std::size_t, Vector3> forces;
   for (const auto& [pair, place] : pairs_) forces[place] = Vector3::Zero();
   for (const RecordedContact& c : frame.contacts)

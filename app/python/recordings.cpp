@@ -28,8 +28,8 @@ py::dict open_recording(const py::object& file) {
               values.mutable_data() + n * values.shape(1));
     for (std::size_t i = 0; i < frame.rows.size(); ++i)
       *works.mutable_data(n, frame.rows[i]) = frame.works[i];
-    for (std::size_t c = 0; c < frame.pulls.size(); ++c)
-      store(frame.pulls[c], pulls.mutable_data(n, static_cast<py::ssize_t>(c), 0));
+    for (std::size_t c = 0; c < frame.coupling_forces.size(); ++c)
+      store(frame.coupling_forces[c], pulls.mutable_data(n, static_cast<py::ssize_t>(c), 0));
   }
   return py::dict("t"_a = t, "step"_a = step, "values"_a = values, "works"_a = works,
                   "forces"_a = pulls, "units"_a = units_of(header.columns),

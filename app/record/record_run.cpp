@@ -221,7 +221,8 @@ RecordedFrame frame_of(RunView& run, const SimulatePlan& prepared) {
   frame.t = x.t;
   frame.values = run_values(prepared.input.robot, x, run.simulation().kinematics());
   if (const SceneCouplings* couplings = prepared.input.couplings.get())
-    for (std::size_t c = 0; c < couplings->size(); ++c) frame.pulls.push_back(couplings->force(c));
+    for (std::size_t c = 0; c < couplings->size(); ++c)
+      frame.coupling_forces.push_back(couplings->force(c));
   add_contacts_of(run.contacts(), frame);
   frame.memory = run.memory();
   frame.hash = hash_of(frame.memory);

@@ -237,7 +237,7 @@ void visit(StateArchive& memory, RecordedFrame& frame) {
   memory.visit(frame.t);
   memory.visit(frame.hash);
   memory.visit(frame.values);
-  visit_all(memory, frame.pulls, kVector, [&](Vector3& force) { memory.visit(force); });
+  visit_all(memory, frame.coupling_forces, kVector, [&](Vector3& force) { memory.visit(force); });
   visit_all(memory, frame.contacts, kMinContact, [&](RecordedContact& contact) {
     memory.visit(contact.a);
     memory.visit(contact.b);

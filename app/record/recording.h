@@ -48,10 +48,10 @@ struct RecordedContact {  // on b, world axes
 
 struct RecordedFrame {
   long step = 0;
-  double t = 0;                // [s]
-  std::uint64_t hash = 0;      // of memory
-  std::vector<double> values;  // coordinates, velocities, positions, energies
-  std::vector<Vector3> pulls;  // coupling forces on the link [N or N m]
+  double t = 0;                          // [s]
+  std::uint64_t hash = 0;                // of memory
+  std::vector<double> values;            // coordinates, velocities, positions, energies
+  std::vector<Vector3> coupling_forces;  // coupling forces on the link [N or N m]
   std::vector<RecordedContact> contacts;
   std::vector<std::uint32_t> rows;           // of the energy balance: indices of names
   std::vector<double> works;                 // [J]

@@ -176,10 +176,11 @@ RecordedFrame Recording::frame(std::size_t n) const {
   const auto all_below = [](const std::vector<std::uint32_t>& numbers, std::size_t count) {
     return std::ranges::all_of(numbers, [&](std::uint32_t i) { return i < count; });
   };
-  if (version_ == 2 && frame.pulls.size() < header_.couplings.size())  // the lab changed a coupling
-    frame.pulls.resize(header_.couplings.size(), Vector3::Zero());
+  if (version_ == 2 &&
+      frame.coupling_forces.size() < header_.couplings.size())  // the lab changed a coupling
+    frame.coupling_forces.resize(header_.couplings.size(), Vector3::Zero());
   fits = fits && frame.values.size() == header_.columns.size() &&
-         frame.pulls.size() == header_.couplings.size() &&
+         frame.coupling_forces.size() == header_.couplings.size() &&
          frame.works.size() == frame.rows.size() && all_below(frame.rows, names_.size()) &&
          frame.momenta.size() == 2 * frame.momentum_rows.size() &&
          all_below(frame.momentum_rows, momentum_names_.size());

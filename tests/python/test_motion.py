@@ -184,7 +184,7 @@ class Recordings(ProgramTest):
         self.assertEqual(rec.q.shape, (len(rec.t), sum(n.startswith("q/") for n in rec.keys())))
         np.testing.assert_array_equal(rec.q[:, 0], rec[rec.keys()[0]])
         np.testing.assert_array_equal(rec.qd[:, 0], rec[next(n for n in rec.keys() if n.startswith("qd/"))])
-        self.assertEqual(list(rec.pulls), ["pull_arm1", "pull_arm2"])
+        self.assertEqual(list(rec.coupling_forces), ["pull_arm1", "pull_arm2"])
         self.assertEqual(rec.units["kinetic_energy"], "J")
         self.assertEqual(rec.step[-1], 50)
         self.assertIn("numerical", rec.energy_balance)

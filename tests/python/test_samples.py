@@ -34,7 +34,7 @@ class Tables(ProgramTest):
         np.testing.assert_array_equal(self.recording.step, range(51))
         np.testing.assert_array_equal(self.run_.kinetic_energy, self.recording["kinetic_energy"])
         self.assertEqual(self.recording.energy_balance["numerical"][-1], self.run_.energy_balance["numerical"])
-        self.assertEqual({force.shape for force in self.recording.pulls.values()}, {(51, 3)})
+        self.assertEqual({force.shape for force in self.recording.coupling_forces.values()}, {(51, 3)})
 
     def test_an_index_is_a_sample_and_a_slice_a_table(self):
         for table in (self.run_, self.recording):

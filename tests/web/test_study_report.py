@@ -9,6 +9,7 @@ import re
 import tempfile
 import unittest
 
+from axe import violations
 from browser import NO_BROWSER, Browser, find_browser
 from program import ROOT, main, twinarm
 from theme_colors import color_of, contrast
@@ -194,6 +195,11 @@ class StudyReportInBrowser(unittest.TestCase):
                 grounds.add(sum(ground[:3]) < 382)
                 self.assertGreaterEqual(contrast(text, ground), 4.5, f"dark: {dark}, {pair}: {element}")
             self.assertEqual(grounds, {dark})
+
+    def test_rules_of_accessibility(self):
+        for dark in (False, True):
+            self.open(1280, 720, dark=dark)
+            self.assertEqual("\n".join(violations(self.browser)), "")
 
     def test_print_shows_everything(self):
         page = self.open(680, 960, dark=True, unfold=False)

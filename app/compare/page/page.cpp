@@ -79,7 +79,7 @@ std::string group_title(std::string group) {
 std::string cell(const std::optional<double>& value, const char* format) {
   if (!value) return "<td>–</td>";
   return fmt::format("<td data-value=\"{:.17g}\">{}</td>", *value,
-                     fmt::format(fmt::runtime(format), *value));
+                     with_powers(fmt::format(fmt::runtime(format), *value)));
 }
 
 std::string index_row(const CompareRow& row) {

@@ -43,7 +43,7 @@ std::string integration_words(const Integration& integration) {
 }
 
 std::string fact(const std::string& name, const std::string& value) {
-  return fmt::format("<div><span>{}</span> <b>{}</b></div>", name, value);
+  return fmt::format("<div><span>{}</span> <b>{}</b></div>", name, with_powers(value));
 }
 
 std::string facts_of_case(const CompareRow& row, const TrajectoryCase* motion) {
@@ -70,7 +70,7 @@ std::string integrations_table(const CompareRow& row) {
                         r.order ? fmt::format("{:.2f}", *r.order) : "–",
                         r.result.energy_drift ? fmt::format("{:.1e}", *r.result.energy_drift) : "–",
                         r.result.seconds);
-  return html + "</tbody></table>\n";
+  return with_powers(html) + "</tbody></table>\n";
 }
 
 std::string readings_table(const TrajectoryCase& c) {
@@ -84,7 +84,7 @@ std::string readings_table(const TrajectoryCase& c) {
     html += fmt::format("<tr><td>{}<td>{:.15g}<td>{:.15g}<td>{}\n", in_unicode(c.readings[i]),
                         seen[i], exact[i] + 0.0, error == 0 ? "0" : fmt::format("{:.1e}", error));
   }
-  return html + "</tbody></table>\n";
+  return with_powers(html) + "</tbody></table>\n";
 }
 
 // Run and reference, errors and energy; the captions of the three.

@@ -39,7 +39,7 @@ DeviceStep shifted_to(double t, double h, DeviceStep step) {
 
 std::size_t bytes_of(const LabFrame& frame) {
   const RecordedFrame& r = frame.recorded;
-  std::size_t bytes = sizeof(LabFrame) + bytes_in(r.values) + bytes_in(r.pulls) +
+  std::size_t bytes = sizeof(LabFrame) + bytes_in(r.values) + bytes_in(r.coupling_forces) +
                       bytes_in(r.contacts) + bytes_in(r.rows) + bytes_in(r.works) +
                       bytes_in(r.momentum_rows) + bytes_in(r.momenta) + r.memory.size() +
                       (frame.hand ? bytes_in(frame.hand->q_K) : 0) + bytes_in(frame.variants);

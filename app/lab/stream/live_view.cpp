@@ -23,10 +23,26 @@ struct JointRange {
   double low = 0, high = 0;
 };
 
-std::vector<JointRange> ranges_of(const RobotInput& robots) {
+// Whether the link moves freely: the joints of a robot with a constraint depend on one another, and
+// only its first links are taken as free.
+bool is_free(const SceneView& stage, std::size_t body) {
+  if (stage.model->parent[body] == 0 || !stage.scene) return true;
+  const int link = static_cast<int>(body);
+  for (std::size_t robot = 0; robot < stage.scene->description.robots.size(); ++robot) {
+    const std::pair<int, int> links = stage.scene->bodies_of_robot(robot);
+    const auto is_link = [&](int b) { return links.first <= b && b <= links.second; };
+    if (is_link(link))
+      return std::ranges::none_of(stage.scene->constraints, [&](const SceneConstraint& c) {
+        return is_link(c.a) || is_link(c.b);
+      });
+  }
+  return true;
+}
+
+std::vector<JointRange> ranges_of(const SceneView& stage, const RobotInput& robots) {
   std::vector<JointRange> ranges;
   for (const NamedJoint& joint : robots.coordinates.all()) {
-    if (joint.components().size() != 1) continue;
+    if (joint.components().size() != 1 || !is_free(stage, joint.body)) continue;
     const auto& joints = robots.robot.joints;
     const auto found = std::ranges::find(joints, joint.name, &JointDescription::name);
     const bool has_limits = found != joints.end() && found->is_limited() &&
@@ -52,11 +68,13 @@ double van_der_corput(int n, int base) {
 
 void add_reach(SceneView& stage, const RobotInput& robots, const Snapshot& start) {
   constexpr std::array<int, 12> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
-  const std::vector<JointRange> ranges = ranges_of(robots);
+  const std::vector<JointRange> ranges = ranges_of(stage, robots);
   if (ranges.empty()) return;
   SceneMeshes moved = stage.cast;  // robots alone
   moved.ties.clear();
-  std::erase_if(moved.parts, [](const ScenePart& part) { return part.robot < 0; });
+  std::erase_if(moved.parts, [&](const ScenePart& part) {
+    return part.robot < 0 || !is_free(stage, part.body);
+  });
   Extent now;
   now.add(moved, start);
   const bool is_on_ground =
@@ -76,6 +94,26 @@ void add_reach(SceneView& stage, const RobotInput& robots, const Snapshot& start
     for (Vector3 p : reached.points()) {
       p.z() = std::max(p.z(), lowest);
       stage.extent.add(p);
+    }
+  }
+}
+
+// Bodies hinged to the world, at eight angles.
+void add_revolutions(SceneView& stage, const Snapshot& start) {
+  if (!stage.scene) return;
+  for (const SceneConstraint& c : stage.scene->constraints) {
+    if (c.type != SceneConstraint::Type::hinge || (c.a != 0 && c.b != 0)) continue;
+    const Pose hinge = c.a == 0 ? c.X_AC : c.X_BC;  // in the world
+    SceneMeshes moved = stage.cast;
+    moved.ties.clear();
+    std::erase_if(moved.parts, [&](const ScenePart& part) {
+      return static_cast<int>(part.body) != std::max(c.a, c.b);
+    });
+    Extent body;
+    body.add(moved, start);
+    for (int n = 1; n < 8; ++n) {
+      const Eigen::AngleAxisd turn(n * std::numbers::pi / 4, hinge.R.col(2));
+      for (const Vector3& p : body.points()) stage.extent.add(hinge.p + turn * (p - hinge.p));
     }
   }
 }
@@ -112,6 +150,7 @@ void extend_by_reach(SceneView& stage, const RobotInput& robots, const Snapshot&
   settle(stage);
   stage.farthest = 1e300;
   add_reach(stage, robots, start);
+  add_revolutions(stage, start);
 }
 
 void set_live_view(SceneView& stage, const Snapshot& start, bool has_device) {

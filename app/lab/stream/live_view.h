@@ -6,9 +6,10 @@
 
 namespace twinarm {
 
-// Extends the view by what is at the start and by the robots at 64 joint positions (Halton sequence
-// within the limits, one revolution where there are none). For a robot on the ground points below
-// count as on the ground.
+// Extends the view by what is at the start; by the robots at 64 joint positions (Halton sequence
+// within the limits, one revolution where there are none), of robots with constraints only the
+// first links; and by one revolution of the bodies that are hinged to the world. For a robot on the
+// ground points below count as on the ground.
 void extend_by_reach(SceneView& stage, const RobotInput& robots, const Snapshot& start);
 // Camera, ground, first scales, and the input device's place, which is in view if `has_device`.
 void set_live_view(SceneView& stage, const Snapshot& start, bool has_device);

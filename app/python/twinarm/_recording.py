@@ -38,7 +38,7 @@ class Recording(Samples):
         return dict(zip(self._data["rows"], self._data["works"].T))
 
     @property
-    def pulls(self):
+    def coupling_forces(self):
         """{coupling: (N, 3)}: coupling force on the link, world axes [N or N m]"""
         return {name: self._data["forces"][:, c] for c, name in enumerate(self._data["couplings"])}
 

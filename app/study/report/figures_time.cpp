@@ -62,18 +62,20 @@ std::vector<ObstaclePanel> obstacle_panels(Gnuplot& gnuplot, const ObstacleRun& 
                                   gnuplot.curve(run.t, run.q_K_deg[j]), palette::kvr,
                                   gnuplot.curve(run.t, run.q_D_deg[j]), palette::dvr),
                       angle_axis(run.q_K_deg[j], run.q_D_deg[j])});
-  const auto add_size = [&](const std::string& label, const std::vector<double>& size,
-                            double width) {
-    panels.push_back({label,
+  const auto add_size = [&](const std::string& label, std::vector<double> size,
+                            const std::string& unit, double width) {
+    const bool is_large = finite_range({&size, &size}).second > 1e4;
+    if (is_large)
+      for (double& value : size) value *= 1e-3;
+    panels.push_back({fmt::format("{} [{}{}]", label, is_large ? "k" : "", unit),
                       fmt::format("{} with lines lw {} lc '{}' notitle", gnuplot.curve(run.t, size),
                                   width, palette::ink),
                       value_axis(size)});
   };
   const bool linear = run.spec.coupling.type == CouplingSpec::Type::linear;
-  add_size(
-      fmt::format("coupling {} [{}]", linear ? "force" : "torque", run.spec.coupling_force_unit()),
-      run.coupling, 1.8);
-  add_size("contact force [N]", run.contact_force, 1.4);
+  add_size(linear ? "coupling force" : "coupling torque", run.coupling,
+           run.spec.coupling_force_unit(), 1.8);
+  add_size("contact force", run.contact_force, "N", 1.4);
   panels.push_back(
       {"depth behind the face [mm]; line: 0.5 mm",
        fmt::format("0.5 with lines dt (4,4) lw 1.2 lc '{}' notitle, {} with lines lw 4 lc '{}' "

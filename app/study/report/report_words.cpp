@@ -26,12 +26,10 @@ Prefix prefix_of(double value) {
 std::string typeset(const std::string& text) {
   static const std::pair<std::regex, const char*> rules[] = {
       {std::regex("\\b([kbKB])_?([12q])\\b"), "$1<sub>$2</sub>"},
-      {std::regex("\\b([0-9.]+)e-0*([0-9]+)\\b"), "$1 × 10<sup>−$2</sup>"},
-      {std::regex("\\b([0-9.]+)e\\+?0*([0-9]+)\\b"), "$1 × 10<sup>$2</sup>"},
       {std::regex(" deg\\b"), "°"},
       {std::regex("(>) (=) ([0-9.]+) (k<)"), "$1\u00a0$2\u00a0$3\u00a0$4"},
       {std::regex("([0-9]) (ms|k?Hz|kg|m\\b|%)"), "$1\u00a0$2"}};
-  std::string html = escaped(text);
+  std::string html = with_powers(escaped(text));
   for (const auto& [pattern, format] : rules) html = std::regex_replace(html, pattern, format);
   return html;
 }

@@ -48,7 +48,7 @@ class Page implements LabKeys {
   private readonly layers = new Set(this.address.layers ?? remembered('layers', DEFAULT_LAYERS));
   readonly overlays = new Overlays(this.layers, () => this.sendLayers());
   readonly views = new Views((name) => this.look(name), () => this.touch());
-  readonly live = new LiveStage(this.host, this.over, () => this.touch());
+  readonly live = new LiveStage(this.host, this.over, () => this.touch(), this.hints.look);
   private readonly picture = this.live.canDraw ? null : new Picture();
   readonly link = new wire.Link(socketAddress(), (open) => this.connected(open));
   readonly operator = new Operator(this.link, () => this.state, (text) => this.showMessage(text));

@@ -55,11 +55,6 @@ export class Diverged implements Panel {
   }
 
   private content(failure: Divergence, first: number, isDisabled: boolean): Node[] {
-    const [headline, ...rest] = failure.words;
-    const { quantity, body, cause } = failure;
-    const facts = Object.entries({ time: `${failure.time.toFixed(3)} s`, quantity, body, cause })
-      .filter(([, value]) => value)
-      .map(([name, value]) => element('div', element('dt', name), element('dd', value)));
     const from = Math.max(first, failure.from);
     const back = `${(failure.time - from).toFixed(1)} s`;
     const changing = (label: string, title: string, act: () => void, className = '') => {
@@ -79,11 +74,10 @@ export class Diverged implements Panel {
       element(
         'header',
         statusIcon('beyond'),
-        element('h2', headline ?? 'The run has diverged'),
+        element('h2', `The run became unstable before t = ${failure.time.toFixed(3)} s`),
         button('×', 'close (Escape)', () => this.hide(), 'close'),
       ),
-      ...rest.map((line) => element('p', line)),
-      element('dl', ...facts),
+      ...failure.words.map((line) => element('p', line)),
       heading,
       element('div.remedies', ...remedies),
       element(

@@ -25,7 +25,13 @@ export class LiveStage {
   private dark = false;
   private numbers = new Uint32Array(); // 0, 1, 2, ..
 
-  constructor(private readonly host: HTMLElement, handles: HTMLElement, private readonly changed: () => void) {
+  // `card`: at the foot of the view.
+  constructor(
+    private readonly host: HTMLElement,
+    handles: HTMLElement,
+    private readonly changed: () => void,
+    private readonly card: HTMLElement,
+  ) {
     handles.append(this.tag);
   }
 
@@ -37,7 +43,7 @@ export class LiveStage {
     if (!this.stage) {
       // Creating a context takes 0.1 s in software: the probed one is used.
       const plain = this.isSlow ? this.gl : null;
-      this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, plain);
+      this.stage = new Stage(this.host, scene.view, NO_DATA, this.changed, plain, () => this.covered());
       if (!plain) this.gl!.getExtension('WEBGL_lose_context')?.loseContext();
       this.stage.setTheme(this.dark);
     } else if (before?.scene !== scene.scene) {
@@ -56,6 +62,11 @@ export class LiveStage {
     this.meshes = meshes.length;
     this.textures = textures.length;
     this.changed();
+  }
+
+  private covered(): number {
+    const { top, height } = this.card.getBoundingClientRect();
+    return height > 0 ? this.host.getBoundingClientRect().bottom - top : 0;
   }
 
   setTheme(dark: boolean): void {

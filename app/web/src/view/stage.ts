@@ -54,6 +54,7 @@ export class Stage {
   private readonly isPlain: boolean;
   private hasShadows: boolean;
   private followed: THREE.Vector3 | null = null;
+  private foot = 0; // [pixels]
 
   constructor(
     readonly host: HTMLElement,
@@ -62,6 +63,8 @@ export class Stage {
     private readonly changed: () => void,
     // Context of a software renderer: drawn without gloss.
     plain: WebGL2RenderingContext | null = null,
+    // Height at the foot of the view that cards cover [pixels]; look() shows the scene above it.
+    private readonly covered = () => 0,
   ) {
     const canvas = plain?.canvas as HTMLCanvasElement | undefined;
     this.isPlain = plain !== null;
@@ -85,7 +88,6 @@ export class Stage {
     this.scene.add(this.sky, this.sun, this.sun.target);
     this.furnish(view);
     this.painter.add(data.meshes, data.textures);
-    this.resize();
     this.look('start');
     new ResizeObserver(() => this.resize()).observe(host);
   }
@@ -138,6 +140,8 @@ export class Stage {
   }
 
   look(name: ViewName): void {
+    this.foot = this.covered();
+    this.resize();
     const { eye, target } = this.view;
     this.controls.target.set(...target);
     const offset = new THREE.Vector3(...eye).sub(this.controls.target);
@@ -219,8 +223,8 @@ export class Stage {
     if (clientWidth === 0 || clientHeight === 0 || matchMedia('print').matches) return;
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, DETAILS[this.detail].pixels));
     this.renderer.setSize(clientWidth, clientHeight);
-    this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    const free = Math.max(clientHeight - this.foot, 0.5 * clientHeight);
+    this.camera.setViewOffset(clientWidth, free, 0, 0, clientWidth, clientHeight);
     this.changed();
   }
 }

@@ -94,7 +94,7 @@ TEST_CASE("lab history: the header of a saved run has the couplings of its frame
   const Recording recording(file);
   CHECK(recording.header().couplings.size() > couplings);
   for (std::size_t n = 0; n < recording.size(); ++n)
-    CHECK(recording.frame(n).pulls.size() == recording.header().couplings.size());
+    CHECK(recording.frame(n).coupling_forces.size() == recording.header().couplings.size());
 }
 
 TEST_CASE(
