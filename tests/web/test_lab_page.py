@@ -106,6 +106,21 @@ class LabPage(LabCase):
                 with self.subTest(view=view, right=right, down=down):
                     self.assertGreater(max(map(abs, self.drag(right, down))), 0.1)
 
+    def test_a_mechanism_stays_in_view_above_the_card_for_a_revolution(self):
+        outside = """(({scene, frame, live}) => { const {width, y} = live.host.getBoundingClientRect();
+            const foot = document.querySelector('.look').getBoundingClientRect().top - y;
+            return scene.bodies.flatMap(({name, moves}, i) => {
+              const at = moves && live.stage.project(...frame.link.subarray(7 * i, 7 * i + 3));
+              return !at || at.x > 0 && at.x < width && at.y > 0 && at.y < foot ? [] : [`${name} ${at.x} ${at.y}`];
+            }); })(twinarm.page)"""
+        for name, period in (("four_bar", 1.95), ("slider_crank", 1), ("box_stack", 0.1)):
+            self.value(f"twinarm.page.send({{do: 'scene', name: {name!r}}})")
+            self.until(f"{STATE}.name === {name!r} && twinarm.page.frame?.scene === twinarm.page.scene.scene")
+            self.until("document.querySelector('.look').checkVisibility()")
+            with self.subTest(name):
+                while self.value(f"{STATE}.time") < period:
+                    self.assertEqual(self.value(outside), [])
+
     def test_a_restart_also_restarts_the_hand(self):
         start = self.target()
         first = self.drag(-90, 0)

@@ -63,7 +63,7 @@ export class Stage {
     private readonly changed: () => void,
     // Context of a software renderer: drawn without gloss.
     plain: WebGL2RenderingContext | null = null,
-    // Height at the foot of the view that cards cover [pixels]; look() shows the scene above it.
+    // Height at the foot of the view that cards cover at first [pixels]: the scene is shown above it.
     private readonly covered = () => 0,
   ) {
     const canvas = plain?.canvas as HTMLCanvasElement | undefined;
@@ -124,7 +124,8 @@ export class Stage {
     this.camera.fov = (view.fieldOfView * 180) / Math.PI;
     this.camera.near = 0.01 * view.radius;
     this.camera.far = 60 * view.radius;
-    this.camera.updateProjectionMatrix();
+    this.foot = this.covered();
+    this.resize();
     this.controls.minDistance = 0.15 * view.radius;
     this.controls.maxDistance = 20 * view.radius;
     this.placeLights();
@@ -140,8 +141,6 @@ export class Stage {
   }
 
   look(name: ViewName): void {
-    this.foot = this.covered();
-    this.resize();
     const { eye, target } = this.view;
     this.controls.target.set(...target);
     const offset = new THREE.Vector3(...eye).sub(this.controls.target);
