@@ -66,11 +66,12 @@ export class PointDrag {
 
   // Pixels to the right and away from the eye, in the plane of motion.
   private alongEdge(right: number, away: number): THREE.Vector3 {
-    const { camera } = this.stage;
+    const { camera, host } = this.stage;
     const x = new THREE.Vector3(1, 0, 0).applyQuaternion(camera.quaternion).projectOnPlane(this.normal!).normalize();
     const y = this.sight.projectOnPlane(this.normal!).normalize();
     const height = 2 * Math.tan((camera.fov * Math.PI) / 360) * this.goal.distanceTo(camera.position);
-    return x.multiplyScalar(right).addScaledVector(y, away).multiplyScalar(height / camera.view!.fullHeight);
+    const pixels = camera.view?.fullHeight ?? host.clientHeight;
+    return x.multiplyScalar(right).addScaledVector(y, away).multiplyScalar(height / pixels);
   }
 
   private meet(): THREE.Vector3 | null {
