@@ -132,10 +132,11 @@ std::string law_fix(const SceneCoupling& spec) {
 }
 
 // "Limits: step 0.632 ms, stiffness 1000 N/m; stable with a margin: A, or B".
-std::string fix_text(const StabilityViolation& s, const char* unit,
+// `interval`: what max_step is the largest value of.
+std::string fix_text(const StabilityViolation& s, const char* interval, const char* unit,
                      const std::vector<std::string>& fixes) {
   std::string limits, text;
-  if (s.max_step > 0) limits = fmt::format("step {:.3g} ms", 1e3 * s.max_step);
+  if (s.max_step > 0) limits = fmt::format("{} {:.3g} ms", interval, 1e3 * s.max_step);
   if (s.max_gain > 0)
     limits += fmt::format("{}{} {:.3g} {}", limits.empty() ? "" : ", ", s.gain, s.max_gain, unit);
   for (const std::string& fix : fixes)
@@ -164,7 +165,8 @@ StabilityViolation violation_of(const SteppedCoupling& c) {
                                  : part * spec.spring.b;
   std::string step_or_rate;
   if (s.max_step > 0) step_or_rate = spec.rate > 0 ? rate_fix(c, s.max_step) : step_fix(s.max_step);
-  s.fix = fix_text(s, gain_unit(c), {step_or_rate, gain_fix(c, s), law_fix(spec)});
+  s.fix = fix_text(s, spec.rate > 0 ? "time between forces" : "step", gain_unit(c),
+                   {step_or_rate, gain_fix(c, s), law_fix(spec)});
   return s;
 }
 
@@ -244,7 +246,7 @@ void add_dampers(const SimulatePlan& prepared, const Eigen::MatrixXd& M,
       s.max_gain = model.damping[iv] * s.max_step / h;
       const char* unit = is_translational(model.joint[i]) ? "N s/m" : "N m s/rad";
       s.fix =
-          fix_text(s, unit,
+          fix_text(s, "step", unit,
                    {step_fix(s.max_step),
                     fmt::format("damping <= {} {}", short_number_text(kMargin * s.max_gain), unit),
                     "integrator semi-implicit (joint dampers are implicit)"});
