@@ -15,6 +15,7 @@
 #include "app/support/program.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
+#include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -61,10 +62,10 @@ std::vector<std::string> ffmpeg_words(const std::string& program, const std::str
 class FfmpegFilm final : public Film {
  public:
   FfmpegFilm(std::filesystem::path file, const FilmFormat& format)
-      : file_(std::move(file)), part_(file_.string() + ".part") {
+      : file_(std::move(file)), out_(file_, file_.string() + ".part") {
     std::signal(SIGPIPE, SIG_IGN);  // write() reports that the child has ended
     const std::string option = format.kind == FilmKind::mp4 ? "--mp4" : "--gif";
-    start(ffmpeg_words(find_ffmpeg(option.c_str()).string(), part_.string(), format));
+    start(ffmpeg_words(find_ffmpeg(option.c_str()).string(), out_.temporary().string(), format));
   }
   ~FfmpegFilm() override {
     if (child_ > 0) {  // not finished
@@ -72,8 +73,6 @@ class FfmpegFilm final : public Film {
       kill(child_, SIGKILL);
       exit_code_of(child_);
     }
-    std::error_code ignored;
-    if (!finished_) std::filesystem::remove(part_, ignored);
   }
   FfmpegFilm(const FfmpegFilm&) = delete;
   FfmpegFilm& operator=(const FfmpegFilm&) = delete;
@@ -93,12 +92,7 @@ class FfmpegFilm final : public Film {
   void finish() override {
     close_pipe();
     if (exit_code_of(std::exchange(child_, 0)) != 0) fail();
-    std::error_code error;
-    std::filesystem::rename(part_, file_, error);
-    if (error)
-      throw InputError({{file_.string(), 0, "", "cannot be written: " + error.message(),
-                         "give another path", "file.unwritable"}});
-    finished_ = true;
+    out_.finish();
   }
 
  private:
@@ -124,10 +118,10 @@ class FfmpegFilm final : public Film {
           "check that the folder is writable; --frames DIR needs no ffmpeg", "program.failed"}});
   }
 
-  std::filesystem::path file_, part_;
+  std::filesystem::path file_;
+  UnfinishedFile out_;  // ffmpeg writes it
   pid_t child_ = 0;
   int pipe_ = -1;
-  bool finished_ = false;
 };
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include "app/record/recording_writer.h"
 
-#include <utility>
-
 #include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 
@@ -17,7 +15,7 @@ std::string bytes_of(std::uint32_t number) {
   return memory.bytes();
 }
 
-std::filesystem::path checked_place(std::filesystem::path file) {
+const std::filesystem::path& checked_place(const std::filesystem::path& file) {
   DiagnosticList faults;
   check_place(file, "--record", faults);
   faults.check();
@@ -31,12 +29,9 @@ std::filesystem::path part_of(const std::filesystem::path& file) {
   return file.string() + ".part";
 }
 
-RecordingWriter::RecordingWriter(std::filesystem::path file, RecordingHeader header)
-    : file_(checked_place(std::move(file))),
-      part_(part_of(file_)),
-      out_(part_, std::ios::binary | std::ios::trunc),
+RecordingWriter::RecordingWriter(const std::filesystem::path& file, RecordingHeader header)
+    : out_(checked_place(file), part_of(file), UnfinishedFile::Remains::keep),
       flushed_(std::chrono::steady_clock::now()) {
-  if (!out_) fail();
   waiting_ = std::string(recording_format::kMagic, 8) + bytes_of(recording_format::kVersion);
   block(recording_format::kHeader, header_text(header));
   for (const RecordedFile& read : header.files) block(recording_format::kFile, read.bytes);
@@ -65,10 +60,7 @@ void RecordingWriter::write(RecordedFrame& frame) {
 void RecordingWriter::finish(const std::string& how) {
   block(recording_format::kEnd, how);
   flush();
-  out_.close();
-  std::error_code error;
-  std::filesystem::rename(part_, file_, error);
-  if (error || !out_) fail();
+  out_.finish();
 }
 
 void RecordingWriter::block(char kind, const std::string& payload) {
@@ -80,16 +72,9 @@ void RecordingWriter::block(char kind, const std::string& payload) {
 }
 
 void RecordingWriter::flush() {
-  out_.write(waiting_.data(), static_cast<std::streamsize>(waiting_.size()));
-  out_.flush();
-  if (!out_) fail();
+  out_.write(waiting_);
   waiting_.clear();
   flushed_ = std::chrono::steady_clock::now();
-}
-
-void RecordingWriter::fail() const {
-  throw InputError({{file_.string(), 0, "--record", "the recording cannot be written",
-                     "choose a writable folder with free space", "file.unwritable"}});
 }
 
 }  // namespace twinarm

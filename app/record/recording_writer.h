@@ -4,18 +4,18 @@
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <string>
 
 #include "app/record/recording.h"
+#include "solver/support/atomic_file.h"
 
 namespace twinarm {
 
 class RecordingWriter {
  public:
   // Throws InputError if the file cannot be written.
-  RecordingWriter(std::filesystem::path file, RecordingHeader header);
+  RecordingWriter(const std::filesystem::path& file, RecordingHeader header);
   // Index of a row of the energy or momentum balance (`kind`: kName or kMomentumName of
   // recording_format); writes new names.
   std::uint32_t number_of(char kind, const std::string& row);
@@ -27,10 +27,8 @@ class RecordingWriter {
  private:
   void block(char kind, const std::string& payload);
   void flush();
-  [[noreturn]] void fail() const;
 
-  std::filesystem::path file_, part_;
-  std::ofstream out_;
+  UnfinishedFile out_;
   std::string waiting_;
   std::chrono::steady_clock::time_point flushed_;
   std::map<char, std::map<std::string, std::uint32_t>> names_;  // by kind

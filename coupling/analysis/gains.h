@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -53,9 +54,10 @@ double max_stiffness_factor(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K,
 double max_omega_h(SteppingScheme scheme, double zeta);
 
 // The largest stable x in [from, to]: a search in steps of 10 % (a narrower unstable window is
-// missed), then bisection.
+// missed), then bisection. Starts at a normal number: a denormal does not grow by 10 %.
 template <class Stable>
 double max_stable(Stable&& stable, double from, double to) {
+  from = std::max(from, std::numeric_limits<double>::min());
   if (!stable(from)) return 0;
   double inside = from;
   while (inside < to && stable(1.1 * inside)) inside *= 1.1;

@@ -1,35 +1,90 @@
 #include "solver/support/atomic_file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <utility>
 
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
+namespace {
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+// Whether another program writes this file now: it holds a lock on it.
+bool is_locked(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return locked;
+}
+
+// Brings the folder's list of files to the disk.
+void sync_folder(const std::filesystem::path& folder) {
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);
+  ::close(descriptor);
+}
+
+}  // namespace
+
+UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::filesystem::path temporary,
+                               Remains remains)
+    : file_(std::move(file)), temporary_(std::move(temporary)), remains_(remains) {
+  std::error_code ignored;
+  if (std::filesystem::is_other(std::filesystem::status(file_, ignored))) fail(ENODEV);
+  if (is_locked(temporary_)) fail(EBUSY);
+  ::unlink(temporary_.c_str());
+  constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
+  descriptor_ = ::open(temporary_.c_str(), kNew, 0666);
+  if (descriptor_ < 0) fail(errno);
+  ::flock(descriptor_, LOCK_EX | LOCK_NB);
+}
+
+UnfinishedFile::~UnfinishedFile() {
+  if (remains_ == Remains::remove) ::unlink(temporary_.c_str());
+  ::close(descriptor_);
+}
+
+void UnfinishedFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t wrote = ::write(descriptor_, bytes.data(), bytes.size());
+    if (wrote < 0 && errno != EINTR) fail(errno);
+    if (wrote > 0) bytes.remove_prefix(static_cast<std::size_t>(wrote));
+  }
+}
+
+void UnfinishedFile::finish() {
+  const bool synced = ::fsync(descriptor_) == 0 || errno == EINVAL || errno == ENOTSUP;
+  if (!synced || std::rename(temporary_.c_str(), file_.c_str()) != 0) fail(errno);
+  remains_ = Remains::keep;
+  sync_folder(folder_of(file_));
+}
+
+void UnfinishedFile::fail(int error) const {
+  const std::string why = error == EBUSY ? "another program is writing it" : std::strerror(error);
+  throw InputError({{file_.string(), 0, "", "the file cannot be written: " + why,
+                     error == EBUSY ? "wait for its end, or give another name"
+                                    : "choose an existing, writable folder with free space",
+                     "file.unwritable"}});
+}
 
 void write_whole_file(const std::filesystem::path& file, const std::string& bytes) {
-  // The process id makes the temporary name unique among programs that write the same file.
-  const std::filesystem::path temporary = file.string() + "." + std::to_string(::getpid()) + ".tmp";
-  std::error_code error, ignored;
+  std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);  // opening reports a failure
-  errno = 0;
-  if (std::filesystem::is_other(std::filesystem::status(file, ignored))) {
-    errno = ENODEV;  // a device or a pipe, which the file would replace
-  } else {
-    std::ofstream out(temporary, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    out.close();
-    if (out) std::filesystem::rename(temporary, file, error);
-    if (out && !error) return;
-  }
-  const std::string why = error ? error.message() : errno != 0 ? std::strerror(errno) : "";
-  std::filesystem::remove(temporary, ignored);
-  throw InputError(
-      {{file.string(), 0, "", "the file cannot be written" + (why.empty() ? "" : ": " + why),
-        "choose an existing, writable folder with free space", "file.unwritable"}});
+  // The process id makes the temporary name unique among programs that write the same file.
+  UnfinishedFile out(file, file.string() + "." + std::to_string(::getpid()) + ".tmp");
+  out.write(bytes);
+  out.finish();
 }
 
 }  // namespace twinarm

@@ -1,11 +1,39 @@
-// Atomic file write: temporary file in the same folder, then rename. All output files are written
-// this way, so that no partial file is visible.
+// Output files appear under their names complete or not at all: a temporary file in the same
+// folder, then rename. All output files are written this way.
 #pragma once
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace twinarm {
+
+// A file on its way: `temporary`, which becomes `file`.
+class UnfinishedFile {
+ public:
+  enum class Remains { remove, keep };  // of `temporary` where it was not finished
+
+  // Creates `temporary`. An unfinished file of before is replaced, and a link that lies there: it
+  // is not followed. Throws InputError if it cannot be created, if `file` is a device or a pipe, or
+  // if another program is writing `temporary`.
+  UnfinishedFile(std::filesystem::path file, std::filesystem::path temporary,
+                 Remains remains = Remains::remove);
+  ~UnfinishedFile();
+  UnfinishedFile(const UnfinishedFile&) = delete;
+  UnfinishedFile& operator=(const UnfinishedFile&) = delete;
+
+  void write(std::string_view bytes);  // throws InputError
+  // Renames it, when its bytes are on the disk: power may fail from here on. Throws InputError.
+  void finish();
+  const std::filesystem::path& temporary() const { return temporary_; }
+
+ private:
+  [[noreturn]] void fail(int error) const;
+
+  std::filesystem::path file_, temporary_;
+  Remains remains_;
+  int descriptor_ = -1;
+};
 
 // Makes the folder if it is missing. Throws InputError if the file cannot be written, or is a
 // device.

@@ -11,6 +11,7 @@ import struct
 import subprocess
 
 from lab_test import Running
+import program
 from live_socket import Lab
 from program import ROOT, SCENES, main, run, start
 from waiting import TIMEOUT, processor_time, wait_for, wait_while_running
@@ -106,6 +107,31 @@ class Strange(Case):
                 self.assertEqual(results[1], results[0])
         for words in (["simulate", PENDULUM, "--json"], ["simulate", PENDULUM, "--csv", "--every", 0.1]):
             self.assertEqual(self.succeeds(*words, **german), self.succeeds(*words, LC_ALL="C"))
+
+    def test_a_link_that_lies_where_a_file_is_to_be_written_is_not_followed(self):
+        self.record_pendulum()
+        victim = self.base / "victim"
+        for name, link in (("recording", "run.twinrec.part"), ("film", "p.mp4.part"), ("picture", "p.png.$$.tmp"),
+                           ("page", "run.html.$$.tmp"), ("hand", "hand.csv")):
+            words = WRITERS[name][0]
+            with self.subTest(name):
+                self.need_ffmpeg(words)
+                victim.write_text("mine")
+                made = subprocess.run(["sh", "-c", f'ln -s ../victim "{link}" && exec "$@"', "sh", program.PROGRAM,
+                                       *map(str, words)], cwd=self.folder, capture_output=True, text=True)
+                self.assertEqual(made.returncode, 0, made.stderr)
+                self.assertEqual(victim.read_text(), "mine")
+                for left in self.folder.iterdir():
+                    self.assertFalse(left.is_symlink(), left)
+                    left.unlink()
+
+    def test_of_two_that_record_to_one_file_the_second_is_refused(self):
+        words = ["simulate", LONG, "--record", "run.twinrec"]
+        first = start(*words, cwd=self.folder)
+        wait_while_running(first, (self.folder / "run.twinrec.part").exists, "a recording that has begun")
+        self.assertIn("another program is writing it", self.refused(*words))
+        self.assertEqual(first.wait(timeout=TIMEOUT), 0)
+        check_whole(self.folder / "run.twinrec")
 
 
 class Clock(Case):

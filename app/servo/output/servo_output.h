@@ -42,8 +42,10 @@ void draw_timing(const LiveSummary& summary, const std::filesystem::path& file);
 class LiveLog {
  public:
   // Throws InputError: not writable.
-  explicit LiveLog(const std::filesystem::path& file)
-      : file_(file.string()), stream_(file, std::ios::binary) {
+  explicit LiveLog(const std::filesystem::path& file) : file_(file.string()) {
+    std::error_code ignored;
+    if (std::filesystem::is_symlink(file, ignored)) std::filesystem::remove(file, ignored);  // not followed
+    stream_.open(file, std::ios::binary);
     if (!stream_)
       throw InputError(
           {{file_, 0, "--out", "cannot write the log", "give a writable folder", "file.open"}});

@@ -30,6 +30,15 @@ TEST_CASE("max_omega_h is the limit of is_stable at every damping ratio") {
     }
 }
 
+TEST_CASE("gains beyond all measure have no stable factor, and the search for it ends") {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(1, 1);
+  for (const double gain : {1e100, 1e200, 1e300}) {
+    CAPTURE(gain);
+    CHECK(max_stiffness_factor(one, gain * one, gain * one, SteppingScheme::semi_implicit, 1e-3,
+                               HoldConstant::damping_per_stiffness) <= 4e6 / gain);
+  }
+}
+
 namespace {
 
 struct HeldRobot {
