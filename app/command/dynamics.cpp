@@ -192,7 +192,11 @@ std::string kinematics_json(const RobotInput& input) {
 }
 
 int run_dynamics(const DynamicsOptions& options) {
-  const RobotInput input = read_robot_input(options.robot);
+  RobotInput input = read_robot_input(options.robot);
+  if (input.model.nv > kMaxDense)
+    input.warnings.push_back(
+        fmt::format("the mass matrix is left out: it has {} rows, more than {}",
+                    input.coordinates.rows(), kMaxDense));
   print_warnings(input.warnings, options.json);
   if (options.robot.kinematic) {
     fmt::print("{}", options.json ? kinematics_json(input) + "\n" : link_table(input));

@@ -96,6 +96,7 @@ int run_inspect(const InspectOptions& options, const Words& typed) {
   const bool is_recorded = is_recording(options.robot.model);
   auto [view, instant, inspected] = read_all(options, is_recorded);
   const SimulateInput& input = instant.prepared.input;
+  check_dense(input.robot.model, options.robot.model);
   const bool is_scene = input.scene != nullptr;
   if (is_scene && input.scene->description.integrator.value_or(Integrator::semi_implicit) !=
                       Integrator::semi_implicit)

@@ -31,6 +31,7 @@ int run_modes(const ModesOptions& options) {
     throw InputError({{input.scene->description.file.string(), 0, "scene",
                        "it has neither a robot with a joint nor a constraint, and so no modes", "",
                        "scene.nothing-held"}});
+  check_dense(input.robot.model, options.robot.model);
   const ModesOf found = find_modes(input);
   print_warnings(found.warnings, options.json);
   fmt::print("{}\n", options.json ? modes_json(input, found) : modes_table(input, found));

@@ -29,6 +29,7 @@ double added_inertia(const SceneCoupling& spec) {
 
 PosedCouplings::PosedCouplings(const SimulateInput& input)
     : input_(input), model_(input.robot.model), x_(input.robot.state.x), k_(model_) {
+  check_dense(model_, input_.scene->description.file);
   std::ranges::fill(x_.qd, 0.0);
   forward_kinematics(model_, x_, k_);
   const Coordinates& coordinates = input_.robot.coordinates;

@@ -34,7 +34,8 @@ class PosedCouplings {
   const Model<double>& model_;
   State<double> x_;
   Kinematics k_;
-  Eigen::MatrixXd P_, all_M_;
+  Eigen::SparseMatrix<double> P_;
+  Eigen::MatrixXd all_M_;
   std::size_t velocities_ = 0;  // of the robots, which come first
 };
 

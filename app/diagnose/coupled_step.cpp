@@ -23,6 +23,7 @@ bool contains(const std::vector<int>& couplings, int coupling) {
 CoupledStep::CoupledStep(const SimulatePlan& plan)
     : integrator_(plan.run.integrator), step_(plan.run.step) {
   if (!plan.input.scene || !plan.input.couplings || plan.input.couplings->size() == 0) return;
+  if (plan.input.robot.model.nv > kMaxDense) return;
   PosedCouplings posed(plan.input);
   M_ = posed.M();
   joint_damping_ = posed.joint_damping();

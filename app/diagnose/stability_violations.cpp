@@ -261,7 +261,7 @@ std::vector<StabilityViolation> find_violations(const SimulatePlan& prepared) {
   std::vector<StabilityViolation> violations;
   const SimulateInput& input = prepared.input;
   const Model<double>& model = input.robot.model;
-  if (prepared.run.is_adaptive() || model.nv == 0) return violations;
+  if (prepared.run.is_adaptive() || model.nv == 0 || model.nv > kMaxDense) return violations;
   if (input.couplings) add_couplings(prepared, violations);
   add_dampers(prepared, mass_matrix(model, input.robot.state.x), violations);
   std::ranges::stable_sort(violations,

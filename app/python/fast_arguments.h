@@ -32,10 +32,10 @@ struct Arguments {
                              (i == n ? "' is not an argument" : "' is given twice"));
       at[i] = given[positional + k];
     }
-    for (std::size_t i = 0; i < required; ++i)
-      if (!at[i]) throw py::type_error(std::string(function) + "(): '" + names[i] + "' is missing");
     for (PyObject*& argument : at)
       if (argument == Py_None) argument = nullptr;
+    for (std::size_t i = 0; i < required; ++i)
+      if (!at[i]) throw py::type_error(std::string(function) + "(): '" + names[i] + "' is missing");
   }
 };
 

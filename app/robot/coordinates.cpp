@@ -70,8 +70,9 @@ std::vector<std::string> Coordinates::names() const {
   return names;
 }
 
-Eigen::MatrixXd Coordinates::P(const Model<double>& model, const State<double>& x) const {
-  Eigen::MatrixXd P = mimic_projection(model);
+Eigen::SparseMatrix<double> Coordinates::P(const Model<double>& model,
+                                           const State<double>& x) const {
+  Eigen::SparseMatrix<double> P = mimic_projection(model);
   for (const NamedJoint& joint : all_) {
     if (!is_six_dof(joint)) continue;
     std::vector<double> column(model.nv);
@@ -80,8 +81,8 @@ Eigen::MatrixXd Coordinates::P(const Model<double>& model, const State<double>& 
       unit[c] = 1;
       to_solver(joint, x, unit, column);
       for (std::size_t r = 0; r < 6; ++r)
-        P(static_cast<Eigen::Index>(joint.iv + r), static_cast<Eigen::Index>(joint.row + c)) =
-            column[joint.iv + r];
+        P.coeffRef(static_cast<Eigen::Index>(joint.iv + r),
+                   static_cast<Eigen::Index>(joint.row + c)) = column[joint.iv + r];
     }
   }
   return P;

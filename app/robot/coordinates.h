@@ -16,7 +16,7 @@
 //   M = P^T M_solver P    bias = P^T bias_solver    qdd_solver = P qdd    tau = P^T tau_solver
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <map>
 #include <string>
 #include <vector>
@@ -63,7 +63,7 @@ class Coordinates {
   std::vector<std::string> names() const;                 // without the base
   Eigen::Index rows() const { return rows_; }
 
-  Eigen::MatrixXd P(const Model<double>& model, const State<double>& x) const;
+  Eigen::SparseMatrix<double> P(const Model<double>& model, const State<double>& x) const;
 
  private:
   bool floating_;

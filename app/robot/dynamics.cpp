@@ -55,7 +55,7 @@ void forward(const RobotInput& input, const std::vector<Force<double>>& f_ext, D
 }
 
 void inverse(const RobotInput& input, const std::vector<Force<double>>& f_ext, const Kinematics& k,
-             const Eigen::MatrixXd& P, Dynamics& d) {
+             const Eigen::SparseMatrix<double>& P, Dynamics& d) {
   const Model<double>& model = input.model;
   const State<double>& x = input.state.x;
   Workspace<double> w(model);
@@ -90,7 +90,7 @@ Force<double> in_body_axes(const Wrench& wrench, const Kinematics& k) {
 Dynamics compute_dynamics(const RobotInput& input) {
   const Model<double>& model = input.model;
   const State<double>& x = input.state.x;
-  const Eigen::MatrixXd P = input.coordinates.P(model, x);
+  const Eigen::SparseMatrix<double> P = input.coordinates.P(model, x);
   Kinematics k(model);
   forward_kinematics(model, x, k);
   std::vector<Force<double>> f_ext(model.parent.size());
@@ -100,11 +100,10 @@ Dynamics compute_dynamics(const RobotInput& input) {
   forward(input, f_ext, d);
   inverse(input, f_ext, k, P, d);
 
-  const Eigen::MatrixXd of_tree = mass_matrix(model, x);
-  const auto nv = of_tree.rows();
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::MatrixXd M = P.transpose() * Eigen::Map<const RowMajor>(of_tree.data(), nv, nv) * P;
-  d.mass_matrix = 0.5 * (M + M.transpose());  // symmetric to the last digit
+  if (model.nv <= kMaxDense) {
+    const Eigen::MatrixXd M = P.transpose() * mass_matrix(model, x) * P;
+    d.mass_matrix = 0.5 * (M + M.transpose());  // symmetric to the last digit
+  }
 
   Workspace<double> w(model);
   kinematics(model, x, w);

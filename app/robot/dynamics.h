@@ -12,7 +12,7 @@ namespace twinarm {
 struct Dynamics {
   Eigen::VectorXd qdd;              // forward dynamics with tau and wrenches
   Eigen::VectorXd tau_inverse;      // inverse dynamics with the given qdd and wrenches
-  Eigen::MatrixXd mass_matrix;      // M qdd + bias = tau
+  Eigen::MatrixXd mass_matrix;      // M qdd + bias = tau; empty above kMaxDense
   Eigen::VectorXd bias, gravity;    // gravity: the bias at rest
   Vector3 base_force, base_torque;  // on the root link for the given qdd, about its origin, world
   double kinetic_energy = 0, potential_energy = 0, mass = 0;

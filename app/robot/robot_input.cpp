@@ -97,6 +97,16 @@ std::optional<Vector3> parse_gravity(const std::string& text, DiagnosticList& fa
   return std::nullopt;
 }
 
+void check_dense(const Model<double>& model, const std::filesystem::path& file) {
+  if (model.nv <= kMaxDense) return;
+  throw InputError(
+      {{file.string(), 0, "",
+        fmt::format("has {} degrees of freedom: more than {}, up to which dense matrices are "
+                    "computed",
+                    model.nv, kMaxDense),
+        "give a part of it; `twinarm simulate` and `dynamics` take O(n)", "model.too-large"}});
+}
+
 void add_gravity_warning(const Model<double>& model, std::vector<std::string>& warnings) {
   if (model.gravity.z > 0)
     warnings.push_back(fmt::format("gravity points up: its z is {:g} m/s^2; on Earth it is -9.81",

@@ -67,6 +67,12 @@ struct RobotInput {
 // Throws InputError with all diagnostics: given ones, and those of options, URDF and state.
 RobotInput read_robot_input(const RobotOptions& options, DiagnosticList faults = {});
 
+// Most velocities for which dense matrices of the whole system are made: they take O(n^2) memory,
+// and O(n^3) time or more.
+constexpr std::size_t kMaxDense = 1000;
+// Throws InputError above.
+void check_dense(const Model<double>& model, const std::filesystem::path& file);
+
 // Adds a warning if gravity points up.
 void add_gravity_warning(const Model<double>& model, std::vector<std::string>& warnings);
 

@@ -1,11 +1,13 @@
 #include "app/support/progress.h"
 
 #include <fmt/format.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
+#include <string_view>
 
 #include "app/support/files.h"
 
@@ -72,11 +74,26 @@ void Progress::draw() {
 }
 
 namespace {
+
 volatile std::sig_atomic_t interrupted = 0;
+
+// A command that does not look at the flag for so much processor time is ended by SIGPROF.
+constexpr itimerval kPatience{{0, 0}, {0, 900'000}}, kNone{};  // [s, us]
+
+void end_at_once(int) {
+  constexpr std::string_view words = "twinarm: interrupted\n";
+  [[maybe_unused]] const ssize_t wrote = write(STDERR_FILENO, words.data(), words.size());
+  _exit(130);  // docs/reference/exit_codes_and_errors.md
 }
 
+}  // namespace
+
 void catch_interrupts() {
-  const auto note = [](int) { interrupted = 1; };
+  const auto note = [](int) {
+    interrupted = 1;
+    setitimer(ITIMER_PROF, &kPatience, nullptr);
+  };
+  std::signal(SIGPROF, end_at_once);
   std::signal(SIGINT, note);
   std::signal(SIGTERM, note);
   if (std::signal(SIGHUP, note) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup
@@ -84,7 +101,9 @@ void catch_interrupts() {
 }
 
 bool is_interrupted() {
-  return interrupted != 0;
+  if (interrupted == 0) return false;
+  setitimer(ITIMER_PROF, &kNone, nullptr);
+  return true;
 }
 
 void forget_interrupt() {
@@ -92,7 +111,7 @@ void forget_interrupt() {
 }
 
 void check_interrupt() {
-  if (interrupted) throw Interrupted();
+  if (is_interrupted()) throw Interrupted();
 }
 
 }  // namespace twinarm

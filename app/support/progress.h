@@ -29,7 +29,8 @@ class Progress {
   std::chrono::steady_clock::time_point start_, drawn_;
 };
 
-// Ctrl-C or a closed terminal sets a flag, which is checked where no partial file is left.
+// Ctrl-C or a closed terminal sets a flag, which is checked where no partial file is left. The
+// process ends at once if nothing has looked at it after 0.9 s of processor time.
 struct Interrupted : std::exception {
   const char* what() const noexcept override { return "interrupted"; }
 };

@@ -19,14 +19,14 @@ std::vector<std::size_t> independent_dofs(const Model<double>& model) {
   return dofs;
 }
 
-Eigen::MatrixXd mimic_projection(const Model<double>& model) {
+Eigen::SparseMatrix<double> mimic_projection(const Model<double>& model) {
   const std::vector<std::size_t> independent = independent_dofs(model);
   const auto index = [](std::size_t i) { return static_cast<Eigen::Index>(i); };
-  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(index(model.nv), index(independent.size()));
+  Eigen::SparseMatrix<double> G(index(model.nv), index(independent.size()));
   for (std::size_t y = 0; y < independent.size(); ++y) {
-    G(index(independent[y]), index(y)) = 1;
+    G.insert(index(independent[y]), index(y)) = 1;
     for (const Mimic& m : model.mimics)
-      if (m.leader == independent[y]) G(index(m.follower), index(y)) = m.ratio;
+      if (m.leader == independent[y]) G.insert(index(m.follower), index(y)) = m.ratio;
   }
   return G;
 }

@@ -5,7 +5,7 @@
 // force.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "solver/model/model.h"
@@ -17,7 +17,7 @@ void apply_mimics(const Model<double>& model, State<double>& x);
 
 // qd = G y, y the velocities of the independent joints. In y the mass matrix is G^T M G and a
 // generalised force b becomes G^T b.
-Eigen::MatrixXd mimic_projection(const Model<double>& model);           // G, nv x ny
-std::vector<std::size_t> independent_dofs(const Model<double>& model);  // ny indices, ascending
+Eigen::SparseMatrix<double> mimic_projection(const Model<double>& model);  // G, nv x ny
+std::vector<std::size_t> independent_dofs(const Model<double>& model);     // ny indices, ascending
 
 }  // namespace twinarm

@@ -58,6 +58,25 @@ class HostileFiles(ProgramTest):
                           % (n, n, n + 1) for n in reversed(range(count - 1)))
         self.reported("dynamics", self.write("a.urdf", b'<robot name="r">' + links + joints + b"</robot>"), code=0)
 
+    def chain(self, count):
+        link = ('<link name="l{1}"><inertial><mass value="1"/>'
+                '<inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>'
+                '<joint name="j{1}" type="continuous"><parent link="l{0}"/><child link="l{1}"/>'
+                '<origin xyz="0.1 0 0"/><axis xyz="0 1 0"/></joint>')
+        text = '<link name="l0"/>' + "".join(link.format(n, n + 1) for n in range(count))
+        return self.write("chain.urdf", f'<robot name="r">{text}</robot>'.encode())
+
+    def test_a_long_chain_that_moves_is_computed_without_dense_matrices_and_refused_where_they_are_needed(self):
+        chain = self.chain(10000)
+        self.assertIn("mass matrix is left out", self.reported("dynamics", chain, code=0))
+        self.reported("simulate", chain, "--duration", 0.01, code=0)
+        for command in (["modes", chain], ["inspect", chain],
+                        ["coupling", "predict", chain, "--link", "l9", "--stiffness", 1]):
+            self.refused("more than 1000", *command)
+
+    def test_ctrl_c_ends_what_computes_long_in_one_go(self):
+        self.interrupted("modes", self.chain(900))
+
     def test_a_scene_nested_as_deep_as_its_size_allows(self):
         for text in (b".".join([b"a"] * 500000) + b" = 1\n", b"a = " + b"[" * 1000000, b"a = { b = " * 300000,
                      b"[" + b".".join([b"'a'"] * 300000) + b"]\n", (b"a." * 100 + b"a = { ") * 2000):

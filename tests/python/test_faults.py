@@ -55,6 +55,10 @@ class Faults(ProgramTest):
         self.reported(TypeError, "is a ndarray", twinarm.crba, self.puma, z * 1j)
         self.reported(TypeError, "must be a twinarm.Model, is a", twinarm.aba, z, z, z, z)
         self.reported(TypeError, "'tau' is missing", twinarm.aba, self.puma, z, z)
+        for missing in range(4):
+            given = [self.puma, z, z, z]
+            given[missing] = None
+            self.reported(TypeError, r"aba\(\): '.*' is missing", twinarm.aba, *given)
         self.reported(TypeError, "'torque' is not an argument", twinarm.aba, self.puma, z, z, torque=z)
         self.reported(TypeError, "'q' is given twice", twinarm.aba, self.puma, z, z, z, q=z)
         self.reported(TypeError, "at most 3", twinarm.crba, self.puma, z, None, z)

@@ -44,7 +44,8 @@ class LiveLog {
   // Throws InputError: not writable.
   explicit LiveLog(const std::filesystem::path& file) : file_(file.string()) {
     std::error_code ignored;
-    if (std::filesystem::is_symlink(file, ignored)) std::filesystem::remove(file, ignored);  // not followed
+    if (std::filesystem::is_symlink(file, ignored))
+      std::filesystem::remove(file, ignored);  // not followed
     stream_.open(file, std::ios::binary);
     if (!stream_)
       throw InputError(
