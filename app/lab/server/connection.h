@@ -71,11 +71,15 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Connection(Core& core, Socket socket)
       : core_(core),
         socket_(std::move(socket)),
+        opened_at_(Clock::now()),
         allowance_(core.options.messages_per_second),
-        allowed_at_(Clock::now()) {}
+        allowed_at_(opened_at_) {}
   void start();  // reads the next request
   void send_next();
   void check_timeouts(Clock::time_point now);
+  void drop();
+  bool is_stranger() const { return is_stranger_; }
+  Clock::time_point opened_at() const { return opened_at_; }
 
  private:
   using Request = http::request<http::string_body>;
@@ -100,11 +104,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool closes_flood();  // true: too many messages, closing
   void ping();
   void close_websocket(websocket::close_code code, const std::string& why);
-  void drop();
 
   Core& core_;
   Socket socket_;  // moved into ws_ by an upgrade
-  Clock::time_point deadline_;
+  Clock::time_point opened_at_, deadline_;
+  bool is_stranger_ = true;  // has not shown the token yet
   bool is_gone_ = false;
 
   std::array<char, 16384> chunk_;

@@ -7,7 +7,7 @@ namespace twinarm::lab_server {
 
 constexpr std::uint32_t kMaxHead = 16 << 10;  // [bytes]
 constexpr double kSlowestDownload = 50e3;     // [bytes/s]
-constexpr std::chrono::seconds kCloseTimeout{2};
+constexpr std::chrono::seconds kCloseTimeout{2}, kStrangerTimeout{2};
 
 inline std::string_view view(boost::beast::string_view text) {
   return {text.data(), text.size()};
@@ -18,7 +18,9 @@ void Connection::start() {
   parser_->header_limit(kMaxHead);
   parser_->body_limit(core_.options.max_body);
   is_permitted_ = gives_cookie_ = false;
-  deadline_ = Clock::now() + core_.timeout(0.25);
+  Clock::duration wait = core_.timeout(0.25);
+  if (is_stranger_) wait = std::min<Clock::duration>(wait, kStrangerTimeout);
+  deadline_ = Clock::now() + wait;
   in_.empty() ? read_some() : parse();
 }
 
@@ -79,11 +81,16 @@ bool Connection::is_permitted() {
   const bool is_live = websocket::is_upgrade(request);
   if (request.count(http::field::host) != 1 || !core_.hosts->has(host)) {
     refuse(403, "unknown host name: open the address that `twinarm lab` printed");
-  } else if (!has_token(view(request.target()))) {
+    return false;
+  }
+  if (!has_token(view(request.target()))) {
     refuse(403,
            "the token is missing: open the whole address that `twinarm lab` printed, with "
            "?token=..");
-  } else if ((is_post || is_live) && !origin.empty() && origin != "http://" + std::string(host)) {
+    return false;
+  }
+  is_stranger_ = false;
+  if ((is_post || is_live) && !origin.empty() && origin != "http://" + std::string(host)) {
     refuse(403, "cross-origin request refused");
   } else if (!is_post && request.method() != http::verb::get &&
              request.method() != http::verb::head) {

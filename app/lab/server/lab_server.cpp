@@ -40,6 +40,7 @@ using namespace lab_server;
 constexpr std::chrono::milliseconds kTimeoutCheck{200};
 // A browser opens several connections for a page.
 constexpr std::size_t kConnectionsPerClient = 8;
+constexpr std::size_t kMaxStrangers = 64;  // connections that have not shown the token
 
 [[noreturn]] void refuse_address(const ServerOptions& options, const std::string& why) {
   const bool is_port = options.port != 0;
@@ -94,8 +95,7 @@ struct LabServer::Impl {
 
   void accept() {
     acceptor.async_accept(core->io, [this](error_code error, Socket socket) {
-      const std::size_t max = kConnectionsPerClient * core->options.max_clients;
-      if (!error && core->connections.size() < max) {
+      if (!error && has_place()) {
         socket.set_option(net::ip::tcp::no_delay(true), error);
         const auto connection = std::make_shared<Connection>(*core, std::move(socket));
         core->connections.insert(connection);
@@ -107,6 +107,20 @@ struct LabServer::Impl {
       else
         accept();
     });
+  }
+
+  // Strangers have places of their own; the one that has waited longest gives up its place.
+  bool has_place() {
+    std::shared_ptr<Connection> oldest;
+    std::size_t strangers = 0;
+    for (const auto& connection : core->connections) {
+      if (!connection->is_stranger()) continue;
+      ++strangers;
+      if (!oldest || connection->opened_at() < oldest->opened_at()) oldest = connection;
+    }
+    const std::size_t known = core->connections.size() - strangers;
+    if (strangers >= kMaxStrangers) oldest->drop();
+    return known < kConnectionsPerClient * core->options.max_clients;
   }
 
   void check_timeouts() {

@@ -2,6 +2,9 @@
 #include <doctest/doctest.h>
 #include <zlib.h>
 
+#include <memory>
+#include <vector>
+
 #include "app/lab/server/http_text.h"
 #include "solver/support/diagnostics.h"
 #include "tests/app/lab/server/lab_host.h"
@@ -223,6 +226,19 @@ TEST_CASE("lab server: requests that are too long or too slow are cut off") {
   CHECK(idle.hear_end());
   CHECK(half.hear_end());
   CHECK(lab.is_alive());
+}
+
+TEST_CASE("lab server: strangers who keep connections open keep nobody out who has the token") {
+  ServerOptions options;
+  options.max_clients = 1;
+  const LabHost lab(options);
+  std::vector<std::unique_ptr<RawClient>> strangers;
+  for (int i = 0; i < 200; ++i) {
+    strangers.push_back(std::make_unique<RawClient>(lab.server.port()));
+    if (i % 2) strangers.back()->say("GET / HTTP/1.1\r\nHo");
+  }
+  CHECK(RawClient(lab.server.port()).ask(lab.request("GET /", lab.cookie())).status == 200);
+  CHECK(strangers.front()->hear_end());
 }
 
 TEST_CASE("lab server: the rate of requests is limited") {
