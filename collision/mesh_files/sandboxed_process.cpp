@@ -16,6 +16,8 @@
 #include <string_view>
 #include <system_error>
 
+#include "collision/mesh_files/system_call_filter.h"
+
 namespace twinarm {
 namespace {
 
@@ -61,10 +63,17 @@ bool send(int pipe, std::string_view bytes) {
 
 // Suppresses messages of libraries; the parent reports the error.
 void discard_output() {
-  const int null = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const int null = open("/dev/null", O_RDWR | O_CLOEXEC);
   if (null < 0) return;
-  dup2(null, STDOUT_FILENO);
-  dup2(null, STDERR_FILENO);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) dup2(null, stream);
+}
+
+// Closes what the parent has open but the standard streams and the pipe; returns its new number.
+int close_others(int pipe) {
+  constexpr int kPipe = STDERR_FILENO + 1;
+  if (pipe != kPipe) dup2(pipe, kPipe);
+  close_range(kPipe + 1, ~0u, 0);
+  return kPipe;
 }
 
 [[noreturn]] void run_child(const std::function<std::string()>& work, const ChildLimits& limits,
@@ -74,9 +83,13 @@ void discard_output() {
        {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL})
     std::signal(each, SIG_DFL);
   if (!kSanitized) discard_output();
+  pipe = close_others(pipe);
   limit(RLIMIT_CORE, 0);
   limit(RLIMIT_CPU, limits.cpu_seconds);
-  if (!kSanitized) limit(RLIMIT_AS, address_space_in_use() + limits.bytes);
+  if (!kSanitized) {
+    limit(RLIMIT_AS, address_space_in_use() + limits.bytes);
+    forbid_side_effects();
+  }
   int end = kDone;
   try {
     if (!send(pipe, work())) end = kCannotSend;

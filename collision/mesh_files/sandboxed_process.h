@@ -1,4 +1,5 @@
-// Runs work that may crash or not terminate in a child process with limits.
+// Runs work that may crash, not terminate or be taken over in a child process with limits: of time
+// and memory, without the parent's files, and unable to change anything (system_call_filter.h).
 #pragma once
 
 #include <cstddef>

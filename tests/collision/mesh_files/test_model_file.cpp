@@ -2,16 +2,22 @@
 #include "collision/mesh_files/model_file.h"
 
 #include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 
 #include "collision/mesh_files/mesh_file.h"
 #include "collision/mesh_files/sandboxed_process.h"
 #include "collision/shapes/shape.h"
 #include "solver/support/diagnostics.h"
+#include "tests/sanitized.h"
 #include "tests/support/temporary_folder.h"
 
 using namespace twinarm;
@@ -121,6 +127,28 @@ TEST_CASE("a child that crashes, throws or does not terminate gives an error mes
       {.cpu_seconds = 1});
   CHECK(contains(slow.fault, "more than 1 s"));
   CHECK(slow.bytes.empty());
+}
+
+TEST_CASE("a child cannot write files, start programs or open connections, and sees no open file") {
+#ifndef TWINARM_SANITIZED
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("kept", "");
+  const int open_here = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 100);
+  const ChildResult result = run_limited([&] {
+    const auto fails = [](long code) { return code < 0 && errno == EPERM ? '-' : '+'; };
+    const char* const words[] = {"/bin/true", nullptr};
+    return std::string{fails(open(file.c_str(), O_WRONLY)),
+                       fails(unlink(file.c_str())),
+                       fails(execv(words[0], const_cast<char* const*>(words))),
+                       fails(fork()),
+                       fails(socket(AF_INET, SOCK_STREAM, 0)),
+                       fcntl(open_here, F_GETFD) < 0 ? '-' : '+',
+                       open(file.c_str(), O_RDONLY) >= 0 ? 'r' : '?'};
+  });
+  CHECK(result.fault.empty());
+  CHECK(result.bytes == "------r");
+  close(open_here);
+#endif
 }
 
 TEST_CASE("a child that waits forever is killed, with an error message") {
