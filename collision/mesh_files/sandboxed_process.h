@@ -20,8 +20,8 @@ struct ChildResult {
 };
 
 // Calls `work` in a child process. An exception of `work` is an error without its text. Costs a
-// millisecond and a copy of the bytes. Throws std::system_error if no process or pipe can be
-// created.
+// millisecond and a copy of the bytes. In such a child it calls `work` directly. Throws
+// std::system_error if no process or pipe can be created.
 ChildResult run_limited(const std::function<std::string()>& work, const ChildLimits& limits = {});
 
 }  // namespace twinarm

@@ -1,7 +1,6 @@
 #include "solver/support/atomic_file.h"
 
 #include <fcntl.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -18,11 +17,19 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
   return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
 }
 
-// Whether another program writes this file now: it holds a lock on it.
+// A lock on the whole file, which ends with the open file (fcntl(2)).
+struct flock whole_file() {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  return lock;
+}
+
+// Whether another program writes this file now.
 bool is_locked(const std::filesystem::path& file) {
   const int descriptor = ::open(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) return false;
-  const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  struct flock lock = whole_file();
+  const bool locked = ::fcntl(descriptor, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
   ::close(descriptor);
   return locked;
 }
@@ -47,7 +54,8 @@ UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::filesystem::path
   constexpr int kNew = O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC;
   descriptor_ = ::open(temporary_.c_str(), kNew, 0666);
   if (descriptor_ < 0) fail(errno);
-  ::flock(descriptor_, LOCK_EX | LOCK_NB);
+  const struct flock lock = whole_file();
+  ::fcntl(descriptor_, F_OFD_SETLK, &lock);
 }
 
 UnfinishedFile::~UnfinishedFile() {

@@ -162,6 +162,7 @@ void LabRoutes::open(const std::string& name, const std::string& bytes, const An
   if (!upload.opens) return answer(reply_of(202, "kept"));
   BuildRequest request;
   request.file = file;
+  request.is_uploaded = true;
   if (session_.shown().now().scene->request.is_shared)
     request.roots = {uploads_.path(), find_assets()};
   request.name = file.stem().string();

@@ -8,6 +8,7 @@
 #include "app/lab/session/lab_command.h"
 #include "app/record/recording_reader.h"
 #include "app/support/files.h"
+#include "collision/mesh_files/sandboxed_process.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -32,6 +33,21 @@ std::shared_ptr<const LabScene> open_scene(const BuildRequest& request) {
   }
 }
 
+// Refuses a file that crashes its reader, or takes more than the limits of time and memory.
+void try_in_child(const BuildRequest& request) {
+  const auto read = [&] {
+    try {
+      open_scene(request);
+    } catch (const InputError&) {  // reported by the reading that follows
+    }
+    return std::string();
+  };
+  const ChildResult tried = run_limited(read, {.cpu_seconds = 10, .wall_seconds = 30});
+  if (!tried.fault.empty())
+    throw InputError({{request.file.filename().string(), 0, "", "reading it " + tried.fault,
+                       "give a smaller file, or repair it", "lab.unreadable"}});
+}
+
 }  // namespace
 
 BuildRequest order_to_open(const GalleryScene& scene) {
@@ -51,6 +67,7 @@ BuildResult build(BuildRequest request) {
     for (const Change& change : pending.changes) put(request.changes, change);
   }
   if (!request.variants.empty()) put(request.changes, request.variants.change(0));
+  if (request.is_uploaded) try_in_child(request);
   built.scene = request.scene ? request.scene : open_scene(request);
   if (request.edit) {
     built.scene = built.scene->edited(request.changes, *request.edit);

@@ -36,6 +36,7 @@ struct BuildRequest {
   FileRoots roots;             // open: folders of the files that this one may name
   // Pages on other machines may change it: changes name only its own files, and the assets.
   bool is_shared = false;
+  bool is_uploaded = false;               // open: by a page
   std::string name;                       // open: as in the gallery
   SceneWords words;                       // open
   std::shared_ptr<const LabScene> scene;  // of all others, and of an edit
