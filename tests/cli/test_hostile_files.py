@@ -4,6 +4,7 @@ import os
 import pathlib
 import resource
 import struct
+import subprocess
 import tempfile
 
 import program
@@ -73,6 +74,16 @@ class HostileFiles(ProgramTest):
         for command in (["modes", chain], ["inspect", chain],
                         ["coupling", "predict", chain, "--link", "l9", "--stiffness", 1]):
             self.refused("more than 1000", *command)
+
+    def test_the_program_is_linked_and_compiled_against_what_faults_could_be_used_for(self):
+        if "san" in program.PROGRAM:
+            return  # sanitizers see more
+        dynamic = subprocess.run(["readelf", "--wide", "-dhl", program.PROGRAM], capture_output=True, text=True).stdout
+        for word in ("Position-Independent", "GNU_RELRO", "BIND_NOW"):
+            self.assertIn(word, dynamic)
+        names = subprocess.run(["nm", "-D", program.PROGRAM], capture_output=True, text=True).stdout
+        self.assertIn("__stack_chk_fail", names)
+        self.assertRegex(names, "__[a-z]+_chk@")
 
     def test_ctrl_c_ends_what_computes_long_in_one_go(self):
         self.interrupted("modes", self.chain(900))
