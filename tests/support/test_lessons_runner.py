@@ -1,5 +1,6 @@
 """The runner of the lessons says what is wrong with a lesson: a number, a command, a picture, its form."""
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
@@ -12,12 +13,14 @@ GOOD = (ROOT / "tests/data/lesson.md").read_text()
 
 
 class Runner(unittest.TestCase):
-    def run_lesson(self, text, answers="[0](00_sum/lesson.md)", words=(), picture=None):
+    def run_lesson(self, text, answers="[0](00_sum/lesson.md)", words=(), picture=None, checks=None):
         with tempfile.TemporaryDirectory() as place:
             folder = pathlib.Path(place) / "00_sum"
             folder.mkdir()
             (folder / "lesson.md").write_text(text)
             (folder.parent / "instructor.md").write_text(answers)
+            if checks:
+                (folder / "checks.txt").write_text(checks)
             if picture:
                 (folder / "sum.svg").write_text(picture)
             done = subprocess.run([ROOT / "scripts/check/lessons", "--program", "/bin/true", "--folder", place, *words],
@@ -35,6 +38,12 @@ class Runner(unittest.TestCase):
         done = self.run_lesson(GOOD)
         self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "1 passed, 0 failed"), done.stdout)
         self.assertEqual(self.left, ["lesson.md"])
+
+    def test_checks_may_be_in_a_file_beside_the_text(self):
+        text, checks = re.sub(r"<!-- check\n.*?^-->\n", "", GOOD, flags=re.M | re.S), "run.sum = 41.5 +- 0.01\n"
+        done = self.run_lesson(text, checks=checks)
+        self.assertEqual((done.returncode, done.stdout.splitlines()[-1]), (0, "1 passed, 0 failed"), done.stdout)
+        self.assert_fails(text.replace('"sum": 41.5', '"sum": 41.52'), "checks.txt:1: run.sum is 41.52", checks=checks)
 
     def test_its_picture_is_put_beside_it_when_asked_for(self):
         self.run_lesson(GOOD, words=["--pictures"])

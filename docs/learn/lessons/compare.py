@@ -3,7 +3,8 @@
 
     python3 ../compare.py        in the folder of a lesson, after its commands
 
-The formulas are those of the comments <!-- check --> in lesson.md; scripts/check/lessons checks them.
+The formulas are those of checks.txt beside the lesson, and of comments <!-- check --> in it; scripts/check/lessons
+checks them.
 """
 import csv
 import json
@@ -79,13 +80,22 @@ def parts_of(line):
     return parts.groups()
 
 
+def steps_of(folder):
+    """Of a lesson: file and first line, commands, checks; in the order in which they are run."""
+    text = (folder / "lesson.md").read_text(encoding="utf-8")
+    steps = [(("lesson.md", text[:m.start()].count("\n") + 2), m["commands"], m["checks"] or "")
+             for m in STEP.finditer(text)]
+    checks = folder / "checks.txt"
+    return steps + ([(("checks.txt", 1), None, checks.read_text(encoding="utf-8"))] if checks.is_file() else [])
+
+
 def main():
     folder = pathlib.Path.cwd()
     if not (folder / "lesson.md").is_file():
         sys.exit("compare.py: there is no lesson.md here; run it in the folder of a lesson")
     results = Results(folder / "out")
-    for step in STEP.finditer((folder / "lesson.md").read_text(encoding="utf-8")):
-        for line in filter(str.strip, (step["checks"] or "").splitlines()):
+    for _, _, checks in steps_of(folder):
+        for line in filter(str.strip, checks.splitlines()):
             expression, sign, number, _ = parts_of(line.strip())
             try:
                 found = f"{float(eval(expression, results)):.7g}"  # of this repository's own lessons
