@@ -1,5 +1,5 @@
-"""docs/reference/scene_file.md names each key that a scene may have, and no other; docs/reference/exit_codes_and_errors.md
-each exit code; assets/study/settings.toml, shown in docs/reference/study_files.md, each of the study's settings.
+"""docs/reference/scene_file.md names each key that a scene may have, and no other; exit_codes_and_errors.md each exit
+code; assets/study/settings.toml, which docs/reference/study_files.md shows, has each of the study's settings.
 
 The program is asked: a scene whose tables have every word that may be a key is reported which of them are none.
 """
