@@ -3,7 +3,6 @@
 #include <benchmark/benchmark.h>
 
 #include <stdexcept>
-#include <string>
 
 #include "benchmarks/drivers/command_line.h"
 

@@ -1,8 +1,6 @@
 #include "collision/contact/contact_active_set.h"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace twinarm {
 

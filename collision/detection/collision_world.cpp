@@ -3,10 +3,8 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdint>
 #include <tuple>
 
-#include "collision/narrow_phase/narrow_phase.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

@@ -18,7 +18,6 @@
 #include <cstdio>
 #include <iterator>
 #include <map>
-#include <string>
 #include <utility>
 
 #include "solver/support/diagnostics.h"

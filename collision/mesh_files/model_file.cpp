@@ -22,7 +22,6 @@
 #include <fstream>
 #include <map>
 #include <sstream>
-#include <string>
 #include <system_error>
 #include <utility>
 

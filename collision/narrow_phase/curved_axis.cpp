@@ -18,8 +18,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "collision/narrow_phase/gjk.h"
-
 namespace twinarm {
 namespace {
 

@@ -12,11 +12,8 @@
 // gap. Cost: closed forms 0.1 us, boxes face on face 0.6 us, otherwise 2-30 us; hulls with hundreds
 // of vertices 10-100 us.
 #include "collision/narrow_phase/narrow_phase.h"
-#include "collision/narrow_phase/closed_forms.h"
 
 #include <Eigen/Geometry>
-
-#include "collision/narrow_phase/gjk.h"
 
 namespace twinarm {
 namespace {

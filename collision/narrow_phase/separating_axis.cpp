@@ -17,8 +17,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "collision/narrow_phase/gjk.h"
-
 namespace twinarm {
 namespace {
 

@@ -7,9 +7,6 @@
 #include "collision/narrow_phase/sphere_minimization.h"
 
 #include <Eigen/Geometry>
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numbers>
 
 namespace twinarm {

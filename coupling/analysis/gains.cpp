@@ -1,8 +1,6 @@
 #include "coupling/analysis/gains.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "coupling/analysis/step_matrix.h"

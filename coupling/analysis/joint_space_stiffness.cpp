@@ -1,10 +1,8 @@
 #include "coupling/analysis/joint_space_stiffness.h"
 
 #include <array>
-#include <cmath>
 #include <limits>
 
-#include "solver/dynamics/dynamics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/model/configuration.h"
 #include "solver/support/diagnostics.h"

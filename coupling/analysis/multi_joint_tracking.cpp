@@ -1,9 +1,7 @@
 #include "coupling/analysis/multi_joint_tracking.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
 #include "coupling/analysis/joint_space_stiffness.h"

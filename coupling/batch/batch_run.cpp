@@ -8,7 +8,6 @@
 #include "coupling/batch/lanes.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/model/convert_model.h"
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 

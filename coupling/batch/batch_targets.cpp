@@ -5,7 +5,6 @@
 #include <limits>
 #include <numeric>
 
-#include "coupling/batch/batch_model.h"
 #include "coupling/target/operator_motion.h"
 
 namespace twinarm {

@@ -1,6 +1,5 @@
 #include "coupling/device/desktop_input.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace twinarm {

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <vector>
 
 #include "coupling/target/recorded_trace.h"
 #include "solver/support/atomic_file.h"

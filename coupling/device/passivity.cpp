@@ -1,8 +1,6 @@
 #include "coupling/device/passivity.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <numbers>
 #include <vector>
 

@@ -1,6 +1,5 @@
 #include "coupling/target/scripted_motion.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 

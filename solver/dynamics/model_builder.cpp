@@ -5,7 +5,6 @@
 
 #include "solver/dynamics/dynamics.h"
 #include "solver/spatial/rotation_to_axis.h"
-#include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

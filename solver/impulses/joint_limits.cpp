@@ -1,6 +1,5 @@
 #include "solver/impulses/joint_limits.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 

@@ -1,7 +1,5 @@
 #include "solver/integration/constraint_work.h"
 
-#include <algorithm>
-
 #include "solver/model/configuration.h"
 
 namespace twinarm {

@@ -1,7 +1,5 @@
 #include "solver/integration/dopri5.h"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "solver/model/configuration.h"

@@ -1,7 +1,6 @@
 #include "solver/integration/integration_state.h"
 
 #include <stdexcept>
-#include <utility>
 
 #include "solver/dynamics/dynamics.h"
 #include "solver/loops/loop_closure.h"

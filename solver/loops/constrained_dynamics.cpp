@@ -1,6 +1,5 @@
 #include "solver/loops/constrained_dynamics.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 

@@ -1,7 +1,5 @@
 #include "solver/stepping/friction_constraints.h"
 
-#include <algorithm>
-
 namespace twinarm {
 
 void FrictionConstraints::add_dampers(const State<double>& x, double h,

@@ -1,7 +1,6 @@
 #include "solver/support/diagnostics.h"
 
 #include <cmath>
-#include <utility>
 
 #include "solver/support/number_text.h"
 

@@ -1,8 +1,5 @@
 #include "benchmarks/analytic/support/contact_scene.h"
 
-#include <algorithm>
-#include <string>
-
 #include "collision/shapes/shape.h"
 #include "solver/dynamics/energy_momentum.h"
 

@@ -6,7 +6,6 @@
 
 #include "solver/dynamics/derivatives.h"
 #include "solver/dynamics/dynamics.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/loops/constrained_dynamics.h"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 #include <span>
-#include <utility>
 
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/number_text.h"
