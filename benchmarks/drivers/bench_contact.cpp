@@ -24,15 +24,15 @@ class ContactMeasure {
   explicit ContactMeasure(const TimedScene& timed) : timed_(timed), model_(model_of(timed.scene)) {
     const Scene& scene = timed_.scene;
     if (scene.obstacle)
-      world_.add({"obstacle", Box{2 * vector3(scene.obstacle->half)}, 0, true});
+      world_.add({"obstacle", Box{2 * scene.obstacle->half}, 0, true});
     else
       world_.add({"floor", HalfSpace{}, 0, true});
     for (const Body& b : scene.bodies) {
       if (b.form == Form::sphere) world_.add({"ball", Sphere{b.half[0]}});
-      if (b.form == Form::box) world_.add({"box", Box{2 * vector3(b.half)}});
+      if (b.form == Form::box) world_.add({"box", Box{2 * b.half}});
     }
     X_WG_.resize(static_cast<std::size_t>(world_.size()));
-    if (scene.obstacle) X_WG_.front().p = vector3(scene.obstacle->centre);
+    if (scene.obstacle) X_WG_.front().p = scene.obstacle->centre;
   }
 
   // After each step; q as in Scene.
@@ -47,7 +47,7 @@ class ContactMeasure {
     std::size_t shape = 1;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
       if (scene.bodies[i].form != Form::none)
-        X_WG_[shape++] = {k.X_WL[i + 1].R, k.X_WL[i + 1] * vector3(scene.bodies[i].form_at)};
+        X_WG_[shape++] = {k.X_WL[i + 1].R, k.X_WL[i + 1] * scene.bodies[i].form_at};
     std::vector<Contact> contacts;
     world_.detect(X_WG_, 0.0, contacts);
     penetration = drift = 0;

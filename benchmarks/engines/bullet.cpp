@@ -53,7 +53,7 @@ class Bullet final : public PeerEngine<BulletState> {
   }
   void step() override {
     for (std::size_t i = 0; i < world_->bodies.size(); ++i)
-      if (scene_.bodies[i].push != Numbers3{})
+      if (!scene_.bodies[i].push.isZero(0))
         world_->bodies[i]->applyCentralForce(bt(scene_.bodies[i].push));
     if (scene_.control)
       for (int j = 0; j < world_->tree->getNumLinks(); ++j)
@@ -87,12 +87,12 @@ class Bullet final : public PeerEngine<BulletState> {
     if (scene_.floats()) {
       // of the com, world axes; of the origin: a_O = a_C - alpha x c - w x (w x c)
       const Base base(s);
-      const Eigen::Vector3d w = base.R * base.w_B, c = base.R * vector3(scene_.bodies[0].com);
-      const Eigen::Vector3d alpha = Eigen::Vector3d(v[0], v[1], v[2]) - w;
-      const Eigen::Vector3d v_C = base.v_W + w.cross(c);
-      const Eigen::Vector3d a_C = Eigen::Vector3d(v[3], v[4], v[5]) - v_C;
-      const Eigen::Vector3d a = a_C - alpha.cross(c) - w.cross(w.cross(c));
-      const Eigen::Vector3d alpha_B = base.R.conjugate() * alpha;
+      const Vector3d w = base.R * base.w_B, c = base.R * scene_.bodies[0].com;
+      const Vector3d alpha = Vector3d(v[0], v[1], v[2]) - w;
+      const Vector3d v_C = base.v_W + w.cross(c);
+      const Vector3d a_C = Vector3d(v[3], v[4], v[5]) - v_C;
+      const Vector3d a = a_C - alpha.cross(c) - w.cross(w.cross(c));
+      const Vector3d alpha_B = base.R.conjugate() * alpha;
       qdd = {alpha_B.x(), alpha_B.y(), alpha_B.z(), a.x(), a.y(), a.z()};
     }
     const std::size_t n = converted_[k].v.size();
@@ -144,7 +144,7 @@ class Bullet final : public PeerEngine<BulletState> {
     state.tau.assign(s.tau.end() - n, s.tau.end());
     if (!scene_.floats()) return state;
     const Base base(s);
-    const Eigen::Vector3d w = base.R * base.w_B, c = base.R * vector3(scene_.bodies[0].com);
+    const Vector3d w = base.R * base.w_B, c = base.R * scene_.bodies[0].com;
     state.position = bt(base.p + c), state.velocity = bt(base.v_W + w.cross(c));
     state.omega = bt(w);
     state.world_to_base = bt((base.R * Eigen::Quaterniond(frames_[0].R_BP)).conjugate());

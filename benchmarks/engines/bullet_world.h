@@ -20,11 +20,8 @@ namespace twinarm::bench {
 inline btScalar bt(double x) {
   return static_cast<btScalar>(x);
 }
-inline btVector3 bt(const Eigen::Vector3d& v) {
+inline btVector3 bt(const Vector3d& v) {
   return {bt(v.x()), bt(v.y()), bt(v.z())};
-}
-inline btVector3 bt(const Numbers3& v) {
-  return bt(vector3(v));
 }
 inline btQuaternion bt(const Eigen::Quaterniond& q) {
   return {bt(q.x()), bt(q.y()), bt(q.z()), bt(q.w())};
@@ -36,7 +33,7 @@ inline bool all_free(const Scene& scene) {
 
 // Bullet requires body frames at the com along the principal axes of inertia.
 struct Principal {
-  Eigen::Vector3d moments;
+  Vector3d moments;
   Eigen::Matrix3d R_BP = Eigen::Matrix3d::Identity();  // principal axes to body axes
   explicit Principal(const Body& body) {
     const Eigen::Matrix3d I = inertia3(body.inertia);
@@ -61,15 +58,15 @@ inline std::unique_ptr<btMultiBody> make_tree(const Scene& scene,
     const Body& b = scene.bodies[index(i)];
     const Principal& frame = frames[index(i)];
     Eigen::Matrix3d R_PPr = Eigen::Matrix3d::Identity();  // parent axes to principal axes
-    Eigen::Vector3d parent_com = Eigen::Vector3d::Zero();
+    Vector3d parent_com = Vector3d::Zero();
     if (b.parent >= 0) {
       R_PPr = frames[index(b.parent)].R_BP.transpose();
-      parent_com = vector3(scene.bodies[index(b.parent)].com);
+      parent_com = scene.bodies[index(b.parent)].com;
     }
     const Eigen::Matrix3d R = R_PPr * b.rotation * frame.R_BP;
     const btQuaternion to_this = bt(Eigen::Quaterniond(R.transpose()));
-    const btVector3 from_com = bt(R_PPr * (vector3(b.position) - parent_com));
-    const btVector3 com = bt(frame.R_BP.transpose() * vector3(b.com));
+    const btVector3 from_com = bt(R_PPr * (b.position - parent_com));
+    const btVector3 com = bt(frame.R_BP.transpose() * b.com);
     if (b.joint == Joint::revolute)
       tree->setupRevolute(i - first, bt(b.mass), bt(frame.moments), b.parent - first, to_this,
                           bt(frame.R_BP.transpose() * axis_of(b)), from_com, com, true);

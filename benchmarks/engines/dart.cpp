@@ -59,7 +59,7 @@ class Dart final : public PeerEngine<DartState> {
     static const double its_own = ContactConstraint::getErrorReductionParameter();
     ContactConstraint::setErrorReductionParameter(scene.uncorrected ? 0 : its_own);
     world_ = std::make_shared<dart::simulation::World>();
-    world_->setGravity(vector3(scene.gravity));
+    world_->setGravity(scene.gravity);
     world_->setTimeStep(h);
     world_->getConstraintSolver()->setCollisionDetector(
         dart::collision::DARTCollisionDetector::create());
@@ -71,8 +71,7 @@ class Dart final : public PeerEngine<DartState> {
   }
   void step() override {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
-      if (scene_.bodies[i].push != Numbers3{})
-        bodies_[i]->setExtForce(vector3(scene_.bodies[i].push));
+      if (!scene_.bodies[i].push.isZero(0)) bodies_[i]->setExtForce(scene_.bodies[i].push);
     world_->step();
   }
 
@@ -81,7 +80,7 @@ class Dart final : public PeerEngine<DartState> {
     scene_ = mechanism;
     add_bodies();
     skeleton_ = bodies_[0]->getSkeleton();
-    skeleton_->setGravity(vector3(mechanism.gravity));
+    skeleton_->setGravity(mechanism.gravity);
     skeleton_->setTimeStep(step_length);
   }
   std::vector<double> qdd(std::size_t k) override {
@@ -89,7 +88,7 @@ class Dart final : public PeerEngine<DartState> {
     Eigen::VectorXd a = skeleton_->getAccelerations();
     if (scene_.floats()) {  // (alpha; spatial acceleration of the origin), both in body axes
       const Base base(situations_[k]);
-      const Eigen::Vector3d v_B = base.R.conjugate() * base.v_W;
+      const Vector3d v_B = base.R.conjugate() * base.v_W;
       a.segment<3>(3) = base.R * (a.segment<3>(3) + base.w_B.cross(v_B)).eval();
     }
     return {a.begin(), a.end()};
@@ -122,7 +121,7 @@ class Dart final : public PeerEngine<DartState> {
                : dd::Skeleton::create("of " + std::to_string(bodies_.size()));
     Eigen::Isometry3d placed = Eigen::Isometry3d::Identity();
     placed.linear() = b.rotation;
-    placed.translation() = vector3(b.position);
+    placed.translation() = b.position;
     dd::BodyNode* body = nullptr;
     if (b.joint == Joint::revolute) {
       dd::RevoluteJoint::Properties revolute;
@@ -133,11 +132,11 @@ class Dart final : public PeerEngine<DartState> {
     } else {
       body = make<dd::FreeJoint>(skeleton, parent, Eigen::Isometry3d::Identity());
     }
-    body->setInertia({b.mass, vector3(b.com), inertia3(b.inertia)});
+    body->setInertia({b.mass, b.com, inertia3(b.inertia)});
     if (b.form == Form::sphere)
       add_shape(body, std::make_shared<dd::SphereShape>(b.half[0]), scene_.friction);
     if (b.form == Form::box)
-      add_shape(body, std::make_shared<dd::BoxShape>(2 * vector3(b.half)), scene_.friction);
+      add_shape(body, std::make_shared<dd::BoxShape>(2 * b.half), scene_.friction);
     return body;
   }
   // Friction of a pair is the minimum, restitution the product.
@@ -151,7 +150,7 @@ class Dart final : public PeerEngine<DartState> {
     const dd::SkeletonPtr floor = dd::Skeleton::create("floor");
     const Eigen::Isometry3d below(Eigen::Translation3d(0, 0, -1));
     add_shape(make<dd::WeldJoint>(floor, nullptr, below),
-              std::make_shared<dd::BoxShape>(Eigen::Vector3d(200, 200, 2)), scene_.floor_friction);
+              std::make_shared<dd::BoxShape>(Vector3d(200, 200, 2)), scene_.floor_friction);
     world_->addSkeleton(floor);
   }
   void set_joint(std::size_t i, const double* q, const double* v) override {
@@ -161,12 +160,11 @@ class Dart final : public PeerEngine<DartState> {
       joint->setPosition(0, q[0]), joint->setVelocity(0, v[0]);
     } else if (type == Joint::spherical) {
       joint->setPositions(dd::BallJoint::convertToPositions(quaternion(q).toRotationMatrix()));
-      joint->setVelocities(Eigen::Vector3d(v));
+      joint->setVelocities(Vector3d(v));
     } else {
       joint->setPositions(free_positions(q));
       Eigen::Matrix<double, 6, 1> twist;
-      twist << Eigen::Vector3d(v),
-          quaternion(q + 3).toRotationMatrix().transpose() * Eigen::Vector3d(v + 3);
+      twist << Vector3d(v), quaternion(q + 3).toRotationMatrix().transpose() * Vector3d(v + 3);
       joint->setVelocities(twist);
     }
   }
@@ -178,19 +176,19 @@ class Dart final : public PeerEngine<DartState> {
       q[0] = p[0], v[0] = u[0];
     } else if (type == Joint::spherical) {
       write_quaternion(Eigen::Quaterniond(dd::BallJoint::convertToRotation(p)), q);
-      Eigen::Vector3d::Map(v) = u;
+      Vector3d::Map(v) = u;
     } else {  // velocities are a twist in body axes
       const Eigen::Isometry3d X = dd::FreeJoint::convertToTransform(p);
-      Eigen::Vector3d::Map(q) = X.translation();
+      Vector3d::Map(q) = X.translation();
       write_quaternion(Eigen::Quaterniond(X.linear()), q + 3);
-      Eigen::Vector3d::Map(v) = u.head<3>();
-      Eigen::Vector3d::Map(v + 3) = X.linear() * u.tail<3>();
+      Vector3d::Map(v) = u.head<3>();
+      Vector3d::Map(v + 3) = X.linear() * u.tail<3>();
     }
   }
   static Eigen::Matrix<double, 6, 1> free_positions(const double* q) {
     Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
     X.linear() = quaternion(q + 3).toRotationMatrix();
-    X.translation() = Eigen::Vector3d(q);
+    X.translation() = Vector3d(q);
     return dd::FreeJoint::convertToPositions(X);
   }
 
@@ -206,10 +204,10 @@ class Dart final : public PeerEngine<DartState> {
     const Eigen::VectorXd joints = state.q.tail(state.q.size() - 7);
     state.q.resize(joints.size() + 6);
     state.q << free_positions(s.q.data()), joints;
-    const Eigen::Vector3d v_B = R_BW * base.v_W;
+    const Vector3d v_B = R_BW * base.v_W;
     state.v.segment<3>(3) = v_B;
     state.tau.segment<3>(3) = R_BW * base.f_W;
-    state.qdd.segment<3>(3) = R_BW * Eigen::Vector3d(s.qdd.data() + 3) - base.w_B.cross(v_B);
+    state.qdd.segment<3>(3) = R_BW * Vector3d(s.qdd.data() + 3) - base.w_B.cross(v_B);
     return state;
   }
 

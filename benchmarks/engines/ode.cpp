@@ -18,22 +18,22 @@ namespace {
 
 struct Place {  // pose and velocity of a body in the world
   Eigen::Quaterniond R{1, 0, 0, 0};
-  Eigen::Vector3d p{0, 0, 0}, v{0, 0, 0}, w{0, 0, 0};  // of its origin
+  Vector3d p{0, 0, 0}, v{0, 0, 0}, w{0, 0, 0};  // of its origin
 };
 // Of a body with these joint coordinates and this parent.
 Place place_of(const Body& b, const Place& parent, const double* q, const double* v) {
   const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(b.rotation);
-  const Eigen::Vector3d arm = parent.R * vector3(b.position);
+  const Vector3d arm = parent.R * b.position;
   Place place{at_zero, parent.p + arm, parent.v + parent.w.cross(arm), parent.w};
   if (b.joint == Joint::revolute) {
     place.R = at_zero * Eigen::AngleAxisd(q[0], axis_of(b));
     place.w += place.R * (v[0] * axis_of(b));
   } else if (b.joint == Joint::spherical) {
     place.R = at_zero * quaternion(q);
-    place.w += place.R * Eigen::Vector3d(v);
+    place.w += place.R * Vector3d(v);
   } else {
-    place.p += at_zero * Eigen::Vector3d(q), place.R = at_zero * quaternion(q + 3);
-    place.v += at_zero * Eigen::Vector3d(v + 3), place.w += place.R * Eigen::Vector3d(v);
+    place.p += at_zero * Vector3d(q), place.R = at_zero * quaternion(q + 3);
+    place.v += at_zero * Vector3d(v + 3), place.w += place.R * Vector3d(v);
   }
   return place;
 }
@@ -41,18 +41,18 @@ Place place_of(const Body& b, const Place& parent, const double* q, const double
 void joint_of(const Body& b, const Place& parent, const Place& body, double* q, double* v) {
   const Eigen::Quaterniond at_zero = parent.R * Eigen::Quaterniond(b.rotation);
   const Eigen::Quaterniond turn = at_zero.conjugate() * body.R;
-  const Eigen::Vector3d w_B = body.R.conjugate() * (body.w - parent.w);
+  const Vector3d w_B = body.R.conjugate() * (body.w - parent.w);
   if (b.joint == Joint::revolute) {
     q[0] = std::remainder(2 * std::atan2(turn.vec().dot(axis_of(b)), turn.w()), 2 * M_PI);
     v[0] = w_B.dot(axis_of(b));
     return;
   }
   if (b.joint == Joint::free) {
-    Eigen::Vector3d::Map(q) = body.p, Eigen::Vector3d::Map(v + 3) = body.v;
+    Vector3d::Map(q) = body.p, Vector3d::Map(v + 3) = body.v;
     q += 3;
   }
   write_quaternion(turn, q);
-  Eigen::Vector3d::Map(v) = w_B;
+  Vector3d::Map(v) = w_B;
 }
 
 class Ode final : public FixedStepEngine {
@@ -78,8 +78,8 @@ class Ode final : public FixedStepEngine {
   }
   void step() override {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      const Numbers3& F = scene_.bodies[i].push;
-      if (F != Numbers3{}) dBodyAddForce(bodies_[i], F[0], F[1], F[2]);
+      const Vector3d& F = scene_.bodies[i].push;
+      if (!F.isZero(0)) dBodyAddForce(bodies_[i], F[0], F[1], F[2]);
     }
     if (scene_.floor) dSpaceCollide(space_, this, &Ode::near);
     if (quick_)
@@ -100,8 +100,8 @@ class Ode final : public FixedStepEngine {
     const auto& [xx, yy, zz, xy, xz, yz] = b.inertia;
     dMassSetParameters(&mass, b.mass, 0, 0, 0, xx, yy, zz, xy, xz, yz);
     dBodySetMass(body, &mass);
-    const Eigen::Vector3d c = place.R * vector3(b.com), p_C = place.p + c;
-    const Eigen::Vector3d v_C = place.v + place.w.cross(c);
+    const Vector3d c = place.R * b.com, p_C = place.p + c;
+    const Vector3d v_C = place.v + place.w.cross(c);
     const dQuaternion turn = {place.R.w(), place.R.x(), place.R.y(), place.R.z()};
     dBodySetPosition(body, p_C.x(), p_C.y(), p_C.z());
     dBodySetQuaternion(body, turn);
@@ -118,7 +118,7 @@ class Ode final : public FixedStepEngine {
       const dJointID hinge = dJointCreateHinge(world_, nullptr);
       dJointAttach(hinge, body, parent);
       dJointSetHingeAnchor(hinge, place.p.x(), place.p.y(), place.p.z());
-      const Eigen::Vector3d axis = place.R * axis_of(b);
+      const Vector3d axis = place.R * axis_of(b);
       dJointSetHingeAxis(hinge, axis.x(), axis.y(), axis.z());
     } else if (b.joint == Joint::spherical) {
       const dJointID ball = dJointCreateBall(world_, nullptr);
@@ -129,10 +129,9 @@ class Ode final : public FixedStepEngine {
   Place present_place(int i) const {  // of a body; of the world for -1
     if (i < 0) return {};
     const dBodyID body = bodies_[index(i)];
-    Place place{quaternion(dBodyGetQuaternion(body)), Eigen::Vector3d(dBodyGetPosition(body)),
-                Eigen::Vector3d(dBodyGetLinearVel(body)),
-                Eigen::Vector3d(dBodyGetAngularVel(body))};
-    const Eigen::Vector3d com = place.R * vector3(scene_.bodies[index(i)].com);
+    Place place{quaternion(dBodyGetQuaternion(body)), Vector3d(dBodyGetPosition(body)),
+                Vector3d(dBodyGetLinearVel(body)), Vector3d(dBodyGetAngularVel(body))};
+    const Vector3d com = place.R * scene_.bodies[index(i)].com;
     place.p -= com, place.v -= place.w.cross(com);
     return place;
   }

@@ -123,8 +123,7 @@ class Simbody final : public PeerEngine<SimbodyState> {
     run_one(Algorithm::forward_dynamics, converted_[k]);
     std::vector<double> qdd = numbers_of(state_.getUDot());
     if (scene_.floats()) {  // angular acceleration, world axes
-      const Eigen::Vector3d alpha =
-          Base(situations_[k]).R.conjugate() * Eigen::Vector3d(qdd.data());
+      const Vector3d alpha = Base(situations_[k]).R.conjugate() * Vector3d(qdd.data());
       std::copy_n(alpha.data(), 3, qdd.begin());
     }
     return qdd;
@@ -173,8 +172,8 @@ class Simbody final : public PeerEngine<SimbodyState> {
     SimbodyState c{vector_of(s.q), vector_of(s.v), vector_of(s.tau), vector_of(s.qdd)};
     if (!scene_.floats()) return c;
     const Base base(s);
-    const Eigen::Vector3d w_W = base.R * base.w_B, t_W = base.R * base.t_B;
-    const Eigen::Vector3d alpha_W = base.R * Eigen::Vector3d(s.qdd.data());
+    const Vector3d w_W = base.R * base.w_B, t_W = base.R * base.t_B;
+    const Vector3d alpha_W = base.R * Vector3d(s.qdd.data());
     for (int k = 0; k < 3; ++k) {
       c.q[k] = s.q[static_cast<std::size_t>(3 + k)];
       c.q[4 + k] = base.p[k];

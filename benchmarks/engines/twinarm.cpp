@@ -208,17 +208,17 @@ class Twinarm final : public TwinarmPasses<double> {
     if (scene_.obstacle)
       contacts_->bodies().add({"obstacle",
                                0,
-                               {Matrix3::Identity(), vector3(scene_.obstacle->centre)},
-                               Box{2 * vector3(scene_.obstacle->half)},
+                               {Matrix3::Identity(), scene_.obstacle->centre},
+                               Box{2 * scene_.obstacle->half},
                                fixed});
     int number = 0;
     for (const Body& b : scene_.bodies) {
       ++number;
-      const Pose X_LG{Matrix3::Identity(), vector3(b.form_at)};
+      const Pose X_LG{Matrix3::Identity(), b.form_at};
       if (b.form == Form::sphere)
         contacts_->bodies().add({"body", number, X_LG, Sphere{b.half[0]}, body});
       if (b.form == Form::box)
-        contacts_->bodies().add({"body", number, X_LG, Box{2 * vector3(b.half)}, body});
+        contacts_->bodies().add({"body", number, X_LG, Box{2 * b.half}, body});
     }
   }
   double t() const { return simulation_->state().t; }

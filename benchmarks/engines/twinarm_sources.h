@@ -16,7 +16,7 @@ class ScenePushes final : public ForceSource {
   explicit ScenePushes(const Scene& scene) : scene_(scene) {}
   bool is_needed() const {
     return scene_.control ||
-           std::ranges::any_of(scene_.bodies, [](const Body& b) { return b.push != Numbers3{}; });
+           std::ranges::any_of(scene_.bodies, [](const Body& b) { return !b.push.isZero(0); });
   }
   void add_forces(const State<double>& x, const Kinematics& k,
                   Forces<double>& f) noexcept override {
@@ -26,7 +26,7 @@ class ScenePushes final : public ForceSource {
       return;
     }
     for (std::size_t i = 0; i < scene_.bodies.size(); ++i) {
-      const Vector3 F_B = k.R_WB[i + 1].transpose() * vector3(scene_.bodies[i].push);
+      const Vector3 F_B = k.R_WB[i + 1].transpose() * scene_.bodies[i].push;
       f.f_ext[i + 1].f += from_eigen(F_B);
     }
   }

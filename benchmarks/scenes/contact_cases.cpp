@@ -13,7 +13,7 @@ namespace {
 constexpr double kRadius = 0.1;
 using Values = std::vector<double>;
 
-Scene with(Scene scene, const Body& body, const Numbers3& p, const Numbers3& v = {}) {
+Scene with(Scene scene, const Body& body, const Vector3d& p, const Vector3d& v = Vector3d::Zero()) {
   add_free_body(scene, body, p, v);
   return scene;
 }
@@ -38,8 +38,8 @@ std::function<Judge()> at_the_end(Error error) {
   };
 }
 // Angular velocity of body 0 in world axes.
-Eigen::Vector3d turning(const Values& q, const Values& v) {
-  const Eigen::Vector3d u(&q[4]), w(v.data()), t = u.cross(w);
+Vector3d turning(const Values& q, const Values& v) {
+  const Vector3d u(&q[4]), w(v.data()), t = u.cross(w);
   return w + 2 * (q[3] * t + u.cross(t));
 }
 
@@ -119,7 +119,7 @@ SceneCase in_a_row(const std::string& name, const std::string& what, double rest
                    const Values& masses, double speed, const Values& exact) {
   constexpr double kGap = 0.01;
   Scene scene = floored(0, restitution);
-  scene.gravity = {};
+  scene.gravity.setZero();
   for (std::size_t i = 0; i < masses.size(); ++i)
     add_free_body(scene, solid_ball(masses[i], kRadius),
                   {(2 * kRadius + kGap) * static_cast<double>(i), 0, 1},
@@ -155,7 +155,7 @@ SceneCase oblique(const std::string& name, const std::string& what, double frict
                   double spin) {
   Scene scene =
       with(floored(friction, 0.8), solid_ball(1, kRadius), {0, 0, kRadius + 0.1}, {2, 0, -3});
-  scene.gravity = {};
+  scene.gravity.setZero();
   return contact_case(
       name, what, "m/s", scene, 0.1, at_the_end([=](const Values& q, const Values& v) {
         return std::hypot(v[3] - v_x, v[5] - 2.4, kRadius * turning(q, v)[1] - spin);

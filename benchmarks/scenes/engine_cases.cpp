@@ -90,7 +90,7 @@ SceneCase planar_chain() {
               "five rods in a plane without gravity, 10 s: energy, angular momentum",
               "of their values at the start",
               {}};
-  c.scene.gravity = {};
+  c.scene.gravity.setZero();
   for (int i = 0; i < 5; ++i) {
     Body rod;
     rod.parent = i - 1, rod.joint = Joint::revolute;
@@ -131,14 +131,10 @@ std::vector<SceneCase> engine_cases() {
 // Cases with point masses or thin rods are omitted: MuJoCo and ODE reject such inertias.
 namespace {
 
-Numbers3 numbers(const Vec3<double>& v) {
-  return {v.x, v.y, v.z};
-}
-
 // Body axes, with z along the axis of a revolute.
 Scene scene_of(const std::string& name, const Model<double>& model, const State<double>& start) {
   Scene scene;
-  scene.gravity = numbers(model.gravity);
+  scene.gravity = to_eigen(model.gravity);
   scene.q = start.q, scene.v = start.qd;
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
     Body b;
@@ -149,12 +145,12 @@ Scene scene_of(const std::string& name, const Model<double>& model, const State<
     b.joint = type == JointType::revolute    ? Joint::revolute
               : type == JointType::spherical ? Joint::spherical
                                              : Joint::free;
-    b.position = numbers(model.Xtree[i].r);
+    b.position = to_eigen(model.Xtree[i].r);
     b.rotation = Eigen::Quaterniond(Matrix3(to_eigen(model.Xtree[i].E).transpose()));
     const Inertia<double>& about_joint = model.I[i];
     b.mass = about_joint.m;
     const Vector3 c = to_eigen(about_joint.h) / b.mass;
-    b.com = {c.x(), c.y(), c.z()};
+    b.com = c;
     const Sym3<double>& I = about_joint.I;
     const Matrix3 shift = b.mass * (c.dot(c) * Matrix3::Identity() - c * c.transpose());
     b.inertia = {I.xx - shift(0, 0), I.yy - shift(1, 1), I.zz - shift(2, 2),

@@ -19,9 +19,9 @@ auto seeded(unsigned seed) {
 }
 
 // Roll about x, pitch about y, yaw about z, fixed axes, in this order.
-Eigen::Matrix3d rotation(const Numbers3& rpy) {
+Eigen::Matrix3d rotation(const Vector3d& rpy) {
   using std::cos, std::sin;
-  const auto [roll, pitch, yaw] = rpy;
+  const double roll = rpy.x(), pitch = rpy.y(), yaw = rpy.z();
   Eigen::Matrix3d X, Y, Z;
   X << 1, 0, 0, 0, cos(roll), -sin(roll), 0, sin(roll), cos(roll);
   Y << cos(pitch), 0, sin(pitch), 0, 1, 0, -sin(pitch), 0, cos(pitch);
@@ -30,17 +30,17 @@ Eigen::Matrix3d rotation(const Numbers3& rpy) {
 }
 
 // With these principal moments, about axes rotated by R against the body axes.
-Numbers6 inertia(const Numbers3& principal, const Numbers3& rpy = {0, 0, 0}) {
+Numbers6 inertia(const Vector3d& principal, const Vector3d& rpy = Vector3d::Zero()) {
   const Eigen::Matrix3d R = rotation(rpy);
   Eigen::Matrix3d I = Eigen::Matrix3d::Zero();
-  for (int k = 0; k < 3; ++k) I += principal[index(k)] * R.col(k) * R.col(k).transpose();
+  for (int k = 0; k < 3; ++k) I += principal[k] * R.col(k) * R.col(k).transpose();
   return {I(0, 0), I(1, 1), I(2, 2), I(0, 1), I(0, 2), I(1, 2)};
 }
 
 constexpr std::size_t about_x = 0, about_y = 1, about_z = 2;
 
-Body link(int parent, std::size_t axis, const Numbers3& position, double mass, const Numbers3& com,
-          const Numbers6& inertia, const Numbers3& rpy = {0, 0, 0}) {
+Body link(int parent, std::size_t axis, const Vector3d& position, double mass, const Vector3d& com,
+          const Numbers6& inertia, const Vector3d& rpy = Vector3d::Zero()) {
   Body b;
   b.parent = parent, b.joint = Joint::revolute, b.axis = axis;
   b.position = position, b.rotation = rotation(rpy);
@@ -63,7 +63,7 @@ Scene scara3() {
 }
 
 Scene puma6() {
-  const Numbers3 forward{std::numbers::pi / 2, 0, 0}, back{-std::numbers::pi / 2, 0, 0};
+  const Vector3d forward{std::numbers::pi / 2, 0, 0}, back{-std::numbers::pi / 2, 0, 0};
   return of_links(
       {link(-1, about_z, {0, 0, 0.67}, 10.0, {0, 0.03, -0.05}, inertia({0.25, 0.25, 0.35})),
        link(0, about_z, {0, 0.15, 0}, 17.4, {0.068, 0.006, -0.016}, inertia({0.13, 0.524, 0.539}),
@@ -83,7 +83,7 @@ Scene chain(int n) {
   Scene chain;
   auto random = seeded(7);
   for (int i = 0; i < n; ++i) {
-    Body b = link(i - 1, static_cast<std::size_t>(i % 3), {0, 0, 0}, 0, {}, {});
+    Body b = link(i - 1, static_cast<std::size_t>(i % 3), {0, 0, 0}, 0, {0, 0, 0}, {});
     b.com[2] = 0.01 * random();
     b.com[1] = 0.01 * random();
     b.com[0] = 0.05 + 0.01 * random();
@@ -103,7 +103,7 @@ Scene humanoid30() {
   Scene body;
   auto random = seeded(11);
   // A link of about this mass, height of the com and radius of gyration.
-  const auto add = [&](int parent, std::size_t axis, const Numbers3& position, double mass,
+  const auto add = [&](int parent, std::size_t axis, const Vector3d& position, double mass,
                        double height, double radius) {
     Body b = link(parent, axis, position, mass, {0, 0, height}, {});
     b.com[1] = 0.01 * random();
@@ -172,7 +172,7 @@ Body solid_cube(double mass, double edge) {
   b.inertia = {I, I, I, 0, 0, 0};
   return b;
 }
-void add_free_body(Scene& scene, const Body& body, const Numbers3& p, const Numbers3& v) {
+void add_free_body(Scene& scene, const Body& body, const Vector3d& p, const Vector3d& v) {
   scene.bodies.push_back(body);
   scene.q.insert(scene.q.end(), {p[0], p[1], p[2], 1, 0, 0, 0});
   scene.v.insert(scene.v.end(), {0, 0, 0, v[0], v[1], v[2]});
@@ -241,15 +241,15 @@ std::vector<Situation> situations(const Scene& mechanism, std::size_t count) {
 
 Model<double> model_of(const Scene& scene) {
   ModelBuilder builder;
-  builder.set_gravity(vector3(scene.gravity));
+  builder.set_gravity(scene.gravity);
   int number = 0;
   for (const Body& b : scene.bodies) {
     const JointType type = b.joint == Joint::revolute    ? JointType::revolute
                            : b.joint == Joint::spherical ? JointType::spherical
                                                          : JointType::free;
     const std::string name = std::to_string(++number);
-    builder.add_body(name, b.parent + 1, "joint " + name, type, {b.rotation, vector3(b.position)},
-                     axis_of(b), {b.mass, vector3(b.com), inertia3(b.inertia)});
+    builder.add_body(name, b.parent + 1, "joint " + name, type, {b.rotation, b.position},
+                     axis_of(b), {b.mass, b.com, inertia3(b.inertia)});
   }
   return builder.build();
 }

@@ -1,5 +1,5 @@
-// A mechanism or a scene in plain numbers, converted by every engine, and their Eigen types. C++17
-// without types of engines or of twinarm, as Simbody's headers require C++17.
+// A mechanism or a scene in Eigen's types, converted by every engine. C++17 without types of
+// engines or of twinarm, as Simbody's headers require C++17.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@
 
 namespace twinarm::bench {
 
-using Numbers3 = std::array<double, 3>;
+using Eigen::Vector3d;
 using Numbers6 = std::array<double, 6>;
 
 inline constexpr double standard_gravity = 9.81;  // [m/s^2]
@@ -30,16 +30,17 @@ enum class Form { none, sphere, box };
 struct Body {
   int parent = -1;  // index of an earlier body; -1: the world
   Joint joint = Joint::free;
-  Numbers3 position{};  // of the body's origin in the parent at q = 0 [m]
+  Vector3d position = Vector3d::Zero();  // of the body's origin in the parent at q = 0 [m]
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();  // body to parent axes at q = 0
-  std::size_t axis = 2;  // a revolute is about x (0), y (1) or z (2)
-  double mass = 1;       // [kg]
-  Numbers3 com{};        // from the origin, body axes [m]
-  Numbers6 inertia{};    // xx, yy, zz, xy, xz, yz about the com, body axes [kg m^2]
+  std::size_t axis = 2;             // a revolute is about x (0), y (1) or z (2)
+  double mass = 1;                  // [kg]
+  Vector3d com = Vector3d::Zero();  // from the origin, body axes [m]
+  Numbers6 inertia{};               // xx, yy, zz, xy, xz, yz about the com, body axes [kg m^2]
   Form form = Form::none;
-  Numbers3 half{};     // radius of a sphere three times, half edges of a box [m]
-  Numbers3 form_at{};  // centre of the shape, body axes [m]
-  Numbers3 push{};     // a constant force at the com, which is the origin; world axes [N]
+  Vector3d half = Vector3d::Zero();     // radius of a sphere three times, half edges of a box [m]
+  Vector3d form_at = Vector3d::Zero();  // centre of the shape, body axes [m]
+  Vector3d push =
+      Vector3d::Zero();  // a constant force at the com, which is the origin; world axes [N]
 };
 
 // For all joints (revolutes): tau = stiffness (target - q) - damping qd, once per step.
@@ -52,7 +53,7 @@ struct Control {
 };
 
 struct Scene {
-  Numbers3 gravity{0, 0, -standard_gravity};
+  Vector3d gravity{0, 0, -standard_gravity};
   std::vector<Body> bodies;
   std::vector<double> q, v;                 // initial, body by body in the order of Joint
   bool floor = false;                       // z = 0
@@ -60,7 +61,7 @@ struct Scene {
   double restitution = 0;                   // of all pairs
   bool uncorrected = false;  // no correction of overlaps, where an engine supports that
   struct FixedBox {
-    Numbers3 centre, half;  // axes along the world's [m]
+    Vector3d centre, half;  // axes along the world's [m]
   };
   std::optional<FixedBox> obstacle{};  // friction as of two bodies
   std::optional<Control> control{};
@@ -87,7 +88,8 @@ void for_each_joint(const Scene& scene, Number* q, Number* v, Each each) {
 // Uniform solids, and a free body at p, at rest except for the velocity v.
 Body solid_ball(double mass, double radius);
 Body solid_cube(double mass, double edge);
-void add_free_body(Scene& scene, const Body& body, const Numbers3& p, const Numbers3& v = {});
+void add_free_body(Scene& scene, const Body& body, const Vector3d& p,
+                   const Vector3d& v = Vector3d::Zero());
 
 // State and forces of a mechanism, body by body in the order of Joint: tau are generalised forces
 // conjugate to v, the force of a free body at its origin; qdd = dv/dt, for inverse dynamics.
@@ -95,19 +97,16 @@ struct Situation {
   std::vector<double> q, v, tau, qdd;
 };
 
-// ---- as Eigen types ----
+// ---- of Eigen's types ----
 
-inline Eigen::Vector3d vector3(const Numbers3& v) {
-  return Eigen::Vector3d(v.data());
-}
 inline Eigen::Matrix3d inertia3(const Numbers6& inertia) {
   const auto& [xx, yy, zz, xy, xz, yz] = inertia;
   Eigen::Matrix3d I;
   I << xx, xy, xz, xy, yy, yz, xz, yz, zz;
   return I;
 }
-inline Eigen::Vector3d axis_of(const Body& b) {
-  return Eigen::Vector3d::Unit(static_cast<Eigen::Index>(b.axis));
+inline Vector3d axis_of(const Body& b) {
+  return Vector3d::Unit(static_cast<Eigen::Index>(b.axis));
 }
 inline Eigen::Quaterniond quaternion(const double* q) {
   return {q[0], q[1], q[2], q[3]};
@@ -129,10 +128,10 @@ struct Base {
         v_W(s.v.data() + 3),
         t_B(s.tau.data()),
         f_W(s.tau.data() + 3) {}
-  Eigen::Vector3d p;         // of its origin, world
-  Eigen::Quaterniond R;      // body axes to world axes
-  Eigen::Vector3d w_B, v_W;  // angular velocity, body axes; velocity of the origin, world axes
-  Eigen::Vector3d t_B, f_W;  // torque, body axes; force at the origin, world axes
+  Vector3d p;            // of its origin, world
+  Eigen::Quaterniond R;  // body axes to world axes
+  Vector3d w_B, v_W;     // angular velocity, body axes; velocity of the origin, world axes
+  Vector3d t_B, f_W;     // torque, body axes; force at the origin, world axes
 };
 
 // ---- cases ----

@@ -8,17 +8,12 @@
 namespace twinarm::engine_tasks {
 namespace {
 
-Vector3 eigen(const Numbers& v) {
-  return Vector3(v.data());
-}
-
 double energy_of(const Task& task, const std::vector<Moving>& bodies) {
   double energy = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const Moving& b = bodies[i];
     const double m = task.bodies[i].mass, r = task.bodies[i].half[0];
-    energy += m * kGravity * b.p[2] + m / 2 * eigen(b.v).squaredNorm() +
-              m * r * r / 5 * eigen(b.w).squaredNorm();
+    energy += m * kGravity * b.p[2] + m / 2 * b.v.squaredNorm() + m * r * r / 5 * b.w.squaredNorm();
   }
   return energy;
 }
@@ -28,11 +23,11 @@ double overlap_of(const Task& task, const std::vector<Moving>& bodies) {
   const double r = task.bodies[0].half[0];
   double sum = 0;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Vector3 p = eigen(bodies[i].p);
+    const Vector3 p = bodies[i].p;
     const double below = std::max(0.0, r - p.z());
     sum += below * below;
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-      const double apart = (eigen(bodies[j].p) - p).squaredNorm();
+      const double apart = (bodies[j].p - p).squaredNorm();
       if (apart >= 4 * r * r) continue;
       const double depth = 2 * r - std::sqrt(apart);
       sum += depth * depth;
@@ -42,11 +37,11 @@ double overlap_of(const Task& task, const std::vector<Moving>& bodies) {
 }
 
 Shape shape_of(const TaskBody& b) {
-  if (b.is_box) return Box{2 * eigen(b.half)};
+  if (b.is_box) return Box{2 * b.half};
   return Sphere{b.half[0]};
 }
-TaskBody ball(double mass, double radius, const Numbers& p) {
-  return {false, {radius, radius, radius}, mass, p, {}};
+TaskBody ball(double mass, double radius, const Vector3& p) {
+  return {false, {radius, radius, radius}, mass, p};
 }
 
 // Mean error of a task in twinarm, steps of 1 ms, measured against the values of `truth`.
@@ -55,13 +50,12 @@ double error_of(const Task& task, const Task& truth) {
   const double e = std::sqrt(task.restitution), mu = task.friction;
   // a pair takes the geometric mean of the frictions
   scene.add_floor(surface(mu > 0 ? task.floor_friction * task.floor_friction / mu : 0, e));
-  for (const TaskBody& b : task.bodies)
-    scene.add({shape_of(b), surface(mu, e), b.mass, eigen(b.p)});
+  for (const TaskBody& b : task.bodies) scene.add({shape_of(b), surface(mu, e), b.mass, b.p});
   scene.start();
   // Body frames have their origin at the centre.
   scene.apply([&task](const auto&, const Kinematics& k, Forces<double>& forces) {
     for (std::size_t i = 0; i < task.bodies.size(); ++i)
-      forces.f_ext[i + 1].f += from_eigen(k.R_WB[i + 1].transpose() * eigen(task.bodies[i].push));
+      forces.f_ext[i + 1].f += from_eigen(k.R_WB[i + 1].transpose() * task.bodies[i].push);
   });
   MeanError error(truth);
   std::vector<Moving> bodies(task.bodies.size());
@@ -70,9 +64,7 @@ double error_of(const Task& task, const Task& truth) {
     if (!scene.step(kStep)) return NAN;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const int b = static_cast<int>(i) + 1;
-      Vector3::Map(bodies[i].p.data()) = scene.p(b);
-      Vector3::Map(bodies[i].v.data()) = scene.v(b);
-      Vector3::Map(bodies[i].w.data()) = scene.w(b);
+      bodies[i] = {scene.p(b), scene.v(b), scene.w(b)};
     }
     mean = error.take(scene.t(), bodies);
   }
@@ -87,8 +79,7 @@ Task first(double seconds, Task task) {
 
 // Mutants: 0.1 % of mass or restitution, 5 % of the radius.
 Task smaller(Task task) {
-  for (TaskBody& b : task.bodies)
-    for (double& r : b.half) r *= 0.95;
+  for (TaskBody& b : task.bodies) b.half *= 0.95;
   return task;
 }
 Task heavier(Task task) {
@@ -109,15 +100,11 @@ Task rolling(bool diagonal) {
             "(m/s)^2, box and a ball, mean"};
   task.floor_friction = mu, task.friction = 0.8, task.duration = 4;
   task.measure = Measure::velocity;
-  const Numbers along = diagonal ? Numbers{0.5, std::sqrt(0.75), 0} : Numbers{0, 1, 0};
+  const Vector3 along = diagonal ? Vector3(0.5, std::sqrt(0.75), 0) : Vector3::UnitY();
   const double f1 = mu * (M + n * m) * kGravity, f2 = (F - f1) / M / (3.5 / m + n / M);
-  TaskBody box{true, {10, 10, 0.5}, M, {0, 0, 0.5}, {}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    box.push[k] = F * along[k];
-    task.box_rate[k] = (F - f1 - n * f2) / M * along[k];
-    task.ball_rate[k] = f2 / m * along[k];
-  }
-  task.bodies.push_back(box);
+  task.bodies.push_back({true, {10, 10, 0.5}, M, {0, 0, 0.5}, F * along});
+  task.box_rate = (F - f1 - n * f2) / M * along;
+  task.ball_rate = f2 / m * along;
   for (int i = 0; i < 25; ++i)
     task.bodies.push_back(ball(m, r, {2.0 * (i % 5 - 2), 2.0 * (i / 5 - 2), 1 + r}));
   return task;
@@ -159,8 +146,8 @@ double MeanError::take(double t, const std::vector<Moving>& bodies) {
 double MeanError::now(double t, const std::vector<Moving>& bodies) const {
   switch (task_.measure) {
     case Measure::velocity:
-      return (eigen(bodies[0].v) - t * eigen(task_.box_rate)).squaredNorm() +
-             (eigen(bodies[1].v) - t * eigen(task_.ball_rate)).squaredNorm();
+      return (bodies[0].v - t * task_.box_rate).squaredNorm() +
+             (bodies[1].v - t * task_.ball_rate).squaredNorm();
     case Measure::overlap:
       return overlap_of(task_, bodies);
     case Measure::energy:
@@ -171,7 +158,7 @@ double MeanError::now(double t, const std::vector<Moving>& bodies) const {
 
 namespace {
 
-using contact_plots::place;
+using contact_plots::place, contact_plots::Scene, contact_plots::Values;
 using Plot = ContactCasePlot;
 
 // ---- plots ----
@@ -179,10 +166,7 @@ using Plot = ContactCasePlot;
 constexpr const char* kPublished =
     "Only the step of the published figures, 1 ms, is run; other engines: "
     "docs/understand/accuracy_vs_other_engines.md.";
-// The box, pulled by 150 N, and the ball in a corner.
-std::vector<double> read_speeds(const ContactScene& s) {
-  return {s.v(1).norm(), s.v(2).norm()};
-}
+// Of the box, pulled by 150 N, and of the ball in a corner.
 double exact_box_and_ball(std::size_t k, double t) {
   const double net = 150 - 0.4 * (10 + 25) * kGravity, ball = net / 10 / (3.5 + 25 / 10.);
   return t * (k == 0 ? (net - 25 * ball) / 10 : ball);
@@ -191,9 +175,6 @@ double exact_box_and_ball(std::size_t k, double t) {
 double exact_bouncing(std::size_t, double t) {
   const double fall = std::sqrt(2 * 4.9 / kGravity), since = std::remainder(t, 2 * fall);
   return 5 - kGravity * since * since / 2;
-}
-std::vector<double> read_heights(const ContactScene& s) {
-  return {s.p(1).z(), s.p(216).z()};
 }
 
 AnalyticCase task_case(const char* name, double tolerance, const Task& task, const Task& mutant,
@@ -212,6 +193,8 @@ namespace twinarm {
 
 CaseFamily engine_tasks_cases() {
   using namespace engine_tasks;
+  const auto read_speeds = [](Scene s) { return Values{s.v(1).norm(), s.v(2).norm()}; };
+  const auto read_heights = [](Scene s) { return Values{s.p(1).z(), s.p(216).z()}; };
   const Plot speeds{{"box [m/s]", "ball [m/s]"}, read_speeds, exact_box_and_ball};
   const Plot heights{{"first ball [m]", "last ball [m]"}, read_heights};
   const Task part = first(0.55, pile(false)), elastic = first(2, pile(true));

@@ -1,7 +1,6 @@
 // H1: tasks with published results of other engines: SimBenchmark of ETH's Robotic Systems Lab
-// (github.com/leggedrobotics/SimBenchmark). Balls and a box on a floor, in plain numbers, so that
-// every engine can load them (benchmarks/scenes/). SI units; the error is a mean over all steps of
-// 1 ms, as published.
+// (github.com/leggedrobotics/SimBenchmark). Balls and a box on a floor, which every engine can load
+// (benchmarks/scenes/). SI units; the error is a mean over all steps of 1 ms, as published.
 //
 //   rolling   box of 10 kg, 20 x 20 x 1 m, with 25 balls of 1 kg and 0.5 m on it, pulled by 150 N:
 //             f1 = mu (M + n m) g is the friction of the floor, f2 = (F - f1)/M / (3.5/m + n/M)
@@ -14,23 +13,22 @@
 // The random displacements differ from the published ones, whose generator is another.
 #pragma once
 
-#include <array>
 #include <string>
 #include <vector>
 
-namespace twinarm::engine_tasks {
+#include "solver/spatial/pose.h"
 
-using Numbers = std::array<double, 3>;
+namespace twinarm::engine_tasks {
 
 struct TaskBody {
   bool is_box = false;  // else a ball
-  Numbers half{};       // half edges, or the radius three times [m]
+  Vector3 half;         // half edges, or the radius three times [m]
   double mass = 1;
-  Numbers p{};     // at the start, at rest
-  Numbers push{};  // constant force at its centre [N]
+  Vector3 p;                       // at the start, at rest
+  Vector3 push = Vector3::Zero();  // constant force at its centre [N]
 };
 struct Moving {  // state of such a body: position, velocity, angular velocity
-  Numbers p{}, v{}, w{};
+  Vector3 p, v, w;
 };
 
 enum class Measure { velocity, energy, overlap };
@@ -40,8 +38,9 @@ struct Task {
   double floor_friction = 0, friction = 0, restitution = 0;
   double duration = 0;
   Measure measure = Measure::energy;
-  double energy = 0;                // exact, constant [J]
-  Numbers box_rate{}, ball_rate{};  // accelerations where velocities are measured
+  double energy = 0;  // exact, constant [J]
+  // Accelerations where velocities are measured.
+  Vector3 box_rate = Vector3::Zero(), ball_rate = Vector3::Zero();
 };
 
 Task rolling(bool diagonal);  // pulled along y, or along (1/2, sqrt(3)/2)

@@ -127,9 +127,6 @@ CaseResult upright_tube(double scale) {  // inertia
 constexpr const char* kSmallSwings =
     "The error does not fall: the formula holds for small swings; swings of 0.02 rad are slower by "
     "0.02²/16 = 2.5e-5.";
-Values read_ball(Scene s) {
-  return {s.p(2).x(), s.p(2).y()};
-}
 double exact_circle(std::size_t k, double t) {
   const double angle = 4 / 7.0 * t;
   return 0.2 * (k == 0 ? 3.5 * std::cos(angle) - 2.5 : 3.5 * std::sin(angle));
@@ -156,6 +153,7 @@ CaseFamily hollows_cases() {
                           .with(&Plot::until, 6)
                           .with(&Plot::convergence_note, kSmallSwings);
   const Plot cylinder = sphere.with(&Plot::exact, exact_cylinder_swing);
+  const auto read_ball = [](Scene s) { return Values{s.p(2).x(), s.p(2).y()}; };
   const Plot circle{{"x [m]", "y [m]"}, read_ball, exact_circle};
   const Plot located = circle.with(&Plot::until, 5.5).without_convergence(kLocated);
   return {280,

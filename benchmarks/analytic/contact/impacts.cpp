@@ -81,18 +81,12 @@ CaseResult bounce_energy(double scale) {  // weight; energy() uses the correct o
 
 // ---- plots ----
 
-Values read_height(Scene s) {
-  return {s.p(1).z() - 0.1};
-}
 double exact_bounce(double e, double t) {
   const double fall = std::sqrt(2 / kGravity);
   if (t < fall) return 1 - kGravity * t * t / 2;
   double speed = e * kGravity * fall, since = t - fall;
   while (speed > 1e-6 && since > 2 * speed / kGravity) since -= 2 * speed / kGravity, speed *= e;
   return speed > 1e-6 ? speed * since - kGravity * since * since / 2 : 0;
-}
-double exact_bounces(std::size_t, double t) {
-  return exact_bounce(0.8, t);
 }
 
 CaseResult two_balls(double scale) {  // e
@@ -200,6 +194,8 @@ double exact_touching(std::size_t k, double t) {
 }  // namespace
 
 CaseFamily impacts_cases() {
+  const auto read_height = [](Scene s) { return Values{s.p(1).z() - 0.1}; };
+  const auto exact_bounces = [](std::size_t, double t) { return exact_bounce(0.8, t); };
   const Plot height{{"height of the ball [m]"}, read_height, exact_bounces};
   const Plot conserved = height.without_convergence(kRounding);
   const Plot last{{"speed of ball 5 [m/s]"}, velocity<5, 0>};

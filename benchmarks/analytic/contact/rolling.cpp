@@ -71,9 +71,6 @@ CaseResult small_sphere(double scale) {  // gravity
 
 // ---- plots ----
 
-Values read_friction(Scene s) {
-  return {s.t() == 0 ? NAN : -s.force(1).x()};
-}
 double exact_rolling(std::size_t run, double t) {
   constexpr double kInertia[] = {0.4, 0.5, 1};
   return kGravity * std::sin(kRollerIncline) / (1 + kInertia[run]) * t;
@@ -87,6 +84,7 @@ double exact_slipping(std::size_t k, double t) {
 
 CaseFamily rolling_cases() {
   const Plot speed{{"speed [m/s]"}, velocity<1, 0>, exact_rolling};
+  const auto read_friction = [](Scene s) { return Values{s.t() == 0 ? NAN : -s.force(1).x()}; };
   const auto exact_friction = [](std::size_t, double) { return 0.9586336017213744; };
   const auto exact_small = [](std::size_t, double t) {
     return 5 / 7. * kGravity * std::sin(15 * kDegree) * t;

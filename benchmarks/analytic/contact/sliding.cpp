@@ -132,6 +132,7 @@ CaseResult min_friction_to_hold(double scale) {  // mu
 // ---- plots ----
 
 constexpr double kSlope = 30 * kDegree;
+const double kDownhill = kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope));  // [m/s^2]
 Values read_forces(Scene s) {
   if (s.t() == 0) return {NAN, NAN};
   return {-s.force(1).x(), s.force(1).z()};
@@ -139,27 +140,20 @@ Values read_forces(Scene s) {
 // Constant deceleration until it stops, then constant acceleration downhill.
 double exact_uphill(std::size_t, double t) {
   const double up = kGravity * (std::sin(kSlope) + 0.5 * std::cos(kSlope));
-  const double down = kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope));
   const double top = 3 / up;
-  return t < top ? 3 * t - up * t * t / 2 : 1.5 * top - down * (t - top) * (t - top) / 2;
+  return t < top ? 3 * t - up * t * t / 2 : 1.5 * top - kDownhill * (t - top) * (t - top) / 2;
 }
 double exact_stop(std::size_t, double t) {
   const double a = 0.4 * kGravity, end = std::min(t, 3 / a);
   return 3 * end - a * end * end / 2;
 }
-double exact_slide(std::size_t, double t) {
-  return kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope)) * t * t / 2;
-}
-double exact_slide_speed(std::size_t, double t) {
-  return kGravity * (std::sin(kSlope) - 0.5 * std::cos(kSlope)) * t;
-}
-Values read_up(Scene s) {
-  return {-s.p(1).x()};
-}
 
 }  // namespace
 
 CaseFamily sliding_cases() {
+  const auto exact_slide = [](std::size_t, double t) { return kDownhill * t * t / 2; };
+  const auto exact_slide_speed = [](std::size_t, double t) { return kDownhill * t; };
+  const auto read_up = [](Scene s) { return Values{-s.p(1).x()}; };
   const Plot speed{{"speed [m/s]"}, velocity<1, 0>};
   const Plot place_x{{"x downhill [m]"}, place<1, 0>, exact_slide};
   const Plot uphill{{"distance uphill [m]"}, read_up, exact_uphill};

@@ -118,18 +118,13 @@ CaseResult no_reversal(double scale) {  // Ixy: the mutant has the opposite chir
   return {std::isinf(rattleback(5, 20, scale).reversal) ? 0.0 : 1.0};
 }
 
-// ---- plots ----
-
-Values read_jellett(Scene s) {
-  return {-s.w(1).dot(0.003 * s.R(1).col(2) - 0.015 * Vector3::UnitZ())};
-}
-Values read_cosine(Scene s) {
-  return {s.R(1)(2, 2)};
-}
-
 }  // namespace
 
 CaseFamily spinning_cases() {
+  const auto read_jellett = [](Scene s) {
+    return Values{-s.w(1).dot(0.003 * s.R(1).col(2) - 0.015 * Vector3::UnitZ())};
+  };
+  const auto read_cosine = [](Scene s) { return Values{s.R(1)(2, 2)}; };
   const Plot stone{{"spin [rad/s]"}, spin<2>};
   const auto at_reversal = [](std::size_t, double t) { return t == 4.156 ? 0. : NAN; };
   const auto at_end = [](std::size_t, double t) { return t == 5 ? 1.80929591321873 : NAN; };

@@ -109,9 +109,6 @@ CaseResult rocking(double scale) {  // width
 
 // ---- plots ----
 
-Values read_lean(Scene s) {
-  return {std::atan2(s.R(1)(0, 2), s.R(1)(2, 2))};
-}
 // After the impact at the height that the remaining kinetic energy reaches.
 double exact_rocking(std::size_t, double t) {
   const double alpha = std::atan(0.4), height = std::cos(alpha);
@@ -122,6 +119,7 @@ double exact_rocking(std::size_t, double t) {
 }  // namespace
 
 CaseFamily toppling_cases() {
+  const auto read_lean = [](Scene s) { return Values{std::atan2(s.R(1)(0, 2), s.R(1)(2, 2))}; };
   const Plot lean{{"inclination [rad]"}, read_lean};
   const auto exact_rate = [](std::size_t, double) { return 2.586206896551724; };
   return {

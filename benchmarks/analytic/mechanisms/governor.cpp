@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
-#include "benchmarks/analytic/mechanisms/loop_parts.h"
 #include "solver/forces/force_law.h"
 #include "solver/forces/spring.h"
 

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "benchmarks/analytic/mechanisms/loop_parts.h"
-
 namespace twinarm {
 
 using namespace loop_parts;

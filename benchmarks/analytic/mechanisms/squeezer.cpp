@@ -8,7 +8,6 @@
 #include <array>
 
 #include "benchmarks/analytic/mechanisms/loop_cases.h"
-#include "benchmarks/analytic/mechanisms/loop_parts.h"
 #include "solver/forces/force_law.h"
 #include "solver/forces/spring.h"
 
