@@ -18,11 +18,6 @@ MatrixXd solve_symmetric(const MatrixXd& M, const MatrixXd& B) {
   return M.ldlt().solve(B);
 }
 
-VectorXd solve_pivoted(const MatrixXd& A, const VectorXd& b) {
-  if (A.size() == 0) return VectorXd::Zero(A.cols());
-  return A.fullPivLu().solve(b);
-}
-
 MatrixXd inverse_of(const MatrixXd& A) {
   return A.inverse();
 }

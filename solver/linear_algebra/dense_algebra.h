@@ -10,8 +10,6 @@ namespace twinarm {
 
 // M^-1 B, M symmetric, by L D L^T.
 Eigen::MatrixXd solve_symmetric(const Eigen::MatrixXd& M, const Eigen::MatrixXd& B);
-// A^-1 b, by LU with complete pivoting; for singular A one of the solutions.
-Eigen::VectorXd solve_pivoted(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 // A^-1, by LU with partial pivoting.
 Eigen::MatrixXd inverse_of(const Eigen::MatrixXd& A);
 

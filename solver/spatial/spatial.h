@@ -72,10 +72,6 @@ Mat3<S> transpose(const Mat3<S>& a) {
   return {{a.r0.x, a.r1.x, a.r2.x}, {a.r0.y, a.r1.y, a.r2.y}, {a.r0.z, a.r1.z, a.r2.z}};
 }
 template <class S>
-Mat3<S> skew(const Vec3<S>& r) {  // skew(r) v = r x v
-  return {{S(0), -r.z, r.y}, {r.z, S(0), -r.x}, {-r.y, r.x, S(0)}};
-}
-template <class S>
 Mat3<S> outer(const Vec3<S>& a, const Vec3<S>& b) {
   return {a.x * b, a.y * b, a.z * b};
 }

@@ -171,10 +171,4 @@ LoopCase four_bar() {
   return c;
 }
 
-std::vector<LoopCase> all_loop_cases() {
-  return {
-      pendulum_on_hinge(),         pendulum_on_circle(),     windows(2),    squeezer(), bricard(),
-      governor(Couplers::springs), governor(Couplers::rods), slider_crank()};
-}
-
 }  // namespace twinarm

@@ -28,9 +28,6 @@ struct ModelOptions {
   bool kinematic = false;  // true: joints that move no inertia are no error; no dynamics
 };
 
-// Body index of the root link in a model with one robot.
-inline constexpr int kRootBody = 1;
-
 // Name of the root link's joint: "base" (floating) or "<root>_on_world" (fixed), with "_" appended
 // until it is unique.
 std::string root_joint_name(const RobotDescription& robot, bool floating);

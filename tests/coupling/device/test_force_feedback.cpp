@@ -2,12 +2,12 @@
 // the device's Jacobian.
 #include <doctest/doctest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
 #include "coupling/device/force_feedback.h"
 #include "solver/forces/spring.h"
-#include "solver/linear_algebra/dense_algebra.h"
 #include "tests/coupling/analysis/one_joint.h"
 #include "tests/coupling/analysis/two_link.h"
 #include "tests/coupling/device/mapped_robots.h"
@@ -117,7 +117,8 @@ struct TipHand {
   }
   Vector3 stylus_force_W(const DeviceForce& motors) const {
     const Vector3 torque(motors.torque[0], motors.torque[1], motors.torque[2]);
-    return world_from_device(solve_pivoted(omni_jacobian(omni, device.theta).transpose(), torque));
+    return world_from_device(
+        omni_jacobian(omni, device.theta).transpose().fullPivLu().solve(torque));
   }
 };
 CouplingSpec at_tip(double k) {

@@ -1,12 +1,16 @@
 // Coulomb friction by enumeration: each of n <= 5 dofs sticks or slides one way.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <optional>
 
-#include "solver/linear_algebra/dense_algebra.h"
-
 namespace twinarm::testing {
+
+// A^-1 b, by LU with complete pivoting; for singular A one of the solutions.
+inline Eigen::VectorXd solve_pivoted(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  if (A.size() == 0) return Eigen::VectorXd::Zero(A.cols());
+  return A.fullPivLu().solve(b);
+}
 
 // f in [low, high] with v' = a + B f, v' > 0 only at low, v' < 0 only at high; each of the 3^n sets
 // is solved by a dense factorisation and checked.

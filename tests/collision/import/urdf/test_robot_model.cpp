@@ -13,6 +13,8 @@
 namespace twinarm {
 namespace {
 
+constexpr int kRootBody = 1;  // of a model with one robot
+
 LinkDescription heavy(const std::string& name) {
   LinkDescription link;
   link.name = name;
