@@ -98,9 +98,8 @@ void CollisionWorld::set_group_filter(int group_a, int group_b, bool collide) {
   mask_[group_a] = collide ? mask_[group_a] | bit_b : mask_[group_a] & ~bit_b;
   mask_[group_b] = collide ? mask_[group_b] | bit_a : mask_[group_b] & ~bit_a;
   try {
-    for (int i = 0; i < size(); ++i) {
+    for (int i = 0; i < size(); ++i)
       for (int j = 0; j < i; ++j) check_pair(j, i);
-    }
   } catch (...) {
     mask_ = before;
     throw;

@@ -51,21 +51,19 @@ void find_neighbours(const TriangleMesh& mesh, MeshSurface& surface) {
     const auto& vertices = mesh.triangles[t];
     return std::pair(vertices[i], vertices[(i + 1) % 3]);
   };
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
       const auto [p, q] = side_of(t, i);
       const Vector3 along = mesh.vertices[q] - mesh.vertices[p];
       outward[{p, q}] = along.cross(surface.normals[t]).normalized();
     }
-  }
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int i = 0; i < 3; ++i) {
       const auto [p, q] = side_of(t, i);
       const auto beyond = outward.find({q, p});
       surface.sides[t][i] = {outward[{p, q}],
                              beyond == outward.end() ? Vector3(Vector3::Zero()) : beyond->second};
     }
-  }
 }
 
 }  // namespace

@@ -124,9 +124,8 @@ void complete_faces(ConvexHull& hull) {
 
 ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   if (points.size() < 4) refuse("there are " + std::to_string(points.size()) + " points");
-  for (const Vector3& p : points) {
+  for (const Vector3& p : points)
     if (!p.allFinite()) refuse("a point is not finite");
-  }
   const double extent = bounding_box(points).sizes().maxCoeff();
   if (!(extent > 0)) refuse("all points are the same");
   // Points are scaled to size one: the tolerance in qhull's option text then has enough digits.
@@ -145,9 +144,8 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
 
   // Vertices are numbered in the order of the input.
   std::map<int, int> index;
-  for (const auto& [normal, loop] : loops) {
+  for (const auto& [normal, loop] : loops)
     for (int v : loop) index[v] = 0;
-  }
   ConvexHull hull;
   for (auto& [input, output] : index) {
     output = static_cast<int>(hull.vertices.size());
@@ -160,10 +158,9 @@ ConvexHull convex_hull(std::span<const Vector3> points, double flatness) {
   }
   std::sort(hull.faces.begin(), hull.faces.end());
   complete_faces(hull);
-  for (std::size_t f = 0; f < hull.faces.size(); ++f) {
+  for (std::size_t f = 0; f < hull.faces.size(); ++f)
     for (const Vector3& p : points)
       hull.offsets[f] = std::max(hull.offsets[f], hull.normals[f].dot(p));
-  }
   return hull;
 }
 

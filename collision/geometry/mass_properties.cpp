@@ -62,10 +62,9 @@ MassProperties with_mass(MassProperties properties, double mass) {
 
 MassProperties mass_properties(const TriangleMesh& mesh, double density) {
   check_density(density);
-  if (!is_closed(mesh)) {
+  if (!is_closed(mesh))
     refuse("the surface is not closed: an edge has not exactly one triangle on each side",
            "repair the mesh (holes, doubled or flipped triangles), or give the inertia");
-  }
   Vector3 o = Vector3::Zero();
   for (const Vector3& v : mesh.vertices) o += v / static_cast<double>(mesh.vertices.size());
 
@@ -80,10 +79,9 @@ MassProperties mass_properties(const TriangleMesh& mesh, double density) {
     first += d / 24 * s;
     second += d / 120 * (outer(a) + outer(b) + outer(c) + outer(s));
   }
-  if (!(volume > 0)) {
+  if (!(volume > 0))
     refuse("the mesh encloses " + std::to_string(volume) + " m^3, must be positive",
            "orient the triangles counter-clockwise seen from outside");
-  }
   const Vector3 com = first / volume;  // from o
   return {density * volume, o + com, density * inertia_of(second - volume * outer(com))};
 }
@@ -94,10 +92,9 @@ MassProperties combine(std::span<const MassProperties> parts) {
     sum.mass += part.mass;
     sum.com += part.mass * part.com;
   }
-  if (!(sum.mass > 0)) {
+  if (!(sum.mass > 0))
     refuse("the parts sum to " + std::to_string(sum.mass) + " kg, must be positive",
            "give at least one part with mass; holes may not outweigh the solids");
-  }
   sum.com /= sum.mass;
   for (const MassProperties& part : parts) {  // parallel axes (Steiner)
     sum.inertia += part.inertia + part.mass * inertia_of(outer(part.com - sum.com));

@@ -134,16 +134,15 @@ void CurvedAxis::try_flats() {
 // Directions that bound the depth before the search.
 void CurvedAxis::try_seeds() {
   try_candidate(body_b_->X_WG.p - body_a_->X_WG.p, 0);
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     for (const double sign : {1.0, -1.0}) {
       try_candidate(sign * body_a_->X_WG.R.col(i), 0);
       try_candidate(sign * body_b_->X_WG.R.col(i), 0);
     }
-  }
 }
 
 void CurvedAxis::try_line_pairs() {
-  for (std::size_t i = 0; i < a_.lines.size(); ++i) {
+  for (std::size_t i = 0; i < a_.lines.size(); ++i)
     for (std::size_t j = 0; j < b_.lines.size(); ++j) {
       const BoundaryFeatures::Line &ra = a_.lines[i], &rb = b_.lines[j];
       const Vector3 between = rb.start - ra.start;
@@ -163,24 +162,21 @@ void CurvedAxis::try_line_pairs() {
         best_.p_W = midway(*body_a_, *body_b_, best_.axis.n_W, p_a);
       }
     }
-  }
 }
 
 void CurvedAxis::try_quadrics_on_lines(const Posed& quadrics, const Posed& lines,
                                        bool quadrics_are_a) {
   const double side = quadrics_are_a ? 1 : -1;
-  for (const BoundaryFeatures::Quadric& quadric : quadrics.quadrics) {
+  for (const BoundaryFeatures::Quadric& quadric : quadrics.quadrics)
     for (std::size_t j = 0; j < lines.lines.size(); ++j) {
       const Vector3 c = side * (quadric.p - lines.lines[j].start);
       found_.clear();
       const SupportSum f{c, quadric.Q, Matrix3::Zero()};
       minimise_on_circle(f, lines.along[j], is_deep_, found_);
-      for (const Vector3& n : found_) {
+      for (const Vector3& n : found_)
         if (f(n) + lines.lines[j].radius < limit())
           try_quadric_direction(n, quadric, quadrics_are_a);
-      }
     }
-  }
 }
 
 void CurvedAxis::search_sphere(const SupportSum& f, const BoundaryFeatures::Quadric& quadric,
@@ -212,13 +208,12 @@ void CurvedAxis::search_sphere(const SupportSum& f, const BoundaryFeatures::Quad
 }
 
 void CurvedAxis::try_quadric_pairs() {
-  for (const BoundaryFeatures::Quadric& quadric_a : a_.quadrics) {
+  for (const BoundaryFeatures::Quadric& quadric_a : a_.quadrics)
     for (const BoundaryFeatures::Quadric& quadric_b : b_.quadrics) {
       const SupportSum f{quadric_a.p - quadric_b.p, quadric_a.Q, quadric_b.Q};
       const bool a_is_corner = quadric_a.Q.isZero(0);
       search_sphere(f, a_is_corner ? quadric_b : quadric_a, !a_is_corner);
     }
-  }
 }
 
 void CurvedAxis::try_feature_pairs(double reach) {

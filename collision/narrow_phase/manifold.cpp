@@ -149,10 +149,9 @@ const std::vector<ManifoldPoint>& Manifold::between(const PosedShape& a, const P
                                                     const Vector3& p_W, double margin) {
   features(a, b, axis);
   // The clipped vertices are the manifold only if one is as deep as the pair (a rim between two
-  // vertices of its octagon
-  // is deeper). Without a face of this normal, a single deepest point is a crossing or vertex on
-  // the border of the features; its labels depend on rounding, so it gets a fixed feature and
-  // occurs once.
+  // vertices of its octagon is deeper). Without a face of this normal, a single deepest point is a
+  // crossing or vertex on the border of the features; its labels depend on rounding, so it gets a
+  // fixed feature and occurs once.
   const auto is_deepest = [&](const ManifoldPoint& x) { return x.depth > axis.overlap - 1e-10; };
   const auto first = std::find_if(points_.begin(), points_.end(), is_deepest);
   const bool found = first != points_.end();

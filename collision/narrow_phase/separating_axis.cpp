@@ -115,9 +115,8 @@ void SeparatingAxis::improve(const PosedShape& a, const PosedShape& b, double re
 }
 
 // Polytopes: vertices of one body in the frame of the other, and one pass over them for each slab
-// that can improve the result. Box-box: at most 48 products, 0.1 us.  Box-box: at most 48 products,
-// 0.1 us. Against a curved body: overlap(n), of a face only where it can be better than the best
-// before.
+// that can improve the result. Box-box: at most 48 products, 0.1 us. Against a curved body:
+// overlap(n), of a face only where it can be better than the best before.
 namespace {
 
 // Points with minimum and maximum p . n.

@@ -70,6 +70,18 @@ double newton_angle(const SupportSum& f, const Vector3& n, const Vector3& t) {
   return -slope / std::max(std::abs(curvature), 1e-12 * local.gradient.norm() + 1e-300);
 }
 
+// Halves the step until f(n + step) is less than `value`, and moves n there; false if it never is.
+bool descend(const SupportSum& f, Vector3 step, Vector3& n, double& value) {
+  for (int halving = 0; halving < 30; ++halving, step *= 0.5) {
+    const Vector3 trial = (n + step).normalized();
+    const double found = f(trial);
+    if (!(found < value)) continue;
+    n = trial, value = found;
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 Vector3 minimise_on_sphere(const SupportSum& f, const Vector3& start) {
@@ -86,14 +98,7 @@ Vector3 minimise_on_sphere(const SupportSum& f, const Vector3& start) {
       if (last.norm() < kTrustedStep) n = (n + last).normalized();
       break;
     }
-    bool better = false;
-    for (int halving = 0; halving < 30 && !better; ++halving, step *= 0.5) {
-      const Vector3 trial = (n + step).normalized();
-      const double found = f(trial);
-      better = found < value;
-      if (better) n = trial, value = found;
-    }
-    if (!better) break;
+    if (!descend(f, step, n, value)) break;
   }
   return n;
 }
@@ -120,21 +125,14 @@ void minimise_on_circle(const SupportSum& f, const Vector3& axis, bool is_deep,
     double value = fan[k];
     for (int i = 0; i < kMaxSteps; ++i) {
       const Vector3 t = axis.cross(n);
-      double step = std::clamp(newton_angle(f, n, t), -0.5 * spacing, 0.5 * spacing);
+      const double step = std::clamp(newton_angle(f, n, t), -0.5 * spacing, 0.5 * spacing);
       if (std::abs(step) < kTrustedStep) {
         n = (n + step * t).normalized();
         const double last = newton_angle(f, n, axis.cross(n));
         if (std::abs(last) < kTrustedStep) n = (n + last * axis.cross(n)).normalized();
         break;
       }
-      bool better = false;
-      for (int halving = 0; halving < 30 && !better; ++halving, step *= 0.5) {
-        const Vector3 trial = (n + step * t).normalized();
-        const double found = f(trial);
-        better = found < value;
-        if (better) n = trial, value = found;
-      }
-      if (!better) break;
+      if (!descend(f, step * t, n, value)) break;
     }
     out.push_back(n);
   }

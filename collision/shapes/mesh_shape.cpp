@@ -29,17 +29,13 @@ bool is_degenerate(const Vector3& a, const Vector3& b, const Vector3& c) {
 std::string index_errors(const TriangleMesh& mesh) {
   if (mesh.triangles.empty()) return "mesh has no triangles";
   const int count = static_cast<int>(mesh.vertices.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (int v : mesh.triangles[t]) {
-      if (v < 0 || v >= count) {
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (int v : mesh.triangles[t])
+      if (v < 0 || v >= count)
         return "triangle " + std::to_string(t) + " has vertex index " + std::to_string(v) +
                ", the mesh has " + std::to_string(count) + " vertices";
-      }
-    }
-  }
-  for (int v = 0; v < count; ++v) {
+  for (int v = 0; v < count; ++v)
     if (!mesh.vertices[v].allFinite()) return "vertex " + std::to_string(v) + " is not finite";
-  }
   return "";
 }
 
@@ -98,10 +94,9 @@ std::string MeshShape::fault() const {
   add(degenerate_triangles(mesh));
   add(duplicate_triangles(mesh));
   const double extent = bounding_box(mesh.vertices).sizes().maxCoeff();
-  if (extent > max_extent) {
+  if (extent > max_extent)
     add("mesh is " + std::to_string(extent) +
         " m wide: for a file in millimetres give scale = 0.001");
-  }
   if (is_open) return faults;
   if (!is_closed(mesh)) {
     add("mesh is not closed: " + edge_errors(mesh));

@@ -68,12 +68,11 @@ OperatorSample SyntheticOperator::sample(double t, double /*toward*/) const {
   } else if (!reaches_.empty()) {
     sampled.theta = reaches_.front().from;
   }
-  for (std::size_t j = 0; j < 6; ++j) {
+  for (std::size_t j = 0; j < 6; ++j)
     for (const Tremor& line : tremor_[j]) {
       sampled.theta[j] += line.amplitude * std::sin(line.omega * t + line.phase);
       sampled.theta_dot[j] += line.amplitude * line.omega * std::cos(line.omega * t + line.phase);
     }
-  }
   return sampled;
 }
 

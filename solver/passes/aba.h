@@ -34,7 +34,7 @@ template <class S, class M, class Trace = NoTrace>
   precompute_sincos(x.q, w.sin, w.cos);
 
   // pass 1, base to tips: velocity, velocity-product acceleration and bias force of each body
-  for (std::size_t i = 1; i < n_bodies; ++i) {
+  for (std::size_t i = 1; i < n_bodies; ++i)
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iq = model.iq[i];
@@ -48,7 +48,6 @@ template <class S, class M, class Trace = NoTrace>
       w.pA[i] = crf(w.v[i], model.I[i] * w.v[i]) - forces.f_ext[i];
       store_subspace(S_i, w.S_.data() + model.iv[i]);
     });
-  }
   trace.after_pass_1();
 
   // pass 2, tips to base: articulated-body inertia and articulated-body bias force
@@ -82,7 +81,7 @@ template <class S, class M, class Trace = NoTrace>
   }
 
   // pass 3, base to tips: joint accelerations and spatial accelerations
-  for (std::size_t i = 1; i < n_bodies; ++i) {
+  for (std::size_t i = 1; i < n_bodies; ++i)
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
@@ -95,7 +94,6 @@ template <class S, class M, class Trace = NoTrace>
       w.a[i] = a + times(S_i, qdd);
       store(qdd, w.qdd, iv);
     });
-  }
 }
 
 }  // namespace twinarm::TWINARM_ISA

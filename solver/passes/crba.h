@@ -24,14 +24,13 @@ template <class S>
   for (std::size_t k = 0; k < nv * nv; ++k) M[k] = S(0);
 
   // base to tips: transforms, motion subspaces; each composite inertia starts as the body's own
-  for (std::size_t i = 1; i < n_bodies; ++i) {
+  for (std::size_t i = 1; i < n_bodies; ++i)
     visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
       const S* q = x.q.data() + model.iq[i];
       w.Xup[i] = joint.XJ(q) * model.Xtree[i];
       w.Ic[i] = model.I[i];
       store_subspace(joint.subspace(q), w.S_.data() + model.iv[i]);
     });
-  }
 
   // tips to base: composite inertias and the blocks of M
   for (std::size_t i = n_bodies; i-- > 1;) {

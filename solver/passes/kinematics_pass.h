@@ -20,7 +20,7 @@ template <class S, class W>
   poison_with_nan(w.v, w.c);
   w.v[0] = {};
   if constexpr (has_X0) poison_with_nan(w.X0), w.X0[0] = {};
-  for (std::size_t i = 1; i < model.parent.size(); ++i) {
+  for (std::size_t i = 1; i < model.parent.size(); ++i)
     visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const S *q = x.q.data() + model.iq[i], *qd = x.rates(joint, model, i);
@@ -32,7 +32,6 @@ template <class S, class W>
       w.c[i] = crm(w.v[i], vJ) + joint.cJ(q, qd);
       store_subspace(S_i, w.S_.data() + model.iv[i]);
     });
-  }
 }
 
 }  // namespace twinarm::TWINARM_ISA

@@ -20,7 +20,7 @@ template <class S>
   const std::size_t n_bodies = model.parent.size();
   for (std::size_t i = 0; i < n_bodies; ++i) w.p[i] = -f[i];
 
-  for (std::size_t i = n_bodies; i-- > 1;) {
+  for (std::size_t i = n_bodies; i-- > 1;)
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
@@ -31,10 +31,9 @@ template <class S>
       w.p[p] += transpose_times(w.Xup[i], w.p[i] + times(slice<joint.nv>(w.U, iv), y));
       store(y, w.y, iv);
     });
-  }
 
   w.dv[0] = {};
-  for (std::size_t i = 1; i < n_bodies; ++i) {
+  for (std::size_t i = 1; i < n_bodies; ++i)
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
@@ -47,7 +46,6 @@ template <class S>
       w.dv[i] = dv + times(S_i, y);
       store(y, w.y, iv);
     });
-  }
 }
 
 }  // namespace twinarm::TWINARM_ISA

@@ -26,7 +26,7 @@ template <class S>
   w.f[0] = {};
 
   // base to tips: velocities, accelerations and the net wrench of each body
-  for (std::size_t i = 1; i < n_bodies; ++i) {
+  for (std::size_t i = 1; i < n_bodies; ++i)
     visit_joint(model, i, [&](auto joint) TWINARM_KERNEL {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const S *q = x.q.data() + model.iq[i], *qd = x.rates(joint, model, i);
@@ -40,10 +40,9 @@ template <class S>
       w.f[i] = model.I[i] * w.a[i] + crf(w.v[i], model.I[i] * w.v[i]) - f_ext[i];
       store_subspace(S_i, w.S_.data() + model.iv[i]);
     });
-  }
 
   // tips to base: wrenches transmitted through the joints
-  for (std::size_t i = n_bodies; i-- > 1;) {
+  for (std::size_t i = n_bodies; i-- > 1;)
     visit_joint(model, i, [&](auto joint) {
       const auto p = static_cast<std::size_t>(model.parent[i]);
       const std::size_t iv = model.iv[i];
@@ -56,7 +55,6 @@ template <class S>
       store(tau, w.tau, iv);
       w.f[p] += transpose_times(w.Xup[i], w.f[i]);
     });
-  }
 }
 
 }  // namespace twinarm::TWINARM_ISA
