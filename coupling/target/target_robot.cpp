@@ -41,10 +41,7 @@ TargetRobot::TargetRobot(const Model<double>& model, const OperatorMotion& motio
   if (!joints.gripper.empty()) gripper_ = static_cast<int>(find(joints.gripper));
   faults.check();
   difference_.assign(iq_.size(), 0.0);
-  for (TargetSample* sample : {&start_, &middle_, &end_})
-    sample->x.t = std::numeric_limits<double>::quiet_NaN();
-  set(start_, 0, 1);
-  set(end_, 0, 1);
+  set_pose(State<double>(model));
 }
 
 void TargetRobot::set_pose(const State<double>& x) {

@@ -13,10 +13,6 @@ Kinematics::Kinematics(const Model<double>& model)
       in_body_axes_(model),
       columns_(model.nv, {Vector3::Zero(), Vector3::Zero()}) {}
 
-Vector3 Kinematics::position(int body, const Vector3& p_L) const {
-  return X_WL[static_cast<std::size_t>(body)] * p_L;
-}
-
 Vector3 Kinematics::velocity(int body, const Vector3& p_W) const {
   const auto i = static_cast<std::size_t>(body);
   return v_WLo[i] + w_WL[i].cross(p_W - X_WL[i].p);

@@ -21,7 +21,9 @@ struct Kinematics {
   explicit Kinematics(const Model<double>& model);
 
   // Position and velocity of a point fixed to the link, p_L from the link's origin in link axes.
-  Vector3 position(int body, const Vector3& p_L) const;
+  Vector3 position(int body, const Vector3& p_L) const {
+    return X_WL[static_cast<std::size_t>(body)] * p_L;
+  }
   Vector3 velocity(int body, const Vector3& p_W) const;  // of the link's point currently at p_W
 
  private:

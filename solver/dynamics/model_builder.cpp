@@ -10,15 +10,12 @@
 namespace twinarm {
 namespace {
 
-Vec3<double> to_vec3(const Vector3& v) {
-  return {v.x(), v.y(), v.z()};
-}
 Mat3<double> to_mat3(const Matrix3& R) {
-  return {to_vec3(R.row(0)), to_vec3(R.row(1)), to_vec3(R.row(2))};
+  return {from_eigen(R.row(0)), from_eigen(R.row(1)), from_eigen(R.row(2))};
 }
 // Pluecker transform B_X_A from the pose of B in A.
 Transform<double> to_transform(const Pose& X_AB) {
-  return {to_mat3(X_AB.R.transpose()), to_vec3(X_AB.p)};
+  return {to_mat3(X_AB.R.transpose()), from_eigen(X_AB.p)};
 }
 
 bool is_direction(const Vector3& axis) {
@@ -53,7 +50,7 @@ Inertia<double> about_origin(const BodyInertia& body, const Matrix3& R_BL) {
   const Vector3 c = R_BL * body.com;
   const Matrix3 I = R_BL * body.inertia * R_BL.transpose() +
                     body.mass * (c.squaredNorm() * Matrix3::Identity() - c * c.transpose());
-  return {body.mass, to_vec3(body.mass * c), symmetric_part_of(to_mat3(I))};
+  return {body.mass, from_eigen(body.mass * c), symmetric_part_of(to_mat3(I))};
 }
 
 // By velocity: joint-space articulated inertia D (its L D L^T pivots), maximum over three
@@ -177,7 +174,7 @@ void ModelBuilder::append(const Body& body, Model<double>& model, std::vector<Ma
 Model<double> ModelBuilder::build(bool kinematic) const {
   DiagnosticList faults;
   Model<double> model;
-  model.gravity = to_vec3(gravity_);
+  model.gravity = from_eigen(gravity_);
   model.body_name = {"world"};
   model.joint_name = {""};
   model.parent = {-1};

@@ -43,6 +43,10 @@ Vec sliding_direction(const ImpulseConstraint& c, const MultiplierState& state, 
 double law_residual(const ImpulseConstraint& c, const MultiplierState& state, double rho,
                     const Vec& u, const Vec& p);
 
+inline bool is_contact(const ImpulseConstraint& c) {
+  return c.law == ConstraintType::unilateral || c.law == ConstraintType::coulomb_cone;
+}
+
 // mu |u_t| of a cone, else 0.
 double de_saxce_shift(const ImpulseConstraint& c, const Vec& u);
 

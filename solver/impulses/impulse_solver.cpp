@@ -114,6 +114,12 @@ double ImpulseSolver::apply_impulses() {
   return residual;
 }
 
+// The same with impulses p.
+double ImpulseSolver::apply_impulses(const std::vector<Vec>& p) {
+  for (const int i : island_->constraints) constraint(i).p = p[i];
+  return apply_impulses();
+}
+
 // One projected gradient step. Applied to accepted guesses, whose residual would otherwise
 // accumulate over the steps of a body at rest.
 double ImpulseSolver::projected_gradient_step() {
@@ -148,10 +154,6 @@ double ImpulseSolver::solve_island(ImpulseReport& report) {
     best = residual;
     for (const int i : island_->constraints) best_p_[i] = constraint(i).p;
   };
-  const auto start_from = [&](const std::vector<Vec>& p) {
-    for (const int i : island_->constraints) constraint(i).p = p[i];
-    return apply_impulses();
-  };
   for (const int i : island_->constraints) best_p_[i] = guess_p_[i] = constraint(i).p;
   const auto iterate = [&](int max_steps, bool damped, double rho) {
     rho_ratio_ = rho;
@@ -161,7 +163,7 @@ double ImpulseSolver::solve_island(ImpulseReport& report) {
   if (small && has_warm_start()) {
     keep_best(warm_start_newton(report));
     if (best <= accepted) return best;
-    start_from(guess_p_);
+    apply_impulses(guess_p_);
   }
   iterate(small ? quick_newton_small : quick_newton, false, kFirstRho);
   if (best <= accepted) return best;
@@ -175,7 +177,7 @@ double ImpulseSolver::solve_island(ImpulseReport& report) {
   // leads to jamming even if a small gap excludes it: also iterate from the guess.
   for (const double rho : {kFirstRho, kLargeRho}) {
     if (best <= accepted) break;
-    start_from(guess_p_);
+    apply_impulses(guess_p_);
     iterate(max_newton, false, rho);
   }
   for (int start = 0; start < kMaxPaths && best > accepted; ++start) {
@@ -185,7 +187,7 @@ double ImpulseSolver::solve_island(ImpulseReport& report) {
   // Restarts from the best p, damped and undamped in turn, while the residual decreases.
   for (int k = 0; k < kMaxRestarts && best > accepted; ++k) {
     const double before = best;
-    start_from(best_p_);
+    apply_impulses(best_p_);
     iterate(kRestartFactor * max_newton, k % 2 == 0, kFirstRho);
     if (k % 2 == 1 && best > 0.5 * before) break;
   }
@@ -193,7 +195,7 @@ double ImpulseSolver::solve_island(ImpulseReport& report) {
   const auto max_descents =
       static_cast<int>(std::clamp<std::size_t>(30000 / island_->constraints.size(), 300, 5000));
   for (int k = 0; k < max_descents && best > accepted; ++k) keep_best(projected_gradient_step());
-  return start_from(best_p_);
+  return apply_impulses(best_p_);
 }
 
 void ImpulseSolver::update_multipliers() {
@@ -210,10 +212,6 @@ void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, Impulse
   int newton = 0, iterations = 0;
   double last = 0, best = std::numeric_limits<double>::infinity();
   double max_rho = kDefaultMaxRho;
-  const auto restore_best = [&] {
-    for (const int i : island_->constraints) constraint(i).p = iterate_p_[i];
-    apply_impulses();
-  };
   for (const int i : island_->constraints) iterate_p_[i] = constraint(i).p;
   update_multipliers();
   // For many bodies the bound is larger than their final errors and would end iterations too early.
@@ -236,7 +234,7 @@ void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, Impulse
       best = residual;
       for (const int i : island_->constraints) iterate_p_[i] = constraint(i).p;
     } else if (!(residual <= kDivergence * best) && rho_ratio_ > kMinRho) {
-      restore_best();
+      apply_impulses(iterate_p_);
       update_multipliers();
       max_rho = rho_ratio_ = std::max(kMinRho, 0.01 * rho_ratio_);
       last = best;
@@ -250,7 +248,7 @@ void ImpulseSolver::run_augmented_lagrangian(int max_steps, bool damped, Impulse
       rho_ratio_ *= 10;
     last = residual;
   }
-  if (!(last <= best)) restore_best();
+  if (!(last <= best)) apply_impulses(iterate_p_);
 }
 
 }  // namespace twinarm

@@ -74,6 +74,7 @@ class ImpulseSolver {
   void find_islands();
   double projected_gradient_step();
   double apply_impulses();
+  double apply_impulses(const std::vector<Vec>& p);
   double solve_island(ImpulseReport& report);
   void run_augmented_lagrangian(int max_steps, bool damped, ImpulseReport& report);
   void update_multipliers();

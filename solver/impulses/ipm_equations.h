@@ -36,8 +36,5 @@ inline int tangential_rows(const ImpulseConstraint& c) {
 inline int first_tangential(const ImpulseConstraint& c) {
   return c.law == ConstraintType::coulomb_cone ? 1 : 0;
 }
-inline bool is_contact(const ImpulseConstraint& c) {
-  return c.law == ConstraintType::unilateral || c.law == ConstraintType::coulomb_cone;
-}
 
 }  // namespace twinarm

@@ -20,9 +20,7 @@ constexpr int kMaxWarmStartSteps = 8, kMaxFailures = 2;
 
 // rho, limited so that an active contact keeps an impulse.
 double limited_rho(const ImpulseConstraint& c, double rho) {
-  const bool is_contact =
-      c.law == ConstraintType::coulomb_cone || c.law == ConstraintType::unilateral;
-  if (!is_contact || !(c.p[0] > 0) || !(c.u[0] > 0)) return rho;
+  if (!is_contact(c) || !(c.p[0] > 0) || !(c.u[0] > 0)) return rho;
   return std::min(rho, 0.5 * (1 + c.mu * c.mu) * c.p[0] / c.u[0]);
 }
 
@@ -35,8 +33,7 @@ double ImpulseSolver::semismooth_newton_step(double residual) {
   find_direction(false);
   move(1);
   gradient(DeSaxceShift::differentiated);
-  for (const int i : island_->constraints) constraint(i).p = p_[i];
-  return apply_impulses();
+  return apply_impulses(p_);
 }
 
 // Whether any contact has an impulse in the guess.
@@ -80,8 +77,7 @@ double ImpulseSolver::refine_solution(double residual) {
     residual = semismooth_newton_step(residual);
     if (residual < 0.5 * before) continue;
     if (residual < before) break;
-    for (const int i : island_->constraints) constraint(i).p = best_p_[i];
-    return apply_impulses();
+    return apply_impulses(best_p_);
   }
   return residual;
 }

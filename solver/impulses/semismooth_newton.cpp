@@ -11,10 +11,6 @@ namespace {
 
 constexpr int no_tree = ImpulseConstraint::no_tree;
 
-double dot(const Vec& a, const Vec& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 }  // namespace
 
 // Convex problem with frozen shifts; then Newton steps with differentiated shift from its solution.
@@ -231,14 +227,14 @@ double ImpulseSolver::step_length() {
   double start = slope0;
   for (const int i : island_->constraints) {
     problem_->velocity(constraint(i), dv_.data(), du_[i]);
-    start -= dot(p_[i], du_[i]);
+    start -= cone_dot(p_[i], du_[i]);
   }
   const auto slope = [&](double s) {
     double sum = slope0 + s * curvature;
     for (const int i : island_->constraints) {
       Vec u = u_[i];
       for (int r = 0; r < 3; ++r) u[r] += s * du_[i][r];
-      sum -= dot(project_impulse(constraint(i), multipliers_[i], u), du_[i]);
+      sum -= cone_dot(project_impulse(constraint(i), multipliers_[i], u), du_[i]);
     }
     return sum;
   };

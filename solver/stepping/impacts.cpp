@@ -15,16 +15,19 @@ void keep_worst(const ImpulseReport& pass, bool first, ImpulseReport& worst) {
   worst.converged = converged;
 }
 
-// 1/2 v^T M v
-double kinetic_energy(const ImpulseProblem& problem, const double* v) {
-  double twice = 0;
+// a^T M b
+double mass_product(const ImpulseProblem& problem, const double* a, const double* b) {
+  double sum = 0;
   for (int t = 0; t < problem.tree_count(); ++t) {
     const int n = problem.size(t);
-    const double *M = problem.M(t), *v_t = v + problem.first(t);
+    const double *M = problem.M(t), *a_t = a + problem.first(t), *b_t = b + problem.first(t);
     for (int r = 0; r < n; ++r)
-      for (int k = 0; k < n; ++k) twice += v_t[r] * M[r * n + k] * v_t[k];
+      for (int k = 0; k < n; ++k) sum += a_t[r] * M[r * n + k] * b_t[k];
   }
-  return 0.5 * twice;
+  return sum;
+}
+double kinetic_energy(const ImpulseProblem& problem, const double* v) {
+  return 0.5 * mass_product(problem, v, v);
 }
 
 }  // namespace
@@ -98,13 +101,7 @@ double Impacts::blend_towards_elastic(ImpulseProblem& problem) {
                plastic = kinetic_energy(problem, v);
   for (std::size_t k = 0; k < nv; ++k) elastic_[k] -= v[k];
   const double square = kinetic_energy(problem, elastic_.data());
-  double cross = 0;  // d/ds of the energy at s = 0
-  for (int t = 0; t < problem.tree_count(); ++t) {
-    const int n = problem.size(t);
-    const double *M = problem.M(t), *a = problem.v(t), *b = elastic_.data() + problem.first(t);
-    for (int r = 0; r < n; ++r)
-      for (int k = 0; k < n; ++k) cross += a[r] * M[r * n + k] * b[k];
-  }
+  const double cross = mass_product(problem, v, elastic_.data());  // d/ds of the energy at s = 0
   // square s^2 + cross s + plastic = before
   const double allowed = std::max(0.0, before - plastic);
   const double root = std::sqrt(cross * cross + 4 * square * allowed);
