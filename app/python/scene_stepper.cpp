@@ -15,7 +15,7 @@
 #include "app/record/record_run.h"
 #include "app/run/stepped_run.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/target/overridable_motion.h"
+#include "coupling/target/operator_motion.h"
 
 namespace twinarm::python {
 namespace {

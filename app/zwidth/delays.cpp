@@ -15,7 +15,7 @@
 #include "coupling/device/force_feedback.h"
 #include "coupling/device/omni.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/force_law.h"
+#include "solver/forces/force_source.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {

@@ -8,7 +8,7 @@
 #include "coupling/device/device_motion.h"
 #include "coupling/device/force_feedback.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/force_law.h"
+#include "solver/forces/force_source.h"
 #include "solver/forces/spring.h"
 #include "solver/stepping/simulation.h"
 

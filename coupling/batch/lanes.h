@@ -9,10 +9,37 @@
 #include "coupling/batch/batch_model.h"
 #include "coupling/batch/batch_targets.h"
 #include "coupling/batch/kernel/batch_state.h"
-#include "coupling/batch/simd_access.h"
 #include "solver/dynamics/energy_momentum.h"
+#include "solver/forces/spring.h"
+#include "solver/spatial/batch.h"
 
 namespace twinarm {
+
+// ---- access to one lane of scalars, vectors and inertias ----
+
+template <class V>
+void set_lane(V& all, std::size_t lane, double value) {
+  all.set(static_cast<int>(lane), value);
+}
+template <class S>
+void set_lane(Vec3<S>& all, std::size_t lane, const Vec3<double>& value) {
+  set_lane(all.x, lane, value.x), set_lane(all.y, lane, value.y), set_lane(all.z, lane, value.z);
+}
+template <class S>
+void set_lane(Inertia<S>& all, std::size_t lane, const Inertia<double>& value) {
+  set_lane(all.m, lane, value.m);
+  set_lane(all.h, lane, value.h);
+  const auto part = [&](S Sym3<S>::*to, double Sym3<double>::*from) {
+    set_lane(all.I.*to, lane, value.I.*from);
+  };
+  part(&Sym3<S>::xx, &Sym3<double>::xx), part(&Sym3<S>::yy, &Sym3<double>::yy);
+  part(&Sym3<S>::zz, &Sym3<double>::zz), part(&Sym3<S>::xy, &Sym3<double>::xy);
+  part(&Sym3<S>::xz, &Sym3<double>::xz), part(&Sym3<S>::yz, &Sym3<double>::yz);
+}
+template <class S>
+double lane_of(const S& all, std::size_t lane) {
+  return all[static_cast<int>(lane)];
+}
 
 template <int N>
 class LaneResults {
@@ -96,6 +123,48 @@ class LaneResults {
   BatchWork<S>& work_;
   Model<double> one_lane_;
 };
+
+inline SpringTime time_of(Discretization discretization) {
+  return discretization == Discretization::explicit_       ? SpringTime::start
+         : discretization == Discretization::semi_implicit ? SpringTime::both
+                                                           : SpringTime::end;
+}
+
+// Added inertia m* of the discretization (solver/forces/spring.h).
+inline double m_star(Discretization discretization, double h, const BatchCell::Gains& gains) {
+  const double by_damper = discretization == Discretization::explicit_ ? 0 : h * gains.b;
+  return by_damper + (discretization == Discretization::implicit ? h * h * gains.k : 0);
+}
+
+// Of a flywheel, or of a particle at p.
+inline Inertia<double> added_inertia(SpringKind kind, double m, const Vec3<double>& p) {
+  if (kind == SpringKind::world) return {0, {}, Sym3<double>::scaled_identity(m)};
+  return particle_inertia(m, p);
+}
+
+// Writes a cell's spring to a lane; p: its point in body axes. The added inertia goes to
+// `effective` or to the joint's armature.
+template <class S>
+void load_spring(BatchWork<S>& work, std::size_t s, std::size_t lane, const BatchSpring& spring,
+                 const BatchCell::Gains& gains, double h, const Vec3<double>& p,
+                 Inertia<double>& effective) {
+  LaneSpring<S>& lane_spring = work.springs[s];
+  const double position_lead = spring.discretization == Discretization::implicit ? h : 0;
+  const double m = m_star(spring.discretization, h, gains);
+  set_lane(lane_spring.k, lane, gains.k);
+  set_lane(lane_spring.b, lane, gains.b);
+  set_lane(lane_spring.kb, lane, gains.k * position_lead + gains.b);
+  set_lane(lane_spring.b_seen, lane, spring.absolute_damper ? 0 : gains.b);
+  set_lane(lane_spring.m_star, lane, m);
+  set_lane(lane_spring.p_B, lane, p);
+  set_lane(lane_spring.kp, lane, gains.k * p);
+  if (lane_spring.kind == SpringKind::joint) {
+    S& armature = work.forces.armature[lane_spring.iv];
+    set_lane(armature, lane, lane_of(armature, lane) + m);
+  } else {
+    add_congruence(Transform<double>{}, added_inertia(lane_spring.kind, m, p), effective);
+  }
+}
 
 template <int N>
 class LaneLoader {

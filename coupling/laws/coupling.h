@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coupling/target/target_robot.h"
-#include "solver/forces/spring_source.h"
+#include "solver/forces/force_source.h"
 
 namespace twinarm {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/forces/spring_source.h"
+#include "solver/forces/force_source.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 

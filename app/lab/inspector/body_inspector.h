@@ -19,7 +19,7 @@
 #include "app/lab/run/history.h"
 #include "app/lab/run/input_override.h"
 #include "app/run/simulate_input.h"
-#include "solver/forces/force_law.h"
+#include "solver/forces/force_source.h"
 
 namespace twinarm {
 

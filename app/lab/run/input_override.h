@@ -16,7 +16,7 @@
 #include "app/lab/run/lab_inputs.h"
 #include "app/servo/haptic_loop.h"
 #include "coupling/device/device_motion.h"
-#include "coupling/target/overridable_motion.h"
+#include "coupling/target/operator_motion.h"
 
 namespace twinarm {
 

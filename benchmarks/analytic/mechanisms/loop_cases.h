@@ -52,9 +52,6 @@ LoopCase governor(Couplers couplers);
 LoopCase slider_crank();  // D6
 LoopCase four_bar();      // D7: angles and rates at one place
 
-// All with reference values over time, for rk4.
-std::vector<LoopCase> all_loop_cases();
-
 }  // namespace twinarm
 
 // ---- parts of the mechanisms ----

@@ -19,7 +19,7 @@
 #include "benchmarks/analytic/support/analytic_case.h"
 #include "collision/contact/contact_constraints.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/force_law.h"
+#include "solver/forces/force_source.h"
 #include "solver/stepping/simulation.h"
 
 namespace twinarm {

@@ -9,7 +9,7 @@
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/dynamics/kinematics.h"
 #include "solver/dynamics/model_builder.h"
-#include "solver/forces/force_law.h"
+#include "solver/forces/force_source.h"
 #include "solver/model/workspace.h"
 
 namespace twinarm::smooth_parts {
