@@ -1,7 +1,6 @@
 // `twinarm coupling predict` and `twinarm coupling gains`.
 #include <fmt/format.h>
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -124,10 +123,9 @@ SimulatePlan prepare_couplings(const RobotOptions& robot, const std::optional<do
 // The scene of one robot and one coupling that the options describe; its values are checked by the
 // reader of scenes.
 Value scene_of_options(const CouplingPredictOptions& options, DiagnosticList& faults) {
-  Value robot, coupling, scene;
-  robot.put("name", Value::of("robot"));
-  robot.put("model", Value::of(std::filesystem::absolute(options.robot.model).string()));
-  coupling.put("name", Value::of("coupling"));
+  const std::string model = std::filesystem::absolute(options.robot.model).string();
+  const Value robot = Value::table({{"name", Value::of("robot")}, {"model", Value::of(model)}});
+  Value coupling = Value::table({{"name", Value::of("coupling")}});
   for (const auto& [key, words] : {std::pair{"type", &options.type},
                                    {"link", &options.link},
                                    {"measure", &options.measure},
@@ -136,14 +134,9 @@ Value scene_of_options(const CouplingPredictOptions& options, DiagnosticList& fa
   for (const auto& [key, size] :
        {std::pair{"stiffness", &options.stiffness}, {"damping", &options.damping}})
     if (*size) coupling.put(key, Value::of(**size));
-  if (!options.point.empty()) {
-    Value& point = coupling.put("point", Value::list({}));
-    for (const double x : parse_list("--point", options.point, faults))
-      point.items.push_back(Value::of(x));
-  }
-  scene.put("robot", Value::list({std::move(robot)}));
-  scene.put("coupling", Value::list({std::move(coupling)}));
-  return scene;
+  if (!options.point.empty())
+    coupling.put("point", Value::numbers(parse_list("--point", options.point, faults)));
+  return Value::table({{"robot", Value::list({robot})}, {"coupling", Value::list({coupling})}});
 }
 
 int run_coupling_predict(const CouplingPredictOptions& options) {

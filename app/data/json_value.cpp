@@ -35,9 +35,7 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::ordered_json> {
       : file_(file.string()), line_(line) {}
 
   bool null() override { return add({.kind = Value::Kind::null}); }
-  bool boolean(bool value) override {
-    return add({.kind = Value::Kind::boolean, .number = value ? 1.0 : 0.0});
-  }
+  bool boolean(bool value) override { return add(Value::flag(value)); }
   bool number_integer(std::int64_t value) override { return number(static_cast<double>(value)); }
   bool number_unsigned(std::uint64_t value) override { return number(static_cast<double>(value)); }
   bool number_float(double value, const std::string&) override { return number(value); }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,8 +21,20 @@ struct Value {
 
   static Value of(double number) { return {.kind = Kind::number, .number = number}; }
   static Value of(std::string text) { return {.kind = Kind::text, .text = std::move(text)}; }
+  static Value flag(bool on) { return {.kind = Kind::boolean, .number = on ? 1.0 : 0.0}; }
   static Value list(std::vector<Value> items) {
     return {.kind = Kind::list, .items = std::move(items)};
+  }
+  template <class Numbers>
+  static Value numbers(const Numbers& all) {  // a list
+    Value made = list({});
+    for (const double number : all) made.items.push_back(of(number));
+    return made;
+  }
+  static Value table(std::initializer_list<std::pair<const char*, Value>> members) {
+    Value made;
+    for (const auto& [name, value] : members) made.put(name, value);
+    return made;
   }
 
   bool is_number() const { return kind == Kind::number; }

@@ -3,13 +3,14 @@
 
 #include <string>
 
+#include "app/data/value.h"
 #include "app/study/study_run.h"
 
 namespace twinarm {
 
-// Motion of the KVR: value of a coupling's `target` in TOML.
+// Motion of the KVR: value of a coupling's `target`.
 struct StudyOperator {
-  std::string target;
+  Value target;
   const OperatorMotion* source = nullptr;  // the same motion
 };
 StudyOperator automatic_operator();

@@ -125,11 +125,8 @@ Value LabScene::tree(const std::vector<Change>& changes) const {
   Value scene = read_toml(files_->options().robot.model);
   for (const Change& change : others) apply(change, 0, scene, faults);
   if (!changed.robot.gravity.empty())
-    if (const auto g = parse_gravity(changed.robot.gravity, faults)) {
-      Value gravity = Value::list({});
-      for (const double component : *g) gravity.items.push_back(Value::of(component));
-      put_last(scene, "gravity", std::move(gravity));
-    }
+    if (const auto g = parse_gravity(changed.robot.gravity, faults))
+      put_last(scene, "gravity", Value::numbers(*g));
   faults.check();
   if (changed.step) put_last(scene, "step", Value::of(*changed.step));
   if (!changed.integrator.empty()) put_last(scene, "integrator", Value::of(changed.integrator));

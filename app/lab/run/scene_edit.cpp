@@ -1,6 +1,8 @@
 #include "app/lab/run/scene_edit.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -22,23 +24,10 @@ constexpr double kOmega = 30;  // natural frequency of added springs, critically
   throw InputError({{"command", 0, "edit, " + edit.what, problem, fix, "lab.edit"}});
 }
 
-Value flag(bool on) {
-  return {.kind = Value::Kind::boolean, .number = on ? 1.0 : 0.0};
-}
-
-Value list_of(const Vector3& v) {
-  return Value::list({Value::of(v.x()), Value::of(v.y()), Value::of(v.z())});
-}
-
-Value table_of(std::initializer_list<std::pair<const char*, Value>> members) {
-  Value table;
-  for (const auto& [key, value] : members) table.put(key, value);
-  return table;
-}
-
-Value& list_in(Value& scene, const char* key) {
+void append(Value& scene, const char* key, Value item) {
   Value* list = scene.find(key);
-  return list ? *list : scene.put(key, Value::list({}));
+  if (!list) list = &scene.put(key, Value::list({}));
+  list->items.push_back(std::move(item));
 }
 
 // Three significant digits are enough for values that a person would have typed.
@@ -49,20 +38,12 @@ double rounded(double value) {
 }
 
 // Of everything that moves at the start, and of bounded obstacles.
-struct Bounds {
-  Vector3 low = Vector3::Constant(HUGE_VAL), high = Vector3::Constant(-HUGE_VAL);
-  void add(const Vector3& p) {
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-};
-
-Bounds bounds_of(const SceneModel& scene) {
+Eigen::AlignedBox3d bounds_of(const SceneModel& scene) {
   Kinematics k(scene.model);
   forward_kinematics(scene.model, scene.start, k);
-  Bounds bounds;
+  Eigen::AlignedBox3d bounds;
   for (int body = 1; body < scene.model.body_count(); ++body)
-    bounds.add(k.X_WL[static_cast<std::size_t>(body)].p);
+    bounds.extend(k.X_WL[static_cast<std::size_t>(body)].p);
   for (const SceneGeometry& geometry : scene.geometries) {
     if (std::holds_alternative<HalfSpace>(geometry.shape)) continue;
     const Pose X_WG = k.X_WL[static_cast<std::size_t>(geometry.body)] * geometry.X_LG;
@@ -70,10 +51,10 @@ Bounds bounds_of(const SceneModel& scene) {
     for (int axis = 0; axis < 3; ++axis)
       for (const double way : {-1.0, 1.0}) {
         const Vector3 d_W = way * Vector3::Unit(axis);
-        bounds.add(X_WG * support(shape, X_WG.R.transpose() * d_W));
+        bounds.extend(X_WG * support(shape, X_WG.R.transpose() * d_W));
       }
   }
-  if (!bounds.low.allFinite()) bounds.low = bounds.high = Vector3::Zero();
+  if (bounds.isEmpty()) bounds.extend(Vector3(Vector3::Zero()));
   return bounds;
 }
 
@@ -89,30 +70,31 @@ void add_floor(const SceneEdit& edit, const SceneModel& built, Value& scene) {
   for (const BodyDescription& body : built.description.bodies)
     if (std::holds_alternative<HalfSpace>(body.shape))
       refuse(edit, "'" + body.name + "' is a floor already", "remove it first");
-  const double z = std::floor(1000 * bounds_of(built).low.z()) / 1000;
-  Value half_space = table_of(
-      {{"halfspace", table_of({{"normal", list_of(Vector3::UnitZ())}, {"offset", Value::of(z)}})}});
-  list_in(scene, "body")
-      .items.push_back(table_of({{"name", Value::of(unused_name(built, "floor"))},
-                                 {"fixed", flag(true)},
-                                 {"shape", std::move(half_space)}}));
+  const double z = std::floor(1000 * bounds_of(built).min().z()) / 1000;
+  const Value half_space = Value::table(
+      {{"normal", Value::numbers(Vector3(Vector3::UnitZ()))}, {"offset", Value::of(z)}});
+  append(scene, "body",
+         Value::table({{"name", Value::of(unused_name(built, "floor"))},
+                       {"fixed", Value::flag(true)},
+                       {"shape", Value::table({{"halfspace", half_space}})}}));
 }
 
 // A tenth of the scene's size, a quarter of it above everything, of half the density of water.
 void add_object(const SceneEdit& edit, const SceneModel& built, Value& scene) {
-  const Bounds bounds = bounds_of(built);
-  const double size = std::clamp(rounded((bounds.high - bounds.low).norm()), 0.1, 10.0);
+  const Eigen::AlignedBox3d bounds = bounds_of(built);
+  const double size = std::clamp(rounded(bounds.diagonal().norm()), 0.1, 10.0);
   const double edge = rounded(size / 10);
-  Vector3 p = 0.5 * (bounds.low + bounds.high);
-  p.z() = bounds.high.z() + edge + 0.25 * size;
+  Vector3 p = bounds.center();
+  p.z() = bounds.max().z() + edge + 0.25 * size;
   for (double& c : p) c = std::round(1000 * c) / 1000;
-  Value shape = edit.what == "box" ? table_of({{"size", list_of(Vector3::Constant(edge))}})
-                                   : table_of({{"radius", Value::of(edge / 2)}});
-  list_in(scene, "body")
-      .items.push_back(table_of({{"name", Value::of(unused_name(built, edit.what))},
-                                 {"shape", table_of({{edit.what.c_str(), std::move(shape)}})},
-                                 {"density", Value::of(500.0)},
-                                 {"position", list_of(p)}}));
+  const Value shape = edit.what == "box"
+                          ? Value::table({{"size", Value::numbers(std::array{edge, edge, edge})}})
+                          : Value::table({{"radius", Value::of(edge / 2)}});
+  append(scene, "body",
+         Value::table({{"name", Value::of(unused_name(built, edit.what))},
+                       {"shape", Value::table({{edit.what.c_str(), shape}})},
+                       {"density", Value::of(500.0)},
+                       {"position", Value::numbers(p)}}));
 }
 
 // Of the link's robot and of the link, by its number in the model.
@@ -131,20 +113,20 @@ void add_spring(const SceneModel& built, int body, bool is_linear, double inerti
   std::string name = link + " spring";
   for (const CouplingDescription& coupling : built.description.couplings)
     if (coupling.name == name) name += "'";
-  Value coupling = table_of({{"name", Value::of(name)},
-                             {"type", Value::of(std::string(is_linear ? "linear" : "torsional"))},
-                             {"link", Value::of(link)},
-                             {"stiffness", Value::of(rounded(inertia * kOmega * kOmega))},
-                             {"damping", Value::of(rounded(2 * inertia * kOmega))}});
+  Value coupling = Value::table({{"name", Value::of(name)},
+                                 {"type", Value::of(is_linear ? "linear" : "torsional")},
+                                 {"link", Value::of(link)},
+                                 {"stiffness", Value::of(rounded(inertia * kOmega * kOmega))},
+                                 {"damping", Value::of(rounded(2 * inertia * kOmega))}});
   if (built.description.robots.size() > 1) coupling.put("robot", Value::of(robot->name));
   if (is_linear) {
     const Vector3 com = com_of_link(built.model, static_cast<std::size_t>(body));
-    coupling.put("point",
-                 list_of(com.unaryExpr([](double c) { return std::round(1e4 * c) / 1e4; })));
+    const auto to_tenth_mm = [](double c) { return std::round(1e4 * c) / 1e4; };
+    coupling.put("point", Value::numbers(Vector3(com.unaryExpr(to_tenth_mm))));
   } else {
-    coupling.put("measure", Value::of(std::string("joint")));
+    coupling.put("measure", Value::of("joint"));
   }
-  list_in(scene, "coupling").items.push_back(std::move(coupling));
+  append(scene, "coupling", std::move(coupling));
 }
 
 void add_springs(const SceneEdit& edit, const SceneModel& built, Value& scene) {
@@ -173,12 +155,12 @@ void add_springs(const SceneEdit& edit, const SceneModel& built, Value& scene) {
 }
 
 void remove_body(const SceneEdit& edit, const SceneModel& built, Value& scene) {
-  Value& bodies = list_in(scene, "body");
+  Value* bodies = scene.find("body");
   const auto is_it = [&](const Value& body) {
     const Value* name = body.find("name");
     return name && name->text == edit.name;
   };
-  if (std::erase_if(bodies.items, is_it) == 0)
+  if (!bodies || std::erase_if(bodies->items, is_it) == 0)
     refuse(edit, "there is no body '" + edit.name + "'",
            name_remedy(edit.name, names_of(built.description.bodies), "bodies"));
   for (Value& list : scene.members)
@@ -195,15 +177,14 @@ void remove_body(const SceneEdit& edit, const SceneModel& built, Value& scene) {
 }  // namespace
 
 Value scene_of_robot(const std::filesystem::path& robot, bool collide) {
-  const std::string name = robot.stem().string();
-  Value table = table_of({{"name", Value::of(name)},
-                          {"model", Value::of(robot.filename().string())},
-                          {"collide", flag(collide)}});
-  Value scene = table_of({{"robot", Value::list({std::move(table)})}});
+  const Value name = Value::of(robot.stem().string());
+  const Value table = Value::table({{"name", name},
+                                    {"model", Value::of(robot.filename().string())},
+                                    {"collide", Value::flag(collide)}});
+  Value scene = Value::table({{"robot", Value::list({table})}});
   if (collide)
-    scene.put("pair",
-              Value::list({table_of(
-                  {{"a", Value::of(name)}, {"b", Value::of(name)}, {"collide", flag(false)}})}));
+    append(scene, "pair",
+           Value::table({{"a", name}, {"b", name}, {"collide", Value::flag(false)}}));
   return scene;
 }
 

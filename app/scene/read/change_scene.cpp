@@ -164,20 +164,15 @@ namespace {
 // A number, true or false, numbers separated by commas, or a text.
 Value value_of_text(const std::string& text) {
   if (const auto number = parse_number(text)) return Value::of(*number);
-  Value value = Value::of(text);
-  if (text == "true" || text == "false") {
-    value.kind = Value::Kind::boolean;
-    value.number = text == "true" ? 1 : 0;
-  } else if (text.find(',') != std::string::npos) {
-    std::vector<Value> items;  // "0,0,-1.62"
-    for (const std::string& item : split(text)) {
-      const auto number = parse_number(item);
-      if (!number) return value;
-      items.push_back(Value::of(*number));
-    }
-    return Value::list(std::move(items));
+  if (text == "true" || text == "false") return Value::flag(text == "true");
+  if (text.find(',') == std::string::npos) return Value::of(text);
+  std::vector<double> numbers;  // "0,0,-1.62"
+  for (const std::string& item : split(text)) {
+    const auto number = parse_number(item);
+    if (!number) return Value::of(text);
+    numbers.push_back(*number);
   }
-  return value;
+  return Value::numbers(numbers);
 }
 
 constexpr std::array kOptional{"gravity", "step", "integrator", "contact", "duration"};
@@ -185,13 +180,9 @@ constexpr std::array kOptional{"gravity", "step", "integrator", "contact", "dura
 // Adds an optional top-level key, so that a path can denote it.
 void add_optional_key(const std::string& name, int line, Value& scene) {
   if (scene.find(name) || std::ranges::find(kOptional, name) == kOptional.end()) return;
-  Value made = Value::of(0.0);  // to be replaced by the new value
-  if (name == "gravity") {
-    made = Value::list({});
-    for (const double g : SceneDescription().gravity) made.items.push_back(Value::of(g));
-  }
-  made.line = line;
-  scene.put(name, std::move(made));
+  // To be replaced by the new value.
+  scene.put(name, name == "gravity" ? Value::numbers(SceneDescription().gravity) : Value::of(0.0))
+      .line = line;
 }
 
 }  // namespace
