@@ -163,8 +163,6 @@ void write_end(JsonWriter& json, const LabStatus& status) {
     json.object({{"words", failure.words},
                  {"time", failure.time},
                  {"from", failure.from},
-                 {"quantity", failure.quantity},
-                 {"body", failure.body},
                  {"cause", failure.spring},
                  {"trying", failure.trying},
                  {"remedies", [&] { write_remedies(failure.remedies, json); }}});
@@ -177,10 +175,7 @@ std::string state_message(const LabStatus& status, const Clients::View& clients,
                           const std::vector<LabParameter>& parameters,
                           const std::vector<GalleryScene>& gallery) {
   return json_text([&](JsonWriter& json) {
-    json.members({{"kind", "state"},
-                  {"scene", status.scene},
-                  {"name", status.scene_name},
-                  {"building", status.building}});
+    json.members({{"kind", "state"}, {"scene", status.scene}, {"name", status.scene_name}});
     write_changes(json, status.changes);
     write_variants(json, status);
     json.members(

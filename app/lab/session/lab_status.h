@@ -21,7 +21,7 @@ struct RunFailure {
   double time = 0;  // of the last good state [s]
   double from = 0;  // instant from which to branch with a fix [s]
   std::vector<std::string> words;
-  std::string quantity, body, spring;
+  std::string spring;
   bool trying = true;                  // fixes are being tried (app/lab/run/remedy_trial.h)
   std::vector<SuggestedFix> remedies;  // those that hold
 };
@@ -56,7 +56,6 @@ struct LabStatus {
   OperatorStatus hand;
   std::optional<RunFailure> failure;
   std::vector<LabNote> notes;  // the last twenty
-  std::string building;        // description of the scene being built; empty: none
 };
 
 }  // namespace twinarm

@@ -126,7 +126,7 @@ export class LabTimeBar implements Panel, Clock {
     const isDisabled = isViewOnly(state);
     const pace = state.speed_ratio > 0 ? state.speed_ratio : 1;
     const shown = [isPlaying, first, last, branch, failure?.time, at, speed, isDisabled, pace.toFixed(2)];
-    if (!this.isNew(shown, state.building)) return;
+    if (!this.isNew(shown)) return;
     this.root.dataset.past = String(at !== null);
     putMark(this.branchMark, branch && (branch.from - first) / span);
     if (branch) this.branchMark.title = `branch at ${branch.from.toFixed(3)} s: ${branch.changes.join(', ')}`;
@@ -139,8 +139,7 @@ export class LabTimeBar implements Panel, Clock {
     this.bar.where.replaceChildren(...this.status(state, at, pace));
   }
 
-  private status({ building, last, failure, playing, speed }: StateMessage, at: number | null, pace: number) {
-    if (building) return [element('b', `${building} …`)];
+  private status({ last, failure, playing, speed }: StateMessage, at: number | null, pace: number) {
     if (at !== null) return [`${(last - at).toFixed(2)} s ago`];
     if (failure) return ['diverged'];
     if (!playing) return ['paused'];

@@ -85,9 +85,7 @@ export interface Divergence {
   words: string[];
   time: number;
   from: number; // a remedy continues from there
-  quantity: string; // '': none; so for body and cause
-  body: string;
-  cause: string;
+  cause: string; // '': none
   trying: boolean; // remedies are still being tried
   remedies: Remedy[]; // with these the run stays stable for 5 s beyond the stop
 }
@@ -147,7 +145,6 @@ export interface StateMessage {
   gallery: { name: string; title: string; look: string[] }[];
   name: string; // of the gallery's scene
   changes: string[]; // relative to the scene file
-  building: string; // scene in preparation
   failure: Divergence | null;
   notes: Note[]; // the last twenty
 }

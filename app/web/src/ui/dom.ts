@@ -52,7 +52,6 @@ const ICONS = {
   last: 'M11 3h2v10h-2zM3 3v10l7-5z',
   theme: 'M8 1a7 7 0 1 0 0 14A7 7 0 0 0 8 1zm0 2v10A5 5 0 0 1 8 3z',
   gallery: 'M2 2h5v5H2zM9 2h5v5H9zM2 9h5v5H2zM9 9h5v5H9z',
-  save: 'M7 2h2v6h3l-4 4-4-4h3zM2 13h12v1.6H2z',
   full: 'M2 2h4v1.5H3.5V6H2zM10 2h4v4h-1.5V3.5H10zM2 10h1.5v2.5H6V14H2zM12.5 10H14v4h-4v-1.5h2.5z',
   panel: 'M2 3h12v10H2zm1.5 1.5v7h5v-7z',
   layers: 'M8 1.5 15 5 8 8.5 1 5zM2.6 7.2 8 9.9l5.4-2.7L15 8 8 11.5 1 8zm0 3L8 12.9l5.4-2.7L15 11l-7 3.5L1 11z',
