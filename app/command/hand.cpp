@@ -94,11 +94,10 @@ SceneModel scene_of(const HandOptions& options, DiagnosticList& faults) {
 
 // Runs; summarises and logs the ticks meanwhile.
 void run_live(LiveRun& run, const HandOptions& options, LiveLog& log, LiveSummary& summary) {
-  ServoPlan plan;
-  plan.duration = options.duration.value_or(HUGE_VAL);
-  plan.real_time = !options.simulated;
-  plan.ask_for_fifo = options.fifo;
-  plan.empty_loop = options.empty_loop;
+  const ServoPlan plan{.duration = options.duration.value_or(HUGE_VAL),
+                       .real_time = !options.simulated,
+                       .ask_for_fifo = options.fifo,
+                       .empty_loop = options.empty_loop};
   std::atomic<bool> stop{false};
   Progress progress(options.json || isatty(STDERR_FILENO) == 0);
   progress.stage("hand", 1);

@@ -190,9 +190,8 @@ int run_render(const RenderOptions& options) {
   } else {
     const std::unique_ptr<Film> film = make_film(options, plan);
     for (std::size_t i = 0; i < count; ++i) {
-      check_interrupt();
       film->add(rendering.paint(i));
-      progress.advance(static_cast<double>(i + 1) / static_cast<double>(count));
+      progress.advance(i + 1, count);
     }
     film->finish();
   }

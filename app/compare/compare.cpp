@@ -4,14 +4,12 @@
 #include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "app/compare/compare.h"
 #include "app/data/json_writer.h"
 #include "app/data/tables.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
-#include "benchmarks/analytic/registry/analytic_cases.h"
 
 namespace twinarm {
 namespace {
@@ -60,7 +58,7 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
   std::vector<std::string> both, groups;
   for_each_name([&](const std::string& name, const std::string& of) {
     both.push_back(name);
-    if (std::find(groups.begin(), groups.end(), of) == groups.end()) groups.push_back(of);
+    if (std::ranges::find(groups, of) == groups.end()) groups.push_back(of);
   });
   both.insert(both.end(), groups.begin(), groups.end());
 
@@ -72,7 +70,7 @@ CaseSelection select_cases(const std::vector<std::string>& names, const std::str
       faults.add("command line", fmt::format("unknown case or group '{}'", name),
                  name_remedy(name, both, "cases and groups"), "compare.unknown");
   }
-  if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
+  if (!group.empty() && std::ranges::find(groups, group) == groups.end())
     faults.add("--group", fmt::format("unknown group '{}'", group),
                name_remedy(group, groups, "groups"), "option.choice");
 
@@ -135,8 +133,8 @@ CompareRow run_one(const AnalyticCase& test, const std::vector<Integration>& int
 }
 
 std::size_t failures(const std::vector<CompareRow>& rows) {
-  return static_cast<std::size_t>(std::count_if(
-      rows.begin(), rows.end(), [](const CompareRow& r) { return !passes(*r.test, r.result); }));
+  return static_cast<std::size_t>(
+      std::ranges::count_if(rows, [](const CompareRow& r) { return !passes(*r.test, r.result); }));
 }
 
 std::string totals(const std::vector<CompareRow>& rows, std::size_t skipped) {

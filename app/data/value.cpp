@@ -3,7 +3,6 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
-#include <utility>
 
 #include "collision/import/toml/toml_file.h"
 #include "solver/support/diagnostics.h"
@@ -70,8 +69,7 @@ Value value_of_node(const toml::node& node) {
       value.members.back().key = std::string(key.str());
     }
     // toml++ sorts keys by name; diagnostics are in the order of the file.
-    std::stable_sort(value.members.begin(), value.members.end(),
-                     [](const Value& a, const Value& b) { return a.line < b.line; });
+    std::ranges::stable_sort(value.members, {}, &Value::line);
   } else if (const toml::array* array = node.as_array()) {
     value.kind = Value::Kind::list;
     for (const toml::node& item : *array) value.items.push_back(value_of_node(item));
@@ -108,7 +106,7 @@ std::string toml_key(const std::string& key) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
            c == '-';
   };
-  const bool bare = !key.empty() && std::all_of(key.begin(), key.end(), is_bare);
+  const bool bare = !key.empty() && std::ranges::all_of(key, is_bare);
   return bare ? key : quoted_toml(key);
 }
 
@@ -142,8 +140,7 @@ std::string inline_toml(const Value& value) {
 
 bool is_array_of_tables(const Value& value) {
   return value.is_list() && !value.items.empty() &&
-         std::all_of(value.items.begin(), value.items.end(),
-                     [](const Value& v) { return v.is_table(); });
+         std::ranges::all_of(value.items, [](const Value& v) { return v.is_table(); });
 }
 
 }  // namespace

@@ -104,10 +104,8 @@ std::vector<std::string> parse_names(const std::string& text, const std::string&
 }
 
 std::vector<const CurveKind*> parse_curves(const std::string& text) {
-  std::vector<std::string> known;
-  for (const CurveKind& kind : all_curves()) known.emplace_back(kind.name);
   std::vector<const CurveKind*> chosen;
-  for (const std::string& name : parse_names(text, "--plot", "curve", known))
+  for (const std::string& name : parse_names(text, "--plot", "curve", names_of(all_curves())))
     chosen.push_back(&*std::ranges::find(all_curves(), name, &CurveKind::name));
   return chosen;
 }

@@ -9,7 +9,6 @@
 #include "app/record/record_run.h"
 #include "app/run/run.h"
 #include "app/support/files.h"
-#include "app/support/progress.h"
 
 namespace twinarm {
 namespace {

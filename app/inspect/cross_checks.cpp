@@ -1,12 +1,10 @@
 #include "app/inspect/cross_checks.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "app/inspect/force_balance.h"
-#include "solver/dynamics/dynamics.h"
 #include "solver/model/convert_model.h"
 
 namespace twinarm {

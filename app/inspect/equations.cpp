@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/inspect/inspection.h"
-
 namespace twinarm {
 namespace {
 

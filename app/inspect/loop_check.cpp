@@ -121,12 +121,12 @@ std::vector<LoopClosure> with_mimics(const Model<double>& model, std::vector<Loo
     return body;
   };
   for (const Mimic& mimic : model.mimics) {
-    LoopClosure gear;
-    gear.type = LoopType::gear;
-    gear.body_a = body_of(mimic.follower), gear.body_b = body_of(mimic.leader);
-    gear.ratio = mimic.ratio;
-    gear.name = model.joint_name[static_cast<std::size_t>(gear.body_a)];
-    loops.push_back(std::move(gear));
+    const int follower = body_of(mimic.follower);
+    loops.push_back({.name = model.joint_name[static_cast<std::size_t>(follower)],
+                     .type = LoopType::gear,
+                     .body_a = follower,
+                     .body_b = body_of(mimic.leader),
+                     .ratio = mimic.ratio});
   }
   return loops;
 }

@@ -25,7 +25,7 @@ bool is_plain(const SimulatePlan& plan) {
   return plan.run.integrator == Integrator::semi_implicit && !plan.run.locates_events &&
          !scene.may_touch() && !steps_for_flight(scene, plan.run.integrator) &&
          scene.constraints.empty() && scene.motions.empty() && !scene.couplings.empty() &&
-         std::all_of(scene.couplings.begin(), scene.couplings.end(), [](const SceneCoupling& c) {
+         std::ranges::all_of(scene.couplings, [](const SceneCoupling& c) {
            return c.rate == 0 && !c.printed && !c.soft_limits &&
                   c.target != CouplingTarget::Kind::synthetic &&
                   (c.law == CouplingSpec::Type::linear || c.law == CouplingSpec::Type::torsional);
@@ -111,7 +111,7 @@ struct LaneRunner {
       for (const JointDescription& joint : robots[r].description.joints) {
         if (!joint.is_limited()) continue;
         const std::string name = name_in_scene(scene.description, r, joint.name);
-        const auto found = std::find(joints.names.begin(), joints.names.end(), name);
+        const auto found = std::ranges::find(joints.names, name);
         if (found == joints.names.end()) return false;
         limits[static_cast<std::size_t>(found - joints.names.begin())] = {joint.lower, joint.upper};
       }

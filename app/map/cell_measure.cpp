@@ -8,7 +8,6 @@
 #include "app/data/value.h"
 #include "app/map/map_results.h"
 #include "app/record/record_run.h"
-#include "app/run/run.h"
 #include "app/support/progress.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/support/atomic_file.h"

@@ -163,9 +163,8 @@ void compute_blocks(const MapJob& job, const std::vector<int>& wanted,
     parallel_for(
         cells.tasks(), [&](std::size_t task) { cells.work(task); },
         [&](std::size_t done) {
-          check_interrupt();
           cells.collect(file);
-          progress.advance(static_cast<double>(done) / static_cast<double>(cells.tasks()));
+          progress.advance(done, cells.tasks());
           updater.update(false);
         },
         threads);

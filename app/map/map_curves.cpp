@@ -153,8 +153,8 @@ bool has_theory(const SimulatePlan& plan) {
 std::string scheme_words(const SimulatePlan& plan) {
   const auto& couplings = plan.input.scene->couplings;
   const auto is_all = [&](Discretization discretization) {
-    return std::all_of(couplings.begin(), couplings.end(),
-                       [&](const SceneCoupling& c) { return c.discretization == discretization; });
+    return std::ranges::all_of(
+        couplings, [&](const SceneCoupling& c) { return c.discretization == discretization; });
   };
   if (!is_semi_implicit(plan.run.integrator)) return integrator_name(plan.run.integrator);
   if (is_all(Discretization::explicit_)) return name_of(SteppingScheme::semi_implicit);
@@ -177,10 +177,10 @@ std::vector<MapCurve> theory_curves(const MapJob& job) {
   };
   add(scheme_words(corner) + ", start pose",
       [](const SimulatePlan& plan) { return is_stable_at(plan, plan.input.robot.state.x); });
-  if (std::any_of(couplings.begin(), couplings.end(),
-                  [](const SceneCoupling& c) { return !c.driven.turned.empty(); }))
+  if (std::ranges::any_of(couplings,
+                          [](const SceneCoupling& c) { return !c.driven.turned.empty(); }))
     add("the same, worst pose of the target", is_stable_along_motion);
-  if (std::any_of(couplings.begin(), couplings.end(), is_implicit_point))
+  if (std::ranges::any_of(couplings, is_implicit_point))
     add("geometric limit of implicit linear couplings", is_within_geometry);
   return curves;
 }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "app/map/cell_batch.h"
 #include "app/record/record_run.h"

@@ -70,7 +70,7 @@ std::string map_csv(const MapJob& job, const TileFile& file) {
 
 std::string map_words(const MapJob& job, const TileFile& file) {
   const std::vector<double> stable = values_of(job, file, MapMeasure::stable);
-  const auto steady = std::count(stable.begin(), stable.end(), 1.0);
+  const auto steady = std::ranges::count(stable, 1.0);
   std::string words =
       fmt::format("{} x {} cells, {} of {} stable\n", job.nx(), job.ny(), steady, stable.size());
   if (job.measure == MapMeasure::stable) return words;
@@ -143,7 +143,7 @@ ColourRange range_of(const std::vector<double>& values, MapMeasure measure) {
     if (std::isfinite(v)) finite.push_back(v);
   ColourRange range;
   if (finite.empty()) return range;
-  std::sort(finite.begin(), finite.end());
+  std::ranges::sort(finite);
   const auto at = [&](double part) {
     return finite[static_cast<std::size_t>(part * static_cast<double>(finite.size() - 1))];
   };

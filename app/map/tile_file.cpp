@@ -56,7 +56,7 @@ bool read_cell(const std::string& line, TileFile& file) {
 }
 
 bool is_same(const CellValues& a, const CellValues& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), [](double one, double other) {
+  return std::ranges::equal(a, b, [](double one, double other) {
     return one == other || (std::isnan(one) && std::isnan(other));
   });
 }

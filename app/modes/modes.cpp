@@ -142,7 +142,7 @@ ModesOf find_modes(SimulateInput& input) {
   std::vector<std::string> name_of(model.nv);
   for (const NamedJoint& joint : found.joints) {
     const std::vector<std::string> names = names_of_velocities(name_of_part(input, joint), joint);
-    std::copy(names.begin(), names.end(), name_of.begin() + static_cast<std::ptrdiff_t>(joint.iv));
+    std::ranges::copy(names, name_of.begin() + static_cast<std::ptrdiff_t>(joint.iv));
   }
   std::vector<char> is_mimic(model.nv);
   for (const Mimic& mimic : model.mimics) is_mimic[mimic.follower] = 1;

@@ -36,7 +36,7 @@ PageChannels::PageChannels(const FilmedRun& run)
   std::vector<std::pair<int, int>> pairs;
   for (const RunInstant& instant : run_.shown)
     for (const RecordedContact& c : instant.contacts) pairs.emplace_back(c.a, c.b);
-  std::sort(pairs.begin(), pairs.end());
+  std::ranges::sort(pairs);
   for (const auto& [a, b] : pairs) channels_.add_pair(a, b);
   if (const SceneModel* scene = run_.plan.input.scene.get())
     channels_.add_led_joints(run_.plan.input.robot.coordinates, scene->couplings);
@@ -99,7 +99,7 @@ std::size_t RunChannels::add(const std::string& name, const std::string& unit,
 
 std::size_t RunChannels::place_of(const std::string& name) const {
   const auto is_it = [&](const RunColumn& channel) { return channel.name == name; };
-  return static_cast<std::size_t>(std::find_if(all_.begin(), all_.end(), is_it) - all_.begin());
+  return static_cast<std::size_t>(std::ranges::find_if(all_, is_it) - all_.begin());
 }
 
 bool RunChannels::add_pair(int a, int b) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <vector>
 
 #include "app/support/text.h"
 #include "solver/support/number_text.h"

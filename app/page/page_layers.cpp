@@ -113,7 +113,7 @@ PageLayers::PageLayers(SceneView& view) : view_(view) {
 
 void PageLayers::show_at_first(const std::vector<std::string>& names) {
   for (PageLayer& layer : layers_)
-    layer.shown = std::find(names.begin(), names.end(), layer.name) != names.end();
+    layer.shown = std::ranges::find(names, layer.name) != names.end();
 }
 
 void PageLayers::add_frame(const Snapshot& snapshot) {
@@ -158,8 +158,7 @@ void PageLayers::add_entries(PageLayer& layer, const Drawn& from, const Drawn& t
   for (std::size_t i = from.legend; i < to.legend; ++i) {
     const LegendLine& line = list.legend[i];
     const auto is_same = [&](const LegendLine& other) { return other.words() == line.words(); };
-    if (std::none_of(layer.legend.begin(), layer.legend.end(), is_same))
-      layer.legend.push_back(line);
+    if (std::ranges::none_of(layer.legend, is_same)) layer.legend.push_back(line);
   }
 }
 

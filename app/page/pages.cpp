@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <utility>
-#include <vector>
 
 #include "app/data/html_page.h"
 #include "app/draw/overlays/overlays.h"

@@ -2,7 +2,6 @@
 
 #include "app/python/robots.h"
 
-#include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
 #include <cmath>

@@ -105,8 +105,8 @@ py::tuple run(RobotInMotion& moving, long count, long every) {
     const State<double>& x = moving.simulation.state();
     *t.mutable_data(r) = x.t;
     const std::vector<double> row = q_with_prescribed(moving.robot.model, x);
-    std::copy(row.begin(), row.end(), q.mutable_data() + r * nq);
-    std::copy(x.qd.begin(), x.qd.end(), qd.mutable_data() + r * nv);
+    std::ranges::copy(row, q.mutable_data() + r * nq);
+    std::ranges::copy(x.qd, qd.mutable_data() + r * nv);
   }
   return py::make_tuple(t, q, qd);
 }

@@ -4,9 +4,7 @@
 #include <cmath>
 #include <variant>
 
-#include "app/record/unpack.h"
 #include "app/render/list/image.h"
-#include "app/run/run.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
 #include "app/support/version.h"

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "app/record/recording_reader.h"
 #include "app/record/recording_writer.h"
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"

@@ -4,11 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "app/data/value.h"
-#include "app/robot/coordinates.h"
-#include "app/support/text.h"
 #include "collision/import/formats/robot_formats.h"
 #include "collision/import/robot/robot_model.h"
 #include "solver/dynamics/kinematics.h"
@@ -164,7 +160,7 @@ struct StateReader {
     TableReader state(json, {"the state", "", ""}, file_, faults_);
     // Orientations first: they rotate velocities and forces of a floating joint.
     each_joint(state, "q", JointRows::coordinates, [&](const NamedJoint& joint, const Numbers& q) {
-      std::copy(q.begin(), q.end(), state_.x.q.data() + joint.iq);
+      std::ranges::copy(q, state_.x.q.data() + joint.iq);
     });
     each_joint(state, "qd", JointRows::velocities, [&](const NamedJoint& joint, const Numbers& qd) {
       to_solver(joint, state_.x, qd.data(), state_.x.qd);

@@ -3,13 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "app/robot/robot_output.h"
-#include "app/run/simulate_input.h"
 #include "app/support/text.h"
 #include "solver/dynamics/energy_momentum.h"
-#include "solver/dynamics/kinematics.h"
 #include "solver/model/non_finite.h"
 #include "solver/support/number_text.h"
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "app/data/value.h"
 #include "app/scene/forces/add_contacts.h"
 #include "app/scene/read/change_scene.h"
 #include "app/scene/read/read_scene.h"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "app/run/run.h"
 #include "solver/dynamics/energy_momentum.h"
 #include "solver/stepping/event_driven_step.h"
 #include "solver/support/number_text.h"

@@ -15,6 +15,11 @@ struct PaperRow {  // [deg], joints 1 and 2
   // Half of the last printed digit.
   std::array<double, 2> max_half_digit{0.05, 0.05}, mean_half_digit{0.05, 0.05};
 };
+// Of a row, measured or published: maxima, then means, of joints 1 and 2.
+template <class Row>
+std::array<double, 4> numbers_of(const Row& row) {
+  return {row.max_deg[0], row.max_deg[1], row.mean_deg[0], row.mean_deg[1]};
+}
 // Table 2; "E4-text": what the text says of E4 instead.
 inline const std::map<std::string, PaperRow> kPaperTable{
     {"E1", {{10.2, 26.3}, {1.6, 4.1}}},

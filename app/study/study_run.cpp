@@ -1,11 +1,8 @@
 #include "app/study/study_run.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "collision/import/robot/robot_model.h"
-#include "coupling/analysis/prediction.h"
 #include "coupling/laws/coupling_spec.h"
 
 namespace twinarm {

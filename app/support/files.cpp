@@ -8,9 +8,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <sstream>
-#include <vector>
-
-#include "solver/support/diagnostics.h"
 
 namespace twinarm {
 namespace {

@@ -3,10 +3,22 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <exception>
 #include <string>
 
 namespace twinarm {
+
+// Ctrl-C or a closed terminal sets a flag, which is checked where no partial file is left. The
+// process ends at once if nothing has looked at it after 0.9 s of processor time.
+struct Interrupted : std::exception {
+  const char* what() const noexcept override { return "interrupted"; }
+};
+
+void catch_interrupts();  // SIGINT, SIGTERM and SIGHUP set the flag
+bool is_interrupted();
+void forget_interrupt();  // clears the flag
+void check_interrupt();   // throws Interrupted if the flag is set
 
 class Progress {
  public:
@@ -15,7 +27,12 @@ class Progress {
   ~Progress();
   // `weight`: expected share of the total duration.
   void stage(const std::string& name, double weight);
-  void advance(double fraction_of_stage);          // in [0, 1]
+  void advance(double fraction_of_stage);  // in [0, 1]
+  // Of equal parts. Throws Interrupted after Ctrl-C.
+  void advance(std::size_t done, std::size_t parts) {
+    check_interrupt();
+    advance(static_cast<double>(done) / static_cast<double>(parts));
+  }
   void at(const std::string& name, double share);  // instead of stages: share of the total
   void finish();
   double seconds() const;  // since construction
@@ -28,17 +45,6 @@ class Progress {
   double done_ = 0, weight_ = 0, fraction_ = 0;
   std::chrono::steady_clock::time_point start_, drawn_;
 };
-
-// Ctrl-C or a closed terminal sets a flag, which is checked where no partial file is left. The
-// process ends at once if nothing has looked at it after 0.9 s of processor time.
-struct Interrupted : std::exception {
-  const char* what() const noexcept override { return "interrupted"; }
-};
-
-void catch_interrupts();  // SIGINT, SIGTERM and SIGHUP set the flag
-bool is_interrupted();
-void forget_interrupt();  // clears the flag
-void check_interrupt();   // throws Interrupted if the flag is set
 
 // Monotonic time in seconds.
 inline double as_seconds(std::chrono::steady_clock::duration time) noexcept {

@@ -168,9 +168,7 @@ TrialResult run_task(const TrialCondition& condition, InputDevice& device,
   PickAndPlace progress;
   PickAndPlace* const pick = task.is_pick_and_place ? &progress : nullptr;
   LiveLog log(log_file);
-  ServoPlan plan;
-  plan.duration = task.seconds;
-  plan.real_time = task.real_time;
+  const ServoPlan plan{.duration = task.seconds, .real_time = task.real_time};
   std::atomic<bool> done{false};
   double reached = 0;
   bool stopped = false;

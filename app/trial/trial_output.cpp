@@ -93,7 +93,7 @@ std::string next_participant(const std::filesystem::path& file) {
   for (std::string row; std::getline(rows, row);) known.push_back(row.substr(0, row.find(',')));
   for (int n = 1;; ++n) {
     const std::string code = fmt::format("S{}", n);
-    if (std::find(known.begin(), known.end(), code) == known.end()) return code;
+    if (std::ranges::find(known, code) == known.end()) return code;
   }
 }
 

@@ -180,7 +180,7 @@ int run_program(int argc, char** argv) {
   app.set_version_flag("--version", std::string("twinarm ") + kProgramVersion,
                        "Print the version and exit");
   std::vector<Command> listed = commands();
-  std::ranges::sort(listed, [](const Command& a, const Command& b) { return a.place < b.place; });
+  std::ranges::sort(listed, {}, &Command::place);
   std::function<int(const Words&)> chosen;
   for (const Command& command : listed) add_command(app, command, chosen);
   const bool as_json =

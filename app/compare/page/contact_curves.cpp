@@ -101,7 +101,7 @@ ErrorCurve errors_of(const AnalyticCase& c, double step) {
 
 void add_errors(const ContactCasePlot& plot, const ErrorCurve& curve, CaseCurves& all) {
   constexpr double kSolver = 1e-8;  // relative tolerance of the impulse solver
-  const auto worst = std::max_element(curve.error.begin(), curve.error.end());
+  const auto worst = std::ranges::max_element(curve.error);
   if (*plot.convergence_note)
     all.convergence_note = plot.convergence_note;
   else if (worst != curve.error.end() && *worst < kSolver)

@@ -55,11 +55,11 @@ void sample_reference(const TrajectoryCase& c, double until, CaseCurves& curves)
 
 // q and -q are the same attitude: chooses the sign of the run.
 void choose_signs(CaseCurves& curves) {
-  const auto first = std::find(curves.names.begin(), curves.names.end(), "qw");
+  const auto first = std::ranges::find(curves.names, "qw");
   const auto qw = static_cast<std::size_t>(first - curves.names.begin());
   if (qw + 4 > curves.names.size()) return;
   for (std::size_t n = 0; n < curves.exact_t.size(); ++n) {
-    const auto after = std::lower_bound(curves.t.begin(), curves.t.end(), curves.exact_t[n]);
+    const auto after = std::ranges::lower_bound(curves.t, curves.exact_t[n]);
     const auto at =
         std::min(static_cast<std::size_t>(after - curves.t.begin()), curves.t.size() - 1);
     double dot = 0;

@@ -83,9 +83,9 @@ std::vector<std::vector<std::size_t>> panels_of(const CaseCurves& curves) {
       const double its = largest(curves.values[panel[0]]);
       return same_unit(panel) && mine <= kMuchLarger * its && its <= kMuchLarger * mine;
     };
-    auto panel = std::find_if(panels.begin(), panels.end(), alike);
+    auto panel = std::ranges::find_if(panels, alike);
     if (panel == panels.end() && panels.size() == kMaxPanels)
-      panel = std::find_if(panels.begin(), panels.end(), same_unit);
+      panel = std::ranges::find_if(panels, same_unit);
     if (panel != panels.end())
       panel->push_back(i);
     else if (panels.size() < kMaxPanels)

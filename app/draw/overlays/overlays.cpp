@@ -18,7 +18,7 @@ Overlays in_order(bool is_live) {
   for (const Overlays& of_file : overlays_of_files())
     for (const Overlay& overlay : of_file)
       if (overlay.options.is_live == is_live) found.push_back(overlay);
-  std::ranges::sort(found, [](const Overlay& a, const Overlay& b) { return a.place < b.place; });
+  std::ranges::sort(found, {}, &Overlay::place);
   return found;
 }
 

@@ -61,10 +61,10 @@ bool has_child(const Model<double>& model, std::size_t body) {
 
 void show_trails(SceneView& view, const Snapshot& snapshot) {
   const auto& t = view.trace.t;
-  const auto end = static_cast<std::size_t>(
-      std::upper_bound(t.begin(), t.end(), snapshot.x.t + 1e-9) - t.begin());
+  const auto end =
+      static_cast<std::size_t>(std::ranges::upper_bound(t, snapshot.x.t + 1e-9) - t.begin());
   const auto begin = static_cast<std::size_t>(
-      std::lower_bound(t.begin(), t.end(), snapshot.x.t - view.trace.span) - t.begin());
+      std::ranges::lower_bound(t, snapshot.x.t - view.trace.span) - t.begin());
   if (end < begin + 2) return;
   const std::size_t stride = std::max<std::size_t>(1, (end - begin) / kMaxPieces);
   std::size_t shown = 0;

@@ -6,10 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "app/data/json_writer.h"
-#include "app/data/tables.h"
-#include "app/inspect/inspection.h"
-
 namespace twinarm {
 namespace {
 

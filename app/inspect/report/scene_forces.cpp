@@ -149,11 +149,7 @@ class SceneInspector::FirstStep {
   void add_wrench(AppliedForce& actor, int body, const Vector3& p_W, const Vector3& force,
                   const Vector3& torque) {
     if (body <= 0) return;
-    Wrench wrench;
-    wrench.body = static_cast<std::size_t>(body);
-    wrench.point = p_W;
-    wrench.force = force;
-    wrench.torque = torque;
+    const Wrench wrench{static_cast<std::size_t>(body), false, p_W, force, torque};
     actor.bodies.push_back({wrench.body, in_body_axes(wrench, k_), {}});
     for_each_dof_below(model_, k_, body,
                        [&](std::size_t dof, const Vector3& w, const Vector3& v, const Vector3& o) {

@@ -70,8 +70,8 @@ void UploadFolder::remove(const Upload& upload) {
 UploadedFile classify_upload(const std::string& name, const std::string& bytes) {
   std::filesystem::path path = name;
   std::string end = path.extension().string();
-  std::transform(end.begin(), end.end(), end.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::ranges::transform(end, end.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   UploadedFile file{name, false, ""};
   const auto is_one_of = [&](const auto& all) { return std::ranges::find(all, end) != all.end(); };
   if (end == ".xml" || end == ".xacro") {

@@ -42,7 +42,7 @@ GalleryScene read_entry(TableReader& table, const std::filesystem::path& folder,
   if (!std::filesystem::is_regular_file(scene.picture, ignored)) scene.picture.clear();
   const Value* look = table.find("look");
   const bool fits = look && look->items.size() == scene.look.size() &&
-                    std::all_of(look->items.begin(), look->items.end(), [](const Value& line) {
+                    std::ranges::all_of(look->items, [](const Value& line) {
                       return line.kind == Value::Kind::text && !line.text.empty();
                     });
   if (!fits)

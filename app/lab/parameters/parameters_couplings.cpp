@@ -152,10 +152,9 @@ void add_common(const SceneDescription& scene, std::vector<LabParameter>& parame
   };
   for (const CouplingKey& row : coupling_keys()) {
     if (!row.turning_unit) continue;
-    const auto one =
-        std::find_if(parameters.begin(), parameters.end(), [&](const LabParameter& parameter) {
-          return parameter.coupling == 0 && parameter.key == row.key;
-        });
+    const auto one = std::ranges::find_if(parameters, [&](const LabParameter& parameter) {
+      return parameter.coupling == 0 && parameter.key == row.key;
+    });
     if (one == parameters.end() ||
         !agree([&](const CouplingDescription& c) { return row.value(c); }))
       continue;

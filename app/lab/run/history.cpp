@@ -16,10 +16,6 @@ std::size_t bytes_in(const std::vector<T>& values) {
   return values.size() * sizeof(T);
 }
 
-bool is_earlier_step(const LabInput& input, long step) {
-  return input.step < step;
-}
-
 // Rounding of summed steps.
 double tolerance_at(double t) {
   return 1e-9 * std::max(1.0, std::abs(t));
@@ -91,20 +87,18 @@ void LabHistory::trim() {
 }
 
 std::size_t LabHistory::at(double t) const {
-  const auto later =
-      std::upper_bound(frames_.begin(), frames_.end(), t + tolerance_at(t),
-                       [](double time, const Frame& frame) { return time < frame->recorded.t; });
+  const auto time_of = [](const Frame& frame) { return frame->recorded.t; };
+  const auto later = std::ranges::upper_bound(frames_, t + tolerance_at(t), {}, time_of);
   return later == frames_.begin() ? 0 : static_cast<std::size_t>(later - frames_.begin()) - 1;
 }
 
 const LabInput* LabHistory::input(long step) const {
-  const auto place = std::lower_bound(inputs_.begin(), inputs_.end(), step, is_earlier_step);
+  const auto place = std::ranges::lower_bound(inputs_, step, {}, &LabInput::step);
   return place != inputs_.end() && place->step == step ? &*place : nullptr;
 }
 
 std::vector<LabInput> LabHistory::inputs_after(long step) const {
-  return {std::lower_bound(inputs_.begin(), inputs_.end(), step + 1, is_earlier_step),
-          inputs_.end()};
+  return {std::ranges::lower_bound(inputs_, step + 1, {}, &LabInput::step), inputs_.end()};
 }
 
 const LabInput* LabHistory::input_at(double t) const {
@@ -119,7 +113,7 @@ LabHistory LabHistory::cut(std::size_t n) {
   const long step = frames_[n]->recorded.step;
   left.segments_ = segments_;
   left.frames_.assign(frames_.begin() + static_cast<std::ptrdiff_t>(n), frames_.end());
-  const auto later = std::lower_bound(inputs_.begin(), inputs_.end(), step + 1, is_earlier_step);
+  const auto later = std::ranges::lower_bound(inputs_, step + 1, {}, &LabInput::step);
   left.inputs_.assign(later, inputs_.end());
   for (const Frame& frame : left.frames_) left.bytes_ += bytes_of(*frame);
   left.bytes_ += left.inputs_.size() * sizeof(LabInput);

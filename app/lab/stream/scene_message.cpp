@@ -63,7 +63,7 @@ void write_joints(JsonWriter& json, const RobotInput& robots, const std::vector<
     if (found != all.end() && turns_or_slides(found->type))
       json.members(
           {{"axis", found->axis}, {"slides", found->type == JointDescription::Type::prismatic}});
-    const auto place = std::find(driven.begin(), driven.end(), static_cast<int>(joint.body));
+    const auto place = std::ranges::find(driven, static_cast<int>(joint.body));
     if (place != driven.end()) json.key("driven").count(place - driven.begin());
     json.end_object();
   }

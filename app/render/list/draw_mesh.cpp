@@ -1,12 +1,11 @@
 #include "app/render/list/draw_mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numbers>
-#include <numeric>
 
 namespace twinarm {
 namespace {
@@ -15,20 +14,11 @@ using Triangle = std::array<int, 3>;
 
 // For each vertex the smallest index of an equal vertex.
 std::vector<int> weld(const std::vector<Vector3>& vertices) {
-  std::vector<int> order(vertices.size()), first(vertices.size());
-  std::iota(order.begin(), order.end(), 0);
-  const auto at = [&](int i) -> const Vector3& { return vertices[static_cast<std::size_t>(i)]; };
-  std::ranges::sort(order, [&](int i, int j) {
-    const Vector3 &a = at(i), &b = at(j);
-    if (a.x() != b.x()) return a.x() < b.x();
-    if (a.y() != b.y()) return a.y() < b.y();
-    if (a.z() != b.z()) return a.z() < b.z();
-    return i < j;
-  });
-  int representative = -1;
-  for (const int i : order) {
-    if (representative < 0 || at(i) != at(representative)) representative = i;
-    first[static_cast<std::size_t>(i)] = representative;
+  std::map<std::array<double, 3>, int> known;
+  std::vector<int> first;
+  for (const Vector3& p : vertices) {
+    const int index = static_cast<int>(first.size());
+    first.push_back(known.try_emplace({p.x(), p.y(), p.z()}, index).first->second);
   }
   return first;
 }

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <csetjmp>
-#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <sstream>

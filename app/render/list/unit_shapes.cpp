@@ -77,11 +77,9 @@ TriangleMesh sphere() {
 }
 
 TriangleMesh cylinder() {
-  TriangleMesh mesh;
-  const int bottom = add_ring(mesh, 1, 0), top = add_ring(mesh, 1, 1);
-  add_band(mesh, bottom, top, kSegments);
-  add_fan(mesh, bottom, kSegments, Vector3::Zero(), false);
-  add_fan(mesh, top, kSegments, Vector3::UnitZ(), true);
+  TriangleMesh mesh = surface_of_revolution({{1, 0}, {1, 1}});
+  add_fan(mesh, 0, kSegments, Vector3::Zero(), false);
+  add_fan(mesh, kSegments, kSegments, Vector3::UnitZ(), true);
   return mesh;
 }
 

@@ -20,7 +20,7 @@ const Color kPlotGrid{0.80f, 0.82f, 0.84f, 1.0f}, kCursor{0.80f, 0.16f, 0.14f, 1
 
 // Linear interpolation; empty outside, or beside a gap.
 std::optional<double> value_at(const Plot& plot, const PlotCurve& curve, double t) {
-  const auto next = std::upper_bound(plot.t.begin(), plot.t.end(), t);
+  const auto next = std::ranges::upper_bound(plot.t, t);
   if (next == plot.t.begin()) return std::nullopt;
   const auto i = static_cast<std::size_t>(next - plot.t.begin()) - 1;
   if (i + 1 >= plot.t.size()) {

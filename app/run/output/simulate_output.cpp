@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "app/data/tables.h"
-#include "app/run/run.h"
-#include "app/support/files.h"
 #include "app/support/text.h"
 
 namespace twinarm {

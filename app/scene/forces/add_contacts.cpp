@@ -22,8 +22,8 @@ bool steps_for_flight(const SceneModel& scene, Integrator integrator) {
   for (int body = 1; body < model.body_count(); ++body) {
     const auto i = static_cast<std::size_t>(body);
     if (model.joint[i] == JointType::free && model.parent[i] == 0 && model.last_child[i] == 0 &&
-        std::none_of(scene.constraints.begin(), scene.constraints.end(),
-                     [&](const SceneConstraint& c) { return c.a == body || c.b == body; }))
+        std::ranges::none_of(scene.constraints,
+                             [&](const SceneConstraint& c) { return c.a == body || c.b == body; }))
       return true;
   }
   return false;
@@ -146,9 +146,8 @@ std::vector<EnergyRow> SceneContacts::rows() const {
 
 int SceneContacts::contact_count() const {
   if (!contacts_) return 0;
-  return static_cast<int>(
-      std::count_if(contacts_->points().begin(), contacts_->points().end(),
-                    [](const ContactPoint& point) { return !point.force_W.isZero(0); }));
+  return static_cast<int>(std::ranges::count_if(
+      contacts_->points(), [](const ContactPoint& point) { return !point.force_W.isZero(0); }));
 }
 
 void LimitWatch::look(double t, const State<double>& x) {

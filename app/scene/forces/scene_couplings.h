@@ -12,7 +12,6 @@
 #include "coupling/target/operator_motion.h"
 #include "coupling/target/target_robot.h"
 #include "solver/stepping/simulation.h"
-#include "solver/support/checkpointable.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

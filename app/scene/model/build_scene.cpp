@@ -251,7 +251,7 @@ void set_coordinates(const SceneModel& scene, std::size_t robot, const JointValu
   const Coordinates coordinates(scene.model, false);
   for (const auto& [name, given] : q) {
     const NamedJoint& joint = joint_in_model(scene, coordinates, robot, name);
-    std::copy(given.values.begin(), given.values.end(), x.q.data() + joint.iq);
+    std::ranges::copy(given.values, x.q.data() + joint.iq);
   }
 }
 

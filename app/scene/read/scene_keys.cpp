@@ -148,8 +148,7 @@ const std::vector<CouplingKey>& coupling_keys() {
 
 const CouplingKey& coupling_key(const std::string& key) {
   const auto& rows = coupling_keys();
-  return *std::find_if(rows.begin(), rows.end(),
-                       [&](const CouplingKey& row) { return key == row.key; });
+  return *std::ranges::find(rows, key, &CouplingKey::key);
 }
 
 void fit_keys_to_type(Value& coupling, int line) {

@@ -156,9 +156,7 @@ void run(Job& job) {
 // Every job has its own seed, so that the order does not matter.
 void run_jobs(std::vector<Job>& jobs, Calibration& calibration, Progress& progress) {
   const auto work = [&](std::size_t i) { run(jobs[i]); };
-  const auto tick = [&](std::size_t done) {
-    progress.advance(static_cast<double>(done) / static_cast<double>(jobs.size()));
-  };
+  const auto tick = [&](std::size_t done) { progress.advance(done, jobs.size()); };
   parallel_for(jobs.size(), work, tick, kWorkers);
   for (const Job& job : jobs) calibration.entries[job.entry.name] = job.entry;
   jobs.clear();

@@ -42,7 +42,7 @@ void read_fit(const nlohmann::json& item, const char* objective, CalibrationEntr
 // JSON with one line for each row of a series: a container of scalars takes one line.
 std::string rows_of(const ordered_json& value, std::size_t depth = 0) {
   const auto is_structured = [](const ordered_json& one) { return one.is_structured(); };
-  if (std::none_of(value.begin(), value.end(), is_structured)) return value.dump();
+  if (std::ranges::none_of(value, is_structured)) return value.dump();
   const bool is_object = value.is_object();
   const std::string line = "\n" + std::string(depth, ' ');
   std::string text;
@@ -218,12 +218,11 @@ void write_identifications(const std::vector<Identification>& all,
 
 double worst_relative_error(const RunResult& result) {
   if (!result.stable) return 10;
-  const PaperRow& row = kPaperTable.at(result.spec.name);
+  const auto measured = numbers_of(result);
+  const auto published = numbers_of(kPaperTable.at(result.spec.name));
   double worst = 0;
-  for (std::size_t j = 0; j < 2; ++j) {
-    worst = std::max(worst, std::abs(result.max_deg[j] / row.max_deg[j] - 1));
-    worst = std::max(worst, std::abs(result.mean_deg[j] / row.mean_deg[j] - 1));
-  }
+  for (std::size_t i = 0; i < 4; ++i)
+    worst = std::max(worst, std::abs(measured[i] / published[i] - 1));
   return worst;
 }
 

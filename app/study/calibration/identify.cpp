@@ -7,7 +7,6 @@
 #include <cstdlib>
 
 #include "app/support/parallel_for.h"
-#include "app/support/progress.h"
 #include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/diagnostics.h"
@@ -157,8 +156,7 @@ class IdentificationProblem {
         if (walker.objective < better.objective) better = walker;
       }
     }
-    std::sort(profile.points.begin(), profile.points.end(),
-              [](const ProfilePoint& a, const ProfilePoint& b) { return a.value < b.value; });
+    std::ranges::sort(profile.points, {}, &ProfilePoint::value);
     return profile;
   }
 

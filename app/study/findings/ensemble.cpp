@@ -86,10 +86,7 @@ std::vector<Ensemble> run_ensembles(const StudyInputs& inputs, const StudyRobot&
                                      settings.operator_ranges);
         runs[n % 2][offset] = run(robot, hand, specs[n % 2]);
       },
-      [&](std::size_t done) {
-        check_interrupt();
-        progress.advance(static_cast<double>(done) / static_cast<double>(count));
-      });
+      [&](std::size_t done) { progress.advance(done, count); });
   return {summary(specs[0], runs[0]), summary(specs[1], runs[1])};
 }
 

@@ -3,8 +3,6 @@
 // says little.
 #pragma once
 
-#include <array>
-#include <string>
 #include <vector>
 
 #include "app/study/findings/results.h"

@@ -124,23 +124,19 @@ void weigh_automatic(Fit& fit) {
 void weigh_by_user(const StudyInputs& inputs, Fit& fit) {
   const StudySettings& s = inputs.settings;
   const std::string row = fit.evidence.user_row();
-  const PaperRow& paper = kPaperTable.at(row);
+  const std::array<double, 4> published = numbers_of(kPaperTable.at(row));
   std::vector<double> shares;
   std::array<std::vector<double>, 4> numbers;
   for (unsigned n = 0; n < kEvidenceOperators; ++n) {
     const SyntheticOperator hand(s.seed + n, s.operator_duration, s.operator_ranges);
     const RunResult result = run(fit.robot, hand, fit.spec);
     shares.push_back(share_of(statement_on(row).share, result.series));
-    for (std::size_t j = 0; j < 2; ++j) {
-      numbers[j].push_back(result.stable ? result.max_deg[j] : HUGE_VAL);
-      numbers[2 + j].push_back(result.stable ? result.mean_deg[j] : HUGE_VAL);
-    }
+    for (std::size_t i = 0; i < 4; ++i)
+      numbers[i].push_back(result.stable ? numbers_of(result)[i] : HUGE_VAL);
   }
   fit.evidence.user_figure = distribution_of(shares, 0).median;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double published = i < 2 ? paper.max_deg[i] : paper.mean_deg[i - 2];
-    fit.evidence.user_numbers += distribution_of(numbers[i], published).is_inside();
-  }
+  for (std::size_t i = 0; i < 4; ++i)
+    fit.evidence.user_numbers += distribution_of(numbers[i], published[i]).is_inside();
 }
 
 // Whether the readings oscillate, by the damping ratio of their slow mode.
@@ -182,10 +178,7 @@ std::vector<Evidence> weigh_evidence(const StudyInputs& inputs, const StudyResul
         weigh_automatic(all[n]);
         weigh_by_user(inputs, all[n]);
       },
-      [&](std::size_t done) {
-        check_interrupt();
-        progress.advance(static_cast<double>(done) / static_cast<double>(all.size()));
-      });
+      [&](std::size_t done) { progress.advance(done, all.size()); });
   std::vector<Evidence> evidence;
   for (const Fit& fit : all) evidence.push_back(fit.evidence);
   return evidence;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <map>
 
-#include "app/data/value.h"
 #include "app/study/findings/variants.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"

@@ -86,10 +86,6 @@ void watch_target_radius(TrackingSystem& system, double t, const RunSpec& spec,
   }
 }
 
-double largest(const std::vector<double>& v) {
-  return *std::max_element(v.begin(), v.end());
-}
-
 ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
                          const StudySettings::Obstacle& box, RunSpec spec, const char* name) {
   ObstacleRun result;
@@ -122,10 +118,10 @@ ObstacleRun run_obstacle(const StudyInputs& inputs, const StudyRobot& robot,
     result.q_K_deg[j] = in_degrees(series.q_K[j]);
     result.q_D_deg[j] = in_degrees(series.q_D[j]);
   }
-  result.max_penetration = largest(result.penetration);
-  result.max_beyond = largest(result.beyond);
-  result.max_coupling = largest(result.coupling);
-  result.max_force = largest(result.contact_force);
+  result.max_penetration = std::ranges::max(result.penetration);
+  result.max_beyond = std::ranges::max(result.beyond);
+  result.max_coupling = std::ranges::max(result.coupling);
+  result.max_force = std::ranges::max(result.contact_force);
   double longest = 0;
   for (const auto& [begin, end] : contact_intervals(result, 1.5 * spec.step())) {
     if (end - begin <= longest) continue;

@@ -6,7 +6,6 @@
 #include <functional>
 #include <numbers>
 
-#include "app/support/progress.h"
 #include "coupling/target/synthetic_operator.h"
 
 namespace twinarm {
@@ -151,16 +150,14 @@ std::vector<RunResult> run_reproduction(const StudyRobot& robot, const Calibrati
 std::vector<RunResult> run_variants(const StudyInputs& inputs, const StudyRobot& robot,
                                     const Calibration& calibration, Progress& progress) {
   const std::size_t rates = inputs.settings.rates_hz.size();
-  const auto expected =
-      static_cast<double>(kTrialLaws.size() * (2 * rates - 1) + 2 * rates + 18 + 8);
+  const std::size_t expected = kTrialLaws.size() * (2 * rates - 1) + 2 * rates + 18 + 8;
   const AutomaticMotion hand{OperatorMapping{}};
   std::vector<RunResult> results;
   const Add add = [&](const std::string& name, const std::string& title, RunSpec spec) {
-    check_interrupt();
     spec.name = name;
     spec.title = title;
     results.push_back(run_and_predict(robot, hand, spec));
-    progress.advance(static_cast<double>(results.size()) / expected);
+    progress.advance(results.size(), expected);
   };
   add_trials(inputs.settings, calibration, add);
   add_matched(inputs.settings, calibration, add);

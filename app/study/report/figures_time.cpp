@@ -131,8 +131,8 @@ void draw_angles(Gnuplot& gnuplot, const std::string& name, const RunResult& run
   for (std::size_t j = 0; j < 2; ++j) {
     const std::vector<double> q_K = in_degrees(series.q_K[j]), q_D = in_degrees(series.q_D[j]);
     const std::vector<double> error = error_deg(series, j);
-    const auto at = static_cast<std::size_t>(
-        std::distance(error.begin(), std::max_element(error.begin(), error.end())));
+    const auto at =
+        static_cast<std::size_t>(std::distance(error.begin(), std::ranges::max_element(error)));
     script += panel(static_cast<int>(j), fmt::format("joint {} [°]", j + 1), series.t.back());
     script += angle_axis(q_K, q_D);
     const std::string theory =  // none for E1 and E2

@@ -79,22 +79,21 @@ std::vector<StudyRecording> write_recordings(const StudyInputs& inputs, const St
     write_whole_file(made.page, replay_page(made.recording).html);
   };
   StudyScene scene{&inputs.settings, &robot, {}, {}};
-  const double count = static_cast<double>(results.reproduction.size() + results.obstacle.size());
-  double done = 0;
+  const std::size_t count = results.reproduction.size() + results.obstacle.size();
   for (const RunResult& run : results.reproduction) {
     scene.spec = run.spec;
     scene.hand = run.spec.name < "E3" ? hand : automatic_operator();
     std::vector<std::vector<double>> angles;
     for (const auto& q : run.series.q_D) angles.push_back(in_degrees(q));
     add(scene, angles);
-    progress.advance(++done / count);
+    progress.advance(all.size(), count);
   }
   scene.hand = automatic_operator();
   for (const ObstacleRun& run : results.obstacle) {
     scene.spec = run.spec;
     scene.obstacle = run.obstacle;
     add(scene, {run.q_D_deg.begin(), run.q_D_deg.end()});
-    progress.advance(++done / count);
+    progress.advance(all.size(), count);
   }
   return all;
 }
@@ -113,11 +112,10 @@ void paint_pictures(const StudyResults& results, const std::filesystem::path& fo
       {"E4", "E4", e4, kFromLeft},
       {"obstacle-linear", "obstacle_linear", kStopped, kFaceOfBox},
       {"obstacle-torsional", "obstacle_torsional", kStopped, kFaceOfBox}};
-  double done = 0;
+  std::size_t done = 0;
   for (const auto& [name, run, time, camera] : pictures) {
-    check_interrupt();
-    const auto made = std::find_if(results.recordings.begin(), results.recordings.end(),
-                                   [run = run](const StudyRecording& r) { return r.name == run; });
+    const auto made = std::ranges::find_if(
+        results.recordings, [run = run](const StudyRecording& r) { return r.name == run; });
     const bool portrait = name == std::string("robot");
     RobotOptions options;
     options.model = made->recording;
@@ -133,7 +131,7 @@ void paint_pictures(const StudyResults& results, const std::filesystem::path& fo
     wish.camera = camera;
     if (!portrait && !paper_view) wish.overlays = {"targets", "couplings"};
     write_png((folder / (std::string(name) + ".png")).string(), Rendering(wish, {&shown}).paint(0));
-    progress.advance(++done / static_cast<double>(pictures.size()));
+    progress.advance(++done, pictures.size());
   }
 }
 

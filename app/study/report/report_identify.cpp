@@ -41,7 +41,7 @@ bool is_open(double singular_value) {
 }
 
 bool leaves_open(const Identification& found) {
-  return std::any_of(found.singular_values.begin(), found.singular_values.end(), is_open);
+  return std::ranges::any_of(found.singular_values, is_open);
 }
 
 // Products of powers that are not identifiable, without small exponents.
@@ -51,8 +51,8 @@ std::string open_combinations(const Identification& found) {
   for (std::size_t i = 0; i < found.singular_values.size(); ++i) {
     if (!is_open(found.singular_values[i])) continue;
     const std::vector<double>& v = found.directions[i];
-    const auto largest = std::max_element(
-        v.begin(), v.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const auto largest =
+        std::ranges::max_element(v, [](double a, double b) { return std::abs(a) < std::abs(b); });
     std::string product;
     for (std::size_t j = 0; j < v.size(); ++j) {
       const double power = v[j] / *largest;
@@ -187,8 +187,7 @@ std::vector<const CalibrationEntry*> entries_of(const Calibration& calibration,
   std::vector<const CalibrationEntry*> entries;
   for (const auto& [name, entry] : calibration.entries)
     if (name.starts_with(prefix)) entries.push_back(&entry);
-  std::stable_sort(entries.begin(), entries.end(),
-                   [](const auto* a, const auto* b) { return a->rate < b->rate; });
+  std::ranges::stable_sort(entries, {}, &CalibrationEntry::rate);
   return entries;
 }
 
