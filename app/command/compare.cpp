@@ -8,7 +8,7 @@
 #include "app/command/command.h"
 #include "app/compare/compare.h"
 #include "app/compare/page/page.h"
-#include "app/page/page_facts.h"
+#include "app/page/pages.h"
 #include "app/plot/gnuplot.h"
 #include "app/support/files.h"
 #include "app/support/parallel_for.h"

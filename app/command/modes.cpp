@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "app/command/command.h"
-#include "app/modes/modes.h"
+#include "app/modes/linear_system.h"
 #include "app/robot/robot_input.h"
 #include "app/support/files.h"
 

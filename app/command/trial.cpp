@@ -10,7 +10,7 @@
 #include "app/command/command.h"
 #include "app/device/devices.h"
 #include "app/study/calibration/calibration.h"
-#include "app/study/findings/variants.h"
+#include "app/study/findings/findings.h"
 #include "app/study/study_scene.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"

@@ -1,4 +1,5 @@
-#include "app/map/cell_batch.h"
+#include "app/map/cell_measure.h"
+#include "app/map/map_job.h"
 
 #include <algorithm>
 #include <cmath>

@@ -8,7 +8,6 @@
 #include <map>
 #include <mutex>
 
-#include "app/map/cell_batch.h"
 #include "app/map/cell_measure.h"
 #include "app/support/parallel_for.h"
 #include "app/support/progress.h"

@@ -11,8 +11,10 @@
 #include <Eigen/Core>
 #include <array>
 #include <complex>
+#include <string>
 #include <vector>
 
+#include "app/run/simulate_input.h"
 #include "coupling/analysis/joint_space_stiffness.h"
 #include "solver/loops/loop_closure.h"
 
@@ -77,5 +79,20 @@ LoopedSystem linearise_with_loops(const Model<double>& model, const State<double
 
 // Shape of a mode of the reduced system in all velocities; the largest component is 1.
 Mode by_all_velocities(const LoopedSystem& looped, const Mode& mode);
+
+// `twinarm modes`: linearisation of a robot or scene about its state, with its constraints.
+
+struct ModesOf {
+  LoopedSystem looped;
+  std::vector<Mode> modes;         // by all velocities of the model
+  std::vector<NamedJoint> joints;  // of shapes: those of robots, then bodies with constraints
+  std::vector<std::string> rows;   // names of dq, the rows of A
+  std::vector<std::string> warnings;
+};
+// At the state of the input, its velocities projected on the constraints.
+ModesOf find_modes(SimulateInput& input);
+
+std::string modes_json(const SimulateInput& input, const ModesOf& found);
+std::string modes_table(const SimulateInput& input, const ModesOf& found);
 
 }  // namespace twinarm

@@ -1,4 +1,4 @@
-#include "app/modes/modes.h"
+#include "app/modes/linear_system.h"
 
 #include <fmt/format.h>
 

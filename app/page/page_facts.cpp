@@ -1,4 +1,4 @@
-#include "app/page/page_facts.h"
+#include "app/page/pages.h"
 
 #include <fmt/format.h>
 

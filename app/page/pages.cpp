@@ -8,7 +8,6 @@
 #include "app/draw/overlays/overlays.h"
 #include "app/film/filmed_run.h"
 #include "app/page/channels.h"
-#include "app/page/page_facts.h"
 #include "app/page/page_layers.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"

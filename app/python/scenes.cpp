@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "app/python/arrays.h"
 #include "app/python/robots.h"
@@ -10,6 +11,7 @@
 #include "app/run/run.h"
 #include "app/support/text.h"
 #include "solver/dynamics/kinematics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm::python {
 namespace {
@@ -110,6 +112,25 @@ py::dict simulate(const py::object& file, const std::optional<double>& duration,
   return run_attributes(samples, prepared.input, result);
 }
 
+std::string name_of(const std::string& path) {
+  return "set['" + path + "']";
+}
+
+// VALUE as for `twinarm replay --set PATH=VALUE`.
+std::string setting_text(const std::string& path, const py::handle& value) {
+  if (py::isinstance<py::str>(value)) return py::cast<std::string>(value);
+  if (py::isinstance<py::bool_>(value)) return py::cast<bool>(value) ? "true" : "false";
+  const std::string what = name_of(path);
+  const Array numbers = numbers_of(value, what);
+  check_finite(numbers.data(), static_cast<std::size_t>(numbers.size()), what);
+  if (numbers.ndim() > 1 || numbers.size() == 0)
+    throw py::value_error(what + " must be a number, a text, a flag or a list of numbers");
+  std::string text;
+  for (py::ssize_t i = 0; i < numbers.size(); ++i)
+    text += (i > 0 ? "," : "") + number_text(numbers.data()[i]);
+  return text;
+}
+
 }  // namespace
 
 void check_signals(double) {
@@ -133,6 +154,27 @@ py::dict momentum_by_row(const std::vector<MomentumRow>& rows) {
     all[py::str(row.name)] = six;
   }
   return all;
+}
+
+void change_scene(const py::object& set, SimulateOptions& options) {
+  if (set.is_none()) return;
+  if (options.robot.model.extension() != ".toml")
+    throw py::value_error("set= changes a scene; '" + options.robot.model.string() +
+                          "' is not a scene: write one that contains the robot");
+  DiagnosticList faults;
+  Value scene = read_toml(options.robot.model);
+  for (const auto& [path, value] : py::cast<py::dict>(set)) {
+    const Change change{py::cast<std::string>(path),
+                        setting_text(py::cast<std::string>(path), value)};
+    DiagnosticList of_change;  // names the command line option
+    apply(change, 0, scene, of_change);
+    for (Diagnostic fault : of_change.faults()) {
+      fault.where = name_of(change.path);
+      faults.add(std::move(fault));
+    }
+  }
+  faults.check();
+  options.scene = std::move(scene);
 }
 
 SimulateOptions run_options(const py::object& file, const std::optional<double>& step,

@@ -11,7 +11,7 @@
 #include "app/robot/dynamics.h"
 #include "app/run/run.h"
 #include "app/support/files.h"
-#include "app/support/renames.h"
+#include "app/support/text.h"
 #include "solver/support/atomic_file.h"
 
 namespace twinarm {

@@ -1,4 +1,4 @@
-#include "app/support/renames.h"
+#include "app/support/text.h"
 
 #include <nlohmann/json.hpp>
 #include <vector>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "app/support/renames.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {

@@ -74,4 +74,11 @@ std::string csv_field(const std::string& text);                // quoted if nece
 std::string csv_line(const std::vector<std::string>& fields);  // without line end
 std::string csv_line(const std::vector<double>& numbers);
 
+// ---- names that replaced others in options, scene files and JSON output (assets/renamed.json)
+// ----
+
+// The name that replaced `old`; empty if none did. `kind`: "commands", "options" (with "--"),
+// "keys" and "values" of scene files, "choices" of options.
+std::string renamed(const std::string& kind, const std::string& old);
+
 }  // namespace twinarm

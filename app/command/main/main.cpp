@@ -13,7 +13,6 @@
 #include "app/data/json_writer.h"
 #include "app/support/files.h"
 #include "app/support/progress.h"
-#include "app/support/renames.h"
 #include "app/support/text.h"
 #include "app/support/version.h"
 #include "solver/support/diagnostics.h"

@@ -4,7 +4,7 @@
 #include <memory>
 #include <utility>
 
-#include "app/inspect/constraint_unknowns.h"
+#include "app/inspect/inspection.h"
 #include "app/inspect/report/inspect_input.h"
 #include "app/robot/dynamics.h"
 #include "app/scene/forces/add_contacts.h"

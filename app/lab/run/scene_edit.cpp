@@ -1,4 +1,4 @@
-#include "app/lab/run/scene_edit.h"
+#include "app/lab/run/lab_scene.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "app/lab/parameters/gallery.h"
-#include "app/lab/session/session_state.h"
+#include "app/lab/session/session_status.h"
 
 namespace twinarm {
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,10 +23,34 @@
 #include "app/lab/run/history.h"
 #include "app/lab/session/scene_builder_thread.h"
 #include "app/lab/stream/frame_bytes.h"
-#include "app/lab/stream/scene_message.h"
+#include "app/render/list/draw_list.h"
 #include "app/run/simulate_input.h"
 
 namespace twinarm {
+
+// Names for the numbers in frames, for the message `scene` (docs/reference/lab_protocol.md).
+
+// Meshes and textures of a draw list as files, named by the hash of their content.
+class MeshStore {
+ public:
+  // Adds those that are new in the list. True: there were some.
+  bool take(const DrawList& list);
+  // Names by number in the list.
+  const std::vector<std::string>& meshes() const { return mesh_names_; }
+  const std::vector<std::string>& textures() const { return texture_names_; }
+  // By name, as GET /mesh/HASH and /texture/HASH answer; null: unknown.
+  std::shared_ptr<const std::string> mesh(const std::string& name) const;
+  std::shared_ptr<const std::string> texture(const std::string& name) const;
+
+ private:
+  using Files = std::map<std::string, std::shared_ptr<const std::string>>;
+
+  std::vector<std::string> mesh_names_, texture_names_;
+  Files meshes_, textures_;
+};
+
+// Of all layers, in the order of their numbers in frames.
+const std::vector<std::string>& layer_names();
 
 // Of a frame, known by the session.
 struct FrameFacts {

@@ -1,4 +1,3 @@
-#include "app/lab/stream/scene_message.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +10,7 @@
 #include "app/lab/stream/lab_view.h"
 #include "app/page/page_layers.h"
 #include "app/record/recording.h"
+#include "app/support/text.h"
 
 namespace twinarm {
 namespace {
@@ -100,11 +100,7 @@ std::string keep(std::map<std::string, std::shared_ptr<const std::string>>& file
 }  // namespace
 
 const std::vector<std::string>& layer_names() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const LayerWords& layer : lab_layers()) all.push_back(layer.name);
-    return all;
-  }();
+  static const std::vector<std::string> names = names_of(lab_layers());
   return names;
 }
 

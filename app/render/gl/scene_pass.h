@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "app/render/gl/gl_objects.h"
-#include "app/render/gl/shaders.h"
 #include "app/render/list/draw_list.h"
 #include "app/render/list/view.h"
 #include "solver/spatial/pose.h"

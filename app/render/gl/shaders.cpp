@@ -1,4 +1,4 @@
-#include "app/render/gl/shaders.h"
+#include "app/render/gl/gl_objects.h"
 
 #include <algorithm>
 

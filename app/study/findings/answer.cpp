@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/study/findings/evidence.h"
 #include "app/study/findings/findings.h"
-#include "app/study/findings/variants.h"
 
 namespace twinarm {
 namespace {

@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "app/study/findings/findings.h"
-#include "app/study/findings/variants.h"
 #include "solver/dynamics/model_builder.h"
 
 namespace twinarm {

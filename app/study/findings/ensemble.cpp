@@ -1,9 +1,8 @@
-#include "app/study/findings/ensemble.h"
+#include "app/study/findings/findings.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "app/study/findings/variants.h"
 #include "app/support/parallel_for.h"
 #include "coupling/target/synthetic_operator.h"
 

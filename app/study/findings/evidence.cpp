@@ -1,4 +1,3 @@
-#include "app/study/findings/evidence.h"
 
 #include <fmt/format.h>
 
@@ -6,8 +5,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "app/study/findings/ensemble.h"
-#include "app/study/findings/variants.h"
+#include "app/study/findings/findings.h"
 #include "app/support/parallel_for.h"
 #include "coupling/target/synthetic_operator.h"
 

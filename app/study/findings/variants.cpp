@@ -1,4 +1,4 @@
-#include "app/study/findings/variants.h"
+#include "app/study/findings/findings.h"
 
 #include <fmt/format.h>
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <set>
 
-#include "app/study/report/figures_detail.h"
 #include "app/study/report/report.h"
+#include "app/study/report/report_slots.h"
 #include "app/support/text.h"
 
 namespace twinarm {

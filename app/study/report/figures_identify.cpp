@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "app/study/report/figures_detail.h"
+#include "app/study/report/report_slots.h"
 
 namespace twinarm {
 namespace {

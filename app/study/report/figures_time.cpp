@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/study/findings/variants.h"
-#include "app/study/report/figures_detail.h"
+#include "app/study/findings/findings.h"
+#include "app/study/report/report_slots.h"
 
 namespace twinarm {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "app/data/json_writer.h"
-#include "app/study/findings/evidence.h"
+#include "app/study/findings/findings.h"
 #include "app/study/report/report.h"
 #include "solver/support/atomic_file.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "app/study/findings/evidence.h"
+#include "app/study/findings/findings.h"
 #include "app/study/report/report_slots.h"
 
 namespace twinarm {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/lab/run/scene_edit.h"
+#include "app/lab/run/lab_scene.h"
 #include "tests/app/lab/run/helpers.h"
 
 namespace twinarm {

@@ -1,7 +1,7 @@
 // Parts of the session without its thread.
 #include <doctest/doctest.h>
 
-#include "app/lab/session/session_state.h"
+#include "app/lab/session/session_status.h"
 #include "tests/app/lab/run/helpers.h"
 #include "tests/app/lab/session/built_scene.h"
 

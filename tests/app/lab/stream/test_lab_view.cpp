@@ -1,7 +1,7 @@
 // Meshes, new names, scales of arrows, history.
 #include <cmath>
 
-#include "app/lab/stream/scene_message.h"
+#include "app/lab/stream/lab_view.h"
 #include "tests/app/lab/stream/watched.h"
 
 namespace twinarm {

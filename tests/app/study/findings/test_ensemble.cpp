@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/study/findings/ensemble.h"
+#include "app/study/findings/findings.h"
 #include "coupling/target/synthetic_operator.h"
 
 using namespace twinarm;

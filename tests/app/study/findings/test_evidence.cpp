@@ -1,4 +1,4 @@
-#include "app/study/findings/evidence.h"
+#include "app/study/findings/findings.h"
 
 #include <doctest/doctest.h>
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "app/study/findings/variants.h"
+#include "app/study/findings/findings.h"
 
 using namespace twinarm;
 
