@@ -1,4 +1,4 @@
-// Contents of a recording (docs/use/record_and_resume.md): header and frames.
+// Contents of a recording (docs/reference/recording_file.md): header and frames.
 #pragma once
 
 #include <cstdint>

@@ -21,6 +21,7 @@
 
 #include "solver/impulses/impulse_solver.h"
 #include "solver/impulses/ipm_equations.h"
+#include "solver/linear_algebra/nan_max.h"
 
 namespace twinarm {
 namespace {
@@ -68,7 +69,7 @@ struct ImpulseSolver::CentralPath {
       const ConeScaling& w = of.scaling_[i];
       const ConeVec z = times(w.W, a.z[i]), x = divided(w, a.x[i]);
       const double here = std::max(cone_dot(z, z), cone_dot(x, x)) / cone_dot(w.t, w.t);
-      max = here <= max ? max : here;  // propagates NaN
+      max = nan_max(max, here);
     });
     return std::sqrt(max);
   }

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "solver/linear_algebra/nan_max.h"
 #include "solver/model/configuration.h"
 
 namespace twinarm {
@@ -10,10 +11,6 @@ namespace {
 constexpr Tableau::Row<double> kErrorWeights{
     71.0 / 57600, 0, -71.0 / 16695, 71.0 / 1920, -17253.0 / 339200, 22.0 / 525, -1.0 / 40};
 constexpr int kMaxAttempts = 10'000'000;  // per step
-
-double largest(double a, double b) {
-  return b <= a ? a : b;  // NaN if b is NaN
-}
 
 }  // namespace
 
@@ -98,11 +95,11 @@ double Dopri5::error(const IntegrationState& m, double h) {
   for (std::size_t i = 0; i < size_.size(); ++i) {
     const double error_q = h * rk_.rate_sum(kErrorWeights, stages, i);
     const double error_qd = h * rk_.qdd_sum(kErrorWeights, stages, i);
-    err = largest(err, scaled(error_q, size_[i], size_new_[i]));
-    err = largest(err, scaled(error_qd, m.x.qd[i], m.stage.qd[i]));
+    err = nan_max(err, scaled(error_q, size_[i], size_new_[i]));
+    err = nan_max(err, scaled(error_qd, m.x.qd[i], m.stage.qd[i]));
     if (!m.has_loops()) continue;  // the projection of the last stage is part of the error
-    err = largest(err, scaled(m.projection.correction_q()[i], size_[i], size_new_[i]));
-    err = largest(err, scaled(m.projection.correction_qd()[i], m.x.qd[i], m.stage.qd[i]));
+    err = nan_max(err, scaled(m.projection.correction_q()[i], size_[i], size_new_[i]));
+    err = nan_max(err, scaled(m.projection.correction_qd()[i], m.x.qd[i], m.stage.qd[i]));
   }
   return err;
 }
@@ -131,15 +128,15 @@ double Dopri5::first_substep(IntegrationState& m, double h_max) {
   double d0 = 0, d1 = 0, d2 = 0;
   for (std::size_t i = 0; i < size_.size(); ++i) {
     const double v = m.x.qd[i], a = rk_.qdd_sum(euler.b, 1, i);
-    d0 = largest(d0, std::max(scaled(size_[i], size_[i], 0), scaled(v, v, 0)));
-    d1 = largest(d1, largest(scaled(v, size_[i], 0), scaled(a, v, 0)));
+    d0 = nan_max(d0, std::max(scaled(size_[i], size_[i], 0), scaled(v, v, 0)));
+    d1 = nan_max(d1, nan_max(scaled(v, size_[i], 0), scaled(a, v, 0)));
   }
   const double h0 = std::min(h_max, d0 < 1e-5 || !(d1 > 1e-5) ? 1e-6 : 0.01 * d0 / d1);
   rk_.stage(m, tableau_of(Integrator::heun), 1, h0);
   const Tableau::Row<double> second{-1 / h0, 1 / h0};
   for (std::size_t i = 0; i < size_.size(); ++i) {
-    d2 = largest(d2, scaled(rk_.rate_sum(second, 2, i), size_[i], 0));
-    d2 = largest(d2, scaled(rk_.qdd_sum(second, 2, i), m.x.qd[i], 0));
+    d2 = nan_max(d2, scaled(rk_.rate_sum(second, 2, i), size_[i], 0));
+    d2 = nan_max(d2, scaled(rk_.qdd_sum(second, 2, i), m.x.qd[i], 0));
   }
   const double d = std::max(d1, d2);
   const double h1 = d > 1e-15 ? std::pow(0.01 / d, 0.2) : std::max(1e-6, 1e-3 * h0);

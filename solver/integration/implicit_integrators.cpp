@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/linear_algebra/nan_max.h"
 #include "solver/model/configuration.h"
 
 namespace twinarm {
@@ -17,7 +18,7 @@ constexpr double kAtRounding =
 
 double largest(const std::vector<double>& v) {
   double size = 0;
-  for (double x : v) size = std::abs(x) <= size ? size : std::abs(x);  // propagates NaN
+  for (const double x : v) size = nan_max(size, std::abs(x));
   return size;
 }
 

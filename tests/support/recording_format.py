@@ -1,4 +1,4 @@
-"""The file format of recordings, from docs/use/record_and_resume.md: read into plain values and written again.
+"""The file format of recordings, from docs/reference/recording_file.md: read into plain values and written again.
 Shares nothing with the program."""
 import json
 import struct

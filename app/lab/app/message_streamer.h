@@ -1,5 +1,5 @@
-// Makes and sends the messages scene, state, frame and glass, in its own thread: at most 60 frames
-// a second to one or two clients, 30 to more. Also answers HTTP requests that need the view.
+// Makes and sends the messages scene, state, frame and inspection, in its own thread: at most 60
+// frames a second to one or two clients, 30 to more. Also answers HTTP requests that need the view.
 #pragma once
 
 #include <algorithm>

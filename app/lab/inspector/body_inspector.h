@@ -1,4 +1,4 @@
-// Dynamics of one body at one frame: the message `glass`
+// Dynamics of one body at one frame: the message `inspection`
 // (docs/understand/articulated_body_algorithm.md).
 //
 // The frame's checkpoint is restored in a simulation with the same layout, one semi-implicit step

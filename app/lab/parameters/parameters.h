@@ -65,7 +65,7 @@ void set_initial_values(const std::vector<LabParameter>& unchanged,
 void predict_limits(SimulatePlan& plan, const State<double>& now,
                     std::vector<LabParameter>& parameters, const char* pose = "");
 
-// The list `knobs` of docs/reference/lab_protocol.md.
+// The list `parameters` of docs/reference/lab_protocol.md.
 void write_parameters(const std::vector<LabParameter>& parameters, JsonWriter& json);
 
 }  // namespace twinarm

@@ -164,7 +164,7 @@ void write_calibration(const Calibration& calibration, const std::filesystem::pa
   ordered_json root;
   root["about"] =
       "Gains that the paper does not publish, found by search. Made by `twinarm study "
-      "--recalibrate`; objective, bounds and numbers of each entry: docs/use/run_the_study.md.";
+      "--recalibrate`; objective, bounds and numbers of each entry: docs/reference/study_files.md.";
   root["entries"] = ordered_json::array();
   for (const auto& [name, entry] : calibration.entries) {
     ordered_json item = {{"evaluations", entry.evaluations},
@@ -188,7 +188,7 @@ void write_identifications(const std::vector<Identification>& all,
   ordered_json root;
   root["about"] =
       "Identifiability of a coupling's gains from Table 2. Written by `twinarm study --identify`; "
-      "format: docs/use/run_the_study.md.";
+      "format: docs/reference/study_files.md.";
   root["optimiser"] = optimiser_name();
   root["entries"] = ordered_json::array();
   for (const Identification& found : all) {
