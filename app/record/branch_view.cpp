@@ -124,8 +124,8 @@ std::vector<std::string> names_of_both(std::vector<std::string> names,
                                        const std::vector<std::string>& others) {
   for (const std::string& name : others)
     if (index_of(names, name) == names.size()) names.push_back(name);
-  std::ranges::stable_partition(names,
-                                [](const std::string& name) { return name != kNumericalRow; });
+  std::stable_partition(names.begin(), names.end(),
+                        [](const std::string& name) { return name != kNumericalRow; });
   return names;
 }
 

@@ -78,6 +78,7 @@ class LabStates(LabCase):
         self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].discretization=explicit']})")
         self.until(f"{STATE}.parameters.find(k => k.path === 'coupling[0].stiffness').limit?.value > 0")
         self.value("twinarm.page.send({do: 'set', changes: ['coupling[0].stiffness=3e7']})")
+        self.until(f"{STATE}.changes.includes('coupling[0].stiffness=3e7')")
         self.value("twinarm.page.send({do: 'drag_body', body: 3, point: [0, 0, 0], goal: [1, 1, 1]})")
         self.until(f"{STATE}.failure && !{STATE}.failure.trying")
         self.until("!document.querySelector('.post-mortem').hidden")

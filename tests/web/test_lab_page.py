@@ -137,6 +137,7 @@ class LabPage(LabCase):
         for index in range(3):
             self.value(f"twinarm.page.send({{do: 'set', changes: ['step=0.001', {explicit}, "
                        "'coupling[0].stiffness=3e7']})")
+            self.until(f"{STATE}.changes.includes('coupling[0].stiffness=3e7')")
             # At rest it might stay.
             self.value("twinarm.page.send({do: 'drag_body', body: 3, point: [0, 0, 0], goal: [1, 1, 1]})")
             self.until(f"{STATE}.failure && !{STATE}.failure.trying")

@@ -80,7 +80,8 @@ void add_to_tree(CLI::App& command, const std::string& name, std::vector<Command
     result.details.erase(result.details.begin());
   }
   for (CLI::Option* option : command.get_options()) result.options.push_back(describe(*option));
-  std::ranges::stable_partition(result.options, &OptionInfo::is_positional);
+  std::stable_partition(result.options.begin(), result.options.end(),
+                        [](const OptionInfo& option) { return option.is_positional; });
   const std::vector<CLI::App*> next = command.get_subcommands({});
   for (const CLI::App* below : next) result.subcommands.push_back(below->get_name());
   tree.push_back(std::move(result));
