@@ -228,7 +228,7 @@ TEST_CASE("lab server: requests that are too long or too slow are cut off") {
   CHECK(lab.is_alive());
 }
 
-TEST_CASE("lab server: strangers who keep connections open keep nobody out who has the token") {
+TEST_CASE("lab server: clients with the token are served while strangers keep connections open") {
   ServerOptions options;
   options.max_clients = 1;
   const LabHost lab(options);
