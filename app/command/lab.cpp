@@ -15,6 +15,7 @@
 #include "app/lab/session/lab_session.h"
 #include "app/support/progress.h"
 #include "app/web/web_bundle.h"
+#include "collision/sandbox/isolated_parser.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -230,6 +231,7 @@ class Lab {
 };
 
 int run_lab(const LabOptions& options) {
+  isolate_parsers();
   Lab lab(options, read_gallery());
   const std::string url = lab.url() + query_of(options);
   if (options.json)

@@ -3,8 +3,10 @@
 #include <toml++/toml.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "collision/import/toml/toml_file.h"
+#include "collision/sandbox/isolated_parser.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 
@@ -160,15 +162,36 @@ std::string to_toml(const Value& root) {
   return text;
 }
 
-Value read_toml(const std::filesystem::path& file) {
-  const std::string text = read_toml_text(file);
-  try {
-    return value_of_node(toml::parse(text, file.string()));
-  } catch (const toml::parse_error& error) {
-    throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
-                       "not well-formed TOML: " + std::string(error.description()),
-                       "correct this line", "file.toml"}});
+namespace {
+
+void visit(StateArchive& archive, Value& value, std::size_t depth) {
+  archive.visit(value.kind, value.key, value.line, value.number, value.text);
+  if (depth > 2 * kMaxTomlDepth || value.kind > Value::Kind::date)
+    throw std::runtime_error("not a packed value");
+  constexpr std::size_t kMinBytes = 40;  // of the fields above
+  for (std::vector<Value>* part : {&value.items, &value.members}) {
+    archive.resize(*part, kMinBytes);
+    for (Value& each : *part) visit(archive, each, depth + 1);
   }
+}
+
+}  // namespace
+
+void serialize(StateArchive& archive, Value& value) {
+  visit(archive, value, 0);
+}
+
+Value read_toml(const std::filesystem::path& file) {
+  return parse<Value>(file, [&] {
+    const std::string text = read_toml_text(file);
+    try {
+      return value_of_node(toml::parse(text, file.string()));
+    } catch (const toml::parse_error& error) {
+      throw InputError({{file.string(), static_cast<int>(error.source().begin.line), "",
+                         "not well-formed TOML: " + std::string(error.description()),
+                         "correct this line", "file.toml"}});
+    }
+  });
 }
 
 }  // namespace twinarm

@@ -9,6 +9,8 @@
 
 namespace twinarm {
 
+class StateArchive;
+
 struct Value {
   // table: a JSON object; date: a TOML date or time.
   enum class Kind { null, boolean, number, text, list, table, date };
@@ -49,6 +51,9 @@ struct Value {
 };
 // "a list of 3", "the text 'box'", ..: for messages.
 std::string describe(const Value& value);
+
+// For the transfer between processes. Throws std::runtime_error if it is not a packed value.
+void serialize(StateArchive& archive, Value& value);
 
 // Throw InputError if the file cannot be read, is invalid, or has a key twice.
 Value read_toml(const std::filesystem::path& file);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "collision/mesh_files/sandboxed_process.h"
+#include "collision/sandbox/sandboxed_process.h"
 
 namespace twinarm {
 

@@ -8,7 +8,7 @@
 #include "app/lab/session/lab_command.h"
 #include "app/record/recording_reader.h"
 #include "app/support/files.h"
-#include "collision/mesh_files/sandboxed_process.h"
+#include "collision/sandbox/sandboxed_process.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {

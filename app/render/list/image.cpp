@@ -9,9 +9,11 @@
 #include <fstream>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <system_error>
 #include <utility>
 
+#include "collision/sandbox/isolated_parser.h"
 #include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
@@ -24,12 +26,14 @@ constexpr int kCompressionLevel = 3;  // level 6 takes several times as long
   throw InputError({Diagnostic{"", 0, "picture", problem, fix, "picture.write"}});
 }
 
+bool is_consistent(const Image& image) {
+  return image.width > 0 && image.height > 0 &&
+         image.rgba.size() == std::size_t{4} * static_cast<std::size_t>(image.width) *
+                                  static_cast<std::size_t>(image.height);
+}
+
 void check(const Image& image) {
-  const bool sized = image.width > 0 && image.height > 0;
-  const std::size_t bytes = sized ? std::size_t{4} * static_cast<std::size_t>(image.width) *
-                                        static_cast<std::size_t>(image.height)
-                                  : 0;
-  if (!sized || image.rgba.size() != bytes)
+  if (!is_consistent(image))
     fail("has " + std::to_string(image.rgba.size()) + " bytes for " + std::to_string(image.width) +
              " x " + std::to_string(image.height) + " pixels",
          "give 4 bytes for each pixel and at least one pixel");
@@ -125,6 +129,11 @@ Image decode_jpeg(const std::string& name, std::string_view bytes) {
 
 }  // namespace
 
+void serialize(StateArchive& archive, Image& image) {
+  archive.visit(image.width, image.height, image.rgba);
+  if (!is_consistent(image)) throw std::runtime_error("not a packed image");
+}
+
 Image make_image(int width, int height, std::uint8_t byte) {
   const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   return {width, height, std::vector<std::uint8_t>(4 * pixels, byte)};
@@ -143,9 +152,11 @@ void write_png(const std::string& path, const Image& image) {
 }
 
 Image decode_image(const std::string& name, std::string_view bytes) {
-  if (bytes.starts_with("\x89PNG")) return decode_png(name, bytes);
-  if (bytes.starts_with("\xff\xd8")) return decode_jpeg(name, bytes);
-  refuse(name, "is neither a PNG nor a JPEG");
+  return parse<Image>(name, [&] {
+    if (bytes.starts_with("\x89PNG")) return decode_png(name, bytes);
+    if (bytes.starts_with("\xff\xd8")) return decode_jpeg(name, bytes);
+    refuse(name, "is neither a PNG nor a JPEG");
+  });
 }
 
 Image read_image(const std::filesystem::path& file) {

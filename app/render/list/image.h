@@ -29,6 +29,10 @@ struct Image {
 // 0: transparent black, 255: opaque white.
 Image make_image(int width, int height, std::uint8_t byte = 0);
 
+// For the transfer between processes. Throws std::runtime_error if it is not a packed image.
+class StateArchive;
+void serialize(StateArchive& archive, Image& image);
+
 // Bytes of a PNG file, without alpha if the image is opaque. Throws InputError on an empty or
 // inconsistent image.
 std::string encode_png(const Image& image);

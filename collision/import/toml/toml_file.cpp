@@ -11,7 +11,6 @@
 namespace twinarm {
 namespace {
 
-constexpr std::size_t kMaxDepth = 200;
 constexpr std::uintmax_t kMaxTomlBytes = 4u << 20;
 
 // Measures the nesting depth of brackets and dotted keys. Does not validate TOML.
@@ -30,7 +29,7 @@ class DepthScan {
       if (c == ',') dots_ = 0;
       if (c == '[' || c == '{') open();
       if (c == ']' || c == '}') close();
-      if (below_ + dots_ > kMaxDepth) return line_;
+      if (below_ + dots_ > kMaxTomlDepth) return line_;
     }
     return 0;
   }

@@ -1,8 +1,6 @@
 // Reads a robot in URDF: XML -> RobotDescription -> robot_check.h.
 #include "collision/import/urdf/urdf.h"
 
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cstdint>
@@ -14,22 +12,9 @@
 
 namespace twinarm {
 
-using tinyxml2::XMLElement;
-
 namespace {
 
-// "XML_ERROR_MISMATCHED_ELEMENT" -> "mismatched element"
-std::string xml_error_text(const tinyxml2::XMLDocument& document) {
-  std::string text = document.ErrorName();
-  for (const char* prefix : {"XML_ERROR_", "XML_"})
-    if (text.starts_with(prefix)) text.erase(0, std::string(prefix).size());
-  std::replace(text.begin(), text.end(), '_', ' ');
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
-
-void read_inertial(const XMLElement& element, const std::string& where, LinkDescription& link,
+void read_inertial(const XmlElement& element, const std::string& where, LinkDescription& link,
                    UrdfSource& source) {
   link.has_inertia = true;
   const bool incomplete = source.options().incomplete_inertia;
@@ -38,24 +23,24 @@ void read_inertial(const XMLElement& element, const std::string& where, LinkDesc
   for (const char* name : {"mass", "inertia"}) source.at_most_one(element, name, where);
   const Origin origin = source.origin(element, where);
   link.com = origin.xyz;
-  if (const XMLElement* mass = element.FirstChildElement("mass")) {
-    link.mass_line = mass->GetLineNum();
+  if (const XmlElement* mass = element.child("mass")) {
+    link.mass_line = mass->line;
     link.mass = source.number(*mass, "value", where).value_or(1.0);
   } else {
     const UrdfSource::ErrorsAsWarnings warns(source, incomplete);
-    source.fault(element.GetLineNum(), where, "<inertial> has no <mass>",
+    source.fault(element.line, where, "<inertial> has no <mass>",
                  "give <mass value=\"...\"/> in kg", "urdf.mass-missing");
   }
 
-  const XMLElement* inertia = element.FirstChildElement("inertia");
+  const XmlElement* inertia = element.child("inertia");
   if (!inertia) {
     const UrdfSource::ErrorsAsWarnings warns(source, incomplete);
-    source.fault(element.GetLineNum(), where, "<inertial> has no <inertia>",
+    source.fault(element.line, where, "<inertial> has no <inertia>",
                  "give <inertia ixx ixy ixz iyy iyz izz/> about the centre of mass",
                  "urdf.inertia-missing");
     return;
   }
-  link.inertia_line = inertia->GetLineNum();
+  link.inertia_line = inertia->line;
   const char* names[] = {"ixx", "ixy", "ixz", "iyy", "iyz", "izz"};
   double I[6];
   bool all_read = true;
@@ -73,74 +58,47 @@ void read_inertial(const XMLElement& element, const std::string& where, LinkDesc
   }
 }
 
-LinkDescription read_link(const XMLElement& element, const UrdfMaterials& materials,
+LinkDescription read_link(const XmlElement& element, const UrdfMaterials& materials,
                           UrdfSource& source) {
   LinkDescription link;
-  link.line = element.GetLineNum();
-  if (const char* name = element.Attribute("name")) link.name = name;
+  link.line = element.line;
+  if (const char* name = element.value("name")) link.name = name;
   const std::string where = "link '" + link.name + "'";
   source.at_most_one(element, "inertial", where);
-  if (const XMLElement* inertial = element.FirstChildElement("inertial"))
+  if (const XmlElement* inertial = element.child("inertial"))
     read_inertial(*inertial, where, link, source);
   read_shapes(element, materials, link, source);
   return link;
 }
 
-// The <robot> element; throws InputError if there is none.
-const XMLElement& open_robot(tinyxml2::XMLDocument& document, UrdfSource& source) {
-  constexpr std::uintmax_t kMaxBytes = 16u << 20;
-  std::error_code ignored;
-  const XMLElement* robot = nullptr;
-  if (!std::filesystem::is_regular_file(source.file(), ignored)) {
-    source.fault(0, "", "the file does not exist", "check the path", "file.missing");
-  } else if (std::filesystem::file_size(source.file(), ignored) > kMaxBytes) {
-    source.fault(0, "", "the file is larger than 16 MiB",
-                 "give a URDF file; store meshes separately", "file.too-large");
-  } else if (document.LoadFile(source.file().c_str()) != tinyxml2::XML_SUCCESS) {
-    // If an end tag is missing, tinyxml2 gives the line of the start tag.
-    const bool may_be_open = document.ErrorID() == tinyxml2::XML_ERROR_PARSING ||
-                             document.ErrorID() == tinyxml2::XML_ERROR_MISMATCHED_ELEMENT;
-    source.fault(document.ErrorLineNum(), "", "not well-formed XML: " + xml_error_text(document),
-                 may_be_open ? "correct the XML near this line, or close the element that begins "
-                               "here (is there a </robot> at the end?)"
-                             : "correct the XML at or shortly before this line",
-                 "urdf.xml");
-  } else {
-    robot = document.RootElement();
-    if (robot && std::string(robot->Name()) != "robot") {
-      source.fault(robot->GetLineNum(), "",
-                   std::string("the root element is <") + robot->Name() + ">, must be <robot>",
-                   "give a URDF file", "urdf.no-robot");
-    } else if (!robot) {
-      source.fault(0, "", "there is no <robot> element", "give a URDF file", "urdf.no-robot");
-    }
-  }
+void check_root(const XmlElement& root, UrdfSource& source) {
+  if (root.name == "robot") return;
+  source.fault(root.line, "", "the root element is <" + root.name + ">, must be <robot>",
+               "give a URDF file", "urdf.no-robot");
   source.check();
-  return *robot;
 }
 
 }  // namespace
 
 RobotDescription read_urdf(const std::filesystem::path& file, const RobotFileOptions& options) {
   UrdfSource source(file, options);
-  tinyxml2::XMLDocument document;
-  const XMLElement& element = open_robot(document, source);
+  const XmlElement element = read_xml(source.file());
+  check_root(element, source);
   check_vocabulary(element, source);
 
   RobotDescription robot;
   robot.file = source.file();
   robot.name = source.text(element, "name", "robot");
   const UrdfMaterials materials = read_materials(element, source);
-  for (const XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
+  for (const XmlElement& e : element.children) {
     constexpr std::size_t kMaxParts = 40000;
     if (robot.links.size() + robot.joints.size() == kMaxParts) {
-      source.fault(e->GetLineNum(), "", "there are more than 40,000 links and joints",
+      source.fault(e.line, "", "there are more than 40,000 links and joints",
                    "merge links that do not move relative to each other", "urdf.too-many");
       source.check();
     }
-    const std::string name = e->Name();
-    if (name == "link") robot.links.push_back(read_link(*e, materials, source));
-    if (name == "joint") robot.joints.push_back(read_joint(*e, source));
+    if (e.name == "link") robot.links.push_back(read_link(e, materials, source));
+    if (e.name == "joint") robot.joints.push_back(read_joint(e, source));
   }
   RobotCheck check = check_robot(robot, options.strict);
   source.fault(std::move(check.faults));

@@ -1,15 +1,11 @@
 #include "collision/import/urdf/urdf_parts.h"
 
-#include <tinyxml2.h>
-
 #include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace twinarm {
-
-using tinyxml2::XMLElement;
 
 namespace {
 
@@ -80,38 +76,37 @@ const Word& word_of(std::string_view element) {
   return *std::ranges::find(words, element, &Word::element);
 }
 
-void check_attributes(const XMLElement& element, const Word& word, const std::string& where,
+void check_attributes(const XmlElement& element, const Word& word, const std::string& where,
                       UrdfSource& source) {
-  for (auto* a = element.FirstAttribute(); a; a = a->Next()) {
-    const std::string name = a->Name();
+  for (const auto& [name, value, line] : element.attributes) {
     if (contains(word.attributes, name) || name.starts_with("xmlns")) continue;
-    source.warn_once("attribute " + std::string(word.element) + " " + name, a->GetLineNum(), where,
-                     "unknown attribute '" + name + "' of <" + element.Name() + ">",
+    source.warn_once("attribute " + std::string(word.element) + " " + name, line, where,
+                     "unknown attribute '" + name + "' of <" + element.name + ">",
                      "it is ignored; check its spelling", "urdf.unknown-attribute");
   }
 }
 
-void check_element(const XMLElement& element, const Word& word, const std::string& owner,
+void check_element(const XmlElement& element, const Word& word, const std::string& owner,
                    UrdfSource& source) {
   std::string where = owner;
   if (word.element == "link" || word.element == "joint") {
-    const char* name = element.Attribute("name");
+    const char* name = element.value("name");
     where = std::string(word.element) + " '" + (name ? name : "") + "'";
   }
   check_attributes(element, word, where, source);
-  for (const XMLElement* e = element.FirstChildElement(); e; e = e->NextSiblingElement()) {
-    const std::string name = e->Name();
+  for (const XmlElement& e : element.children) {
+    const std::string& name = e.name;
     if (contains(word.children, name)) {
-      check_element(*e, word_of(name), where, source);
+      check_element(e, word_of(name), where, source);
     } else if (name.starts_with("xacro:")) {
-      source.fault(e->GetLineNum(), "<" + name + ">", "this is a xacro file",
+      source.fault(e.line, "<" + name + ">", "this is a xacro file",
                    "expand it first (xacro robot.urdf.xacro > robot.urdf)", "urdf.xacro");
     } else if (contains(word.without_effect, name)) {
-      source.warn_once("element " + name, e->GetLineNum(), where, "<" + name + "> has no effect",
+      source.warn_once("element " + name, e.line, where, "<" + name + "> has no effect",
                        "it is ignored; other programs use it", "urdf.no-effect");
     } else if (word.element != "geometry") {  // unknown shapes: read_geometry()
-      source.warn_once("element " + std::string(word.element) + " " + name, e->GetLineNum(), where,
-                       "unknown element <" + name + "> in <" + element.Name() + ">",
+      source.warn_once("element " + std::string(word.element) + " " + name, e.line, where,
+                       "unknown element <" + name + "> in <" + element.name + ">",
                        "it is ignored; check its spelling", "urdf.unknown-element");
     }
   }
@@ -119,7 +114,7 @@ void check_element(const XMLElement& element, const Word& word, const std::strin
 
 }  // namespace
 
-void check_vocabulary(const XMLElement& robot, UrdfSource& source) {
+void check_vocabulary(const XmlElement& robot, UrdfSource& source) {
   check_element(robot, word_of("robot"), "robot", source);
 }
 

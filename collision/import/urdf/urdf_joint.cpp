@@ -1,8 +1,6 @@
 // The <joint> of a URDF.
 #include "collision/import/urdf/urdf_parts.h"
 
-#include <tinyxml2.h>
-
 #include <cmath>
 
 #include "collision/import/robot/robot_check.h"
@@ -10,62 +8,60 @@
 
 namespace twinarm {
 
-using tinyxml2::XMLElement;
-
 namespace {
 
 using Type = JointDescription::Type;
 
 // Joint types beyond URDF are given by <twinarm type="">; <joint type=""> is then for other
 // programs.
-void read_type(const XMLElement& element, const std::string& where, JointDescription& joint,
+void read_type(const XmlElement& element, const std::string& where, JointDescription& joint,
                UrdfSource& source) {
   const std::string type = source.text(element, "type", where);
   Type plain{};
   const bool known = joint_type_from(type, plain);
   if (known && !is_urdf_type(plain))
-    source.fault(element.GetLineNum(), where, "URDF has no joint type '" + type + "'",
+    source.fault(element.line, where, "URDF has no joint type '" + type + "'",
                  "write type=\"" + std::string(to_string(urdf_type_of(plain, false))) +
                      "\" for other programs, and inside <twinarm type=\"" + type + "\"/>",
                  "urdf.joint-type");
   else if (!known && !type.empty())
-    source.fault(element.GetLineNum(), where, "joint type '" + type + "' is not supported",
+    source.fault(element.line, where, "joint type '" + type + "' is not supported",
                  supported_joints(), "urdf.joint-type");
   joint.type = plain;
 
-  const XMLElement* extension = element.FirstChildElement("twinarm");
-  const char* name = extension ? extension->Attribute("type") : nullptr;
+  const XmlElement* extension = element.child("twinarm");
+  const char* name = extension ? extension->value("type") : nullptr;
   if (!name) return;
   Type extended{};
   if (joint_type_from(name, extended) && (!is_urdf_type(extended) || extended == plain))
     joint.type = extended;
   else
-    source.fault(extension->GetLineNum(), where,
+    source.fault(extension->line, where,
                  std::string("<twinarm type=\"...\"> is '") + name + "', must be one of " +
                      joint_types_beyond_urdf(),
                  "give other types as <joint type=\"...\">", "urdf.joint-type");
 }
 
 // One warning for each kind of value that has no effect on this joint type.
-void warn_without_effect(const XMLElement* element, const char* what, const std::string& where,
+void warn_without_effect(const XmlElement* element, const char* what, const std::string& where,
                          const JointDescription& joint, UrdfSource& source) {
   if (!element) return;
-  source.warn_once(what, element->GetLineNum(), where,
+  source.warn_once(what, element->line, where,
                    std::string(what) + " has no effect on a " + to_string(joint.type) + " joint",
                    "remove it, or change the joint type", "urdf.no-effect");
 }
 
-void read_limits(const XMLElement& element, const std::string& where, JointDescription& joint,
+void read_limits(const XmlElement& element, const std::string& where, JointDescription& joint,
                  UrdfSource& source) {
-  const XMLElement* limit = element.FirstChildElement("limit");
-  const bool has_range = limit && (limit->FindAttribute("lower") || limit->FindAttribute("upper"));
+  const XmlElement* limit = element.child("limit");
+  const bool has_range = limit && (limit->find("lower") || limit->find("upper"));
   if (limit) {
     joint.effort = source.bound(*limit, "effort", where, 0.0).value_or(0.0);
     joint.velocity = source.bound(*limit, "velocity", where, 0.0).value_or(0.0);
   }
   const bool must = joint.type == Type::revolute || joint.type == Type::prismatic;
   if (must && !limit) {
-    source.fault(element.GetLineNum(), where,
+    source.fault(element.line, where,
                  std::string("a ") + to_string(joint.type) + " joint needs limits",
                  joint.type == Type::revolute
                      ? "give <limit lower upper effort velocity/>, or make the joint continuous"
@@ -74,12 +70,12 @@ void read_limits(const XMLElement& element, const std::string& where, JointDescr
     return;
   }
   if (must && !has_range)
-    source.warn(limit->GetLineNum(), where, "its <limit> has neither lower nor upper",
+    source.warn(limit->line, where, "its <limit> has neither lower nor upper",
                 "give both: the default is 0, and the joint cannot move with limits",
                 "urdf.no-limits");
-  if (must && !(limit->FindAttribute("effort") && limit->FindAttribute("velocity")))
+  if (must && !(limit->find("effort") && limit->find("velocity")))
     source.warn_once(
-        "limit without effort", limit->GetLineNum(), where, "its <limit> has no effort or velocity",
+        "limit without effort", limit->line, where, "its <limit> has no effort or velocity",
         "they have no effect here, but other programs reject the file", "urdf.no-effort");
   if (must || (joint.type == Type::screw && has_range)) {
     const auto lower = source.bound(*limit, "lower", where, 0.0);
@@ -88,7 +84,7 @@ void read_limits(const XMLElement& element, const std::string& where, JointDescr
     joint.lower = *lower;
     joint.upper = *upper;
     if (joint.type == Type::screw && !(joint.lower < joint.upper))  // it would be unlimited
-      source.fault(limit->GetLineNum(), where,
+      source.fault(limit->line, where,
                    "its lower limit " + number_text(joint.lower) +
                        " is not below its upper limit " + number_text(joint.upper),
                    "exchange them, or remove both", "robot.limits");
@@ -103,39 +99,39 @@ Vector3 unit_axis(const Vector3& axis) {
   return length < 1e-9 || std::abs(length - 1) < 1e-15 ? axis : Vector3(axis / length);
 }
 
-void read_axis(const XMLElement& element, const std::string& where, JointDescription& joint,
+void read_axis(const XmlElement& element, const std::string& where, JointDescription& joint,
                UrdfSource& source) {
-  const XMLElement* axis = element.FirstChildElement("axis");
+  const XmlElement* axis = element.child("axis");
   if (!joint.has_axis()) return warn_without_effect(axis, "<axis>", where, joint, source);
   if (!axis) return;  // default: x
   const Vector3 given = source.vector3(*axis, "xyz", where).value_or(Vector3::UnitX());
   joint.axis = unit_axis(given);
   const double length = given.stableNorm();
   if (length >= 1e-9 && std::abs(length - 1) > 1e-3)
-    source.warn_once("length of axis", axis->GetLineNum(), where,
+    source.warn_once("length of axis", axis->line, where,
                      "its axis has length " + number_text(length),
                      "only the direction is used; give a unit vector", "urdf.axis-length");
 }
 
-void read_dynamics(const XMLElement& element, const std::string& where, JointDescription& joint,
+void read_dynamics(const XmlElement& element, const std::string& where, JointDescription& joint,
                    UrdfSource& source) {
-  if (const XMLElement* dynamics = element.FirstChildElement("dynamics")) {
+  if (const XmlElement* dynamics = element.child("dynamics")) {
     joint.damping = source.number(*dynamics, "damping", where, 0.0).value_or(0.0);
     joint.friction = source.number(*dynamics, "friction", where, 0.0).value_or(0.0);
     if (joint.type == Type::fixed && (joint.damping != 0 || joint.friction != 0))
       warn_without_effect(dynamics, "<dynamics>", where, joint, source);
   }
   joint.coulomb_plus = joint.coulomb_minus = joint.friction;
-  const XMLElement* extension = element.FirstChildElement("twinarm");
+  const XmlElement* extension = element.child("twinarm");
   const auto take = [&](const char* attribute, double& value) {
     if (extension) value = source.number(*extension, attribute, where, value).value_or(value);
   };
   take("armature", joint.armature);
   take("coulomb_plus", joint.coulomb_plus);
   take("coulomb_minus", joint.coulomb_minus);
-  const bool has_pitch = extension && extension->FindAttribute("pitch");
+  const bool has_pitch = extension && extension->find("pitch");
   if (joint.type == Type::screw && extension && !has_pitch)
-    source.fault(extension->GetLineNum(), where, "a screw joint must have a pitch",
+    source.fault(extension->line, where, "a screw joint must have a pitch",
                  "give <twinarm type=\"screw\" pitch=\"...\"/> in metres per revolution",
                  "urdf.pitch-missing");
   else if (joint.type == Type::screw)
@@ -144,9 +140,9 @@ void read_dynamics(const XMLElement& element, const std::string& where, JointDes
     warn_without_effect(extension, "the pitch", where, joint, source);
 }
 
-void read_mimic(const XMLElement& element, const std::string& where, JointDescription& joint,
+void read_mimic(const XmlElement& element, const std::string& where, JointDescription& joint,
                 UrdfSource& source) {
-  const XMLElement* mimic = element.FirstChildElement("mimic");
+  const XmlElement* mimic = element.child("mimic");
   if (!mimic) return;
   JointDescription::Mimic m;
   m.joint = source.text(*mimic, "joint", where);
@@ -157,10 +153,10 @@ void read_mimic(const XMLElement& element, const std::string& where, JointDescri
 
 }  // namespace
 
-JointDescription read_joint(const XMLElement& element, UrdfSource& source) {
+JointDescription read_joint(const XmlElement& element, UrdfSource& source) {
   JointDescription joint;
-  joint.line = element.GetLineNum();
-  if (const char* name = element.Attribute("name")) joint.name = name;
+  joint.line = element.line;
+  if (const char* name = element.value("name")) joint.name = name;
   const std::string where = "joint '" + joint.name + "'";
   for (const char* name : {"axis", "limit", "dynamics", "parent", "child", "mimic", "twinarm"})
     source.at_most_one(element, name, where);
@@ -168,14 +164,14 @@ JointDescription read_joint(const XMLElement& element, UrdfSource& source) {
   joint.origin = source.origin(element, where);
 
   const auto line_of = [&](const char* name) {
-    const XMLElement* e = element.FirstChildElement(name);
-    return e ? e->GetLineNum() : 0;
+    const XmlElement* e = element.child(name);
+    return e ? e->line : 0;
   };
   joint.lines = {line_of("parent"),   line_of("child"),   line_of("axis"), line_of("limit"),
                  line_of("dynamics"), line_of("twinarm"), line_of("mimic")};
   const auto link_of = [&](const char* role) {  // missing ones: check_robot()
-    const XMLElement* e = element.FirstChildElement(role);
-    const char* link = e ? e->Attribute("link") : nullptr;
+    const XmlElement* e = element.child(role);
+    const char* link = e ? e->value("link") : nullptr;
     return std::string(link ? link : "");
   };
   joint.parent = link_of("parent");

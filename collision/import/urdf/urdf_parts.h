@@ -12,9 +12,9 @@ namespace twinarm {
 
 // Reports elements and attributes that have no effect or are unknown (one warning per kind), and
 // xacro elements (an error). Unknown elements are not entered, so the depth is bounded.
-void check_vocabulary(const tinyxml2::XMLElement& robot, UrdfSource& source);
+void check_vocabulary(const XmlElement& robot, UrdfSource& source);
 
-JointDescription read_joint(const tinyxml2::XMLElement& element, UrdfSource& source);
+JointDescription read_joint(const XmlElement& element, UrdfSource& source);
 
 struct UrdfMaterial {
   Vector4 color = VisualPart().color;
@@ -25,9 +25,9 @@ using UrdfMaterials = std::map<std::string, UrdfMaterial>;
 
 // All <material> elements with a colour or texture: of the robot, then of the <visual> elements.
 // The first of a name counts.
-UrdfMaterials read_materials(const tinyxml2::XMLElement& robot, UrdfSource& source);
+UrdfMaterials read_materials(const XmlElement& robot, UrdfSource& source);
 
-void read_shapes(const tinyxml2::XMLElement& link_element, const UrdfMaterials& materials,
+void read_shapes(const XmlElement& link_element, const UrdfMaterials& materials,
                  LinkDescription& link, UrdfSource& source);
 
 }  // namespace twinarm

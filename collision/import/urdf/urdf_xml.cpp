@@ -1,7 +1,5 @@
 #include "collision/import/urdf/urdf_xml.h"
 
-#include <tinyxml2.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cctype>
@@ -14,12 +12,10 @@
 
 namespace twinarm {
 
-using tinyxml2::XMLElement;
-
 namespace {
 
-std::string tag(const XMLElement& element, const char* attribute) {
-  return std::string("<") + element.Name() + " " + attribute + "=\"...\">";
+std::string tag(const XmlElement& element, const char* attribute) {
+  return "<" + element.name + " " + attribute + "=\"...\">";
 }
 
 bool is_xacro(const std::string& value) {
@@ -94,21 +90,21 @@ std::vector<Diagnostic> UrdfSource::warnings() const {
   return all;
 }
 
-std::optional<std::vector<double>> UrdfSource::numbers(const XMLElement& element,
+std::optional<std::vector<double>> UrdfSource::numbers(const XmlElement& element,
                                                        const char* attribute,
                                                        const std::string& where,
                                                        std::size_t count) {
-  const tinyxml2::XMLAttribute* found = element.FindAttribute(attribute);
+  const XmlAttribute* found = element.find(attribute);
   if (!found) {
-    fault(element.GetLineNum(), where, tag(element, attribute) + " is missing",
+    fault(element.line, where, tag(element, attribute) + " is missing",
           "give it " + std::to_string(count) + (count == 1 ? " number" : " numbers"),
           "urdf.attribute-missing");
     return std::nullopt;
   }
-  const std::string value = found->Value();
+  const std::string value = found->value;
   auto numbers = parse_numbers(value);
   if (!numbers || numbers->size() != count) {
-    fault(found->GetLineNum(), where,
+    fault(found->line, where,
           tag(element, attribute) + " is '" + shortened(value) + "', must be " +
               std::to_string(count) + (count == 1 ? " finite number" : " finite numbers"),
           fix_for(value), is_xacro(value) ? "urdf.xacro" : "urdf.number");
@@ -117,16 +113,16 @@ std::optional<std::vector<double>> UrdfSource::numbers(const XMLElement& element
   return numbers;
 }
 
-std::optional<double> UrdfSource::number(const XMLElement& element, const char* attribute,
+std::optional<double> UrdfSource::number(const XmlElement& element, const char* attribute,
                                          const std::string& where, std::optional<double> fallback) {
-  if (fallback && !element.FindAttribute(attribute)) return fallback;
+  if (fallback && !element.find(attribute)) return fallback;
   const auto values = numbers(element, attribute, where, 1);
   return values ? std::optional((*values)[0]) : std::nullopt;
 }
 
-std::optional<double> UrdfSource::bound(const XMLElement& element, const char* attribute,
+std::optional<double> UrdfSource::bound(const XmlElement& element, const char* attribute,
                                         const std::string& where, double fallback) {
-  const char* value = element.Attribute(attribute);
+  const char* value = element.value(attribute);
   std::string text = value ? value : "";
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -135,67 +131,64 @@ std::optional<double> UrdfSource::bound(const XMLElement& element, const char* a
   return number(element, attribute, where, fallback);
 }
 
-std::optional<double> UrdfSource::positive(const XMLElement& element, const char* attribute,
+std::optional<double> UrdfSource::positive(const XmlElement& element, const char* attribute,
                                            const std::string& where) {
   const auto value = number(element, attribute, where);
   if (!value || *value > 0) return value;
-  fault(element.FindAttribute(attribute)->GetLineNum(), where,
+  fault(element.find(attribute)->line, where,
         tag(element, attribute) + " is " + number_text(*value) + ", must be positive",
         "give a length in metres", "urdf.number");
   return std::nullopt;
 }
 
-std::optional<Vector3> UrdfSource::vector3(const XMLElement& element, const char* attribute,
+std::optional<Vector3> UrdfSource::vector3(const XmlElement& element, const char* attribute,
                                            const std::string& where,
                                            std::optional<Vector3> fallback) {
-  if (fallback && !element.FindAttribute(attribute)) return fallback;
+  if (fallback && !element.find(attribute)) return fallback;
   const auto values = numbers(element, attribute, where, 3);
   if (!values) return std::nullopt;
   return Vector3((*values)[0], (*values)[1], (*values)[2]);
 }
 
-std::string UrdfSource::text(const XMLElement& element, const char* attribute,
+std::string UrdfSource::text(const XmlElement& element, const char* attribute,
                              const std::string& where) {
-  const char* value = element.Attribute(attribute);
+  const char* value = element.value(attribute);
   if (value && *value) return value;
-  fault(element.GetLineNum(), where,
-        tag(element, attribute) + (value ? " is empty" : " is missing"), "give a value",
-        "urdf.attribute-missing");
+  fault(element.line, where, tag(element, attribute) + (value ? " is empty" : " is missing"),
+        "give a value", "urdf.attribute-missing");
   return {};
 }
 
-Origin UrdfSource::origin(const XMLElement& parent, const std::string& where) {
+Origin UrdfSource::origin(const XmlElement& parent, const std::string& where) {
   at_most_one(parent, "origin", where);
-  const XMLElement* element = parent.FirstChildElement("origin");
+  const XmlElement* element = parent.child("origin");
   if (!element) return {};
   Origin origin;
   origin.xyz = vector3(*element, "xyz", where, Vector3(Vector3::Zero())).value_or(origin.xyz);
   origin.rpy = vector3(*element, "rpy", where, Vector3(Vector3::Zero())).value_or(origin.rpy);
   constexpr double kMaxAngle = 6.3;  // [rad]
   if (origin.rpy.lpNorm<Eigen::Infinity>() > kMaxAngle)
-    warn(element->GetLineNum(), where,
-         "rpy = '" + std::string(element->Attribute("rpy")) + "' is more than one revolution",
+    warn(element->line, where,
+         "rpy = '" + std::string(element->value("rpy")) + "' is more than one revolution",
          "give angles in radians: 90 degrees are 1.5707963267948966", "urdf.full-turn");
-  if (!element->FindAttribute("quat_xyzw")) return origin;
-  if (element->FindAttribute("rpy"))
-    fault(element->GetLineNum(), where, "its <origin> has both rpy and quat_xyzw", "give one",
+  if (!element->find("quat_xyzw")) return origin;
+  if (element->find("rpy"))
+    fault(element->line, where, "its <origin> has both rpy and quat_xyzw", "give one",
           "urdf.two-rotations");
   if (const auto q = numbers(*element, "quat_xyzw", where, 4)) {
     const Eigen::Quaterniond rotation((*q)[3], (*q)[0], (*q)[1], (*q)[2]);
     if (rotation.norm() > 1e-9)
       origin.rpy = roll_pitch_yaw(rotation.normalized().toRotationMatrix());
     else
-      fault(element->GetLineNum(), where, "its quat_xyzw is zero", "give a unit quaternion",
-            "urdf.number");
+      fault(element->line, where, "its quat_xyzw is zero", "give a unit quaternion", "urdf.number");
   }
   return origin;
 }
 
-void UrdfSource::at_most_one(const XMLElement& parent, const char* name, const std::string& where) {
-  const XMLElement* first = parent.FirstChildElement(name);
-  const XMLElement* second = first ? first->NextSiblingElement(name) : nullptr;
-  if (second)
-    fault(second->GetLineNum(), where, std::string("more than one <") + name + ">",
+void UrdfSource::at_most_one(const XmlElement& parent, const char* name, const std::string& where) {
+  const std::vector<const XmlElement*> all = parent.all(name);
+  if (all.size() > 1)
+    fault(all[1]->line, where, std::string("more than one <") + name + ">",
           std::string("give one <") + name + ">", "urdf.twice");
 }
 

@@ -11,11 +11,8 @@
 
 #include "collision/import/robot/robot_description.h"
 #include "collision/import/urdf/urdf.h"
+#include "collision/import/urdf/xml_element.h"
 #include "solver/support/diagnostics.h"
-
-namespace tinyxml2 {
-class XMLElement;
-}
 
 namespace twinarm {
 
@@ -58,28 +55,26 @@ class UrdfSource {
   std::vector<Diagnostic> warnings() const;  // in the order of their lines
 
   // `fallback` is used if the attribute is missing; without it, a missing attribute is an error.
-  std::optional<double> number(const tinyxml2::XMLElement& element, const char* attribute,
+  std::optional<double> number(const XmlElement& element, const char* attribute,
                                const std::string& where,
                                std::optional<double> fallback = std::nullopt);
   // Also accepts "inf" and "-inf".
-  std::optional<double> bound(const tinyxml2::XMLElement& element, const char* attribute,
+  std::optional<double> bound(const XmlElement& element, const char* attribute,
                               const std::string& where, double fallback);
   // A number > 0.
-  std::optional<double> positive(const tinyxml2::XMLElement& element, const char* attribute,
+  std::optional<double> positive(const XmlElement& element, const char* attribute,
                                  const std::string& where);
-  std::optional<std::vector<double>> numbers(const tinyxml2::XMLElement& element,
-                                             const char* attribute, const std::string& where,
-                                             std::size_t count);
-  std::optional<Vector3> vector3(const tinyxml2::XMLElement& element, const char* attribute,
+  std::optional<std::vector<double>> numbers(const XmlElement& element, const char* attribute,
+                                             const std::string& where, std::size_t count);
+  std::optional<Vector3> vector3(const XmlElement& element, const char* attribute,
                                  const std::string& where,
                                  std::optional<Vector3> fallback = std::nullopt);
   // Empty, with an error, if the attribute is missing or empty.
-  std::string text(const tinyxml2::XMLElement& element, const char* attribute,
-                   const std::string& where);
+  std::string text(const XmlElement& element, const char* attribute, const std::string& where);
   // The <origin> in `parent`; default: identity.
-  Origin origin(const tinyxml2::XMLElement& parent, const std::string& where);
+  Origin origin(const XmlElement& parent, const std::string& where);
   // More than one child of this name is an error.
-  void at_most_one(const tinyxml2::XMLElement& parent, const char* name, const std::string& where);
+  void at_most_one(const XmlElement& parent, const char* name, const std::string& where);
 
  private:
   struct Kind {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "collision/mesh_files/model_file.h"
-#include "collision/mesh_files/sandboxed_process.h"
+#include "collision/sandbox/sandboxed_process.h"
 #include "solver/support/diagnostics.h"
 #include "tests/sanitized.h"
 #include "tests/support/temporary_folder.h"

@@ -14,7 +14,7 @@
 #include <string>
 
 #include "collision/mesh_files/mesh_file.h"
-#include "collision/mesh_files/sandboxed_process.h"
+#include "collision/sandbox/sandboxed_process.h"
 #include "collision/shapes/shape.h"
 #include "solver/support/diagnostics.h"
 #include "tests/sanitized.h"

@@ -27,6 +27,30 @@ TEST_CASE("elements nested a hundred thousand deep are rejected") {
   }
 }
 
+TEST_CASE("more attributes than a robot has are rejected before the XML library sees them") {
+  const TemporaryFolder folder;
+  std::string attributes;
+  for (int k = 0; k < 200000; ++k) attributes += " a" + std::to_string(k) + "='>'";
+  const std::string comment = "<!-- <a" + attributes + "> -->\n<![CDATA[<a" + attributes + "]]>\n";
+  for (const auto& [inside, line] : {std::pair("<link" + attributes + "/>", 1),
+                                     std::pair(comment + "<link" + attributes + "/>", 3)}) {
+    const std::string text = "<robot name='r'>" + inside + "</robot>";
+    const auto faults = faults_of([&] { read_urdf(folder.write("wide.urdf", text)); });
+    REQUIRE(faults.size() == 1);
+    CHECK(faults[0].problem == "an element has more than 1000 attributes");
+    CHECK(faults[0].line == line);
+  }
+  const auto faults = faults_of([&] {
+    read_urdf(folder.write(
+        "many.urdf", "<robot name='r'>" + repeated("<a/>", 2000000) + "<link name='a'/></robot>"));
+  });
+  REQUIRE(faults.size() == 1);
+  CHECK(faults[0].code == "urdf.too-many");
+  CHECK(read_urdf(
+            folder.write("comment.urdf", "<robot name='r'>" + comment + "<link name='a'/></robot>"))
+            .links.size() == 1);
+}
+
 TEST_CASE("a chain of ten thousand links is read, in any order of the file") {
   const TemporaryFolder folder;
   constexpr int kLinks = 10000;

@@ -1,4 +1,4 @@
-#include "collision/mesh_files/system_call_filter.h"
+#include "collision/sandbox/system_call_filter.h"
 
 #include <fcntl.h>
 #include <linux/audit.h>

@@ -1,4 +1,4 @@
-#include "collision/mesh_files/sandboxed_process.h"
+#include "collision/sandbox/sandboxed_process.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -16,7 +16,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "collision/mesh_files/system_call_filter.h"
+#include "collision/sandbox/system_call_filter.h"
 
 namespace twinarm {
 namespace {
@@ -116,7 +116,10 @@ bool wait_for_bytes(int pipe, Clock::time_point end) {
   }
 }
 
-// Empty on timeout.
+// More than the largest image and mesh. Of a child that was taken over no more is read.
+constexpr std::size_t kMaxResult = std::size_t{320} << 20;
+
+// Empty on timeout and of a child that sends too much.
 std::optional<std::string> receive(int pipe, Clock::time_point end) {
   std::string bytes;
   std::array<char, 1 << 16> some;
@@ -125,6 +128,7 @@ std::optional<std::string> receive(int pipe, Clock::time_point end) {
     if (got < 0 && errno == EINTR) continue;
     if (got <= 0) return bytes;
     bytes.append(some.data(), static_cast<std::size_t>(got));
+    if (bytes.size() > kMaxResult) return std::nullopt;
   }
   return std::nullopt;
 }
