@@ -8,6 +8,7 @@ namespace twinarm {
 
 void ImpulseProblem::clear() {
   size_.clear(), first_.clear(), block_.clear();
+  blocks_size_ = 0;
   M_.clear(), v0_.clear(), v_.clear(), J_.clear();
   constraints_.clear();
 }
@@ -16,8 +17,8 @@ int ImpulseProblem::add_tree(int n) {
   const auto rows = static_cast<std::size_t>(n);
   size_.push_back(n);
   first_.push_back(v0_.size());
-  block_.push_back(M_.size());
-  M_.resize(M_.size() + rows * rows, 0.0);
+  block_.push_back(blocks_size_);
+  blocks_size_ += rows * rows;
   v0_.resize(v0_.size() + rows, 0.0);
   v_.resize(v0_.size(), 0.0);
   return tree_count() - 1;

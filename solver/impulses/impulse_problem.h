@@ -48,7 +48,8 @@ struct ImpulseConstraint {
 class ImpulseProblem {
  public:
   void clear();
-  // Adds an n x n block of M and returns its index. The caller fills M(tree) and v0(tree).
+  // Adds an n x n block of M and returns its index. The caller fills M(tree) and v0(tree). The
+  // blocks are allocated at the first call of M(): not for a problem without constraints.
   int add_tree(int n);
   // Adds a constraint between two trees (or ImpulseConstraint::no_tree) with zero J blocks.
   ImpulseConstraint& add(ConstraintType law, int rows, int tree_a, int tree_b);
@@ -56,7 +57,10 @@ class ImpulseProblem {
   int tree_count() const { return static_cast<int>(size_.size()); }
   int size(int tree) const { return size_[tree]; }
   std::size_t first(int tree) const { return first_[tree]; }  // first index in v
-  double* M(int tree) { return M_.data() + block_[tree]; }    // symmetric, both triangles
+  double* M(int tree) {                                       // symmetric, both triangles
+    M_.resize(blocks_size_, 0.0);
+    return M_.data() + block_[tree];
+  }
   const double* M(int tree) const { return M_.data() + block_[tree]; }
   double* v0(int tree) { return v0_.data() + first_[tree]; }
   const double* v0(int tree) const { return v0_.data() + first_[tree]; }
@@ -68,7 +72,7 @@ class ImpulseProblem {
   std::vector<ImpulseConstraint>& constraints() { return constraints_; }
   const std::vector<ImpulseConstraint>& constraints() const { return constraints_; }
   std::size_t block(int tree) const { return block_[tree]; }  // index of M(tree)
-  std::size_t blocks_size() const { return M_.size(); }
+  std::size_t blocks_size() const { return blocks_size_; }
   std::size_t nv() const { return v0_.size(); }
 
   // u = J v (without b); 0 for rows beyond c.rows.
@@ -79,6 +83,7 @@ class ImpulseProblem {
  private:
   std::vector<int> size_;
   std::vector<std::size_t> first_, block_;
+  std::size_t blocks_size_ = 0;
   std::vector<double> M_, v0_, v_, J_;
   std::vector<ImpulseConstraint> constraints_;
 };

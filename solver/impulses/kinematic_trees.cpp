@@ -24,10 +24,9 @@ KinematicTrees::KinematicTrees(const Model<double>& model)
 }
 
 // Composite-rigid-body algorithm, RBDA section 6.2, per tree.
-void KinematicTrees::add_to(ImpulseProblem& problem, const Forces<double>* forces,
-                            Workspace<double>& w) {
+void KinematicTrees::set_mass_matrix(ImpulseProblem& problem, const Forces<double>* forces,
+                                     Workspace<double>& w) {
   const Model<double>& model = *model_;
-  for (const int size : size_) problem.add_tree(size);
   const std::size_t n = model.parent.size();
   for (std::size_t i = 1; i < n; ++i) {
     Ic_[i] = model.I[i];

@@ -23,9 +23,13 @@ class KinematicTrees {
   int tree_of_dof(std::size_t dof) const { return tree_of_dof_[dof]; }
   std::size_t index_in_tree(std::size_t dof) const { return index_[dof]; }
 
-  // Adds the trees to the problem, with M at the configuration of w.Xup and w.S_: inertia,
-  // armature, and the implicit terms of `forces` if given.
-  void add_to(ImpulseProblem& problem, const Forces<double>* forces, Workspace<double>& w);
+  // Adds the trees to the problem, without M.
+  void add_to(ImpulseProblem& problem) const {
+    for (const int size : size_) problem.add_tree(size);
+  }
+  // M at the configuration of w.Xup and w.S_: inertia, armature, and the implicit terms of `forces`
+  // if given.
+  void set_mass_matrix(ImpulseProblem& problem, const Forces<double>* forces, Workspace<double>& w);
   // qd to v0
   void gather(const std::vector<double>& qd, ImpulseProblem& problem) const {
     for (std::size_t dof = 0; dof < qd.size(); ++dof)

@@ -59,7 +59,7 @@ bool ConstrainedStep::solve_step(IntegrationState& m, double h, Phase phase) {
   std::fill(constraint_.begin(), constraint_.end(), 0);
   system_.friction.clear();
   for (int detections = 0;; ++detections) {
-    system_.begin_problem(&m.forces, m.w);
+    system_.begin_problem();
     trees.gather(m.x.qd, problem);
     system_.store_velocities(frame);
     for (std::size_t dof = 0; dof < model_->nv; ++dof)
@@ -68,6 +68,7 @@ bool ConstrainedStep::solve_step(IntegrationState& m, double h, Phase phase) {
     system_.friction.add_to(problem, trees, h);
     system_.bilateral.add_to(problem, trees, m, phase, h);
     if (problem.constraints().empty()) return false;
+    system_.trees.set_mass_matrix(problem, &m.forces, m.w);
     report_.step = system_.solver.solve(problem);
     if (phase != Phase::step || detections == kMaxDetections || !extend_detection(m, h)) break;
   }
@@ -135,9 +136,10 @@ void ConstrainedStep::correct_positions(IntegrationState& m, double h) {
   const auto needed = [](const ConstraintSource* s) { return s->needs_position_correction(); };
   if (std::none_of(system_.sources.begin(), system_.sources.end(), needed)) return;
   if (m.account) penetrating_ = m.x;
-  system_.begin_problem(nullptr, m.w);
+  system_.begin_problem();
   system_.add_sources({m.k, system_.trees, m.x, Phase::position_correction, h});
   system_.bilateral.add_to(system_.problem, system_.trees, m, Phase::position_correction);
+  system_.trees.set_mass_matrix(system_.problem, nullptr, m.w);
   system_.solver.solve(system_.problem);
   system_.trees.scatter(system_.problem, delta_);
   integrate_coordinates(*model_, m.x.q, delta_, m.x.q);

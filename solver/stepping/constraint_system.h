@@ -60,10 +60,10 @@ class ConstraintSystem {
   }
   // m.w.qdd at m.x without constraints; m.k must be up to date.
   void accelerate(IntegrationState& m, double h);
-  // Starts a problem without constraints, with the implicit terms of `forces` if given.
-  void begin_problem(const Forces<double>* forces, Workspace<double>& w) {
+  // Starts a problem without constraints; the mass matrix is set before it is solved.
+  void begin_problem() {
     problem.clear();
-    trees.add_to(problem, forces, w);
+    trees.add_to(problem);
   }
   void store_velocities(ConstraintFrame& frame);  // copies v0 of the problem
   void add_sources(const ConstraintFrame& frame);

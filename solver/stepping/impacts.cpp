@@ -35,7 +35,7 @@ double kinetic_energy(const ImpulseProblem& problem, const double* v) {
 ImpulseReport Impacts::solve(ConstraintSystem& system, IntegrationState& m,
                              ConstraintFrame& frame) {
   ImpulseProblem& problem = system.problem;
-  system.begin_problem(nullptr, m.w);
+  system.begin_problem();
   system.trees.gather(acceleration_, problem);
   by_tree_.assign(problem.v0(0), problem.v0(0) + problem.nv());
   frame.acceleration = by_tree_.data();
@@ -43,6 +43,7 @@ ImpulseReport Impacts::solve(ConstraintSystem& system, IntegrationState& m,
   system.store_velocities(frame);
   system.add_sources(frame);
   system.bilateral.add_to(problem, system.trees, m, frame.phase);
+  system.trees.set_mass_matrix(problem, nullptr, m.w);
   return system.solver.solve(problem);
 }
 
