@@ -211,6 +211,10 @@ void ModelBuilder::add_mimics_to(Model<double>& model, DiagnosticList& faults) c
     mimic.leader = next->leader;
     return true;
   };
+  if (mimics_.size() > kMaxMimics)
+    return faults.add(joint_called(mimics_[kMaxMimics].follower),
+                      "there are more than " + std::to_string(kMaxMimics) + " mimic joints",
+                      "make some of them fixed", "model.mimic");
   for (MimicByName mimic : mimics_) {
     std::size_t hops = 0;
     while (hops <= mimics_.size() && leader_of(mimic)) ++hops;  // to the independent joint

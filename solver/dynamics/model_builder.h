@@ -45,7 +45,9 @@ class ModelBuilder {
     return static_cast<int>(bodies_.size());
   }
   // q of `follower` = ratio * (q of `leader`) + offset; both joints have one degree of freedom.
-  // Chains of mimic joints are resolved: the model refers to the independent joint.
+  // Chains of mimic joints are resolved: the model refers to the independent joint. At most
+  // kMaxMimics, since forward dynamics has a dense row of nv entries for each.
+  static constexpr std::size_t kMaxMimics = 1000;
   void add_mimic(const std::string& follower, const std::string& leader, double ratio,
                  double offset) {
     mimics_.push_back({follower, leader, ratio, offset});

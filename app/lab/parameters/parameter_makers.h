@@ -1,6 +1,7 @@
 // Makers of parameters, by group. Internal to app/lab/parameters.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@ LabParameter choice(std::string path, std::string label, std::string value,
 inline std::string item(const char* list, std::size_t index, const char* key) {
   return std::string(list) + "[" + std::to_string(index) + "]." + key;
 }
+// A robot of more has no parameters of joints and links: too many for a page.
+inline constexpr std::size_t kManyLinks = 200;
 // Whether the name can be a part of a path.
 inline bool is_path_part(const std::string& name) {
   return name.find_first_of(".[") == std::string::npos;

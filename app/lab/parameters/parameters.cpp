@@ -1,6 +1,8 @@
 #include "app/lab/parameters/parameters.h"
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 
 #include "app/lab/parameters/parameter_makers.h"
 #include "app/scene/forces/add_contacts.h"
@@ -114,9 +116,11 @@ std::string LabParameter::change() const {
 
 void set_initial_values(const std::vector<LabParameter>& unchanged,
                         std::vector<LabParameter>& parameters) {
+  std::unordered_map<std::string_view, const LabParameter*> before;
+  for (const LabParameter& parameter : unchanged) before[parameter.path] = &parameter;
   for (LabParameter& parameter : parameters)
-    for (const LabParameter& before : unchanged)
-      if (before.path == parameter.path) parameter.initial = before.value();
+    if (const auto found = before.find(parameter.path); found != before.end())
+      parameter.initial = found->second->value();
 }
 
 std::vector<LabParameter> parameters_of(const SimulatePlan& plan) {

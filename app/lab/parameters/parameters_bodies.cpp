@@ -41,6 +41,7 @@ void add_surface(const SceneDescription& scene, const SurfaceKey& key,
 // the warnings about them.
 void add_link_masses(const RobotInScene& robot, const std::string& own,
                      std::vector<LabParameter>& parameters) {
+  if (robot.description.links.size() > kManyLinks) return;
   for (const LinkDescription& link : robot.description.links) {
     if (!is_path_part(link.name) || !(link.mass > 0)) continue;
     const auto scale = robot.mass_scale.find(link.name);

@@ -28,6 +28,7 @@ template <class Row>
 void add_group(const SceneModel& model, std::size_t robot, const Group& group, Row row_of,
                std::vector<LabParameter>& parameters) {
   const RobotInScene& of = model.description.robots[robot];
+  if (of.description.joints.size() > kManyLinks) return;
   for (const JointDescription& joint : of.description.joints) {
     const int body = model.model.find_joint(name_in_scene(model.description, robot, joint.name));
     if (body < 0 || joint.dofs() != 1 || joint.mimic || !is_path_part(joint.name)) continue;

@@ -64,7 +64,7 @@ void SceneReader::read_constraint(const Value& value, std::size_t index) {
   TableReader table = open(value, "constraint");
   ConstraintDescription constraint;
   constraint.line = table.line();
-  constraint.name = read_item_name(table, "constraint", index, scene.constraints);
+  constraint.name = read_item_name(table, "constraint", index);
   table.missing("type", "give type = \"weld\", \"ball\", \"hinge\", \"distance\" or \"gear\"");
   constexpr Type kTypes[] = {Type::weld, Type::ball, Type::hinge, Type::distance, Type::gear};
   if (const auto type = table.choice("type", {"weld", "ball", "hinge", "distance", "gear"}))

@@ -221,7 +221,7 @@ void SceneReader::read_coupling(const Value& value, std::size_t index) {
   TableReader table = open(value, "coupling");
   CouplingDescription coupling;
   coupling.line = table.line();
-  coupling.name = read_item_name(table, "coupling", index, scene.couplings);
+  coupling.name = read_item_name(table, "coupling", index);
   table.missing("type",
                 "give type = \"linear\", \"torsional\" or another (docs/reference/scene_file.md)");
   const std::size_t chosen = table.choice("type", names_of(all_couplings)).value_or(0);

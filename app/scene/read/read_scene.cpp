@@ -76,8 +76,7 @@ std::string SceneReader::read_name(TableReader& table, const char* kind) {
                 "choose another name", "scene.name");
   if (name == "world")
     table.fault("name", "'world' is reserved", "choose another name", "scene.name");
-  const auto is_same = [&](const auto& item) { return item.name == name; };
-  if (std::ranges::any_of(scene.robots, is_same) || std::ranges::any_of(scene.bodies, is_same))
+  if (!taken_names.emplace("body", name).second)
     table.fault("name", "the name is already used", "give each robot and body its own name",
                 "scene.name-taken");
   // The links of a single robot have no prefix in the output.

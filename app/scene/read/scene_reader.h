@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "app/data/table_reader.h"
 #include "app/scene/read/scene_description.h"
@@ -17,6 +19,7 @@ struct SceneReader {
   FileRoots roots;   // folders that may contain the files it names
   DiagnosticList faults;
   SceneDescription scene;
+  std::set<std::pair<std::string, std::string>> taken_names;  // by kind; robots are bodies
 
   void read(const Value& root);
 
@@ -32,15 +35,12 @@ struct SceneReader {
   // Required, unique, without a slash; later diagnostics of the table name it.
   std::string read_name(TableReader& table, const char* kind);
   // Name of a coupling or constraint, unique among them; default KINDn.
-  template <class Items>
-  static std::string read_item_name(TableReader& table, const char* kind, std::size_t index,
-                                    const Items& others) {
+  std::string read_item_name(TableReader& table, const char* kind, std::size_t index) {
     const std::string name = table.text("name").value_or(kind + std::to_string(index));
     table.rename(std::string(kind) + " '" + name + "'");
-    for (const auto& other : others)
-      if (other.name == name)
-        table.fault("name", "the name is already used",
-                    std::string("give each ") + kind + " its own name", "scene.name-taken");
+    if (!taken_names.emplace(kind, name).second)
+      table.fault("name", "the name is already used",
+                  std::string("give each ") + kind + " its own name", "scene.name-taken");
     return name;
   }
   // The table `motion`.
