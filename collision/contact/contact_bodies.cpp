@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -34,18 +35,18 @@ int ContactBodies::add(const ContactGeometry& geometry) {
         "body index " + std::to_string(geometry.body) + " does not exist",
         "give an index from 0 (world) to " + std::to_string(model_->body_count() - 1));
   check(s.friction >= 0 && std::isfinite(s.friction),
-        "friction is " + std::to_string(s.friction) + ", must be a finite number >= 0",
+        "friction is " + short_number_text(s.friction) + ", must be a finite number >= 0",
         "give 0 or more");
   check(s.restitution >= 0 && s.restitution <= 1,
-        "restitution is " + std::to_string(s.restitution) + ", must be from 0 to 1",
+        "restitution is " + short_number_text(s.restitution) + ", must be from 0 to 1",
         "give 0 (inelastic) to 1 (elastic)");
   check(s.torsional >= 0 && s.rolling >= 0, "torsional or rolling friction is negative",
         "give a length of 0 m or more");
   check(s.stiffness > 0 && std::isfinite(s.stiffness),
-        "stiffness is " + std::to_string(s.stiffness) + " N/m, must be positive and finite",
+        "stiffness is " + short_number_text(s.stiffness) + " N/m, must be positive and finite",
         "give a stiffness above 0 N/m");
   check(s.dissipation >= 0 && std::isfinite(s.dissipation),
-        "dissipation is " + std::to_string(s.dissipation) + " s/m, must be a finite number >= 0",
+        "dissipation is " + short_number_text(s.dissipation) + " s/m, must be a finite number >= 0",
         "give 0 s/m or more");
   faults.check();
   const int id = world_.add({geometry.name, geometry.shape, geometry.group, geometry.body == 0});

@@ -21,6 +21,7 @@
 
 #include "collision/geometry/convex_hull.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -39,7 +40,7 @@ Matrix3 inertia_of(const Matrix3& second_moment) {
 
 void check_positive(const char* name, double value, const char* unit, const char* fix) {
   if (value > 0 && std::isfinite(value)) return;
-  refuse(std::string(name) + " is " + std::to_string(value) + " " + unit + ", must be positive",
+  refuse(std::string(name) + " is " + short_number_text(value) + " " + unit + ", must be positive",
          fix);
 }
 
@@ -80,7 +81,7 @@ MassProperties mass_properties(const TriangleMesh& mesh, double density) {
     second += d / 120 * (outer(a) + outer(b) + outer(c) + outer(s));
   }
   if (!(volume > 0))
-    refuse("the mesh encloses " + std::to_string(volume) + " m^3, must be positive",
+    refuse("the mesh encloses " + short_number_text(volume) + " m^3, must be positive",
            "orient the triangles counter-clockwise seen from outside");
   const Vector3 com = first / volume;  // from o
   return {density * volume, o + com, density * inertia_of(second - volume * outer(com))};
@@ -93,7 +94,7 @@ MassProperties combine(std::span<const MassProperties> parts) {
     sum.com += part.mass * part.com;
   }
   if (!(sum.mass > 0))
-    refuse("the parts sum to " + std::to_string(sum.mass) + " kg, must be positive",
+    refuse("the parts sum to " + short_number_text(sum.mass) + " kg, must be positive",
            "give at least one part with mass; holes may not outweigh the solids");
   sum.com /= sum.mass;
   for (const MassProperties& part : parts) {  // parallel axes (Steiner)

@@ -10,6 +10,7 @@
 
 #include "collision/mesh_files/model_file.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -51,7 +52,7 @@ TriangleMesh load_mesh(const std::filesystem::path& file, double scale) {
     throw InputError({{file.string(), 0, "mesh", problem, fix, "mesh.file"}});
   };
   if (!(scale > 0 && std::isfinite(scale)))
-    refuse("scale is " + std::to_string(scale) + ", must be positive",
+    refuse("scale is " + short_number_text(scale) + ", must be positive",
            "give 1 for a file in metres, 0.001 for millimetres");
   Welder welder(scale);
   for (const ModelPart& part : read_model(file).parts) welder.add(part);

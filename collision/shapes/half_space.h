@@ -7,6 +7,7 @@
 
 #include "collision/shapes/shape_number.h"
 #include "solver/spatial/pose.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 
@@ -23,7 +24,7 @@ struct HalfSpace {
   }
   std::string fault() const {
     if (std::abs(normal.norm() - 1) < 1e-9 && std::isfinite(offset)) return "";
-    return "normal has length " + std::to_string(normal.norm()) + ", must be 1";
+    return "normal has length " + short_number_text(normal.norm()) + ", must be 1";
   }
 };
 HalfSpace numbered(ShapeNumber<0>);

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/support/number_text.h"
+
 namespace twinarm {
 namespace {
 
@@ -95,7 +97,7 @@ std::string MeshShape::fault() const {
   add(duplicate_triangles(mesh));
   const double extent = bounding_box(mesh.vertices).sizes().maxCoeff();
   if (extent > max_extent)
-    add("mesh is " + std::to_string(extent) +
+    add("mesh is " + short_number_text(extent) +
         " m wide: for a file in millimetres give scale = 0.001");
   if (is_open) return faults;
   if (!is_closed(mesh)) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -13,7 +14,7 @@ namespace {
 
 std::string positive(const char* name, double value) {
   if (value > 0 && std::isfinite(value)) return "";
-  return std::string(name) + " is " + std::to_string(value) + " m, must be positive";
+  return std::string(name) + " is " + short_number_text(value) + " m, must be positive";
 }
 std::string positive(const char* name, const Vector3& values) {
   for (const double value : values)

@@ -5,6 +5,7 @@
 
 #include "coupling/device/inverse_kinematics.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -152,10 +153,10 @@ class CartesianMapping final : public ClutchedMapping {
 
 void check_number(const std::string& what, double value, bool positive, DiagnosticList& faults) {
   if (std::isfinite(value) && (!positive || value > 0)) return;
-  faults.add(
-      "mapping, " + what,
-      "it is " + std::to_string(value) + ", must be a " + (positive ? "positive " : "") + "number",
-      "give a " + std::string(positive ? "positive " : "") + "number", "mapping.number");
+  faults.add("mapping, " + what,
+             "it is " + short_number_text(value) + ", must be a " + (positive ? "positive " : "") +
+                 "number",
+             "give a " + std::string(positive ? "positive " : "") + "number", "mapping.number");
 }
 
 void check_spec(const MappingSpec& spec, DiagnosticList& faults) {

@@ -4,6 +4,7 @@
 
 #include "coupling/laws/coupling_spec.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 
@@ -19,7 +20,7 @@ Coupling::Coupling(const CouplingSpec& spec, const Model<double>& model, TargetR
                  "coupling.link");
     const auto check = [&](double gain, const std::string& what) {
       if (gain >= 0) return;
-      faults.add(where, what + " is " + std::to_string(gain) + ", must not be negative",
+      faults.add(where, what + " is " + short_number_text(gain) + ", must not be negative",
                  "give a " + what + " of at least 0", "coupling.gain");
     };
     check(spring.k, "stiffness");

@@ -7,6 +7,7 @@
 #include "solver/forces/spring.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -44,7 +45,7 @@ class MujocoWeld final : public Coupling {
     const auto check = [&](bool valid, const char* what, double value, const char* allowed) {
       if (!valid)
         faults.add("coupling '" + name_ + "', " + what,
-                   std::to_string(value) + " is not allowed, " + allowed, "give another value",
+                   short_number_text(value) + " is not allowed, " + allowed, "give another value",
                    "coupling.weld");
     };
     check(good(reference.time_constant), "time constant", reference.time_constant,

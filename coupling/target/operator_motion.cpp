@@ -28,7 +28,7 @@ OperatorSample AutomaticMotion::sample(double t, double toward) const {
 
 std::string AutomaticMotion::description() const {
   return "automatic: joint 1 from 90 to -90 deg, joint 2 from -45 to 45 deg, " +
-         std::to_string(sweeps_) + " sweeps of " + std::to_string(sweep_time_) +
+         std::to_string(sweeps_) + " sweeps of " + short_number_text(sweep_time_) +
          " s, linear in time";
 }
 

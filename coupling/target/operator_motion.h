@@ -11,6 +11,8 @@
 #include <string>
 #include <utility>
 
+#include "solver/support/number_text.h"
+
 namespace twinarm {
 
 struct OperatorSample {
@@ -87,8 +89,8 @@ class DelayedMotion final : public OperatorMotion {
   }
   double duration() const override { return delay_ + motion_.duration() / speed_; }
   std::string description() const override {
-    return motion_.description() + "; " + std::to_string(delay_) + " s delay, " +
-           std::to_string(speed_) + " times as fast";
+    return motion_.description() + "; " + short_number_text(delay_) + " s delay, " +
+           short_number_text(speed_) + " times as fast";
   }
 
  private:

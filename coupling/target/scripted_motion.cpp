@@ -11,12 +11,6 @@ bool is_after(double t, double toward, double event) {
   return std::abs(t - event) < 1e-9 ? 0.5 * (t + toward) > event : t > event;
 }
 
-std::string seconds_text(double t) {
-  std::string text = std::to_string(t);
-  text.erase(text.find_last_not_of('0') + 1);
-  return (text.back() == '.' ? text + "0" : text) + " s";
-}
-
 }  // namespace
 
 OperatorSample StepMotion::sample(double t, double toward) const {
@@ -26,7 +20,7 @@ OperatorSample StepMotion::sample(double t, double toward) const {
 }
 
 std::string StepMotion::description() const {
-  return "scripted: a step after " + seconds_text(at_);
+  return "scripted: a step after " + short_number_text(at_) + " s";
 }
 
 OperatorSample ChirpMotion::sample(double t, double toward) const {
@@ -43,8 +37,8 @@ OperatorSample ChirpMotion::sample(double t, double toward) const {
 }
 
 std::string ChirpMotion::description() const {
-  return "scripted: a chirp from " + std::to_string(f0_) + " to " + std::to_string(f1_) +
-         " Hz in " + seconds_text(duration_);
+  return "scripted: a chirp from " + short_number_text(f0_) + " to " + short_number_text(f1_) +
+         " Hz in " + short_number_text(duration_) + " s";
 }
 
 void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s, double T,
@@ -57,7 +51,8 @@ void add_minimum_jerk(const DeviceAngles& from, const DeviceAngles& to, double s
 }
 
 std::string ReachMotion::description() const {
-  return "scripted: a minimum-jerk reach of " + seconds_text(T_) + " after " + seconds_text(at_);
+  return "scripted: a minimum-jerk reach of " + short_number_text(T_) + " s after " +
+         short_number_text(at_) + " s";
 }
 
 }  // namespace twinarm

@@ -212,6 +212,17 @@ TEST_CASE("all errors of a surface are reported at once") {
   } catch (const InputError& error) {
     CHECK(error.faults().size() == 3);
   }
+  bad.body = 0;
+  bad.surface = rough_surface(-1e-9, -1e-9);
+  bad.surface.stiffness = bad.surface.dissipation = -1e-9;
+  try {
+    contacts.bodies().add(bad);
+    FAIL("accepted");
+  } catch (const InputError& error) {  // with the digits of small numbers
+    CHECK(error.faults().size() == 4);
+    for (const Diagnostic& fault : error.faults())
+      CHECK(fault.problem.find("-1e-09") != std::string::npos);
+  }
 }
 
 TEST_CASE(

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "collision/geometry/mass_properties.h"
+#include "collision/mesh_files/mesh_file.h"
 #include "solver/support/diagnostics.h"
 #include "tests/collision/narrow_phase/oracle.h"
 
@@ -40,6 +42,30 @@ TEST_CASE("shapes with invalid dimensions report the error") {
   CHECK(shape_fault(HalfSpace{{0, 0, 2}, 0}).find("normal") != std::string::npos);
   CHECK(!shape_fault(ConvexHull{}).empty());
   CHECK(shape_fault(Cylinder{0.1, 0.2}).empty());
+}
+
+TEST_CASE("errors show small numbers by their digits") {
+  const auto is_shown = [](const std::string& text) {
+    CAPTURE(text);
+    return text.find("0.000000") == std::string::npos && text.find("1e-09") != std::string::npos;
+  };
+  const auto refusal = [](auto&& make) -> std::string {
+    try {
+      make();
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CHECK(is_shown(shape_fault(Sphere{-1e-9})));
+  CHECK(is_shown(shape_fault(HalfSpace{{0, 0, 1e-9}, 0})));
+  CHECK(is_shown(refusal([] { check_density(-1e-9); })));
+  CHECK(is_shown(refusal([] { with_mass({1, Vector3::Zero(), Matrix3::Zero()}, -1e-9); })));
+  CHECK(is_shown(refusal([] {
+    combine(std::vector<MassProperties>{{-1e-9, {}, Matrix3::Zero()}});
+  })));
+  CHECK(is_shown(refusal([] { load_mesh("none.stl", -1e-9); })));
+  CHECK(shape_fault(MeshShape{box_mesh({1e9, 1, 1})}).find("1e+09") != std::string::npos);
 }
 
 // Includes shapes that are added to AnyShape.
