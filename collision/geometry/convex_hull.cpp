@@ -13,7 +13,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iterator>
@@ -79,10 +78,8 @@ Loops run_qhull(std::span<const Vector3> points, double tolerance) {
   for (const Vector3& p : points) flat.insert(flat.end(), {p.x(), p.y(), p.z()});
   QhullRun run;
   qhT* const qh = &run.state;  // qhull's macros use this name
-  char digits[32];             // std::to_string() depends on the locale
-  const auto end =
-      std::to_chars(digits, std::end(digits), tolerance * 1e9, std::chars_format::fixed, 6).ptr;
-  std::string command = "qhull C-" + std::string(digits, end) + "e-9";
+  // Without a decimal point, which qhull reads by the locale.
+  std::string command = "qhull C-" + std::to_string(std::llround(tolerance * 1e15)) + "e-15";
   const int failed = qh_new_qhull(qh, 3, static_cast<int>(points.size()), flat.data(), False,
                                   command.data(), run.silence, run.silence);
   if (failed != 0) refuse("the points have no hull with a volume");

@@ -9,6 +9,7 @@ namespace {
 template <class... Parts>
 std::string text(const Parts&... parts) {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   out.precision(6);
   (out << ... << parts);
   return out.str();

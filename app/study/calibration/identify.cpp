@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "app/support/parallel_for.h"
 #include "app/support/text.h"
 #include "solver/linear_algebra/dense_algebra.h"
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -198,15 +198,13 @@ Identification identify_one(const StudyInputs& inputs, const std::string& proble
     faults.check();
   }
   const std::string &row = parts[0], &law = parts[1], &number = parts[2];
-  char* end = nullptr;
-  const double rate = std::strtod(number.c_str(), &end);
+  const double rate = parse_number(number).value_or(0);
   const std::vector<std::string> laws = names_of(family_laws());
   if (row != "E3" && row != "E4" && row != "E4-text")
     fault("unknown row '" + row + "'", "E3, E4 or E4-text");
   if (std::ranges::find(laws, law) == laws.end())
     fault("unknown law '" + law + "'", name_remedy(law, laws, "laws"));
-  if (!(rate >= 10 && rate <= 1e5) || *end != 0)
-    fault("'" + number + "' is not a rate", "10 to 100000 Hz");
+  if (!(rate >= 10 && rate <= 1e5)) fault("'" + number + "' is not a rate", "10 to 100000 Hz");
   faults.check();
   return IdentificationProblem(inputs, family_law(law), row, rate).solve();
 }

@@ -2,12 +2,14 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <locale>
 #include <stdexcept>
 #include <string>
 
 #include "solver/dynamics/model_builder.h"
 #include "solver/impulses/joint_limits.h"
 #include "solver/stepping/simulation.h"
+#include "solver/support/diagnostics.h"
 #include "solver/support/state_archive.h"
 
 using namespace twinarm;
@@ -83,6 +85,29 @@ TEST_CASE("loops: state data of a simulation with other loops is rejected") {
   CHECK_THROWS_AS(other.simulation.serialize(memory), std::runtime_error);
   CHECK_NOTHROW(other.simulation.serialize(own));
   CHECK(own.at_end());
+}
+
+TEST_CASE("loops: the error of an open loop does not depend on the program's locale") {
+  struct Comma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+  };
+  ModelBuilder builder;
+  const BodyInertia inertia{1, Vector3::Zero(), Matrix3::Identity()};
+  builder.add_body("block", 0, "rail", JointType::prismatic, {}, Vector3::UnitZ(), inertia);
+  const Model<double> model = builder.build();
+  State<double> x(model);
+  x.q[0] = 0.25;
+  Simulation simulation(model, x);
+  const std::locale before = std::locale::global({std::locale::classic(), new Comma});
+  std::string text;
+  try {
+    simulation.set_loops({LoopClosure{"tie", LoopType::ball, 0, 1}});
+  } catch (const InputError& error) {
+    text = error.what();
+  }
+  std::locale::global(before);
+  CAPTURE(text);
+  CHECK(text.find("0.25 ") != std::string::npos);
 }
 
 // A prescribed joint moves away, with zero given velocity, from a block on a rail: only the
