@@ -210,7 +210,7 @@ class SceneStepper {
     const SceneModel& scene = *plan.input.scene;
     targets_.resize(scene.couplings.size());
     const MotionReplacement in_place = [&](std::size_t c, std::unique_ptr<OperatorMotion> own) {
-      const auto steps = static_cast<std::size_t>(scene.couplings[c].delay / plan.run.step);
+      const std::size_t steps = stored_steps(scene.couplings[c].delay, plan.run.step);
       if (!targets_[c]) targets_[c] = std::make_shared<GivenTarget>(DeviceMotion(steps + 3));
       return std::make_unique<OverridableMotion>(
           std::move(own), [given = targets_[c]](double t, double u) { return given->at(t, u); });

@@ -25,9 +25,6 @@ namespace twinarm {
 
 // Operator motion that is stored for couplings with a delay, of at most kMaxDelay [s].
 inline constexpr double kMaxDelay = 2;
-inline std::size_t steps_of_delay(double h) {
-  return static_cast<std::size_t>(kMaxDelay / h) + 2;
-}
 
 struct HapticLoopOptions {
   MappingSpec mapping;

@@ -163,7 +163,7 @@ std::vector<std::size_t> device_couplings(const SceneModel& scene, double h) {
 LiveRun::LiveRun(const SceneModel& scene, InputDevice& device, const LiveOptions& options)
     : h_(step_of(scene, options)),
       driven_(device_couplings(scene, h_)),
-      hand_(std::make_unique<DeviceMotion>(steps_of_delay(h_))),
+      hand_(std::make_unique<DeviceMotion>(stored_steps(kMaxDelay, h_) + 2)),
       couplings_(std::make_unique<SceneCouplings>(scene, h_, hand_.get())),
       simulation_(scene.model, scene.start) {
   loop_ = std::make_unique<HapticLoop>(scene, *couplings_, driven_, device, options);
@@ -210,7 +210,7 @@ DeviceState first_state(InputDevice& device, ServoClock& clock, bool real_time, 
 std::unique_ptr<DeviceMotion> record_operator(InputDevice& device, double duration, bool real_time,
                                               const std::function<void(double)>& tick) {
   const double h = 1 / device.parameters().rate;
-  const auto steps = static_cast<std::size_t>(std::ceil(duration / h - 1e-9));
+  const auto steps = stored_steps(duration - 1e-9 * h, h);
   auto hand = std::make_unique<DeviceMotion>(steps);
   ServoClock clock(h);
   clock.start();

@@ -8,6 +8,7 @@
 #include "coupling/batch/lanes.h"
 #include "solver/dynamics/dynamics.h"
 #include "solver/model/convert_model.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 
@@ -249,10 +250,10 @@ std::vector<Diagnostic> batch_faults(const BatchSetup& setup) {
       faults.add("measured", "coordinate " + std::to_string(iq) + " does not exist",
                  "give an index below " + std::to_string(model.nq), "batch.measured");
   if (!(setup.duration > 0) || !std::isfinite(setup.duration))
-    faults.add("duration", "is " + std::to_string(setup.duration) + " s",
+    faults.add("duration", "is " + short_number_text(setup.duration) + " s",
                "give a positive number of seconds", "batch.duration");
   if (!(setup.bound > 0))
-    faults.add("bound", "is " + std::to_string(setup.bound), "give a positive bound",
+    faults.add("bound", "is " + short_number_text(setup.bound), "give a positive bound",
                "batch.bound");
   return faults.faults();
 }

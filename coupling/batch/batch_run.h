@@ -93,7 +93,7 @@ class BatchRun {
   BatchRun& operator=(BatchRun&&) noexcept;
 
   // Runs all cells; out has the same size. One instance per thread. Allocates between batches, not
-  // in a step. Throws InputError before the first run if a step size is not positive and finite.
+  // in a step. Throws InputError before the first run if a step size is invalid or too small.
   void run(std::span<const BatchCell> cells, std::span<BatchResult> out);
   std::size_t lanes() const;  // SIMD width of the instruction set
 

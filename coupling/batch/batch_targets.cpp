@@ -57,7 +57,8 @@ BatchMotion::BatchMotion(const BatchSetup& setup) : joints(setup.measured.size()
 
 void BatchMotion::fill(const BatchSetup& setup, const ModelWithoutFixedJoints& merged,
                        const BatchCell& cell) {
-  constexpr double kSameTime = 1e-9;  // [steps]
+  constexpr double kSameTime = 1e-9;     // [steps]
+  stored_steps(setup.duration, cell.h);  // throws; cells of the shortest step come first
   const double whole = std::floor(setup.duration / cell.h + kSameTime);
   const double rest = setup.duration - whole * cell.h;
   const bool has_rest = rest > kSameTime * cell.h;

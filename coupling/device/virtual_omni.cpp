@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solver/support/diagnostics.h"
+#include "solver/support/number_text.h"
 
 namespace twinarm {
 namespace {
@@ -19,7 +20,7 @@ void check_settings(const VirtualOmniSettings& s) {
   const OmniParameters& o = s.parameters;
   const auto demand = [&](bool valid, const char* where, double value, const char* allowed) {
     if (!valid)
-      faults.add(where, "is " + std::to_string(value) + ", must be " + allowed,
+      faults.add(where, "is " + short_number_text(value) + ", must be " + allowed,
                  "the device's own value is in docs/understand/phantom_omni.md", "device.figure");
   };
   using Entry = std::pair<const char*, double>;
@@ -58,10 +59,6 @@ Matrix3 exponential_of_mass(double k, double b, double m, double h) {
   return sum;
 }
 
-std::size_t ticks_of(double delay, double period) {
-  return static_cast<std::size_t>(std::ceil(delay / period)) + 2;
-}
-
 }  // namespace
 
 VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> motion,
@@ -78,8 +75,8 @@ VirtualOmni::VirtualOmni(std::shared_ptr<const OperatorMotion> motion,
   const Matrix3 E = exponential_of_mass(arm.stiffness, arm.damping + viscous_,
                                         parameters_.apparent_mass + arm.mass, period_ / kSubsteps);
   response_ = {E(0, 0), E(0, 1), E(0, 2), E(1, 0), E(1, 1), E(1, 2)};
-  sensed_.resize(ticks_of(delay_to_host_, period_));
-  rendered_.resize(ticks_of(delay_to_motors_, period_));
+  sensed_.resize(stored_steps(delay_to_host_, period_) + 2);
+  rendered_.resize(stored_steps(delay_to_motors_, period_) + 2);
   update_angles();
   const auto q = omni_nearest(parameters_, omni_position(parameters_, wanted_.theta));
   truth_.theta = {q[0], q[1], q[2], 0, 0, 0};

@@ -65,5 +65,7 @@ class DiagnosticList {
 
 // Throws InputError unless h [s] is positive and finite.
 void check_step_size(double h);
+// duration / h, rounded up, for a table with a row per step. Throws InputError above 1e7.
+std::size_t stored_steps(double duration, double h);
 
 }  // namespace twinarm

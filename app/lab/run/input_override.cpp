@@ -21,7 +21,7 @@ bool has_same_motion(const SceneCoupling& a, const SceneCoupling& b) {
 }  // namespace
 
 InputOverride::InputOverride(SceneModel* scene, OperatorInput& input, double h)
-    : scene_(scene), input_(input), live_(steps_of_delay(h)), first_(1) {
+    : scene_(scene), input_(input), live_(stored_steps(kMaxDelay, h) + 2), first_(1) {
   if (scene_) select_couplings();
 }
 
