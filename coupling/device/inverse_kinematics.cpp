@@ -91,10 +91,7 @@ bool PointInverseKinematics::factorise(double mu, bool curved) {
       const std::size_t row = std::max(A.joint, B.joint), column = std::min(A.joint, B.joint);
       G_(row, column) += a != b && row == column ? 2 * g : g;
     }
-  G_.factorise(n);
-  for (std::size_t j = 0; j < n; ++j)
-    if (!(G_(j, j) > 0)) return false;
-  return true;
+  return G_.factorise(n);
 }
 
 bool PointInverseKinematics::is_at_rest() const {

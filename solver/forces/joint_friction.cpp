@@ -17,8 +17,8 @@ double BoxLcp::result(std::size_t i, double& size) const {
   return v;
 }
 
-// Solves for f of the inside rows with v' = 0; f of the others is at its bound.
-void BoxLcp::solve_inside() {
+// Solves for f of the inside rows with v' = 0, others at a bound; false if B of these is singular.
+bool BoxLcp::solve_inside() {
   inside_.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Row& row = rows[i];
@@ -30,9 +30,10 @@ void BoxLcp::solve_inside() {
     rhs_[n] = -result(inside_[n], size);
     for (std::size_t m = 0; m <= n; ++m) factors_(n, m) = B_(inside_[n], inside_[m]);
   }
-  factors_.factorise(inside_.size());
+  if (!factors_.factorise(inside_.size())) return false;
   factors_.solve(rhs_.data());
   for (std::size_t n = 0; n < inside_.size(); ++n) rows[inside_[n]].f = rhs_[n];
+  return true;
 }
 
 bool BoxLcp::contradicts(std::size_t i, At& better) const {
@@ -56,7 +57,7 @@ bool BoxLcp::solve() noexcept {
   int block_pivots_left = 3;
   const std::size_t max_pivots = 20 + 10 * rows.size();
   for (std::size_t pivot = 0; pivot < max_pivots; ++pivot) {
-    solve_inside();
+    if (!solve_inside()) break;
     std::size_t count = 0, last = 0;
     At better;
     for (std::size_t i = 0; i < rows.size(); ++i)

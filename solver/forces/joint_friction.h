@@ -43,7 +43,7 @@ class BoxLcp {
   bool solve_by_gauss_seidel() noexcept;                        // true if converged to rounding
 
  private:
-  void solve_inside();
+  bool solve_inside();
   bool contradicts(std::size_t i, At& better) const;
   double result(std::size_t i, double& size) const;  // v' of row i; size: sum of |terms|
 

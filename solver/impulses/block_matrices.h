@@ -101,15 +101,18 @@ inline void solve_cholesky(const double* __restrict L, N n, double* __restrict b
   }
 }
 
-// Cholesky factor L of A, with 1 / l_rr on the diagonal.
+// Cholesky factor L of A, with 1 / l_rr on the diagonal; false if A is not positive definite.
 template <class N>
-inline void cholesky(const double* __restrict A, N n, double* __restrict L) {
+inline bool cholesky(const double* __restrict A, N n, double* __restrict L) {
+  bool positive = true;
   for (int r = 0; r < n; ++r)
     for (int j = 0; j <= r; ++j) {
       double rest = A[r * n + j];
       for (int k = 0; k < j; ++k) rest -= L[r * n + k] * L[j * n + k];
       L[r * n + j] = j < r ? rest * L[j * n + j] : 1 / std::sqrt(rest);
+      positive = positive && (j < r || rest > 0);
     }
+  return positive;
 }
 
 }  // namespace twinarm

@@ -21,7 +21,7 @@ constexpr int kMaxPaths = 8;
 ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
   ImpulseReport report;
   problem_ = &problem;
-  factorise_trees();
+  report.converged = factorise_trees();
   const std::size_t count = problem_->constraints().size();
   multipliers_.assign(count, {});
   rho0_.assign(count, 0);
@@ -74,11 +74,14 @@ ImpulseReport ImpulseSolver::solve(ImpulseProblem& problem) {
   return report;
 }
 
-void ImpulseSolver::factorise_trees() {
+bool ImpulseSolver::factorise_trees() {
   factors_.resize(problem_->blocks_size());
+  bool positive = true;
   for (int t = 0; t < problem_->tree_count(); ++t)
-    with_size(problem_->size(t),
-              [&](auto n) { cholesky(problem_->M(t), n, factors_.data() + problem_->block(t)); });
+    with_size(problem_->size(t), [&](auto n) {
+      positive = cholesky(problem_->M(t), n, factors_.data() + problem_->block(t)) && positive;
+    });
+  return positive;
 }
 
 void ImpulseSolver::solve_tree(int tree, double* f) const {

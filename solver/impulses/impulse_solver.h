@@ -69,7 +69,7 @@ class ImpulseSolver {
         f(problem_->first(t) + k, row_[t] + k);
   }
   void link_discs();
-  void factorise_trees();
+  bool factorise_trees();
   void solve_tree(int tree, double* f) const;
   void find_islands();
   double projected_gradient_step();

@@ -39,7 +39,7 @@ int ImpulseSolver::interior_point_start() {
     }
     if (residual <= tolerance) break;
     assemble(false);
-    matrix_.factorise(false);
+    if (!matrix_.factorise(false)) break;
     const double affine = std::min(1.0, ipm_direction(0, false));
     double after = 0;
     for (const int i : cones_)

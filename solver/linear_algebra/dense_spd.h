@@ -10,19 +10,22 @@ namespace twinarm {
 class DenseSpd {
  public:
   explicit DenseSpd(std::size_t capacity) : capacity_(capacity), A_(capacity * capacity) {}
-  // factorise() reads the lower triangle of the leading n x n block.
+  // factorise() reads the lower triangle of the leading n x n block; false: not positive definite.
   double& operator()(std::size_t row, std::size_t column) { return A_[row * capacity_ + column]; }
   double operator()(std::size_t row, std::size_t column) const {
     return A_[row * capacity_ + column];
   }
-  void factorise(std::size_t n) {
+  bool factorise(std::size_t n) {
     DenseSpd& A = *this;
     n_ = n;
+    bool positive = true;
     for (std::size_t j = 0; j < n; ++j)
       for (std::size_t i = j; i < n; ++i) {
         for (std::size_t k = 0; k < j; ++k) A(i, j) -= A(i, k) * A(j, k) * A(k, k);
         if (i > j) A(i, j) /= A(j, j);
+        if (i == j) positive = positive && A(j, j) > 0;
       }
+    return positive;
   }
   void solve(double* b) const {  // b := A^-1 b
     const DenseSpd& A = *this;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 
 namespace twinarm {
 namespace {
@@ -28,7 +29,8 @@ void EnvelopeLu::set_zero() {
 }
 
 // l_rj = (a_rj - sum_k l_rk u_kj) / u_jj,   u_jr = a_jr - sum_k l_jk u_kr   (k < j)
-void EnvelopeLu::factorise(bool symmetric) {
+bool EnvelopeLu::factorise(bool symmetric) {
+  bool regular = true;
   for (std::size_t r = 0; r < rows(); ++r) {
     double *l = lower_.data() + begin_[r], *u = upper_.data() + begin_[r];
     const std::size_t first = first_[r], n = r - first;
@@ -46,7 +48,9 @@ void EnvelopeLu::factorise(bool symmetric) {
       }
     }
     l[n] = 1 / (l[n] - dot(l, u, n));
+    regular = regular && std::isfinite(l[n]);
   }
+  return regular;
 }
 
 int EnvelopeLu::determinant_sign() const {

@@ -24,8 +24,8 @@ class EnvelopeLu {
   double* column(std::size_t column, std::size_t row) {
     return upper_.data() + begin_[column] + row - first_[column];
   }
-  // Zero pivots give non-finite numbers. Symmetric: the upper triangle is not read.
-  void factorise(bool symmetric);
+  // False: a pivot is zero or not a number. Symmetric: the upper triangle is not read.
+  bool factorise(bool symmetric);
   void solve(double* b) const;  // b := A^-1 b
   int determinant_sign() const;
 
