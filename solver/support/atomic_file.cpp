@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <mutex>
 #include <utility>
 
 #include "solver/support/diagnostics.h"
@@ -89,7 +90,10 @@ void UnfinishedFile::fail(int error) const {
 void write_whole_file(const std::filesystem::path& file, const std::string& bytes) {
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);  // opening reports a failure
-  // The process id makes the temporary name unique among programs that write the same file.
+  // The process id makes the temporary name unique among programs that write the same file, the
+  // lock among the threads of this one.
+  static std::mutex one_at_a_time;
+  const std::lock_guard lock(one_at_a_time);
   UnfinishedFile out(file, file.string() + "." + std::to_string(::getpid()) + ".tmp");
   out.write(bytes);
   out.finish();
