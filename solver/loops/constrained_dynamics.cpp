@@ -48,6 +48,13 @@ void ForwardDynamics::set_friction(bool on) {
   std::fill(torques_.coulomb.begin(), torques_.coulomb.end(), 0);
 }
 
+void ForwardDynamics::serialize(StateArchive& archive) {
+  archive.visit_fixed(mode_);
+  for (const Mode mode : mode_)
+    if (mode < Mode::sliding_minus || mode > Mode::sliding_plus)
+      throw std::runtime_error("state data has an unknown friction mode");
+}
+
 double ForwardDynamics::friction_margin() const {
   double margin = 1;
   for (std::size_t k = 0; k < mode_.size(); ++k) {

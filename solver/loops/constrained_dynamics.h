@@ -66,7 +66,7 @@ class ForwardDynamics {
   const std::vector<std::size_t>& sticking_dofs(const State<double>& x) noexcept;
   // Sets velocities of sticking dofs, and of dofs that move against their sliding mode, to zero.
   void zero_sticking_velocities(State<double>& x) const;
-  void serialize(StateArchive& archive) { archive.visit_fixed(mode_); }
+  void serialize(StateArchive& archive);
 
  private:
   void add_known_friction(const State<double>& x, double h, FrictionRule rule,

@@ -23,7 +23,7 @@ class Checkpointable {
     saved_ = archive.bytes();
   }
   virtual void restore() noexcept {
-    StateArchive archive(saved_);
+    StateArchive archive(std::move(saved_));  // once: without a copy, which could fail
     serialize(archive);
   }
 

@@ -97,6 +97,26 @@ TEST_CASE("a side step gives the result of a step and leaves the run bit-identic
   }
 }
 
+// A prescribed motion must not throw; it stands for memory that runs out.
+TEST_CASE("a side step that ends by an exception leaves the sources unchanged") {
+  ModelBuilder builder;
+  const BodyInertia inertia{1, Vector3::Zero(), Matrix3::Identity()};
+  builder.add_body("hand", 0, "held", JointType::prescribed, {}, Vector3::UnitZ(), inertia);
+  builder.add_body("block", 0, "rail", JointType::prismatic, {}, Vector3::UnitZ(), inertia);
+  const Model<double> model = builder.build();
+  Counter counter;
+  Simulation simulation(model, State<double>(model));
+  simulation.add(counter);
+  simulation.prescribe(1, [](double t) {
+    if (t > 0.01) throw std::runtime_error("too late");
+    return PrescribedMotion{};
+  });
+  simulation.step(5e-3);
+  CHECK(counter.steps == 1);
+  CHECK_THROWS_AS(side_step(simulation, 0.1), std::runtime_error);
+  CHECK(counter.steps == 1);
+}
+
 TEST_CASE("side_step() rejects sources that are not Checkpointable") {
   Random random(13);
   const Model<double> model = random_tree(random, 2, kJoints);

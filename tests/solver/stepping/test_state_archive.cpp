@@ -131,6 +131,22 @@ TEST_CASE("archive: truncated data and data of another model are rejected") {
   CHECK_THROWS_AS(other.simulation.serialize(memory), std::runtime_error);
 }
 
+TEST_CASE("archive: an unknown friction mode is rejected") {
+  const Model<double> model = rubbing_chain();
+  ForwardDynamics dynamics(model);
+  StateArchive written;
+  dynamics.serialize(written);
+  for (const char mode : {'\x01', '\xff', '\x02', '\x39', '\x80'}) {
+    std::string bytes = written.bytes();
+    bytes.back() = mode;
+    StateArchive read(bytes);
+    if (mode == '\x01' || mode == '\xff')
+      CHECK_NOTHROW(dynamics.serialize(read));
+    else
+      CHECK_THROWS_AS(dynamics.serialize(read), std::runtime_error);
+  }
+}
+
 TEST_CASE("archive: values round-trip, impossible sizes are rejected") {
   const auto visit = [](StateArchive& memory, auto&... values) { (memory.visit(values), ...); };
   std::string text = "a\0b";
