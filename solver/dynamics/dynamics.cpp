@@ -4,6 +4,9 @@
 #include <cstdlib>
 
 #include "solver/passes/aba.h"
+#ifdef TWINARM_HAS_LEVELS
+#include <cpuid.h>
+#endif
 
 namespace twinarm {
 
@@ -47,8 +50,11 @@ namespace {
 Isa of_this_processor() {
 #ifdef TWINARM_HAS_LEVELS
   __builtin_cpu_init();
+  unsigned a, b, basic = 0, extended = 0, d;  // clang 14 cannot name MOVBE, F16C and LZCNT
+  __get_cpuid(1, &a, &b, &basic, &d), __get_cpuid(0x80000001, &a, &b, &extended, &d);
   const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                  __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+                  __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2") &&
+                  (basic >> 22 & basic >> 29 & extended >> 5 & 1) != 0;
   const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
                   __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&
                   __builtin_cpu_supports("avx512cd");
