@@ -35,8 +35,8 @@ const char* name_of(SteppingScheme scheme);
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-// The largest h below which all are stable; 0 if none is (w h < 1e-4), kNoLimit if all are (to w h
-// = 1e4). K and B symmetric; coordinates without stiffness and damping are ignored.
+// The largest h below which all are stable (max_stable()); 0 if none is (w h < 1e-4), kNoLimit if
+// all are (to w h = 1e4). K and B symmetric; coordinates without stiffness and damping are ignored.
 double max_stable_step(const Eigen::MatrixXd& M, const Eigen::MatrixXd& K, const Eigen::MatrixXd& B,
                        SteppingScheme scheme);
 

@@ -49,7 +49,7 @@ class DesktopInput final : public OperatorMotion {
     update([&] { keys_ = {}, axes_ = {}, goal_.buttons = {}; });
   }
 
-  // For the thread of the virtual Omni.
+  // For the thread of the virtual Omni, the only reader.
   OperatorSample sample(double t, double toward) const override;
   double duration() const override { return std::numeric_limits<double>::infinity(); }
   std::string description() const override {

@@ -1,5 +1,5 @@
 // Compliant end stops of joints with one degree of freedom: a spring-damper on the coordinate acts
-// beyond the limit. Implicit (h b + h^2 k added to the armature): stable at any stiffness.
+// that is beyond the limit at the start of a step. Implicit (armature + h b + h^2 k): stable.
 #pragma once
 
 #include <string>

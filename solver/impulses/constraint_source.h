@@ -7,7 +7,7 @@
 //   add_constraints,     Phase::impact, while contacts close; Phase::step once;
 //   read_impulses        Phase::position_correction if any source needs_position_correction()
 // Event-driven steps also use events(): event_source.h.
-// None of them may throw, or allocate after the first steps.
+// None of them may throw, or allocate when warm (simulation.h): out of memory ends the program.
 #pragma once
 
 #include "solver/dynamics/kinematics.h"

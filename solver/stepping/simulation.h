@@ -3,7 +3,9 @@
 //   kinematics -> sources (targets, contacts, forces) -> ABA (+ implicit terms, joint friction,
 //   mimic joints, loops) -> integrator -> report
 //
-// step() never allocates, and throws only for an invalid step size. Results are bit-reproducible.
+// step() throws only for an invalid step size. It allocates until warm, that is while contacts and
+// constraints outnumber those before; sources are noexcept: out of memory there ends the program.
+// Results are bit-reproducible.
 #pragma once
 
 #include <optional>
@@ -60,7 +62,7 @@ class Simulation {
   StepReport step(double h, bool one_substep = false);
   // All inputs of the next step: state, and internal state of integrator, impulse solver and
   // sources. A simulation that is built equally continues bit-identically. Throws
-  // std::runtime_error if it is not, std::invalid_argument as side_step().
+  // std::runtime_error if it is not, half restored; std::invalid_argument as side_step().
   void serialize(StateArchive& archive);
 
   const State<double>& state() const { return m_.x; }
