@@ -186,11 +186,11 @@ constexpr double kDeepStart = 1e-4;  // penetration at the start that is reporte
 
 // The first floating base with joints; 0: none.
 std::size_t floating_base(const Model<double>& model) {
+  std::vector<std::size_t> root(model.parent.size());
   for (std::size_t i = 1; i < model.parent.size(); ++i) {
-    if (model.dofs(i) == 0 || model.parent[i] == 0) continue;
-    std::size_t root = i;
-    while (model.parent[root] > 0) root = static_cast<std::size_t>(model.parent[root]);
-    if (model.joint[root] == JointType::free) return root;
+    root[i] = model.parent[i] == 0 ? i : root[static_cast<std::size_t>(model.parent[i])];
+    if (model.dofs(i) > 0 && root[i] != i && model.joint[root[i]] == JointType::free)
+      return root[i];
   }
   return 0;
 }

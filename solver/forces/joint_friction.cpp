@@ -103,10 +103,12 @@ CoulombFriction::CoulombFriction(const Model<double>& model) {
     leader[m.follower] = m.leader;
     ratio[m.follower] = m.ratio;
   }
+  std::vector<std::vector<std::size_t>> members(model.nv);  // by leader
+  for (std::size_t d = 0; d < model.nv; ++d)
+    if (ratio[d] != 0) members[leader[d]].push_back(d);
   for (std::size_t l = 0; l < model.nv; ++l) {
     MimicGroup group{l, 0, 0, members_.size(), 0};
-    for (std::size_t d = 0; d < model.nv; ++d) {
-      if (leader[d] != l || ratio[d] == 0) continue;
+    for (const std::size_t d : members[l]) {
       const double r = ratio[d];
       const double against_plus = r > 0 ? -model.coulomb_plus[d] : model.coulomb_minus[d];
       const double against_minus = r > 0 ? model.coulomb_minus[d] : -model.coulomb_plus[d];

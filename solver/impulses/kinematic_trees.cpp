@@ -1,5 +1,9 @@
 #include "solver/impulses/kinematic_trees.h"
 
+#include <string>
+
+#include "solver/support/diagnostics.h"
+
 namespace twinarm {
 
 KinematicTrees::KinematicTrees(const Model<double>& model)
@@ -26,6 +30,13 @@ KinematicTrees::KinematicTrees(const Model<double>& model)
 // Composite-rigid-body algorithm, RBDA section 6.2, per tree.
 void KinematicTrees::set_mass_matrix(ImpulseProblem& problem, const Forces<double>* forces,
                                      Workspace<double>& w) {
+  if (problem.blocks_size() > kMaxEntries)
+    throw InputError(
+        {{"", 0, "contacts, limits and friction",
+          "act on a robot of too many joints: its mass matrix has more than " +
+              std::to_string(kMaxEntries) + " entries",
+          "give fewer links, or joints without limits and friction, and collide = false",
+          "model.too-large"}});
   const Model<double>& model = *model_;
   const std::size_t n = model.parent.size();
   for (std::size_t i = 1; i < n; ++i) {

@@ -28,7 +28,8 @@ class KinematicTrees {
     for (const int size : size_) problem.add_tree(size);
   }
   // M at the configuration of w.Xup and w.S_: inertia, armature, and the implicit terms of `forces`
-  // if given.
+  // if given. Throws InputError if the blocks have more than kMaxEntries.
+  static constexpr std::size_t kMaxEntries = 4000 * 4000;
   void set_mass_matrix(ImpulseProblem& problem, const Forces<double>* forces, Workspace<double>& w);
   // qd to v0
   void gather(const std::vector<double>& qd, ImpulseProblem& problem) const {

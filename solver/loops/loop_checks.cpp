@@ -95,6 +95,14 @@ class OneLoop {
 // By loop: its errors, including duplicates of earlier loops.
 std::vector<std::vector<Diagnostic>> faults_by_loop(const Model<double>& model,
                                                     const std::vector<LoopClosure>& loops) {
+  std::size_t rows = 0;
+  for (const LoopClosure& loop : loops)
+    visit_loop(loop.type, [&](auto type) { rows += decltype(type)::rows; });
+  if (rows * model.nv > kMaxLoopEntries)
+    throw InputError({{"", 0, "loops",
+                       text(rows, " constraint rows on ", model.nv, " velocities: more than ",
+                            kMaxLoopEntries, " matrix entries"),
+                       "give fewer loops or bodies", "loop.too-many"}});
   std::vector<std::vector<Diagnostic>> faults(loops.size());
   for (std::size_t l = 0; l < loops.size(); ++l) {
     OneLoop(model, loops[l], faults[l]).check();

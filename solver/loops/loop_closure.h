@@ -122,8 +122,13 @@ class LoopClosures {
 // Allowed position error of loops in the initial state [m, rad]; removed by the first projection.
 inline constexpr double kMaxInitialError = 1e-6;
 
-// Throws one InputError with all errors: body indices, ends without a joint between them, frames,
-// lengths, joints with more than one degree of freedom, duplicate loops.
+// Bound on constraint rows x velocities: forward dynamics with loops keeps several dense matrices
+// of this size (together 1 GiB).
+inline constexpr std::size_t kMaxLoopEntries = 2400000;
+
+// Throws one InputError with all errors: more entries than kMaxLoopEntries, body indices, ends
+// without a joint between them, frames, lengths, joints with more than one degree of freedom,
+// duplicate loops.
 void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loops);
 // The same, and position errors above kMaxInitialError at x.
 void check_loops(const Model<double>& model, const std::vector<LoopClosure>& loops,

@@ -78,17 +78,15 @@ Simulation::Simulation(const Model<double>& model, State<double> start,
 }
 
 void Simulation::add(ForceSource& source) {
-  std::vector<ForceSource*> sources = m_.sources;
-  sources.push_back(&source);
-  check_parts({integrator(), located_.has_value(), sources, constrained_.system().sources});
-  m_.sources = std::move(sources);
+  const std::vector<ForceSource*> added{&source};
+  check_parts({integrator(), located_.has_value(), added, constrained_.system().sources});
+  m_.sources.push_back(&source);
 }
 
 void Simulation::add(ConstraintSource& source) {
-  std::vector<ConstraintSource*> sources = constrained_.system().sources;
-  sources.push_back(&source);
-  check_parts({integrator(), located_.has_value(), m_.sources, sources});
-  constrained_.system().sources = std::move(sources);
+  const std::vector<ConstraintSource*> added{&source};
+  check_parts({integrator(), located_.has_value(), m_.sources, added});
+  constrained_.system().sources.push_back(&source);
 }
 
 void Simulation::locate_events() {

@@ -1,6 +1,8 @@
 // Geometries, their surfaces, and the pairs without contacts.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "app/scene/model/scene_builder.h"
 #include "collision/contact/contact_constraints.h"
@@ -34,6 +36,11 @@ class GeometryBuilder {
       add({body.surface, body.name, index, index == 0 ? body.X_WB : Pose{}, body.shape, body.group},
           {static_cast<int>(b), -1, ""});
     }
+    constexpr std::size_t kMaxGeometries = 10000;  // all pairs are looked at
+    if (scene_.geometries.size() > kMaxGeometries)
+      throw InputError(
+          {{description().file.string(), 0, "", "there are more than 10,000 shapes that may touch",
+            "give fewer bodies, or robots with collide = false", "scene.too-many"}});
     find_pairs_apart();
     for (const PairDescription& pair : description().pairs)
       scene_.pairs.push_back({named(pair.a), named(pair.b), pair.friction, pair.restitution,
@@ -75,8 +82,7 @@ class GeometryBuilder {
   bool is_apart(int a, int b) const {
     const auto i = static_cast<std::size_t>(a), j = static_cast<std::size_t>(b);
     const Model<double>& model = scene_.model;
-    const int root_a = rigid_root_of(model, scene_.geometries[i].body);
-    const int root_b = rigid_root_of(model, scene_.geometries[j].body);
+    const int root_a = roots_[i], root_b = roots_[j];
     if (root_a == root_b) return true;
     if (!is_moved_by_forces(model, root_a) && !is_moved_by_forces(model, root_b)) return true;
     if (rules_[i].size() > j && rules_[i][j] != 0) return rules_[i][j] < 0;
@@ -85,12 +91,7 @@ class GeometryBuilder {
     if (owners_[i].robot >= 0 && owners_[i].robot == owners_[j].robot &&
         (parent_of(root_a) == root_b || parent_of(root_b) == root_a))
       return true;
-    return std::ranges::any_of(scene_.constraints, [&](const SceneConstraint& c) {
-      using Type = SceneConstraint::Type;
-      const bool joins = c.type == Type::weld || c.type == Type::ball || c.type == Type::hinge;
-      const int on_a = rigid_root_of(model, c.a), on_b = rigid_root_of(model, c.b);
-      return joins && ((on_a == root_a && on_b == root_b) || (on_a == root_b && on_b == root_a));
-    });
+    return joined_.contains(std::minmax(root_a, root_b));
   }
   int parent_of(int root) const {
     if (root == 0) return 0;
@@ -99,6 +100,14 @@ class GeometryBuilder {
 
   void find_pairs_apart() {
     const std::size_t n = scene_.geometries.size();
+    for (const SceneGeometry& geometry : scene_.geometries)
+      roots_.push_back(rigid_root_of(scene_.model, geometry.body));
+    for (const SceneConstraint& c : scene_.constraints) {
+      using Type = SceneConstraint::Type;
+      if (c.type == Type::weld || c.type == Type::ball || c.type == Type::hinge)
+        joined_.insert(
+            std::minmax(rigid_root_of(scene_.model, c.a), rigid_root_of(scene_.model, c.b)));
+    }
     rules_.assign(n, {});
     for (const PairDescription& pair : description().pairs) {
       if (!pair.collide) continue;
@@ -116,6 +125,8 @@ class GeometryBuilder {
 
   SceneModel& scene_;
   std::vector<SceneReference> owners_;           // by geometry
+  std::vector<int> roots_;                       // rigid_root_of its body
+  std::set<std::pair<int, int>> joined_;         // roots joined by constraints, ascending
   std::vector<std::vector<signed char>> rules_;  // [a][b], a < b: 1 contacts, -1 none, 0 default
 };
 

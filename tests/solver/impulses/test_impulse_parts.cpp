@@ -75,6 +75,20 @@ TEST_CASE("Nesterov-Todd scaling maps x and z to the same point") {
   }
 }
 
+TEST_CASE("constraints on a robot of more than 4000 joints are refused before memory is taken") {
+  ModelBuilder builder;
+  for (int k = 0; k < 4001; ++k)
+    builder.add_body("b" + std::to_string(k), k, "j" + std::to_string(k), JointType::revolute,
+                     Pose{}, Vector3::UnitX(), {1, Vector3::Zero(), Matrix3::Identity()});
+  const Model<double> model = builder.build();
+  KinematicTrees trees(model);
+  ImpulseProblem problem;
+  trees.add_to(problem);
+  Workspace<double> w(model);
+  CHECK_THROWS_WITH_AS(trees.set_mass_matrix(problem, nullptr, w), doctest::Contains("too many"),
+                       InputError);
+}
+
 TEST_CASE("blocks of the trees are the mass matrix, rows are the Jacobians") {
   for (unsigned seed = 0; seed < 20; ++seed) {
     CAPTURE(seed);
