@@ -65,7 +65,9 @@ class FfmpegFilm final : public Film {
       : file_(std::move(file)), out_(file_, file_.string() + ".part") {
     std::signal(SIGPIPE, SIG_IGN);  // write() reports that the child has ended
     const std::string option = format.kind == FilmKind::mp4 ? "--mp4" : "--gif";
-    start(ffmpeg_words(find_ffmpeg(option.c_str()).string(), out_.temporary().string(), format));
+    // The whole path: "-x.mp4" would be an option, "http:x.mp4" a stream.
+    start(ffmpeg_words(find_ffmpeg(option.c_str()).string(),
+                       std::filesystem::absolute(out_.temporary()).string(), format));
   }
   ~FfmpegFilm() override {
     if (child_ > 0) {  // not finished
