@@ -27,6 +27,8 @@ struct RenderOptions {
   std::string plot = "none", quality = "normal", background = "studio", gl = "osmesa";
   std::filesystem::path side_by_side;  // a second recording; empty: none
   double slow_motion = 1;              // slow-motion factor
+  std::optional<double> fov;           // [deg]
+  double orbit = 0;                    // [deg/s of the video]
   std::optional<double> fps;           // default: 30, GIF 25
   bool json = false;
 };
@@ -48,8 +50,12 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
   add.group("Content");
   add("--camera", options.camera,
       "auto, front, side, top, iso, follow:BODY, or AZIMUTH,ELEVATION[,DISTANCE] [deg, m]");
+  add("--fov", options.fov, "vertical field of view [deg]; default 31.5")->check(between(1, 120));
+  add("--orbit", options.orbit,
+      "rate at which the camera of a video turns about the vertical [deg/s]")
+      ->check(between(-360, 360));
   add("--show", options.show,
-      fmt::format("none, all, or some of: {}", fmt::join(names_of(all_overlays()), ", ")));
+      fmt::format("none, all, or some of: {}", fmt::join(parse_overlays("all"), ", ")));
   add("--plot", options.plot,
       "curves below the picture: none, or some of: energy, forces, torques, contacts, "
       "tracking-error");
@@ -66,7 +72,8 @@ void add_options(const OptionAdder& add, RenderOptions& options) {
 struct RenderPlan {
   PictureWish picture;
   FilmTimes times;
-  double rate = 30;  // frames per second
+  std::filesystem::path file;  // or folder
+  double rate = 30;            // frames per second
 };
 
 constexpr int kMaxPixels = 8192;  // along a side
@@ -94,13 +101,16 @@ void choose_word(const char* option, const std::string& word, const std::vector<
 void check_outputs(const RenderOptions& options, RenderPlan& plan, DiagnosticList& faults) {
   int outputs = 0;
   for (const auto* file : {&options.png, &options.frames, &options.mp4, &options.gif})
-    outputs += file->empty() ? 0 : 1;
+    if (!file->empty()) ++outputs, plan.file = *file;
   if (outputs != 1)
     faults.add("output", outputs == 0 ? "is missing" : "more than one is given",
                "give one of --png FILE, --frames DIR, --mp4 FILE, --gif FILE", "option.outputs");
   plan.times.is_film = outputs == 1 && options.png.empty();
   if (plan.times.is_film && options.at)
     faults.add("--at", "applies to a picture only", "give --from and --to, or --png FILE",
+               "option.useless");
+  if (!plan.times.is_film && options.orbit != 0)
+    faults.add("--orbit", "applies to a video only", "give the azimuth of a picture by --camera",
                "option.useless");
   if (!plan.times.is_film && (options.from || options.to))
     faults.add("--from", "applies to a video only", "give --at for a picture", "option.useless");
@@ -130,6 +140,7 @@ RenderPlan read_render_options(const RenderOptions& options) {
   if (auto curves = attempt(faults, [&] { return parse_curves(options.plot); }))
     plan.picture.curves = *curves;
   plan.picture.camera = options.camera;
+  if (options.fov) plan.picture.field_of_view = *options.fov * kDegree;
   plan.rate = options.fps.value_or(options.gif.empty() ? 30 : 25);  // GIF: units of 1/100 s
   check_positive("--slow-motion", options.slow_motion, faults);
   if (!(plan.rate > 0 && plan.rate <= 1000))
@@ -140,6 +151,7 @@ RenderPlan read_render_options(const RenderOptions& options) {
   if (options.at && !(*options.at >= 0 && std::isfinite(*options.at)))
     faults.add("--at", "must be 0 s or later", "", "option.negative");
   faults.check();
+  plan.picture.orbit = options.orbit * kDegree / plan.rate;
   plan.times.at = options.at;
   plan.times.from = options.from;
   plan.times.to = options.to;
@@ -150,9 +162,8 @@ RenderPlan read_render_options(const RenderOptions& options) {
 std::unique_ptr<Film> make_film(const RenderOptions& options, const RenderPlan& plan) {
   if (!options.frames.empty()) return png_film(options.frames);
   const FilmKind kind = options.mp4.empty() ? FilmKind::gif : FilmKind::mp4;
-  make_folder(folder_of(options.mp4.empty() ? options.gif : options.mp4), "--mp4");
-  return ffmpeg_film(options.mp4.empty() ? options.gif : options.mp4,
-                     {kind, plan.picture.width, plan.picture.height, plan.rate});
+  make_folder(folder_of(plan.file), "--mp4");
+  return ffmpeg_film(plan.file, {kind, plan.picture.width, plan.picture.height, plan.rate});
 }
 
 void print_render_json(const std::string& file, const RenderPlan& plan, const FilmedRun& run,
@@ -176,15 +187,11 @@ int run_render(const RenderOptions& options) {
   else
     runs = film_pair(options.robot.model, options.side_by_side, plan.times);
   progress.stage("paint", 0.7);
-  std::vector<const FilmedRun*> shown;
-  for (const FilmedRun& run : runs) shown.push_back(&run);
+  std::vector<FilmedRun*> shown;
+  for (FilmedRun& run : runs) shown.push_back(&run);
   Rendering rendering(plan.picture, shown);
   const std::size_t count = runs.front().shown.size();
-  const std::string file = (plan.times.is_film ? (!options.frames.empty() ? options.frames
-                                                  : !options.mp4.empty()  ? options.mp4
-                                                                          : options.gif)
-                                               : options.png)
-                               .string();
+  const std::string file = plan.file.string();
   if (!plan.times.is_film) {
     write_png(file, rendering.paint(0));
   } else {

@@ -108,7 +108,7 @@ CameraWish parse_camera(const std::string& text, const Model<double>& model) {
 // so e_x - t_x e_z >= A = max(p_x - t_x p_z) and -e_x - t_x e_z >= B = max(-p_x - t_x p_z): the
 // nearest eye has e_z = -(A + B) / (2 t_x), e_x = (A - B) / 2. Likewise y; the farther one is used.
 Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect) {
-  Camera camera;
+  Camera camera{.field_of_view = wish.field_of_view};
   const Vector3 forward = -towards_eye(wish);
   const bool is_steep = std::abs(forward.z()) > 0.999;
   if (is_steep) {  // x to the right in the top view
@@ -143,12 +143,12 @@ Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect) 
   return camera;
 }
 
-double closeup(const SceneMeshes& meshes, int body) {
+double closeup(const SceneMeshes& meshes, int body, double field_of_view) {
   double radius = 0;
   for (const ScenePart& part : meshes.parts)
     if (part.body == static_cast<std::size_t>(body))
       radius = std::max(radius, 0.5 * part.box_M.sizes().norm());
-  return 3 * radius / std::tan(0.5 * Camera{}.field_of_view);
+  return 3 * radius / std::tan(0.5 * field_of_view);
 }
 
 Camera follow(Camera camera, const Vector3& target_W) {

@@ -40,6 +40,7 @@ struct CameraWish {
   double azimuth = -52, elevation = 22;  // of the eye about the target [degrees], x axis, horizon
   double distance = 0;                   // [m]; 0: the whole scene fits
   int follow = -1;                       // body in the centre of the picture
+  double field_of_view = Camera{}.field_of_view;  // vertical [rad]
 };
 
 // "auto", "front", "side", "top", "iso", "follow:BODY", "AZIMUTH,ELEVATION[,DISTANCE]" in degrees
@@ -50,7 +51,7 @@ CameraWish parse_camera(const std::string& text, const Model<double>& model);
 Camera make_camera(const CameraWish& wish, const Extent& extent, double aspect);
 // follow() translates the camera to `target_W`. closeup() is the distance at which a body fills
 // about a third of the picture's height.
-double closeup(const SceneMeshes& meshes, int body);
+double closeup(const SceneMeshes& meshes, int body, double field_of_view);
 Camera follow(Camera camera, const Vector3& target_W);
 
 // 1, 2 or 5 times a power of ten, the nearest below.

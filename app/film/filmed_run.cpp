@@ -258,6 +258,7 @@ RunInstant instant_of(const RecordedFrame& frame, const Model<double>& model) {
   visit_state(memory, model, instant.x);
   instant.coupling_forces = frame.coupling_forces;
   instant.contacts = frame.contacts;
+  instant.memory = frame.memory;
   return instant;
 }
 

@@ -21,6 +21,7 @@ struct RunInstant {
   State<double> x;
   std::vector<Vector3> coupling_forces;
   std::vector<RecordedContact> contacts;
+  std::string memory;  // serialized state of the run
 };
 
 // Whether a joint that forces can move is between body and world.

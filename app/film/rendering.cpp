@@ -7,7 +7,10 @@
 #include <optional>
 
 #include "app/draw/overlays/overlays.h"
+#include "app/inspect/report/inspect_input.h"
 #include "app/render/text/plot.h"
+#include "app/robot/dynamics.h"
+#include "app/run/run.h"
 
 namespace twinarm {
 namespace {
@@ -24,21 +27,35 @@ bool same_legend(const std::vector<LegendLine>& a, const std::vector<LegendLine>
   return std::ranges::equal(a, b, {}, &LegendLine::words, &LegendLine::words);
 }
 
+// With the forces of the semi-implicit step that begins at the instant.
+Inspection inspect(FilmedRun& run, const RunInstant& instant) {
+  SimulateInput& input = run.plan.input;
+  set_pose(input.robot, instant.x);
+  StateArchive memory = simulation_memory(instant.memory);
+  Inspected found =
+      input.scene
+          ? SceneInspector(input, run.plan.run.step, {}, run.plan.run.integrator).look(&memory)
+          : inspect_robot(input.robot);
+  return {run.model(), std::move(found.x), std::move(found.actors), std::move(found.loops)};
+}
+
 }  // namespace
 
 // One run in its part of the picture.
 class Rendering::View {
  public:
-  View(const PictureWish& wish, const FilmedRun& run, int left, int width)
+  View(const PictureWish& wish, FilmedRun& run, int left, int width)
       : run_(run),
         view_(view_of(run)),
         camera_wish_(parse_camera(wish.camera, run.model())),
+        orbit_(wish.orbit),
         left_(left),
         width_(width),
         plot_height_(wish.curves.empty() ? 0
                                          : static_cast<int>(std::lround(kPlotShare * wish.height))),
         height_(wish.height - plot_height_) {
     if (!run.name.empty()) view_.name = run.name;
+    camera_wish_.field_of_view = wish.field_of_view;
     view_.frames_device = std::ranges::find(wish.overlays, "device") != wish.overlays.end();
     view_.list.background = wish.background;
     CurveTrace trace(wish.curves);
@@ -59,7 +76,10 @@ class Rendering::View {
   }
   void set() {
     if (camera_wish_.follow > 0 && !(camera_wish_.distance > 0))
-      camera_wish_.distance = closeup(view_.cast, camera_wish_.follow);
+      camera_wish_.distance = closeup(view_.cast, camera_wish_.follow, camera_wish_.field_of_view);
+    else if (orbit_ != 0 && !(camera_wish_.distance > 0))  // the bounding sphere fits
+      camera_wish_.distance =
+          kFrameMargin * view_.extent.radius() / std::sin(0.5 * camera_wish_.field_of_view);
     set_view(view_, camera_wish_, static_cast<double>(width_) / height_);
     camera_ = view_.list.camera;
     if (!plots_.empty()) strip_.emplace(plots_, width_, plot_height_);
@@ -71,13 +91,20 @@ class Rendering::View {
     const RunInstant& instant = run_.shown[picture];
     const Snapshot snapshot = run_.snapshot(instant);
     draw(view_, snapshot, overlays);
+    if (std::ranges::find(overlays, "wrenches") != overlays.end())
+      add_wrenches(view_, inspect(run_, instant));
     DrawList& list = view_.list;
     legend_ = list.legend;
     if (before && same_legend(*before, legend_)) list.legend.clear();
     list.camera = camera_;
+    if (orbit_ != 0) {
+      const Eigen::AngleAxisd turn(orbit_ * static_cast<double>(picture), Vector3::UnitZ());
+      list.camera.eye = camera_.target + turn * (camera_.eye - camera_.target);
+      list.camera.up = turn * camera_.up;
+    }
     if (camera_wish_.follow > 0)
-      list.camera = follow(
-          camera_, com_of(run_.model(), snapshot.k, static_cast<std::size_t>(camera_wish_.follow)));
+      list.camera = follow(list.camera, com_of(run_.model(), snapshot.k,
+                                               static_cast<std::size_t>(camera_wish_.follow)));
     const bool is_static = run_.shown.size() == 1 && instant.x.t == 0;
     list.title = is_static ? view_.name : fmt::format("{}, t = {:.3f} s", view_.name, instant.x.t);
     const bool is_film = run_.shown.size() > 1;
@@ -88,9 +115,10 @@ class Rendering::View {
   const std::vector<std::string>& notes() const { return view_.cast.notes; }
 
  private:
-  const FilmedRun& run_;
+  FilmedRun& run_;
   SceneView view_;
   CameraWish camera_wish_;
+  double orbit_;  // per picture [rad]
   int left_, width_, plot_height_, height_;
   Camera camera_;
   std::vector<Plot> plots_;
@@ -99,8 +127,7 @@ class Rendering::View {
   std::optional<Painter> painter_;
 };
 
-Rendering::Rendering(const PictureWish& wish, const std::vector<const FilmedRun*>& runs)
-    : wish_(wish) {
+Rendering::Rendering(const PictureWish& wish, const std::vector<FilmedRun*>& runs) : wish_(wish) {
   const int half = (wish.width - kGap) / 2;
   if (runs.size() == 1) {
     views_.push_back(std::make_unique<View>(wish, *runs[0], 0, wish.width));

@@ -18,6 +18,8 @@ struct PictureWish {
   Background background;
   Backend backend = Backend::osmesa;
   std::string camera = "auto";
+  double field_of_view = Camera{}.field_of_view;  // vertical [rad]
+  double orbit = 0;                               // about the vertical, per picture [rad]
   std::vector<std::string> overlays;
   std::vector<const CurveKind*> curves;
 };
@@ -26,7 +28,7 @@ struct PictureWish {
 class Rendering {
  public:
   // The runs must outlive it and have equal numbers of pictures. Throws InputError.
-  Rendering(const PictureWish& wish, const std::vector<const FilmedRun*>& runs);
+  Rendering(const PictureWish& wish, const std::vector<FilmedRun*>& runs);
   ~Rendering();
   Rendering(const Rendering&) = delete;
   Rendering& operator=(const Rendering&) = delete;

@@ -63,6 +63,30 @@ class Render(ProgramTest):
         self.assertEqual(pictures[0], pictures[1])
         self.assertNotEqual(pictures[0], pictures[2])
 
+    def test_the_field_of_view_and_the_wrenches_are_options_of_a_picture(self):
+        robot = "assets/robots/puma560/puma560.urdf"
+        pictures = set()
+        run, out = self.record("a"), self.folder / "a.png"
+        for words in (["--show", "none"], ["--show", "none", "--fov", 80], ["--show", "wrenches"]):
+            for model in (run, robot):
+                self.rendered(model, "--png", out, "--size", "160x120", *words)
+                pictures.add(out.read_bytes())
+        self.assertEqual(len(pictures), 6)
+        self.assertEqual(self.refusals(robot, "--png", out, "--orbit", 20)[0]["where"], "--orbit")
+        self.assertIn("is nan", self.refusals(robot, "--frames", self.folder / "f", "--orbit", "nan")[0]["problem"])
+
+    def test_the_camera_of_a_film_turns_and_comes_back(self):
+        scene = self.folder / "still.toml"
+        scene.write_text('gravity = [0, 0, 0]\n[[body]]\nname = "box"\nmass = 1\n'
+                         'shape = { box = { size = [1, 2, 3] } }\n')
+        out = self.folder / "film"
+        self.rendered(scene, "--frames", out, "--size", "160x120", "--quality", "draft", "--camera", "0,20",
+                      "--to", 0.4, "--slow-motion", 10, "--fps", 1, "--orbit", 90, "--show", "none")
+        frames = [picture.read_png(file)[2][40:] for file in sorted(out.iterdir())]  # below the title, which has the time
+        self.assertEqual(len(frames), 5)
+        self.assertEqual(frames[0], frames[4])
+        self.assertNotEqual(frames[0], frames[1])
+
     def test_a_film_has_the_given_rate_and_slow_motion_factor(self):
         out = self.folder / "film"
         reported = self.rendered(self.ball, "--frames", out, "--size", "64x48", "--quality", "draft",
@@ -124,6 +148,13 @@ class Render(ProgramTest):
             self.assertIn("-s 33x17 -r 10", words)
             self.assertIn(f"-f {format_word} ", words)
         self.assertEqual(list(self.folder.glob("*.part")), [])
+
+    def test_no_name_of_a_film_is_an_option_or_an_address_for_ffmpeg(self):
+        for name in ("-y.mp4", "http:x.mp4"):
+            self.json_of("render", self.ball, f"--mp4={name}", "--size", "32x16", "--quality", "draft", "--to", 0.1,
+                         env=self.environment(self.fake_ffmpeg()), cwd=self.folder)
+            words = (self.folder / name).read_text().split("\n")[0]
+            self.assertTrue(words.endswith(f"{self.folder}/{name}.part"), words)
 
     def test_a_missing_or_failing_ffmpeg_is_reported_and_no_file_remains(self):
         out = self.folder / "film.mp4"

@@ -42,7 +42,9 @@ std::vector<std::string> usual_overlays(Overlay::Shown at_least) {
 }
 
 std::vector<std::string> parse_overlays(const std::string& text) {
-  return parse_names(text, "--show", "overlay", usual_overlays(Overlay::Shown::no));
+  std::vector<std::string> known = usual_overlays(Overlay::Shown::no);
+  known.emplace_back("wrenches");
+  return parse_names(text, "--show", "overlay", known);
 }
 
 std::vector<Drawn> draw(SceneView& view, const Snapshot& snapshot,

@@ -46,6 +46,11 @@ struct Drawn {
 std::vector<Drawn> draw(SceneView& view, const Snapshot& snapshot,
                         const std::vector<std::string>& overlays);
 
+// Wrenches on each body (free-body diagrams) where they act, forces and torques: "wrenches" of
+// --show, of pictures only, as each instant takes a step of the run.
+struct Inspection;
+void add_wrenches(SceneView& view, const Inspection& in);
+
 // "12.3 N", "4.57 kN": three digits.
 std::string with_unit(double value, const std::string& unit);
 // An arc of 270 degrees about an axis with an arrow's head.

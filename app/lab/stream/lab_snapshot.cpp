@@ -41,7 +41,7 @@ void LabSnapshots::set_targets(const LabFrame& frame) {
 
 Snapshot LabSnapshots::at_start() {
   last_time_ = plan_->input.robot.state.x.t;
-  return snapshot_of(plan_->input, couplings(), {plan_->input.robot.state.x, {}, {}});
+  return snapshot_of(plan_->input, couplings(), {plan_->input.robot.state.x, {}, {}, {}});
 }
 
 Snapshot LabSnapshots::of(const LabFrame& frame) {

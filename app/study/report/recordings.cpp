@@ -122,7 +122,7 @@ void paint_pictures(const StudyResults& results, const std::filesystem::path& fo
     FilmTimes times;
     times.at = time;
     Progress quiet(true);
-    const FilmedRun shown = film_run(options, times, camera, quiet);
+    FilmedRun shown = film_run(options, times, camera, quiet);
     PictureWish wish;
     wish.width =
         portrait ? 1280 : 960;  // 960: the width of the page, so that texts keep their size

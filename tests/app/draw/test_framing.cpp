@@ -56,6 +56,10 @@ TEST_CASE("framing: all points are in the picture, and one is at its margin, fro
       const CameraWish wish = parse_camera(name, built(kBall).model);
       const Camera camera = make_camera(wish, extent, double{kWide} / kHigh);
       CHECK(reach(camera, extent) == doctest::Approx(1 / kFrameMargin).epsilon(1e-9));
+      CameraWish wide = wish;
+      wide.field_of_view = 1;
+      const Camera near = make_camera(wide, extent, double{kWide} / kHigh);
+      CHECK(reach(near, extent) == doctest::Approx(1 / kFrameMargin).epsilon(1e-9));
     }
 }
 

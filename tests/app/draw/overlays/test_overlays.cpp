@@ -5,6 +5,7 @@
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"
+#include "app/inspect/inspection.h"
 #include "tests/app/scene/model/helpers.h"
 
 namespace twinarm {
@@ -90,6 +91,29 @@ position = [0, 0, 1]
   CHECK(length < 0.6 * stage.scales.length);
 }
 
+TEST_CASE("wrenches: weight and reaction of a hanging body, each where it acts, labelled once") {
+  const SceneModel scene = built(kLargeBall);
+  const Snapshot moment = snapshot_of(scene.model, scene.start);
+  SceneView stage = stage_at(scene, moment);
+  AppliedForce hold{.source = "wrench/0", .bodies = {}, .joints = {}};
+  hold.bodies.push_back({1, {{0.5, 0, 0}, {0, 0, 9.81}}, {}});
+  hold.point_W = Vector3(0, 0, 0.8);
+  const Inspection inspection(scene.model, scene.start, {hold});
+  stage.list.clear_frame();
+  add_wrenches(stage, inspection);
+  const auto& found = stage.list.instances;
+  const auto starts_at = [&](const Vector3& p) {
+    return std::ranges::any_of(
+        found, [&](const Instance& part) { return (part.X_WM.p - p).norm() < 1e-9; });
+  };
+  CHECK(starts_at({0, 0, 0.4}));  // the weight, at the centre
+  CHECK(starts_at({0, 0, 0.8}));
+  std::vector<std::string> values;
+  for (const Label& label : stage.list.labels) values.push_back(label.text);
+  CHECK(values == std::vector<std::string>{"9.81 N", "9.81 N", "0.5 N m"});
+  CHECK(stage.list.legend.size() == 2);
+}
+
 TEST_CASE("overlays: each one accepts a snapshot without contacts, couplings or motion") {
   const SceneModel scene = built(kLargeBall);
   const Snapshot moment = snapshot_of(scene.model, scene.start);
@@ -134,7 +158,7 @@ TEST_CASE("overlays: all misspelt names are reported") {
   REQUIRE(faults.size() == 2);
   CHECK(faults[0].fix.find("contacts") != std::string::npos);
   CHECK(parse_overlays("none").empty());
-  CHECK(parse_overlays("all").size() == all_overlays().size());
+  CHECK(parse_overlays("all").size() == all_overlays().size() + 1);
   CHECK(parse_overlays("forces,contacts") == std::vector<std::string>{"forces", "contacts"});
 }
 
