@@ -24,7 +24,9 @@ struct HandOptions {
   std::string device = "virtual:synthetic";  // app/device/devices.h
   std::string mapping = "paper";
   std::optional<double> scale, force_scale;  // of the mapping
-  std::optional<double> duration, step;      // [s]; default: until Ctrl-C, the scene's
+  double low_pass = 0;                       // cutoff [Hz]; 0: none
+  bool no_passivity = false;
+  std::optional<double> duration, step;  // [s]; default: until Ctrl-C, the scene's
   bool simulated = false, fifo = false, empty_loop = false, picture = false, record = false;
   std::filesystem::path out = "out/hand";
   bool json = false;
@@ -42,6 +44,10 @@ void add_options(const OptionAdder& add, HandOptions& options) {
       ->check(above_zero());
   add("--force-scale", options.force_scale, "scaling of the force feedback; default 1")
       ->check(zero_or_more());
+  add("--low-pass", options.low_pass, "cutoff of a low-pass of the force feedback [Hz]; 0: none")
+      ->check(zero_or_more());
+  add("--no-passivity", options.no_passivity,
+      "leave out the passivity controller of the force feedback");
   add.group("Run");
   add("--duration", options.duration, "[s] of the run; default: until Ctrl-C");
   add("--step", options.step, "time step [s], 1e-6 to 0.1; default: the scene's")
@@ -126,6 +132,8 @@ int run_hand(const HandOptions& options) {
   LiveOptions live;
   live.mapping = mapping_of(options, faults);
   live.step = options.step.value_or(0);
+  live.force.cutoff = options.low_pass;
+  live.force.passive = !options.no_passivity;
   const std::filesystem::path logged = options.out / "scene.toml";
   if (options.record && is_same_file(logged, options.scene))
     faults.add({logged.string(), 0, "--record", "the scene of the log would replace the scene",

@@ -42,6 +42,14 @@ class Hand(ProgramTest):
         self.assertIn("joint 1 only", words[0])
         self.assertEqual(len(set(line.split("\n")[2] for line in words)), 3)
 
+    def test_low_pass_and_passivity_controller_are_options(self):
+        torques = [self.simulated("--duration", 0.5, *words)["largest_torque"]
+                   for words in ([], ["--low-pass", 0], ["--low-pass", 2], ["--no-passivity"])]
+        self.assertEqual(torques[0], torques[1])
+        self.assertNotEqual(torques[2], torques[0])
+        self.assertNotEqual(torques[3], torques[0])
+        self.assertIn("0 or more", self.faults("hand", SCENE, "--low-pass", -1)[0]["problem"])
+
     def test_ctrl_c_ends_a_run_in_real_time_with_a_complete_log(self):
         log = self.out / "hand.csv"
         reported, _ = self.interrupted("hand", SCENE, "--json", "--out", self.out, code=0,
