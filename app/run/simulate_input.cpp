@@ -65,6 +65,21 @@ RobotDescription all_robots(const SceneDescription& scene) {
   return all;
 }
 
+// A force on the axes of all joints below does no work.
+void add_lever_warnings(const SceneModel& scene, std::vector<std::string>& warnings) {
+  Kinematics k(scene.model);
+  forward_kinematics(scene.model, scene.start, k);
+  for (const SceneCoupling& c : scene.couplings)
+    if (const int body = c.spring.body;
+        c.type == CouplingDescription::Type::linear &&
+        point_jacobian(scene.model, k, body, k.position(body, c.spring.p_L)).norm() < 1e-9)
+      warnings.push_back(
+          fmt::format("coupling '{}' moves nothing: its point is on the axis of each joint that "
+                      "moves '{}'; give "
+                      "a 'point' away from the axis",
+                      c.coupling, scene.model.body_name[static_cast<std::size_t>(body)]));
+}
+
 SimulateInput scene_input(const SceneDescription& description, const SimulateOptions& options,
                           const RunPlan& plan, DiagnosticList& faults) {
   const RobotOptions& given = options.robot;
@@ -103,6 +118,7 @@ SimulateInput scene_input(const SceneDescription& description, const SimulateOpt
     warnings.push_back(
         "couplings with target = \"device\" stay at rest in this command; `twinarm hand` runs the "
         "scene with a device");
+  add_lever_warnings(made, warnings);
   warnings.insert(warnings.end(), state.warnings.begin(), state.warnings.end());
   add_gravity_warning(made.model, warnings);
   return {{robots, made.model, coordinates, std::move(state), std::move(warnings)},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "solver/dynamics/energy_momentum.h"
@@ -130,6 +131,13 @@ SimulateResult SteppedRun::finish() {
         "step is first-order accurate; give --contact rigid, or a shorter --step",
         unlocated_, result_.steps, EventStep::kMaxLaws));
   result_.energy_balance = energy_balance();
+  if (!result_.post_mortem && std::ranges::any_of(result_.energy_balance, [](const EnergyRow& row) {
+        return !std::isfinite(row.work);
+      }))
+    warn(
+        "energies are too large for floating-point numbers (inf or nan, null in JSON): check "
+        "gravity, "
+        "masses and stiffnesses");
   result_.momentum = momentum();
   if (contacts_) result_.contacts = contacts_->contact_count();
   if (result_.post_mortem) result_.checkpoint = std::move(earlier_);

@@ -112,6 +112,15 @@ class Ends(RobotCommand):
         self.assertEqual(len([w for w in answer["warnings"] if "limits" in w]), 1)
         self.close(answer["samples"][-1]["q"]["slide"], 2)
 
+    def test_energies_beyond_the_range_of_numbers_are_warned_of(self):
+        """At 1e308 m/s^2 the state is finite, m g z is not."""
+        scene = self.write("falls.toml", 'duration = 0.01\ngravity = [0, 0, -1e308]\n[[body]]\nname = "ball"\n'
+                           'shape = { sphere = { radius = 0.1 } }\nmass = 1\nposition = [0, 0, 10]\n')
+        answer = self.json_of("simulate", scene)
+        self.assertIsNone(answer["energy_balance"]["gravity"])
+        self.assertEqual([w.split(":")[0] for w in answer["warnings"]],
+                         ["energies are too large for floating-point numbers (inf or nan, null in JSON)"])
+
     def test_ctrl_c_ends_with_130_and_prints_no_half_of_an_object(self):
         out, err = self.interrupted("simulate", self.write("test.urdf", PENDULUM), "--json", "--duration", 1e5,
                                     "--every", 1000)
