@@ -43,7 +43,7 @@ class TraceReader {
   void read(std::istream& stream) {
     int line_number = 0;
     for (std::string line; next_line(stream, line, trace_.file_, line_number + 1);) {
-      ++line_number;
+      if (++line_number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);  // Excel's BOM
       const Cells cells = csv_cells(line);
       const bool blank = cells.empty() || (cells.size() == 1 && cells[0].empty());
       if (blank || cells[0].starts_with("#")) continue;
@@ -119,6 +119,10 @@ class TraceReader {
       good = false;
     } else if (has_time) {
       last_time_ = sample.t;
+    }
+    if (good && button != 0 && button != 1) {
+      add(line, "button", fmt::format("'{:g}' is neither 0 nor 1", button), "give 0 or 1");
+      good = false;
     }
     if (!good) return;
     sample.button = button != 0;

@@ -88,6 +88,12 @@ TEST_CASE("a trace without a button column is read, its button never pressed") {
   CHECK(trace.sample(0.5, 1).theta[5] == 6);
 }
 
+TEST_CASE("a trace is read that begins with a byte order mark, as Excel writes it") {
+  const TemporaryFolder folder;
+  const std::string lines = kHeader + "0,1,2,3,4,5,6,0\n1,1,2,3,4,5,6,1\n";
+  CHECK(RecordedTrace(folder.write("trace.csv", "\xEF\xBB\xBF" + lines)).sample(1, 1.1).button);
+}
+
 TEST_CASE("a trace file that does not exist, or is a folder, is rejected by name") {
   const TemporaryFolder folder;
   CHECK(faults_of(folder.path() / "nowhere.csv").size() == 1);
@@ -116,7 +122,8 @@ TEST_CASE(
                                                     "5,0,0,0,0,0,1e999,0\n"
                                                     "6,0,0,0,0,0,1.5x,0\n"
                                                     "3,0,0,0,0,0,0,0\n"  // 10: equal time
-                                                    "7,0,0,0,0,0,0,yes\n"));
+                                                    "7,0,0,0,0,0,0,yes\n"
+                                                    "8,0,0,0,0,0,0,7\n"));
   CHECK(names(faults, 3, "theta2"));
   CHECK(names(faults, 3, "oops"));
   CHECK(names(faults, 4, "theta3"));
@@ -127,6 +134,7 @@ TEST_CASE(
   CHECK(names(faults, 9, "1.5x"));
   CHECK(names(faults, 10, "time"));
   CHECK(names(faults, 11, "button"));
+  CHECK(names(faults, 12, "'7' is neither 0 nor 1"));
   for (const int good : {1, 2, 5}) CHECK_FALSE(names(faults, good, ""));
 }
 
