@@ -62,6 +62,9 @@ std::vector<std::string> read_words(const std::string& text, const std::vector<s
                                     const char* option, DiagnosticList& faults) {
   std::vector<std::string> words = split(text);
   for (const std::string& word : words) choose(option, word, known, "possible", faults);
+  for (const std::string& word : known)
+    if (std::ranges::count(words, word) > 1)
+      faults.add(option, "'" + word + "' is given twice", "give each once", "option.twice");
   return words;
 }
 

@@ -7,6 +7,7 @@
 #include "app/data/json_writer.h"
 #include "app/map/map_results.h"
 #include "app/plot/gnuplot.h"
+#include "app/support/text.h"
 #include "solver/support/number_text.h"
 
 namespace twinarm {
@@ -53,7 +54,7 @@ std::string map_csv(const MapJob& job, const TileFile& file) {
   const auto with = [](const std::string& name, const std::string& unit) {
     return name + "[" + unit + "]";
   };
-  std::string text = with(job.x.path, job.x_unit) + "," + with(job.y.path, job.y_unit) +
+  std::string text = csv_line({with(job.x.path, job.x_unit), with(job.y.path, job.y_unit)}) +
                      ",stable[1]," + with("max_error", job.error_unit) + "," +
                      with("mean_error", job.error_unit) + ",energy[J],passivity[J]\n";
   std::vector<std::vector<double>> measures;

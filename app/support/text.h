@@ -70,7 +70,7 @@ inline std::string replace_all(std::string text, std::string_view from, std::str
   return text;
 }
 
-std::string csv_field(const std::string& text);                // quoted if necessary
+std::string csv_field(const std::string& text);                // quoted if necessary; no formula
 std::string csv_line(const std::vector<std::string>& fields);  // without line end
 std::string csv_line(const std::vector<double>& numbers);
 

@@ -92,6 +92,20 @@ class Trial(ProgramTest):
         for joint, angle in zip(("joint1", "joint2"), angles_at(OBJECT)):
             self.assertAlmostEqual(sample["q"][joint], angle, delta=0.05)
 
+    def test_a_task_or_condition_that_is_given_twice_is_refused(self):
+        for words in (["--tasks", "free,free"], ["--conditions", "linear,kinematic,linear"]):
+            (fault,) = self.faults("trial", "--device", "virtual", "--out", self.out, *words)
+            self.assertEqual(fault["where"], words[0])
+            self.assertIn("given twice", fault["problem"])
+        self.assertFalse(self.out.exists())
+
+    def test_no_cell_of_the_table_is_a_formula_for_a_spreadsheet(self):
+        self.carries()
+        self.trial("--tasks", "free", "--seconds", 0.1, "--conditions", "linear", "--participant=-1")
+        self.assertTrue((self.out / "results.csv").read_text().splitlines()[1].startswith("'-1,1,linear,free,"))
+        for name in ("=1+1", "@x", "../S2"):
+            self.assertIn("letters, digits", self.faults("trial", "--participant", name)[0]["problem"])
+
     def test_a_file_with_another_header_is_not_changed(self):
         self.out.mkdir()
         (self.out / "results.csv").write_text("something else\n")
