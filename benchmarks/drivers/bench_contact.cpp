@@ -88,7 +88,7 @@ constexpr const char* usage =
   --quick        one repetition of the first 50 steps
 
 Example: bench_contact --models pyr55 --engines "twinarm double,bullet"
-Exit codes: 0 done; 2 bad option.
+Exit codes: 0 done; 2 bad option; 4 it failed.
 )";
 
 constexpr int steps_per_turn = 50;  // consecutive steps of one engine

@@ -137,7 +137,7 @@ constexpr const char* usage =
   --quick           one repetition, budget 0.2 s
 
 Example: bench_peers --cases C2,E2-slide --engines twinarm,mujoco
-Exit codes: 0 done; 2 bad option.
+Exit codes: 0 done; 2 bad option; 4 it failed.
 )";
 
 struct Options {

@@ -28,7 +28,7 @@ constexpr const char* usage =
   --quick        3 repetitions of 0.003 s
 
 Example: bench_speed --models puma6,chain32 --algorithms fd
-Exit codes: 0 done; 1 results of an engine differ from twinarm's (its rows are omitted); 2 bad option.
+Exit codes: 0 done; 1 results of an engine differ from twinarm's (its rows are omitted); 2 bad option; 4 it failed.
 )";
 
 constexpr std::pair<Algorithm, const char*> algorithms[] = {{Algorithm::forward_dynamics, "fd"},
