@@ -21,6 +21,8 @@ PROGRAM = HERE.parents[1] / "build/release/twinarm"
 KATEX = pathlib.Path("/usr/share/javascript/katex")  # Debian's libjs-katex
 NORMALIZE = pathlib.Path("/usr/share/javascript/normalize.css/normalize.css")  # imported by Furo
 
+ANSWERS = "learn/lessons/instructor"
+
 project = "twinarm"
 html_title = "twinarm"
 copyright = "the authors of twinarm; BSD-3-Clause"
@@ -117,7 +119,9 @@ def link_the_headers(app, docname, source):
 
 def make_toctrees(app, docname, source):
     """index.md is the one table of contents: the links of each section become a toctree. A page that it does not link
-    is an error, except the lessons and the texts of the analytic cases."""
+    is an error, except the lessons and the texts of the analytic cases. The answers to the lessons are in no menu."""
+    if docname == ANSWERS:
+        source[0] = f"---\norphan: true\n---\n{source[0]}"
     if docname != root_doc:
         return
     listed = set()
@@ -127,6 +131,7 @@ def make_toctrees(app, docname, source):
             lessons = sorted(name for name in app.env.found_docs if name.endswith("/lesson"))
             pages[pages.index("learn/lessons/README") + 1:0] = lessons
         listed |= set(pages)
+        pages = [page for page in pages if page != ANSWERS]
         source[0] += "\n".join(["", "```{toctree}", ":hidden:", f":caption: {caption}", "", *pages, "```", ""])
     lost = sorted(name for name in app.env.found_docs - listed - {root_doc} if not name.startswith("reference/cases/"))
     if lost:

@@ -77,6 +77,13 @@ class Site(unittest.TestCase):
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
+    def test_answers_to_the_lessons_are_in_no_menu(self):
+        self.assertTrue((self.site / "learn/lessons/instructor.html").is_file())
+        menus = [re.search(r'class="sidebar-tree".*?</aside>', page.read_text(), re.S) for page in self.pages]
+        links = [link for menu in menus if menu for link in re.findall(r'href="([^"]*)"', menu[0])]
+        self.assertTrue(any(link.endswith("01_six_integrators/lesson.html") for link in links))
+        self.assertFalse([link for link in links if link.endswith("instructor.html")])
+
     def test_titles_and_links(self):
         faults, pages, links = check_site.faults_of(self.site.resolve())
         self.assertEqual(faults, [])
