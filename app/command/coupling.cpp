@@ -42,7 +42,7 @@ void add_options(const OptionAdder& add, CouplingPredictOptions& options) {
   add.group("Prediction");
   add.scene_step(options.step, options.integrator);
   add("--move", options.move, "move of the target [deg, or mm]")->check(above_zero());
-  add("--time", options.time, "duration of the move [s]")->check(above_zero());
+  add("--time", options.time, "duration of the move [s]")->check(above_zero(1e4));
   add("--along", options.along,
       "joint=factor,..: factor of the move for each joint; default: 1 for all");
   add("--wall", options.wall, "stiffness of a wall that the robot touches [N/m]")

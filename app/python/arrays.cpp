@@ -40,7 +40,10 @@ std::vector<double> vector_of(const py::handle& given, std::size_t size, const s
 }
 
 std::filesystem::path path_of(const py::handle& file) {
-  return find_input(py::cast<std::string>(py::module_::import("os").attr("fspath")(file)));
+  const auto name = py::cast<std::string>(py::module_::import("os").attr("fspath")(file));
+  if (name.empty() || name.find('\0') != name.npos)
+    throw py::value_error("the name of a file is empty or has a null byte");
+  return find_input(name);
 }
 
 Array array_of(const std::vector<double>& values) {

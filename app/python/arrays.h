@@ -16,6 +16,14 @@ namespace twinarm::python {
 namespace py = pybind11;
 using Array = py::array_t<double, py::array::c_style>;
 
+// pybind11 asks a class for memory when an object is first used that has no value, as C.__new__(C)
+// makes it. Values of this base are made by std::make_shared, which does not.
+struct OnlyConstructed {
+  static void* operator new(std::size_t) {
+    throw py::type_error("the object was made by __new__() alone, without its constructor");
+  }
+};
+
 // "(2, 6)"
 std::string shape_text(const py::array& array);
 // As an array of doubles, or TypeError; `what`: the argument in messages, "aba(): q".

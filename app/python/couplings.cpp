@@ -43,8 +43,10 @@ SteppingScheme scheme_of(const std::string& name) {
 }
 
 double positive(const char* name, double value) {
-  if (value > 0 && std::isfinite(value)) return value;
-  throw py::value_error(std::string(name) + " must be positive, is " + number_text(value));
+  constexpr double kMax = 1e4;  // the time to compute grows with it
+  if (value > 0 && value <= kMax) return value;
+  throw py::value_error(std::string(name) + " must be positive, at most 1e4, is " +
+                        number_text(value));
 }
 
 py::object predict(const py::object& scene, const py::object& state,

@@ -1,5 +1,9 @@
 // The compiled part of the Python package `twinarm` (docs/use/python.md); interface:
 // twinarm/__init__.pyi.
+#include <cstring>
+#include <exception>
+#include <utility>
+
 #include "app/python/arrays.h"
 #include "app/support/version.h"
 #include "solver/dynamics/dynamics.h"
@@ -7,9 +11,45 @@
 
 namespace py = pybind11;
 
+namespace {
+
+PyTypeObject* base_of_all_classes() {
+  return reinterpret_cast<PyTypeObject*>(py::detail::get_internals().instance_base);
+}
+// pybind11's base class has no value: making one, as protocols 0 and 1 of pickle do, would end the
+// interpreter.
+PyObject* new_of_class(PyTypeObject* type, PyObject*, PyObject*) {
+  if (type != base_of_all_classes()) return py::detail::make_new_instance(type);
+  PyErr_SetString(PyExc_TypeError, "objects of twinarm cannot be pickled");
+  return nullptr;
+}
+
+// Texts with the bytes of an argument or a file need not be UTF-8.
+void raise(PyObject* kind, const char* what) {
+  const py::handle text =
+      PyUnicode_DecodeUTF8(what, static_cast<Py_ssize_t>(std::strlen(what)), "backslashreplace");
+  PyErr_SetObject(kind, text.ptr());
+  text.dec_ref();
+}
+void translate(std::exception_ptr thrown) {
+  try {
+    std::rethrow_exception(std::move(thrown));
+  } catch (const twinarm::InputError& error) {
+    raise(py::module_::import("twinarm").attr("InputError").ptr(), error.what());
+  } catch (const py::builtin_exception& error) {
+    error.set_error();
+    const py::object kind = py::reinterpret_borrow<py::object>(PyErr_Occurred());
+    PyErr_Clear();
+    raise(kind.ptr(), error.what());
+  }
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_core, m) {
   using namespace twinarm;
-  m.attr("__name__") = "twinarm";  // module of the classes
+  base_of_all_classes()->tp_new = new_of_class;  // inherited by the classes below
+  m.attr("__name__") = "twinarm";                // module of the classes
   m.doc() =
       "twinarm: rigid-body dynamics solver with inspectable algorithms.\n\n"
       "SI units and radians; axes right-handed, z up. Arrays are numpy's, float64. Spatial "
@@ -24,6 +64,7 @@ PYBIND11_MODULE(_core, m) {
   m.attr("instruction_set") = name_of(best_isa());
   py::register_exception<InputError>(m, "InputError", PyExc_ValueError).doc() =
       "Invalid file or option. The text has one error per line: where, problem, fix.";
+  py::register_exception_translator(translate);
   python::add_robots(m);
   python::add_passes(m);
   python::add_workspace(m);

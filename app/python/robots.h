@@ -15,7 +15,7 @@
 
 namespace twinarm::python {
 
-class Robot {
+class Robot : public OnlyConstructed {
  public:
   explicit Robot(RobotInput read);
   Robot(const Robot&) = delete;

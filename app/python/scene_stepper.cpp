@@ -33,14 +33,14 @@ struct GivenTarget {
   }
 };
 
-struct SavedState {
+struct SavedState : OnlyConstructed {
   std::string memory;  // RunView::memory()
   Eigen::VectorXd tau;
   std::vector<GivenTarget> targets;
   double t = 0;
 };
 
-class SceneStepper {
+class SceneStepper : public OnlyConstructed {
  public:
   SceneStepper(const SimulateOptions& options, const py::object& record)
       : options_(options), plan_(prepare()) {
@@ -58,7 +58,13 @@ class SceneStepper {
     begin(nullptr);
     start_ = saved();
   }
-  ~SceneStepper() { close(); }
+  ~SceneStepper() {
+    try {
+      close();
+    } catch (const std::exception& error) {  // the disk is full, the folder gone
+      print_error("twinarm: {}\n", error.what());
+    }
+  }
   void close() {
     if (recorder_) recorder_->finish("done");
     recorder_.reset();
@@ -77,7 +83,7 @@ class SceneStepper {
   }
 
   SavedState saved() const {
-    SavedState all{run->memory(), plan_.input.robot.state.tau, {}, run->time()};
+    SavedState all{{}, run->memory(), plan_.input.robot.state.tau, {}, run->time()};
     for (const auto& target : targets_) all.targets.push_back(*target);
     return all;
   }
@@ -244,9 +250,10 @@ class SceneStepper {
 }  // namespace
 
 void add_scene_stepper(py::module_& m) {
-  py::class_<SavedState>(m, "SavedState", "State of a SceneSimulation, for its reset().")
+  py::class_<SavedState, std::shared_ptr<SavedState>>(
+      m, "SavedState", "State of a SceneSimulation, for its reset().")
       .def_readonly("t", &SavedState::t, "time [s]");
-  py::class_<SceneStepper>(m, "_SceneStepper")
+  py::class_<SceneStepper, std::shared_ptr<SceneStepper>>(m, "_SceneStepper")
       .def(py::init([](const py::object& file, const std::optional<double>& step,
                        const std::string& integrator, const py::object& state,
                        const std::string& contact, bool friction, bool armature,
@@ -255,10 +262,10 @@ void add_scene_stepper(py::module_& m) {
             run_options(file, step, integrator, state, contact, friction, armature, set);
         if (!options.scene) options.scene = read_toml(options.robot.model);
         options.duration = 1;  // not used
-        return std::make_unique<SceneStepper>(options, record);
+        return std::make_shared<SceneStepper>(options, record);
       }))
       .def("_step", &SceneStepper::step)
-      .def("_save", &SceneStepper::saved)
+      .def("_save", [](const SceneStepper& s) { return std::make_shared<SavedState>(s.saved()); })
       .def("_reset", &SceneStepper::reset)
       .def("_close", &SceneStepper::close)
       .def("_couplings", &SceneStepper::coupling_names)

@@ -24,7 +24,7 @@ class JointForces : public ForceSource {
   std::vector<double> tau;
 };
 
-struct RobotInMotion {
+struct RobotInMotion : OnlyConstructed {
   Robot& robot;
   JointForces forces;
   Simulation simulation;
@@ -40,13 +40,15 @@ struct RobotInMotion {
   }
 };
 
+using SimulationClass = py::class_<RobotInMotion, std::shared_ptr<RobotInMotion>>;
+
 Integrator integrator_of(const std::string& name) {
   if (const auto found = find_integrator(name)) return *found;
   throw py::value_error("there is no integrator '" + name + "'; " +
                         name_remedy(name, names_of(all_integrators), "integrators"));
 }
 
-std::unique_ptr<RobotInMotion> start(Robot& robot, const py::object& q, const py::object& qd,
+std::shared_ptr<RobotInMotion> start(Robot& robot, const py::object& q, const py::object& qd,
                                      const std::string& integrator, double h, double tolerance,
                                      bool friction) {
   const auto check = [](const char* name, double value) {
@@ -56,7 +58,7 @@ std::unique_ptr<RobotInMotion> start(Robot& robot, const py::object& q, const py
   check("h", h);
   check("tolerance", tolerance);
   const Integrator chosen = integrator_of(integrator);
-  auto made = std::make_unique<RobotInMotion>(robot, state_of(robot, q, qd, 0, robot.input.state.x),
+  auto made = std::make_shared<RobotInMotion>(robot, state_of(robot, q, qd, 0, robot.input.state.x),
                                               h, friction);
   made->simulation.set_integrator(chosen, tolerance);
   return made;
@@ -123,7 +125,7 @@ py::list integrators() {
   return all;
 }
 
-void add_motion(py::class_<RobotInMotion>& simulation) {
+void add_motion(SimulationClass& simulation) {
   simulation.def(py::init(&start), py::arg("model"), py::arg("q") = py::none(),
                  py::arg("qd") = py::none(), py::kw_only(), py::arg("integrator") = "semi-implicit",
                  py::arg("h") = 0.001, py::arg("tolerance") = 1e-9, py::arg("friction") = true,
@@ -151,7 +153,7 @@ void add_motion(py::class_<RobotInMotion>& simulation) {
       "unchanged. Mimic joints are set from the joints that they mimic.");
 }
 
-void add_readings(py::class_<RobotInMotion>& simulation) {
+void add_readings(SimulationClass& simulation) {
   simulation.def_property_readonly(
       "t", [](const RobotInMotion& moving) { return moving.simulation.state().t; }, "time [s]");
   simulation.def_property_readonly(
@@ -202,10 +204,10 @@ State<double> state_of(const Robot& robot, const py::object& q, const py::object
 }
 
 void add_simulation(py::module_& m) {
-  py::class_<RobotInMotion> simulation(m, "Simulation",
-                                       "A robot with gravity, joint friction, and joint forces.\n"
-                                       "Without contacts and position limits: for those simulate() "
-                                       "a scene.");
+  SimulationClass simulation(m, "Simulation",
+                             "A robot with gravity, joint friction, and joint forces.\n"
+                             "Without contacts and position limits: for those simulate() "
+                             "a scene.");
   add_motion(simulation);
   add_readings(simulation);
 

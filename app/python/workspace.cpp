@@ -20,7 +20,7 @@ struct SavedQuantity {
   const char* frame;
   Array value;
 };
-struct AbaQuantities {
+struct AbaQuantities : OnlyConstructed {
   std::vector<SavedQuantity> all;
 };
 std::vector<std::string> names_of(const AbaQuantities& saved) {
@@ -94,11 +94,11 @@ class Collector {
   AbaQuantities& saved_;
 };
 
-AbaQuantities aba_quantities(const Robot& robot) {
+std::shared_ptr<AbaQuantities> aba_quantities(const Robot& robot) {
   if (!robot.has_run_aba)
     throw std::runtime_error("model.workspace(): call twinarm.aba(model, q, qd, tau) first");
-  AbaQuantities saved;
-  Collector collect(robot, saved);
+  auto saved = std::make_shared<AbaQuantities>();
+  Collector collect(robot, *saved);
   robot.forces.describe(collect);
   robot.of_aba.describe(collect);
   return saved;
@@ -135,7 +135,7 @@ std::string text_of(const AbaQuantities& saved) {
 }  // namespace
 
 void add_workspace(py::module_& m) {
-  py::class_<AbaQuantities> workspace(
+  py::class_<AbaQuantities, std::shared_ptr<AbaQuantities>> workspace(
       m, "Workspace",
       "Quantities of the last aba(), by the names of RBDA table 7.1: ws['IA'], ws['pA'], ...\n"
       "A copy, in link axes; describe() lists them. Rows are bodies, the base first, or joint\n"
