@@ -60,7 +60,10 @@ add_custom_target(twinarm_packaging ALL
 install(TARGETS twinarm RUNTIME COMPONENT program)
 install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/twinarm COMPONENT program
   PATTERN cad EXCLUDE PATTERN "*.py" EXCLUDE)  # what assets are made from stays with the sources
-install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(DIRECTORY docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program
+  PATTERN docs/site EXCLUDE)  # what makes the pages for a browser
+install(DIRECTORY ${CMAKE_BINARY_DIR}/site/  # by scripts/generate/package
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/twinarm-doc/html COMPONENT documentation OPTIONAL)
 install(FILES ${MADE}/twinarm.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${MADE}/twinarm
   DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
@@ -69,13 +72,24 @@ install(FILES ${MADE}/_twinarm
 install(FILES ${MADE}/twinarm.fish
   DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
 
-# Both packages say whose they are, and what has changed.
-foreach(pair program:twinarm development:libtwinarm-dev)
+# Each package says whose it is, and what has changed.
+foreach(pair program:twinarm development:libtwinarm-dev python:python3-twinarm documentation:twinarm-doc)
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 component)
   list(GET pair 1 package)
   install(FILES ${PACKAGING}/copyright ${MADE}/changelog.gz
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package} COMPONENT ${component})
 endforeach()
+
+# What lintian need not say: the site has its own styles, fonts and search, to be read from any folder;
+# Python searches the module's folder below /usr and /usr/local alike.
+file(CONFIGURE OUTPUT ${MADE}/overrides/twinarm-doc
+  CONTENT "twinarm-doc: duplicate-font-file\ntwinarm-doc: embedded-javascript-library\n")
+file(CONFIGURE OUTPUT ${MADE}/overrides/python3-twinarm
+  CONTENT "python3-twinarm: python-module-in-wrong-location\n")
+install(FILES ${MADE}/overrides/twinarm-doc
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides COMPONENT documentation)
+install(FILES ${MADE}/overrides/python3-twinarm
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/lintian/overrides COMPONENT python)
 
 include(${PACKAGING}/deb.cmake)

@@ -82,7 +82,8 @@ class Render(ProgramTest):
         out = self.folder / "film"
         self.rendered(scene, "--frames", out, "--size", "160x120", "--quality", "draft", "--camera", "0,20",
                       "--to", 0.4, "--slow-motion", 10, "--fps", 1, "--orbit", 90, "--show", "none")
-        frames = [picture.read_png(file)[2][40:] for file in sorted(out.iterdir())]  # below the title, which has the time
+        # Below the title, which has the time.
+        frames = [picture.read_png(file)[2][40:] for file in sorted(out.iterdir())]
         self.assertEqual(len(frames), 5)
         self.assertEqual(frames[0], frames[4])
         self.assertNotEqual(frames[0], frames[1])
