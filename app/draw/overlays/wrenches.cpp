@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "app/draw/overlays/overlays.h"
 #include "app/draw/palette.h"
@@ -12,18 +13,10 @@ namespace {
 constexpr double kMinShare = 0.01;  // of the largest force or torque
 
 struct Kind {
-  const char *source, *label;  // beginning of NamedWrench::source; in the legend
+  const char* label;  // in the legend
   Color color;
   bool is_shown = false;
 };
-
-Vector3 point_of(const Inspection& in, const std::string& source, std::size_t body) {
-  for (const AppliedForce& actor : in.actors)
-    if (actor.source == source && actor.point_W) return *actor.point_W;
-  if (source.starts_with("joint/")) return in.k.X_WL[body].p;
-  if (!source.starts_with("child/")) return com_of(in.model, in.k, body);
-  return in.k.X_WL[static_cast<std::size_t>(in.model.find_body(source.substr(6)))].p;
-}
 
 // Once for equal values at one point, as of a joint and its reaction.
 void add_value(SceneView& view, const Vector3& p_W, const std::string& text, double y) {
@@ -36,12 +29,11 @@ void add_value(SceneView& view, const Vector3& p_W, const std::string& text, dou
 }  // namespace
 
 void add_wrenches(SceneView& view, const Inspection& in) {
-  std::array<Kind, 6> kinds{{{"gravity", "weight", palette::kGravity},
-                             {"joint/", "of the parent, through the joint", palette::kLinear},
-                             {"child/", "reaction of a child", palette::kBeforeSwatch},
-                             {"contact/", "contact", palette::kForce},
-                             {"coupling/", "coupling", palette::kNormal},
-                             {"", "constraint, applied", palette::kMouse}}};
+  std::array<Kind, 5> kinds{{{"weight", palette::kGravity},
+                             {"of the parent, through the joint", palette::kLinear},
+                             {"reaction of a child", palette::kBeforeSwatch},
+                             {"contact", palette::kForce},
+                             {"coupling, constraint, applied", palette::kMouse}}};
   struct Part {
     Kind* kind;
     std::size_t body;
@@ -49,15 +41,24 @@ void add_wrenches(SceneView& view, const Inspection& in) {
   };
   std::vector<Part> parts;
   double force = 0, torque = 0;
-  for (std::size_t i = 1; i < in.body_count(); ++i)
-    for (const auto& [source, f, n] : balance_of(in, i).wrenches) {
-      if (source == "inertia" || !f.allFinite() || !n.allFinite()) continue;
-      const auto is_its = [&, &name = source](const Kind& k) { return name.starts_with(k.source); };
-      const Vector3 p = point_of(in, source, i), r = p - in.k.X_WL[i].p;
-      parts.push_back({&*std::ranges::find_if(kinds, is_its), i, p, f, n - r.cross(f)});
+  for (std::size_t i = 1; i < in.body_count(); ++i) {
+    const Vector3 com = com_of(in.model, in.k, i), origin = in.k.X_WL[i].p;
+    const std::vector<NamedWrench> wrenches = balance_of(in, i).wrenches;
+    auto next = wrenches.begin();  // in the order of balance_of(), without inertia
+    const auto add = [&](Kind& kind, const Vector3& p) {
+      const Vector3 f = next->force, n = next++->torque - (p - origin).cross(f);
+      if (!f.allFinite() || !n.allFinite()) return;
+      parts.push_back({&kind, i, p, f, n});
       force = std::max(force, f.norm());
-      torque = std::max(torque, parts.back().torque.norm());
-    }
+      torque = std::max(torque, n.norm());
+    };
+    add(kinds[0], com);
+    add(kinds[1], origin);
+    for (const std::size_t child : in.children(i)) add(kinds[2], in.k.X_WL[child].p);
+    for (const AppliedForce& actor : in.actors)
+      for (const AppliedForce::OnBody& on : actor.bodies)
+        if (on.body == i) add(kinds[actor.normal_W ? 3 : 4], actor.point_W.value_or(com));
+  }
   const double length = view.scales.length, scale = view.scales.metres_per(force);
   const double min_torque = std::max(kMinShare * torque, 1e-6 * force * length);  // rounding
   const std::size_t first = view.list.instances.size();
