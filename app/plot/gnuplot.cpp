@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "app/data/html_page.h"
-#include "app/support/files.h"
 #include "app/support/program.h"
 #include "app/support/progress.h"
 #include "app/support/text.h"
@@ -47,14 +46,7 @@ std::string in_quotes(const std::string& text) {
 }
 
 Gnuplot::Gnuplot(std::filesystem::path folder)
-    : folder_(std::move(folder)),
-      program_(require_gnuplot()),
-      temporary_(make_temporary_folder("twinarm-figures")) {}
-
-Gnuplot::~Gnuplot() {
-  std::error_code ignored;
-  std::filesystem::remove_all(temporary_, ignored);
-}
+    : folder_(std::move(folder)), program_(require_gnuplot()) {}
 
 std::string Gnuplot::data(const std::vector<std::vector<double>>& columns) {
   fmt::memory_buffer text;
@@ -70,7 +62,7 @@ std::string Gnuplot::data(const std::vector<std::vector<double>>& columns) {
     }
   if (rows == 0) fmt::format_to(std::back_inserter(text), "NaN NaN\n");
   const std::string name = fmt::format("data{}.txt", ++files_);
-  write_whole_file(temporary_ / name, fmt::to_string(text));
+  write_whole_file(temporary_.folder() / name, fmt::to_string(text));
   return in_quotes(name);
 }
 
@@ -101,13 +93,13 @@ std::string Gnuplot::curve(const std::vector<double>& x, const std::vector<doubl
 
 std::string Gnuplot::run(const std::string& name, const char* extension,
                          const std::string& terminal, const std::string& script) {
-  const std::filesystem::path made = temporary_ / (name + extension);
-  const std::filesystem::path input = temporary_ / (name + ".gp");
-  const std::filesystem::path messages = temporary_ / (name + ".log");
+  const std::filesystem::path made = temporary_.folder() / (name + extension);
+  const std::filesystem::path input = temporary_.folder() / (name + ".gp");
+  const std::filesystem::path messages = temporary_.folder() / (name + ".log");
   write_whole_file(input,
                    fmt::format("cd {}\nset terminal {}\nset output '{}'\n{}{}\nunset output\n",
-                               in_quotes(temporary_.string()), terminal, made.filename().string(),
-                               kFigureStyle, script));
+                               in_quotes(temporary_.folder().string()), terminal,
+                               made.filename().string(), kFigureStyle, script));
   const int in = open(input.c_str(), O_RDONLY | O_CLOEXEC);
   const int out = open(messages.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
   // Without the user's own ~/.gnuplot.

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/support/files.h"
+
 namespace twinarm {
 
 // Colours of figures; they differ in lightness and width too, for grey prints and colour-blind
@@ -28,9 +30,6 @@ class Gnuplot {
  public:
   // Throws InputError like require_gnuplot(). `folder`: of draw().
   explicit Gnuplot(std::filesystem::path folder = {});
-  ~Gnuplot();
-  Gnuplot(const Gnuplot&) = delete;
-  Gnuplot& operator=(const Gnuplot&) = delete;
 
   // Columns of equal length; returns the quoted file name for the script. Values that are not
   // finite make a gap.
@@ -50,7 +49,8 @@ class Gnuplot {
   // Output of gnuplot for this terminal.
   std::string run(const std::string& name, const char* extension, const std::string& terminal,
                   const std::string& script);
-  std::filesystem::path folder_, program_, temporary_;
+  std::filesystem::path folder_, program_;
+  TemporaryFiles temporary_{"twinarm-figures"};
   int files_ = 0;
 };
 

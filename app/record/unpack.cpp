@@ -1,7 +1,5 @@
 #include "app/record/unpack.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <fstream>
 #include <string>
@@ -52,13 +50,6 @@ RecordedRun recorded_run(const SimulateOptions& options) {
   return run;
 }
 
-UnpackedRun::Folder::Folder() : path(make_temporary_folder("twinarm-replay")) {}
-
-UnpackedRun::Folder::~Folder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path, ignored);
-}
-
 UnpackedRun::UnpackedRun(RecordingHeader header) : header_(std::move(header)) {
   write_missing();
 }
@@ -66,7 +57,7 @@ UnpackedRun::UnpackedRun(RecordingHeader header) : header_(std::move(header)) {
 // Cleaners of temporary folders may remove copies while they are in use.
 void UnpackedRun::write_missing() const {
   const std::lock_guard lock(writing_);
-  mkdir(folder_.path.c_str(), S_IRWXU);  // for this user only
+  copies_.make_again();
   for (const RecordedFile& file : header_.files) {
     const std::filesystem::path copy = copy_of(file.path);
     std::error_code ignored;
@@ -82,7 +73,7 @@ std::filesystem::path UnpackedRun::copy_of(const std::filesystem::path& original
     throw InputError(
         {{original.string(), 0, "a file in the recording", "its path is not absolute",
           "the recording is damaged, or not made by twinarm: record it again", "recording.path"}});
-  return folder_.path / original.lexically_normal().relative_path();
+  return folder() / original.lexically_normal().relative_path();
 }
 
 // Replaces texts that name one of the files (absolute, or below assets/) by the path of its copy.
@@ -130,7 +121,7 @@ SimulateOptions UnpackedRun::options(const std::vector<Change>& changes) const {
 
 InputError UnpackedRun::with_original_paths(const InputError& error,
                                             const std::vector<Change>& changes) const {
-  const std::string folder = folder_.path.string();
+  const std::string folder = this->folder().string();
   const auto remove_folder = [&](std::string& text) {
     for (std::size_t at; (at = text.find(folder)) != std::string::npos;)
       text.erase(at, folder.size());

@@ -11,6 +11,7 @@
 #include "app/record/recording_reader.h"
 #include "app/run/simulate_input.h"
 #include "app/scene/read/change_scene.h"
+#include "app/support/files.h"
 #include "solver/support/state_archive.h"
 
 namespace twinarm {
@@ -26,7 +27,7 @@ class UnpackedRun {
   explicit UnpackedRun(RecordingHeader header);
 
   const RecordingHeader& header() const { return header_; }
-  const std::filesystem::path& folder() const { return folder_.path; }
+  const std::filesystem::path& folder() const { return copies_.folder(); }
   // Options of the run with the paths of the copies; missing copies are written again. *this must
   // outlive what is read with these options.
   SimulateOptions options(const std::vector<Change>& changes = {}) const;
@@ -38,13 +39,8 @@ class UnpackedRun {
   void write_missing() const;
   std::filesystem::path copy_of(const std::filesystem::path& original) const;
   void redirect_paths(Value& value) const;
-  struct Folder {  // made, and removed with all that is in it
-    Folder();
-    ~Folder();
-    std::filesystem::path path;
-  };
   RecordingHeader header_;
-  Folder folder_;
+  TemporaryFiles copies_{"twinarm-replay"};
   mutable std::mutex writing_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -35,6 +36,19 @@ std::string folder_fault(const std::filesystem::path& folder) {
     return ": " + there.string() + " is not a folder";
   if (access(there.c_str(), W_OK | X_OK) == 0) return "";
   return ": no permission in " + there.lexically_normal().string();
+}
+
+std::filesystem::path make_temporary_folder(const std::string& name) {
+  std::error_code error;
+  std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+  if (error)  // the message does not name the folder
+    if (const char* given = std::getenv("TMPDIR")) folder = given;
+  std::string made = (folder / (name + "-XXXXXX")).string();
+  if (!error && mkdtemp(made.data())) return made;
+  throw InputError(
+      {{folder.string(), 0, "temporary files",
+        "cannot make a folder: " + (error ? error.message() : std::string(std::strerror(errno))),
+        "set TMPDIR to a writable folder with free space", "file.unwritable"}});
 }
 
 }  // namespace
@@ -87,17 +101,16 @@ void make_folder(const std::filesystem::path& folder, const char* option) {
   if (error) throw cannot_write(folder, ": " + error.message(), option);
 }
 
-std::filesystem::path make_temporary_folder(const std::string& name) {
-  std::error_code error;
-  std::filesystem::path folder = std::filesystem::temp_directory_path(error);
-  if (error)  // the message does not name the folder
-    if (const char* given = std::getenv("TMPDIR")) folder = given;
-  std::string made = (folder / (name + "-XXXXXX")).string();
-  if (!error && mkdtemp(made.data())) return made;
-  throw InputError(
-      {{folder.string(), 0, "temporary files",
-        "cannot make a folder: " + (error ? error.message() : std::string(std::strerror(errno))),
-        "set TMPDIR to a writable folder with free space", "file.unwritable"}});
+TemporaryFiles::TemporaryFiles(const std::string& name)
+    : folder_(make_temporary_folder(name)), listed_(folder_) {}
+
+TemporaryFiles::~TemporaryFiles() {
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+void TemporaryFiles::make_again() const {
+  mkdir(folder_.c_str(), S_IRWXU);
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/support/atomic_file.h"
 #include "solver/support/diagnostics.h"
 
 namespace twinarm {
@@ -29,8 +30,6 @@ std::filesystem::path find_input(const std::filesystem::path& name);
 void require_writable_folder(const std::filesystem::path& folder, const char* option = "--out");
 // Creates it with its parents. Throws InputError.
 void make_folder(const std::filesystem::path& folder, const char* option = "--out");
-// A new folder NAME-XXXXXX for temporary files; the caller removes it. Throws InputError.
-std::filesystem::path make_temporary_folder(const std::string& name);
 std::filesystem::path folder_of(const std::filesystem::path& file);  // "." if it names none
 // Adds a diagnostic if the file cannot be written, or its folder cannot be made; called before a
 // long computation.
@@ -40,6 +39,20 @@ bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b
 // Both throw InputError if the file does not exist or cannot be read.
 std::ifstream open_file(const std::filesystem::path& file);
 std::string read_whole_file(const std::filesystem::path& file);
+
+// A new folder NAME-XXXXXX for temporary files, removed with them by the destructor, or by the
+// signal that ends the program. Throws InputError.
+class TemporaryFiles {
+ public:
+  explicit TemporaryFiles(const std::string& name);
+  ~TemporaryFiles();
+  const std::filesystem::path& folder() const { return folder_; }
+  void make_again() const;  // cleaners of temporary folders may have removed it
+
+ private:
+  std::filesystem::path folder_;
+  TemporaryPath listed_;
+};
 
 // Opens /dev/null for closed standard streams, so that no other file gets their descriptors.
 void fill_closed_streams();

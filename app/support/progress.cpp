@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "app/support/files.h"
+#include "solver/support/atomic_file.h"
 
 namespace twinarm {
 
@@ -82,6 +83,7 @@ constexpr itimerval kPatience{{0, 0}, {0, 900'000}}, kNone{};  // [s, us]
 
 void end_at_once(int) {
   constexpr std::string_view words = "twinarm: interrupted\n";
+  remove_temporary_paths();
   [[maybe_unused]] const ssize_t wrote = write(STDERR_FILENO, words.data(), words.size());
   _exit(130);  // docs/reference/exit_codes_and_errors.md
 }

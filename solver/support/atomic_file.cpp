@@ -1,8 +1,11 @@
 #include "solver/support/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -43,7 +46,44 @@ void sync_folder(const std::filesystem::path& folder) {
   ::close(descriptor);
 }
 
+// Who has set the owner to kClaimed may use the path.
+struct Place {
+  std::atomic<pid_t> owner{kFree};  // process; a forked one removes nothing of its parent
+  std::array<char, 4096> path{};
+  static constexpr pid_t kFree = 0, kClaimed = -1;
+
+  bool claim(pid_t from) { return owner.compare_exchange_strong(from, kClaimed); }
+};
+std::array<Place, 64> places;
+
 }  // namespace
+
+TemporaryPath::TemporaryPath(const std::filesystem::path& path) {
+  const std::string& name = path.native();
+  if (name.size() >= Place().path.size()) place_ = places.size();
+  while (place_ < places.size() && !places[place_].claim(Place::kFree)) ++place_;
+  if (place_ >= places.size()) return;  // too long or too many: stays after a signal
+  Place& mine = places[place_];
+  mine.path[name.copy(mine.path.data(), name.size())] = '\0';
+  mine.owner = ::getpid();
+}
+
+TemporaryPath::~TemporaryPath() {
+  if (place_ < places.size() && places[place_].claim(::getpid()))
+    places[place_].owner = Place::kFree;
+}
+
+void remove_temporary_paths() noexcept {
+  for (Place& place : places) {
+    if (!place.claim(::getpid()) || ::unlink(place.path.data()) == 0 || errno != EISDIR) continue;
+    const pid_t child = ::_Fork();
+    if (child == 0) {
+      ::execl("/bin/rm", "rm", "-rf", "--", place.path.data(), nullptr);
+      ::_exit(1);
+    }
+    if (child > 0) ::waitpid(child, nullptr, 0);
+  }
+}
 
 UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::filesystem::path temporary,
                                Remains remains)
@@ -57,6 +97,7 @@ UnfinishedFile::UnfinishedFile(std::filesystem::path file, std::filesystem::path
   if (descriptor_ < 0) fail(errno);
   const struct flock lock = whole_file();
   ::fcntl(descriptor_, F_OFD_SETLK, &lock);
+  if (remains_ == Remains::remove) listed_.emplace(temporary_);
 }
 
 UnfinishedFile::~UnfinishedFile() {
@@ -76,6 +117,7 @@ void UnfinishedFile::finish() {
   const bool synced = ::fsync(descriptor_) == 0 || errno == EINVAL || errno == ENOTSUP;
   if (!synced || std::rename(temporary_.c_str(), file_.c_str()) != 0) fail(errno);
   remains_ = Remains::keep;
+  listed_.reset();
   sync_folder(folder_of(file_));
 }
 

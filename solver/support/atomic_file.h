@@ -3,10 +3,25 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 namespace twinarm {
+
+// While it exists, remove_temporary_paths() removes this file, or folder with all that is in it.
+class TemporaryPath {
+ public:
+  explicit TemporaryPath(const std::filesystem::path& path);
+  ~TemporaryPath();
+  TemporaryPath(const TemporaryPath&) = delete;
+  TemporaryPath& operator=(const TemporaryPath&) = delete;
+
+ private:
+  std::size_t place_ = 0;
+};
+// Of this process. Async-signal-safe: for a signal handler that ends the program.
+void remove_temporary_paths() noexcept;
 
 // A file on its way: `temporary`, which becomes `file`.
 class UnfinishedFile {
@@ -33,6 +48,7 @@ class UnfinishedFile {
   std::filesystem::path file_, temporary_;
   Remains remains_;
   int descriptor_ = -1;
+  std::optional<TemporaryPath> listed_;
 };
 
 // Makes the folder if it is missing. Throws InputError if the file cannot be written, or is a

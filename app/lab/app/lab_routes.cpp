@@ -1,12 +1,9 @@
 #include "app/lab/app/lab_routes.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 
 #include "app/page/pages.h"
 #include "app/render/gl/painter.h"
-#include "app/support/files.h"
 #include "solver/support/diagnostics.h"
 #include "solver/support/number_text.h"
 
@@ -88,14 +85,8 @@ LabRoutes::LabRoutes(LabSession& session, MessageStreamer& streamer, const Clien
       gallery_(gallery),
       page_(shared_bytes(std::move(page))),
       missing_(std::move(missing)),
-      folder_(make_temporary_folder("twinarm-lab")),
-      uploads_(folder_ / "uploads"),
+      uploads_(files_.folder() / "uploads"),
       tasks_([this](const std::string& why) { session_.note("error", why); }) {}
-
-LabRoutes::~LabRoutes() {
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
-}
 
 void LabRoutes::answer(const HttpRequest& request, const Answer& answer) {
   if (request.method == "POST")
@@ -118,7 +109,7 @@ void LabRoutes::answer(const HttpRequest& request, const Answer& answer) {
 
 void LabRoutes::add_task(const Answer& answer, std::function<void()> task) {
   const bool is_taken = tasks_.add([this, task = std::move(task), answer] {
-    mkdir(folder_.c_str(), S_IRWXU);  // cleaners of temporary folders may have removed it
+    files_.make_again();
     answer_faults(answer, task);
   });
   if (!is_taken) answer(reply_of(503, "too many requests are waiting; try again"));
@@ -130,7 +121,7 @@ HttpReply LabRoutes::task_reply(const HttpRequest& request) const {
   if (request.path == "/scene")
     return file_of("application/toml; charset=utf-8",
                    shared_bytes(now.scene->scene->text(now.status->changes)), "lab.toml");
-  const std::filesystem::path file = folder_ / "lab.twinrec";
+  const std::filesystem::path file = files_.folder() / "lab.twinrec";
   session_.timeline().save(file);
   if (request.path == "/share")
     return file_of("text/html; charset=utf-8", shared_bytes(replay_page(file).html), "lab.html");

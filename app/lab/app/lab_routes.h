@@ -10,6 +10,7 @@
 #include "app/lab/app/uploads.h"
 #include "app/lab/server/lab_server.h"
 #include "app/lab/session/lab_session.h"
+#include "app/support/files.h"
 
 namespace twinarm {
 
@@ -19,7 +20,6 @@ class LabRoutes {
   // then the answer.
   LabRoutes(LabSession& session, MessageStreamer& streamer, const Clients& clients,
             const std::vector<GalleryScene>& gallery, std::string page, std::string missing);
-  ~LabRoutes();  // removes uploaded files
 
   void end() { tasks_.end(); }
   // From the server's thread. Longer work is answered later: by the streamer's thread if it needs
@@ -40,8 +40,8 @@ class LabRoutes {
   const std::vector<GalleryScene>& gallery_;
   Bytes page_;
   std::string missing_;
-  std::filesystem::path folder_;  // of temporary files
-  UploadFolder uploads_;          // used by the tasks' thread only
+  TemporaryFiles files_{"twinarm-lab"};
+  UploadFolder uploads_;  // used by the tasks' thread only
   TaskQueue tasks_;
 };
 
