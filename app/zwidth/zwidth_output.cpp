@@ -116,6 +116,7 @@ void write(JsonWriter& json, const TrackingRow& row) {
                {"hand", row.motion},
                {"joint", row.joint},
                {"driven", row.driven},
+               {"unit", row.slides ? "m" : "rad"},
                {"max", row.max},
                {"mean", row.mean}});
 }
