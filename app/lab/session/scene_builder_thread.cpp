@@ -137,34 +137,36 @@ void SceneBuilderThread::push_refused(const BuildRequest& request) {
 
 void SceneBuilderThread::work() {
   pthread_setname_np(pthread_self(), "lab builder");
-  for (;;) {
-    BuildRequest request;
-    {
-      std::unique_lock lock(mutex_);
-      wake_.wait(lock, [this] { return stop_ || next_; });
-      if (stop_) return;
-      request = std::move(*next_);
-      next_.reset();
-    }
-    // Without pending changes that were refused with an earlier request.
-    std::erase_if(request.pending, [this](const PendingChange& pending) {
-      return std::ranges::find(refused_, pending.number) != refused_.end();
-    });
-    try {
-      try {
-        inbox_.push(build(request));
-      } catch (const InputError& error) {
-        if (request.pending.size() < 2) throw;
-        auto built = build_one_by_one(request);
-        built ? inbox_.push(std::move(*built)) : push_refused(request);
+  for (;;) try {
+      BuildRequest request;
+      {
+        std::unique_lock lock(mutex_);
+        wake_.wait(lock, [this] { return stop_ || next_; });
+        if (stop_) return;
+        request = std::move(*next_);
+        next_.reset();
       }
-    } catch (const std::exception& error) {
-      for (const PendingChange& pending : request.pending) refused_.push_back(pending.number);
-      if (request.done) request.done(error.what());
+      // Without pending changes that were refused with an earlier request.
+      std::erase_if(request.pending, [this](const PendingChange& pending) {
+        return std::ranges::find(refused_, pending.number) != refused_.end();
+      });
+      try {
+        try {
+          inbox_.push(build(request));
+        } catch (const InputError& error) {
+          if (request.pending.size() < 2) throw;
+          auto built = build_one_by_one(request);
+          built ? inbox_.push(std::move(*built)) : push_refused(request);
+        }
+      } catch (const std::exception& error) {
+        for (const PendingChange& pending : request.pending) refused_.push_back(pending.number);
+        inbox_.note("error", error.what());
+        push_refused(request);
+        if (request.done) request.done(error.what());
+      }
+    } catch (const std::exception& error) {  // of `done`
       inbox_.note("error", error.what());
-      push_refused(request);
     }
-  }
 }
 
 }  // namespace twinarm
