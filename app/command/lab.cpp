@@ -10,6 +10,7 @@
 #include "app/command/command.h"
 #include "app/data/json_writer.h"
 #include "app/device/devices.h"
+#include "app/lab/app/audit_log.h"
 #include "app/lab/app/lab_routes.h"
 #include "app/lab/app/message_streamer.h"
 #include "app/lab/session/lab_session.h"
@@ -155,6 +156,7 @@ class Lab {
     server.address = options.listen;
     server.port = static_cast<std::uint16_t>(options.port);
     server.token = random_token();
+    if (!is_private_) server.max_of_address = 24;  // others keep places
     server_ = std::make_unique<LabServer>(server, handlers());
     streamer_.begin();
   }
@@ -174,8 +176,13 @@ class Lab {
                            const std::function<void(HttpReply)>& answer) {
       routes_.answer(request, answer);
     };
-    handlers.opened = [this](ClientId client) {
-      clients_.opened(client);
+    handlers.may_post = [this](const std::string& query) {
+      const ClientId client = clients_.controller(query_value(query, "secret").value_or(""));
+      if (client != 0) log(client, "open " + query_value(query, "name").value_or(""));
+      return client != 0;
+    };
+    handlers.opened = [this](ClientId client, const std::string& address) {
+      clients_.opened(client, address);
       streamer_.look_again();
     };
     handlers.closed = [this](ClientId client) {
@@ -195,8 +202,10 @@ class Lab {
     try {
       LabCommand command = parse_command(text);
       if (needs_control(command.what) && !clients_.has_control(client))
-        return session_.note("warning", "another client has control; request it");
+        return note(client, "warning", "another client has control; request it");
       if (!is_private_) check_shared_device(command);
+      if (!is_private_ && needs_control(command.what))
+        log(client, text_of_command(text), is_movement(command.what));
       switch (command.what) {
         case LabCommand::Do::layers:
           clients_.want_layers(client, std::move(command.names));
@@ -210,20 +219,34 @@ class Lab {
           break;
         case LabCommand::Do::grant_control:
           if (!clients_.give(client, static_cast<ClientId>(command.count)))
-            session_.note("warning", "that client is no longer connected");
+            note(client, "warning", "only the client in control grants it, to a connected client");
+          else
+            log(client, "grant_control to " + clients_.name(clients_.view().controller));
           break;
         default:
           return session_.push(std::move(command));
       }
       streamer_.look_again();
     } catch (const InputError& error) {
-      for (const Diagnostic& fault : error.faults()) session_.note("error", to_string(fault));
+      for (const Diagnostic& fault : error.faults()) note(client, "error", to_string(fault));
     }
+  }
+
+  // Clients without control share one note a second: they hide no other notes.
+  void note(ClientId client, const char* level, const std::string& text) {
+    if (clients_.has_control(client) || notes_.passes(std::chrono::steady_clock::now(), 1))
+      session_.note(level, text);
+  }
+
+  void log(ClientId client, const std::string& change, bool is_movement = false) {
+    if (!is_private_) audit_.add(clients_.name(client), change, is_movement);
   }
 
   std::vector<GalleryScene> gallery_;
   bool is_private_;  // listens on loopback only
   Clients clients_;
+  AuditLog audit_;                     // these two: used by the server's thread only
+  RateLimiter notes_;                  // of clients without control
   std::unique_ptr<LabServer> server_;  // ends last: the others send through it
   LabSession session_;
   MessageStreamer streamer_;

@@ -135,13 +135,13 @@ class Strange(Case):
 
 
 class Clock(Case):
-    def test_nothing_but_the_stamp_of_a_message_reads_the_time_of_day(self):
+    def test_only_stamps_of_messages_and_of_the_audit_log_read_the_time_of_day(self):
         wall = re.compile(r"system_clock|high_resolution_clock|CLOCK_REALTIME|gettimeofday|"
                           r"\btime\((nullptr|NULL|0|&)")
         readers = {str(path.relative_to(ROOT)) for room in ("app", "solver", "collision", "coupling")
                    for path in (ROOT / room).rglob("*")
                    if path.suffix in (".h", ".cpp", ".inl") and wall.search(path.read_text())}
-        self.assertEqual(readers, {"app/device/vrpn_stream.cpp"})
+        self.assertEqual(readers, {"app/device/vrpn_stream.cpp", "app/lab/app/audit_log.cpp"})
 
     def test_a_clock_that_jumps_by_days_is_not_noticed(self):
         faketime = next(pathlib.Path("/usr/lib").glob("*/faketime/libfaketimeMT.so.1"), None)

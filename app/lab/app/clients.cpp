@@ -10,9 +10,9 @@
 
 namespace twinarm {
 
-void Clients::opened(ClientId client) {
+void Clients::opened(ClientId client, const std::string& address) {
   const std::lock_guard lock(mutex_);
-  clients_.try_emplace(client);
+  clients_[client].address = address;
   if (controller_ == 0) controller_ = client;
 }
 
@@ -58,10 +58,17 @@ std::string Clients::secret(ClientId client) const {
   return found == clients_.end() ? "" : found->second.secret;
 }
 
-bool Clients::has_control(std::string_view secret) const {
+ClientId Clients::controller(std::string_view secret) const {
   const std::lock_guard lock(mutex_);
   const auto found = clients_.find(controller_);
-  return found != clients_.end() && is_secret(secret, found->second.secret);
+  return found != clients_.end() && is_secret(secret, found->second.secret) ? controller_ : 0;
+}
+
+std::string Clients::name(ClientId client) const {
+  const std::lock_guard lock(mutex_);
+  const auto found = clients_.find(client);
+  return "client " + std::to_string(client) + " at " +
+         (found == clients_.end() ? "" : found->second.address);
 }
 
 void Clients::want_layers(ClientId client, std::vector<std::string> names) {

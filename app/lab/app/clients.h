@@ -26,15 +26,16 @@ class Clients {
     std::vector<ClientId> clients;
   };
 
-  void opened(ClientId client);
+  void opened(ClientId client, const std::string& address = "");
   void closed(ClientId client);
   void take(ClientId client);  // requests control
   // False: `from` is not in control, or `to` is not connected.
   bool give(ClientId from, ClientId to);
   bool has_control(ClientId client) const;  // is in control
   // HTTP requests do not name their client: each has a secret, sent in its own state message.
-  std::string secret(ClientId client) const;  // empty: not connected
-  bool has_control(std::string_view secret) const;
+  std::string secret(ClientId client) const;           // empty: not connected
+  ClientId controller(std::string_view secret) const;  // 0: it is another client's
+  std::string name(ClientId client) const;             // "client 3 at 192.168.1.7"
 
   void want_layers(ClientId client, std::vector<std::string> names);
   void want_inspection(ClientId client, std::optional<long> body);
@@ -47,6 +48,7 @@ class Clients {
   struct Client {
     std::vector<std::string> layers{"bodies", "targets", "couplings", "contacts"};
     std::optional<long> inspected;
+    std::string address;
     std::string secret = random_token();
   };
   mutable std::mutex mutex_;

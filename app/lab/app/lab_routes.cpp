@@ -107,11 +107,12 @@ void LabRoutes::answer(const HttpRequest& request, const Answer& answer) {
   answer(not_found());
 }
 
-void LabRoutes::add_task(const Answer& answer, std::function<void()> task) {
-  const bool is_taken = tasks_.add([this, task = std::move(task), answer] {
+void LabRoutes::add_task(const Answer& answer, std::function<void()> task, bool is_upload) {
+  const auto work = [this, task = std::move(task), answer] {
     files_.make_again();
     answer_faults(answer, task);
-  });
+  };
+  const bool is_taken = tasks_.add(work, is_upload);
   if (!is_taken) answer(reply_of(503, "too many requests are waiting; try again"));
 }
 
@@ -139,17 +140,19 @@ HttpReply LabRoutes::rendered(const HttpRequest& request) const {
 
 void LabRoutes::answer_open(const HttpRequest& request, const Answer& answer) {
   const std::string name = query_value(request.query, "name").value_or("");
-  if (!clients_.has_control(query_value(request.query, "secret").value_or("")))
-    return answer(reply_of(403, "another client has control; request it"));
+  const ClientId client = clients_.controller(query_value(request.query, "secret").value_or(""));
+  if (!client) return answer(reply_of(403, "another client has control; request it"));
   if (!is_plain(name))
     return answer(reply_of(422, "invalid file name '" + name + "'; use letters, digits, -"));
-  add_task(answer, [this, name, body = request.body, answer] { open(name, body, answer); });
+  const auto task = [=, this, body = request.body] { open(client, name, body, answer); };
+  add_task(answer, task, true);
 }
 
-void LabRoutes::open(const std::string& name, const std::string& bytes, const Answer& answer) {
+void LabRoutes::open(ClientId client, const std::string& name, const std::string& bytes,
+                     const Answer& answer) {
   const UploadedFile upload = classify_upload(name, bytes);
   if (!upload.fault.empty()) return answer(reply_of(422, name + ": " + upload.fault));
-  const std::filesystem::path file = uploads_.write(upload.path, bytes);
+  const std::filesystem::path file = uploads_.write(client, upload.path, bytes);
   if (!upload.opens) return answer(reply_of(202, "kept"));
   BuildRequest request;
   request.file = file;

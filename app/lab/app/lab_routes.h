@@ -28,11 +28,12 @@ class LabRoutes {
   void answer(const HttpRequest& request, const Answer& answer);
 
  private:
-  void add_task(const Answer& answer, std::function<void()> task);
+  void add_task(const Answer& answer, std::function<void()> task, bool is_upload = false);
   HttpReply task_reply(const HttpRequest& request) const;
   HttpReply rendered(const HttpRequest& request) const;
   void answer_open(const HttpRequest& request, const Answer& answer);
-  void open(const std::string& name, const std::string& bytes, const Answer& answer);
+  void open(ClientId client, const std::string& name, const std::string& bytes,
+            const Answer& answer);
 
   LabSession& session_;
   MessageStreamer& streamer_;

@@ -2,7 +2,6 @@
 // frames a second to one or two clients, 30 to more. Also answers HTTP requests that need the view.
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <functional>
@@ -18,31 +17,12 @@
 #include "app/lab/parameters/gallery.h"
 #include "app/lab/parameters/parameters.h"
 #include "app/lab/server/lab_server.h"
+#include "app/lab/server/rate_limiter.h"
 #include "app/lab/session/lab_session.h"
 #include "app/lab/stream/lab_view.h"
 #include "app/render/list/draw_list.h"
 
 namespace twinarm {
-
-// Rate limiter: evenly spaced events pass, of a burst two at once.
-class RateLimiter {
- public:
-  using Time = std::chrono::steady_clock::time_point;
-
-  // Until the next may pass [s]; 0: now.
-  double wait(Time now) const {
-    return std::max(0.0, std::chrono::duration<double>(next_ - now).count());
-  }
-  // One passes now, of at most `per_second`.
-  void take(Time now, double per_second) {
-    const auto interval =
-        std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(1 / per_second));
-    next_ = std::max(next_, now - interval) + interval;
-  }
-
- private:
-  Time next_{};
-};
 
 class MessageStreamer {
  public:

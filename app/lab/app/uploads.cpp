@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <map>
 
 #include "solver/support/atomic_file.h"
 
@@ -37,7 +38,8 @@ std::string why_no_robot(const std::string& root) {
 
 }  // namespace
 
-std::filesystem::path UploadFolder::write(const std::string& name, const std::string& bytes) {
+std::filesystem::path UploadFolder::write(ClientId client, const std::string& name,
+                                          const std::string& bytes) {
   const std::filesystem::path file = (folder_ / name).lexically_normal();
   const auto same =
       std::ranges::find_if(uploads_, [&](const Upload& upload) { return upload.file == file; });
@@ -45,26 +47,30 @@ std::filesystem::path UploadFolder::write(const std::string& name, const std::st
     bytes_ -= same->bytes;
     uploads_.erase(same);
   }
-  while (!uploads_.empty() &&
-         (uploads_.size() >= max_files_ || bytes_ + bytes.size() > max_bytes_)) {
-    remove(uploads_.front());
-    uploads_.pop_front();
-  }
+  while (!uploads_.empty() && (uploads_.size() >= max_files_ || bytes_ + bytes.size() > max_bytes_))
+    remove_one({client, file, bytes.size()});
   std::error_code ignored;
   std::filesystem::create_directories(file.parent_path(), ignored);
   write_whole_file(file, bytes);
-  uploads_.push_back({file, bytes.size()});
+  uploads_.push_back({client, file, bytes.size()});
   bytes_ += bytes.size();
   return file;
 }
 
-// With folders that become empty.
-void UploadFolder::remove(const Upload& upload) {
-  bytes_ -= upload.bytes;
+// To make room for `next`; with folders that become empty.
+void UploadFolder::remove_one(const Upload& next) {
+  std::map<ClientId, std::size_t> shares{{next.client, next.bytes}};
+  for (const Upload& one : uploads_) shares[one.client] += one.bytes + max_bytes_ / max_files_;
+  using Share = std::pair<const ClientId, std::size_t>;
+  const ClientId largest = std::ranges::max_element(shares, {}, &Share::second)->first;
+  auto oldest = std::ranges::find(uploads_, largest, &Upload::client);
+  if (oldest == uploads_.end()) oldest = uploads_.begin();  // `next` alone
+  bytes_ -= oldest->bytes;
   std::error_code error;
-  for (std::filesystem::path path = upload.file; path != folder_ && !error;
+  for (std::filesystem::path path = oldest->file; path != folder_ && !error;
        path = path.parent_path())
     std::filesystem::remove(path, error);
+  uploads_.erase(oldest);
 }
 
 UploadedFile classify_upload(const std::string& name, const std::string& bytes) {

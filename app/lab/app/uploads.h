@@ -1,4 +1,5 @@
-// Files uploaded by clients, limited in number and bytes: the oldest are removed first.
+// Files uploaded by clients, limited in number and bytes. Beyond, the oldest of the client with the
+// largest share are removed first: no client displaces the files of one that has less.
 #pragma once
 
 #include <pthread.h>
@@ -13,6 +14,8 @@
 #include <thread>
 #include <utility>
 
+#include "app/lab/server/lab_server.h"
+
 namespace twinarm {
 
 class UploadFolder {
@@ -23,14 +26,15 @@ class UploadFolder {
 
   const std::filesystem::path& path() const { return folder_; }
   // `name`: relative, without "..". Returns the absolute path. Throws InputError.
-  std::filesystem::path write(const std::string& name, const std::string& bytes);
+  std::filesystem::path write(ClientId client, const std::string& name, const std::string& bytes);
 
  private:
   struct Upload {
+    ClientId client = 0;
     std::filesystem::path file;
     std::size_t bytes = 0;
   };
-  void remove(const Upload& upload);
+  void remove_one(const Upload& next);
 
   std::filesystem::path folder_;
   std::size_t max_files_, max_bytes_, bytes_ = 0;
@@ -50,16 +54,17 @@ UploadedFile classify_upload(const std::string& name, const std::string& bytes);
 // Executes tasks in its own thread, in order.
 class TaskQueue {
  public:
+  static constexpr std::size_t kMax = 16, kMaxReads = 12;  // reads leave places for uploads
   // `failed` is called from that thread with what a task throws.
   explicit TaskQueue(std::function<void(const std::string& why)> failed)
       : failed_(std::move(failed)), thread_([this] { work(); }) {}
   ~TaskQueue() { end(); }
 
   // From any thread. False: too many are waiting.
-  bool add(std::function<void()> task) {
+  bool add(std::function<void()> task, bool is_upload = true) {
     {
       const std::lock_guard lock(mutex_);
-      if (tasks_.size() >= kMax || stop_) return false;
+      if (tasks_.size() >= (is_upload ? kMax : kMaxReads) || stop_) return false;
       tasks_.push_back(std::move(task));
     }
     wake_.notify_one();
@@ -76,8 +81,6 @@ class TaskQueue {
   }
 
  private:
-  static constexpr std::size_t kMax = 16;
-
   void work() {
     pthread_setname_np(pthread_self(), "lab tasks");
     for (;;) {

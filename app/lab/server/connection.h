@@ -24,6 +24,7 @@
 
 #include "app/lab/server/http_text.h"
 #include "app/lab/server/outgoing_queues.h"
+#include "app/lab/server/rate_limiter.h"
 
 namespace twinarm::lab_server {
 
@@ -68,17 +69,21 @@ struct Core : std::enable_shared_from_this<Core> {
 
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  Connection(Core& core, Socket socket)
+  Connection(Core& core, Socket socket, std::string address)
       : core_(core),
         socket_(std::move(socket)),
-        opened_at_(Clock::now()),
-        allowance_(core.options.messages_per_second),
-        allowed_at_(opened_at_) {}
+        address_(std::move(address)),
+        opened_at_(Clock::now()) {}
   void start();  // reads the next request
   void send_next();
   void check_timeouts(Clock::time_point now);
   void drop();
   bool is_stranger() const { return is_stranger_; }
+  bool is_live() const { return ws_.has_value(); }
+  bool is_posting() const {
+    return is_permitted_ && parser_ && parser_->get().method() == http::verb::post;
+  }
+  const std::string& address() const { return address_; }  // of the client
   Clock::time_point opened_at() const { return opened_at_; }
 
  private:
@@ -107,6 +112,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   Core& core_;
   Socket socket_;  // moved into ws_ by an upgrade
+  std::string address_;
   Clock::time_point opened_at_, deadline_;
   bool is_stranger_ = true;  // has not shown the token yet
   bool is_gone_ = false;
@@ -128,8 +134,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   bool is_closing_ = false, is_pinging_ = false;
   std::uint64_t sent_ = 0, pinged_ = 0, answered_ = 0;  // numbers of messages
   Clock::time_point progress_, pinged_at_;
-  double allowance_;  // number of messages permitted now
-  Clock::time_point allowed_at_;
+  RateLimiter messages_;
 };
 
 // Prints the present exception of a handler to stderr; the server continues.

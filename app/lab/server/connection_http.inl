@@ -13,6 +13,10 @@ inline std::string_view view(boost::beast::string_view text) {
   return {text.data(), text.size()};
 }
 
+inline std::string_view query_of(std::string_view target) {
+  return target.substr(std::min(target.find('?'), target.size() - 1) + 1);
+}
+
 void Connection::start() {
   parser_.emplace();
   parser_->header_limit(kMaxHead);
@@ -55,22 +59,15 @@ void Connection::parse() {
 
 bool Connection::has_token(std::string_view target) {
   const std::string& token = core_.options.token;
-  const std::size_t mark = target.find('?');
-  if (mark != target.npos) {
-    const std::optional<std::string> given = query_value(target.substr(mark + 1), "token");
-    gives_cookie_ = given && is_secret(*given, token);
-  }
+  const std::optional<std::string> given = query_value(query_of(target), "token");
+  gives_cookie_ = given && is_secret(*given, token);
   return gives_cookie_ ||
          is_secret(cookie_value(view(parser_->get()[http::field::cookie]), core_.cookie), token);
 }
 
 bool Connection::is_within_rate() {
   const double most = core_.options.messages_per_second;
-  const Clock::time_point now = Clock::now();
-  const double gone = std::chrono::duration<double>(now - allowed_at_).count();
-  allowance_ = std::min(most, allowance_ + gone * most) - 1;
-  allowed_at_ = now;
-  return allowance_ >= 0;
+  return messages_.passes(Clock::now(), most, most);
 }
 
 bool Connection::is_permitted() {
@@ -99,6 +96,12 @@ bool Connection::is_permitted() {
     refuse(429, "too many requests per second");
   } else if (!is_post && !parser_->is_done()) {
     refuse(400, "only POST may have a body");
+  } else if (is_post && core_.handlers.may_post &&
+             !core_.handlers.may_post(std::string(query_of(view(request.target()))))) {
+    refuse(403, "another client has control; request it");
+  } else if (is_post && std::ranges::count_if(core_.connections, &Connection::is_posting) >=
+                            core_.options.max_posts) {
+    refuse(503, "too many uploads at once; try again");
   } else {
     return true;
   }
@@ -108,13 +111,11 @@ bool Connection::is_permitted() {
 void Connection::serve() {
   const Request& request = parser_->get();
   const std::string_view target = view(request.target());
-  const std::size_t mark = std::min(target.find('?'), target.size());
-  const std::optional<std::string> path = decoded_path(target.substr(0, mark));
+  const std::optional<std::string> path = decoded_path(target.substr(0, target.find('?')));
   if (!path) return refuse(400, "invalid path");
   if (websocket::is_upgrade(request) && *path == "/live") return upgrade_to_websocket();
   HttpRequest parsed{request.method() == http::verb::post ? "POST" : "GET", *path,
-                     std::string(target.substr(std::min(target.size(), mark + 1))),
-                     std::move(parser_->get().body())};
+                     std::string(query_of(target)), std::move(parser_->get().body())};
   deadline_ = Clock::now() + 2 * core_.timeout();
   is_waiting_ = true;
   auto answer = [core = core_.weak_from_this(), self = weak_from_this(),

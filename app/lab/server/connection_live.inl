@@ -13,6 +13,12 @@ void Connection::upgrade_to_websocket() {
   if (!in_.empty()) return refuse(400, "data before the WebSocket handshake was answered");
   if (core_.live >= core_.options.max_clients)
     return refuse(503, std::to_string(core_.live) + " pages are open, the maximum: close one");
+  const auto same = std::ranges::count_if(core_.connections, [this](const auto& other) {
+    return other->is_live() && other->address() == address_;
+  });
+  if (same >= core_.options.max_of_address)
+    return refuse(503, std::to_string(same) + " pages of " + address_ +
+                           " are open, the maximum of one address: close one");
   ++core_.live;
   deadline_ = Clock::now() + core_.timeout(0.25);
   ws_.emplace(std::move(socket_));
@@ -28,7 +34,7 @@ void Connection::upgrade_to_websocket() {
     self->client_ = ++self->core_.last_client;
     self->core_.queues.open(self->client_);
     try {
-      if (self->core_.handlers.opened) self->core_.handlers.opened(self->client_);
+      if (self->core_.handlers.opened) self->core_.handlers.opened(self->client_, self->address_);
     } catch (...) {
       log_exception("opened");
     }
@@ -52,7 +58,6 @@ void Connection::take_message() {
   const auto data = message_.data();
   const std::string text(static_cast<const char*>(data.data()), data.size());
   message_.consume(message_.size());
-  core_.queues.count_received(client_);
   try {
     if (core_.handlers.message) core_.handlers.message(client_, text);
   } catch (...) {

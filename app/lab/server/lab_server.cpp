@@ -95,9 +95,11 @@ struct LabServer::Impl {
 
   void accept() {
     acceptor.async_accept(core->io, [this](error_code error, Socket socket) {
-      if (!error && has_place()) {
+      error_code unknown;
+      const std::string address = socket.remote_endpoint(unknown).address().to_string();
+      if (!error && has_place(address)) {
         socket.set_option(net::ip::tcp::no_delay(true), error);
-        const auto connection = std::make_shared<Connection>(*core, std::move(socket));
+        const auto connection = std::make_shared<Connection>(*core, std::move(socket), address);
         core->connections.insert(connection);
         connection->start();
       }
@@ -110,7 +112,7 @@ struct LabServer::Impl {
   }
 
   // Strangers have places of their own; the one that has waited longest gives up its place.
-  bool has_place() {
+  bool has_place(const std::string& address) {
     std::shared_ptr<Connection> oldest;
     std::size_t strangers = 0;
     for (const auto& connection : core->connections) {
@@ -120,7 +122,9 @@ struct LabServer::Impl {
     }
     const std::size_t known = core->connections.size() - strangers;
     if (strangers >= kMaxStrangers) oldest->drop();
-    return known < kConnectionsPerClient * core->options.max_clients;
+    return known < kConnectionsPerClient * core->options.max_clients &&
+           std::ranges::count(core->connections, address, &Connection::address) <
+               static_cast<long>(kConnectionsPerClient) * core->options.max_of_address;
   }
 
   void check_timeouts() {

@@ -46,6 +46,8 @@ struct ServerOptions {
   std::uint16_t port = 0;  // 0: any free one
   std::string token;
   std::size_t max_clients = 32;
+  std::ptrdiff_t max_of_address = 32;  // clients
+  std::ptrdiff_t max_posts = 8;        // at once
   std::size_t max_message = 64 << 10;  // of a client [bytes]
   std::size_t max_body = 32 << 20;     // of a POST [bytes]
   double messages_per_second = 500;    // of a client; beyond: disconnected
@@ -62,7 +64,9 @@ std::optional<std::string> query_value(std::string_view query, std::string_view 
 // 500.
 struct ServerHandlers {
   std::function<void(const HttpRequest&, std::function<void(HttpReply)> answer)> http;
-  std::function<void(ClientId)> opened, closed;
+  std::function<bool(const std::string& query)> may_post;  // asked before the body is read
+  std::function<void(ClientId, const std::string& address)> opened;
+  std::function<void(ClientId)> closed;
   std::function<void(ClientId, const std::string& text)> message;
 };
 
@@ -78,7 +82,7 @@ class LabServer {
   void send(ClientId client, int channel, Bytes message, bool is_binary);
   // Of a client; replaced: messages that were not sent because a newer one came.
   struct Traffic {
-    std::uint64_t sent = 0, replaced = 0, bytes = 0, received = 0;
+    std::uint64_t sent = 0, replaced = 0;
   };
   Traffic traffic(ClientId client) const;
 

@@ -50,14 +50,7 @@ std::optional<OutgoingQueues::Message> OutgoingQueues::take(ClientId client) {
   if (!next) return {};
   next->since = 0;
   ++queue.traffic.sent;
-  queue.traffic.bytes += next->message.bytes->size();
   return std::exchange(next->message, {});
-}
-
-void OutgoingQueues::count_received(ClientId client) {
-  const std::lock_guard lock(mutex_);
-  const auto found = queues_.find(client);
-  if (found != queues_.end()) ++found->second.traffic.received;
 }
 
 LabServer::Traffic OutgoingQueues::traffic(ClientId client) const {

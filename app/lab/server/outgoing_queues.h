@@ -25,7 +25,6 @@ class OutgoingQueues {
   bool put(ClientId client, int channel, const Message& message);
   void clear_wakeup();
   std::optional<Message> take(ClientId client);
-  void count_received(ClientId client);
   LabServer::Traffic traffic(ClientId client) const;
 
  private:

@@ -193,6 +193,22 @@ bool needs_control(LabCommand::Do what) {
   return std::ranges::find(forms(), what, &Form::what)->needs_control;
 }
 
+bool is_movement(Verb what) {
+  return what == Verb::drag_stylus || what == Verb::joint || what == Verb::rotate_stylus ||
+         what == Verb::axes || what == Verb::drag_body;
+}
+
+std::string text_of_command(const std::string& text) {
+  Value root = parse_json(text, "command");
+  const Form& form = form_of(root);
+  if (is_movement(form.what)) return form.name;
+  std::erase_if(root.members, [&](const Value& member) {
+    return std::ranges::none_of(form.fields,
+                                [&](const Field& field) { return member.key == field.key; });
+  });
+  return form.name + (" " + replace_all(to_toml(root), "\n", " "));
+}
+
 void Inbox::push(LabCommand command) {
   locked([&] {
     if (contents_.commands.size() < kMaxCommands) contents_.commands.push_back(std::move(command));
@@ -214,7 +230,9 @@ void Inbox::push(TriedFixes tried) {
 void Inbox::note(const std::string& level, const std::string& text) {
   locked([&] {
     if (notes_.size() == kMaxNotes) notes_.pop_front();
-    notes_.push_back({0, level, text});
+    std::size_t size = std::min(text.size(), kMaxNote);
+    while (size < text.size() && (text[size] & 0xC0) == 0x80) --size;  // whole characters
+    notes_.push_back({0, level, text.substr(0, size) + (size < text.size() ? " .." : "")});
   });
 }
 

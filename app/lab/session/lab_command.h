@@ -65,6 +65,11 @@ LabCommand parse_command(const std::string& text);
 
 // Whether only the client in control may send it.
 bool needs_control(LabCommand::Do what);
+// Sent many times a second; visible in the next frame.
+bool is_movement(LabCommand::Do what);
+// Of a valid command its name and what it has of the described keys: "play on = true"; of a
+// movement its name alone.
+std::string text_of_command(const std::string& text);
 
 // Fixes that hold, for the run with this number.
 struct TriedFixes {
@@ -75,7 +80,7 @@ struct TriedFixes {
 // Queue to the run's thread, which empties it between two steps and sleeps in it.
 class Inbox {
  public:
-  static constexpr std::size_t kMaxNotes = 20;
+  static constexpr std::size_t kMaxNotes = 20, kMaxNote = 4000;  // [bytes]
 
   // From any thread. Drops commands beyond 4,096 waiting ones, and the oldest of too many notes.
   void push(LabCommand command);

@@ -9,13 +9,6 @@
 namespace twinarm {
 namespace {
 
-// Sent many times a second; visible in the next frame.
-bool is_movement(LabCommand::Do what) {
-  using Do = LabCommand::Do;
-  return what == Do::drag_stylus || what == Do::joint || what == Do::rotate_stylus ||
-         what == Do::axes || what == Do::drag_body;
-}
-
 // Values at the start: with another one the run restarts.
 bool is_of_start(const Change& change) {
   return change.path.starts_with("robot[") && change.path.find("].q.") != std::string::npos;

@@ -100,6 +100,22 @@ TEST_CASE("lab session: an exception in the run's thread pauses the run and is s
   CHECK(comes_true([&] { return lab.session.shown().now().status->playing; }));
 }
 
+TEST_CASE(
+    "lab session: an exception in the builder's thread is shown, and the next scene is built") {
+  TestSession lab;
+  const TemporaryFolder folder;
+  BuildRequest bad, good;
+  bad.file = folder.path() / "nowhere.toml";
+  bad.done = [](const std::string&) { throw std::runtime_error("the client has gone"); };
+  lab.session.open(std::move(bad));
+  CHECK(lab.has_note("nowhere.toml"));
+  CHECK(lab.has_note("the client has gone"));
+  good.file = folder.write("scene.toml", kFreeBox);
+  good.name = "box";
+  lab.session.open(std::move(good));
+  CHECK(comes_true([&] { return lab.session.shown().now().status->scene_name == "box"; }));
+}
+
 TEST_CASE("lab session: the callback of a superseded request may call the session") {
   std::promise<void> begun, go_on;
   std::string answer;
@@ -245,6 +261,19 @@ TEST_CASE("clients: the first one gets control, others in order of their request
   CHECK(clients.has_control(11));  // the only one left
   clients.closed(11);
   CHECK(clients.view().controller == 0);
+}
+
+TEST_CASE("clients: only the secret of the client in control is one of control") {
+  Clients clients;
+  clients.opened(1, "192.168.1.7");
+  clients.opened(2, "::1");
+  CHECK(clients.name(1) == "client 1 at 192.168.1.7");
+  CHECK(clients.controller(clients.secret(1)) == 1);
+  CHECK(clients.controller(clients.secret(2)) == 0);
+  CHECK(clients.controller("") == 0);
+  clients.closed(1);
+  CHECK(clients.controller("") == 0);
+  CHECK(clients.controller(clients.secret(2)) == 2);
 }
 
 TEST_CASE("clients: layers of all clients are drawn, each once") {

@@ -67,6 +67,7 @@ class LabHost {
   }
 
   std::atomic<twinarm::ClientId> opened{0}, closed{0};
+  std::string last_address;  // of a client, after open()
   std::mutex mutex;
   std::function<void(const twinarm::HttpRequest&, std::function<void(twinarm::HttpReply)>)> http;
   twinarm::LabServer server;  // last: its thread ends first
@@ -85,7 +86,11 @@ class LabHost {
       reply.body = bytes_of(asked.method + " " + asked.path + " " + asked.body);
       answer(std::move(reply));
     };
-    called.opened = [this](twinarm::ClientId) { ++opened; };
+    called.opened = [this](twinarm::ClientId, const std::string& address) {
+      last_address = address;
+      ++opened;
+    };
+    called.may_post = [](const std::string& query) { return query != "refused"; };
     called.closed = [this](twinarm::ClientId) { ++closed; };
     called.message = [this](twinarm::ClientId client, const std::string& text) {
       server.send(client, 1, bytes_of("you said " + text), false);

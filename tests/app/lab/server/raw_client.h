@@ -32,9 +32,14 @@ class RawClient {
   };
   static constexpr int kText = 1, kBinary = 2, kClose = 8, kPing = 9, kPong = 10;
 
-  explicit RawClient(int port) : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  // From 127.0.0.`host`.
+  explicit RawClient(int port, unsigned host = 1)
+      : fd_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in name{};
     name.sin_family = AF_INET;
+    name.sin_addr.s_addr = htonl(INADDR_LOOPBACK - 1 + host);
+    if (bind(fd_, reinterpret_cast<sockaddr*>(&name), sizeof name) != 0)
+      throw std::runtime_error("no address for the client");
     name.sin_port = htons(static_cast<std::uint16_t>(port));
     name.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (connect(fd_, reinterpret_cast<sockaddr*>(&name), sizeof name) != 0)

@@ -49,14 +49,13 @@ TEST_CASE("WebSocket: fragments with a ping between are one message; pings are a
     REQUIRE(client.say_frame(RawClient::kText, text));
     CHECK(client.hear_message().payload == "you said " + text);
   }
-  CHECK(lab.server.traffic(number).received == 8);
   client.say_frame(RawClient::kClose,
                    "\x03\xe8"
                    "bye");
   CHECK(client.hear_close() == 1000);
   CHECK(client.hear_end());
   CHECK(comes_true([&] { return lab.closed == number; }));
-  CHECK(lab.server.traffic(number).received == 0);
+  CHECK(lab.server.traffic(number).sent == 0);
 }
 
 TEST_CASE("WebSocket: a violation of RFC 6455 closes that connection with its code, and no other") {
@@ -231,6 +230,32 @@ TEST_CASE("WebSocket: the number of clients is limited, and a place is free when
   lab.send_to_all(2, bytes_of("all"), false);
   CHECK(next.hear_message().payload == "all");
   for (const auto& client : clients) CHECK(client->hear_message().payload == "all");
+}
+
+TEST_CASE("WebSocket: one address does not take the places of all") {
+  ServerOptions options;
+  options.max_clients = 3;
+  options.max_of_address = 2;
+  LabHost lab(options);
+  const int port = lab.server.port();
+  RawClient first(port), second(port), other(port, 2);
+  lab.open(first);
+  CHECK(lab.last_address == "127.0.0.1");
+  lab.open(second);
+  const auto refused = RawClient(port).ask(lab.upgrade(lab.cookie()));
+  CHECK(refused.status == 503);
+  CHECK(refused.body.find("2 pages of 127.0.0.1 are open") != std::string::npos);
+  lab.open(other);
+  CHECK(lab.last_address == "127.0.0.2");
+  // Nor all connections: eight for each page.
+  std::vector<std::unique_ptr<RawClient>> more;
+  int served = 0;
+  for (int n = 0; n < 20; ++n) {
+    more.push_back(std::make_unique<RawClient>(port));
+    served += more.back()->ask(lab.request("GET /", lab.cookie())).status == 200 ? 1 : 0;
+  }
+  CHECK(served == 14);
+  CHECK(RawClient(port, 2).ask(lab.request("GET /", lab.cookie())).status == 200);
 }
 
 TEST_CASE("WebSocket: a client that floods is closed with a reason; others are not affected") {

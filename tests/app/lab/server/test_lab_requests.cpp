@@ -228,6 +228,40 @@ TEST_CASE("lab server: requests that are too long or too slow are cut off") {
   CHECK(lab.is_alive());
 }
 
+TEST_CASE("lab server: the body of a POST that is not permitted is not read") {
+  const LabHost lab;
+  const auto reply =
+      RawClient(lab.server.port())
+          .ask(lab.request("POST /open?refused", lab.cookie() + "Content-Length: 30000000\r\n"));
+  CHECK(reply.status == 403);
+  CHECK(reply.body.find("another client has control") != std::string::npos);
+}
+
+TEST_CASE("lab server: the number of bodies at once is limited") {
+  ServerOptions options;
+  options.max_posts = 2;
+  const LabHost lab(options);
+  const int port = lab.server.port();
+  const std::string post = lab.request("POST /open", lab.cookie() + "Content-Length: 3\r\n"),
+                    whole = post + "abc";
+  const auto is_served = [&] { return RawClient(port).ask(whole).status == 200; };
+  for (int n = 0; n < 5; ++n) CHECK(is_served());  // one after the other
+  auto first = std::make_unique<RawClient>(port);
+  RawClient second(port);
+  first->say(post);
+  second.say(post);
+  CHECK(comes_true([&] { return RawClient(port).ask(whole).status == 503; }));
+  CHECK(lab.is_alive());
+  second.say("abc");
+  CHECK(second.hear_reply().status == 200);
+  CHECK(is_served());
+  CHECK(second.ask(whole).status == 200);  // on the same connection
+  second.say(post);
+  CHECK(comes_true([&] { return !is_served(); }));
+  first.reset();  // leaves in the middle of its body
+  CHECK(comes_true([&] { return is_served(); }));
+}
+
 TEST_CASE("lab server: clients with the token are served while strangers keep connections open") {
   ServerOptions options;
   options.max_clients = 1;

@@ -66,6 +66,16 @@ TEST_CASE("inbox: keeps the first 4096 waiting commands") {
   CHECK(inbox.take().commands.empty());
 }
 
+TEST_CASE("inbox: a note is cut at 4000 bytes, between two characters") {
+  Inbox inbox;
+  std::string text = "a";
+  while (text.size() < 70000) text += "\xc3\xa4";
+  inbox.note("error", text);
+  CHECK(inbox.take_notes().front().text == text.substr(0, 3999) + " ..");
+  inbox.note("error", "short");
+  CHECK(inbox.take_notes().front().text == "short");
+}
+
 TEST_CASE("pending changes: finished by a number not below theirs") {
   PendingChanges pending;
   for (int n = 0; n < 3; ++n) pending.add({});
