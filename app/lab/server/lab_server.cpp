@@ -180,10 +180,6 @@ void LabServer::send(ClientId client, int channel, Bytes message, bool is_binary
   if (impl_->core->queues.put(client, channel, {std::move(message), is_binary})) impl_->wake();
 }
 
-LabServer::Traffic LabServer::traffic(ClientId client) const {
-  return impl_->core->queues.traffic(client);
-}
-
 std::string random_token() {
   std::array<unsigned char, 16> bytes{};
   if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size()))

@@ -80,11 +80,6 @@ class LabServer {
   std::string url() const;
   // From any thread; returns at once. `channel`: small number, see outgoing_queues.h.
   void send(ClientId client, int channel, Bytes message, bool is_binary);
-  // Of a client; replaced: messages that were not sent because a newer one came.
-  struct Traffic {
-    std::uint64_t sent = 0, replaced = 0;
-  };
-  Traffic traffic(ClientId client) const;
 
  private:
   struct Impl;

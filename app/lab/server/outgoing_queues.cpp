@@ -20,12 +20,9 @@ bool OutgoingQueues::put(ClientId client, int channel, const Message& message) {
   if (found == queues_.end()) return false;  // just disconnected
   Queue& queue = found->second;
   const auto index = static_cast<std::size_t>(channel);
-  if (index >= queue.slots.size()) queue.slots.resize(index + 1);
-  Slot& slot = queue.slots[index];
-  if (slot.since != 0)
-    ++queue.traffic.replaced;
-  else
-    slot.since = ++turn_;
+  if (index >= queue.size()) queue.resize(index + 1);
+  Slot& slot = queue[index];
+  if (slot.since == 0) slot.since = ++turn_;
   slot.message = message;
   return !std::exchange(woken_, true);
 }
@@ -41,22 +38,15 @@ std::optional<OutgoingQueues::Message> OutgoingQueues::take(ClientId client) {
   if (found == queues_.end()) return {};
   Queue& queue = found->second;
   Slot* next = nullptr;
-  for (Slot& slot : queue.slots) {
+  for (Slot& slot : queue) {
     if (slot.since == 0) continue;
-    const bool is_first = &slot == queue.slots.data();
+    const bool is_first = &slot == queue.data();
     if (!next || is_first || slot.since < next->since) next = &slot;
     if (is_first) break;
   }
   if (!next) return {};
   next->since = 0;
-  ++queue.traffic.sent;
   return std::exchange(next->message, {});
-}
-
-LabServer::Traffic OutgoingQueues::traffic(ClientId client) const {
-  const std::lock_guard lock(mutex_);
-  const auto found = queues_.find(client);
-  return found == queues_.end() ? LabServer::Traffic{} : found->second.traffic;
 }
 
 }  // namespace twinarm

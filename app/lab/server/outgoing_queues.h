@@ -25,17 +25,13 @@ class OutgoingQueues {
   bool put(ClientId client, int channel, const Message& message);
   void clear_wakeup();
   std::optional<Message> take(ClientId client);
-  LabServer::Traffic traffic(ClientId client) const;
 
  private:
   struct Slot {
     Message message;
     std::uint64_t since = 0;  // order of arrival; 0: empty
   };
-  struct Queue {
-    std::vector<Slot> slots;  // by channel
-    LabServer::Traffic traffic;
-  };
+  using Queue = std::vector<Slot>;  // by channel
 
   mutable std::mutex mutex_;
   std::map<ClientId, Queue> queues_;

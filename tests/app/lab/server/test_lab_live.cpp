@@ -55,7 +55,6 @@ TEST_CASE("WebSocket: fragments with a ping between are one message; pings are a
   CHECK(client.hear_close() == 1000);
   CHECK(client.hear_end());
   CHECK(comes_true([&] { return lab.closed == number; }));
-  CHECK(lab.server.traffic(number).sent == 0);
 }
 
 TEST_CASE("WebSocket: a violation of RFC 6455 closes that connection with its code, and no other") {
@@ -96,7 +95,8 @@ TEST_CASE("WebSocket: a violation of RFC 6455 closes that connection with its co
 TEST_CASE("WebSocket: a reading client gets every message while another does not read") {
   LabHost lab;
   RawClient reads(lab.server.port()), stalled(lab.server.port());
-  const ClientId reader = lab.open(reads), staller = lab.open(stalled);
+  lab.open(reads);
+  lab.open(stalled);
   constexpr int kMessages = 400;
   constexpr std::size_t kSize = 200000;
   double memory = 0;
@@ -108,22 +108,17 @@ TEST_CASE("WebSocket: a reading client gets every message while another does not
     REQUIRE(frame.payload.size() == kSize);
     if (n == 40) memory = resident_memory();
   }
-  CHECK(lab.server.traffic(reader).sent == kMessages);
-  CHECK(lab.server.traffic(reader).replaced == 0);
-  const LabServer::Traffic traffic = lab.server.traffic(staller);
-  CHECK(traffic.sent <= 5);
-  CHECK(traffic.sent + traffic.replaced + 1 >= kMessages);
   // Of 72 MB one message is waiting.
   if (kMemoryTells) CHECK(resident_memory() - memory < 4);
   // When it reads again: messages in transit in order, then the newest.
-  int last = -1;
-  while (last < kMessages - 1) {
+  int last = -1, heard = 0;
+  for (; last < kMessages - 1; ++heard) {
     const Frame frame = stalled.hear_message();
     REQUIRE(frame.opcode == RawClient::kBinary);
     REQUIRE(std::stoi(frame.payload) > last);
     last = std::stoi(frame.payload);
   }
-  CHECK(lab.server.traffic(staller).sent <= 6);
+  CHECK(heard <= 6);
 }
 
 TEST_CASE("WebSocket: faster than a client reads, messages stay in order, and the newest arrives") {
@@ -137,9 +132,9 @@ TEST_CASE("WebSocket: faster than a client reads, messages stay in order, and th
       lab.server.send(number, 1, numbered(n, 100), false);
     }
   });
-  int last_text = -1, last_binary = -1, heard = 0;
+  int last_text = -1, last_binary = -1;
   bool in_order = true;
-  for (; last_text < kMessages - 1 || last_binary < kMessages - 1; ++heard) {
+  for (; last_text < kMessages - 1 || last_binary < kMessages - 1;) {
     const Frame frame = client.hear_message();
     if (frame.opcode == -1) break;
     int& last = frame.opcode == RawClient::kText ? last_text : last_binary;
@@ -151,9 +146,6 @@ TEST_CASE("WebSocket: faster than a client reads, messages stay in order, and th
   CHECK(in_order);
   CHECK(last_text == kMessages - 1);
   CHECK(last_binary == kMessages - 1);
-  const LabServer::Traffic traffic = lab.server.traffic(number);
-  CHECK(traffic.sent == static_cast<std::uint64_t>(heard));
-  CHECK(traffic.sent + traffic.replaced == 2 * kMessages);
 }
 
 TEST_CASE("outgoing queues: no full channel starves, and channel 0 goes first") {
@@ -264,7 +256,7 @@ TEST_CASE("WebSocket: a client that floods is closed with a reason; others are n
   LabHost lab(options);
   for (const int opcode : {RawClient::kText, RawClient::kPing, RawClient::kPong}) {
     RawClient floods(lab.server.port()), other(lab.server.port());
-    const ClientId number = lab.open(floods);
+    lab.open(floods);
     lab.open(other);
     std::string flood;
     for (int n = 0; n < 3000; ++n) flood += RawClient::frame(opcode, "flood");
@@ -272,7 +264,7 @@ TEST_CASE("WebSocket: a client that floods is closed with a reason; others are n
     std::string why;
     CHECK(floods.hear_close(&why) == 1008);
     CHECK(why == "more than 100 messages per second");
-    CHECK(comes_true([&] { return lab.server.traffic(number).sent == 0 && lab.closed > 0; }));
+    CHECK(comes_true([&] { return lab.closed > 0; }));
     other.say_frame(RawClient::kText, "x");
     CHECK(other.hear_message().payload == "you said x");
   }
