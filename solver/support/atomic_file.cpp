@@ -1,7 +1,6 @@
 #include "solver/support/atomic_file.h"
 
 #include <fcntl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
@@ -76,12 +75,15 @@ TemporaryPath::~TemporaryPath() {
 void remove_temporary_paths() noexcept {
   for (Place& place : places) {
     if (!place.claim(::getpid()) || ::unlink(place.path.data()) == 0 || errno != EISDIR) continue;
-    const pid_t child = ::_Fork();
-    if (child == 0) {
+    std::array<int, 2> ends{};
+    if (::pipe(ends.data()) != 0) continue;
+    if (::_Fork() == 0) {
       ::execl("/bin/rm", "rm", "-rf", "--", place.path.data(), nullptr);
       ::_exit(1);
     }
-    if (child > 0) ::waitpid(child, nullptr, 0);
+    ::close(ends[1]);
+    char none = 0;
+    [[maybe_unused]] const ssize_t closed = ::read(ends[0], &none, 1);  // when rm has ended
   }
 }
 
