@@ -127,6 +127,10 @@ PredictedCoupling PosedCouplings::about_zero(std::size_t c) {
 
 PredictedCoupling PosedCouplings::coupling(std::size_t c, double h) {
   const SceneCoupling& spec = input_.couplings->spec(c);
+  if (P_.cols() == 0)
+    throw InputError(
+        {{input_.scene->description.file.string(), 0, "coupling '" + spec.name + "'",
+          "its robot has no joint to move", "name a robot with joints", "scene.nothing-to-drive"}});
   PredictedCoupling found = about_zero(c);
   const Vector3 offset = input_.couplings->ends(c, x_, k_).offset;
   found.offset = offset.norm();

@@ -142,6 +142,9 @@ std::vector<std::size_t> device_couplings(const SceneModel& scene, double h) {
     driven.push_back(c);
     if (!coupling.is_first_component()) continue;
     const std::string where = "coupling '" + coupling.coupling + "'";
+    if (coupling.driven.turned.empty())
+      faults.add({file, coupling.line, where, "its robot has no joint of one degree of freedom",
+                  "name a robot with revolute or prismatic joints", "scene.nothing-to-drive"});
     if (coupling.driven.turned != scene.couplings[driven.front()].driven.turned)
       faults.add({file, coupling.line, where, "the device drives other joints of another coupling",
                   "one device moves one robot: give it another target", "hand.two-robots"});

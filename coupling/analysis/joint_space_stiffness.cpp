@@ -138,6 +138,7 @@ VectorXd squared_frequencies(const MatrixXd& M, const MatrixXd& K) {
 // Keeps the modes with non-zero stiffness or damping.
 SpringModes spring_modes(const MatrixXd& M, const MatrixXd& K, const MatrixXd& B) {
   constexpr double kZero = 1e-10;
+  if (M.rows() == 0) return {};
   const SymmetricEigensystem all = generalized_eigensystem((K + K.transpose()) / 2, M);
   const SymmetricEigensystem damped = generalized_eigensystem((B + B.transpose()) / 2, M);
   const double max_square = all.values.cwiseAbs().maxCoeff();
