@@ -102,6 +102,8 @@ int run_replay(const ReplayOptions& options) {
   std::optional<Replay> branch;
   if (!changes.empty()) branch = replay(recording, first, changes);
   const bool same = is_same(exact);
+  if (branch && !options.plot.empty())
+    draw_branch(recording, exact, *branch, options.changes, options.plot);
   if (options.json) {
     print_replay_json(recording, exact, branch ? &*branch : nullptr, options.changes);
   } else {
@@ -113,10 +115,7 @@ int run_replay(const ReplayOptions& options) {
         same ? "" : fmt::format("; first difference at t = {:.9g} s", exact.first_different));
     if (branch) print_branch(recording, exact, *branch);
   }
-  if (branch && !options.plot.empty()) {
-    draw_branch(recording, exact, *branch, options.changes, options.plot);
-    print_wrote({options.plot}, options.json);
-  }
+  if (branch && !options.plot.empty()) print_wrote({options.plot}, options.json);
   return same ? 0 : kDiffers;
 }
 

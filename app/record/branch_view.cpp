@@ -196,9 +196,9 @@ void print_branch(const Recording& recording, const Replay& recorded, const Repl
 void draw_branch(const Recording& recording, const Replay& recorded, const Replay& branch,
                  const std::vector<std::string>& changes, const std::filesystem::path& file) {
   const std::vector<ValueDifference> found = differences(recording, branch);
-  if (found.empty())
-    throw InputError(
-        {{file.string(), 0, "--plot", "there is no motion to draw", "", "plot.nothing-moves"}});
+  if (found.empty() || branch.frames.size() < 2)
+    throw InputError({{file.string(), 0, "--plot", "there is no motion to draw",
+                       "record a run that moves, or leave --plot out", "plot.nothing-moves"}});
   const std::size_t shown = found.front().column;
   const RecordedColumn& column = recording.header().columns[shown];
   std::vector<double> t, first, second;
