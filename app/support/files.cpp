@@ -146,6 +146,8 @@ std::ifstream open_file(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, ignored))
     throw InputError(
         {{file.string(), 0, "", "is a folder", "name a file in it", "file.is-folder"}});
+  if (std::filesystem::is_character_file(file, ignored))  // may never end
+    throw InputError({{file.string(), 0, "", "is a device", "name a file", "file.no-file"}});
   std::ifstream stream(file, std::ios::binary);
   if (!stream)
     throw InputError({{file.string(), 0, "", "the file cannot be read",

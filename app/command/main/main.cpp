@@ -31,7 +31,8 @@ std::string remedy(const Diagnostic& fault) {
   std::error_code ignored;
   for (std::filesystem::directory_iterator at(folder_of(file), ignored), end;
        at != end && names.size() < kMaxFiles; at.increment(ignored))
-    names.push_back(at->path().filename().string());
+    if (at->path().filename() != file.filename())  // a device, or a link that leads nowhere
+      names.push_back(at->path().filename().string());
   const std::string nearest = nearest_name(file.filename().string(), names);
   if (nearest.empty()) return fault.fix;
   const std::filesystem::path found = file.parent_path() / nearest;
