@@ -90,7 +90,10 @@ void check_files(const FileOptions& files) {
     };
     const auto same = std::ranges::find_if(
         taken, [&](const auto& other) { return is_same_file(other.second, file); });
-    if (same != taken.end())
+    if (file.string().starts_with("--"))
+      faults.add(option, "has no value: '" + file.string() + "' is an option",
+                 "give " + option + " NAME", "option.no-value");
+    else if (same != taken.end())
       fault("is also the file of " + same->first, "give another name", "file.same");
     else if (output.ending.empty())
       attempt(faults, [&] { require_writable_folder(file, option.c_str()); });
