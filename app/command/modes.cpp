@@ -29,8 +29,8 @@ int run_modes(const ModesOptions& options) {
   SimulateInput& input = prepared.input;
   if (input.scene && input.robot.coordinates.all().empty() && input.scene->constraints.empty())
     throw InputError({{input.scene->description.file.string(), 0, "scene",
-                       "it has neither a robot with a joint nor a constraint, and so no modes", "",
-                       "scene.nothing-held"}});
+                       "it has neither a robot with a joint nor a constraint, and so no modes",
+                       "add a [[robot]] with a joint, or a [[constraint]]", "scene.nothing-held"}});
   check_dense(input.robot.model, options.robot.model);
   const ModesOf found = find_modes(input);
   print_warnings(found.warnings, options.json);

@@ -57,7 +57,8 @@ class TraceReader {
           "give a header line and at least two lines");
     check_angles();
     if (const auto more = fault_count_ - std::min(fault_count_, kMaxTraceFaults))
-      faults_.add({trace_.file_, 0, "", fmt::format("and {} more errors", more), "", "trace.more"});
+      faults_.add({trace_.file_, 0, "", fmt::format("and {} more errors", more),
+                   "correct those above first", "trace.more"});
     faults_.check();
     measure();
     const double start = trace_.samples_.front().t;

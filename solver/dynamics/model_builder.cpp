@@ -27,8 +27,8 @@ bool has_axis(JointType type) {
 
 void check_inertia(const std::string& where, const BodyInertia& body, DiagnosticList& faults) {
   if (!std::isfinite(body.mass) || !body.com.allFinite() || !body.inertia.allFinite())
-    faults.add(where, "mass, centre of mass or inertia is not a finite number", "",
-               "model.not-finite");
+    faults.add(where, "mass, centre of mass or inertia is not a finite number",
+               "give smaller numbers", "model.not-finite");
   else if (body.mass < 0)
     faults.add(where, "mass is " + short_number_text(body.mass) + " kg, must not be negative",
                "give a mass of at least 0 kg", "model.negative");
@@ -43,7 +43,8 @@ void check_properties(const std::string& joint, const JointProperties& p, Diagno
                  std::string(what) + " is " + short_number_text(value) + ", must not be negative",
                  "give zero or a positive number", "model.negative");
   if (!std::isfinite(p.pitch))
-    faults.add(joint_called(joint), "pitch is not a finite number", "", "model.not-finite");
+    faults.add(joint_called(joint), "pitch is not a finite number", "give a smaller number",
+               "model.not-finite");
 }
 
 Inertia<double> about_origin(const BodyInertia& body, const Matrix3& R_BL) {

@@ -6,8 +6,7 @@ import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CODE = re.compile(r'"([a-z]+\.[a-z]+(?:-[a-z]+)*)"')
-NO_CODE = ("vert frag html toml csv json svg twinrec png cpp h txt urdf py part").split()
-CODES = ("hand.csv", "map.part", "compare.html")  # that end as a name of a file does
+NO_CODE = "vert frag html toml csv json svg twinrec png".split()  # names of files
 LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 MORE_TEXTS = {  # of codes whose text is elsewhere, and which are seen only as text
     "mesh.mass": "the surface is not closed", "recipe.value": "'density' must be positive",
@@ -68,7 +67,7 @@ class Codes:
             text = re.sub(r'"\s*\n\s*"', "", text)  # a literal in several pieces
             for found in CODE.finditer(text):
                 code = found[1]
-                if code.split(".")[1] in NO_CODE and not (code == "map.part" and "fault" in text) or code == "hand.csv":
+                if code.split(".")[1] in NO_CODE and code != "file.toml":
                     continue
                 self.all.setdefault(code, name)
                 before = re.split(r";\n|\{\n", text[max(0, found.start() - 700):found.start()])[-1]

@@ -58,6 +58,8 @@ class CommandLines:
     def case(self, dice, command=None, option=None):
         command = command or dice.choice(list(self.commands))
         words = CASES["bases"].get(command, command).split()
+        if ("--json", "") in self.commands[command]:
+            words.append("--json")
         for n in range(dice.choice((1, 1, 2, 3))):
             name, kind = option if option and n == 0 else dice.choice(self.commands[command])
             values = FILES if kind.startswith("PATH") else VALUES
@@ -72,8 +74,6 @@ class CommandLines:
                 words[words.index(name) + 1:][:1] = [value]
             else:
                 words += [f"{name}={value}"] if dice.random() < 0.5 else [name, value]
-        if ("--json", "") in self.commands[command] and "--json" not in words:
-            words.append("--json")
         return Case("option", f"option of {command}", words, self.files, self.links, may_write={"cube.urdf"},
                     stop_after=1.0 if command == "lab" else 4.0 if command in ("study", "hand") else 0)
 

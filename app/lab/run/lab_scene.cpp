@@ -16,8 +16,8 @@ bool apply_option(const Change& change, SimulateOptions& options, DiagnosticList
   const auto number = [&](std::optional<double>& value) {
     value = parse_number(change.value);
     if (!value)
-      faults.add({"", 0, "--set " + change.path + "=" + change.value, "not a number", "",
-                  "change.number"});
+      faults.add({"", 0, "--set " + change.path + "=" + change.value, "not a number",
+                  "give a number", "change.number"});
   };
   if (change.path == "step")
     number(options.step);

@@ -77,21 +77,24 @@ class DepthScan {
 
 std::string read_toml_text(const std::filesystem::path& file) {
   const auto refuse = [&](int line, const std::string& problem, const std::string& fix,
-                          std::string_view code = "") {
+                          std::string_view code) {
     throw InputError({{file.string(), line, "", problem, fix, code}});
   };
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(file, ignored))
     refuse(0, "the file does not exist", "check the path", "file.missing");
   if (std::filesystem::file_size(file, ignored) > kMaxTomlBytes)
-    refuse(0, "the file is larger than 4 MiB", "store meshes and traces in separate files");
+    refuse(0, "the file is larger than 4 MiB", "store meshes and traces in separate files",
+           "file.too-large");
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse(0, "the file cannot be read", "check its permissions (ls -l)");
+  if (!stream)
+    refuse(0, "the file cannot be read", "check its permissions (ls -l)", "file.unreadable");
   std::ostringstream text;
   text << stream.rdbuf();
   std::string read = std::move(text).str();
   if (const int line = DepthScan(read).line_too_deep(); line > 0)
-    refuse(line, "TOML nesting depth exceeds 200", "remove the nested keys or brackets");
+    refuse(line, "TOML nesting depth exceeds 200", "remove the nested keys or brackets",
+           "toml.too-deep");
   return read;
 }
 
