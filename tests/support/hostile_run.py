@@ -155,7 +155,8 @@ class Runner:
             faults.append(f"took {usage.ru_utime + usage.ru_stime:.1f} s of processor time")
         if usage.ru_maxrss > MEGABYTES << 10:
             faults.append(f"took {usage.ru_maxrss >> 10} MiB")
-        if code not in {0, 2} | ENDS.get(case.words[0] if case.words else "", set()):
+        ends = {0, 2} | ({130} if case.stop_after else set()) | ENDS.get(case.words[0] if case.words else "", set())
+        if code not in ends:
             faults.append(f"ended by signal {-code}" if code < 0 else f"ended with exit code {code}")
         if code == 2 and not re.search(rb"^twinarm: .*(; |must (not )?be|did you mean)", err, re.M | re.S):
             faults.append("has no error with a remedy on stderr")
